@@ -1,0 +1,82 @@
+//! Speeds, filters and turns on clips of three sizes.
+//!
+//! `cargo bench --bench signal`; one item is one joint at one frame.
+#![allow(missing_docs)]
+
+use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
+use genga::motion::{Axis, Channel, Clip, Joint, JointId, Skeleton};
+use genga::signal::{LowPass, Signals, Spectrum, Speed, TurnFinder};
+use genga::time::{Frame, FrameRate};
+
+const JOINTS: usize = 31;
+const FRAMES: [usize; 3] = [129, 5_000, 100_000];
+
+fn main() {
+    divan::main();
+}
+
+/// A chain of joints, each with three rotations, the first with a position as well.
+fn skeleton() -> Skeleton {
+    let rotations = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
+    let positions = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
+    let joint = |at: usize| Joint {
+        name: format!("joint {at}"),
+        parent: at.checked_sub(1).map(JointId),
+        offset: glam::DVec3::Y,
+        channels: if at == 0 { [positions, rotations].concat() } else { rotations.to_vec() },
+        first_channel: if at == 0 { 0 } else { 3 * (at + 1) },
+        end_sites: vec![],
+    };
+    Skeleton { joints: (0..JOINTS).map(joint).collect() }
+}
+
+/// Every channel swings at a pace of its own, at 120 frames a second.
+fn clip(frames: usize) -> Clip {
+    let skeleton = skeleton();
+    let channels = skeleton.channels();
+    let swing = |frame: usize, channel: usize| {
+        let (time, pace) = (frame as f64 / 120.0, 1.0 + 0.37 * channel as f64 / channels as f64);
+        30.0 * (3.0 * pace * time + channel as f64).sin() + 5.0 * (17.0 * pace * time).sin()
+    };
+    let values = (0..frames * channels).map(|at| swing(at / channels, at % channels)).collect();
+    let rate = FrameRate::new(120.0).expect("120 is a rate");
+    Clip::new(skeleton, rate, Frame(0), frames, values).expect("the table has the shape")
+}
+
+fn speeds(frames: usize) -> Signals {
+    Speed::default().measure(&clip(frames)).expect("the speeds are finite")
+}
+
+#[divan::bench(args = FRAMES)]
+fn speed(bencher: Bencher, frames: usize) {
+    let clip = clip(frames);
+    bencher
+        .counter(ItemsCount::new(frames * JOINTS))
+        .bench(|| Speed::default().measure(black_box(&clip)));
+}
+
+#[divan::bench(args = FRAMES)]
+fn spectrum(bencher: Bencher, frames: usize) {
+    let speeds = speeds(frames);
+    bencher.counter(ItemsCount::new(frames * JOINTS)).bench(|| Spectrum::of(black_box(&speeds)));
+}
+
+#[divan::bench(args = FRAMES)]
+fn apply(bencher: Bencher, frames: usize) {
+    let spectrum = Spectrum::of(&speeds(frames));
+    bencher
+        .counter(ItemsCount::new(frames * JOINTS))
+        .bench(|| LowPass::default().apply(black_box(&spectrum)));
+}
+
+#[divan::bench(args = FRAMES)]
+fn find(bencher: Bencher, frames: usize) {
+    let speeds = speeds(frames);
+    let filter = LowPass::default();
+    let filtered = filter.apply(&Spectrum::of(&speeds));
+    let delay = filter.delay(speeds.rate);
+    bencher
+        .counter(ItemsCount::new(frames * JOINTS))
+        .bench(|| TurnFinder::default().find(black_box(&filtered), delay));
+}

@@ -1,0 +1,50 @@
+//! The text of a BVH file: hierarchy, then one row a frame, four decimals.
+
+use glam::DVec3;
+
+use super::skeleton::BONES;
+
+/// A file of rows with six channels of the root and three of every other joint.
+pub(crate) fn text(fps: f64, rows: &[Vec<f64>]) -> String {
+    let mut text = String::from("HIERARCHY\n");
+    joint(&mut text, 0, 0);
+    let frame_time = 1.0 / fps;
+    text += &format!("MOTION\nFrames: {}\nFrame Time: {frame_time:.8}\n", rows.len());
+    for row in rows {
+        let row: Vec<String> = row.iter().map(|&value| number(value)).collect();
+        text += &row.join(" ");
+        text.push('\n');
+    }
+    text
+}
+
+fn joint(text: &mut String, index: usize, depth: usize) {
+    let (bone, tabs) = (&BONES[index], "\t".repeat(depth));
+    let (word, position) = match bone.parent {
+        None => ("ROOT", "6 Xposition Yposition Zposition"),
+        Some(_) => ("JOINT", "3"),
+    };
+    *text += &format!("{tabs}{word} {}\n{tabs}{{\n{tabs}\t", bone.name);
+    offset(text, bone.offset);
+    *text += &format!("{tabs}\tCHANNELS {position} Zrotation Xrotation Yrotation\n");
+    for child in (0..BONES.len()).filter(|&child| BONES[child].parent == Some(index)) {
+        joint(text, child, depth + 1);
+    }
+    if let Some(tip) = bone.tip {
+        *text += &format!("{tabs}\tEnd Site\n{tabs}\t{{\n{tabs}\t\t");
+        offset(text, tip);
+        *text += &format!("{tabs}\t}}\n");
+    }
+    *text += &format!("{tabs}}}\n");
+}
+
+fn offset(text: &mut String, DVec3 { x, y, z }: DVec3) {
+    *text += &format!("OFFSET {} {} {}\n", number(x), number(y), number(z));
+}
+
+/// Four decimals: what is left of a difference between two sine functions is rounded away.
+fn number(value: f64) -> String {
+    // Adding 0 makes −0 a 0, also where a small negative number is rounded to it.
+    let rounded = (value * 1e4).round() / 1e4 + 0.0;
+    format!("{rounded:.4}")
+}

@@ -1,0 +1,205 @@
+//! What can be asked on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+
+use crate::time::Span;
+use crate::timing::Amount;
+
+/// Motion capture to Japanese limited animation.
+///
+/// Reads a BVH clip and finds its key drawings (genga, 原画), puts inbetweens (中割り) between them with
+/// spacing (詰め), leaves out the fastest (naka-nashi, 中無し) and holds the slowest (koma-dori, コマ撮り).
+/// The result is a timesheet: which drawing stands on which koma of 24 a second.
+///
+/// Begin with: genga run clip.bvh
+#[derive(Debug, Parser)]
+#[command(name = "genga", version, max_term_width = 100)]
+pub(super) struct Args {
+    /// Say nothing but errors.
+    #[arg(long, short, global = true)]
+    pub(super) quiet: bool,
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// The whole chain: key tables, timesheet, limited motion and pictures into a folder.
+    Run(RunArgs),
+    /// The key table as CSV on stdout.
+    Keys(KeysArgs),
+    /// Naka-nashi and koma-dori alone, on the clip at 24 drawings a second.
+    Omit(OmitArgs),
+    /// How many keys each filter width and persistence leaves (the first paper's Table 1).
+    Study(StudyArgs),
+    /// What is in a clip: joints, rate, length, size, an inserted T-pose, warnings.
+    Inspect(InspectArgs),
+    /// The commented default recipe on stdout.
+    Recipe(RecipeArgs),
+    /// Completions for a shell on stdout.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// The manual page on stdout.
+    Man,
+}
+
+/// The clip, and which part of it.
+#[derive(Debug, ClapArgs)]
+pub(super) struct ClipArgs {
+    /// The motion, a BVH file; - is stdin.
+    #[arg(value_name = "CLIP.bvh")]
+    pub(super) clip: PathBuf,
+    /// Keep a T-pose that was put in front of the motion.
+    #[arg(long)]
+    pub(super) keep_lead_in: bool,
+    /// Work on source frames A up to but not including B, numbered from 0 as in the file.
+    #[arg(long, value_name = "A..B", value_parser = frames)]
+    pub(super) trim: Option<Frames>,
+}
+
+/// The recipe: a file, then single settings on top.
+#[derive(Debug, ClapArgs)]
+pub(super) struct Settings {
+    /// A recipe file; see `genga recipe`.
+    #[arg(long, value_name = "R.toml")]
+    pub(super) recipe: Option<PathBuf>,
+    /// One setting, over the recipe: --set spacing.on=3 (may be given again).
+    #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
+    pub(super) set: Vec<(String, String)>,
+    /// Frames that are keys whatever is found, with a name if you like: --pin 12,150:wrist-top
+    #[arg(long, value_name = "FRAME[:NAME],…", value_delimiter = ',')]
+    pub(super) pin: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct RunArgs {
+    #[command(flatten)]
+    pub(super) clip: ClipArgs,
+    #[command(flatten)]
+    pub(super) settings: Settings,
+    /// The folder for the results [default: the clip's name with -genga].
+    #[arg(long, short, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct KeysArgs {
+    #[command(flatten)]
+    pub(super) clip: ClipArgs,
+    #[command(flatten)]
+    pub(super) settings: Settings,
+    /// Every joint's keys and walls instead of the body's keys.
+    #[arg(long)]
+    pub(super) per_joint: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct OmitArgs {
+    #[command(flatten)]
+    pub(super) clip: ClipArgs,
+    /// How many of the fastest drawings to leave out: a count (4) or a share of the koma (4%).
+    #[arg(long, value_name = "N", default_value = "4")]
+    pub(super) naka_nashi: Amount,
+    /// How many of the slowest drawings to hold over: a count (33) or a share of the drawings (1/3).
+    #[arg(long, value_name = "N|SHARE", default_value = "1/3")]
+    pub(super) koma_dori: Amount,
+    /// The longest hold, in koma.
+    #[arg(long, value_name = "K", default_value_t = 4)]
+    pub(super) max_hold: usize,
+    /// Leave the fastest out all at once, by their first speed (for comparison).
+    #[arg(long)]
+    pub(super) all_at_once: bool,
+    /// Hold first, leave out after.
+    #[arg(long)]
+    pub(super) koma_dori_first: bool,
+    /// Let the motion get shorter by what naka-nashi leaves out.
+    #[arg(long)]
+    pub(super) let_length_change: bool,
+    /// The limited motion, a BVH file at 24 frames a second; - is stdout.
+    #[arg(long, short, value_name = "FILE.bvh")]
+    pub(super) out: PathBuf,
+    /// The timesheet, a CSV file.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) sheet: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct StudyArgs {
+    #[command(flatten)]
+    pub(super) clip: ClipArgs,
+    #[command(flatten)]
+    pub(super) settings: Settings,
+    /// Filter widths, source frames or seconds.
+    #[arg(long, value_name = "W,…", value_delimiter = ',', default_value = "10,20,30")]
+    pub(super) filter_width: Vec<Span>,
+    /// Persistences, source frames or seconds.
+    #[arg(long, value_name = "M,…", value_delimiter = ',', default_value = "5,10")]
+    pub(super) persistence: Vec<Span>,
+    /// The filter.
+    #[arg(long, value_name = "KIND")]
+    pub(super) filter: Option<Filter>,
+    /// The table, a CSV file [default: stdout].
+    #[arg(long, short, value_name = "FILE.csv")]
+    pub(super) out: Option<PathBuf>,
+    /// The table as curves, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) plot: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum Filter {
+    Box,
+    Gaussian,
+    Ideal,
+    Butterworth,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct InspectArgs {
+    #[command(flatten)]
+    pub(super) clip: ClipArgs,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct RecipeArgs {
+    /// The settings of the first paper's Table 1 instead.
+    #[arg(long)]
+    pub(super) study: bool,
+}
+
+/// A half-open range of source frames.
+pub(super) type Frames = std::ops::Range<usize>;
+
+fn frames(text: &str) -> Result<Frames, String> {
+    let parsed = text
+        .split_once("..")
+        .and_then(|(begin, end)| Some(begin.trim().parse().ok()?..end.trim().parse().ok()?));
+    parsed.ok_or_else(|| "expected two frame numbers, as in 120..480".into())
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("expected KEY=VALUE, as in spacing.on=3")?;
+    Ok((name.trim().into(), value.trim().into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_definition_holds() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn a_range_is_two_frames() {
+        assert_eq!(frames("120..480").unwrap(), 120..480);
+        assert!(frames("120-480").is_err() && frames("..").is_err() && frames("a..b").is_err());
+    }
+}

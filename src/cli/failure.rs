@@ -1,0 +1,58 @@
+//! What a person is told when something goes wrong, and the exit code.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::error::Error;
+
+/// Why the program stops.
+#[derive(Debug)]
+pub(super) enum Failure {
+    /// It could not be done: exit code 1.
+    CouldNot(String),
+    /// It was asked wrongly: exit code 2.
+    AskedWrongly(String),
+    /// Whoever read our output has closed it: no failure at all.
+    ClosedPipe,
+}
+
+impl Failure {
+    pub(super) fn code(&self) -> u8 {
+        match self {
+            Self::CouldNot(_) => 1,
+            Self::AskedWrongly(_) => 2,
+            Self::ClosedPipe => 0,
+        }
+    }
+
+    /// An error that concerns a file, which its message then names.
+    pub(super) fn of_file(path: &Path, error: Error) -> Self {
+        let name = path.display();
+        match error {
+            Error::Bvh { .. } => Self::CouldNot(format!("{name}:{error}")),
+            Error::Recipe { message } => Self::AskedWrongly(format!("{name}:{message}")),
+            Error::Clip { .. } => Self::CouldNot(format!("{name}: {error}")),
+            other => other.into(),
+        }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Setting { .. } | Error::Recipe { .. } | Error::Edits { .. } => {
+                Self::AskedWrongly(error.to_string())
+            }
+            other => Self::CouldNot(other.to_string()),
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CouldNot(message) | Self::AskedWrongly(message) => f.write_str(message),
+            Self::ClosedPipe => f.write_str("the output was closed"),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! `genga inspect`: what is in a clip.
+
+use std::fmt::Write;
+
+use super::args::InspectArgs;
+use super::failure::Failure;
+use super::words::Words;
+use super::{io, source};
+use crate::motion::{Axis, Body, Channel, Clip, Joint, Pose};
+use crate::time::KOMA_RATE;
+
+pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
+    let source = source::clip(&args.clip)?;
+    source.notes.iter().for_each(|note| words.say(note));
+    io::to_stdout(page(&io::stem(&args.clip.clip), &source.clip).as_bytes())
+}
+
+fn page(name: &str, clip: &Clip) -> String {
+    let skeleton = clip.skeleton();
+    let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
+    let mut page = String::new();
+    let mut line = |label: &str, value: String| {
+        let _ = writeln!(page, "{label:<9} {value}");
+    };
+    line("clip", name.into());
+    line("frames", format!("{}, numbers {} to {}", clip.len(), clip.first(), clip.last()));
+    line("rate", format!("{} frames a second", clip.rate()));
+    line("length", format!("{:.2} s, {koma} koma at 24 a second", clip.seconds()));
+    line("joints", format!("{}, {} channels", skeleton.len(), skeleton.channels()));
+    line("size", size(clip));
+    page.push('\n');
+    for (_, joint) in skeleton.iter() {
+        let _ = writeln!(page, "{}{}", "  ".repeat(depth(clip, joint)), described(joint));
+    }
+    page
+}
+
+fn depth(clip: &Clip, joint: &Joint) -> usize {
+    let parent = |joint: &Joint| joint.parent.map(|parent| &clip.skeleton().joints[parent.0]);
+    std::iter::successors(parent(joint), |joint| parent(joint)).count()
+}
+
+fn described(joint: &Joint) -> String {
+    let letter = |axis: &Axis| match axis {
+        Axis::X => 'x',
+        Axis::Y => 'y',
+        Axis::Z => 'z',
+    };
+    let mut words = joint.name.clone();
+    for (label, is_position) in [("position", true), ("rotation", false)] {
+        let axes: String = joint
+            .channels
+            .iter()
+            .filter_map(|channel| match channel {
+                Channel::Position(axis) if is_position => Some(letter(axis)),
+                Channel::Rotation(axis) if !is_position => Some(letter(axis)),
+                _ => None,
+            })
+            .collect();
+        if !axes.is_empty() {
+            let _ = write!(words, "  {label} {axes}");
+        }
+    }
+    words
+}
+
+/// The size of the body in its first frame, and the unit that makes it a person's.
+fn size(clip: &Clip) -> String {
+    if clip.is_empty() {
+        return "unknown, there is no frame".into();
+    }
+    let mut pose = Pose::rest(clip.skeleton());
+    pose.take_frame(clip, clip.first());
+    let mut positions = vec![glam::DVec3::ZERO; clip.skeleton().len()];
+    Body::new(clip.skeleton()).place(&pose, &mut positions);
+    let low = positions.iter().copied().reduce(glam::DVec3::min).unwrap_or_default();
+    let high = positions.iter().copied().reduce(glam::DVec3::max).unwrap_or_default();
+    let side = (high - low).max_element();
+    let unit = match side {
+        1.0..=3.0 => "metres, by the size",
+        10.0..=40.0 => "the CMU unit of 5.64 cm, by the size",
+        50.0..=90.0 => "inches, by the size",
+        100.0..=250.0 => "centimetres, by the size",
+        1000.0..=2500.0 => "millimetres, by the size",
+        _ => "an unknown unit",
+    };
+    format!("{side:.1} in its first frame: {unit}")
+}

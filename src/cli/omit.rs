@@ -1,0 +1,55 @@
+//! `genga omit`: the second paper alone, on the clip at 24 drawings a second.
+
+use super::args::OmitArgs;
+use super::failure::Failure;
+use super::words::Words;
+use super::{io, source};
+use crate::deliver;
+use crate::sheet::Sheet;
+use crate::time::KOMA_RATE;
+use crate::timing::{Omission, Omitted, Order, Report, Stills};
+
+pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
+    let source = source::clip(&args.clip)?;
+    source.notes.iter().for_each(|note| words.say(note));
+    let clip = source.clip;
+    let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
+    let mut sheet = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
+    let started = std::time::Instant::now();
+    let Omitted { layer, report } = {
+        let stills = Stills::of(&clip, &sheet.layers[0]);
+        omission(args).apply(&sheet.layers[0], &stills, 1)?
+    };
+    let took = started.elapsed();
+    sheet.layers[0] = layer;
+    let motion = deliver::limited_bvh(&clip, &sheet)?;
+    if let Some(path) = &args.sheet {
+        io::write(path, deliver::sheet_csv(&sheet)?.as_bytes())?;
+    }
+    io::write(&args.out, motion.as_bytes())?;
+    summary(words, koma, &sheet, &report, took.as_secs_f64());
+    Ok(())
+}
+
+fn omission(args: &OmitArgs) -> Omission {
+    Omission {
+        naka_nashi: args.naka_nashi,
+        koma_dori: args.koma_dori,
+        max_hold: args.max_hold,
+        keep_length: !args.let_length_change,
+        all_at_once: args.all_at_once,
+        order: if args.koma_dori_first { Order::KomaDoriFirst } else { Order::NakaNashiFirst },
+    }
+}
+
+fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &Report, seconds: f64) {
+    let layer = &sheet.layers[0];
+    let (naka, dori) = (&report.naka_nashi, &report.koma_dori);
+    words.say(format_args!("koma        {koma} → {}", layer.length()));
+    words.say(format_args!("naka-nashi  中無し     {} of {} left out", naka.done, naka.asked));
+    words.say(format_args!("koma-dori   コマ撮り   {} of {} held over", dori.done, dori.asked));
+    let (drawings, longest) = (layer.drawings.len(), layer.longest_hold());
+    words.say(format_args!("drawings    {drawings}, longest hold {longest} koma"));
+    words.say(format_args!("time        {:.3} ms for positions and both stages", 1e3 * seconds));
+    report.shortfalls().for_each(|reason| words.say(reason));
+}

@@ -1,0 +1,84 @@
+//! The pictures of a run and of a study.
+
+use std::path::Path;
+
+use super::failure::Failure;
+use super::io;
+use crate::motion::JointId;
+use crate::pipeline::Breakdown;
+use crate::plot::{self, PoseRow, SheetPlot, SpeedPlot, StudyPlot};
+use crate::sheet::Sheet;
+use crate::study::StudyRow;
+use crate::time::Frame;
+use crate::timing::Stills;
+
+/// Speeds before and after the filter with keys and walls, of the joints that move most.
+pub(super) fn speed(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
+    let names: Vec<&str> =
+        breakdown.clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
+    let keys: Vec<Frame> = breakdown.keys.keys.iter().map(|key| key.frame).collect();
+    let order = movers_first(breakdown);
+    let Breakdown { speed, filtered, turns, .. } = breakdown;
+    Ok(SpeedPlot::default().draw(&names, speed, filtered, turns, &keys, &order)?)
+}
+
+/// Joints by how much they carry through the world: the length of what hangs on them times their mean
+/// speed.
+fn movers_first(breakdown: &Breakdown<'_>) -> Vec<JointId> {
+    let reaches = breakdown.clip.skeleton().reaches();
+    let carries = |joint: &JointId| -> f64 {
+        reaches[joint.0]
+            * breakdown.filtered.joint(*joint).iter().map(|speed| speed.abs()).sum::<f64>()
+    };
+    let mut joints: Vec<JointId> = (0..reaches.len()).map(JointId).collect();
+    joints.sort_by(|a, b| carries(b).total_cmp(&carries(a)));
+    joints
+}
+
+/// The sheet as bars, with what was left out and how far the body moves into each koma.
+pub(super) fn sheet(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
+    let ones = Sheet::on_ones(breakdown.clock, breakdown.sheet.length());
+    let stills = Stills::of(breakdown.clip, &ones.layers[0]);
+    let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
+    let steps: Vec<f64> = (0..stills.len()).map(step).collect();
+    Ok(SheetPlot::default().draw(breakdown.sheet, Some(breakdown.spaced), Some(&steps))?)
+}
+
+/// The kept drawings as poses in a row.
+pub(super) fn poses(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
+    let layer = &breakdown.sheet.layers[0];
+    let kept = layer.timed().filter_map(|(koma, exposure)| {
+        let drawing = &layer.drawings[exposure.drawing];
+        let label = move |number: usize| format!("{number} · koma {}", koma + 1);
+        drawing.role.is_kept().then_some((drawing.source.place(), label, drawing.role))
+    });
+    let poses: Vec<_> =
+        kept.enumerate().map(|(at, (place, label, role))| (place, label(at + 1), role)).collect();
+    Ok(PoseRow::default().draw(breakdown.clip, &poses)?)
+}
+
+/// The study as curves, an SVG or, for a name that ends in `.png`, a PNG.
+pub(super) fn write_study(
+    path: &Path,
+    rows: &[StudyRow],
+    rate: crate::time::FrameRate,
+) -> Result<(), Failure> {
+    let rows: Vec<plot::StudyRow> = rows
+        .iter()
+        .map(|row| plot::StudyRow {
+            filter_width: row.filter_width.frames(rate),
+            persistence: row.persistence.frames(rate),
+            union: row.union,
+            total: row.total,
+            layer_keys: row.layer_keys,
+        })
+        .collect();
+    write(path, &StudyPlot { paper: true, ..StudyPlot::default() }.draw(&rows)?)
+}
+
+fn write(path: &Path, svg: &str) -> Result<(), Failure> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        return io::write(path, &plot::png_from_svg(svg, 2.0)?);
+    }
+    io::write(path, svg.as_bytes())
+}

@@ -1,0 +1,60 @@
+//! The clip and the recipe that a command asks for.
+
+use super::args::{ClipArgs, Settings};
+use super::failure::Failure;
+use super::io;
+use crate::edits::{Edits, Pin};
+use crate::error::Error;
+use crate::motion::{Clip, bvh};
+use crate::recipe::Recipe;
+use crate::time::Frame;
+
+/// A clip ready to be worked on, and what a person should know about it.
+pub(super) struct Source {
+    pub(super) clip: Clip,
+    pub(super) notes: Vec<String>,
+}
+
+/// Reads the clip, leaves out an inserted T-pose unless asked to keep it, and trims.
+pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
+    let bytes = io::read(&args.clip)?;
+    let failed = |error| Failure::of_file(&args.clip, error);
+    let bvh::Read { mut clip, warnings } = bvh::read(&bytes).map_err(failed)?;
+    drop(bytes);
+    let mut notes: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    let begin = args.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
+    if !args.keep_lead_in && begin == clip.first().0 {
+        let (motion, note) = bvh::lead_in::strip(clip);
+        clip = motion;
+        notes.extend(note.map(|note| note.to_string()));
+    }
+    if let Some(frames) = &args.trim {
+        // A trim from the file's first frame means "from the beginning of the motion".
+        let begin = Frame(frames.start.max(clip.first().0));
+        clip = clip.trimmed(begin, Frame(frames.end)).map_err(|error| match error {
+            Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),
+            other => failed(other),
+        })?;
+    }
+    Ok(Source { clip, notes })
+}
+
+/// The recipe and corrections that are asked for, on top of `default`.
+pub(super) fn recipe(args: &Settings, default: Recipe) -> Result<(Recipe, Edits), Failure> {
+    let (mut recipe, mut edits) = match &args.recipe {
+        None => (default, Edits::default()),
+        Some(path) => {
+            let bytes = io::read(path)?;
+            let text = String::from_utf8(bytes)
+                .map_err(|_| Failure::AskedWrongly(format!("{}: is not text", path.display())))?;
+            Recipe::parse(&text).map_err(|error| Failure::of_file(path, error))?
+        }
+    };
+    for (name, value) in &args.set {
+        recipe.set(name, value)?;
+    }
+    for pin in &args.pin {
+        edits.pins.push(Pin::parse(pin)?);
+    }
+    Ok((recipe, edits))
+}

@@ -1,0 +1,68 @@
+//! What the program says to a person, on stderr: never data.
+
+use std::fmt::Display;
+use std::io::{IsTerminal, Write, stderr};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// The program's voice.
+#[derive(Debug)]
+pub(super) struct Words {
+    quiet: bool,
+}
+
+impl Words {
+    pub(super) fn new(quiet: bool) -> Self {
+        Self { quiet }
+    }
+
+    /// A line, unless `--quiet`.
+    pub(super) fn say(&self, line: impl Display) {
+        if !self.quiet {
+            write_line(&line);
+        }
+    }
+
+    /// What stops the program: said even when quiet.
+    pub(super) fn error(&self, error: impl Display) {
+        write_line(&format_args!("genga: {error}"));
+    }
+
+    /// A sign of life for work that may take long, on a terminal alone. It goes when dropped.
+    pub(super) fn working(&self) -> Working {
+        let shown = !self.quiet && stderr().is_terminal();
+        Working(shown.then(|| {
+            let bar = ProgressBar::new_spinner();
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+                bar.set_style(style);
+            }
+            bar.enable_steady_tick(Duration::from_millis(120));
+            bar
+        }))
+    }
+}
+
+/// A spinner that says what is being done.
+pub(super) struct Working(Option<ProgressBar>);
+
+impl Working {
+    pub(super) fn on(&self, what: &'static str) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(what);
+        }
+    }
+}
+
+impl Drop for Working {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// A closed stderr is nobody listening: that is no reason to stop.
+fn write_line(line: &dyn Display) {
+    let _ = writeln!(stderr(), "{line}");
+}

@@ -1,0 +1,35 @@
+//! **Hand over** (渡す): one file a format, each a function of clip and sheet.
+
+mod drawings;
+mod koma;
+mod limited_bvh;
+mod report;
+mod turns;
+
+pub use drawings::{Drawings, Rows};
+pub use koma::{remap_csv, sheet_csv};
+pub use limited_bvh::limited_bvh;
+pub use report::Report;
+pub use turns::turns_csv;
+
+use crate::error::Error;
+
+/// A CSV table (RFC 4180, LF, UTF-8) from a header and rows.
+fn csv_table<Row>(header: &[&str], rows: impl IntoIterator<Item = Row>) -> Result<String, Error>
+where
+    Row: IntoIterator<Item = String>,
+{
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let failed = |error: csv::Error| Error::clip(format!("a table could not be written: {error}"));
+    writer.write_record(header).map_err(failed)?;
+    for row in rows {
+        writer.write_record(row).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(String::from_utf8(bytes).expect("only text was written"))
+}
+
+/// A number as tables have it: the shortest that reads back as the same value, −0 as 0.
+fn number(value: f64) -> String {
+    (value + 0.0).to_string()
+}

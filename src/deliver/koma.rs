@@ -1,0 +1,42 @@
+//! The sheet koma after koma: which drawing stands there, and which instant of the source that is.
+
+use crate::deliver::{csv_table, number};
+use crate::error::Error;
+use crate::sheet::Sheet;
+
+/// `koma,layer,drawing,role,source_frame,why`, one row a koma and layer. Koma and drawings from 1,
+/// `source_frame` from 0 as in the file and fractional where the pose was sampled between frames.
+///
+/// # Errors
+/// Only when memory runs out.
+pub fn sheet_csv(sheet: &Sheet) -> Result<String, Error> {
+    let rows = sheet.layers.iter().flat_map(|layer| {
+        layer.koma().enumerate().map(|(koma, index)| {
+            let drawing = &layer.drawings[index];
+            [
+                (koma + 1).to_string(),
+                layer.name.clone(),
+                (index + 1).to_string(),
+                drawing.role.word().into(),
+                number(drawing.source.place()),
+                drawing.why.to_string(),
+            ]
+        })
+    });
+    csv_table(&["koma", "layer", "drawing", "role", "source_frame", "why"], rows)
+}
+
+/// `koma,source_frame,source_time_s`: the timing alone, for any rig that plays the same source. Koma
+/// from 1; of several layers the first.
+///
+/// # Errors
+/// Only when memory runs out.
+pub fn remap_csv(sheet: &Sheet) -> Result<String, Error> {
+    let rows = sheet.layers.iter().take(1).flat_map(|layer| {
+        layer.koma().enumerate().map(|(koma, index)| {
+            let place = layer.drawings[index].source.place();
+            [(koma + 1).to_string(), number(place), number(sheet.clock.seconds_from_place(place))]
+        })
+    });
+    csv_table(&["koma", "source_frame", "source_time_s"], rows)
+}

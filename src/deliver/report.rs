@@ -1,0 +1,112 @@
+//! What a run gave, in numbers: for a person's summary and for `report.json`.
+
+use serde::Serialize;
+
+use crate::pipeline::Breakdown;
+use crate::sheet::Role;
+use crate::study;
+
+/// The figures of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Frames that were worked on.
+    pub frames: usize,
+    /// The number of the first of them in the file.
+    pub first_frame: usize,
+    /// Frames a second of the source.
+    pub frame_rate: f64,
+    /// Joints.
+    pub joints: usize,
+    /// Seconds from the first frame to the last.
+    pub seconds: f64,
+    /// Koma of the sheet.
+    pub koma: usize,
+    /// Koma a second.
+    pub koma_rate: f64,
+    /// Turns over all joints, and distinct frames among them.
+    pub turns: Turns,
+    /// Key candidates of the layer, before it was asked what they are worth.
+    pub candidates: usize,
+    /// Key drawings on the sheet, the ends not counted.
+    pub genga: usize,
+    /// Genga a second.
+    pub genga_per_second: f64,
+    /// Drawings on the sheet.
+    pub drawings: usize,
+    /// Drawings a second.
+    pub drawings_per_second: f64,
+    /// Drawings before anything was left out.
+    pub drawings_before_omission: usize,
+    /// Koma of the longest exposure.
+    pub longest_hold: usize,
+    /// Koma that repeat the drawing before them.
+    pub held_koma: usize,
+    /// Inbetweens asked for that did not fit between their keys.
+    pub inbetweens_that_did_not_fit: usize,
+    /// What was left out.
+    pub omission: Omission,
+    /// What a person should know, as sentences.
+    pub notes: Vec<String>,
+}
+
+/// Key turns of all joints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Turns {
+    /// Sum over the joints.
+    pub total: usize,
+    /// Distinct frames.
+    pub union: usize,
+}
+
+/// What was asked of the omission stages and what could be done, in drawings.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Omission {
+    /// To be left out by naka-nashi.
+    pub naka_nashi_asked: usize,
+    /// Left out by naka-nashi.
+    pub naka_nashi_done: usize,
+    /// To be held over by koma-dori.
+    pub koma_dori_asked: usize,
+    /// Held over by koma-dori.
+    pub koma_dori_done: usize,
+}
+
+impl Report {
+    /// The figures of a breakdown; `notes` are the reader's and the program's own words.
+    pub fn of(breakdown: &Breakdown<'_>, notes: Vec<String>) -> Self {
+        let layer = &breakdown.sheet.layers[0];
+        let koma = layer.length();
+        let koma_rate = breakdown.clock.koma_rate;
+        let per_second = |count: usize| count as f64 * koma_rate / koma as f64;
+        let omission = breakdown.omission;
+        Self {
+            frames: breakdown.clip.len(),
+            first_frame: breakdown.clip.first().0,
+            frame_rate: breakdown.clip.rate().fps(),
+            joints: breakdown.clip.skeleton().len(),
+            seconds: breakdown.clip.seconds(),
+            koma,
+            koma_rate,
+            turns: Turns {
+                total: study::total(breakdown.turns),
+                union: study::union(breakdown.turns),
+            },
+            candidates: breakdown.candidates.keys.len(),
+            genga: layer.count(Role::Genga),
+            genga_per_second: per_second(layer.count(Role::Genga)),
+            drawings: layer.drawings.len(),
+            drawings_per_second: per_second(layer.drawings.len()),
+            drawings_before_omission: breakdown.spaced.layers[0].drawings.len(),
+            longest_hold: layer.longest_hold(),
+            held_koma: layer.held_koma(),
+            inbetweens_that_did_not_fit: breakdown.did_not_fit,
+            omission: Omission {
+                naka_nashi_asked: omission.naka_nashi.asked,
+                naka_nashi_done: omission.naka_nashi.done,
+                koma_dori_asked: omission.koma_dori.asked,
+                koma_dori_done: omission.koma_dori.done,
+            },
+            notes,
+        }
+    }
+}

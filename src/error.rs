@@ -1,0 +1,103 @@
+//! Errors by whose fault they are, and warnings with stable codes.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Everything that can go wrong, sorted by who can mend it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The motion file is not what it should be. Line and column count from 1.
+    #[error("{line}:{column}: {message}")]
+    Bvh {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Column in that line in bytes, from 1.
+        column: usize,
+        /// What was expected and what was found.
+        message: String,
+    },
+    /// A setting has a value it cannot have.
+    #[error("{name}: {message}")]
+    Setting {
+        /// The knob, as `--set` and the recipe name it.
+        name: String,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// The recipe file is not a recipe.
+    #[error("recipe: {message}")]
+    Recipe {
+        /// What is wrong, with line and column where they are known.
+        message: String,
+    },
+    /// The clip cannot be worked on as it is.
+    #[error("{message}")]
+    Clip {
+        /// What is missing, and the way out.
+        message: String,
+    },
+    /// A correction names something the clip does not have.
+    #[error("edits: {message}")]
+    Edits {
+        /// What was named and what there is.
+        message: String,
+    },
+    /// Reading or writing failed.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A picture could not be drawn.
+    #[error("picture: {message}")]
+    Picture {
+        /// What the drawing library said.
+        message: String,
+    },
+}
+
+impl Error {
+    /// A setting error: `name` is the knob, `message` says what would be right.
+    pub fn setting(name: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::Setting { name: name.into(), message: message.into() }
+    }
+
+    /// A clip error.
+    pub fn clip(message: impl Into<String>) -> Self {
+        Self::Clip { message: message.into() }
+    }
+
+    /// Line and column in the file, from 1, where there is a file to point into.
+    pub fn position(&self) -> Option<(usize, usize)> {
+        match self {
+            Self::Bvh { line, column, .. } => Some((*line, *column)),
+            _ => None,
+        }
+    }
+}
+
+/// Something a person should know which does not stop the work.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// A stable code to match on, such as `W_LEAD_IN`.
+    pub code: &'static str,
+    /// One plain sentence.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning with a stable code.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into() }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} [{}]", self.message, self.code)
+    }
+}

@@ -1,0 +1,80 @@
+//! **Choose** (選ぶ): from the turns of joints to the keys (原画) and walls (壁) of a layer.
+//!
+//! Three ways to merge joints ([`vote`], [`sum`], any joint) give candidates; [`price`] says what
+//! each of them saves; [`Choose`] keeps those that are worth a drawing.
+
+mod choose;
+mod peaks;
+mod price;
+mod sum;
+mod vote;
+
+use crate::motion::JointId;
+use crate::time::Frame;
+
+pub(crate) use choose::weights;
+pub use choose::{Choose, Merge, Rank};
+
+/// A key (原画) of a layer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// The source frame it shows.
+    pub frame: Frame,
+    /// How strong it is: a share of all weight for votes, the prominence of its valley for `sum`.
+    pub strength: f64,
+    /// What it saves, in % of body height × koma; infinite for keys that may not go.
+    pub price: f64,
+    /// Joints that have a turn of their own here.
+    pub voters: Vec<JointId>,
+    /// Its own spacing weight, where a person gave one.
+    pub weight: Option<f64>,
+    /// The name a person gave it.
+    pub name: Option<String>,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// Where a key comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// Found in the motion.
+    Found,
+    /// Set by a person; it survives everything.
+    Pinned,
+}
+
+/// A wall (壁フレーム) of a layer: where it stops accelerating between two keys.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// The source frame.
+    pub frame: Frame,
+    /// How strong it is, in the measure of the keys.
+    pub strength: f64,
+}
+
+/// What the joints say together: candidates, before it is asked what they are worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidates {
+    /// Key candidates by frame, none nearer to another than one koma.
+    pub keys: Vec<Candidate>,
+    /// Walls by frame.
+    pub walls: Vec<Wall>,
+}
+
+/// A frame that may become a key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// The source frame.
+    pub frame: Frame,
+    /// How strong it is; above 0.
+    pub strength: f64,
+}
+
+/// The keys and walls of a layer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerKeys {
+    /// Keys by frame, at least a koma apart; the clip's ends are not among them.
+    pub keys: Vec<Key>,
+    /// Walls by frame.
+    pub walls: Vec<Wall>,
+}

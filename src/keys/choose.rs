@@ -1,0 +1,277 @@
+//! From turns to the keys of a layer: merged over joints, ranked by what they save, cut.
+
+use serde::{Deserialize, Serialize};
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::price::{self, Entry, Reference};
+use crate::keys::vote::Poll;
+use crate::keys::{Candidate, Candidates, Key, LayerKeys, Origin, Wall, sum};
+use crate::motion::{Clip, JointId};
+use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
+use crate::time::{Clock, Frame, Span};
+
+/// How the turns of joints become the keys of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Merge {
+    /// Every joint votes with the weight of what hangs on it; keys are the maxima of the vote.
+    #[default]
+    Vote,
+    /// The joints' speeds are added first; keys are the valleys of the sum.
+    Sum,
+    /// A turn of any joint is a key [KT11 §3.3].
+    Union,
+}
+
+/// By what the keys are ranked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rank {
+    /// By what a key saves: the error that leaving it out adds.
+    #[default]
+    Price,
+    /// By how strong it is.
+    Strength,
+}
+
+/// Chooses the keys (原画) of a layer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Choose {
+    /// How joints are merged. Default: `vote`.
+    pub merge: Merge,
+    /// How far a joint's vote carries, frames or seconds. Default 0.06 s. Raised, it joins turns that
+    /// lie further apart into one key, and quick double actions become one.
+    pub reach: Span,
+    /// By what keys are ranked. Default: `price`.
+    pub rank: Rank,
+    /// The least a key must save, in % of body height × koma; 0 or more, default 6. Raised, small
+    /// gestures lose their keys first. Counts when ranked by price and no number a second is asked.
+    pub min_price: f64,
+    /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
+    /// lose their keys.
+    pub min_strength: f64,
+    /// Keys a second to keep, the best first; above 0, default none: the thresholds decide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub per_second: Option<f64>,
+}
+
+impl Default for Choose {
+    fn default() -> Self {
+        Self {
+            merge: Merge::Vote,
+            reach: Span::Seconds(0.06),
+            rank: Rank::Price,
+            min_price: 6.0,
+            min_strength: 0.0,
+            per_second: None,
+        }
+    }
+}
+
+impl Choose {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first knob that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let at_least_0 = |value: f64| value >= 0.0 && value.is_finite();
+        if !self.reach.is_length() {
+            return Err(Error::setting("keys.reach", "must be a length of time, 0 or more"));
+        }
+        if !at_least_0(self.min_price) {
+            return Err(Error::setting(
+                "keys.min_price",
+                "must be 0 or more, in % of body height × koma",
+            ));
+        }
+        if !at_least_0(self.min_strength) {
+            return Err(Error::setting("keys.min_strength", "must be 0 or more"));
+        }
+        if self.per_second.is_some_and(|keys| !(keys > 0.0 && keys.is_finite())) {
+            return Err(Error::setting("keys.per_second", "must be above 0, or none"));
+        }
+        Ok(())
+    }
+
+    /// What the joints say together. `weights` is one value a joint; `delay` that of the filter.
+    pub fn candidates(
+        &self,
+        finder: &TurnFinder,
+        filtered: &Signals,
+        turns: &[Vec<Turn>],
+        weights: &[f64],
+        delay: f64,
+        apart: f64,
+    ) -> Candidates {
+        let merged = |kind| match self.merge {
+            Merge::Sum => self.summed(finder, filtered, weights, delay, kind, apart),
+            Merge::Vote => {
+                let poll = self.poll(filtered, weights, apart);
+                poll.elected(&poll.count(turns, kind))
+            }
+            Merge::Union => {
+                let poll = self.poll(filtered, weights, apart);
+                poll.named(turns, kind, &poll.count(turns, kind))
+            }
+        };
+        let inside = |frame: Frame| {
+            frame > filtered.first && frame.0 + 1 < filtered.first.0 + filtered.frames()
+        };
+        Candidates {
+            keys: merged(TurnKind::Key)
+                .into_iter()
+                .filter(|(frame, strength)| inside(*frame) && *strength >= self.min_strength)
+                .map(|(frame, strength)| Candidate { frame, strength })
+                .collect(),
+            walls: merged(TurnKind::Wall)
+                .into_iter()
+                .map(|(frame, strength)| Wall { frame, strength })
+                .collect(),
+        }
+    }
+
+    fn poll<'a>(&self, filtered: &Signals, weights: &'a [f64], apart: f64) -> Poll<'a> {
+        let reach = self.reach.frames(filtered.rate);
+        Poll { first: filtered.first, frames: filtered.frames(), weights, reach, apart }
+    }
+
+    fn summed(
+        &self,
+        finder: &TurnFinder,
+        filtered: &Signals,
+        weights: &[f64],
+        delay: f64,
+        kind: TurnKind,
+        apart: f64,
+    ) -> Vec<(Frame, f64)> {
+        let mean = sum::mean_speed(filtered, weights);
+        let turns = finder.find(&mean, delay).pop().unwrap_or_default();
+        let margin = delay.round() as usize + 1;
+        let mut found = sum::prominences(&mean, &turns, kind, margin);
+        found.retain(|(_, strength)| *strength > 0.0);
+        let rows = found.into_iter().map(|(frame, strength)| (frame.0, strength)).collect();
+        let apart = crate::keys::peaks::strongest_apart(rows, apart);
+        apart.into_iter().map(|(frame, strength)| (Frame(frame), strength)).collect()
+    }
+
+    /// The keys that are worth a drawing, with who voted for them; a person's pins among them.
+    pub fn choose(
+        &self,
+        clip: &Clip,
+        clock: Clock,
+        candidates: &Candidates,
+        turns: &[Vec<Turn>],
+        weights: &[f64],
+        edits: &Edits,
+    ) -> LayerKeys {
+        let mut keys = corrected(candidates, edits, clock.frames_in_koma());
+        self.set_prices(clip, clock, &mut keys);
+        self.cut(clip.seconds(), &mut keys);
+        let reach = self.reach.frames(clip.rate()).max(clip.rate().fps() / clock.koma_rate);
+        for key in &mut keys {
+            key.voters = voters(turns, weights, key.frame, reach);
+        }
+        LayerKeys { keys, walls: candidates.walls.clone() }
+    }
+
+    /// Prices, as far as they are needed to know which keys stay.
+    fn set_prices(&self, clip: &Clip, clock: Clock, keys: &mut [Key]) {
+        if clip.len() < 2 {
+            return;
+        }
+        let end = |frame| Entry { frame, strength: 1.0, stays: true };
+        let entries: Vec<Entry> = std::iter::once(end(clip.first()))
+            .chain(keys.iter().map(|key| Entry {
+                frame: key.frame,
+                strength: key.strength,
+                stays: key.origin == Origin::Pinned,
+            }))
+            .chain(std::iter::once(end(clip.last())))
+            .collect();
+        let enough = match (self.rank, self.per_second) {
+            (Rank::Price, None) => self.min_price,
+            _ => f64::INFINITY,
+        };
+        let reference = Reference::of(clip, clock);
+        let prices = price::prices(&reference, &entries, enough);
+        keys.iter_mut().zip(&prices[1..]).for_each(|(key, price)| key.price = *price);
+    }
+
+    fn cut(&self, seconds: f64, keys: &mut Vec<Key>) {
+        match (self.per_second, self.rank) {
+            (None, Rank::Price) => keys.retain(|key| key.price >= self.min_price),
+            (None, Rank::Strength) => {}
+            (Some(per_second), rank) => {
+                let worth = |key: &Key| match (key.origin, rank) {
+                    (Origin::Pinned, _) => f64::INFINITY,
+                    (Origin::Found, Rank::Price) => key.price,
+                    (Origin::Found, Rank::Strength) => key.strength,
+                };
+                let count = (per_second * seconds).round() as usize;
+                keys.sort_by(|a, b| worth(b).total_cmp(&worth(a)).then(a.frame.cmp(&b.frame)));
+                let pinned = keys.iter().filter(|key| key.origin == Origin::Pinned).count();
+                keys.truncate(count.max(pinned));
+                keys.sort_by_key(|key| key.frame);
+            }
+        }
+    }
+}
+
+/// Candidates and pins in order: a pin pushes out what lies nearer than a koma, a forbidden frame too.
+fn corrected(candidates: &Candidates, edits: &Edits, apart: f64) -> Vec<Key> {
+    let near = |a: Frame, b: Frame| (a.0.abs_diff(b.0) as f64) < apart;
+    let unwanted = |frame: Frame| {
+        edits.pins.iter().any(|pin| near(pin.frame, frame))
+            || edits.forbidden.iter().any(|forbidden| near(*forbidden, frame))
+    };
+    let key = |frame, strength, origin| Key {
+        frame,
+        strength,
+        price: f64::INFINITY,
+        voters: Vec::new(),
+        weight: None,
+        name: None,
+        origin,
+    };
+    let found = candidates.keys.iter().filter(|candidate| !unwanted(candidate.frame));
+    let mut keys: Vec<Key> =
+        found.map(|candidate| key(candidate.frame, candidate.strength, Origin::Found)).collect();
+    keys.extend(edits.pins.iter().map(|pin| Key {
+        weight: pin.weight,
+        name: pin.name.clone(),
+        ..key(pin.frame, 1.0, Origin::Pinned)
+    }));
+    keys.sort_by_key(|key| key.frame);
+    keys.dedup_by_key(|key| key.frame);
+    keys
+}
+
+/// The joints that have a key turn of their own within `reach` frames, the heaviest first.
+fn voters(turns: &[Vec<Turn>], weights: &[f64], frame: Frame, reach: f64) -> Vec<JointId> {
+    let near =
+        |turn: &Turn| turn.kind == TurnKind::Key && (turn.frame.0.abs_diff(frame.0) as f64) < reach;
+    let from = Frame(frame.0.saturating_sub(reach.ceil() as usize));
+    let speaks = |turns: &Vec<Turn>| {
+        let begin = turns.partition_point(|turn| turn.frame < from);
+        turns[begin..].iter().take_while(|turn| turn.frame.0 <= frame.0 + reach as usize).any(near)
+    };
+    let joints = turns.iter().enumerate().filter(|(_, turns)| speaks(turns));
+    let mut voters: Vec<JointId> = joints.map(|(joint, _)| JointId(joint)).collect();
+    voters.sort_by(|a, b| weights[b.0].total_cmp(&weights[a.0]));
+    voters
+}
+
+/// The weight of each joint: how far its rotation carries, the largest set to 1, so that fingers
+/// cannot outvote an arm.
+pub(crate) fn weights(clip: &Clip) -> Vec<f64> {
+    let mut weights = clip.skeleton().reaches();
+    let largest = weights.iter().copied().fold(0.0, f64::max);
+    if largest > 0.0 {
+        weights.iter_mut().for_each(|weight| *weight /= largest);
+    } else {
+        weights.fill(1.0);
+    }
+    weights
+}

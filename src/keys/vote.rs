@@ -1,0 +1,155 @@
+//! Joints vote for a layer's keys: each turn of a joint speaks for the frames round it.
+
+use crate::keys::peaks::{peaks, strongest_apart};
+use crate::signal::{Turn, TurnKind};
+use crate::time::Frame;
+
+/// The frames that are looked at, and what each joint's word is worth there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Poll<'a> {
+    /// The first frame of the clip.
+    pub(super) first: Frame,
+    /// Number of frames of the clip.
+    pub(super) frames: usize,
+    /// A weight a joint, at least 0.
+    pub(super) weights: &'a [f64],
+    /// How far a vote carries, in frames.
+    pub(super) reach: f64,
+    /// The least distance of two keys, in frames.
+    pub(super) apart: f64,
+}
+
+impl Poll<'_> {
+    /// The vote on each frame as a share of all weight, 0 to 1: the sum over the joints that have any
+    /// turn, each with its weight and the triangular kernel 1 − distance/reach to its nearest turn, so
+    /// that no joint counts twice at one time.
+    pub(super) fn count(&self, turns: &[Vec<Turn>], kind: TurnKind) -> Vec<f64> {
+        let mut votes = vec![0.0; self.frames];
+        let mut all_weight = 0.0;
+        let mut rows = Vec::new();
+        for (turns, weight) in turns.iter().zip(self.weights) {
+            rows.clear();
+            rows.extend(
+                turns.iter().filter(|turn| turn.kind == kind).map(|turn| self.row(turn.frame)),
+            );
+            if !turns.is_empty() {
+                all_weight += weight;
+            }
+            self.speak(&rows, *weight, &mut votes);
+        }
+        if all_weight > 0.0 {
+            votes.iter_mut().for_each(|vote| *vote /= all_weight);
+        }
+        votes
+    }
+
+    /// Adds one joint's votes; `rows` are its turns in order.
+    fn speak(&self, rows: &[usize], weight: f64, votes: &mut [f64]) {
+        let mut from = 0;
+        for (turn, &row) in rows.iter().enumerate() {
+            // Frames up to half way to the next turn are nearest to this one.
+            let past = rows.get(turn + 1).map_or(self.frames, |next| (row + next) / 2 + 1);
+            let begin = from.max(row.saturating_sub(self.reach.ceil() as usize));
+            let end = past.min(row + self.reach.ceil() as usize + 1).min(self.frames);
+            for (at, vote) in votes.iter_mut().enumerate().take(end).skip(begin) {
+                let kernel =
+                    if at == row { 1.0 } else { 1.0 - at.abs_diff(row) as f64 / self.reach };
+                *vote += weight * kernel.max(0.0);
+            }
+            from = past;
+        }
+    }
+
+    /// The local maxima of a vote at least `apart` from each other, with their share.
+    pub(super) fn elected(&self, votes: &[f64]) -> Vec<(Frame, f64)> {
+        // A sum of shares is exact to some 1e-16 a joint; a plateau must not crumble over that.
+        let found = peaks(votes, 1e-12).into_iter().map(|row| (row, votes[row])).collect();
+        self.frames_of(strongest_apart(found, self.apart))
+    }
+
+    /// Every frame at which any joint has a turn, at least `apart` from each other.
+    pub(super) fn named(
+        &self,
+        turns: &[Vec<Turn>],
+        kind: TurnKind,
+        votes: &[f64],
+    ) -> Vec<(Frame, f64)> {
+        let mut rows: Vec<usize> = turns
+            .iter()
+            .flatten()
+            .filter(|turn| turn.kind == kind)
+            .map(|turn| self.row(turn.frame))
+            .collect();
+        rows.sort_unstable();
+        rows.dedup();
+        let found = rows.into_iter().map(|row| (row, votes[row])).collect();
+        self.frames_of(strongest_apart(found, self.apart))
+    }
+
+    fn frames_of(&self, rows: Vec<(usize, f64)>) -> Vec<(Frame, f64)> {
+        rows.into_iter()
+            .filter(|(_, strength)| *strength > 0.0)
+            .map(|(row, strength)| (Frame(self.first.0 + row), strength))
+            .collect()
+    }
+
+    fn row(&self, frame: Frame) -> usize {
+        frame.0 - self.first.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turns(frames: &[&[usize]]) -> Vec<Vec<Turn>> {
+        let turn =
+            |frame: &usize| Turn { frame: Frame(*frame), kind: TurnKind::Key, confirmed_for: 9 };
+        frames.iter().map(|joint| joint.iter().map(turn).collect()).collect()
+    }
+
+    fn poll(weights: &[f64]) -> Poll<'_> {
+        Poll { first: Frame(100), frames: 60, weights, reach: 4.0, apart: 5.0 }
+    }
+
+    #[test]
+    fn a_joint_counts_once_at_a_time_and_by_its_weight() {
+        let votes = poll(&[1.0, 3.0]).count(&turns(&[&[110, 112], &[130]]), TurnKind::Key);
+        assert_eq!(votes[10], 0.25);
+        assert_eq!(votes[11], 0.25 * 0.75, "the nearer turn alone speaks");
+        assert_eq!(votes[30], 0.75);
+        assert_eq!(votes[33], 0.75 * 0.25);
+        assert_eq!((votes[34], votes[26], votes[14]), (0.0, 0.0, 0.25 * 0.5));
+    }
+
+    #[test]
+    fn the_vote_equals_a_brute_force_count() {
+        let turns = turns(&[&[101, 104, 105, 120], &[], &[118, 121, 158], &[159]]);
+        let weights = [0.3, 1.0, 0.7, 0.2];
+        let poll = poll(&weights);
+        let votes = poll.count(&turns, TurnKind::Key);
+        for (at, vote) in votes.iter().enumerate() {
+            let kernel = |turn: &Turn| 1.0 - (turn.frame.0 as f64 - 100.0 - at as f64).abs() / 4.0;
+            let says = |joint: &Vec<Turn>| joint.iter().map(kernel).fold(0.0, f64::max);
+            let slow: f64 =
+                turns.iter().zip(weights).map(|(joint, weight)| weight * says(joint)).sum();
+            assert!((vote - slow / 1.2).abs() < 1e-15, "frame {at}: {vote} {}", slow / 1.2);
+        }
+    }
+
+    #[test]
+    fn joints_that_agree_elect_the_middle_between_them() {
+        let poll = poll(&[1.0, 1.0]);
+        let votes = poll.count(&turns(&[&[120], &[124]]), TurnKind::Key);
+        assert_eq!(poll.elected(&votes), [(Frame(122), 0.5)]);
+        let named = poll.named(&turns(&[&[120], &[124]]), TurnKind::Key, &votes);
+        assert_eq!(named, [(Frame(120), 0.5)], "a koma apart or not at all, the earlier of equals");
+    }
+
+    #[test]
+    fn nobody_turns_and_nobody_is_elected() {
+        let poll = poll(&[1.0]);
+        let votes = poll.count(&turns(&[&[]]), TurnKind::Key);
+        assert!(poll.elected(&votes).is_empty());
+    }
+}

@@ -1,0 +1,12 @@
+//! **Read** (読む): the file as written ⇄ [`Clip`], and the poses of a clip.
+
+pub mod bvh;
+mod channels;
+mod clip;
+mod kinematics;
+mod skeleton;
+
+pub use channels::RowWriter;
+pub use clip::Clip;
+pub use kinematics::{Body, Pose, local_rotation, local_translation};
+pub use skeleton::{Axis, Channel, EndSite, Joint, JointId, Skeleton};

@@ -1,0 +1,318 @@
+//! A pose that was put in front of the motion: found, and left out.
+//!
+//! The cgspeed releases of the CMU clips start with a T-pose, and in the DAZ-friendly ones the next
+//! three or four steps still come out of it. A method that looks for the fastest frame finds these.
+//!
+//! The first step is held against the steps *right after* it, never against the whole clip: a clip
+//! that starts in the middle of a swing starts fast, but a body cannot be five times slower a frame
+//! later.
+
+use glam::DQuat;
+
+use crate::error::Warning;
+use crate::motion::{Clip, Pose};
+use crate::time::Frame;
+
+/// Seconds of motion that the jump is held against.
+const FOLLOWING: f64 = 0.25;
+
+/// Fewer steps than this say nothing about the motion, at whatever rate.
+const FEWEST_FOLLOWING: usize = 4;
+
+/// The jump is at least so many times the largest following step. In real clips inserted poses reach
+/// 7 to 93; of 18,481 other frames to start at, 12 reach 5 (at sudden single steps of the capture).
+const JUMP: f64 = 5.0;
+
+/// A step belongs to the jump while it is so many times the median of the steps that follow it.
+const TAIL: f64 = 3.0;
+
+/// Seconds that the way out of the pose may take after the jump: four frames at 120 and at 100
+/// frames a second. In a longer time a body can really stop.
+const LONGEST_TAIL: f64 = 0.035;
+
+/// So many frames may hold the inserted pose.
+const MOST_HELD: usize = 10;
+
+/// Radians a joint, on average, that make a jump: below 1 degree it does not matter.
+const SMALLEST_JUMP: f64 = 0.0175;
+
+/// Radians a joint, on average, below which a step is no motion but rounding.
+const STILL: f64 = 1e-7;
+
+/// A lead-in: frames at the start of a clip that are an inserted pose and the way out of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeadIn {
+    /// The clip's first frame.
+    pub first: Frame,
+    /// The last frame that is not motion.
+    pub last: Frame,
+    /// How many times larger the jump is than the largest step of the quarter of a second after it.
+    pub ratio: f64,
+}
+
+impl LeadIn {
+    /// Finds the lead-in of a clip, if it has one.
+    ///
+    /// A step is the sum of the angles that the joints turn against their parents. The lead-in ends
+    /// with the first step that is one of the motion. A clip too short to tell has none, nor has one
+    /// that stands still after the jump: its frames are drawings, as in limited animation.
+    pub fn find(clip: &Clip) -> Option<Self> {
+        let fps = clip.rate().fps();
+        let following = ((FOLLOWING * fps).round() as usize).max(FEWEST_FOLLOWING);
+        let tail = (LONGEST_TAIL * fps).round() as usize;
+        let joints = clip.skeleton().len() as f64;
+        let steps = Steps::of(clip, MOST_HELD + 1 + tail + following);
+
+        let jump = steps.0.iter().take(MOST_HELD + 1).position(|step| *step > STILL * joints)?;
+        let is_far = |step: &usize| steps.0[*step] > TAIL * steps.median(*step + 1, following);
+        let end = (jump + 1..steps.0.len()).take(tail).take_while(is_far).last().unwrap_or(jump);
+        let after = steps.after(end + 1, following);
+        if after.len() < FEWEST_FOLLOWING.max(following / 2) {
+            return None;
+        }
+        let is_moving = steps.median(end + 1, following) > STILL * joints;
+        let ratio = steps.0[jump] / after.iter().copied().fold(0.0, f64::max);
+        let is_jump = is_moving && ratio >= JUMP && steps.0[jump] >= SMALLEST_JUMP * joints;
+        let first = clip.first();
+        is_jump.then(|| Self { first, last: Frame(first.0 + end), ratio })
+    }
+
+    /// Number of frames.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.last.0 - self.first.0 + 1
+    }
+
+    /// What a person should know about it: `W_LEAD_IN`.
+    pub fn warning(&self) -> Warning {
+        let Self { first, last, ratio } = self;
+        let frames = if first == last {
+            format!("frame {first} is")
+        } else {
+            format!("frames {first} to {last} are")
+        };
+        let message = format!(
+            "{frames} an inserted pose (T-pose), not motion: a jump {ratio:.0} times any step after it; left out (keep with --keep-lead-in)"
+        );
+        Warning::new("W_LEAD_IN", message)
+    }
+}
+
+/// The clip without its lead-in, and what a person should know about that. Frames keep the numbers
+/// they have in the file.
+pub fn strip(clip: Clip) -> (Clip, Option<Warning>) {
+    let Some(lead_in) = LeadIn::find(&clip) else { return (clip, None) };
+    let (begin, end) = (Frame(lead_in.last.0 + 1), Frame(clip.last().0 + 1));
+    let motion = clip.trimmed(begin, end).expect("steps were seen after the lead-in");
+    (motion, Some(lead_in.warning()))
+}
+
+/// The first steps of a clip in radians, summed over joints; step 0 leads from row 0 to row 1.
+struct Steps(Vec<f64>);
+
+impl Steps {
+    fn of(clip: &Clip, most: usize) -> Self {
+        let count = clip.len().saturating_sub(1).min(most);
+        let mut steps = Vec::with_capacity(count);
+        if count > 0 {
+            let mut from = Pose::rest(clip.skeleton());
+            let mut to = from.clone();
+            from.take_frame(clip, clip.first());
+            for frame in 1..=count {
+                to.take_frame(clip, Frame(clip.first().0 + frame));
+                steps.push(turned(&from, &to));
+                std::mem::swap(&mut from, &mut to);
+            }
+        }
+        Self(steps)
+    }
+
+    /// Up to `count` steps from `begin` on.
+    fn after(&self, begin: usize, count: usize) -> &[f64] {
+        let end = (begin + count).min(self.0.len());
+        &self.0[begin.min(end)..end]
+    }
+
+    /// Their median; infinite when there is none, so that nothing is far from it.
+    fn median(&self, begin: usize, count: usize) -> f64 {
+        let mut steps = self.after(begin, count).to_vec();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+fn turned(from: &Pose, to: &Pose) -> f64 {
+    from.rotations.iter().zip(&to.rotations).map(|(from, to)| angle(*from, *to)).sum()
+}
+
+/// The angle between two rotations by their chord, which is exact for small angles; q and −q are one.
+fn angle(from: DQuat, to: DQuat) -> f64 {
+    let chord = (from - to).length().min((from + to).length());
+    4.0 * (0.5 * chord).min(1.0).asin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::bvh::{read, sample};
+    use crate::motion::{Axis, Channel, Joint, Skeleton};
+    use crate::time::FrameRate;
+
+    /// Frames that real clips lose. `threejs-pirouette` moves so soon that its fourth step after the
+    /// jump is one of the dance.
+    const EXPECTED: [(&str, usize); 15] = [
+        ("cmu-01_06-playground-long", 1),
+        ("cmu-02_04-jump-balance", 1),
+        ("cmu-02_05-punch-strike", 1),
+        ("cmu-02_07-swordplay", 1),
+        ("cmu-05_11-dance-pirouette", 1),
+        ("cmu-06_15-dribble-shoot", 1),
+        ("cmu-07_01-walk", 1),
+        ("cmu-09_01-run", 1),
+        ("cmu-10_03-soccer-kick", 5),
+        ("cmu-11_01-soccer-kick", 5),
+        ("cmu-131_03-start-hop-stop", 0),
+        ("cmu-135_04-front-kick", 5),
+        ("optitrack-arena-louise", 2),
+        ("rokoko-jesse-dance", 0),
+        ("threejs-pirouette", 4),
+    ];
+
+    #[test]
+    fn real_clips_lose_their_inserted_pose_and_nothing_else() {
+        for (name, bytes) in sample::real_clips() {
+            let clip = read(&bytes).unwrap().clip;
+            let expected = EXPECTED.iter().find(|(clip, _)| *clip == name);
+            let (_, expected) = expected.unwrap_or_else(|| panic!("{name} is not in the table"));
+            let (motion, warning) = strip(clip.clone());
+            assert_eq!(motion.first(), Frame(*expected), "{name}");
+            assert_eq!(motion.last(), clip.last(), "{name}");
+            assert_eq!(motion.row(motion.last()), clip.row(clip.last()), "{name}");
+            assert_eq!(warning.is_some(), *expected > 0, "{name}");
+            assert_eq!(LeadIn::find(&motion), None, "{name} has a second one");
+        }
+    }
+
+    /// `count` rows of a clip from `begin` on, every `stride`-th.
+    fn window(clip: &Clip, begin: usize, count: usize, stride: usize) -> Clip {
+        let rows: Vec<&[f64]> = clip.rows().skip(begin).step_by(stride).take(count).collect();
+        let rate = FrameRate::new(clip.rate().fps() / stride as f64).unwrap();
+        Clip::new(clip.skeleton().clone(), rate, Frame(0), rows.len(), rows.concat()).unwrap()
+    }
+
+    #[test]
+    fn of_a_thousand_places_to_cut_real_clips_at_most_one_looks_like_a_lead_in() {
+        for stride in [1, 2, 5] {
+            let (mut starts, mut alarms) = (0, Vec::new());
+            for (name, bytes) in sample::real_clips() {
+                let clip = read(&bytes).unwrap().clip;
+                for begin in (10..clip.len() - 45).step_by(4) {
+                    starts += 1;
+                    if LeadIn::find(&window(&clip, begin, 46, stride)).is_some() {
+                        alarms.push((name.clone(), begin));
+                    }
+                }
+            }
+            assert!(alarms.len() * 1000 <= starts, "{alarms:?} of {starts} starts");
+        }
+    }
+
+    const JOINTS: usize = 20;
+
+    /// A clip of joints that turn about X, by `degrees(frame, joint)`.
+    fn turning(fps: f64, frames: usize, degrees: impl Fn(usize, f64) -> f64) -> Clip {
+        let joint = |joint: usize| Joint {
+            name: format!("joint {joint}"),
+            parent: None,
+            offset: glam::DVec3::ZERO,
+            channels: vec![Channel::Rotation(Axis::X)],
+            first_channel: joint,
+            end_sites: vec![],
+        };
+        let skeleton = Skeleton { joints: (0..JOINTS).map(joint).collect() };
+        let values = (0..frames)
+            .flat_map(|frame| (0..JOINTS).map(move |joint| (frame, joint)))
+            .map(|(frame, joint)| degrees(frame, joint as f64))
+            .collect();
+        Clip::new(skeleton, FrameRate::new(fps).unwrap(), Frame(0), frames, values).unwrap()
+    }
+
+    fn walk(seconds: f64, joint: f64) -> f64 {
+        30.0 + 20.0 * (6.0 * seconds + joint).sin()
+    }
+
+    #[test]
+    fn a_t_pose_before_a_walk_is_found_however_long_it_is_held() {
+        for fps in [24.0, 30.0, 60.0, 100.0, 120.0, 240.0] {
+            for held in [1, 2, 5, 10] {
+                let clip = turning(fps, 200, |frame, joint| {
+                    if frame < held { 0.0 } else { walk(frame as f64 / fps, joint) }
+                });
+                let lead_in = LeadIn::find(&clip).unwrap_or_else(|| panic!("{held} at {fps}"));
+                assert_eq!(lead_in.len(), held, "{fps}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_lead_in_is_left_out_with_a_sentence_and_frames_keep_their_numbers() {
+        let pose =
+            |frame: usize, joint| if frame < 2 { 0.0 } else { walk(frame as f64 / 120.0, joint) };
+        let clip = turning(120.0, 100, pose).trimmed(Frame(1), Frame(100)).unwrap();
+        let (motion, warning) = strip(clip.clone());
+        assert_eq!((motion.first(), motion.last(), motion.len()), (Frame(2), Frame(99), 98));
+        let warning = warning.unwrap();
+        assert_eq!(warning.code, "W_LEAD_IN");
+        let words = "frame 1 is an inserted pose (T-pose), not motion: a jump ";
+        assert!(warning.message.starts_with(words), "{warning}");
+        assert!(warning.message.ends_with("left out (keep with --keep-lead-in)"), "{warning}");
+        let longer = LeadIn { first: Frame(0), last: Frame(4), ratio: 10.0 };
+        assert!(longer.warning().message.starts_with("frames 0 to 4 are an inserted pose"));
+    }
+
+    #[test]
+    fn the_way_out_of_the_pose_is_left_out_too() {
+        let left = [1.0, 0.7, 0.4, 0.15];
+        let clip = turning(120.0, 200, |frame, joint| {
+            walk(frame as f64 / 120.0, joint) * (1.0 - left.get(frame).unwrap_or(&0.0))
+        });
+        assert_eq!(LeadIn::find(&clip).unwrap().len(), 4);
+    }
+
+    #[test]
+    fn a_clip_that_starts_in_the_middle_of_a_swing_has_no_lead_in() {
+        for fps in [24.0, 30.0, 60.0, 120.0, 240.0] {
+            let clip = turning(fps, 200, |frame, joint| {
+                let seconds = frame as f64 / fps;
+                -90.0 * (-seconds / 0.1).exp() + 0.1 * walk(seconds, joint)
+            });
+            assert_eq!(LeadIn::find(&clip), None, "{fps}");
+        }
+    }
+
+    #[test]
+    fn held_drawings_are_no_lead_in() {
+        for holds in [2, 6, 20] {
+            let pose = |frame: usize, joint| walk(frame.div_ceil(holds) as f64, joint);
+            assert_eq!(LeadIn::find(&turning(24.0, 60, pose)), None, "{holds}");
+        }
+    }
+
+    #[test]
+    fn no_motion_a_tremble_and_too_few_frames_have_no_lead_in() {
+        assert_eq!(LeadIn::find(&turning(120.0, 100, |_, joint| joint)), None);
+        let tremble = |frame: usize, joint: f64| {
+            if frame == 0 { 0.9 } else { 0.01 * walk(frame as f64 / 120.0, joint) - 0.3 }
+        };
+        assert_eq!(LeadIn::find(&turning(120.0, 100, tremble)), None);
+        let pose = |frame: usize, joint| {
+            if frame == 0 { 0.0 } else { walk(frame as f64 / 120.0, joint) }
+        };
+        for frames in 0..=5 {
+            assert_eq!(LeadIn::find(&turning(120.0, frames, pose)), None, "{frames}");
+            assert_eq!(LeadIn::find(&turning(24.0, frames, pose)), None, "{frames}");
+            let (clip, warning) = strip(turning(120.0, frames, pose));
+            assert_eq!((clip.len(), warning), (frames, None));
+        }
+    }
+}

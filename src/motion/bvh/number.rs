@@ -1,0 +1,179 @@
+//! One decimal number straight from bytes, correctly rounded.
+
+/// Powers of ten that an `f64` holds exactly.
+const EXACT_POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+/// Up to here every whole number is an `f64`.
+const EXACT_WHOLE: u64 = 1 << 53;
+
+/// So many digits fit a `u64` whatever they are.
+const SAFE_DIGITS: usize = 19;
+
+/// The number that `text` starts with and its length in bytes: what `str::parse` gives, bit for bit,
+/// except that `inf` and `nan` are no numbers. `None` unless a blank, a brace or the end follows it.
+#[inline]
+pub(super) fn scan(text: &[u8]) -> Option<(f64, usize)> {
+    let (negative, unsigned) = match text {
+        [b'-', rest @ ..] => (true, rest),
+        [b'+', rest @ ..] => (false, rest),
+        _ => (false, text),
+    };
+    let (whole, rest) = take_digits(unsigned, 0);
+    let mut digits = unsigned.len() - rest.len();
+    let (mut mantissa, mut exponent, mut rest) = (whole, 0i64, rest);
+    if let [b'.', fraction @ ..] = rest {
+        (mantissa, rest) = take_digits(fraction, whole);
+        let places = fraction.len() - rest.len();
+        digits += places;
+        exponent = -(places as i64);
+    }
+    if digits == 0 {
+        return None;
+    }
+    if let [b'e' | b'E', power @ ..] = rest {
+        let (power, after) = take_exponent(power)?;
+        exponent += power;
+        rest = after;
+    }
+    if !rest.first().is_none_or(|&byte| ends_a_number(byte)) {
+        return None;
+    }
+    let length = text.len() - rest.len();
+    if digits > SAFE_DIGITS || mantissa > EXACT_WHOLE || exponent.unsigned_abs() > 22 {
+        return Some((parse_any(&text[..length])?, length));
+    }
+    // Both operands are exact, so the one operation rounds once, as a correct parser must.
+    let power = EXACT_POWERS[exponent.unsigned_abs() as usize];
+    let size = if exponent < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
+    Some((if negative { -size } else { size }, length))
+}
+
+/// Blanks between tokens: space, tab and every line end.
+#[inline]
+pub(super) fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t'..=b'\r')
+}
+
+#[inline]
+fn ends_a_number(byte: u8) -> bool {
+    is_blank(byte) || matches!(byte, b'{' | b'}')
+}
+
+/// Appends digits to `value`, which wraps when there are too many.
+#[inline]
+fn take_digits(mut text: &[u8], mut value: u64) -> (u64, &[u8]) {
+    while let [digit @ b'0'..=b'9', rest @ ..] = text {
+        value = value.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
+        text = rest;
+    }
+    (value, text)
+}
+
+/// The power after an `e`; a power too large for anything is as good as any other.
+fn take_exponent(text: &[u8]) -> Option<(i64, &[u8])> {
+    let (sign, digits) = match text {
+        [b'-', rest @ ..] => (-1, rest),
+        [b'+', rest @ ..] => (1, rest),
+        _ => (1, text),
+    };
+    let (mut power, mut rest) = (0i64, digits);
+    while let [digit @ b'0'..=b'9', after @ ..] = rest {
+        power = (power * 10 + i64::from(digit - b'0')).min(1 << 32);
+        rest = after;
+    }
+    (rest.len() < digits.len()).then_some((sign * power, rest))
+}
+
+#[cold]
+fn parse_any(text: &[u8]) -> Option<f64> {
+    std::str::from_utf8(text).ok()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn bits(text: &str) -> Option<u64> {
+        scan(text.as_bytes()).map(|(value, length)| {
+            assert_eq!(length, text.len(), "{text}");
+            value.to_bits()
+        })
+    }
+
+    fn bits_by_std(text: &str) -> Option<u64> {
+        text.parse::<f64>().ok().map(f64::to_bits)
+    }
+
+    #[test]
+    fn hard_numbers_are_what_std_makes_of_them() {
+        for text in [
+            "0",
+            "-0",
+            "+1",
+            "5.",
+            ".0083333",
+            "-.5",
+            "1e-06",
+            "1E+05",
+            "5.1e-06",
+            "1e22",
+            "1e23",
+            "9007199254740993",
+            "9007199254740992",
+            "9007199254740993e-3",
+            "18446744073709551616",
+            "0.1e-22",
+            "123456789012345678901234567890",
+            "2.2250738585072011e-308",
+            "5e-324",
+            "1.7976931348623159e308",
+            "1e99999999999999999999",
+            "1e-99999999999999999999",
+            "0.000000000000000000000000000000000000001",
+            "00000000000000000000012.5",
+            "179769313486231580793728971405301e277",
+            "8.5e-23",
+        ] {
+            assert_eq!(bits(text), bits_by_std(text), "{text}");
+            assert!(bits(text).is_some(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_none() {
+        for text in
+            ["", "-", "+", ".", "e5", "1e", "1e+", "1.2.3", "--1", "nan", "inf", "1x", "1,5"]
+        {
+            assert_eq!(bits(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_number_ends_at_a_blank_or_a_brace() {
+        for text in ["1.5 2", "1.5\t", "1.5\r\n", "1.5}", "1.5{"] {
+            assert_eq!(scan(text.as_bytes()), Some((1.5, 3)), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_of_number_letters_reads_as_std_reads_it(text in "[-+]?[0-9]{0,22}(\\.[0-9]{0,25})?([eE][-+]?[0-9]{0,3})?") {
+            prop_assert_eq!(bits(&text), bits_by_std(&text), "{}", text);
+        }
+
+        #[test]
+        fn garbage_of_number_letters_reads_as_std_reads_it(text in "[-+.eE0-9]{0,12}") {
+            prop_assert_eq!(bits(&text), bits_by_std(&text), "{}", text);
+        }
+
+        #[test]
+        fn every_printed_number_reads_back(value in proptest::num::f64::ANY.prop_filter("finite", |v| v.is_finite())) {
+            prop_assert_eq!(bits(&format!("{value}")), Some(value.to_bits()));
+            prop_assert_eq!(bits(&format!("{value:e}")), Some(value.to_bits()));
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Writes a BVH file.
+
+use std::fmt::Write as _;
+
+use glam::DVec3;
+
+use crate::motion::{Axis, Channel, Clip, Joint, Skeleton};
+use crate::time::FrameRate;
+
+/// A frame time is written so near to the true one: 24 frames a second come out as `0.041667`, which
+/// other programs take for exactly 24, and 120 as `0.0083333`.
+const NEAR: f64 = 1.5e-5;
+
+/// Deeper joints are not indented further, so that a chain of n joints does not cost n² tabs.
+const MOST_TABS: usize = 32;
+
+/// Writes (書く) a clip as a BVH file: see [`Writer`].
+pub fn write(clip: &Clip) -> String {
+    let mut writer = Writer::new(clip.skeleton(), clip.rate());
+    writer.rows(clip.rows());
+    writer.finish()
+}
+
+/// Makes a BVH file row by row, so that a held pose can be written again and again.
+///
+/// Names, End Sites, channel orders and numbers are kept: a number is the shortest decimal that reads
+/// back as the same `f64`, never with an exponent, and −0 is 0. Tabs, LF, a final line end.
+#[derive(Debug, Clone)]
+pub struct Writer {
+    head: String,
+    rate: FrameRate,
+    /// Where in a row the values stand, in the order they are written.
+    columns: Vec<usize>,
+    frames: usize,
+    rows: String,
+}
+
+impl Writer {
+    /// A writer of motions of that skeleton, with no row yet.
+    pub fn new(skeleton: &Skeleton, rate: FrameRate) -> Self {
+        let mut hierarchy = Hierarchy::new(skeleton);
+        hierarchy.write();
+        let Hierarchy { text: head, columns, .. } = hierarchy;
+        Self { head, rate, columns, frames: 0, rows: String::new() }
+    }
+
+    /// Adds a frame: a row of the motion table, as wide as the skeleton has channels.
+    ///
+    /// # Panics
+    /// When the row has another width.
+    pub fn row(&mut self, row: &[f64]) {
+        assert_eq!(row.len(), self.columns.len(), "a row is as wide as the skeleton has channels");
+        for (written, &column) in self.columns.iter().enumerate() {
+            if written > 0 {
+                self.rows.push(' ');
+            }
+            push_number(&mut self.rows, row[column]);
+        }
+        self.rows.push('\n');
+        self.frames += 1;
+    }
+
+    /// Adds frames.
+    ///
+    /// # Panics
+    /// As [`Writer::row`].
+    pub fn rows<'a>(&mut self, rows: impl IntoIterator<Item = &'a [f64]>) {
+        for row in rows {
+            self.row(row);
+        }
+    }
+
+    /// The file.
+    pub fn finish(self) -> String {
+        let mut text = self.head;
+        let time = frame_time(self.rate);
+        text.push_str("MOTION\n");
+        put(&mut text, format_args!("Frames: {}\nFrame Time: {time}\n", self.frames));
+        text.push_str(&self.rows);
+        text
+    }
+}
+
+/// Text of the joints while it is made, children directly after their parent as the format has it.
+struct Hierarchy<'a> {
+    skeleton: &'a Skeleton,
+    children: Vec<Vec<usize>>,
+    text: String,
+    columns: Vec<usize>,
+}
+
+/// What is left to write.
+enum Task {
+    Open(usize, usize),
+    Close(usize),
+}
+
+impl<'a> Hierarchy<'a> {
+    fn new(skeleton: &'a Skeleton) -> Self {
+        let mut children = vec![Vec::new(); skeleton.len()];
+        for (joint, data) in skeleton.iter() {
+            if let Some(parent) = data.parent {
+                children[parent.0].push(joint.0);
+            }
+        }
+        Self { skeleton, children, text: "HIERARCHY\n".to_owned(), columns: Vec::new() }
+    }
+
+    fn write(&mut self) {
+        let roots = self.skeleton.iter().rev().filter(|(_, joint)| joint.parent.is_none());
+        let mut tasks: Vec<_> = roots.map(|(joint, _)| Task::Open(joint.0, 0)).collect();
+        while let Some(task) = tasks.pop() {
+            match task {
+                Task::Open(joint, depth) => {
+                    self.open(&self.skeleton.joints[joint], depth);
+                    tasks.push(Task::Close(depth));
+                    let children = self.children[joint].iter().rev();
+                    tasks.extend(children.map(|&child| Task::Open(child, depth + 1)));
+                }
+                Task::Close(depth) => self.line(depth, format_args!("}}")),
+            }
+        }
+    }
+
+    fn open(&mut self, joint: &Joint, depth: usize) {
+        let keyword = if joint.parent.is_some() { "JOINT" } else { "ROOT" };
+        self.line(depth, format_args!("{keyword} {}", joint.name));
+        self.line(depth, format_args!("{{"));
+        self.offset(joint.offset, depth + 1);
+        self.channels(joint, depth + 1);
+        for end in &joint.end_sites {
+            self.line(depth + 1, format_args!("{}", format!("End {}", end.name).trim_end()));
+            self.line(depth + 1, format_args!("{{"));
+            self.offset(end.offset, depth + 2);
+            self.line(depth + 1, format_args!("}}"));
+        }
+    }
+
+    fn offset(&mut self, offset: DVec3, depth: usize) {
+        self.indent(depth);
+        self.text.push_str("OFFSET");
+        for value in offset.to_array() {
+            self.text.push(' ');
+            push_number(&mut self.text, value);
+        }
+        self.text.push('\n');
+    }
+
+    fn channels(&mut self, joint: &Joint, depth: usize) {
+        self.indent(depth);
+        put(&mut self.text, format_args!("CHANNELS {}", joint.channels.len()));
+        for (place, channel) in joint.channels.iter().enumerate() {
+            self.text.push(' ');
+            self.text.push_str(channel_name(*channel));
+            self.columns.push(joint.first_channel + place);
+        }
+        self.text.push('\n');
+    }
+
+    fn line(&mut self, depth: usize, line: std::fmt::Arguments) {
+        self.indent(depth);
+        put(&mut self.text, line);
+        self.text.push('\n');
+    }
+
+    fn indent(&mut self, depth: usize) {
+        self.text.extend(std::iter::repeat_n('\t', depth.min(MOST_TABS)));
+    }
+}
+
+fn channel_name(channel: Channel) -> &'static str {
+    match channel {
+        Channel::Position(Axis::X) => "Xposition",
+        Channel::Position(Axis::Y) => "Yposition",
+        Channel::Position(Axis::Z) => "Zposition",
+        Channel::Rotation(Axis::X) => "Xrotation",
+        Channel::Rotation(Axis::Y) => "Yrotation",
+        Channel::Rotation(Axis::Z) => "Zrotation",
+    }
+}
+
+/// The shortest decimal near the frame time that reads back as the same rate.
+fn frame_time(rate: FrameRate) -> String {
+    let seconds = 1.0 / rate.fps();
+    let reads_back = |text: &String| {
+        let read = text.parse().unwrap_or(0.0);
+        let near = (read - seconds).abs() <= NEAR * seconds;
+        near && FrameRate::from_frame_time(read).is_ok_and(|again| again == rate)
+    };
+    // Where 1/(1/rate) is not the rate, the nearest decimal has to do.
+    let texts = (1..=24).map(|places| format!("{seconds:.places$}"));
+    texts.into_iter().find(reads_back).unwrap_or_else(|| format!("{seconds}"))
+}
+
+/// The shortest decimal that reads back as the same number.
+fn push_number(text: &mut String, value: f64) {
+    // Adding 0 makes 0 of −0 and changes nothing else.
+    put(text, format_args!("{}", value + 0.0));
+}
+
+fn put(text: &mut String, what: std::fmt::Arguments) {
+    text.write_fmt(what).expect("a String takes any text");
+}

@@ -1,0 +1,247 @@
+//! Poses back into channel values: what a drawing is in the file's own terms.
+
+use glam::{DMat3, DQuat};
+
+use crate::motion::{Axis, Channel, Clip, Joint, Pose};
+use crate::sheet::Source;
+use crate::time::Frame;
+
+/// Writes drawings as rows of channel values, with its buffers.
+#[derive(Debug, Clone)]
+pub struct RowWriter<'a> {
+    clip: &'a Clip,
+    pose: Pose,
+    from: Pose,
+    to: Pose,
+}
+
+impl<'a> RowWriter<'a> {
+    /// A writer for drawings of that clip.
+    pub fn new(clip: &'a Clip) -> Self {
+        let rest = Pose::rest(clip.skeleton());
+        Self { clip, pose: rest.clone(), from: rest.clone(), to: rest }
+    }
+
+    /// Writes a drawing into `row`, as wide as the skeleton has channels. A source frame comes out as
+    /// the numbers it was read from. An instant between frames is slerped, and its angles are the ones
+    /// nearest to those of the frame before, so that they run on past ±180° as the file's do.
+    pub fn write(&mut self, source: Source, row: &mut [f64]) {
+        let clip = self.clip;
+        let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
+        let place = source.place().clamp(first, last);
+        let before = clip.row(Frame(place.floor() as usize));
+        if let (Source::At(_), true) = (source, place.fract() == 0.0) {
+            row.copy_from_slice(before);
+            return;
+        }
+        let after = clip.row(Frame((place.floor() as usize + 1).min(clip.last().0)));
+        match source {
+            Source::At(_) => self.pose.take_place(clip, place),
+            Source::Between { from, to, share } => {
+                self.from.take_place(clip, from);
+                self.to.take_place(clip, to);
+                self.pose.take_blend(&self.from, &self.to, share);
+            }
+        }
+        for (index, joint) in clip.skeleton().joints.iter().enumerate() {
+            let columns = joint.first_channel..joint.first_channel + joint.channels.len();
+            let (before, after) = (&before[columns.clone()], &after[columns.clone()]);
+            self.write_joint(index, joint, [before, after], place.fract(), &mut row[columns]);
+        }
+    }
+
+    fn write_joint(
+        &self,
+        index: usize,
+        joint: &Joint,
+        rows: [&[f64]; 2],
+        share: f64,
+        row: &mut [f64],
+    ) {
+        let [before, after] = rows;
+        let translation = self.pose.translations[index];
+        let angles = rotation_axes(joint).map(|axes| {
+            angles_from_rotation(self.pose.rotations[index], axes, &near(joint, before))
+        });
+        let mut rotations = 0..3;
+        for (at, channel) in joint.channels.iter().enumerate() {
+            row[at] = match (channel, &angles) {
+                (Channel::Position(Axis::X), _) => translation.x,
+                (Channel::Position(Axis::Y), _) => translation.y,
+                (Channel::Position(Axis::Z), _) => translation.z,
+                (Channel::Rotation(_), Some(angles)) => angles[rotations.next().unwrap_or(2)],
+                // Fewer than three axes, or one axis twice, cannot follow a slerp exactly: each angle
+                // goes its own straight way.
+                (Channel::Rotation(_), None) => before[at] + share * (after[at] - before[at]),
+            };
+        }
+    }
+}
+
+/// The axes of a joint's rotations when they are three different ones, in the order listed.
+fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
+    let mut axes = joint.channels.iter().filter_map(|channel| match channel {
+        Channel::Rotation(axis) => Some(*axis),
+        Channel::Position(_) => None,
+    });
+    let three = [axes.next()?, axes.next()?, axes.next()?];
+    let [a, b, c] = three;
+    (axes.next().is_none() && a != b && b != c && a != c).then_some(three)
+}
+
+/// The rotation values of a joint's row.
+fn near(joint: &Joint, row: &[f64]) -> [f64; 3] {
+    let mut near = [0.0; 3];
+    let rotations =
+        joint.channels.iter().zip(row).filter_map(|(channel, value)| {
+            matches!(channel, Channel::Rotation(_)).then_some(*value)
+        });
+    near.iter_mut().zip(rotations).for_each(|(near, value)| *near = value);
+    near
+}
+
+/// The angles in degrees whose product about `axes`, left to right, is `rotation`: of all such triples
+/// the one nearest to `near`.
+fn angles_from_rotation(rotation: DQuat, axes: [Axis; 3], near: &[f64; 3]) -> [f64; 3] {
+    let matrix = DMat3::from_quat(rotation);
+    let [i, j, k] = axes.map(|axis| axis as usize);
+    let sign = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
+    let entry = |row: usize, column: usize| matrix.col(column)[row];
+    let sine = (sign * entry(i, k)).clamp(-1.0, 1.0);
+    if sine.abs() > 1.0 - 1e-12 {
+        return locked(&entry, [i, j, k], sign, sine, near);
+    }
+    let first = (-sign * entry(j, k)).atan2(entry(k, k)).to_degrees();
+    let second = sine.asin().to_degrees();
+    let third = (-sign * entry(i, j)).atan2(entry(i, i)).to_degrees();
+    let direct = unwrapped([first, second, third], near);
+    let other = unwrapped([first + 180.0, 180.0 - second, third + 180.0], near);
+    if distance(&direct, near) <= distance(&other, near) { direct } else { other }
+}
+
+/// Gimbal lock: only the sum or the difference of the first and third angle is known, so the first
+/// stays where it was.
+fn locked(
+    entry: &impl Fn(usize, usize) -> f64,
+    [i, j, _]: [usize; 3],
+    sign: f64,
+    sine: f64,
+    near: &[f64; 3],
+) -> [f64; 3] {
+    let together = (sign * entry(j, i)).atan2(entry(j, j)).to_degrees();
+    unwrapped([near[0], sine.asin().to_degrees(), together - sign * sine.signum() * near[0]], near)
+}
+
+fn unwrapped(angles: [f64; 3], near: &[f64; 3]) -> [f64; 3] {
+    let mut angles = angles;
+    for (angle, near) in angles.iter_mut().zip(near) {
+        *angle -= 360.0 * ((*angle - near) / 360.0).round();
+    }
+    angles
+}
+
+fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::motion::{Skeleton, local_rotation};
+    use crate::time::FrameRate;
+
+    const ORDERS: [[Axis; 3]; 6] = [
+        [Axis::X, Axis::Y, Axis::Z],
+        [Axis::X, Axis::Z, Axis::Y],
+        [Axis::Y, Axis::X, Axis::Z],
+        [Axis::Y, Axis::Z, Axis::X],
+        [Axis::Z, Axis::X, Axis::Y],
+        [Axis::Z, Axis::Y, Axis::X],
+    ];
+
+    fn joint(axes: &[Axis]) -> Joint {
+        Joint {
+            name: "joint".into(),
+            parent: None,
+            offset: DVec3::ZERO,
+            channels: axes.iter().copied().map(Channel::Rotation).collect(),
+            first_channel: 0,
+            end_sites: vec![],
+        }
+    }
+
+    fn same(a: DQuat, b: DQuat) -> bool {
+        a.dot(b).abs() > 1.0 - 1e-9
+    }
+
+    proptest! {
+        #[test]
+        fn angles_give_the_rotation_they_were_taken_from(
+            order in 0usize..6,
+            angles in prop::array::uniform3(-400.0f64..400.0),
+            near in prop::array::uniform3(-400.0f64..400.0),
+        ) {
+            let joint = joint(&ORDERS[order]);
+            let rotation = local_rotation(&joint, &angles);
+            let again = angles_from_rotation(rotation, ORDERS[order], &near);
+            prop_assert!(same(local_rotation(&joint, &again), rotation), "{angles:?} {again:?}");
+            let kept = angles_from_rotation(rotation, ORDERS[order], &angles);
+            prop_assert!(distance(&kept, &angles) < 1e-5, "{angles:?} {kept:?}");
+        }
+
+        #[test]
+        fn a_locked_gimbal_still_gives_the_rotation(
+            order in 0usize..6,
+            first in -180.0f64..180.0,
+            third in -180.0f64..180.0,
+            up in any::<bool>(),
+        ) {
+            let joint = joint(&ORDERS[order]);
+            let angles = [first, if up { 90.0 } else { -90.0 }, third];
+            let rotation = local_rotation(&joint, &angles);
+            let again = angles_from_rotation(rotation, ORDERS[order], &[first, 80.0, 0.0]);
+            prop_assert!(same(local_rotation(&joint, &again), rotation), "{angles:?} {again:?}");
+        }
+    }
+
+    fn clip(axes: &[Axis], values: &[f64]) -> Clip {
+        let skeleton = Skeleton { joints: vec![joint(axes)] };
+        let frames = values.len() / axes.len();
+        Clip::new(skeleton, FrameRate::new(24.0).unwrap(), Frame(3), frames, values.to_vec())
+            .unwrap()
+    }
+
+    #[test]
+    fn a_source_frame_comes_out_digit_for_digit() {
+        let values = [100.1, 400.7, -0.3, 0.1, 0.2, 0.3];
+        let clip = clip(&ORDERS[4], &values);
+        let mut row = [0.0; 3];
+        RowWriter::new(&clip).write(Source::At(3.0), &mut row);
+        assert_eq!(row, values[..3]);
+        RowWriter::new(&clip).write(Source::At(99.0), &mut row);
+        assert_eq!(row, values[3..], "past the end is the last frame");
+    }
+
+    #[test]
+    fn an_instant_between_frames_runs_on_past_half_a_turn() {
+        let clip = clip(&ORDERS[5], &[178.0, 0.0, 0.0, 190.0, 0.0, 0.0]);
+        let mut row = [0.0; 3];
+        RowWriter::new(&clip).write(Source::At(3.5), &mut row);
+        assert!((row[0] - 184.0).abs() < 1e-9, "{row:?}");
+    }
+
+    #[test]
+    fn a_blend_is_the_slerp_of_its_keys_and_fewer_axes_go_straight() {
+        let wide = clip(&ORDERS[0], &[0.0, 0.0, 0.0, 80.0, 0.0, 0.0, 20.0, 0.0, 0.0]);
+        let mut row = [0.0; 3];
+        RowWriter::new(&wide).write(Source::Between { from: 3.0, to: 5.0, share: 0.5 }, &mut row);
+        assert!((row[0] - 10.0).abs() < 1e-9, "{row:?}");
+        let narrow = clip(&[Axis::X], &[10.0, 20.0]);
+        let mut row = [0.0];
+        RowWriter::new(&narrow).write(Source::At(3.25), &mut row);
+        assert_eq!(row, [12.5]);
+    }
+}

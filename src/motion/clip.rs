@@ -1,0 +1,170 @@
+//! A motion clip: a skeleton and one flat table of channel values, frame after frame.
+
+use crate::error::Error;
+use crate::motion::Skeleton;
+use crate::time::{Clock, Frame, FrameRate};
+
+/// A motion clip (モーション): the values as written, never turned into anything else, so that a
+/// drawing which is a source frame can be written back as the same numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clip {
+    skeleton: Skeleton,
+    rate: FrameRate,
+    first: Frame,
+    frames: usize,
+    values: Vec<f64>,
+}
+
+impl Clip {
+    /// A clip from a table of `frames` rows, each as wide as the skeleton has channels.
+    ///
+    /// `first` is the number that the table's first row has in its file.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when the table does not have that shape or holds a value that is not finite.
+    pub fn new(
+        skeleton: Skeleton,
+        rate: FrameRate,
+        first: Frame,
+        frames: usize,
+        values: Vec<f64>,
+    ) -> Result<Self, Error> {
+        let channels = skeleton.channels();
+        if values.len() != frames * channels {
+            let found = values.len();
+            return Err(Error::clip(format!(
+                "{frames} frames of {channels} channels need {} values, found {found}",
+                frames * channels
+            )));
+        }
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            let frame = first.0 + at / channels;
+            return Err(Error::clip(format!("frame {frame} holds a value that is not a number")));
+        }
+        Ok(Self { skeleton, rate, first, frames, values })
+    }
+
+    /// The joints.
+    pub fn skeleton(&self) -> &Skeleton {
+        &self.skeleton
+    }
+
+    /// Frames a second.
+    pub fn rate(&self) -> FrameRate {
+        self.rate
+    }
+
+    /// The number its first row has in the file.
+    pub fn first(&self) -> Frame {
+        self.first
+    }
+
+    /// The number its last row has in the file; the first for an empty clip.
+    pub fn last(&self) -> Frame {
+        Frame(self.first.0 + self.frames.saturating_sub(1))
+    }
+
+    /// Number of frames.
+    pub fn len(&self) -> usize {
+        self.frames
+    }
+
+    /// Whether there is no frame at all.
+    pub fn is_empty(&self) -> bool {
+        self.frames == 0
+    }
+
+    /// Seconds from the first frame to the last: (F − 1)/rate.
+    pub fn seconds(&self) -> f64 {
+        self.frames.saturating_sub(1) as f64 / self.rate.fps()
+    }
+
+    /// The channel values of a frame, as wide as the skeleton has channels.
+    ///
+    /// # Panics
+    /// When the frame is not in the clip.
+    pub fn row(&self, frame: Frame) -> &[f64] {
+        let channels = self.skeleton.channels();
+        let row = frame.0 - self.first.0;
+        &self.values[row * channels..(row + 1) * channels]
+    }
+
+    /// All rows in order, each as wide as the skeleton has channels.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        let channels = self.skeleton.channels();
+        (0..self.frames).map(move |row| &self.values[row * channels..(row + 1) * channels])
+    }
+
+    /// Whether a frame is part of the clip.
+    pub fn contains(&self, frame: Frame) -> bool {
+        (self.first.0..self.first.0 + self.frames).contains(&frame.0)
+    }
+
+    /// The clock of a sheet of this clip: koma 0 shows its first frame.
+    pub fn clock(&self, koma_rate: f64) -> Clock {
+        Clock { first: self.first, frame_rate: self.rate, koma_rate }
+    }
+
+    /// The frames `begin..end` alone, by their numbers in the file. They keep those numbers.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when a bound lies outside the clip or the part would be empty.
+    pub fn trimmed(mut self, begin: Frame, end: Frame) -> Result<Self, Error> {
+        let (first, past) = (self.first.0, self.first.0 + self.frames);
+        if begin.0 < first || end.0 > past || begin >= end {
+            return Err(Error::clip(format!(
+                "cannot keep frames {begin}..{end}: the clip has frames {first}..{past}"
+            )));
+        }
+        let channels = self.skeleton.channels();
+        self.values.truncate((end.0 - first) * channels);
+        self.values.drain(..(begin.0 - first) * channels);
+        self.frames = end.0 - begin.0;
+        self.first = begin;
+        Ok(self)
+    }
+
+    /// The same clip at another rate; the frames stay.
+    pub fn with_rate(mut self, rate: FrameRate) -> Self {
+        self.rate = rate;
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Axis, Channel, Joint};
+
+    fn clip(values: &[f64]) -> Result<Clip, Error> {
+        let root = Joint {
+            name: "root".into(),
+            parent: None,
+            offset: glam::DVec3::ZERO,
+            channels: vec![Channel::Rotation(Axis::X)],
+            first_channel: 0,
+            end_sites: vec![],
+        };
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(Skeleton { joints: vec![root] }, rate, Frame(0), 4, values.to_vec())
+    }
+
+    #[test]
+    fn a_table_of_another_shape_or_with_a_nan_is_refused() {
+        assert!(clip(&[0.0; 3]).is_err());
+        let error = clip(&[0.0, f64::NAN, 0.0, 0.0]).unwrap_err();
+        assert_eq!(error.to_string(), "frame 1 holds a value that is not a number");
+    }
+
+    #[test]
+    fn a_trimmed_clip_keeps_the_numbers_of_its_frames() {
+        let clip = clip(&[10.0, 11.0, 12.0, 13.0]).unwrap().trimmed(Frame(1), Frame(3)).unwrap();
+        assert_eq!((clip.first(), clip.last(), clip.len()), (Frame(1), Frame(2), 2));
+        assert_eq!(clip.row(Frame(2)), [12.0]);
+        assert!(clip.contains(Frame(1)) && !clip.contains(Frame(0)) && !clip.contains(Frame(3)));
+        let again = clip.trimmed(Frame(2), Frame(3)).unwrap();
+        assert_eq!(again.row(Frame(2)), [12.0]);
+        assert!(again.clone().trimmed(Frame(1), Frame(3)).is_err());
+        assert!(again.trimmed(Frame(2), Frame(2)).is_err());
+    }
+}

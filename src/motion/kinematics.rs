@@ -1,0 +1,239 @@
+//! Poses: local rotations of a frame, sampled instants, blends, and world positions.
+
+use glam::{DQuat, DVec3};
+
+use crate::motion::{Axis, Channel, Clip, Joint, Skeleton};
+use crate::time::Frame;
+
+/// The rotation of a joint against its parent, a unit quaternion: the product of its elementary
+/// rotations in the order its channels are listed, left to right.
+pub fn local_rotation(joint: &Joint, row: &[f64]) -> DQuat {
+    let mut rotation = DQuat::IDENTITY;
+    for (channel, degrees) in joint.channels.iter().zip(&row[joint.first_channel..]) {
+        if let Channel::Rotation(axis) = channel {
+            let (sin, cos) = (0.5 * degrees.to_radians()).sin_cos();
+            rotation = turn(rotation, *axis, sin, cos);
+        }
+    }
+    rotation
+}
+
+/// `rotation` times a rotation about one axis, given by the sine and cosine of half its angle:
+/// half the products of a full quaternion multiplication.
+fn turn(q: DQuat, axis: Axis, sin: f64, cos: f64) -> DQuat {
+    let DQuat { x, y, z, w } = q;
+    match axis {
+        Axis::X => DQuat::from_xyzw(
+            x * cos + w * sin,
+            y * cos + z * sin,
+            z * cos - y * sin,
+            w * cos - x * sin,
+        ),
+        Axis::Y => DQuat::from_xyzw(
+            x * cos - z * sin,
+            y * cos + w * sin,
+            z * cos + x * sin,
+            w * cos - y * sin,
+        ),
+        Axis::Z => DQuat::from_xyzw(
+            x * cos + y * sin,
+            y * cos - x * sin,
+            z * cos + w * sin,
+            w * cos - z * sin,
+        ),
+    }
+}
+
+/// Where a joint stands against its parent, in the file's unit: its offset, with each axis that has a
+/// position channel replaced by that channel's value.
+pub fn local_translation(joint: &Joint, row: &[f64]) -> DVec3 {
+    let mut translation = joint.offset;
+    for (channel, value) in joint.channels.iter().zip(&row[joint.first_channel..]) {
+        match channel {
+            Channel::Position(Axis::X) => translation.x = *value,
+            Channel::Position(Axis::Y) => translation.y = *value,
+            Channel::Position(Axis::Z) => translation.z = *value,
+            Channel::Rotation(_) => {}
+        }
+    }
+    translation
+}
+
+/// The local pose of one instant: a rotation and a translation a joint, in joint order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Pose {
+    /// Local rotations, unit quaternions.
+    pub rotations: Vec<DQuat>,
+    /// Local translations, in the file's unit.
+    pub translations: Vec<DVec3>,
+}
+
+impl Pose {
+    /// The rest pose of a skeleton, a buffer for the calls below.
+    pub fn rest(skeleton: &Skeleton) -> Self {
+        Self {
+            rotations: vec![DQuat::IDENTITY; skeleton.len()],
+            translations: skeleton.joints.iter().map(|joint| joint.offset).collect(),
+        }
+    }
+
+    /// Takes on the pose of a frame.
+    pub fn take_frame(&mut self, clip: &Clip, frame: Frame) {
+        self.take_row(clip.skeleton(), clip.row(frame));
+    }
+
+    fn take_row(&mut self, skeleton: &Skeleton, row: &[f64]) {
+        for ((joint, rotation), translation) in
+            skeleton.joints.iter().zip(&mut self.rotations).zip(&mut self.translations)
+        {
+            *rotation = local_rotation(joint, row);
+            *translation = local_translation(joint, row);
+        }
+    }
+
+    /// Takes on the pose at a place, a fractional frame number: slerp between the two neighbouring
+    /// frames. Places outside the clip give its first or last frame.
+    pub fn take_place(&mut self, clip: &Clip, place: f64) {
+        let place = place.clamp(clip.first().0 as f64, clip.last().0 as f64);
+        let before = Frame(place.floor() as usize);
+        self.take_frame(clip, before);
+        let share = place - place.floor();
+        if share == 0.0 {
+            return;
+        }
+        let row = clip.row(Frame(before.0 + 1));
+        for ((joint, rotation), translation) in
+            clip.skeleton().joints.iter().zip(&mut self.rotations).zip(&mut self.translations)
+        {
+            *rotation = rotation.slerp(local_rotation(joint, row), share);
+            *translation = translation.lerp(local_translation(joint, row), share);
+        }
+    }
+
+    /// Takes on the pose `share` of the way from one pose to another: slerp of every joint.
+    pub fn take_blend(&mut self, from: &Pose, to: &Pose, share: f64) {
+        for (rotation, (from, to)) in
+            self.rotations.iter_mut().zip(from.rotations.iter().zip(&to.rotations))
+        {
+            *rotation = from.slerp(*to, share);
+        }
+        for (translation, (from, to)) in
+            self.translations.iter_mut().zip(from.translations.iter().zip(&to.translations))
+        {
+            *translation = from.lerp(*to, share);
+        }
+    }
+}
+
+/// A body in the world: the buffer that turns local poses into joint positions.
+#[derive(Debug, Clone)]
+pub struct Body {
+    parents: Vec<Option<usize>>,
+    rotations: Vec<DQuat>,
+}
+
+impl Body {
+    /// A body of that skeleton.
+    pub fn new(skeleton: &Skeleton) -> Self {
+        Self {
+            parents: skeleton
+                .joints
+                .iter()
+                .map(|joint| joint.parent.map(|parent| parent.0))
+                .collect(),
+            rotations: vec![DQuat::IDENTITY; skeleton.len()],
+        }
+    }
+
+    /// Writes the world position of every joint into `positions`, in joint order and in the file's
+    /// unit.
+    pub fn place(&mut self, pose: &Pose, positions: &mut [DVec3]) {
+        for (joint, parent) in self.parents.iter().enumerate() {
+            let (rotation, translation) = (pose.rotations[joint], pose.translations[joint]);
+            (self.rotations[joint], positions[joint]) = match *parent {
+                None => (rotation, translation),
+                Some(parent) => (
+                    self.rotations[parent] * rotation,
+                    positions[parent] + self.rotations[parent] * translation,
+                ),
+            };
+        }
+    }
+
+    /// World rotations of the joints as of the last [`Body::place`].
+    pub fn rotations(&self) -> &[DQuat] {
+        &self.rotations
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::JointId;
+    use crate::time::FrameRate;
+
+    fn arm(channels: &[Channel]) -> Skeleton {
+        let joint = |parent: Option<usize>, channels: &[Channel], first_channel| Joint {
+            name: "joint".into(),
+            parent: parent.map(JointId),
+            offset: DVec3::Y,
+            channels: channels.to_vec(),
+            first_channel,
+            end_sites: vec![],
+        };
+        Skeleton { joints: vec![joint(None, channels, 0), joint(Some(0), &[], channels.len())] }
+    }
+
+    const ZXY: [Channel; 3] =
+        [Channel::Rotation(Axis::Z), Channel::Rotation(Axis::X), Channel::Rotation(Axis::Y)];
+
+    #[test]
+    fn channels_multiply_in_the_order_listed() {
+        let skeleton = arm(&ZXY);
+        let rotation = local_rotation(&skeleton.joints[0], &[40.0, 50.0, 60.0]);
+        let expected = DQuat::from_xyzw(0.188938, 0.551004, 0.467012, 0.665279);
+        assert!(rotation.abs_diff_eq(expected, 1e-6), "{rotation}");
+        let by_glam = DQuat::from_rotation_z(40f64.to_radians())
+            * DQuat::from_rotation_x(50f64.to_radians())
+            * DQuat::from_rotation_y(60f64.to_radians());
+        assert!(rotation.abs_diff_eq(by_glam, 1e-15));
+    }
+
+    #[test]
+    fn a_position_channel_replaces_the_offset_on_its_axis_alone() {
+        let skeleton = arm(&[Channel::Position(Axis::X)]);
+        let translation = local_translation(&skeleton.joints[0], &[5.0]);
+        assert_eq!(translation, DVec3::new(5.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn a_child_turns_with_its_parent() {
+        let skeleton = arm(&ZXY);
+        let clip = clip(skeleton, &[90.0, 0.0, 0.0]);
+        let mut pose = Pose::rest(clip.skeleton());
+        pose.take_frame(&clip, Frame(0));
+        let mut positions = [DVec3::ZERO; 2];
+        Body::new(clip.skeleton()).place(&pose, &mut positions);
+        assert_eq!(positions[0], DVec3::Y);
+        assert!(positions[1].abs_diff_eq(DVec3::new(-1.0, 1.0, 0.0), 1e-15), "{}", positions[1]);
+    }
+
+    #[test]
+    fn a_place_between_frames_is_a_slerp_even_across_a_full_turn() {
+        let clip = clip(arm(&ZXY), &[170.0, 0.0, 0.0, -170.0, 0.0, 0.0]);
+        let mut pose = Pose::rest(clip.skeleton());
+        pose.take_place(&clip, 0.25);
+        let expected = DQuat::from_rotation_z(175f64.to_radians());
+        assert!(pose.rotations[0].dot(expected).abs() > 1.0 - 1e-12, "{}", pose.rotations[0]);
+        let mut exact = pose.clone();
+        exact.take_frame(&clip, Frame(1));
+        pose.take_place(&clip, 7.0);
+        assert_eq!(pose, exact, "a place past the end is the last frame");
+    }
+
+    fn clip(skeleton: Skeleton, values: &[f64]) -> Clip {
+        let frames = values.len() / skeleton.channels();
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(skeleton, rate, Frame(0), frames, values.to_vec()).unwrap()
+    }
+}

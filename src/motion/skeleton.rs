@@ -1,0 +1,136 @@
+//! The skeleton (骨格): joints as the file lists them, parents before children.
+
+use glam::DVec3;
+
+/// A joint by its place in the file, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JointId(pub usize);
+
+/// A coordinate axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+/// What one column of the motion table drives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Channel {
+    /// Position along an axis, in the file's unit. It *replaces* the offset on that axis.
+    Position(Axis),
+    /// Rotation about an axis, in degrees. A joint's rotations are multiplied in the order listed.
+    Rotation(Axis),
+}
+
+/// The tip of a bone that has no joint of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndSite {
+    /// The word after `End`, usually `Site`.
+    pub name: String,
+    /// From the joint to the tip, in the file's unit.
+    pub offset: DVec3,
+}
+
+/// A joint (関節) and the bone that leads to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// The name as written.
+    pub name: String,
+    /// The joint it hangs on; none for a root.
+    pub parent: Option<JointId>,
+    /// From the parent at rest, in the file's unit.
+    pub offset: DVec3,
+    /// Its columns, in the order listed.
+    pub channels: Vec<Channel>,
+    /// The column of its first channel in a row of the motion table.
+    pub first_channel: usize,
+    /// Tips that end here.
+    pub end_sites: Vec<EndSite>,
+}
+
+/// Joints in file order, so that a parent always stands before its children.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Skeleton {
+    /// The joints.
+    pub joints: Vec<Joint>,
+}
+
+impl Skeleton {
+    /// Number of joints.
+    pub fn len(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// Whether there is no joint at all.
+    pub fn is_empty(&self) -> bool {
+        self.joints.is_empty()
+    }
+
+    /// Columns in a row of the motion table.
+    pub fn channels(&self) -> usize {
+        self.joints.iter().map(|joint| joint.channels.len()).sum()
+    }
+
+    /// Joints with their ids, parents first.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = (JointId, &Joint)> {
+        self.joints.iter().enumerate().map(|(joint, data)| (JointId(joint), data))
+    }
+
+    /// The first joint of that name.
+    pub fn find(&self, name: &str) -> Option<JointId> {
+        self.joints.iter().position(|joint| joint.name == name).map(JointId)
+    }
+
+    /// How far a joint's rotation carries: the length of the longest chain of bones below it, End
+    /// Sites included, in the file's unit. A leaf without an End Site takes its own bone's length.
+    ///
+    /// One value a joint, in joint order.
+    pub fn reaches(&self) -> Vec<f64> {
+        let mut reaches = vec![0.0; self.len()];
+        for (JointId(joint), data) in self.iter().rev() {
+            let tips = data.end_sites.iter().map(|end| end.offset.length());
+            let chain = tips.fold(reaches[joint], f64::max);
+            // A bare leaf drives nothing that the file names: its own bone stands for what hangs on it.
+            reaches[joint] = if chain > 0.0 { chain } else { data.offset.length() };
+            if let Some(JointId(parent)) = data.parent {
+                let through = data.offset.length() + if chain > 0.0 { chain } else { 0.0 };
+                reaches[parent] = f64::max(reaches[parent], through);
+            }
+        }
+        reaches
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn joint(name: &str, parent: Option<usize>, length: f64) -> Joint {
+        Joint {
+            name: name.into(),
+            parent: parent.map(JointId),
+            offset: DVec3::new(0.0, length, 0.0),
+            channels: vec![],
+            first_channel: 0,
+            end_sites: vec![],
+        }
+    }
+
+    #[test]
+    fn a_reach_is_the_longest_chain_below() {
+        let mut skeleton = Skeleton {
+            joints: vec![
+                joint("hips", None, 0.0),
+                joint("spine", Some(0), 2.0),
+                joint("head", Some(1), 3.0),
+                joint("leg", Some(0), 4.0),
+            ],
+        };
+        assert_eq!(skeleton.reaches(), [5.0, 3.0, 3.0, 4.0], "bare leaves take their own bone");
+        let tip = EndSite { name: "Site".into(), offset: DVec3::X };
+        skeleton.joints[2].end_sites.push(tip);
+        assert_eq!(skeleton.reaches(), [6.0, 4.0, 1.0, 4.0], "an End Site is part of the chain");
+    }
+}

@@ -1,0 +1,240 @@
+//! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::{self, Candidates, LayerKeys};
+use crate::motion::Clip;
+use crate::recipe::Recipe;
+use crate::sheet::Sheet;
+use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
+use crate::time::Clock;
+use crate::timing::{Omitted, Report, Spaced, Stills};
+
+/// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
+/// starts again at the first stage whose input changed.
+#[derive(Debug)]
+pub struct Engine {
+    clip: Clip,
+    weights: Vec<f64>,
+    speed: Stage<crate::signal::Speed, Signals>,
+    spectrum: Stage<(), Spectrum>,
+    filtered: Stage<LowPass, Signals>,
+    turns: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
+    candidates: Stage<CandidateSettings, Candidates>,
+    keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
+    spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
+    stills: Stage<(), Stills>,
+    omitted: Stage<(crate::timing::Omission, usize), Omitted>,
+    sheets: Stage<f64, [Sheet; 2]>,
+}
+
+type CandidateSettings = (keys::Choose, TurnFinder, LowPass, f64);
+
+/// Every intermediate result of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Breakdown<'a> {
+    /// The motion.
+    pub clip: &'a Clip,
+    /// Where the sheet's koma stand in it.
+    pub clock: Clock,
+    /// How fast each joint is.
+    pub speed: &'a Signals,
+    /// The same, smoothed.
+    pub filtered: &'a Signals,
+    /// Confirmed keys and walls of each joint, by frame.
+    pub turns: &'a [Vec<Turn>],
+    /// What the joints say together, before it was asked what a key is worth.
+    pub candidates: &'a Candidates,
+    /// Keys and walls of the layer.
+    pub keys: &'a LayerKeys,
+    /// Inbetweens that were asked for and did not fit.
+    pub did_not_fit: usize,
+    /// The sheet before anything was left out.
+    pub spaced: &'a Sheet,
+    /// The result.
+    pub sheet: &'a Sheet,
+    /// What was left out, and what could not be.
+    pub omission: &'a Report,
+}
+
+impl Engine {
+    /// An engine for a clip.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when the clip has no frame or no joint.
+    pub fn new(clip: Clip) -> Result<Self, Error> {
+        if clip.is_empty() || clip.skeleton().is_empty() {
+            return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
+        }
+        let weights = keys::weights(&clip);
+        Ok(Self {
+            clip,
+            weights,
+            speed: Stage::default(),
+            spectrum: Stage::default(),
+            filtered: Stage::default(),
+            turns: Stage::default(),
+            candidates: Stage::default(),
+            keys: Stage::default(),
+            spaced: Stage::default(),
+            stills: Stage::default(),
+            omitted: Stage::default(),
+            sheets: Stage::default(),
+        })
+    }
+
+    /// The motion.
+    pub fn clip(&self) -> &Clip {
+        &self.clip
+    }
+
+    /// Runs the chain as far as it has to be run again.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold.
+    pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
+        let changed = self.find(recipe, edits)?;
+        let clock = self.clip.clock(recipe.rate);
+        self.time(recipe, clock, changed)?;
+        let [spaced, sheet] = self.sheets.output();
+        Ok(Breakdown {
+            clip: &self.clip,
+            clock,
+            speed: self.speed.output(),
+            filtered: self.filtered.output(),
+            turns: self.turns.output(),
+            candidates: self.candidates.output(),
+            keys: self.keys.output(),
+            did_not_fit: self.spaced.output().did_not_fit,
+            spaced,
+            sheet,
+            omission: &self.omitted.output().report,
+        })
+    }
+
+    /// Runs the chain up to the keys: every joint's turns, and the keys of the layer.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn find_keys(
+        &mut self,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<(&[Vec<Turn>], &LayerKeys), Error> {
+        self.find(recipe, edits)?;
+        Ok((self.turns.output(), self.keys.output()))
+    }
+
+    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<bool, Error> {
+        recipe.validate()?;
+        edits.validate(self.clip.first(), self.clip.last())?;
+        let changed = self.measure(recipe)?;
+        Ok(self.choose(recipe, edits, self.clip.clock(recipe.rate), changed))
+    }
+
+    /// Speeds, smoothed, and where they turn. Says whether anything is new.
+    fn measure(&mut self, recipe: &Recipe) -> Result<bool, Error> {
+        let clip = &self.clip;
+        let changed = self.speed.refresh(false, &recipe.speed, || recipe.speed.measure(clip))?;
+        let speed = self.speed.output();
+        let changed = self.spectrum.refresh(changed, &(), || Ok(Spectrum::of(speed)))?;
+        let spectrum = self.spectrum.output();
+        let changed =
+            self.filtered.refresh(changed, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;
+        let filtered = self.filtered.output();
+        let delay = recipe.filter.delay(clip.rate());
+        let settings = (recipe.turns.clone(), recipe.filter.clone());
+        self.turns.refresh(changed, &settings, || Ok(recipe.turns.find(filtered, delay)))
+    }
+
+    /// The keys and walls of the layer. Says whether anything is new.
+    fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, changed: bool) -> bool {
+        let (filtered, turns) = (self.filtered.output(), self.turns.output());
+        let delay = recipe.filter.delay(self.clip.rate());
+        // What is asked of the ranked list does not change the candidates.
+        let merging = keys::Choose {
+            rank: keys::Rank::Price,
+            min_price: 0.0,
+            per_second: None,
+            ..recipe.keys.clone()
+        };
+        let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
+        let changed = self.candidates.renew(changed, &settings, || {
+            let apart = clock.frames_in_koma();
+            recipe.keys.candidates(&recipe.turns, filtered, turns, &self.weights, delay, apart)
+        });
+        let candidates = self.candidates.output();
+        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
+        self.keys.renew(changed, &settings, || {
+            recipe.keys.choose(&self.clip, clock, candidates, turns, &self.weights, edits)
+        })
+    }
+
+    /// The sheet, before and after omission.
+    fn time(&mut self, recipe: &Recipe, clock: Clock, changed: bool) -> Result<(), Error> {
+        let clip = &self.clip;
+        let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+        let keys = self.keys.output();
+        let changed = self.spaced.renew(changed, &(recipe.spacing.clone(), recipe.rate), || {
+            recipe.spacing.place(keys, clip.skeleton(), clock, koma)
+        });
+        let layer = &self.spaced.output().layer;
+        let changed = self.stills.renew(changed, &(), || Stills::of(clip, layer));
+        let stills = self.stills.output();
+        let on = recipe.spacing.on;
+        let settings = (recipe.omission.clone(), on);
+        let changed = self
+            .omitted
+            .refresh(changed, &settings, || recipe.omission.apply(layer, stills, on))?;
+        let omitted = &self.omitted.output().layer;
+        self.sheets.renew(changed, &recipe.rate, || {
+            [layer, omitted].map(|layer| Sheet { clock, layers: vec![layer.clone()] })
+        });
+        Ok(())
+    }
+}
+
+/// A stage's last output with the settings that made it.
+#[derive(Debug)]
+struct Stage<Settings, Output> {
+    made: Option<(Settings, Output)>,
+}
+
+impl<Settings, Output> Default for Stage<Settings, Output> {
+    fn default() -> Self {
+        Self { made: None }
+    }
+}
+
+impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
+    /// Makes the output again if its input or its settings changed. Says whether it did.
+    fn refresh(
+        &mut self,
+        input_changed: bool,
+        settings: &Settings,
+        make: impl FnOnce() -> Result<Output, Error>,
+    ) -> Result<bool, Error> {
+        let is_fresh = self.made.as_ref().is_some_and(|(made_with, _)| made_with == settings);
+        if is_fresh && !input_changed {
+            return Ok(false);
+        }
+        // Forgotten first: should `make` fail, a later run must not take the old output for the new.
+        self.made = None;
+        self.made = Some((settings.clone(), make()?));
+        Ok(true)
+    }
+
+    /// [`Stage::refresh`] for a stage that cannot fail.
+    fn renew(
+        &mut self,
+        input_changed: bool,
+        settings: &Settings,
+        make: impl FnOnce() -> Output,
+    ) -> bool {
+        self.refresh(input_changed, settings, || Ok(make())).expect("this stage cannot fail")
+    }
+
+    fn output(&self) -> &Output {
+        &self.made.as_ref().expect("the stage was run before its output is asked for").1
+    }
+}

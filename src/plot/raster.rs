@@ -1,0 +1,78 @@
+//! PNG from SVG, with the fonts of the system.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::fontdb::{Database, Family, Query};
+use resvg::usvg::{Options, Tree};
+
+use crate::error::Error;
+use crate::plot::style::cannot;
+
+/// What stands for `sans-serif`, best first: fonts with Japanese letters, then the usual plain ones.
+const PLAIN: [&str; 13] = [
+    "Noto Sans CJK JP",
+    "Noto Sans JP",
+    "Hiragino Sans",
+    "Yu Gothic",
+    "Meiryo",
+    "IPAexGothic",
+    "Noto Sans",
+    "DejaVu Sans",
+    "Liberation Sans",
+    "Arial",
+    "Helvetica",
+    "Segoe UI",
+    "FreeSans",
+];
+
+/// Px on a side at most: a larger picture would take gigabytes.
+const MOST: f32 = 32_000.0;
+
+/// The picture as PNG, `scale` px for one px of the SVG.
+///
+/// Letters need fonts: those of the system are used, `sans-serif` being the first there is with
+/// Japanese letters. On a machine without any font the words are left out.
+///
+/// # Errors
+/// [`Error::Setting`] for a scale that is not above 0; [`Error::Picture`] when the text is no SVG or
+/// the picture has no px or more than 32000 on a side.
+pub fn png_from_svg(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
+    if !(scale.is_finite() && scale > 0.0) {
+        return Err(Error::setting("scale", format!("{scale}; it must be above 0")));
+    }
+    let options = Options { fontdb: fonts(), ..Options::default() };
+    let tree = Tree::from_str(svg, &options).map_err(|error| cannot(error.to_string()))?;
+    let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
+    if width.max(height) > MOST {
+        return Err(cannot(format!(
+            "{width} × {height} px; a PNG may have {MOST} on a side, so write the SVG or a smaller scale"
+        )));
+    }
+    let mut pixels = Pixmap::new(width.round() as u32, height.round() as u32)
+        .ok_or_else(|| cannot(format!("{width} × {height} px is no picture")))?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| cannot(error.to_string()))
+}
+
+/// The system's fonts, read once: it takes a while.
+fn fonts() -> Arc<Database> {
+    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
+    FONTS.get_or_init(|| Arc::new(read_fonts())).clone()
+}
+
+fn read_fonts() -> Database {
+    let mut fonts = Database::new();
+    fonts.load_system_fonts();
+    let there = |family: &&str| {
+        fonts.query(&Query { families: &[Family::Name(family)], ..Query::default() }).is_some()
+    };
+    let known = PLAIN.iter().find(|family| there(family)).map(|family| (*family).to_owned());
+    let any = || Some(fonts.faces().next()?.families.first()?.0.clone());
+    if let Some(family) = known.or_else(any) {
+        fonts.set_sans_serif_family(family.clone());
+        // The rasteriser's own last resort is the serif family.
+        fonts.set_serif_family(family);
+    }
+    fonts
+}

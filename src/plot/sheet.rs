@@ -1,0 +1,184 @@
+//! The timesheet as bars over koma (タイムシート) [KKMFT Fig. 8].
+
+pub(super) mod fate;
+mod paper;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::plot::canvas::{Canvas, Type, paint};
+use crate::plot::sheet::fate::row_before;
+use crate::plot::sheet::paper::{Band, LEFT, Paper, badges};
+use crate::plot::style;
+use crate::sheet::{Layer, Role, Sheet};
+
+/// The timesheet (タイムシート): a bar a drawing on its first koma, a line while it is held.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SheetPlot {
+    /// Width in px, 400 to 20000; default 1200. The height follows from the sheet.
+    pub width: u32,
+    /// Koma on a line, 6 to 1440; default 144, the six seconds of a sheet of paper. More of them are
+    /// thinner bars, and numbers of close genga are left out.
+    pub koma_in_line: usize,
+}
+
+impl Default for SheetPlot {
+    fn default() -> Self {
+        Self { width: 1200, koma_in_line: 144 }
+    }
+}
+
+const HEAD: f64 = 52.0;
+/// Height of the lines of words about the layers, in the title.
+const COUNTS: f64 = 19.0;
+impl SheetPlot {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a width that cannot be drawn or a line of too few or too many koma.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_size("width", self.width, 400)?;
+        if !(6..=1440).contains(&self.koma_in_line) {
+            let message = format!("{} koma; it must be between 6 and 1440", self.koma_in_line);
+            return Err(Error::setting("koma_in_line", message));
+        }
+        Ok(())
+    }
+
+    /// Draws the sheet as SVG: genga tall with their numbers, inbetweens short, ends dark.
+    ///
+    /// `spaced` is the same sheet before omission, shown as a thin row above with what was left out;
+    /// `ssd` has a value a koma (how far the body moved into it) and is drawn as its square root.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`SheetPlot::validate`]; [`Error::Picture`] when a sheet shows a
+    /// drawing that it does not have.
+    pub fn draw(
+        &self,
+        sheet: &Sheet,
+        spaced: Option<&Sheet>,
+        ssd: Option<&[f64]>,
+    ) -> Result<String, Error> {
+        self.validate()?;
+        check(sheet)?;
+        spaced.map_or(Ok(()), check)?;
+        let paper = self.paper(sheet, spaced, ssd);
+        let words = HEAD + COUNTS * sheet.layers.len() as f64;
+        let lines = paper.koma.div_ceil(paper.in_line).max(1);
+        let line = paper.line_height();
+        let height = words + line * lines as f64;
+        paint((self.width, height.ceil() as u32), |canvas| {
+            self.head(canvas, sheet, spaced.is_some())?;
+            for at in 0..lines {
+                paper.line(canvas, at, words + line * at as f64)?;
+            }
+            Ok(())
+        })
+    }
+
+    fn paper<'a>(
+        &self,
+        sheet: &'a Sheet,
+        spaced: Option<&'a Sheet>,
+        ssd: Option<&'a [f64]>,
+    ) -> Paper<'a> {
+        let koma = sheet.length().max(spaced.map_or(0, Sheet::length));
+        // A short sheet fills the line, a long one is wrapped.
+        let in_line = koma.max(24).min(self.koma_in_line);
+        let slot = (f64::from(self.width) - LEFT - style::MARGIN) / in_line as f64;
+        let bands: Vec<_> = sheet
+            .layers
+            .iter()
+            .enumerate()
+            .map(|(at, layer)| Band {
+                layer,
+                badges: badges(layer, in_line, slot),
+                before: spaced.map(|spaced| {
+                    spaced.layers.get(at).map_or_else(Vec::new, |before| row_before(before, layer))
+                }),
+            })
+            .collect();
+        let used = bands.iter().flat_map(|band| &band.badges).filter_map(|badge| badge.lane);
+        let lanes = used.max().map_or(0, |lane| lane + 1);
+        let greatest =
+            |ssd: &[f64]| ssd.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
+        Paper {
+            lanes,
+            bands,
+            ssd,
+            greatest_ssd: ssd.map_or(0.0, greatest),
+            koma,
+            in_line,
+            koma_rate: sheet.clock.koma_rate,
+            slot,
+        }
+    }
+
+    fn head(&self, canvas: &mut Canvas<'_>, sheet: &Sheet, spaced: bool) -> Result<(), Error> {
+        let title = Type::new(style::TITLE).bold();
+        canvas.text("Timesheet タイムシート", (style::MARGIN, 34.0), title)?;
+        for (at, layer) in sheet.layers.iter().enumerate() {
+            let base = HEAD + 3.0 + COUNTS * at as f64;
+            let width = f64::from(self.width) - 2.0 * style::MARGIN;
+            let counts = counts(layer, sheet.clock.koma_rate);
+            let text = style::fitted(&counts, style::WORDS, width);
+            canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS))?;
+        }
+        if self.width >= 760 { legend(canvas, f64::from(self.width), spaced) } else { Ok(()) }
+    }
+}
+
+fn check(sheet: &Sheet) -> Result<(), Error> {
+    for layer in &sheet.layers {
+        let drawings = layer.drawings.len();
+        if let Some(wrong) = layer.exposures.iter().find(|shown| shown.drawing >= drawings) {
+            let (name, drawing) = (&layer.name, wrong.drawing);
+            let message = format!("layer {name} shows drawing {drawing} but has {drawings}");
+            return Err(style::cannot(message));
+        }
+    }
+    Ok(())
+}
+
+/// One sentence of numbers about a layer.
+fn counts(layer: &Layer, koma_rate: f64) -> String {
+    let (koma, drawings) = (layer.length(), layer.exposures.len());
+    let seconds = koma as f64 / koma_rate;
+    let a_second = if koma == 0 { 0.0 } else { drawings as f64 / seconds };
+    format!(
+        "{}:  {koma} koma ({seconds:.1} s)  ·  {drawings} drawings  ·  {} genga  ·  {a_second:.1} drawings a second  ·  longest hold {} koma",
+        layer.name,
+        layer.count(Role::Genga),
+        layer.longest_hold()
+    )
+}
+
+/// What the strokes mean, on the right of the title.
+fn legend(canvas: &mut Canvas<'_>, width: f64, spaced: bool) -> Result<(), Error> {
+    let words = [
+        "genga 原画",
+        "inbetween 中割り",
+        "end",
+        "hold",
+        "naka-nashi 中無し",
+        "koma-dori コマ撮り",
+    ];
+    let words = &words[..if spaced { 6 } else { 4 }];
+    let wide = |word: &str| style::text_width(word, style::WORDS) + 38.0;
+    let mut x = width - style::MARGIN - words.iter().map(|word| wide(word)).sum::<f64>() + 16.0;
+    for (at, word) in words.iter().enumerate() {
+        let base = 34.0;
+        match at {
+            0 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::GENGA)?,
+            1 => canvas.rect((x + 5.0, base - 7.0), (x + 12.0, base + 2.0), style::INBETWEEN)?,
+            2 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::END)?,
+            3 => canvas.line((x, base - 4.5), (x + 15.0, base - 4.5), style::INBETWEEN, 2.5)?,
+            4 => canvas.cross((x + 9.0, base - 5.0), 4.0, style::GENGA, 1.75)?,
+            _ => canvas.ring((x + 9.0, base - 5.0), 3.25, style::FAINT, 1.25)?,
+        }
+        canvas.text(word, (x + 20.0, base), Type::new(style::WORDS))?;
+        x += wide(word);
+    }
+    Ok(())
+}

@@ -1,0 +1,362 @@
+//! The speed of joints over time (速度のグラフ), with their keys and walls [KT11 Figs. 3, 4, 6].
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::JointId;
+use crate::plot::axis::{Scale, number, range_with_zero};
+use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::style;
+use crate::signal::{Signals, Turn, TurnKind};
+use crate::time::Frame;
+
+/// Speeds (速度): a panel a joint over one time axis, as measured and after the low pass.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SpeedPlot {
+    /// Width in px, 400 to 20000; default 1200.
+    pub width: u32,
+    /// Height in px, 300 to 20000; default 900. Many panels in a low picture cannot be read.
+    pub height: u32,
+    /// Panels at most, 1 or more; default 4. More panels are lower ones.
+    pub joints: usize,
+}
+
+impl Default for SpeedPlot {
+    fn default() -> Self {
+        Self { width: 1200, height: 900, joints: 4 }
+    }
+}
+
+const LEFT: f64 = 64.0;
+const TOP: f64 = 64.0;
+const BOTTOM: f64 = 58.0;
+const GAP: f64 = 14.0;
+/// How far over the filtered curve a panel reaches for the raw one, which has spikes.
+const OVER: f64 = 1.6;
+/// Lanes for the numbers of the layer's keys at most.
+const LANES: usize = 3;
+
+/// What all panels share.
+struct Shared<'a> {
+    time: Scale,
+    /// The layer's keys in px.
+    keys: Vec<f64>,
+    speed: &'a Signals,
+    filtered: &'a Signals,
+}
+
+impl Shared<'_> {
+    /// The right edge of the panels.
+    fn right(&self) -> f64 {
+        let last = self.speed.first.0 + self.speed.frames().max(2) - 1;
+        self.time.at(last as f64)
+    }
+}
+
+/// One panel's place on the paper.
+struct Panel<'a> {
+    name: &'a str,
+    joint: JointId,
+    turns: &'a [Turn],
+    top: f64,
+    bottom: f64,
+}
+
+impl SpeedPlot {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a size that cannot be drawn or for no panel.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_size("width", self.width, 400)?;
+        style::check_size("height", self.height, 300)?;
+        if self.joints == 0 {
+            return Err(Error::setting("joints", "0 panels show nothing; it must be 1 or more"));
+        }
+        Ok(())
+    }
+
+    /// Draws the speeds as SVG.
+    ///
+    /// `names` and `turns` have one entry a joint of `speed` and `filtered`; `keys` are the layer's
+    /// genga; `order` names the joints to show, the most important first. Values are written in the
+    /// unit for people (°/s). Where a px holds several frames, their least and greatest are drawn.
+    /// The filtered curve is always whole; spikes of the raw one beyond 1.6 times its range are cut at
+    /// the panel's edge, and the panel says how far they go.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`SpeedPlot::validate`]; [`Error::Picture`] when the tables do not
+    /// belong together, when there is no frame or when `order` names no joint that there is.
+    pub fn draw(
+        &self,
+        names: &[&str],
+        speed: &Signals,
+        filtered: &Signals,
+        turns: &[Vec<Turn>],
+        keys: &[Frame],
+        order: &[JointId],
+    ) -> Result<String, Error> {
+        self.validate()?;
+        check(names, speed, filtered, turns, order)?;
+        let shown = &order[..order.len().min(self.joints)];
+        let (width, height) = (f64::from(self.width), f64::from(self.height));
+        let right = width - style::MARGIN;
+        let first = speed.first.0 as f64;
+        let time = Scale::new((first, first + speed.frames() as f64 - 1.0), (LEFT, right));
+        let mut keys: Vec<f64> = keys.iter().map(|key| time.at(key.0 as f64)).collect();
+        keys.retain(|x| (LEFT..=right).contains(x));
+        let lanes = style::lanes(&keys, 2.0 * style::BADGE + 1.0, LANES);
+        let used = lanes.iter().flatten().max().map_or(0.0, |lane| *lane as f64 + 1.0);
+        let top = TOP + 2.0 * style::BADGE * used;
+        let bottom = height - BOTTOM;
+        let step = (bottom - top + GAP) / shown.len() as f64;
+        let shared = Shared { time, keys, speed, filtered };
+        let panels = shown.iter().enumerate().map(|(row, &joint)| Panel {
+            name: names[joint.0],
+            joint,
+            turns: &turns[joint.0],
+            top: top + step * row as f64,
+            bottom: top + step * (row + 1) as f64 - GAP,
+        });
+        paint((self.width, self.height), |canvas| {
+            head(canvas, width)?;
+            time_axis(canvas, &shared, (top, bottom))?;
+            for panel in panels {
+                panel.draw(canvas, &shared)?;
+            }
+            numbers(canvas, &shared.keys, &lanes, top)
+        })
+    }
+}
+
+fn check(
+    names: &[&str],
+    speed: &Signals,
+    filtered: &Signals,
+    turns: &[Vec<Turn>],
+    order: &[JointId],
+) -> Result<(), Error> {
+    let joints = speed.joints();
+    if filtered.values.shape() != speed.values.shape() {
+        return Err(style::cannot("raw and filtered speed differ in frames or joints"));
+    }
+    if names.len() != joints || turns.len() != joints {
+        let message = format!(
+            "{joints} joints, but {} names and {} lists of turns",
+            names.len(),
+            turns.len()
+        );
+        return Err(style::cannot(message));
+    }
+    if speed.frames() == 0 {
+        return Err(style::cannot("a clip without frames has no speed to draw"));
+    }
+    if order.is_empty() {
+        return Err(style::cannot("no joint to show"));
+    }
+    match order.iter().find(|joint| joint.0 >= joints) {
+        Some(joint) => {
+            Err(style::cannot(format!("joint {} of {joints}: there is no such joint", joint.0)))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The title and, on its right, what the strokes mean.
+fn head(canvas: &mut Canvas<'_>, width: f64) -> Result<(), Error> {
+    canvas.text("Speed 速度", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
+    let words = ["raw", "filtered", "key 原画", "wall 壁", "genga of the layer ①"];
+    let widths = words.map(|word| style::text_width(word, style::WORDS) + 48.0);
+    let mut x = width - style::MARGIN - widths.iter().sum::<f64>() + 16.0;
+    for (at, (word, wide)) in words.into_iter().zip(widths).enumerate() {
+        let (middle, y) = (x + 12.0, 29.0);
+        match at {
+            0 => canvas.line((x, y), (x + 24.0, y), style::RAW, 1.5)?,
+            1 => canvas.line((x, y), (x + 24.0, y), style::FILTERED, 1.75)?,
+            2 => canvas.disc((middle, y), 4.5, style::GENGA)?,
+            3 => canvas.triangle((middle, y), 5.5, style::WALL)?,
+            _ => canvas.line((middle, y - 9.0), (middle, y + 9.0), style::GENGA_LINE, 1.25)?,
+        }
+        canvas.text(word, (x + 30.0, 34.0), Type::new(style::WORDS))?;
+        x += wide;
+    }
+    Ok(())
+}
+
+/// Source frames on the upper line under the panels, seconds on the lower.
+fn time_axis(
+    canvas: &mut Canvas<'_>,
+    shared: &Shared<'_>,
+    (top, bottom): (f64, f64),
+) -> Result<(), Error> {
+    let fps = shared.speed.rate.fps();
+    let look = Type::new(style::SMALL).align(Align::Center);
+    for frame in shared.time.ticks(64.0) {
+        let x = shared.time.at(frame);
+        canvas.line((x, top), (x, bottom), style::GRID, 1.0)?;
+        canvas.text(&number(frame), (x, bottom + 17.0), look)?;
+    }
+    let first = shared.speed.first.0 as f64;
+    let last = first + (shared.speed.frames() - 1) as f64;
+    let seconds =
+        Scale::new((first / fps, last / fps), (shared.time.at(first), shared.time.at(last)));
+    for second in seconds.ticks(90.0) {
+        let x = shared.time.at(second * fps);
+        canvas.line((x, bottom + 25.0), (x, bottom + 30.0), style::FAINT, 1.0)?;
+        canvas.text(&number(second), (x, bottom + 42.0), look.color(style::FAINT))?;
+    }
+    let words = Type::new(style::SMALL).align(Align::Right);
+    canvas.text("frame", (LEFT - 18.0, bottom + 17.0), words)?;
+    canvas.text("s 秒", (LEFT - 18.0, bottom + 42.0), words.color(style::FAINT))
+}
+
+/// The numbers of the layer's keys above the panels; where they would lie on each other only as many
+/// as there is room for.
+fn numbers(
+    canvas: &mut Canvas<'_>,
+    keys: &[f64],
+    lanes: &[Option<usize>],
+    top: f64,
+) -> Result<(), Error> {
+    for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
+        let Some(lane) = *lane else { continue };
+        let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
+        canvas.line((x, y + style::BADGE), (x, top), style::GENGA_LINE, 1.0)?;
+        canvas.badge((x, y), at + 1, style::GENGA, false)?;
+    }
+    Ok(())
+}
+
+impl Panel<'_> {
+    fn draw(&self, canvas: &mut Canvas<'_>, shared: &Shared<'_>) -> Result<(), Error> {
+        let unit = shared.speed.unit;
+        let raw = shared.speed.joint(self.joint);
+        let filtered = shared.filtered.joint(self.joint);
+        let people = unit.for_people();
+        let (whole, most) = (range_with_zero(filtered), range_with_zero(raw));
+        // A little air, so that no peak touches the name or the edge.
+        let low = most.0.max(OVER * whole.0).min(whole.0) * people * 1.04;
+        let high = most.1.min(OVER * whole.1).max(whole.1) * people * 1.08;
+        let values = Scale::new((low, high), (self.bottom, self.top));
+        self.value_axis(canvas, shared, &values)?;
+        for &x in &shared.keys {
+            canvas.line((x, self.top), (x, self.bottom), style::GENGA_LINE, 1.0)?;
+        }
+        let place = |at: usize, value: f64| {
+            let y = values.at(value * people).clamp(self.top, self.bottom);
+            (shared.time.at((shared.speed.first.0 + at) as f64), y)
+        };
+        for (curve, color, width) in [(raw, style::RAW, 1.0), (filtered, style::FILTERED, 1.75)] {
+            for run in runs(curve, place) {
+                canvas.path(&run, color, width)?;
+            }
+        }
+        let right = shared.right();
+        let radius = (0.36 * (right - LEFT) / self.turns.len() as f64).clamp(2.0, 4.0);
+        for turn in self.turns {
+            let at = turn.frame.0.checked_sub(shared.speed.first.0);
+            let Some((at, &value)) = at.and_then(|at| Some((at, filtered.get(at)?))) else {
+                continue;
+            };
+            mark(canvas, place(at, value), radius, turn.kind)?;
+        }
+        if most.1 * people > high || most.0 * people < low {
+            let beyond = if most.1 * people > high { most.1 } else { most.0 };
+            let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
+            let text = format!("raw goes to {}", number((beyond * people).round()));
+            self.words(canvas, &text, right - 4.0, look)?;
+        }
+        let title = format!("{} ({})", self.name, unit.symbol());
+        let title = style::fitted(&title, style::WORDS, 400.0);
+        self.words(canvas, &title, LEFT + 6.0, Type::new(style::WORDS).bold())
+    }
+
+    /// Words at the panel's upper edge, on white.
+    fn words(&self, canvas: &mut Canvas<'_>, text: &str, x: f64, look: Type) -> Result<(), Error> {
+        let wide = style::text_width(text, look.size) + 4.0;
+        let left = if look.align == Align::Right { x - wide } else { x - 4.0 };
+        let corner = (left + wide + 4.0, self.top + 20.0);
+        canvas.rect((left, self.top), corner, style::PAPER)?;
+        canvas.text(text, (x, self.top + 15.0), look)
+    }
+
+    fn value_axis(
+        &self,
+        canvas: &mut Canvas<'_>,
+        shared: &Shared<'_>,
+        values: &Scale,
+    ) -> Result<(), Error> {
+        let right = shared.right();
+        let look = Type::new(style::SMALL).align(Align::Right);
+        for value in values.ticks(34.0) {
+            let y = values.at(value);
+            let color = if value == 0.0 { style::FAINT } else { style::GRID };
+            canvas.line((LEFT, y), (right, y), color, 1.0)?;
+            canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look)?;
+        }
+        canvas.line((LEFT, self.top), (LEFT, self.bottom), style::FAINT, 1.0)
+    }
+}
+
+fn mark(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, kind: TurnKind) -> Result<(), Error> {
+    // A white rim keeps a mark apart from the curve; small ones stand too close for it.
+    let rim = radius > 3.0;
+    match kind {
+        TurnKind::Key => {
+            if rim {
+                canvas.disc((x, y), radius + 1.0, style::PAPER)?;
+            }
+            canvas.disc((x, y), radius, style::GENGA)
+        }
+        TurnKind::Wall => {
+            if rim {
+                canvas.triangle((x, y), radius + 2.5, style::PAPER)?;
+            }
+            canvas.triangle((x, y), radius + 1.0, style::WALL)
+        }
+    }
+}
+
+/// The curve as lines of points, broken where a value is not finite. Where a px holds several
+/// frames, it gets the first, least and greatest of them, in their order.
+fn runs(curve: &[f64], place: impl Fn(usize, f64) -> Point) -> Vec<Vec<Point>> {
+    let mut runs = Vec::new();
+    let mut at = 0;
+    for run in curve.split(|value| !value.is_finite()) {
+        if !run.is_empty() {
+            let kept = thinned(run, |frame| place(at + frame, 0.0).0);
+            runs.push(kept.into_iter().map(|frame| place(at + frame, run[frame])).collect());
+        }
+        at += run.len() + 1;
+    }
+    runs
+}
+
+/// The frames of a curve that can be seen when px are as wide as they are.
+fn thinned(curve: &[f64], px: impl Fn(usize) -> f64) -> Vec<usize> {
+    let mut kept = Vec::new();
+    let mut begin = 0;
+    while begin < curve.len() {
+        let column = px(begin).floor();
+        let length =
+            (begin..curve.len()).take_while(|frame| px(*frame).floor() == column).count().max(1);
+        let end = begin + length;
+        let by_value = |a: &usize, b: &usize| curve[*a].total_cmp(&curve[*b]);
+        let least = (begin..end).min_by(by_value).unwrap_or(begin);
+        let greatest = (begin..end).max_by(by_value).unwrap_or(begin);
+        let mut of_column = [begin, least, greatest];
+        of_column.sort_unstable();
+        for frame in of_column {
+            if kept.last() != Some(&frame) {
+                kept.push(frame);
+            }
+        }
+        begin = end;
+    }
+    let last = curve.len().saturating_sub(1);
+    if kept.last().is_some_and(|kept| *kept != last) {
+        kept.push(last);
+    }
+    kept
+}

@@ -1,0 +1,119 @@
+//! The common look: colours, fonts, sizes.
+//!
+//! The colours are told apart by people who do not see red and green (vermilion and blue after Okabe
+//! and Ito), and by their lightness in a black-and-white print.
+
+use plotters::style::RGBColor;
+
+use crate::error::Error;
+use crate::sheet::Role;
+
+/// Keys (原画).
+pub(super) const GENGA: RGBColor = RGBColor(200, 50, 16);
+/// Lines through a picture at the keys, behind what is drawn there.
+pub(super) const GENGA_LINE: RGBColor = RGBColor(232, 158, 138);
+/// Walls (壁).
+pub(super) const WALL: RGBColor = RGBColor(0, 104, 176);
+/// Inbetweens (中割り).
+pub(super) const INBETWEEN: RGBColor = RGBColor(150, 156, 163);
+/// First and last drawing.
+pub(super) const END: RGBColor = RGBColor(48, 52, 60);
+/// Words and axes.
+pub(super) const INK: RGBColor = RGBColor(34, 37, 43);
+/// Words of less weight.
+pub(super) const FAINT: RGBColor = RGBColor(104, 110, 118);
+/// Lines to read values by.
+pub(super) const GRID: RGBColor = RGBColor(228, 231, 234);
+/// A curve as measured.
+pub(super) const RAW: RGBColor = RGBColor(184, 190, 197);
+/// A curve after the low pass.
+pub(super) const FILTERED: RGBColor = RGBColor(44, 48, 56);
+/// Limbs of the left side.
+pub(super) const LEFT: RGBColor = WALL;
+/// Limbs of the right side.
+pub(super) const RIGHT: RGBColor = RGBColor(222, 130, 0);
+/// The paper.
+pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
+
+/// Fonts, best first.
+pub(super) const FONTS: &str = "\"Noto Sans CJK JP\", \"Hiragino Sans\", \"Yu Gothic\", sans-serif";
+
+/// Font size of a title, in px.
+pub(super) const TITLE: f64 = 17.0;
+/// Font size of words, in px.
+pub(super) const WORDS: f64 = 13.0;
+/// Font size of numbers on axes, in px.
+pub(super) const SMALL: f64 = 11.0;
+/// White at the edges of a picture, in px.
+pub(super) const MARGIN: f64 = 24.0;
+/// Radius of the circle round a number, in px.
+pub(super) const BADGE: f64 = 8.5;
+
+/// The colour of a drawing.
+pub(super) fn of_role(role: Role) -> RGBColor {
+    match role {
+        Role::Genga => GENGA,
+        Role::Inbetween => INBETWEEN,
+        Role::End => END,
+    }
+}
+
+/// About how wide a text is, in px. No font is asked, so that the bytes do not depend on the fonts
+/// of the machine.
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    let em = |letter: char| match letter {
+        'i' | 'l' | 'j' | 'I' | '.' | ',' | ':' | ' ' | '\'' | '|' => 0.29,
+        'f' | 'r' | 't' | '(' | ')' | '/' | '-' => 0.39,
+        'm' | 'w' | 'M' | 'W' => 0.9,
+        letter if letter.is_ascii_uppercase() => 0.65,
+        letter if letter.is_ascii() => 0.57,
+        letter if (letter as u32) < 0x2e80 => 0.7,
+        _ => 1.0,
+    };
+    text.chars().map(em).sum::<f64>() * size
+}
+
+/// The text as it is, or so much of its beginning as fits, with an ellipsis.
+pub(super) fn fitted(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for letter in text.chars() {
+        kept.push(letter);
+        if text_width(&kept, size) + size > width {
+            kept.pop();
+            break;
+        }
+    }
+    kept + "…"
+}
+
+/// Puts marks of a width at places from left to right into the first lane with room; none where
+/// all lanes are full.
+pub(super) fn lanes(places: &[f64], width: f64, lanes: usize) -> Vec<Option<usize>> {
+    let mut ends = vec![f64::NEG_INFINITY; lanes];
+    let mut free = |place: f64| {
+        let lane = ends.iter().position(|end| place - 0.5 * width >= *end)?;
+        ends[lane] = place + 0.5 * width;
+        Some(lane)
+    };
+    places.iter().map(|place| free(*place)).collect()
+}
+
+/// Refuses a size of a picture that cannot be drawn or looked at.
+///
+/// # Errors
+/// [`Error::Setting`] outside `least..=20000` px.
+pub(super) fn check_size(name: &str, px: u32, least: u32) -> Result<(), Error> {
+    if (least..=20_000).contains(&px) {
+        Ok(())
+    } else {
+        Err(Error::setting(name, format!("{px} px; it must be between {least} and 20000")))
+    }
+}
+
+/// An error about what should be drawn.
+pub(super) fn cannot(message: impl Into<String>) -> Error {
+    Error::Picture { message: message.into() }
+}

@@ -1,0 +1,541 @@
+//! Tests of the pictures: what is on them, and that nothing makes them panic.
+
+use glam::DVec3;
+use nalgebra::DMatrix;
+
+use super::canvas::{Align, Type, paint};
+use super::pose_row::BodySide;
+use super::sheet::fate::{Fate, fates};
+use super::view::View;
+use super::*;
+use crate::error::Error;
+use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
+use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
+use crate::signal::{Signals, Turn, TurnKind, Unit};
+use crate::time::{Clock, Frame, FrameRate};
+
+const GENGA: &str = "#C83210";
+const END: &str = "#30343C";
+
+fn rate(fps: f64) -> FrameRate {
+    FrameRate::new(fps).unwrap()
+}
+
+fn tags<'a>(svg: &'a str, tag: &str, holding: &str) -> Vec<&'a str> {
+    let begin = format!("<{tag} ");
+    svg.lines().filter(|line| line.starts_with(&begin) && line.contains(holding)).collect()
+}
+
+/// The words of a picture, one a text.
+fn words(svg: &str) -> Vec<&str> {
+    let mut lines = svg.lines();
+    let mut words = vec![];
+    while let Some(line) = lines.next() {
+        if line.starts_with("<text") {
+            words.push(lines.next().unwrap());
+        }
+    }
+    words
+}
+
+fn has_setting_error<T: std::fmt::Debug>(result: Result<T, Error>, name: &str) {
+    match result.unwrap_err() {
+        Error::Setting { name: found, .. } => assert_eq!(found, name),
+        other => panic!("{other}"),
+    }
+}
+
+// Speed.
+
+fn signals(frames: usize, joints: usize, value: impl Fn(usize, usize) -> f64) -> Signals {
+    let values = DMatrix::from_fn(frames, joints, value);
+    Signals { values, unit: Unit::Angle, rate: rate(100.0), first: Frame(10) }
+}
+
+fn turn(frame: usize, kind: TurnKind) -> Turn {
+    Turn { frame: Frame(frame), kind, confirmed_for: 5 }
+}
+
+fn draw_speed(signals: &Signals, turns: Vec<Turn>, keys: &[Frame]) -> Result<String, Error> {
+    let names = vec!["<arm> & \"leg\""; signals.joints()];
+    let turns = vec![turns; signals.joints()];
+    let order: Vec<_> = (0..signals.joints()).map(JointId).collect();
+    SpeedPlot::default().draw(&names, signals, signals, &turns, keys, &order)
+}
+
+#[test]
+fn a_speed_plot_refuses_settings_that_cannot_be() {
+    for (plot, name) in [
+        (SpeedPlot { width: 0, ..SpeedPlot::default() }, "width"),
+        (SpeedPlot { width: 20_001, ..SpeedPlot::default() }, "width"),
+        (SpeedPlot { height: 299, ..SpeedPlot::default() }, "height"),
+        (SpeedPlot { joints: 0, ..SpeedPlot::default() }, "joints"),
+    ] {
+        has_setting_error(plot.validate(), name);
+        let speed = signals(3, 1, |_, _| 1.0);
+        let drawn = plot.draw(&["a"], &speed, &speed, &[vec![]], &[], &[JointId(0)]);
+        has_setting_error(drawn, name);
+    }
+}
+
+#[test]
+fn a_speed_plot_refuses_tables_that_do_not_belong_together() {
+    let (three, four) = (signals(3, 1, |_, _| 1.0), signals(4, 1, |_, _| 1.0));
+    let plot = SpeedPlot::default();
+    let one = [JointId(0)];
+    for (drawn, says) in [
+        (plot.draw(&["a"], &three, &four, &[vec![]], &[], &one), "differ"),
+        (plot.draw(&[], &three, &three, &[vec![]], &[], &one), "0 names"),
+        (plot.draw(&["a"], &three, &three, &[], &[], &one), "0 lists"),
+        (plot.draw(&["a"], &three, &three, &[vec![]], &[], &[]), "no joint"),
+        (plot.draw(&["a"], &three, &three, &[vec![]], &[], &[JointId(1)]), "no such joint"),
+    ] {
+        let message = drawn.unwrap_err().to_string();
+        assert!(message.contains(says), "{message}");
+    }
+    let none = signals(0, 1, |_, _| 1.0);
+    assert!(draw_speed(&none, vec![], &[]).unwrap_err().to_string().contains("without frames"));
+}
+
+#[test]
+fn every_turn_and_every_genga_stands_on_its_frame() {
+    let speed = signals(101, 2, |frame, joint| (frame * (joint + 1)) as f64 * 0.01);
+    let turns = vec![turn(10, TurnKind::Key), turn(60, TurnKind::Key), turn(85, TurnKind::Wall)];
+    let svg = draw_speed(&speed, turns, &[Frame(60), Frame(110)]).unwrap();
+    // One dot more is in the legend; a triangle has a white rim.
+    assert_eq!(tags(&svg, "circle", &format!("fill=\"{GENGA}\"")).len(), 2 * 2 + 1);
+    assert_eq!(tags(&svg, "polygon", "fill=\"#0068B0\"").len(), 2 + 1);
+    assert_eq!(tags(&svg, "circle", &format!("stroke=\"{GENGA}\"")).len(), 2, "two numbers");
+    // Frames 10 to 110 lie from 64 to 1176 px, 8 units a px: 60 is in the middle.
+    let middle = 8 * (64 + 1176) / 2;
+    let lines = tags(&svg, "line", &format!("x1=\"{middle}\""));
+    let genga = lines.iter().filter(|line| line.contains("#E89E8A")).count();
+    assert_eq!(genga, 2 + 1, "a line through both panels and one down from the number");
+    let dots = tags(&svg, "circle", &format!("cx=\"{middle}\""));
+    assert_eq!(dots.iter().filter(|dot| dot.contains(&format!("fill=\"{GENGA}\""))).count(), 2);
+}
+
+#[test]
+fn names_are_escaped_and_values_are_for_people() {
+    let svg = draw_speed(&signals(50, 1, |_, _| std::f64::consts::PI), vec![], &[]).unwrap();
+    assert!(words(&svg).contains(&"&lt;arm&gt; &amp; &quot;leg&quot; (°/s)"), "{:?}", words(&svg));
+    assert!(words(&svg).contains(&"180"), "π rad/s is 180°/s: {:?}", words(&svg));
+}
+
+#[test]
+fn no_more_panels_than_asked_for_in_the_order_given() {
+    let speed = signals(20, 6, |frame, _| frame as f64);
+    let names = ["a", "b", "c", "d", "e", "f"];
+    let order = [JointId(5), JointId(0), JointId(3)];
+    let plot = SpeedPlot { joints: 2, ..SpeedPlot::default() };
+    let turns = vec![vec![]; 6];
+    let svg = plot.draw(&names, &speed, &speed, &turns, &[], &order).unwrap();
+    let panels: Vec<_> = words(&svg).into_iter().filter(|word| word.ends_with("(°/s)")).collect();
+    assert_eq!(panels, ["f (°/s)", "a (°/s)"]);
+}
+
+#[test]
+fn degenerate_speeds_give_a_picture() {
+    for frames in 1..4 {
+        for value in [0.0, -1.0, 1e300, f64::NAN, f64::INFINITY] {
+            let speed = signals(frames, 1, |_, _| value);
+            let turns =
+                vec![turn(0, TurnKind::Key), turn(10, TurnKind::Wall), turn(99, TurnKind::Key)];
+            let svg = draw_speed(&speed, turns, &[Frame(0), Frame(10), Frame(500)]).unwrap();
+            assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+            assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{frames} {value}");
+        }
+    }
+}
+
+#[test]
+fn a_long_clip_stays_small_and_keeps_its_peaks() {
+    let noise = |frame: usize, joint: usize| {
+        let mixed = (frame + 7 * joint).wrapping_mul(2_654_435_761) % 1000;
+        if frame == 3333 { 9000.0 } else { mixed as f64 }
+    };
+    let keys: Vec<_> = (0..50).map(|at| Frame(10 + at * 100)).collect();
+    let turns = (0..250).map(|at| turn(10 + at * 20, TurnKind::Key)).collect();
+    let svg = draw_speed(&signals(5000, 4, noise), turns, &keys).unwrap();
+    assert!(svg.len() < 500_000, "{} bytes for 5000 frames with 1000 marks", svg.len());
+    let curve = tags(&svg, "polyline", "stroke=\"#2C3038\"")[0];
+    let points = curve.split("points=\"").nth(1).unwrap().trim_end_matches("\"/>");
+    let heights = points.split_whitespace().map(|point| point.split(',').nth(1).unwrap());
+    let mut heights: Vec<i32> = heights.map(|height| height.parse().unwrap()).collect();
+    heights.sort_unstable();
+    assert!(heights[1] - heights[0] > 500, "the one peak of frame 3333 is still there");
+}
+
+#[test]
+fn a_spike_of_the_raw_speed_does_not_flatten_the_filtered_one() {
+    let raw = signals(50, 1, |frame, _| if frame == 20 { 100.0 } else { 1.0 });
+    let filtered = signals(50, 1, |_, _| 1.0);
+    let plot = SpeedPlot::default();
+    let svg = plot.draw(&["a"], &raw, &filtered, &[vec![]], &[], &[JointId(0)]).unwrap();
+    assert!(words(&svg).contains(&"raw goes to 5730"), "100 rad/s: {:?}", words(&svg));
+    assert!(words(&svg).contains(&"80") && !words(&svg).contains(&"1000"), "{:?}", words(&svg));
+    let svg = plot.draw(&["a"], &filtered, &raw, &[vec![]], &[], &[JointId(0)]).unwrap();
+    assert!(!words(&svg).iter().any(|word| word.contains("raw goes")), "the filtered is whole");
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let speed = signals(300, 3, |frame, joint| (frame as f64 * 0.1 + joint as f64).sin());
+    let draw = || draw_speed(&speed, vec![turn(50, TurnKind::Key)], &[Frame(50)]).unwrap();
+    // Not assert_eq: it would print both pictures.
+    assert!(draw() == draw());
+}
+
+// Sheet.
+
+fn drawing(place: f64, role: Role) -> Drawing {
+    Drawing { source: Source::At(place), role, why: Why::default() }
+}
+
+/// End, inbetween, genga, inbetween, end with the koma 1 2 3 1 1.
+fn sheet() -> Sheet {
+    let roles = [Role::End, Role::Inbetween, Role::Genga, Role::Inbetween, Role::End];
+    let drawings = roles.into_iter().enumerate().map(|(at, role)| drawing(5.0 * at as f64, role));
+    let koma = [1, 2, 3, 1, 1].into_iter().enumerate();
+    let layer = Layer {
+        name: "A".into(),
+        drawings: drawings.collect(),
+        exposures: koma.map(|(drawing, koma)| Exposure { drawing, koma }).collect(),
+    };
+    let clock = Clock { first: Frame(0), frame_rate: rate(120.0), koma_rate: 24.0 };
+    Sheet { clock, layers: vec![layer] }
+}
+
+/// Bars of a colour on the sheet: all rectangles but the one of the legend.
+fn bars(svg: &str, color: &str) -> usize {
+    tags(svg, "rect", &format!("fill=\"{color}\"")).len() - 1
+}
+
+#[test]
+fn a_sheet_plot_refuses_settings_that_cannot_be() {
+    for (plot, name) in [
+        (SheetPlot { width: 399, ..SheetPlot::default() }, "width"),
+        (SheetPlot { koma_in_line: 5, ..SheetPlot::default() }, "koma_in_line"),
+        (SheetPlot { koma_in_line: 1441, ..SheetPlot::default() }, "koma_in_line"),
+    ] {
+        has_setting_error(plot.validate(), name);
+        has_setting_error(plot.draw(&sheet(), None, None), name);
+    }
+}
+
+#[test]
+fn a_sheet_has_a_bar_a_drawing_and_a_line_a_hold() {
+    let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();
+    assert_eq!((bars(&svg, GENGA), bars(&svg, "#969CA3"), bars(&svg, END)), (1, 2, 2));
+    assert_eq!(tags(&svg, "line", "stroke-width=\"20\"").len(), 2 + 1, "two holds and the legend");
+    let counts = "A:  8 koma (0.3 s)  ·  5 drawings  ·  1 genga  ·  15.0 drawings a second  ·  longest hold 3 koma";
+    assert!(words(&svg).contains(&counts), "{:?}", words(&svg));
+}
+
+#[test]
+fn a_long_sheet_is_wrapped_without_losing_a_bar_or_a_number() {
+    let mut sheet = Sheet::on_ones(sheet().clock, 1000);
+    for drawing in sheet.layers[0].drawings.iter_mut().skip(3).step_by(5) {
+        drawing.role = Role::Genga;
+    }
+    // A hold over the end of the first line.
+    sheet.layers[0].exposures[143].koma = 3;
+    let svg = SheetPlot::default().draw(&sheet, None, None).unwrap();
+    let genga = sheet.layers[0].count(Role::Genga);
+    assert_eq!(bars(&svg, GENGA), genga);
+    let holds = tags(&svg, "line", "stroke-width=\"20\"");
+    assert_eq!(holds.len(), 1 + 1, "its koma 145 and 146 on the second line, and the legend");
+    assert!(holds[1].contains("x1=\"40"), "from the line's left edge: {}", holds[1]);
+    for number in 1..=genga {
+        assert!(words(&svg).contains(&number.to_string().as_str()), "{number}");
+    }
+    assert!(words(&svg).contains(&"41.75 s") || words(&svg).contains(&"41 s"));
+    assert!(svg.len() < 1_000_000);
+}
+
+#[test]
+fn what_omission_took_is_marked_on_the_row_above() {
+    let spaced = Sheet::on_ones(sheet().clock, 6);
+    let mut now = spaced.clone();
+    let layer = &mut now.layers[0];
+    // 1 is held as 2, 4 is left out.
+    layer.drawings.remove(4);
+    layer.drawings.remove(2);
+    layer.drawings[1].why.held_for = 1;
+    layer.drawings[3].why.omitted_before = 1;
+    let koma = [1, 2, 2, 1].into_iter().enumerate();
+    layer.exposures = koma.map(|(drawing, koma)| Exposure { drawing, koma }).collect();
+    use Fate::{Held, LeftOut, Stays};
+    let expected = [Stays, Stays, Held, Stays, LeftOut, Stays];
+    assert_eq!(fates(&spaced.layers[0], &now.layers[0]), expected);
+    let svg = SheetPlot::default().draw(&now, Some(&spaced), Some(&[0.0, 1.0, 4.0])).unwrap();
+    // Crosses are two lines 1.5 px wide; that of the legend is 1.75 wide.
+    let crosses = tags(&svg, "line", "stroke-width=\"12\"");
+    assert_eq!(crosses.iter().filter(|line| line.contains(GENGA)).count(), 2);
+    assert!(words(&svg).contains(&"naka-nashi 中無し"));
+}
+
+#[test]
+fn a_pinned_genga_has_a_filled_number() {
+    let mut sheet = sheet();
+    let ring = format!("stroke=\"{GENGA}\"");
+    let disc = format!("fill=\"{GENGA}\"");
+    let svg = SheetPlot::default().draw(&sheet, None, None).unwrap();
+    assert_eq!((tags(&svg, "circle", &ring).len(), tags(&svg, "circle", &disc).len()), (1, 0));
+    sheet.layers[0].drawings[2].why.pinned = Some("hit".into());
+    let svg = SheetPlot::default().draw(&sheet, None, None).unwrap();
+    assert_eq!((tags(&svg, "circle", &ring).len(), tags(&svg, "circle", &disc).len()), (0, 1));
+}
+
+#[test]
+fn degenerate_sheets_give_a_picture_or_an_error() {
+    let plot = SheetPlot::default();
+    let clock = sheet().clock;
+    for koma in 0..4 {
+        let ones = Sheet::on_ones(clock, koma);
+        for ssd in [&[][..], &[0.0; 9], &[f64::NAN, f64::INFINITY, 1.0]] {
+            let svg = plot.draw(&ones, Some(&ones), Some(ssd)).unwrap();
+            assert!(!svg.contains("NaN"));
+        }
+    }
+    let bare = Sheet { clock, layers: vec![] };
+    assert!(plot.draw(&bare, None, None).is_ok());
+    assert!(plot.draw(&sheet(), Some(&bare), None).is_ok());
+    let mut wrong = sheet();
+    wrong.layers[0].exposures[0].drawing = 5;
+    let message = plot.draw(&wrong, None, None).unwrap_err().to_string();
+    assert_eq!(message, "picture: layer A shows drawing 5 but has 5");
+    assert!(plot.draw(&sheet(), Some(&wrong), None).is_err());
+}
+
+#[test]
+fn a_small_sheet_looks_as_it_did() {
+    let plot = SheetPlot { width: 400, koma_in_line: 6 };
+    insta::assert_snapshot!(plot.draw(&sheet(), None, Some(&[1.0, 4.0])).unwrap());
+}
+
+// Study.
+
+fn rows() -> Vec<StudyRow> {
+    let row = |filter_width, persistence, union| StudyRow {
+        filter_width,
+        persistence,
+        union,
+        total: 10 * union,
+        layer_keys: union / 2,
+    };
+    vec![row(10.0, 5.0, 90), row(20.0, 5.0, 70), row(10.0, 10.0, 60), row(20.0, 10.0, 40)]
+}
+
+#[test]
+fn a_study_plot_refuses_settings_that_cannot_be() {
+    for (plot, name) in [
+        (StudyPlot { width: 0, ..StudyPlot::default() }, "width"),
+        (StudyPlot { height: 50_000, ..StudyPlot::default() }, "height"),
+    ] {
+        has_setting_error(plot.validate(), name);
+        has_setting_error(plot.draw(&rows()), name);
+    }
+    assert!(StudyPlot::default().draw(&[]).is_err());
+    let mut wrong = rows();
+    wrong[0].filter_width = f64::NAN;
+    assert!(StudyPlot::default().draw(&wrong).is_err());
+}
+
+#[test]
+fn a_study_has_a_line_a_persistence_and_the_papers_marks_beside() {
+    let plot = StudyPlot { paper: true, ..StudyPlot::default() };
+    let svg = plot.draw(&rows()).unwrap();
+    assert_eq!(tags(&svg, "polyline", "").len(), 2);
+    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 6 + 1, "six values and the legend");
+    assert!(words(&svg).contains(&"M = 5") && words(&svg).contains(&"M = 10"));
+    let svg = StudyPlot::default().draw(&rows()).unwrap();
+    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 0);
+}
+
+#[test]
+fn a_study_draws_the_count_it_is_asked_for() {
+    let draw = |count| StudyPlot { count, ..StudyPlot::default() }.draw(&rows()).unwrap();
+    assert!(words(&draw(StudyCount::Total)).contains(&"800"));
+    assert!(!words(&draw(StudyCount::Union)).contains(&"800"));
+    assert!(words(&draw(StudyCount::LayerKeys)).contains(&"keys of the layer"));
+    let zero = StudyRow { filter_width: 0.0, persistence: 0.0, union: 0, total: 0, layer_keys: 0 };
+    assert!(StudyPlot::default().draw(&[zero]).is_ok());
+}
+
+#[test]
+fn a_small_study_looks_as_it_did() {
+    let plot = StudyPlot { width: 400, height: 300, ..StudyPlot::default() };
+    insta::assert_snapshot!(plot.draw(&rows()).unwrap());
+}
+
+// Poses.
+
+fn joint(name: &str, parent: Option<usize>, offset: DVec3, root: bool) -> Joint {
+    let position = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position).to_vec();
+    Joint {
+        name: name.into(),
+        parent: parent.map(JointId),
+        offset,
+        channels: if root { position } else { vec![] },
+        first_channel: 0,
+        end_sites: vec![],
+    }
+}
+
+/// A trunk with a head, two arms and two legs that walks along X.
+fn walker(frames: usize) -> Clip {
+    let tip = EndSite { name: "Site".into(), offset: DVec3::new(0.0, 20.0, 0.0) };
+    let mut joints = vec![
+        joint("Hips", None, DVec3::ZERO, true),
+        joint("Head", Some(0), DVec3::new(0.0, 60.0, 0.0), false),
+        joint("LeftArm", Some(0), DVec3::new(0.0, 50.0, 40.0), false),
+        joint("RArm", Some(0), DVec3::new(0.0, 50.0, -40.0), false),
+        joint("LeftFoot", Some(0), DVec3::new(10.0, -90.0, 10.0), false),
+        joint("RFoot", Some(0), DVec3::new(-10.0, -90.0, -10.0), false),
+    ];
+    joints[1].end_sites.push(tip);
+    let values = (0..frames).flat_map(|frame| [-10.0 * frame as f64, 90.0, 0.0]).collect();
+    Clip::new(Skeleton { joints }, rate(24.0), Frame(0), frames, values).unwrap()
+}
+
+fn frames(count: usize) -> Vec<(f64, String, Role)> {
+    (0..count).map(|at| (at as f64, format!("<{at}>"), Role::Genga)).collect()
+}
+
+#[test]
+fn a_pose_row_refuses_settings_that_cannot_be() {
+    for (plot, name) in [
+        (PoseRow { width: 199, ..PoseRow::default() }, "width"),
+        (PoseRow { figure_height: 39, ..PoseRow::default() }, "figure_height"),
+        (PoseRow { in_line: 0, ..PoseRow::default() }, "in_line"),
+    ] {
+        has_setting_error(plot.validate(), name);
+        has_setting_error(plot.draw(&walker(20), &frames(3)), name);
+    }
+    let plot = PoseRow::default();
+    assert!(plot.draw(&walker(0), &frames(1)).is_err());
+    assert!(plot.draw(&walker(5), &[]).is_err());
+    assert!(plot.draw(&walker(5), &[(f64::NAN, "a".into(), Role::End)]).is_err());
+}
+
+#[test]
+fn every_pose_has_a_figure_with_a_head_and_its_label() {
+    let svg = PoseRow::default().draw(&walker(30), &frames(26)).unwrap();
+    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 26, "heads");
+    let left = tags(&svg, "line", "stroke=\"#0068B0\"").len();
+    let right = tags(&svg, "line", "stroke=\"#DE8200\"").len();
+    assert_eq!((left, right), (26 * 2 + 1, 26 * 2 + 1), "arm and leg of each, and the legend");
+    for at in 0..26 {
+        assert!(words(&svg).contains(&format!("&lt;{at}&gt;").as_str()), "{at}");
+        assert!(words(&svg).contains(&format!("frame {at}").as_str()), "{at}");
+    }
+    let floors = tags(&svg, "line", "stroke=\"#B8BEC5\"");
+    assert_eq!(floors.len(), 3, "26 figures on lines of at most 12");
+}
+
+#[test]
+fn the_view_shows_the_way_gone_from_left_to_right() {
+    let pose = |x: f64| vec![DVec3::new(x, 0.0, 0.0), DVec3::new(x, 100.0, 0.0)];
+    let view = View::of(&[pose(0.0), pose(-200.0)]);
+    assert!(view.right.abs_diff_eq(DVec3::NEG_X, 1e-12), "{view:?}");
+    assert_eq!(view.up, DVec3::Y);
+    assert!(view.near.abs_diff_eq(view.right.cross(view.up), 1e-12));
+    let lying = |x: f64| vec![DVec3::new(0.0, x, 0.0), DVec3::new(0.0, x, 100.0)];
+    let view = View::of(&[lying(0.0), lying(200.0)]);
+    assert_eq!(view.up, DVec3::Z, "a file with Z up");
+    assert!(view.right.abs_diff_eq(DVec3::Y, 1e-12), "{view:?}");
+}
+
+#[test]
+fn on_the_spot_the_view_shows_the_moving_joints() {
+    let pose = |z: f64| vec![DVec3::ZERO, DVec3::new(30.0, 100.0, 0.0), DVec3::new(0.0, 50.0, z)];
+    let view = View::of(&[pose(-40.0), pose(40.0)]);
+    assert!(view.right.abs_diff_eq(DVec3::Z, 1e-12), "{view:?}");
+    let still = View::of(&[pose(0.0), pose(0.0)]);
+    assert!(still.right.abs_diff_eq(DVec3::X, 1e-12), "its widest side: {still:?}");
+}
+
+#[test]
+fn the_side_of_a_joint_is_read_from_its_name() {
+    for name in ["LeftArm", "mixamorig:LeftHand", "left_foot", "LThumb", "l_arm", "Arm.L", "arm_l"]
+    {
+        assert_eq!(BodySide::of(name), BodySide::Left, "{name}");
+    }
+    for name in ["RightUpLeg", "RHipJoint", "R_Arm", "Arm_R"] {
+        assert_eq!(BodySide::of(name), BodySide::Right, "{name}");
+    }
+    for name in ["Hips", "LowerBack", "Root", "Neck1", "", "l", "lumbar", "Spine.Lower"] {
+        assert_eq!(BodySide::of(name), BodySide::Trunk, "{name}");
+    }
+}
+
+#[test]
+fn degenerate_clips_give_a_picture() {
+    let plot = PoseRow::default();
+    assert!(plot.draw(&walker(1), &frames(3)).is_ok(), "places past the end are the last frame");
+    let point = Skeleton { joints: vec![joint("root", None, DVec3::ZERO, true)] };
+    for values in [[0.0; 3], [1e200, 0.0, -1e200]] {
+        let clip = Clip::new(point.clone(), rate(24.0), Frame(0), 1, values.to_vec()).unwrap();
+        let svg = plot.draw(&clip, &frames(1)).unwrap();
+        assert!(svg.contains("<circle") && !svg.contains("NaN"));
+    }
+}
+
+#[test]
+fn a_small_pose_row_looks_as_it_did() {
+    let plot = PoseRow { figure_height: 60, ..PoseRow::default() };
+    insta::assert_snapshot!(plot.draw(&walker(3), &frames(2)).unwrap());
+}
+
+// Paper and px.
+
+#[test]
+fn a_canvas_has_the_size_in_px_and_the_units_in_its_view_box() {
+    let svg = paint((100, 50), |canvas| {
+        canvas.text("a\u{1}b", (10.0, 20.0), Type::new(10.0).align(Align::Center))
+    });
+    let svg = svg.unwrap();
+    let begin = "<svg width=\"100\" height=\"50\" viewBox=\"0 0 800 400\"";
+    assert!(svg.starts_with(begin), "{svg}");
+    assert_eq!(words(&svg), ["a b"], "no control character may stand in XML");
+    assert!(svg.contains("font-family=\"&quot;Noto Sans CJK JP&quot;"), "{svg}");
+}
+
+#[test]
+fn a_mark_goes_into_the_first_lane_with_room() {
+    let lanes = style::lanes(&[0.0, 5.0, 12.0, 13.0, 14.0, 40.0], 10.0, 2);
+    assert_eq!(lanes, [Some(0), Some(1), Some(0), None, None, Some(0)]);
+}
+
+#[test]
+fn ticks_are_round_and_inside() {
+    let ticks = axis::Scale::new((0.0, 1.0), (0.0, 100.0)).ticks(20.0);
+    assert_eq!(
+        ticks.iter().map(|tick| axis::number(*tick)).collect::<Vec<_>>(),
+        ["0", "0.2", "0.4", "0.6", "0.8", "1"]
+    );
+    assert_eq!(axis::Scale::new((-7.0, 12.0), (0.0, 100.0)).ticks(20.0), [-5.0, 0.0, 5.0, 10.0]);
+    assert_eq!(axis::Scale::new((3.0, 3.0), (0.0, 10.0)).ticks(20.0), [3.0, 4.0][..].to_vec());
+}
+
+#[test]
+fn a_text_too_wide_is_cut_with_an_ellipsis() {
+    assert_eq!(style::fitted("short", 10.0, 100.0), "short");
+    let cut = style::fitted("a name that is much too long", 10.0, 60.0);
+    assert!(cut.ends_with('…') && style::text_width(&cut, 10.0) <= 60.0, "{cut}");
+    assert_eq!(style::fitted("原画", 10.0, 3.0), "…");
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn a_png_has_the_size_of_its_svg_times_the_scale() {
+    let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();
+    let png = png_from_svg(&svg, 0.5).unwrap();
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!(png[16..20], 600u32.to_be_bytes(), "width");
+    has_setting_error(png_from_svg(&svg, 0.0), "scale");
+    has_setting_error(png_from_svg(&svg, f32::NAN), "scale");
+    assert!(png_from_svg(&svg, 1e-6).is_err() && png_from_svg(&svg, 1e6).is_err());
+    assert!(png_from_svg("no svg", 1.0).is_err());
+}

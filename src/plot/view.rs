@@ -1,0 +1,102 @@
+//! The view that shows most of a motion: which way is up, and from which side to look.
+
+use glam::DVec3;
+
+/// An orthographic view: what is right, up and near in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct View {
+    pub(super) right: DVec3,
+    pub(super) up: DVec3,
+    pub(super) near: DVec3,
+}
+
+/// How much taller than along Y a pose has to be along Z for Z to be up.
+const CLEARLY: f64 = 1.25;
+/// The share of the body's height that a way has to reach to be walked rather than swayed.
+const WALKED: f64 = 0.5;
+
+impl View {
+    /// The side view of some poses, each the positions of the same points, the root first.
+    ///
+    /// Up is Y, or Z where the first pose is clearly taller along Z. To the right lies the horizontal
+    /// direction of the largest movement: of the root where it goes somewhere, otherwise of the joints
+    /// about their means. A walk goes from left to right.
+    pub(super) fn of(poses: &[Vec<DVec3>]) -> Self {
+        let first = poses.first().map_or(&[][..], Vec::as_slice);
+        let extent = extent(first);
+        let up = if extent.z > CLEARLY * extent.y { DVec3::Z } else { DVec3::Y };
+        // Both cross products turn from `right` over `up` to `near`.
+        let (a, b) = if up == DVec3::Z { (DVec3::X, DVec3::Y) } else { (DVec3::Z, DVec3::X) };
+        let roots: Vec<DVec3> = poses.iter().filter_map(|pose| pose.first().copied()).collect();
+        let flat = |point: &DVec3| (point.dot(a), point.dot(b));
+        let ways =
+            [roots.iter().map(flat).collect(), about_means(poses, flat), about_mean(first, flat)];
+        let height = extent.dot(up);
+        let least = [WALKED * height, 1e-9 * height, 0.0];
+        let way = ways.iter().zip(least).find(|(way, least)| spread(way) > *least);
+        let angle = way.map_or(0.0, |(way, _)| principal_angle(way));
+        let right = a * angle.cos() + b * angle.sin();
+        let gone = match (roots.first(), roots.last()) {
+            (Some(from), Some(to)) => (*to - *from).dot(right),
+            _ => 0.0,
+        };
+        let right = if gone < -1e-9 { -right } else { right };
+        Self { right, up, near: right.cross(up) }
+    }
+
+    /// Right, up and near of a point.
+    pub(super) fn see(&self, point: DVec3) -> (f64, f64, f64) {
+        (point.dot(self.right), point.dot(self.up), point.dot(self.near))
+    }
+}
+
+/// The size of the box round some points.
+pub(super) fn extent(points: &[DVec3]) -> DVec3 {
+    let low = points.iter().copied().reduce(DVec3::min);
+    let high = points.iter().copied().reduce(DVec3::max);
+    low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
+}
+
+/// Every point of every pose against the root and against its own mean.
+fn about_means(poses: &[Vec<DVec3>], flat: impl Fn(&DVec3) -> (f64, f64)) -> Vec<(f64, f64)> {
+    let points = poses.first().map_or(0, Vec::len);
+    let against_root = |pose: &Vec<DVec3>, point: usize| pose[point] - pose[0];
+    let mut all = Vec::with_capacity(points * poses.len());
+    for point in 0..points {
+        let sum: DVec3 = poses.iter().map(|pose| against_root(pose, point)).sum();
+        let mean = sum / poses.len() as f64;
+        all.extend(poses.iter().map(|pose| flat(&(against_root(pose, point) - mean))));
+    }
+    all
+}
+
+/// The points of one pose, as they stand.
+fn about_mean(pose: &[DVec3], flat: impl Fn(&DVec3) -> (f64, f64)) -> Vec<(f64, f64)> {
+    pose.iter().map(flat).collect()
+}
+
+/// The diagonal of the box round some flat points.
+fn spread(points: &[(f64, f64)]) -> f64 {
+    let side = |of: fn(&(f64, f64)) -> f64| {
+        let values = points.iter().map(of);
+        let start = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = values.fold(start, |(low, high), v| (low.min(v), high.max(v)));
+        (high - low).max(0.0)
+    };
+    side(|point| point.0).hypot(side(|point| point.1))
+}
+
+/// The direction in which flat points lie most apart, from the first axis towards the second.
+fn principal_angle(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let sum = points.iter().fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
+    let mean = (sum.0 / count, sum.1 / count);
+    let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
+    for point in points {
+        let (a, b) = (point.0 - mean.0, point.1 - mean.1);
+        aa += a * a;
+        ab += a * b;
+        bb += b * b;
+    }
+    0.5 * (2.0 * ab).atan2(aa - bb)
+}

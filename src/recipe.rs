@@ -1,0 +1,280 @@
+//! The recipe: every setting of the chain, one settings struct a stage, in one small TOML file
+//! together with a person's corrections.
+
+mod knobs;
+
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::Choose;
+use crate::signal::{LowPass, Speed, TurnFinder};
+use crate::time::KOMA_RATE;
+use crate::timing::{Omission, Spacing};
+
+pub use knobs::{KNOBS, Kind, Knob};
+
+/// Every setting of the chain. The defaults alone give a sheet an animator can use.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Recipe {
+    /// Koma a second of the sheet, above 0; default 24.
+    pub rate: f64,
+    /// How fast a joint is.
+    pub speed: Speed,
+    /// How its speed is smoothed.
+    pub filter: LowPass,
+    /// Where its speed turns.
+    pub turns: TurnFinder,
+    /// Which turns are keys of the layer.
+    pub keys: Choose,
+    /// Where inbetweens stand and what they show.
+    pub spacing: Spacing,
+    /// What is left out.
+    pub omission: Omission,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Self {
+            rate: KOMA_RATE,
+            speed: Speed::default(),
+            filter: LowPass::default(),
+            turns: TurnFinder::default(),
+            keys: Choose::default(),
+            spacing: Spacing::default(),
+            omission: Omission::default(),
+        }
+    }
+}
+
+impl Recipe {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first knob that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        if !(self.rate > 0.0 && self.rate.is_finite()) {
+            return Err(Error::setting("rate", "must be above 0 koma a second"));
+        }
+        self.speed.validate()?;
+        self.filter.validate()?;
+        self.turns.validate()?;
+        self.keys.validate()?;
+        self.spacing.validate()?;
+        self.omission.validate()
+    }
+
+    /// Sets one knob from text, as `--set KEY=VALUE` does; `none` clears one that may be absent.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when there is no such knob, or the value is not one it takes.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
+        let knob = Knob::find(name)?;
+        let mut table = self.table();
+        let (section, field) = knob.path();
+        let target = match section {
+            None => &mut table,
+            Some(section) => match table.get_mut(section) {
+                Some(Value::Table(table)) => table,
+                _ => return Err(Error::setting(name, "is in no section of the recipe")),
+            },
+        };
+        match text.trim() {
+            "none" => target.remove(field),
+            text => target.insert(field.into(), value_from_text(text)),
+        };
+        let changed: Self = Value::Table(table).try_into().map_err(|_| knob.refusal(text))?;
+        changed.validate()?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// A knob's value as text: what [`Recipe::set`] takes back.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when there is no such knob.
+    pub fn get(&self, name: &str) -> Result<String, Error> {
+        let (section, field) = Knob::find(name)?.path();
+        let table = self.table();
+        let value = match section {
+            None => table.get(field),
+            Some(section) => table.get(section).and_then(|section| section.get(field)),
+        };
+        Ok(value.map_or_else(|| "none".into(), text_from_value))
+    }
+
+    /// A recipe and corrections from TOML. Settings that are not named keep their defaults.
+    ///
+    /// # Errors
+    /// [`Error::Recipe`] with line and column when it is no TOML, names a setting that does not exist
+    /// or gives one a value it cannot have.
+    pub fn parse(text: &str) -> Result<(Self, Edits), Error> {
+        let file: File = toml::from_str(text).map_err(|error| located(text, &error))?;
+        let recipe = file.recipe();
+        recipe.validate()?;
+        Ok((recipe, file.edits))
+    }
+
+    /// The recipe with a comment for every knob, and the corrections, as TOML that
+    /// [`Recipe::parse`] reads back.
+    pub fn write(&self, edits: &Edits) -> String {
+        let mut text = String::from(
+            "# A genga recipe: every setting of the chain. What is not named keeps its default.\n\
+             # Lengths of time are source frames (20) or seconds (\"0.2s\").\n",
+        );
+        let mut section = None;
+        for knob in KNOBS {
+            let (inside, field) = knob.path();
+            if inside != section {
+                text.push_str(&format!("\n[{}]\n", inside.unwrap_or_default()));
+                section = inside;
+            } else {
+                text.push('\n');
+            }
+            knob.comment().lines().for_each(|line| text.push_str(&format!("# {line}\n")));
+            match self.get(knob.name).as_deref() {
+                Ok("none") | Err(_) => text.push_str(&format!("# {field} = none\n")),
+                Ok(value) => text.push_str(&format!("{field} = {}\n", value_from_text(value))),
+            }
+        }
+        if !edits.is_empty() {
+            text.push_str("\n# Corrections by a person.\n");
+            let edits = toml::to_string(&Corrections { edits }).unwrap_or_default();
+            text.push_str(&edits);
+        }
+        text
+    }
+
+    fn table(&self) -> Table {
+        Table::try_from(self).expect("a recipe is plain numbers, words and tables")
+    }
+}
+
+/// The file: the recipe's sections and the corrections side by side.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct File {
+    rate: Option<f64>,
+    speed: Speed,
+    filter: LowPass,
+    turns: TurnFinder,
+    keys: Choose,
+    spacing: Spacing,
+    omission: Omission,
+    edits: Edits,
+}
+
+impl File {
+    fn recipe(&self) -> Recipe {
+        Recipe {
+            rate: self.rate.unwrap_or(KOMA_RATE),
+            speed: self.speed.clone(),
+            filter: self.filter.clone(),
+            turns: self.turns.clone(),
+            keys: self.keys.clone(),
+            spacing: self.spacing.clone(),
+            omission: self.omission.clone(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Corrections<'a> {
+    edits: &'a Edits,
+}
+
+/// The TOML value that a word on the command line means.
+fn value_from_text(text: &str) -> Value {
+    match text {
+        "true" => Value::Boolean(true),
+        "false" => Value::Boolean(false),
+        _ => match (text.parse::<i64>(), text.parse::<f64>()) {
+            (Ok(whole), _) => Value::Integer(whole),
+            (_, Ok(number)) => Value::Float(number),
+            _ => Value::String(text.into()),
+        },
+    }
+}
+
+fn text_from_value(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(number) => number.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// An error of the TOML reader as one line with the place in the file.
+fn located(text: &str, error: &toml::de::Error) -> Error {
+    let place = error.span().map(|span| {
+        let before = &text[..span.start.min(text.len())];
+        let line = before.matches('\n').count() + 1;
+        let column = before.len() - before.rfind('\n').map_or(0, |newline| newline + 1) + 1;
+        format!("{line}:{column}: ")
+    });
+    let message = error.message().lines().next().unwrap_or_default();
+    Error::Recipe { message: format!("{}{message}", place.unwrap_or_default()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edits::Pin;
+    use crate::time::Frame;
+
+    #[test]
+    fn every_knob_gives_what_it_takes() {
+        let recipe = Recipe::default();
+        for knob in KNOBS {
+            let mut again = recipe.clone();
+            let value = recipe.get(knob.name).unwrap();
+            again.set(knob.name, &value).unwrap_or_else(|error| panic!("{}: {error}", knob.name));
+            assert_eq!(again, recipe, "{}", knob.name);
+        }
+    }
+
+    #[test]
+    fn every_field_has_a_knob() {
+        let table = Recipe::default().table();
+        let fields: usize =
+            table.values().map(|value| value.as_table().map_or(1, Table::len)).sum();
+        let optional = ["keys.per_second", "spacing.inbetweens"].len();
+        assert_eq!(KNOBS.len(), fields + optional);
+    }
+
+    #[test]
+    fn the_written_recipe_reads_back_with_its_corrections() {
+        let mut recipe = Recipe::default();
+        recipe.set("filter.width", "20").unwrap();
+        recipe.set("turns.steady", "5%").unwrap();
+        recipe.set("spacing.inbetweens", "3").unwrap();
+        let pin = Pin { weight: Some(0.5), ..Pin::parse("150:top").unwrap() };
+        let edits = Edits { pins: vec![pin], forbidden: vec![Frame(7)] };
+        let text = recipe.write(&edits);
+        assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");
+        let default = Recipe::default().write(&Edits::default());
+        assert_eq!(Recipe::parse(&default).unwrap(), (Recipe::default(), Edits::default()));
+    }
+
+    #[test]
+    fn wrong_settings_say_what_would_be_right() {
+        let mut recipe = Recipe::default();
+        let mut error = |name, value| recipe.set(name, value).unwrap_err().to_string();
+        assert!(error("filter.widht", "1").contains("filter.width"), "the nearest name is offered");
+        assert!(error("filter.kind", "blur").contains("box, gaussian, ideal, butterworth"));
+        assert!(error("spacing.on", "0").contains("or more"));
+        assert!(error("spacing.on", "two").contains("spacing.on"));
+        assert!(error("rate", "-1").contains("above 0"));
+        assert_eq!(recipe, Recipe::default(), "nothing was changed");
+    }
+
+    #[test]
+    fn a_wrong_file_is_refused_with_its_place() {
+        let error = Recipe::parse("rate = 24\n[filter]\nwitdh = 3\n").unwrap_err().to_string();
+        assert!(error.starts_with("recipe: 3:1: unknown field `witdh`"), "{error}");
+        assert!(Recipe::parse("[spacing]\non = 0\n").is_err());
+        assert!(Recipe::parse("[spacing\n").is_err());
+    }
+}

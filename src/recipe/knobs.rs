@@ -1,0 +1,296 @@
+//! Every knob by name: what a recipe file, `--set` and a window show of it.
+
+use crate::error::Error;
+
+/// One setting of the recipe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Knob {
+    /// Its name, `section.field`.
+    pub name: &'static str,
+    /// The same in Japanese.
+    pub japanese: &'static str,
+    /// What it takes.
+    pub kind: Kind,
+    /// What it counts in; empty for choices and flags.
+    pub unit: &'static str,
+    /// What it does, in a sentence or two.
+    pub help: &'static str,
+}
+
+/// What a knob takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// A number from `min` to `max`; the step suits a slider.
+    Number {
+        /// The least value.
+        min: f64,
+        /// The largest value that makes sense on a slider.
+        max: f64,
+        /// Whether it must be whole.
+        whole: bool,
+        /// Whether it may be `none`.
+        optional: bool,
+    },
+    /// A length of time, frames or seconds.
+    Span,
+    /// A count (`4`) or a share (`4%`, `1/3`).
+    Amount,
+    /// A number, or a share of the joint's own 95th percentile (`5%`).
+    Band,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// `true` or `false`.
+    Flag,
+}
+
+const fn number(min: f64, max: f64) -> Kind {
+    Kind::Number { min, max, whole: false, optional: false }
+}
+
+const fn whole(min: f64, max: f64) -> Kind {
+    Kind::Number { min, max, whole: true, optional: false }
+}
+
+/// Every knob, in the order of the chain.
+pub const KNOBS: &[Knob] = &[
+    Knob {
+        name: "rate",
+        japanese: "コマ数",
+        kind: number(1.0, 60.0),
+        unit: "koma a second",
+        help: "Koma a second of the sheet: 24 in film and TV animation.",
+    },
+    Knob {
+        name: "speed.measure",
+        japanese: "速さの測り方",
+        kind: Kind::Choice(&["rotation", "displacement", "combined", "angle"]),
+        unit: "",
+        help: "How fast a joint is: its rotation against its parent, its way through the world, both, \
+               or the signed change of its own rotation angle (for studies).",
+    },
+    Knob {
+        name: "filter.kind",
+        japanese: "ローパスフィルタ",
+        kind: Kind::Choice(&["box", "gaussian", "ideal", "butterworth"]),
+        unit: "",
+        help: "How the speeds are smoothed.",
+    },
+    Knob {
+        name: "filter.width",
+        japanese: "フィルタの適用範囲",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How wide the smoothing is. Wider finds fewer keys and blurs quick double actions.",
+    },
+    Knob {
+        name: "turns.reading",
+        japanese: "読み方",
+        kind: Kind::Choice(&["event", "literal"]),
+        unit: "",
+        help: "What a turn is: every rest and slowing has its end and its start (event), or the first \
+               paper to the letter (literal), which loses the ends of movements.",
+    },
+    Knob {
+        name: "turns.steady",
+        japanese: "定速とみなす加速度",
+        kind: Kind::Band,
+        unit: "°/s², or a share of the joint's own 95th percentile (\"5%\")",
+        help: "Accelerations up to this count as none. Raised, slow gestures lose their keys.",
+    },
+    Knob {
+        name: "turns.persistence",
+        japanese: "連続フレーム数",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How long a change must last to count. Longer finds fewer keys.",
+    },
+    Knob {
+        name: "turns.side",
+        japanese: "連続を見る側",
+        kind: Kind::Choice(&["after", "both", "rising"]),
+        unit: "",
+        help: "Where it must last, in the literal reading: after the turn, on both sides of it, or after \
+               it with every step rising.",
+    },
+    Knob {
+        name: "keys.merge",
+        japanese: "部位のまとめ方",
+        kind: Kind::Choice(&["vote", "sum", "union"]),
+        unit: "",
+        help: "How joints make the keys of the body: each votes with the length of what hangs on it, \
+               their speeds are added first, or a turn of any joint is a key.",
+    },
+    Knob {
+        name: "keys.reach",
+        japanese: "票の届く範囲",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How far a joint's vote carries. Longer joins turns that lie further apart into one key.",
+    },
+    Knob {
+        name: "keys.rank",
+        japanese: "原画の順位",
+        kind: Kind::Choice(&["price", "strength"]),
+        unit: "",
+        help: "By what keys are ranked: what leaving one out would cost, or how strong it is.",
+    },
+    Knob {
+        name: "keys.min_price",
+        japanese: "最低の価値",
+        kind: number(0.0, 50.0),
+        unit: "% of body height × koma",
+        help: "What a key must save at the least. Higher keeps fewer; small gestures go first.",
+    },
+    Knob {
+        name: "keys.min_strength",
+        japanese: "最低の強さ",
+        kind: number(0.0, 1.0),
+        unit: "share of all votes",
+        help: "How strong a key must be at the least.",
+    },
+    Knob {
+        name: "keys.per_second",
+        japanese: "毎秒の原画数",
+        kind: Kind::Number { min: 0.1, max: 12.0, whole: false, optional: true },
+        unit: "keys a second, or none",
+        help: "Keep that many keys, the best first, instead of a threshold.",
+    },
+    Knob {
+        name: "spacing.on",
+        japanese: "何コマ打ち",
+        kind: whole(1.0, 6.0),
+        unit: "koma",
+        help: "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes.",
+    },
+    Knob {
+        name: "spacing.inbetweens",
+        japanese: "中割り枚数",
+        kind: Kind::Number { min: 0.0, max: 12.0, whole: true, optional: true },
+        unit: "drawings, or none",
+        help: "A fixed number of inbetweens between two keys instead.",
+    },
+    Knob {
+        name: "spacing.weight",
+        japanese: "詰めの重み",
+        kind: number(0.0, 0.95),
+        unit: "0 (even) to below 1",
+        help: "How far inbetweens crowd towards their key (spacing, 詰め). More makes the middle of a \
+               movement snap.",
+    },
+    Knob {
+        name: "spacing.max_shift",
+        japanese: "詰めの上限",
+        kind: number(0.0, 6.0),
+        unit: "koma",
+        help: "How far an inbetween may be taken from its own time.",
+    },
+    Knob {
+        name: "spacing.source",
+        japanese: "中割りの元",
+        kind: Kind::Choice(&["sample", "blend"]),
+        unit: "",
+        help: "What an inbetween shows: the performer's own arc, or a blend of the two keys alone.",
+    },
+    Knob {
+        name: "omission.naka_nashi",
+        japanese: "中無し",
+        kind: Kind::Amount,
+        unit: "drawings, or a share of the koma (at most 6)",
+        help: "How many inbetweens of the fastest movement are left out (naka-nashi). More than about 6 \
+               in one action and it jumps.",
+    },
+    Knob {
+        name: "omission.koma_dori",
+        japanese: "コマ撮り",
+        kind: Kind::Amount,
+        unit: "drawings, or a share of the drawings",
+        help: "How many inbetweens of the slowest movement are held over (koma-dori). More stills small \
+               movements.",
+    },
+    Knob {
+        name: "omission.max_hold",
+        japanese: "最長の止め",
+        kind: whole(1.0, 12.0),
+        unit: "koma",
+        help: "How long a drawing may stay because others were left out. Longer freezes the body.",
+    },
+    Knob {
+        name: "omission.keep_length",
+        japanese: "尺を保つ",
+        kind: Kind::Flag,
+        unit: "",
+        help: "Whether the koma of left-out drawings are given to their neighbours.",
+    },
+    Knob {
+        name: "omission.all_at_once",
+        japanese: "一度に抜く",
+        kind: Kind::Flag,
+        unit: "",
+        help: "Leave out the fastest drawings all at once instead of one by one: weaker, for comparison.",
+    },
+    Knob {
+        name: "omission.order",
+        japanese: "順番",
+        kind: Kind::Choice(&["naka_nashi_first", "koma_dori_first"]),
+        unit: "",
+        help: "Which of the two comes first; it hardly matters.",
+    },
+];
+
+impl Knob {
+    /// The knob of that name.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the nearest name when there is none.
+    pub fn find(name: &str) -> Result<&'static Self, Error> {
+        KNOBS.iter().find(|knob| knob.name == name).ok_or_else(|| {
+            let nearest = KNOBS.iter().min_by_key(|knob| distance(knob.name, name));
+            let hint = nearest.map_or("", |knob| knob.name);
+            Error::setting(name, format!("there is no such setting; did you mean {hint}?"))
+        })
+    }
+
+    /// Section and field; no section for a setting at the top.
+    pub fn path(&self) -> (Option<&'static str>, &'static str) {
+        self.name
+            .split_once('.')
+            .map_or((None, self.name), |(section, field)| (Some(section), field))
+    }
+
+    /// Help, Japanese name and what it takes, as lines for a comment.
+    pub(super) fn comment(&self) -> String {
+        format!("{} — {}\n{}", self.japanese, self.help, self.takes())
+    }
+
+    /// What it takes, in words.
+    pub fn takes(&self) -> String {
+        match self.kind {
+            Kind::Choice(words) => words.join(" | "),
+            Kind::Flag => "true | false".into(),
+            Kind::Number { min, .. } => format!("{} (from {min})", self.unit),
+            Kind::Span | Kind::Amount | Kind::Band => self.unit.into(),
+        }
+    }
+
+    pub(super) fn refusal(&self, found: &str) -> Error {
+        let takes = match self.kind {
+            Kind::Choice(words) => format!("one of {}", words.join(", ")),
+            _ => self.takes(),
+        };
+        Error::setting(self.name, format!("expected {takes}, found \"{found}\""))
+    }
+}
+
+/// Letters to change, add or drop between two names.
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.bytes().enumerate() {
+            let change = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}

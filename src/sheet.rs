@@ -1,0 +1,251 @@
+//! The timesheet (タイムシート): which drawing stands on which koma. The program's one result.
+//!
+//! Plain data: everything that is handed over is a function of (clip, sheet).
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::time::Clock;
+
+/// A timesheet: for each layer, drawings and how long each stays on screen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sheet {
+    /// Where its koma stand in the source.
+    pub clock: Clock,
+    /// Layers (セル), back to front: column A first.
+    pub layers: Vec<Layer>,
+}
+
+/// A group of joints with a column of its own on the sheet (セル).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Layer {
+    /// The column's name: A, B, C ….
+    pub name: String,
+    /// Drawings in the order of their source places.
+    pub drawings: Vec<Drawing>,
+    /// What is on screen, koma after koma.
+    pub exposures: Vec<Exposure>,
+}
+
+/// A drawing and the number of koma it stays on screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Exposure {
+    /// Index into [`Layer::drawings`].
+    pub drawing: usize,
+    /// Koma on screen, at least 1.
+    pub koma: usize,
+}
+
+/// What is shown (画): a pose taken from the source, or blended from two keys.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Drawing {
+    /// Where its pose comes from.
+    pub source: Source,
+    /// What it is to the motion.
+    pub role: Role,
+    /// Why it is here.
+    pub why: Why,
+}
+
+/// Where a drawing's pose comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// The source at a place: a frame number of the file, fractional between two frames.
+    At(f64),
+    /// An inbetweener's blend of two key poses: `share` of the way from one to the other.
+    Between {
+        /// Place of the key before.
+        from: f64,
+        /// Place of the key after.
+        to: f64,
+        /// 0 is `from`, 1 is `to`.
+        share: f64,
+    },
+}
+
+impl Source {
+    /// The place in the source, as a fractional frame number.
+    pub fn place(self) -> f64 {
+        match self {
+            Self::At(place) => place,
+            Self::Between { from, to, share } => from + share * (to - from),
+        }
+    }
+}
+
+/// What a drawing is to the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// A key drawing (原画): a start, an end or a turning point.
+    Genga,
+    /// A drawing between two keys (中割り).
+    Inbetween,
+    /// The clip's first or last drawing, which it gets whether or not a key was found there.
+    End,
+}
+
+impl Role {
+    /// The word used in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Genga => "genga",
+            Self::Inbetween => "inbetween",
+            Self::End => "end",
+        }
+    }
+
+    /// Whether the omission stages must leave it where it is.
+    pub fn is_kept(self) -> bool {
+        self != Self::Inbetween
+    }
+}
+
+/// Why a drawing is on the sheet, and what was done round it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Why {
+    /// Names of the joints that have a turn of their own here.
+    pub voters: Vec<String>,
+    /// Set by a person, with the name they gave it (empty when they gave none).
+    pub pinned: Option<String>,
+    /// How strong the key is, 0 to 1 for votes; none for inbetweens.
+    pub strength: Option<f64>,
+    /// What the key saves, in % of body height × koma; none for inbetweens and ends.
+    pub price: Option<f64>,
+    /// Koma that naka-nashi gave to it.
+    pub lengthened: usize,
+    /// Drawings just before it that naka-nashi left out.
+    pub omitted_before: usize,
+    /// Drawings after it that koma-dori replaced by it.
+    pub held_for: usize,
+}
+
+/// In words, for the reason columns.
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut reasons = Vec::new();
+        match self.pinned.as_deref() {
+            None => {}
+            Some("") => reasons.push("pinned".into()),
+            Some(name) => reasons.push(format!("pinned: {name}")),
+        }
+        if let [first, ..] = self.voters.as_slice() {
+            let others = self.voters.len() - 1;
+            let more =
+                if others > 0 { format!(" and {others} more turn") } else { " turns".into() };
+            reasons.push(format!("{first}{more}"));
+        }
+        if let Some(price) = self.price {
+            reasons.push(format!("saves {price:.1} %·koma"));
+        }
+        let mut count = |count: usize, words: &str| {
+            if count > 0 {
+                reasons.push(format!("{words} {count}"));
+            }
+        };
+        count(self.omitted_before, "naka-nashi left out before it");
+        count(self.lengthened, "koma given by naka-nashi");
+        count(self.held_for, "held by koma-dori for");
+        f.write_str(&reasons.join("; "))
+    }
+}
+
+impl Layer {
+    /// Koma of the layer: the sum of its exposures.
+    pub fn length(&self) -> usize {
+        self.exposures.iter().map(|exposure| exposure.koma).sum()
+    }
+
+    /// Each exposure with the koma it begins on, from 0.
+    pub fn timed(&self) -> impl Iterator<Item = (usize, Exposure)> + '_ {
+        self.exposures.iter().scan(0, |koma, &exposure| {
+            let begin = *koma;
+            *koma += exposure.koma;
+            Some((begin, exposure))
+        })
+    }
+
+    /// The drawing on each koma, as an index into [`Layer::drawings`].
+    pub fn koma(&self) -> impl Iterator<Item = usize> + '_ {
+        self.exposures
+            .iter()
+            .flat_map(|exposure| std::iter::repeat_n(exposure.drawing, exposure.koma))
+    }
+
+    /// Drawings of a role.
+    pub fn count(&self, role: Role) -> usize {
+        self.drawings.iter().filter(|drawing| drawing.role == role).count()
+    }
+
+    /// Koma of the longest exposure; 0 for an empty layer.
+    pub fn longest_hold(&self) -> usize {
+        self.exposures.iter().map(|exposure| exposure.koma).max().unwrap_or(0)
+    }
+
+    /// Koma that repeat the drawing before them.
+    pub fn held_koma(&self) -> usize {
+        self.length() - self.exposures.len()
+    }
+}
+
+impl Sheet {
+    /// Koma of the sheet: that of its longest layer.
+    pub fn length(&self) -> usize {
+        self.layers.iter().map(Layer::length).max().unwrap_or(0)
+    }
+
+    /// The sheet of a clip on ones (1コマ打ち): a drawing a koma, no keys searched. The first and the
+    /// last drawing are ends.
+    pub fn on_ones(clock: Clock, koma: usize) -> Self {
+        let drawing = |at| Drawing {
+            source: Source::At(clock.place_from_koma(at)),
+            role: if at == 0 || at + 1 == koma { Role::End } else { Role::Inbetween },
+            why: Why::default(),
+        };
+        let layer = Layer {
+            name: "A".into(),
+            drawings: (0..koma).map(drawing).collect(),
+            exposures: (0..koma).map(|drawing| Exposure { drawing, koma: 1 }).collect(),
+        };
+        Self { clock, layers: vec![layer] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time::{Frame, FrameRate};
+
+    fn clock() -> Clock {
+        Clock { first: Frame(0), frame_rate: FrameRate::new(120.0).unwrap(), koma_rate: 24.0 }
+    }
+
+    #[test]
+    fn on_ones_has_a_drawing_a_koma_and_ends_at_both_ends() {
+        let sheet = Sheet::on_ones(clock(), 3);
+        let layer = &sheet.layers[0];
+        assert_eq!(sheet.length(), 3);
+        assert_eq!(layer.koma().collect::<Vec<_>>(), [0, 1, 2]);
+        assert_eq!(layer.drawings[2].source, Source::At(10.0));
+        assert_eq!((layer.count(Role::End), layer.count(Role::Inbetween)), (2, 1));
+        assert_eq!(Sheet::on_ones(clock(), 0).length(), 0);
+        assert_eq!(Sheet::on_ones(clock(), 1).layers[0].count(Role::End), 1);
+    }
+
+    #[test]
+    fn a_blend_lies_between_its_keys() {
+        let source = Source::Between { from: 10.0, to: 20.0, share: 0.25 };
+        assert_eq!(source.place(), 12.5);
+    }
+
+    #[test]
+    fn timed_gives_each_exposure_its_first_koma() {
+        let mut layer = Sheet::on_ones(clock(), 3).layers.remove(0);
+        layer.exposures[0].koma = 4;
+        let begins: Vec<_> = layer.timed().map(|(begin, _)| begin).collect();
+        assert_eq!(begins, [0, 4, 5]);
+        assert_eq!((layer.length(), layer.longest_hold(), layer.held_koma()), (6, 4, 3));
+    }
+}

@@ -1,0 +1,55 @@
+//! How much of each frequency a filter lets through, in closed form.
+//!
+//! A mirrored clip of N frames repeats every 2N frames, so a symmetric kernel of any width, also one
+//! wider than the clip, does nothing but scale its N cosines by the kernel's transform at ω = πk/N.
+
+use std::f64::consts::{PI, TAU};
+
+use super::FilterKind;
+
+impl FilterKind {
+    /// The gain of each cosine of a clip, k = 0 … `frames` − 1, for a width in frames above 1; that
+    /// of k = 0 is exactly 1.
+    pub(super) fn response(self, width: f64, frames: usize) -> Vec<f64> {
+        let omega = |k: usize| PI * k as f64 / frames as f64;
+        let mut gains: Vec<f64> = match self {
+            Self::Box => (0..frames).map(|k| moving_average(width, omega(k))).collect(),
+            Self::Gaussian => {
+                let whole = gaussian(width / 6.0, 0.0);
+                (0..frames).map(|k| gaussian(width / 6.0, omega(k)) / whole).collect()
+            }
+            Self::Ideal => (0..frames).map(|k| brick_wall(width, k, frames)).collect(),
+            Self::Butterworth => (0..frames).map(|k| butterworth(width, omega(k))).collect(),
+        };
+        if let Some(steady) = gains.first_mut() {
+            *steady = 1.0;
+        }
+        gains
+    }
+}
+
+/// `whole` taps of weight 1 in the middle and one of weight `rest` on each side, divided by their sum.
+fn moving_average(width: f64, omega: f64) -> f64 {
+    let whole = 2.0 * ((width - 1.0) / 2.0).floor() + 1.0;
+    let rest = (width - whole) / 2.0;
+    let middle = (whole * omega / 2.0).sin() / (omega / 2.0).sin();
+    (middle + 2.0 * rest * ((whole + 1.0) / 2.0 * omega).cos()) / width
+}
+
+/// Sampling the kernel repeats its transform every 2π: the sum of all the copies that still count.
+fn gaussian(sigma: f64, omega: f64) -> f64 {
+    // exp(−x²/2) is below 1e−17 beyond 9.
+    let copies = (9.0 / (sigma * TAU)).ceil() as i32 + 1;
+    let copy = |at: i32| (-0.5 * (sigma * (omega + TAU * f64::from(at))).powi(2)).exp();
+    (-copies..=copies).map(copy).sum()
+}
+
+/// The k-th cosine of N frames has a period of 2N/k frames.
+fn brick_wall(width: f64, k: usize, frames: usize) -> f64 {
+    if 2.0 * frames as f64 >= k as f64 * width { 1.0 } else { 0.0 }
+}
+
+/// The bilinear transform of the analogue filter, its gain squared by the run back.
+fn butterworth(width: f64, omega: f64) -> f64 {
+    1.0 / (1.0 + ((omega / 2.0).tan() / (PI / width).tan()).powi(4))
+}

@@ -1,0 +1,132 @@
+//! A clip of signals as cosines (DCT-II), and back.
+//!
+//! A transform of N mirrored frames takes one real FFT of length N: the even frames followed by the
+//! odd ones backwards, then a turn by k quarter steps (Makhoul 1980).
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
+use crate::signal::Signals;
+use crate::time::FrameRate;
+
+/// Spectrum (周波数成分) of signals: made once, then any number of filters are products with it.
+#[derive(Clone)]
+pub struct Spectrum {
+    /// Σ x[n] cos(πk(2n + 1)/2N), k × joints.
+    cosines: DMatrix<f64>,
+    signals: Signals,
+    /// exp(iπk/2N), k = 0 … N/2.
+    quarter_steps: Vec<Complex<f64>>,
+    back: Option<Arc<dyn ComplexToReal<f64>>>,
+}
+
+impl std::fmt::Debug for Spectrum {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (frames, joints) = self.cosines.shape();
+        write!(f, "Spectrum({frames} frames × {joints} joints)")
+    }
+}
+
+impl Spectrum {
+    /// The spectrum of every joint.
+    pub fn of(signals: &Signals) -> Self {
+        let frames = signals.frames();
+        let mut spectrum = Self {
+            cosines: DMatrix::zeros(frames, signals.joints()),
+            signals: signals.clone(),
+            quarter_steps: (0..=frames / 2)
+                .map(|k| Complex::cis(PI * k as f64 / (2 * frames.max(1)) as f64))
+                .collect(),
+            back: None,
+        };
+        // No transform of length 0 or 1 is needed: such clips are never filtered.
+        if frames > 1 {
+            let mut planner = RealFftPlanner::new();
+            spectrum.back = Some(planner.plan_fft_inverse(frames));
+            spectrum.fill(planner.plan_fft_forward(frames).as_ref());
+        }
+        spectrum
+    }
+
+    /// Number of frames.
+    pub fn frames(&self) -> usize {
+        self.cosines.nrows()
+    }
+
+    /// Frames a second.
+    pub fn rate(&self) -> FrameRate {
+        self.signals.rate
+    }
+
+    /// The signals it was made of.
+    pub fn unfiltered(&self) -> &Signals {
+        &self.signals
+    }
+
+    fn fill(&mut self, forth: &dyn RealToComplex<f64>) {
+        let frames = self.frames();
+        let mut shuffled = forth.make_input_vec();
+        let mut waves = forth.make_output_vec();
+        let mut scratch = forth.make_scratch_vec();
+        let joints = self.signals.values.as_slice().chunks_exact(frames);
+        for (joint, cosines) in joints.zip(self.cosines.as_mut_slice().chunks_exact_mut(frames)) {
+            for (n, value) in joint.iter().enumerate() {
+                shuffled[shuffled_place(n, frames)] = *value;
+            }
+            forth
+                .process_with_scratch(&mut shuffled, &mut waves, &mut scratch)
+                .expect("the plan made the buffers");
+            for (k, (wave, step)) in waves.iter().zip(&self.quarter_steps).enumerate() {
+                let turned = wave * step.conj();
+                cosines[k] = turned.re;
+                if k > 0 {
+                    cosines[frames - k] = -turned.im;
+                }
+            }
+        }
+    }
+
+    /// The signals whose k-th cosine is `gains[k]` times as large.
+    pub(super) fn times(&self, gains: &[f64]) -> Signals {
+        let frames = self.frames();
+        let Some(back) = &self.back else { return self.signals.clone() };
+        let mut values = DMatrix::zeros(frames, self.signals.joints());
+        let mut waves = back.make_input_vec();
+        let mut shuffled = back.make_output_vec();
+        let mut scratch = back.make_scratch_vec();
+        let gains: Vec<f64> = gains.iter().map(|gain| gain / frames as f64).collect();
+        let joints = self.cosines.as_slice().chunks_exact(frames);
+        for (cosines, joint) in joints.zip(values.as_mut_slice().chunks_exact_mut(frames)) {
+            self.waves_from_cosines(cosines, &gains, &mut waves);
+            back.process_with_scratch(&mut waves, &mut shuffled, &mut scratch)
+                .expect("the plan made the buffers, and what must be real is");
+            for (n, value) in joint.iter_mut().enumerate() {
+                *value = shuffled[shuffled_place(n, frames)];
+            }
+        }
+        Signals { values, ..self.signals }
+    }
+
+    fn waves_from_cosines(&self, cosines: &[f64], gains: &[f64], waves: &mut [Complex<f64>]) {
+        let frames = cosines.len();
+        waves[0] = Complex::new(cosines[0] * gains[0], 0.0);
+        for (k, wave) in waves.iter_mut().enumerate().skip(1) {
+            let turned =
+                Complex::new(cosines[k] * gains[k], -cosines[frames - k] * gains[frames - k]);
+            *wave = turned * self.quarter_steps[k];
+        }
+        if frames.is_multiple_of(2) {
+            // Real but for rounding, and the transform insists.
+            waves[frames / 2].im = 0.0;
+        }
+    }
+}
+
+/// Where frame n stands before the transform: the even frames first, the odd ones behind, backwards.
+fn shuffled_place(n: usize, frames: usize) -> usize {
+    if n.is_multiple_of(2) { n / 2 } else { frames - 1 - n / 2 }
+}

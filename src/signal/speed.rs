@@ -1,0 +1,150 @@
+//! How fast each joint moves [KT11 §3.1].
+
+use glam::{DQuat, DVec3};
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::{Body, Clip, Pose, local_rotation};
+use crate::signal::{Signals, Unit};
+use crate::time::Frame;
+
+/// What of the motion is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Angular speed (角速度) of the local rotation, rad/s: the paper's measure. Blind to a joint that
+    /// is only carried along.
+    #[default]
+    Rotation,
+    /// Speed of the joint in the world, the file's unit a second. Blind to a hand that turns in place.
+    Displacement,
+    /// Both, each divided by its root mean square over all frames and joints, then added.
+    Combined,
+    /// Signed change per second of the joint's own rotation angle, rad/s: for studies. It reads 0
+    /// where the axis turns at a constant angle, and jumps in sign where the angle passes half a turn.
+    Angle,
+}
+
+/// Speed (速さ) of every joint at every frame [KT11 §3.1].
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Speed {
+    /// What is measured; `rotation` by default.
+    pub measure: Measure,
+}
+
+impl Speed {
+    /// Whether the settings can be used; there is none here that could be wrong.
+    ///
+    /// # Errors
+    /// None today.
+    pub fn validate(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Speeds of a clip, frames × joints.
+    ///
+    /// Row k is the step *into* frame k, so the first row repeats the second. A clip of one frame has
+    /// speed 0.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when values of the clip are so large that a speed is not finite.
+    pub fn measure(&self, clip: &Clip) -> Result<Signals, Error> {
+        self.validate()?;
+        let (mut values, unit) = match self.measure {
+            Measure::Rotation => (rotation(clip), Unit::Angle),
+            Measure::Displacement => (displacement(clip), Unit::Length),
+            Measure::Combined => (combined(clip), Unit::Ratio),
+            Measure::Angle => (angle(clip), Unit::Angle),
+        };
+        if values.nrows() > 1 {
+            let second = values.row(1).into_owned();
+            values.set_row(0, &second);
+        }
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(Error::clip("the motion is too fast to be measured: a speed is infinite"));
+        }
+        Ok(Signals { values, unit, rate: clip.rate(), first: clip.first() })
+    }
+}
+
+/// A matrix of the clip's shape with row 0 left at 0.
+fn still(clip: &Clip) -> DMatrix<f64> {
+    DMatrix::zeros(clip.len(), clip.skeleton().len())
+}
+
+fn rotation(clip: &Clip) -> DMatrix<f64> {
+    let fps = clip.rate().fps();
+    let mut values = still(clip);
+    let mut before = vec![DQuat::IDENTITY; clip.skeleton().len()];
+    for (row, channels) in clip.rows().enumerate() {
+        for (joint, (data, before)) in clip.skeleton().joints.iter().zip(&mut before).enumerate() {
+            let now = local_rotation(data, channels);
+            if row > 0 {
+                values[(row, joint)] = angle_of(before.conjugate() * now) * fps;
+            }
+            *before = now;
+        }
+    }
+    values
+}
+
+/// The angle of a rotation in radians, 0 to π, the same for q and −q. The arc cosine of the scalar
+/// part would lose half the digits of a small angle, which is where holds are decided.
+fn angle_of(q: DQuat) -> f64 {
+    2.0 * q.xyz().length().atan2(q.w.abs())
+}
+
+fn displacement(clip: &Clip) -> DMatrix<f64> {
+    let (fps, skeleton) = (clip.rate().fps(), clip.skeleton());
+    let mut values = still(clip);
+    let (mut pose, mut body) = (Pose::rest(skeleton), Body::new(skeleton));
+    let mut before = vec![DVec3::ZERO; skeleton.len()];
+    let mut now = before.clone();
+    for row in 0..clip.len() {
+        pose.take_frame(clip, Frame(clip.first().0 + row));
+        body.place(&pose, &mut now);
+        if row > 0 {
+            for (joint, (before, now)) in before.iter().zip(&now).enumerate() {
+                values[(row, joint)] = before.distance(*now) * fps;
+            }
+        }
+        std::mem::swap(&mut before, &mut now);
+    }
+    values
+}
+
+/// One root mean square for all joints of a measure, so that a joint that hardly moves stays small
+/// beside one that does.
+fn combined(clip: &Clip) -> DMatrix<f64> {
+    let mut values = in_own_rms(rotation(clip));
+    values += in_own_rms(displacement(clip));
+    values
+}
+
+/// Divided by the root mean square over the steps between frames; what never moves stays 0.
+fn in_own_rms(values: DMatrix<f64>) -> DMatrix<f64> {
+    let steps = values.nrows().saturating_sub(1) * values.ncols();
+    let rms = values.norm() / (steps as f64).sqrt();
+    if rms > 0.0 { values / rms } else { values }
+}
+
+fn angle(clip: &Clip) -> DMatrix<f64> {
+    let fps = clip.rate().fps();
+    let mut values = still(clip);
+    let mut before = vec![0.0; clip.skeleton().len()];
+    for (row, channels) in clip.rows().enumerate() {
+        for (joint, (data, before)) in clip.skeleton().joints.iter().zip(&mut before).enumerate() {
+            let now = angle_of(local_rotation(data, channels));
+            if row > 0 {
+                values[(row, joint)] = (now - *before) * fps;
+            }
+            *before = now;
+        }
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests;

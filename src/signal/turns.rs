@@ -1,0 +1,230 @@
+//! Keys and walls of one joint: where its speed turns [KT11 §3.3, §3.4].
+
+mod event;
+mod literal;
+mod persistence;
+mod steady;
+
+use std::cmp::Ordering;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::signal::Signals;
+use crate::time::{Frame, Span};
+
+use persistence::Persistence;
+pub use steady::Steady;
+
+/// A change below this share of the clip's largest filtered speed is rounding: without it a Fourier
+/// filter makes turns on joints that do not move.
+const DUST: f64 = 1e-9;
+
+/// What a turn is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TurnKind {
+    /// Key (原画): a movement starts or ends, or is slowest.
+    Key,
+    /// Wall (壁フレーム): the joint stops accelerating.
+    Wall,
+}
+
+/// A key or wall of one joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Turn {
+    /// The source frame, by its number in the file; never the clip's first or last.
+    pub frame: Frame,
+    /// Key or wall.
+    pub kind: TurnKind,
+    /// The largest persistence M, in frames, at which it is still confirmed; 0 if at none. A turn of
+    /// the `event` reading that is confirmed as far as the clip reaches has the clip's length.
+    pub confirmed_for: usize,
+}
+
+/// How the paper's rule for keys is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reading {
+    /// By whole valleys and hills of the speed, with the filter's delay undone: ends of movements
+    /// (動き終わり) count as much as starts.
+    #[default]
+    Event,
+    /// The paper's words: the signs around one frame, and the M frames after it. Drops most ends of
+    /// movements; for studies of Table 1.
+    Literal,
+}
+
+/// Which frames confirm a candidate of the `literal` reading; `event` does not ask.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// The M frames after a key are all faster than it (a wall: slower): the words of [KT11 §3.3].
+    #[default]
+    After,
+    /// The M frames after and the M frames before.
+    Both,
+    /// Each of the M steps after a key is faster than the last ([KT11 §4]: "consecutive frames in
+    /// which the speed increases").
+    Rising,
+}
+
+/// Finds the keys (原画) and walls (壁フレーム) of every joint in its filtered speed
+/// [KT11 §3.3, §3.4].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TurnFinder {
+    /// How the rule is read; `event` by default.
+    pub reading: Reading,
+    /// What counts as a steady speed; 100 °/s² by default. Raised, slow starts and ends go, and gentle
+    /// motion has no keys at all.
+    pub steady: Steady,
+    /// The paper's M, for how long a turn must last, in source frames or seconds; 0.1 s by default, at
+    /// least one frame. Raised, short pauses and quick back-and-forth movements go.
+    pub persistence: Span,
+    /// Which frames confirm a candidate of the `literal` reading; `after` by default.
+    pub side: Side,
+}
+
+impl Default for TurnFinder {
+    fn default() -> Self {
+        Self {
+            reading: Reading::Event,
+            steady: Steady::Acceleration(100.0),
+            persistence: Span::Seconds(0.1),
+            side: Side::After,
+        }
+    }
+}
+
+impl TurnFinder {
+    /// Whether the settings can be used.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] named `turns.steady` or `turns.persistence`, for what is not finite or below
+    /// 0, or a share above 100 %.
+    pub fn validate(&self) -> Result<(), Error> {
+        if !self.steady.is_band() {
+            let message =
+                format!("{} is no dead band; give °/s² (100) or a share (5%)", self.steady);
+            return Err(Error::setting("turns.steady", message));
+        }
+        if !self.persistence.is_length() {
+            let message =
+                format!("{} is no length; give frames (5) or seconds (0.1s)", self.persistence);
+            return Err(Error::setting("turns.persistence", message));
+        }
+        Ok(())
+    }
+
+    /// The confirmed turns, one list a joint (a column), by frame.
+    ///
+    /// `delay` is [`LowPass::delay`](crate::signal::LowPass::delay) of the filter the signals went
+    /// through, in frames; the `event` reading undoes it.
+    pub fn find(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
+        let persistence = self.persistence_frames(filtered);
+        let mut turns = self.candidates(filtered, delay);
+        for joint in &mut turns {
+            joint.retain(|turn| turn.confirmed_for >= persistence);
+        }
+        turns
+    }
+
+    /// Every turn, whatever M: `find` keeps those with `confirmed_for` of at least
+    /// [`persistence_frames`](Self::persistence_frames), so that another M needs no new search.
+    pub fn candidates(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
+        let frames = filtered.frames();
+        if frames < 3 {
+            return vec![vec![]; filtered.joints()];
+        }
+        let mut scan = Scan::new(self, filtered, delay);
+        filtered.values.as_slice().chunks_exact(frames).map(|speeds| scan.turns(speeds)).collect()
+    }
+
+    /// M in whole frames; in the `event` reading no more than the clip has, as frames beyond the clip
+    /// do not count against a turn there.
+    pub fn persistence_frames(&self, filtered: &Signals) -> usize {
+        let persistence = self.persistence.whole_frames(filtered.rate);
+        match self.reading {
+            Reading::Event => persistence.min(filtered.frames()),
+            Reading::Literal => persistence,
+        }
+    }
+}
+
+/// One joint after another, with the buffers they share. Rows count from 0 here.
+struct Scan<'a> {
+    finder: &'a TurnFinder,
+    /// Frames a second.
+    fps: f64,
+    /// From the signal's unit to the unit of an absolute `steady`.
+    for_people: f64,
+    /// The largest change that is rounding.
+    floor: f64,
+    /// The filter's delay in whole frames.
+    delay: usize,
+    first: Frame,
+    frames: usize,
+    /// Of each step, from its row to the next: slowing, steady, speeding.
+    signs: Vec<Ordering>,
+    persistence: Persistence,
+    sizes: Vec<f64>,
+}
+
+impl<'a> Scan<'a> {
+    fn new(finder: &'a TurnFinder, filtered: &Signals, delay: f64) -> Self {
+        let frames = filtered.frames();
+        Self {
+            finder,
+            fps: filtered.rate.fps(),
+            for_people: filtered.unit.for_people(),
+            floor: DUST * filtered.values.amax(),
+            delay: delay.round().max(0.0) as usize,
+            first: filtered.first,
+            frames,
+            signs: Vec::with_capacity(frames),
+            persistence: Persistence::new(frames),
+            sizes: Vec::with_capacity(frames),
+        }
+    }
+
+    fn turns(&mut self, speeds: &[f64]) -> Vec<Turn> {
+        self.read_signs(speeds);
+        let mut turns = vec![];
+        match self.finder.reading {
+            Reading::Event => {
+                self.persistence.read(speeds, self.floor, Side::Both);
+                event::turns(self, speeds, &mut turns);
+            }
+            Reading::Literal => {
+                self.persistence.read(speeds, self.floor, self.finder.side);
+                literal::turns(self, &mut turns);
+            }
+        }
+        turns.sort_unstable_by_key(|turn| (turn.frame, turn.kind, usize::MAX - turn.confirmed_for));
+        turns.dedup_by_key(|turn| (turn.frame, turn.kind));
+        turns
+    }
+
+    fn read_signs(&mut self, speeds: &[f64]) {
+        let band = self.finder.steady.step(speeds, self.fps, self.for_people, &mut self.sizes);
+        let sign = |step: &[f64]| {
+            let change = step[1] - step[0];
+            if change.abs() <= self.floor || change.abs() <= band {
+                Ordering::Equal
+            } else {
+                change.total_cmp(&0.0)
+            }
+        };
+        self.signs.clear();
+        self.signs.extend(speeds.windows(2).map(sign));
+    }
+
+    /// A turn at a row, which is brought inside the clip's first and last frame.
+    fn turn(&self, row: usize, kind: TurnKind, confirmed_for: usize) -> Turn {
+        let row = row.clamp(1, self.frames - 2);
+        Turn { frame: Frame(self.first.0 + row), kind, confirmed_for }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,99 @@
+//! Valleys and hills of the speed: where a movement starts, ends, or only slows down.
+//!
+//! Not the paper's words: read to the letter they lose most ends of movements (動き終わり), because
+//! nothing is faster after an end.
+
+use std::cmp::Ordering::{Greater, Less};
+
+use super::{Scan, Turn, TurnKind};
+use crate::time::KOMA_RATE;
+
+/// A valley or hill shorter than this is one turn: two drawings nearer than that would share a koma
+/// or stand side by side.
+const SHORT: f64 = 2.0 / KOMA_RATE;
+
+/// The turns of every valley (keys) and hill (walls), with the filter's delay undone.
+pub(super) fn turns(scan: &Scan, speeds: &[f64], turns: &mut Vec<Turn>) {
+    let last = scan.frames - 1;
+    let mut begin = 0;
+    while begin <= last {
+        let steady = scan.signs[begin..].iter().take_while(|sign| sign.is_eq()).count();
+        let run = Run { begin, end: begin + steady };
+        // A run without a step on one side touches the clip's edge there.
+        let entry = run.begin.checked_sub(1).map(|step| scan.signs[step]);
+        let exit = scan.signs.get(run.end).copied();
+        match (entry, exit) {
+            (Some(Less), Some(Greater)) => run.between(scan, TurnKind::Key, speeds, turns),
+            (Some(Greater), Some(Less)) => run.between(scan, TurnKind::Wall, speeds, turns),
+            (None, Some(Greater)) => turns.extend(run.start(scan, TurnKind::Key)),
+            (None, Some(Less)) => turns.extend(run.start(scan, TurnKind::Wall)),
+            (Some(Less), None) => turns.extend(run.finish(scan, TurnKind::Key)),
+            (Some(Greater), None) => turns.extend(run.finish(scan, TurnKind::Wall)),
+            // A pause inside an acceleration, or a joint that is steady throughout.
+            _ => {}
+        }
+        begin = run.end + 1;
+    }
+}
+
+/// The rows `begin..=end` with only steady steps between them, as many as there are.
+#[derive(Clone, Copy)]
+struct Run {
+    begin: usize,
+    end: usize,
+}
+
+impl Run {
+    fn between(self, scan: &Scan, kind: TurnKind, speeds: &[f64], turns: &mut Vec<Turn>) {
+        if (self.end - self.begin) as f64 / scan.fps < SHORT {
+            let (first, last) = self.extreme(kind, speeds, scan.floor);
+            let confirmed_for = before(scan, kind, first).min(after(scan, kind, last));
+            turns.push(scan.turn(first, kind, confirmed_for));
+        } else {
+            turns.extend(self.finish(scan, kind));
+            turns.extend(self.start(scan, kind));
+        }
+    }
+
+    /// The end of the movement before the run: the filter found it late, and its speed is that of the
+    /// step into the frame. None on the clip's last frame.
+    fn finish(self, scan: &Scan, kind: TurnKind) -> Option<Turn> {
+        let moved = self.begin.saturating_sub(scan.delay + 1);
+        let inside = self.begin < scan.frames - 1;
+        inside.then(|| scan.turn(moved, kind, before(scan, kind, self.begin)))
+    }
+
+    /// The start of the movement after the run, which the filter found early. None on the clip's first
+    /// frame.
+    fn start(self, scan: &Scan, kind: TurnKind) -> Option<Turn> {
+        let moved = self.end + scan.delay;
+        (self.end > 0).then(|| scan.turn(moved, kind, after(scan, kind, self.end)))
+    }
+
+    /// The first and the last of the slowest rows for a key, of the fastest for a wall. More than one
+    /// is slowest in a short hold, where only rounding differs: if they counted against each other, no
+    /// such hold would ever be confirmed.
+    fn extreme(self, kind: TurnKind, speeds: &[f64], floor: f64) -> (usize, usize) {
+        let height = |row: usize| match kind {
+            TurnKind::Key => speeds[row],
+            TurnKind::Wall => -speeds[row],
+        };
+        let lowest = (self.begin..=self.end).map(height).fold(f64::INFINITY, f64::min);
+        let is_lowest = |row: &usize| height(*row) - lowest <= floor;
+        let first = (self.begin..=self.end).find(is_lowest).unwrap_or(self.begin);
+        let last = (self.begin..=self.end).rfind(is_lowest).unwrap_or(self.end);
+        (first, last)
+    }
+}
+
+/// Confirmed by the frames after: as far as the clip reaches is for good.
+fn after(scan: &Scan, kind: TurnKind, row: usize) -> usize {
+    let frames = scan.persistence.after(kind, row);
+    if frames == scan.frames - 1 - row { scan.frames } else { frames }
+}
+
+/// Confirmed by the frames before: as far as the clip reaches is for good.
+fn before(scan: &Scan, kind: TurnKind, row: usize) -> usize {
+    let frames = scan.persistence.before(kind, row);
+    if frames == row { scan.frames } else { frames }
+}

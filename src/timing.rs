@@ -1,0 +1,16 @@
+//! **Time** (時間を割る): spacing (詰め) puts drawings on the sheet, naka-nashi (中無し) and koma-dori
+//! (コマ撮り) leave some out.
+
+mod amount;
+mod koma_dori;
+mod naka_nashi;
+mod omission;
+mod spacing;
+mod stills;
+mod strip;
+mod tournament;
+
+pub use amount::Amount;
+pub use omission::{Gone, Omission, Omitted, Order, Report, Shortfall, StageReport};
+pub use spacing::{InbetweenSource, Spaced, Spacing};
+pub use stills::Stills;

@@ -1,0 +1,192 @@
+//! Naka-nashi (中無し): leaving out the inbetweens of the fastest movement (KKMFT §3.2, Algorithm 1).
+
+use crate::timing::omission::Shortfall;
+use crate::timing::strip::Strip;
+use crate::timing::tournament::{OUT, Tournament};
+
+/// How the stage is to run.
+pub(super) struct NakaNashi {
+    /// Drawings to leave out; koma on a sheet on ones without genga.
+    pub(super) count: usize,
+    /// Whether the koma that get free are given to other drawings.
+    pub(super) keep_length: bool,
+    /// Whether all are chosen by the distances at the beginning.
+    pub(super) all_at_once: bool,
+}
+
+/// What the stage did.
+#[derive(Default)]
+pub(super) struct Taken {
+    pub(super) done: usize,
+    /// Drawings that are gone, in the order they went.
+    pub(super) gone: Vec<usize>,
+    /// Koma given to other drawings.
+    pub(super) given: usize,
+    pub(super) shortfall: Option<Shortfall>,
+}
+
+impl NakaNashi {
+    /// Leaves drawings out, the fastest first, and gives their koma to the slowest of the interval.
+    pub(super) fn run(&self, strip: &mut Strip<'_>) -> Taken {
+        if self.count == 0 {
+            return Taken::default();
+        }
+        let mut stage = Stage::new(self, strip);
+        while stage.taken.done < self.count {
+            match stage.fastest.best() {
+                None => stage.taken.shortfall = Some(stage.nothing_left()),
+                Some((_, 0.0)) => stage.taken.shortfall = Some(Shortfall::NoMotion),
+                Some((drawing, _)) => {
+                    stage.take_if_it_fits(drawing);
+                    continue;
+                }
+            }
+            break;
+        }
+        for interval in 0..stage.owed.len() {
+            stage.settle(interval);
+        }
+        stage.taken
+    }
+}
+
+struct Stage<'a, 'b> {
+    rules: &'a NakaNashi,
+    strip: &'a mut Strip<'b>,
+    /// Inbetweens that may go by −SSD to the one before.
+    fastest: Tournament,
+    /// Drawings that may be lengthened by SSD to the one after.
+    slowest: Tournament,
+    /// Koma that the drawings of each interval can still take.
+    room: Vec<usize>,
+    /// Koma of each interval that got free and are not given away yet.
+    owed: Vec<usize>,
+    /// Inbetweens that were found not to fit: the room of an interval only shrinks.
+    barred: Vec<bool>,
+    taken: Taken,
+}
+
+impl<'a, 'b> Stage<'a, 'b> {
+    fn new(rules: &'a NakaNashi, strip: &'a mut Strip<'b>) -> Self {
+        let count = strip.cells.len();
+        let live = |drawing: &usize| strip.cells[*drawing].koma > 0;
+        let room = |range: &std::ops::Range<usize>| {
+            range.clone().filter(live).map(|drawing| strip.room(drawing)).sum()
+        };
+        let speed = |drawing: usize| match &strip.cells[drawing] {
+            cell if cell.kept || cell.koma == 0 => OUT,
+            cell => -cell.step,
+        };
+        let slowness = |drawing| if live(&drawing) { slowness(strip, drawing) } else { OUT };
+        Self {
+            rules,
+            fastest: Tournament::new((0..count).map(speed)),
+            slowest: Tournament::new((0..count).map(slowness)),
+            room: strip.intervals.iter().map(room).collect(),
+            owed: vec![0; strip.intervals.len()],
+            barred: vec![false; count],
+            taken: Taken::default(),
+            strip,
+        }
+    }
+
+    fn take_if_it_fits(&mut self, drawing: usize) {
+        if self.rules.keep_length && !self.fits(drawing) {
+            self.barred[drawing] = true;
+            self.fastest.set(drawing, OUT);
+            return;
+        }
+        let interval = self.strip.cells[drawing].interval;
+        let freed = if self.stays(drawing) { self.shorten(drawing) } else { self.omit(drawing) };
+        self.taken.done += 1;
+        if self.rules.keep_length {
+            self.owed[interval] += freed;
+        }
+        if !self.rules.all_at_once {
+            self.settle(interval);
+        }
+    }
+
+    /// Whether a drawing only loses a koma.
+    fn stays(&self, drawing: usize) -> bool {
+        self.strip.by_koma && self.strip.cells[drawing].koma > 1
+    }
+
+    /// Whether the koma that a drawing sets free find room in its interval.
+    fn fits(&self, drawing: usize) -> bool {
+        let cell = &self.strip.cells[drawing];
+        let others = self.room[cell.interval] - self.strip.room(drawing);
+        let (freed, own) = if self.stays(drawing) {
+            (1, self.strip.room_of(cell.given, cell.koma - 1))
+        } else {
+            (cell.koma, 0)
+        };
+        others + own >= self.owed[cell.interval] + freed
+    }
+
+    /// Takes one koma from a drawing, as Algorithm 1 does with the first of several equal frames.
+    fn shorten(&mut self, drawing: usize) -> usize {
+        let before = self.strip.room(drawing);
+        let cell = &mut self.strip.cells[drawing];
+        cell.koma -= 1;
+        cell.taken += 1;
+        let interval = cell.interval;
+        self.room[interval] = self.room[interval] - before + self.strip.room(drawing);
+        self.slowest.set(drawing, slowness(self.strip, drawing));
+        if self.rules.all_at_once {
+            self.fastest.set(drawing, OUT);
+        }
+        1
+    }
+
+    /// Takes a whole drawing out.
+    fn omit(&mut self, drawing: usize) -> usize {
+        let cell = &self.strip.cells[drawing];
+        let (before, after) = (cell.before, cell.after);
+        self.room[cell.interval] -= self.strip.room(drawing);
+        let freed = self.strip.remove(drawing);
+        self.strip.cells[after].omitted_before += 1;
+        self.taken.gone.push(drawing);
+        self.fastest.set(drawing, OUT);
+        self.slowest.set(drawing, OUT);
+        self.slowest.set(before, slowness(self.strip, before));
+        let next = &self.strip.cells[after];
+        if !(self.rules.all_at_once || next.kept || self.barred[after]) {
+            self.fastest.set(after, -next.step);
+        }
+        freed
+    }
+
+    /// Gives the koma owed to an interval to its slowest drawings, one by one.
+    fn settle(&mut self, interval: usize) {
+        while self.owed[interval] > 0 {
+            let slowest = self.slowest.best_in(self.strip.intervals[interval].clone());
+            let (drawing, _) = slowest.expect("what does not fit is not taken");
+            let cell = &mut self.strip.cells[drawing];
+            cell.koma += 1;
+            cell.given += 1;
+            self.room[interval] -= 1;
+            self.owed[interval] -= 1;
+            self.taken.given += 1;
+            self.slowest.set(drawing, slowness(self.strip, drawing));
+        }
+    }
+
+    fn nothing_left(&self) -> Shortfall {
+        if self.barred.contains(&true) { Shortfall::NoRoom } else { Shortfall::NoneLeft }
+    }
+}
+
+/// SSD to the drawing after, by which the next koma is given; out when it can take none.
+fn slowness(strip: &Strip<'_>, drawing: usize) -> f64 {
+    let cell = &strip.cells[drawing];
+    if strip.room(drawing) == 0 {
+        return OUT;
+    }
+    match strip.cells.get(cell.after) {
+        None => OUT,
+        // Koma by koma the frame after a held one is its own copy.
+        Some(_) if strip.by_koma && cell.koma > 1 => 0.0,
+        Some(next) => next.step,
+    }
+}

@@ -1,0 +1,234 @@
+//! Omission: naka-nashi (中無し) and koma-dori (コマ撮り) over one layer (KKMFT §3).
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::sheet::Layer;
+use crate::timing::naka_nashi::NakaNashi;
+use crate::timing::strip::Strip;
+use crate::timing::{Amount, Stills, koma_dori};
+
+#[cfg(test)]
+mod tests;
+
+/// A share for naka-nashi gives at most this many: beyond 4 to 6 an action no longer reads as one
+/// movement (KKMFT §4). A plain count is not capped.
+const MOST_BY_SHARE: usize = 6;
+
+/// Which drawings are left out, and how long the others may stay for it (KKMFT §3).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Omission {
+    /// Naka-nashi (中無し): inbetweens left out where the movement is fastest; a share is of the koma
+    /// and gives 6 at most. Default 4%. Raised, the movement jumps and no longer reads as one.
+    pub naka_nashi: Amount,
+    /// Koma-dori (コマ撮り): inbetweens replaced by the drawing before them where the movement is
+    /// smallest; a share is of the drawings there are when it begins. Default 1/3. Raised, small
+    /// movement is lost.
+    pub koma_dori: Amount,
+    /// Koma that an exposure may grow to, 1 or more; never below twice the sheet's spacing. Default
+    /// 4. Raised, the body stands still; lowered, less can be left out.
+    pub max_hold: usize,
+    /// Whether koma freed by naka-nashi are given to slow drawings, so that the length stays and
+    /// kept drawings stay on their koma. Default true; without it the layer gets shorter.
+    pub keep_length: bool,
+    /// Whether naka-nashi chooses all drawings by the distances at its beginning (KKMFT §3.4), for
+    /// comparison. Default false; with it the omissions scatter and the speed is hardly stressed.
+    pub all_at_once: bool,
+    /// Which of the two goes first. Default naka-nashi (KKMFT §3.4: it hardly matters).
+    pub order: Order,
+}
+
+/// Which of the two stages goes first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// Naka-nashi, then koma-dori, as in the paper.
+    #[default]
+    NakaNashiFirst,
+    /// Koma-dori, then naka-nashi.
+    KomaDoriFirst,
+}
+
+/// A layer with drawings left out, and what was done to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Omitted {
+    /// The drawings that are left, numbered anew.
+    pub layer: Layer,
+    /// What was done.
+    pub report: Report,
+}
+
+/// What the two stages did.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Report {
+    /// Naka-nashi: its `gone` were left out.
+    pub naka_nashi: StageReport,
+    /// Koma-dori: its `gone` were replaced by the drawing before them.
+    pub koma_dori: StageReport,
+    /// Koma that naka-nashi gave to other drawings.
+    pub lengthened: usize,
+}
+
+/// What one stage did.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StageReport {
+    /// How many were asked for.
+    pub asked: usize,
+    /// How many were done: drawings, or koma for naka-nashi on ones without genga, where a held
+    /// drawing may lose a koma and stay.
+    pub done: usize,
+    /// Drawings that are no longer on the sheet, in the order they went.
+    pub gone: Vec<Gone>,
+    /// Why fewer were done than asked for.
+    pub shortfall: Option<Shortfall>,
+}
+
+/// A drawing that is no longer on the sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gone {
+    /// Its index in the layer before the omission.
+    pub drawing: usize,
+    /// Its place in the source.
+    pub place: f64,
+    /// The koma it began on before the omission, from 0.
+    pub koma: usize,
+}
+
+impl Report {
+    /// A sentence for each stage that did less than it was asked for.
+    pub fn shortfalls(&self) -> impl Iterator<Item = String> {
+        let stages = [("naka-nashi", &self.naka_nashi), ("koma-dori", &self.koma_dori)];
+        stages.into_iter().filter_map(|(name, stage)| {
+            let why = stage.shortfall?;
+            Some(format!("{name} did {} of {}: {why}", stage.done, stage.asked))
+        })
+    }
+}
+
+/// Why a stage did less than it was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shortfall {
+    /// No inbetween is left that could go.
+    NoneLeft,
+    /// Nothing moves between the drawings that could go and the ones before them.
+    NoMotion,
+    /// The drawings round those that could go cannot be held any longer.
+    NoRoom,
+}
+
+impl fmt::Display for Shortfall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoneLeft => "no inbetween is left",
+            Self::NoMotion => "nothing moves in what is left",
+            Self::NoRoom => "the drawings around cannot be held any longer (max_hold)",
+        })
+    }
+}
+
+impl Default for Omission {
+    fn default() -> Self {
+        Self {
+            naka_nashi: Amount::Share(0.04),
+            koma_dori: Amount::Share(1.0 / 3.0),
+            max_hold: 4,
+            keep_length: true,
+            all_at_once: false,
+            order: Order::default(),
+        }
+    }
+}
+
+impl Omission {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a share outside 0 to 1 or a `max_hold` of 0.
+    pub fn validate(&self) -> Result<(), Error> {
+        for (name, amount) in [("naka_nashi", self.naka_nashi), ("koma_dori", self.koma_dori)] {
+            if !amount.is_amount() {
+                let message = "expected a count (4) or a share of 0 to 1 (4%, 1/3)";
+                return Err(Error::setting(format!("omission.{name}"), message));
+            }
+        }
+        if self.max_hold == 0 {
+            let message = "a drawing stays on screen for 1 koma at least; 4 is usual";
+            return Err(Error::setting("omission.max_hold", message));
+        }
+        Ok(())
+    }
+
+    /// Leaves drawings of a layer out: genga, pinned and end drawings stay, and with `keep_length`
+    /// they stay on their koma.
+    ///
+    /// `stills` are the positions of the layer's drawings, `on` is the sheet's spacing in koma (1 on
+    /// ones). No exposure grows beyond max(`max_hold`, 2 · `on`). On ones without genga naka-nashi is
+    /// Algorithm 1 koma for koma, but that the first and the last drawing stay.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when a setting cannot be; [`Error::Clip`] unless the layer shows each of its
+    /// drawings once, in order, and there is a still for each.
+    pub fn apply(&self, layer: &Layer, stills: &Stills, on: usize) -> Result<Omitted, Error> {
+        self.validate()?;
+        let bound = self.max_hold.max(on.saturating_mul(2));
+        let mut strip = Strip::new(layer, stills, bound, on)?;
+        let mut report = Report::default();
+        match self.order {
+            Order::NakaNashiFirst => {
+                self.leave_out(layer, &mut strip, &mut report);
+                self.hold(layer, &mut strip, &mut report);
+            }
+            Order::KomaDoriFirst => {
+                self.hold(layer, &mut strip, &mut report);
+                self.leave_out(layer, &mut strip, &mut report);
+            }
+        }
+        Ok(Omitted { layer: strip.into_layer(layer), report })
+    }
+
+    fn leave_out(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut Report) {
+        let count = match self.naka_nashi {
+            Amount::Count(count) => count,
+            share => share.of(layer.length()).min(MOST_BY_SHARE),
+        };
+        let stage =
+            NakaNashi { count, keep_length: self.keep_length, all_at_once: self.all_at_once };
+        let taken = stage.run(strip);
+        report.lengthened = taken.given;
+        report.naka_nashi = StageReport {
+            asked: count,
+            done: taken.done,
+            gone: named(layer, &taken.gone),
+            shortfall: taken.shortfall,
+        };
+    }
+
+    fn hold(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut Report) {
+        let count = self.koma_dori.of(strip.drawings);
+        let replaced = koma_dori::run(count, strip);
+        report.koma_dori = StageReport {
+            asked: count,
+            done: replaced.gone.len(),
+            gone: named(layer, &replaced.gone),
+            shortfall: replaced.shortfall,
+        };
+    }
+}
+
+/// Drawings by their index, with their places and koma in the layer they stood in.
+fn named(layer: &Layer, drawings: &[usize]) -> Vec<Gone> {
+    if drawings.is_empty() {
+        return Vec::new();
+    }
+    let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
+    let gone = |&drawing: &usize| Gone {
+        drawing,
+        place: layer.drawings[drawing].source.place(),
+        koma: begins[drawing],
+    };
+    drawings.iter().map(gone).collect()
+}

@@ -1,0 +1,458 @@
+//! Spacing (詰め): inbetweens between keys, even in time, crowded towards the keys in what they show
+//! [KT11 §3.4].
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::keys::{Key, LayerKeys, Origin, Wall};
+use crate::motion::Skeleton;
+use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
+use crate::time::Clock;
+
+/// What an inbetween shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InbetweenSource {
+    /// The source at the inbetween's place: the performer's own arc.
+    #[default]
+    Sample,
+    /// A slerp of the two key poses alone, as an inbetweener would draw it.
+    Blend,
+}
+
+/// Puts inbetweens (中割り) between keys.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Spacing {
+    /// A drawing every so many koma, 1 or more. Default 2, on twos (2コマ打ち). Raised, fast arcs turn
+    /// into straight jumps.
+    pub on: usize,
+    /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
+    /// them takes as many as fit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inbetweens: Option<usize>,
+    /// How far inbetweens are drawn towards their key, 0 ≤ w < 1, default 0.3; 0 is even spacing
+    /// (均等割り). A key may have a weight of its own. Raised, the middle of a movement becomes a jump.
+    pub weight: f64,
+    /// How far a place may move from its own koma, in koma; 0 or more, default 2. Raised, the jump over
+    /// the middle grows with the distance of the keys.
+    pub max_shift: f64,
+    /// What an inbetween shows. Default: `sample`.
+    pub source: InbetweenSource,
+}
+
+impl Default for Spacing {
+    fn default() -> Self {
+        Self {
+            on: 2,
+            inbetweens: None,
+            weight: 0.3,
+            max_shift: 2.0,
+            source: InbetweenSource::Sample,
+        }
+    }
+}
+
+/// A layer on the sheet, before anything is left out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spaced {
+    /// Drawings and exposures, one exposure a drawing.
+    pub layer: Layer,
+    /// Inbetweens asked for that did not fit between their keys.
+    pub did_not_fit: usize,
+}
+
+/// A drawing that stands at a koma of its own: a key or an end.
+struct Station<'a> {
+    koma: usize,
+    place: f64,
+    role: Role,
+    /// The key it shows, or for an end the key it took over.
+    key: Option<&'a Key>,
+}
+
+impl Spacing {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first knob that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        if self.on == 0 {
+            return Err(Error::setting("spacing.on", "must be 1 koma (ones) or more"));
+        }
+        if !(0.0..1.0).contains(&self.weight) {
+            return Err(Error::setting("spacing.weight", "must be at least 0 (even) and below 1"));
+        }
+        if !(self.max_shift >= 0.0 && self.max_shift.is_finite()) {
+            return Err(Error::setting("spacing.max_shift", "must be 0 koma or more"));
+        }
+        Ok(())
+    }
+
+    /// Places the keys of a layer and the inbetweens between them on a sheet of `koma` koma.
+    ///
+    /// The first and the last koma always show an `end`; a key that falls on one gives way to it and
+    /// hands over its voters. Of two keys on one koma the dearer stays.
+    pub fn place(
+        &self,
+        layer: &LayerKeys,
+        skeleton: &Skeleton,
+        clock: Clock,
+        koma: usize,
+    ) -> Spaced {
+        let stations = stations(&layer.keys, clock, koma);
+        let mut drawings = Vec::with_capacity(koma);
+        let mut begins = Vec::with_capacity(koma);
+        let mut did_not_fit = 0;
+        for (at, station) in stations.iter().enumerate() {
+            drawings.push(station.drawing(skeleton));
+            begins.push(station.koma);
+            let Some(next) = stations.get(at + 1) else { continue };
+            let interval = Interval::new(self, station, next, &layer.walls, clock);
+            let koma = self.koma_between(station.koma, next.koma);
+            let asked = self.inbetweens.unwrap_or(koma.len());
+            did_not_fit += asked - koma.len();
+            for koma in koma {
+                drawings.push(interval.inbetween(koma));
+                begins.push(koma);
+            }
+        }
+        let ends = begins.iter().skip(1).copied().chain(std::iter::once(koma));
+        let exposures = begins
+            .iter()
+            .zip(ends)
+            .enumerate()
+            .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
+            .collect();
+        Spaced { layer: Layer { name: "A".into(), drawings, exposures }, did_not_fit }
+    }
+
+    /// The koma on which inbetweens stand between two koma.
+    fn koma_between(&self, from: usize, to: usize) -> Vec<usize> {
+        let distance = to - from;
+        match self.inbetweens {
+            None => (from + self.on..to).step_by(self.on).collect(),
+            Some(asked) => {
+                let count = asked.min(distance - 1);
+                let koma = |at: usize| (at * distance) as f64 / (count + 1) as f64;
+                (1..=count).map(|at| from + koma(at).round() as usize).collect()
+            }
+        }
+    }
+}
+
+/// Keys and ends by koma, no two on one.
+fn stations(keys: &[Key], clock: Clock, koma: usize) -> Vec<Station<'_>> {
+    let end = |koma: usize| Station {
+        koma,
+        place: clock.place_from_koma(koma),
+        role: Role::End,
+        key: None,
+    };
+    let Some(last) = koma.checked_sub(1) else { return Vec::new() };
+    let mut stations = vec![end(0)];
+    for key in keys {
+        let place = key.frame.0 as f64;
+        let koma = clock.koma_from_place(place).min(last);
+        let station = Station { koma, place, role: Role::Genga, key: Some(key) };
+        match stations.last_mut().filter(|before| before.koma == koma) {
+            None => stations.push(station),
+            Some(before) if before.role == Role::End => before.take_over(key),
+            Some(before) if before.key.is_some_and(|other| key.price > other.price) => {
+                *before = station
+            }
+            Some(_) => {}
+        }
+    }
+    match stations.last_mut().filter(|station| station.koma == last) {
+        Some(station) if station.role == Role::End => {}
+        Some(station) => {
+            let key = station.key;
+            *station = Station { key, ..end(last) };
+        }
+        None => stations.push(end(last)),
+    }
+    stations
+}
+
+impl Station<'_> {
+    fn drawing(&self, skeleton: &Skeleton) -> Drawing {
+        let mut why = Why::default();
+        if let Some(key) = self.key {
+            let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
+            why.voters = key.voters.iter().map(name).collect();
+            why.strength = Some(key.strength);
+            if key.origin == Origin::Pinned {
+                why.pinned = Some(key.name.clone().unwrap_or_default());
+            } else if key.price.is_finite() {
+                why.price = Some(key.price);
+            }
+        }
+        Drawing { source: Source::At(self.place), role: self.role, why }
+    }
+}
+
+impl<'a> Station<'a> {
+    fn take_over(&mut self, key: &'a Key) {
+        if self.key.is_none_or(|other| key.price > other.price) {
+            self.key = Some(key);
+        }
+    }
+}
+
+/// The time between two neighbouring stations and the rule of its spacing.
+struct Interval {
+    koma: [usize; 2],
+    places: [f64; 2],
+    weights: [f64; 2],
+    /// The strongest wall strictly between the two, if there is one.
+    wall: Option<f64>,
+    /// In frames.
+    max_shift: f64,
+    source: InbetweenSource,
+}
+
+impl Interval {
+    fn new(
+        spacing: &Spacing,
+        from: &Station<'_>,
+        to: &Station<'_>,
+        walls: &[Wall],
+        clock: Clock,
+    ) -> Self {
+        let between = |wall: &&Wall| {
+            let frame = wall.frame.0 as f64;
+            frame > from.place && frame < to.place
+        };
+        // `reduce` with a strict comparison keeps the earlier of two equals.
+        let wall =
+            walls.iter().filter(between).reduce(|a, b| if b.strength > a.strength { b } else { a });
+        let weight = |station: &Station<'_>| {
+            station.key.and_then(|key| key.weight).unwrap_or(spacing.weight)
+        };
+        Self {
+            koma: [from.koma, to.koma],
+            places: [from.place, to.place],
+            weights: [weight(from), weight(to)],
+            wall: wall.map(|wall| wall.frame.0 as f64),
+            max_shift: spacing.max_shift * clock.frames_in_koma(),
+            source: spacing.source,
+        }
+    }
+
+    fn inbetween(&self, koma: usize) -> Drawing {
+        let [from, to] = self.places;
+        let place = self.place(koma);
+        let source = match self.source {
+            InbetweenSource::Sample => Source::At(place),
+            InbetweenSource::Blend => {
+                Source::Between { from, to, share: (place - from) / (to - from) }
+            }
+        };
+        Drawing { source, role: Role::Inbetween, why: Why::default() }
+    }
+
+    /// Where in the source an inbetween on that koma is taken from: drawn towards the key on its side.
+    /// The side is that of the nearer key, or before and after the wall where there is one.
+    fn place(&self, koma: usize) -> f64 {
+        let [from, to] = self.places;
+        let share = (koma - self.koma[0]) as f64 / (self.koma[1] - self.koma[0]) as f64;
+        let even = from + share * (to - from);
+        let side = match self.wall {
+            Some(wall) if (even - wall).abs() < 1e-9 => 0.0,
+            Some(wall) => even - wall,
+            None => share - 0.5,
+        };
+        let shifted = if side < 0.0 {
+            share * (1.0 - self.weights[0])
+        } else if side > 0.0 {
+            1.0 - (1.0 - share) * (1.0 - self.weights[1])
+        } else {
+            share
+        };
+        // Bounded about the even place, and not about the koma's own instant: a key may stand half a
+        // koma off its instant, and the bound must not push an inbetween past it.
+        (from + shifted * (to - from)).clamp(even - self.max_shift, even + self.max_shift)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::time::{Frame, FrameRate};
+
+    fn clock(fps: f64) -> Clock {
+        Clock { first: Frame(0), frame_rate: FrameRate::new(fps).unwrap(), koma_rate: 24.0 }
+    }
+
+    fn key(frame: usize, price: f64) -> Key {
+        Key {
+            frame: Frame(frame),
+            strength: 0.5,
+            price,
+            voters: Vec::new(),
+            weight: None,
+            name: None,
+            origin: Origin::Found,
+        }
+    }
+
+    fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
+        LayerKeys {
+            keys: keys.iter().map(|frame| key(*frame, 10.0)).collect(),
+            walls: walls.iter().map(|frame| Wall { frame: Frame(*frame), strength: 1.0 }).collect(),
+        }
+    }
+
+    fn place(spacing: &Spacing, layer: &LayerKeys, fps: f64, koma: usize) -> Layer {
+        spacing.place(layer, &Skeleton::default(), clock(fps), koma).layer
+    }
+
+    fn places(layer: &Layer) -> Vec<f64> {
+        layer.drawings.iter().map(|drawing| drawing.source.place()).collect()
+    }
+
+    fn begins(layer: &Layer) -> Vec<usize> {
+        layer.timed().map(|(begin, _)| begin).collect()
+    }
+
+    #[test]
+    fn every_knob_out_of_range_is_named() {
+        let wrong = |spacing: Spacing| spacing.validate().unwrap_err().to_string();
+        assert!(wrong(Spacing { on: 0, ..Spacing::default() }).starts_with("spacing.on"));
+        for weight in [-0.1, 1.0, f64::NAN] {
+            assert!(wrong(Spacing { weight, ..Spacing::default() }).starts_with("spacing.weight"));
+        }
+        for max_shift in [-1.0, f64::INFINITY] {
+            assert!(
+                wrong(Spacing { max_shift, ..Spacing::default() }).starts_with("spacing.max_shift")
+            );
+        }
+        assert!(Spacing::default().validate().is_ok());
+    }
+
+    #[test]
+    fn even_spacing_on_threes_has_a_short_last_exposure() {
+        let spacing = Spacing { on: 3, weight: 0.0, ..Spacing::default() };
+        let layer = place(&spacing, &layer(&[8], &[]), 24.0, 12);
+        assert_eq!(begins(&layer), [0, 3, 6, 8, 11]);
+        assert_eq!(places(&layer), [0.0, 3.0, 6.0, 8.0, 11.0]);
+        assert_eq!(layer.length(), 12);
+    }
+
+    #[test]
+    fn inbetweens_crowd_towards_the_nearer_key_and_the_middle_stays() {
+        // Fig. 9: a ball rolls from A to B with three inbetweens.
+        let spacing =
+            Spacing { inbetweens: Some(3), weight: 0.5, max_shift: 9.0, ..Spacing::default() };
+        let layer = place(&spacing, &layer(&[], &[]), 24.0, 9);
+        assert_eq!(places(&layer), [0.0, 1.0, 4.0, 7.0, 8.0]);
+    }
+
+    #[test]
+    fn a_wall_decides_the_side() {
+        // Fig. 10: the speed peak lies late, so the middle and what follows it still belong to A.
+        let spacing =
+            Spacing { inbetweens: Some(3), weight: 0.5, max_shift: 9.0, ..Spacing::default() };
+        let with_wall = place(&spacing, &layer(&[], &[5]), 24.0, 9);
+        assert_eq!(places(&with_wall), [0.0, 1.0, 2.0, 7.0, 8.0]);
+        let on_wall = place(&spacing, &layer(&[], &[6]), 24.0, 9);
+        assert_eq!(places(&on_wall), [0.0, 1.0, 2.0, 6.0, 8.0], "on the wall nothing moves");
+        let mut strongest = layer(&[], &[1, 5]);
+        strongest.walls[1].strength = 2.0;
+        assert_eq!(place(&spacing, &strongest, 24.0, 9), with_wall);
+    }
+
+    #[test]
+    fn a_key_has_a_weight_of_its_own() {
+        let spacing =
+            Spacing { inbetweens: Some(3), weight: 0.0, max_shift: 9.0, ..Spacing::default() };
+        let mut keys = layer(&[8], &[]);
+        keys.keys[0].weight = Some(0.5);
+        assert_eq!(places(&place(&spacing, &keys, 24.0, 17))[..5], [0.0, 2.0, 4.0, 7.0, 8.0]);
+    }
+
+    #[test]
+    fn a_place_moves_no_further_than_allowed() {
+        let spacing = Spacing { on: 1, weight: 0.9, max_shift: 2.0, ..Spacing::default() };
+        let layer = place(&spacing, &layer(&[], &[]), 120.0, 41);
+        for (koma, place) in places(&layer).iter().enumerate() {
+            assert!((place - 5.0 * koma as f64).abs() <= 10.0 + 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_reported() {
+        let spacing = Spacing { inbetweens: Some(4), ..Spacing::default() };
+        let spaced = spacing.place(&layer(&[3], &[]), &Skeleton::default(), clock(24.0), 9);
+        assert_eq!(spaced.did_not_fit, 2);
+        assert_eq!(begins(&spaced.layer), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+    }
+
+    #[test]
+    fn a_blend_shows_the_keys_at_the_share_of_its_place() {
+        let spacing = Spacing {
+            source: InbetweenSource::Blend,
+            inbetweens: Some(1),
+            weight: 0.0,
+            ..Spacing::default()
+        };
+        let layer = place(&spacing, &layer(&[], &[]), 24.0, 5);
+        assert_eq!(layer.drawings[1].source, Source::Between { from: 0.0, to: 4.0, share: 0.5 });
+    }
+
+    #[test]
+    fn a_key_on_an_end_gives_way_and_the_dearer_of_two_on_one_koma_stays() {
+        let mut keys = layer(&[1, 50, 52, 119], &[]);
+        keys.keys[0].voters = vec![];
+        keys.keys[2].price = 20.0;
+        let layer = place(&Spacing::default(), &keys, 120.0, 25);
+        let kept: Vec<_> = layer.drawings.iter().filter(|drawing| drawing.role.is_kept()).collect();
+        let roles: Vec<_> = kept.iter().map(|drawing| drawing.role).collect();
+        assert_eq!(roles, [Role::End, Role::Genga, Role::End]);
+        assert_eq!(kept[1].source, Source::At(52.0));
+        assert_eq!((kept[0].source, kept[2].source), (Source::At(0.0), Source::At(120.0)));
+        assert_eq!(kept[0].why.price, Some(10.0), "the end took over the key");
+    }
+
+    #[test]
+    fn short_sheets_are_ends_alone() {
+        for koma in 0..3 {
+            let layer = place(&Spacing::default(), &layer(&[], &[]), 24.0, koma);
+            assert_eq!((layer.drawings.len(), layer.length()), (koma, koma));
+            assert!(layer.drawings.iter().all(|drawing| drawing.role == Role::End));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn places_never_cross_and_genga_keep_their_frames(
+            keys in prop::collection::btree_set(1usize..299, 0..20),
+            walls in prop::collection::btree_set(1usize..299, 0..20),
+            fps in prop::sample::select(vec![24.0, 30.0, 100.0, 120.0]),
+            on in 1usize..5,
+            weight in 0.0f64..0.99,
+            max_shift in 0.0f64..4.0,
+        ) {
+            let spacing = Spacing { on, weight, max_shift, ..Spacing::default() };
+            let keys: Vec<_> = keys.into_iter().collect();
+            let walls: Vec<_> = walls.into_iter().collect();
+            let koma = FrameRate::new(fps).unwrap().koma_from_frames(300, 24.0);
+            let layer = place(&spacing, &layer(&keys, &walls), fps, koma);
+            prop_assert_eq!(layer.length(), koma);
+            let places = places(&layer);
+            prop_assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", places);
+            for (begin, exposure) in layer.timed() {
+                let drawing = &layer.drawings[exposure.drawing];
+                prop_assert!(exposure.koma >= 1 && exposure.koma <= on);
+                if drawing.role == Role::Genga {
+                    let place = drawing.source.place();
+                    prop_assert!(keys.contains(&(place as usize)) && place.fract() == 0.0);
+                    prop_assert_eq!(clock(fps).koma_from_place(place), begin);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! Where every joint stands in each drawing, computed once, and how far apart two drawings are.
+
+use glam::DVec3;
+
+use crate::motion::{Body, Clip, Pose};
+use crate::sheet::{Layer, Source};
+
+/// Sums kept side by side, so that a distance is computed several coordinates at a time.
+const LANES: usize = 8;
+
+/// The world positions of a layer's drawings (静止画), in the file's unit: what the omission stages
+/// measure movement by, over the whole body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stills {
+    joints: usize,
+    drawings: usize,
+    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole lanes.
+    coordinates: Vec<[f64; LANES]>,
+}
+
+impl Stills {
+    /// Stills of drawings of `joints` joints each, yet without a drawing.
+    pub fn new(joints: usize) -> Self {
+        Self { joints, drawings: 0, coordinates: Vec::new() }
+    }
+
+    /// The positions of each drawing of a layer, in its order, sampled at its place in the clip; a
+    /// blend of two keys is placed as a blend.
+    ///
+    /// # Panics
+    /// When there is a drawing but the clip has no frame.
+    pub fn of(clip: &Clip, layer: &Layer) -> Self {
+        let mut stills = Self::new(clip.skeleton().len());
+        stills.coordinates.reserve_exact(stills.width() * layer.drawings.len());
+        let mut sampler = Sampler::new(clip);
+        for drawing in &layer.drawings {
+            stills.push(sampler.positions(drawing.source));
+        }
+        stills
+    }
+
+    /// Adds a drawing.
+    ///
+    /// # Panics
+    /// Unless there is one position a joint.
+    pub fn push(&mut self, positions: &[DVec3]) {
+        assert_eq!(positions.len(), self.joints, "a drawing has one position a joint");
+        let begin = self.coordinates.len();
+        self.coordinates.resize(begin + self.width(), [0.0; LANES]);
+        let row = self.coordinates[begin..].as_flattened_mut();
+        for (xyz, position) in row.chunks_exact_mut(3).zip(positions) {
+            xyz.copy_from_slice(&position.to_array());
+        }
+        self.drawings += 1;
+    }
+
+    /// Number of drawings.
+    pub fn len(&self) -> usize {
+        self.drawings
+    }
+
+    /// Whether there is no drawing.
+    pub fn is_empty(&self) -> bool {
+        self.drawings == 0
+    }
+
+    /// How far two drawings are apart (KKMFT §3.1): the sum over the joints of the squared distance
+    /// between their world positions, in the file's unit squared. The order of summation is fixed.
+    ///
+    /// # Panics
+    /// When there is no such drawing.
+    pub fn ssd(&self, a: usize, b: usize) -> f64 {
+        let mut sums = [0.0; LANES];
+        for (a, b) in self.row(a).iter().zip(self.row(b)) {
+            for lane in 0..LANES {
+                let apart = a[lane] - b[lane];
+                sums[lane] += apart * apart;
+            }
+        }
+        sums.iter().sum()
+    }
+
+    /// Where a joint stands in a drawing, in the file's unit.
+    ///
+    /// # Panics
+    /// When there is no such drawing or joint.
+    pub fn position(&self, drawing: usize, joint: usize) -> DVec3 {
+        assert!(joint < self.joints, "there is such a joint");
+        DVec3::from_slice(&self.row(drawing).as_flattened()[3 * joint..])
+    }
+
+    fn width(&self) -> usize {
+        (3 * self.joints).div_ceil(LANES)
+    }
+
+    fn row(&self, drawing: usize) -> &[[f64; LANES]] {
+        let width = self.width();
+        &self.coordinates[drawing * width..(drawing + 1) * width]
+    }
+}
+
+/// Buffers that turn sources into world positions, one after the other.
+struct Sampler<'a> {
+    clip: &'a Clip,
+    pose: Pose,
+    keys: [(f64, Pose); 2],
+    body: Body,
+    positions: Vec<DVec3>,
+}
+
+impl<'a> Sampler<'a> {
+    fn new(clip: &'a Clip) -> Self {
+        let skeleton = clip.skeleton();
+        let rest = Pose::rest(skeleton);
+        Self {
+            clip,
+            // No place is NaN: the first blend fills both.
+            keys: [(f64::NAN, rest.clone()), (f64::NAN, rest.clone())],
+            pose: rest,
+            body: Body::new(skeleton),
+            positions: vec![DVec3::ZERO; skeleton.len()],
+        }
+    }
+
+    fn positions(&mut self, source: Source) -> &[DVec3] {
+        match source {
+            Source::At(place) => self.pose.take_place(self.clip, place),
+            Source::Between { from, to, share } => self.take_blend(from, to, share),
+        }
+        self.body.place(&self.pose, &mut self.positions);
+        &self.positions
+    }
+
+    /// All blends of an interval have the same two keys, so their poses are kept.
+    fn take_blend(&mut self, from: f64, to: f64, share: f64) {
+        for ((held, pose), key) in self.keys.iter_mut().zip([from, to]) {
+            if *held != key {
+                pose.take_place(self.clip, key);
+                *held = key;
+            }
+        }
+        let [(_, from), (_, to)] = &self.keys;
+        self.pose.take_blend(from, to, share);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Axis, Channel, Joint, JointId, Skeleton};
+    use crate::sheet::{Drawing, Role, Why};
+    use crate::time::{Frame, FrameRate};
+
+    /// A root that walks along x and an arm of length 1 that turns about z.
+    fn arm(rows: &[[f64; 2]]) -> Clip {
+        let joint = |parent, offset, channel, first_channel| Joint {
+            name: "joint".into(),
+            parent,
+            offset,
+            channels: vec![channel],
+            first_channel,
+            end_sites: vec![],
+        };
+        let tip = Joint {
+            channels: vec![],
+            ..joint(Some(JointId(1)), DVec3::Y, Channel::Position(Axis::X), 2)
+        };
+        let joints = vec![
+            joint(None, DVec3::ZERO, Channel::Position(Axis::X), 0),
+            joint(Some(JointId(0)), DVec3::ZERO, Channel::Rotation(Axis::Z), 1),
+            tip,
+        ];
+        let rate = FrameRate::new(24.0).unwrap();
+        let values = rows.as_flattened().to_vec();
+        Clip::new(Skeleton { joints }, rate, Frame(5), rows.len(), values).unwrap()
+    }
+
+    fn layer(sources: &[Source]) -> Layer {
+        let drawing = |&source| Drawing { source, role: Role::Inbetween, why: Why::default() };
+        Layer {
+            name: "A".into(),
+            drawings: sources.iter().map(drawing).collect(),
+            exposures: vec![],
+        }
+    }
+
+    #[test]
+    fn a_still_stands_where_its_source_does() {
+        let clip = arm(&[[0.0, 0.0], [1.0, 90.0], [2.0, 90.0]]);
+        let key = |from, to, share| Source::Between { from, to, share };
+        let sources = [
+            Source::At(5.0),
+            Source::At(6.0),
+            Source::At(5.5),
+            key(5.0, 7.0, 0.5),
+            key(5.0, 6.0, 0.5),
+        ];
+        let stills = Stills::of(&clip, &layer(&sources));
+        assert_eq!(stills.len(), 5);
+        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
+        // Root and elbow move by 1; the tip goes from (0, 1) to (0, 0).
+        near(stills.ssd(0, 1), 3.0);
+        // Half way: root and elbow by 0.5, the tip from (0, 1) to (0.5 − sin 45°, cos 45°).
+        let half = 0.5_f64.sqrt();
+        near(stills.ssd(0, 2), 0.5 + (0.5 - half).powi(2) + (1.0 - half).powi(2));
+        near(stills.ssd(0, 3), 2.0 + (1.0 - half).powi(2) + (1.0 - half).powi(2));
+        near(stills.ssd(2, 4), 0.0);
+    }
+
+    #[test]
+    fn the_distance_is_the_plain_sum_for_every_number_of_joints() {
+        for joints in 0..40 {
+            let position = |seed: usize| {
+                let at = |k: usize| ((seed * 31 + k * 17) % 23) as f64 - 11.0;
+                DVec3::new(at(0), at(1), at(2))
+            };
+            let a: Vec<_> = (0..joints).map(position).collect();
+            let b: Vec<_> = (joints..2 * joints).map(position).collect();
+            let mut stills = Stills::new(joints);
+            stills.push(&a);
+            stills.push(&b);
+            let plain: f64 = a.iter().zip(&b).map(|(a, b)| a.distance_squared(*b)).sum();
+            assert_eq!(stills.ssd(0, 1), plain, "{joints} joints, whole numbers are exact");
+            assert_eq!(stills.ssd(1, 0), plain);
+            assert_eq!(stills.ssd(1, 1), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_layer_without_drawings_has_no_stills() {
+        let stills = Stills::of(&arm(&[]), &layer(&[]));
+        assert!(stills.is_empty());
+    }
+}

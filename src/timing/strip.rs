@@ -1,0 +1,160 @@
+//! The one state that both omission stages work on: the layer as a linked list of drawings.
+
+use std::ops::Range;
+
+use crate::error::Error;
+use crate::sheet::{Drawing, Exposure, Layer};
+use crate::timing::Stills;
+
+/// How often naka-nashi may lengthen a drawing (KKMFT §3.2, Algorithm 1).
+pub(super) const MOST_LENGTHENINGS: usize = 3;
+
+/// A drawing while drawings are left out round it. Indices are those of the layer that came in.
+#[derive(Debug, Clone)]
+pub(super) struct Cell {
+    /// The drawing before it; itself for the first.
+    pub(super) before: usize,
+    /// The drawing after it; the number of drawings for the last.
+    pub(super) after: usize,
+    /// Koma on screen; 0 when it is gone.
+    pub(super) koma: usize,
+    /// SSD to the drawing before it; 0 for the first.
+    pub(super) step: f64,
+    /// Whether it stays, and stays where it is.
+    pub(super) kept: bool,
+    /// The interval it lies in or opens, an index into [`Strip::intervals`].
+    pub(super) interval: usize,
+    /// Times naka-nashi lengthened it.
+    pub(super) given: usize,
+    /// Koma naka-nashi took from it while it stayed.
+    pub(super) taken: usize,
+    /// Drawings after it that koma-dori replaced by it.
+    pub(super) held_for: usize,
+    /// Drawings just before it that naka-nashi left out.
+    pub(super) omitted_before: usize,
+}
+
+/// A layer as a linked list of drawings, with the distance between neighbours.
+pub(super) struct Strip<'a> {
+    pub(super) stills: &'a Stills,
+    pub(super) cells: Vec<Cell>,
+    /// A kept drawing and the inbetweens up to the next kept one, as index ranges.
+    pub(super) intervals: Vec<Range<usize>>,
+    /// Koma an exposure may grow to.
+    pub(super) bound: usize,
+    /// Whether naka-nashi takes single koma, as Algorithm 1 does: a sheet on ones without genga.
+    pub(super) by_koma: bool,
+    /// Drawings that are not gone.
+    pub(super) drawings: usize,
+}
+
+impl<'a> Strip<'a> {
+    /// Links the drawings of a layer and measures each pair of neighbours once.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] unless the exposures show each drawing once, in order, and there is a still
+    /// for each.
+    pub(super) fn new(
+        layer: &Layer,
+        stills: &'a Stills,
+        bound: usize,
+        on: usize,
+    ) -> Result<Self, Error> {
+        check(layer, stills)?;
+        let count = layer.drawings.len();
+        let mut cells: Vec<Cell> = Vec::with_capacity(count);
+        let mut intervals: Vec<Range<usize>> = Vec::new();
+        for (index, (drawing, exposure)) in layer.drawings.iter().zip(&layer.exposures).enumerate()
+        {
+            // The first and the last drawing stay whatever they are called.
+            let kept = drawing.role.is_kept() || index == 0 || index + 1 == count;
+            if kept {
+                intervals.push(index..index);
+            }
+            let interval = intervals.len() - 1;
+            intervals[interval].end = index + 1;
+            let before = index.saturating_sub(1);
+            cells.push(Cell {
+                before,
+                after: index + 1,
+                koma: exposure.koma,
+                step: if index == 0 { 0.0 } else { stills.ssd(before, index) },
+                kept,
+                interval,
+                given: 0,
+                taken: 0,
+                held_for: 0,
+                omitted_before: 0,
+            });
+        }
+        let by_koma = on == 1 && intervals.len() <= 2;
+        Ok(Self { stills, cells, intervals, bound, by_koma, drawings: count })
+    }
+
+    /// Koma that naka-nashi may still give to a drawing.
+    pub(super) fn room(&self, drawing: usize) -> usize {
+        let Cell { given, koma, .. } = self.cells[drawing];
+        self.room_of(given, koma)
+    }
+
+    /// The same for a drawing lengthened `given` times that stays for `koma`.
+    pub(super) fn room_of(&self, given: usize, koma: usize) -> usize {
+        MOST_LENGTHENINGS.saturating_sub(given).min(self.bound.saturating_sub(koma))
+    }
+
+    /// Takes an inbetween out of the list and gives its koma; its neighbours are measured anew.
+    pub(super) fn remove(&mut self, drawing: usize) -> usize {
+        let Cell { before, after, omitted_before, .. } = self.cells[drawing];
+        self.cells[before].after = after;
+        let step = self.stills.ssd(before, after);
+        let next = &mut self.cells[after];
+        next.before = before;
+        next.step = step;
+        next.omitted_before += omitted_before;
+        self.drawings -= 1;
+        std::mem::take(&mut self.cells[drawing].koma)
+    }
+
+    /// The layer that is left, its drawings numbered anew.
+    pub(super) fn into_layer(self, layer: &Layer) -> Layer {
+        let mut left = Layer {
+            name: layer.name.clone(),
+            drawings: Vec::with_capacity(self.drawings),
+            exposures: Vec::with_capacity(self.drawings),
+        };
+        for (cell, drawing) in self.cells.iter().zip(&layer.drawings) {
+            if cell.koma > 0 {
+                let drawing_index = left.drawings.len();
+                left.exposures.push(Exposure { drawing: drawing_index, koma: cell.koma });
+                left.drawings.push(with_reasons(drawing, cell));
+            }
+        }
+        left
+    }
+}
+
+fn with_reasons(drawing: &Drawing, cell: &Cell) -> Drawing {
+    let mut drawing = drawing.clone();
+    drawing.why.lengthened += cell.given.saturating_sub(cell.taken);
+    drawing.why.omitted_before += cell.omitted_before;
+    drawing.why.held_for += cell.held_for;
+    drawing
+}
+
+fn check(layer: &Layer, stills: &Stills) -> Result<(), Error> {
+    let (name, drawings) = (&layer.name, layer.drawings.len());
+    if stills.len() != drawings {
+        let found = stills.len();
+        return Err(Error::clip(format!(
+            "layer {name} has {drawings} drawings, but positions of {found} were given"
+        )));
+    }
+    let in_order =
+        |(index, exposure): (usize, &Exposure)| exposure.drawing == index && exposure.koma > 0;
+    if layer.exposures.len() != drawings || !layer.exposures.iter().enumerate().all(in_order) {
+        return Err(Error::clip(format!(
+            "layer {name} must show each drawing once and in order before any is left out"
+        )));
+    }
+    Ok(())
+}
