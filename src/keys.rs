@@ -1,7 +1,8 @@
 //! **Choose** (選ぶ): from the turns of joints to the keys (原画) and walls (壁) of a layer.
 //!
-//! Three ways to merge joints ([`vote`], [`sum`], any joint) give candidates; [`price`] says what
-//! each of them saves; [`Choose`] keeps those that are worth a drawing.
+//! Joints are merged in one of three ways (they vote, their speeds are added, or any joint's turn is a
+//! key), which gives candidates; a price says what each of them saves; [`Choose`] keeps those that are
+//! worth a drawing.
 
 mod choose;
 mod peaks;

@@ -182,7 +182,7 @@ impl Engine {
         let changed = self.stills.renew(changed, &(), || Stills::of(clip, layer));
         let stills = self.stills.output();
         let on = recipe.spacing.on;
-        let settings = (recipe.omission.clone(), on);
+        let settings = (recipe.omission, on);
         let changed = self
             .omitted
             .refresh(changed, &settings, || recipe.omission.apply(layer, stills, on))?;

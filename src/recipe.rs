@@ -175,7 +175,7 @@ impl File {
             turns: self.turns.clone(),
             keys: self.keys.clone(),
             spacing: self.spacing.clone(),
-            omission: self.omission.clone(),
+            omission: self.omission,
         }
     }
 }
