@@ -16,7 +16,10 @@ use crate::timing::Stills;
 pub(super) fn speed(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
     let names: Vec<&str> =
         breakdown.clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
-    let keys: Vec<Frame> = breakdown.keys.keys.iter().map(|key| key.frame).collect();
+    // The kept drawings of the sheet, so that their numbers are those of the key table.
+    let kept = breakdown.sheet.layers[0].drawings.iter().filter(|drawing| drawing.role.is_kept());
+    let keys: Vec<Frame> =
+        kept.map(|drawing| Frame(drawing.source.place().round() as usize)).collect();
     let order = movers_first(breakdown);
     let Breakdown { speed, filtered, turns, .. } = breakdown;
     Ok(SpeedPlot::default().draw(&names, speed, filtered, turns, &keys, &order)?)

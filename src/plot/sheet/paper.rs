@@ -15,12 +15,13 @@ const TALL: f64 = 46.0;
 const SHORT: f64 = 25.0;
 const KOMA: f64 = 30.0;
 const BETWEEN_LINES: f64 = 20.0;
-/// Lanes for the numbers of genga at most.
+/// Lanes for the numbers of kept drawings at most.
 const LANES: usize = 3;
 
-/// A number in a circle: where, which, pinned or not, and its lane.
+/// A number in a circle: where, which, of what drawing, pinned or not, and its lane.
 pub(super) struct Badge {
     pub(super) koma: usize,
+    pub(super) role: Role,
     pub(super) number: usize,
     pub(super) pinned: bool,
     pub(super) lane: Option<usize>,
@@ -46,16 +47,17 @@ pub(super) struct Paper<'a> {
     pub(super) lanes: usize,
 }
 
-/// The numbers of the genga, in as many lanes as keep them apart; those that even so find no room
-/// have none.
+/// The numbers of the kept drawings, genga and ends as one series as in the key table, in as many
+/// lanes as keep them apart; those that even so find no room have none.
 pub(super) fn badges(layer: &Layer, in_line: usize, slot: f64) -> Vec<Badge> {
-    let genga = |drawing: usize| layer.drawings[drawing].role == Role::Genga;
+    let role = |drawing: usize| layer.drawings[drawing].role;
     let mut badges: Vec<_> = layer
         .timed()
-        .filter(|(_, shown)| genga(shown.drawing))
+        .filter(|(_, shown)| role(shown.drawing).is_kept())
         .enumerate()
         .map(|(at, (koma, shown))| Badge {
             koma,
+            role: role(shown.drawing),
             number: at + 1,
             pinned: layer.drawings[shown.drawing].why.pinned.is_some(),
             lane: None,
@@ -208,8 +210,9 @@ impl Paper<'_> {
             let x = self.x(badge.koma - begin) + 0.5 * self.slot;
             let low = floor - TALL - 2.0;
             let y = low - style::BADGE - 2.0 * style::BADGE * lane as f64;
-            canvas.line((x, y), (x, low + 2.0), style::GENGA, 1.0)?;
-            canvas.badge((x, y), badge.number, style::GENGA, badge.pinned)?;
+            let colour = style::of_role(badge.role);
+            canvas.line((x, y), (x, low + 2.0), colour, 1.0)?;
+            canvas.badge((x, y), badge.number, colour, badge.pinned)?;
         }
         Ok(())
     }
