@@ -7,6 +7,7 @@
 mod choose;
 mod peaks;
 mod price;
+mod rest;
 mod sum;
 mod vote;
 
@@ -23,7 +24,8 @@ pub struct Key {
     pub frame: Frame,
     /// How strong it is: a share of all weight for votes, the prominence of its valley for `sum`.
     pub strength: f64,
-    /// What it saves, in % of body height × koma; infinite for keys that may not go.
+    /// What it saves, in % of body height: how far the body would be off without it. Infinite for keys
+    /// that may not go.
     pub price: f64,
     /// Joints that have a turn of their own here.
     pub voters: Vec<JointId>,
@@ -40,6 +42,8 @@ pub struct Key {
 pub enum Origin {
     /// Found in the motion.
     Found,
+    /// The begin or the end of a rest (止め): it is kept whatever it saves.
+    Rest,
     /// Set by a person; it survives everything.
     Pinned,
 }

@@ -155,7 +155,7 @@ impl Engine {
         let merging = keys::Choose {
             rank: keys::Rank::Price,
             min_price: 0.0,
-            per_second: None,
+            per_second: f64::INFINITY,
             ..recipe.keys.clone()
         };
         let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);

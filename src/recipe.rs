@@ -240,7 +240,7 @@ mod tests {
         let table = Recipe::default().table();
         let fields: usize =
             table.values().map(|value| value.as_table().map_or(1, Table::len)).sum();
-        let optional = ["keys.per_second", "spacing.inbetweens"].len();
+        let optional = ["spacing.inbetweens"].len();
         assert_eq!(KNOBS.len(), fields + optional);
     }
 

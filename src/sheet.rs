@@ -110,9 +110,12 @@ pub struct Why {
     pub voters: Vec<String>,
     /// Set by a person, with the name they gave it (empty when they gave none).
     pub pinned: Option<String>,
+    /// The begin or the end of a rest (止め).
+    pub rest: bool,
     /// How strong the key is, 0 to 1 for votes; none for inbetweens.
     pub strength: Option<f64>,
-    /// What the key saves, in % of body height × koma; none for inbetweens and ends.
+    /// What the key saves, in % of body height: how far the body would be off without it; none for
+    /// inbetweens.
     pub price: Option<f64>,
     /// Koma that naka-nashi gave to it.
     pub lengthened: usize,
@@ -131,6 +134,9 @@ impl fmt::Display for Why {
             Some("") => reasons.push("pinned".into()),
             Some(name) => reasons.push(format!("pinned: {name}")),
         }
+        if self.rest {
+            reasons.push("a rest begins or ends".into());
+        }
         if let [first, ..] = self.voters.as_slice() {
             let others = self.voters.len() - 1;
             let more =
@@ -138,7 +144,7 @@ impl fmt::Display for Why {
             reasons.push(format!("{first}{more}"));
         }
         if let Some(price) = self.price {
-            reasons.push(format!("saves {price:.1} %·koma"));
+            reasons.push(format!("saves {price:.1} % of body height"));
         }
         let mut count = |count: usize, words: &str| {
             if count > 0 {

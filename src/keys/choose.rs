@@ -6,7 +6,7 @@ use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::price::{self, Entry, Reference};
 use crate::keys::vote::Poll;
-use crate::keys::{Candidate, Candidates, Key, LayerKeys, Origin, Wall, sum};
+use crate::keys::{Candidate, Candidates, Key, LayerKeys, Origin, Wall, rest, sum};
 use crate::motion::{Clip, JointId};
 use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
 use crate::time::{Clock, Frame, Span};
@@ -16,11 +16,11 @@ use crate::time::{Clock, Frame, Span};
 #[serde(rename_all = "snake_case")]
 pub enum Merge {
     /// Every joint votes with the weight of what hangs on it; keys are the maxima of the vote.
-    #[default]
     Vote,
     /// The joints' speeds are added first; keys are the valleys of the sum.
     Sum,
     /// A turn of any joint is a key [KT11 §3.3].
+    #[default]
     Union,
 }
 
@@ -39,33 +39,39 @@ pub enum Rank {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Choose {
-    /// How joints are merged. Default: `vote`.
+    /// How joints are merged. Default: `union`, and the price picks from it.
     pub merge: Merge,
     /// How far a joint's vote carries, frames or seconds. Default 0.06 s. Raised, it joins turns that
     /// lie further apart into one key, and quick double actions become one.
     pub reach: Span,
     /// By what keys are ranked. Default: `price`.
     pub rank: Rank,
-    /// The least a key must save, in % of body height × koma; 0 or more, default 6. Raised, small
-    /// gestures lose their keys first. Counts when ranked by price and no number a second is asked.
+    /// The least a key must save, in % of body height: how far the body would be off at the worst koma
+    /// without it; 0 or more, default 3. Raised, small gestures lose their keys first. It counts when
+    /// ranked by price.
     pub min_price: f64,
+    /// The speed below which the whole body rests, in % of its height a second (root mean square over
+    /// the joints); 0 or more, default 15, 0 for no rests. Both ends of a rest of half a second or more
+    /// are keys whatever they save. Raised, slow gestures count as rests.
+    pub rest: f64,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
     pub min_strength: f64,
-    /// Keys a second to keep, the best first; above 0, default none: the thresholds decide.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub per_second: Option<f64>,
+    /// Keys a second at the most, the best first; above 0, default 4.5, `inf` for no limit. Lowered, fast
+    /// passages lose their keys first.
+    pub per_second: f64,
 }
 
 impl Default for Choose {
     fn default() -> Self {
         Self {
-            merge: Merge::Vote,
+            merge: Merge::Union,
             reach: Span::Seconds(0.06),
             rank: Rank::Price,
-            min_price: 6.0,
+            min_price: 3.0,
+            rest: 15.0,
             min_strength: 0.0,
-            per_second: None,
+            per_second: 4.5,
         }
     }
 }
@@ -81,16 +87,19 @@ impl Choose {
             return Err(Error::setting("keys.reach", "must be a length of time, 0 or more"));
         }
         if !at_least_0(self.min_price) {
+            return Err(Error::setting("keys.min_price", "must be 0 or more, in % of body height"));
+        }
+        if !at_least_0(self.rest) {
             return Err(Error::setting(
-                "keys.min_price",
-                "must be 0 or more, in % of body height × koma",
+                "keys.rest",
+                "must be 0 or more, in % of body height a second",
             ));
         }
         if !at_least_0(self.min_strength) {
             return Err(Error::setting("keys.min_strength", "must be 0 or more"));
         }
-        if self.per_second.is_some_and(|keys| !(keys > 0.0 && keys.is_finite())) {
-            return Err(Error::setting("keys.per_second", "must be above 0, or none"));
+        if self.per_second.is_nan() || self.per_second <= 0.0 {
+            return Err(Error::setting("keys.per_second", "must be above 0, or inf for no limit"));
         }
         Ok(())
     }
@@ -166,9 +175,13 @@ impl Choose {
         weights: &[f64],
         edits: &Edits,
     ) -> LayerKeys {
-        let mut keys = corrected(candidates, edits, clock.frames_in_koma());
-        self.set_prices(clip, clock, &mut keys);
-        self.cut(clip.seconds(), &mut keys);
+        let reference = Reference::of(clip, clock);
+        let rests = rest::rests(&reference, self.rest);
+        let mut keys = corrected(candidates, &rests, edits, &reference);
+        match self.rank {
+            Rank::Price => self.keep_the_dear(&reference, &mut keys),
+            Rank::Strength => self.keep_the_strong(clip.seconds(), &mut keys),
+        }
         let reach = self.reach.frames(clip.rate()).max(clip.rate().fps() / clock.koma_rate);
         for key in &mut keys {
             key.voters = voters(turns, weights, key.frame, reach);
@@ -176,52 +189,54 @@ impl Choose {
         LayerKeys { keys, walls: candidates.walls.clone() }
     }
 
-    /// Prices, as far as they are needed to know which keys stay.
-    fn set_prices(&self, clip: &Clip, clock: Clock, keys: &mut [Key]) {
-        if clip.len() < 2 {
-            return;
-        }
-        let end = |frame| Entry { frame, strength: 1.0, stays: true };
+    /// Leaves the keys that are worth a drawing, with their prices.
+    fn keep_the_dear(&self, reference: &Reference<'_>, keys: &mut Vec<Key>) {
+        let clip = reference.clip();
+        let end = |frame| Entry { frame, stays: true };
         let entries: Vec<Entry> = std::iter::once(end(clip.first()))
-            .chain(keys.iter().map(|key| Entry {
-                frame: key.frame,
-                strength: key.strength,
-                stays: key.origin == Origin::Pinned,
-            }))
+            .chain(keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) }))
             .chain(std::iter::once(end(clip.last())))
             .collect();
-        let enough = match (self.rank, self.per_second) {
-            (Rank::Price, None) => self.min_price,
-            _ => f64::INFINITY,
-        };
-        let reference = Reference::of(clip, clock);
-        let prices = price::prices(&reference, &entries, enough);
-        keys.iter_mut().zip(&prices[1..]).for_each(|(key, price)| key.price = *price);
+        let most = self.most_keys(clip.seconds());
+        let prices = price::worthwhile(reference, &entries, self.min_price, most);
+        let mut prices = prices[1..].iter();
+        keys.retain_mut(|key| {
+            let price = prices.next().copied().flatten();
+            key.price = price.unwrap_or(key.price);
+            price.is_some()
+        });
     }
 
-    fn cut(&self, seconds: f64, keys: &mut Vec<Key>) {
-        match (self.per_second, self.rank) {
-            (None, Rank::Price) => keys.retain(|key| key.price >= self.min_price),
-            (None, Rank::Strength) => {}
-            (Some(per_second), rank) => {
-                let worth = |key: &Key| match (key.origin, rank) {
-                    (Origin::Pinned, _) => f64::INFINITY,
-                    (Origin::Found, Rank::Price) => key.price,
-                    (Origin::Found, Rank::Strength) => key.strength,
-                };
-                let count = (per_second * seconds).round() as usize;
-                keys.sort_by(|a, b| worth(b).total_cmp(&worth(a)).then(a.frame.cmp(&b.frame)));
-                let pinned = keys.iter().filter(|key| key.origin == Origin::Pinned).count();
-                keys.truncate(count.max(pinned));
-                keys.sort_by_key(|key| key.frame);
-            }
-        }
+    /// Leaves the strongest keys.
+    fn keep_the_strong(&self, seconds: f64, keys: &mut Vec<Key>) {
+        let staying = keys.iter().filter(|key| !is_found(key)).count();
+        let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
+        keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
+        keys.truncate(self.most_keys(seconds).saturating_add(staying));
+        keys.sort_by_key(|key| key.frame);
+    }
+
+    /// How many found keys a clip of that length may have; pins and rests are not counted.
+    fn most_keys(&self, seconds: f64) -> usize {
+        (self.per_second * seconds).round() as usize
     }
 }
 
-/// Candidates and pins in order: a pin pushes out what lies nearer than a koma, a forbidden frame too.
-fn corrected(candidates: &Candidates, edits: &Edits, apart: f64) -> Vec<Key> {
+fn is_found(key: &Key) -> bool {
+    key.origin == Origin::Found
+}
+
+/// Candidates, the ends of rests and pins in order. A pin pushes out what lies nearer than a koma, a
+/// forbidden frame too; the end of a rest pushes out candidates.
+fn corrected(
+    candidates: &Candidates,
+    rests: &[[Frame; 2]],
+    edits: &Edits,
+    reference: &Reference<'_>,
+) -> Vec<Key> {
+    let apart = reference.clock().frames_in_koma();
     let near = |a: Frame, b: Frame| (a.0.abs_diff(b.0) as f64) < apart;
+    let clip = reference.clip();
     let unwanted = |frame: Frame| {
         edits.pins.iter().any(|pin| near(pin.frame, frame))
             || edits.forbidden.iter().any(|forbidden| near(*forbidden, frame))
@@ -235,9 +250,20 @@ fn corrected(candidates: &Candidates, edits: &Edits, apart: f64) -> Vec<Key> {
         name: None,
         origin,
     };
-    let found = candidates.keys.iter().filter(|candidate| !unwanted(candidate.frame));
-    let mut keys: Vec<Key> =
-        found.map(|candidate| key(candidate.frame, candidate.strength, Origin::Found)).collect();
+    let inside = |frame: &Frame| *frame > clip.first() && *frame < clip.last();
+    let rests = rests.iter().flatten().copied().filter(inside);
+    let mut keys: Vec<Key> = rests
+        .filter(|frame| !unwanted(*frame))
+        .map(|frame| key(frame, 1.0, Origin::Rest))
+        .collect();
+    let at_rest = |frame: Frame| keys.iter().any(|rest| near(rest.frame, frame));
+    let found: Vec<Key> = candidates
+        .keys
+        .iter()
+        .filter(|candidate| !unwanted(candidate.frame) && !at_rest(candidate.frame))
+        .map(|candidate| key(candidate.frame, candidate.strength, Origin::Found))
+        .collect();
+    keys.extend(found);
     keys.extend(edits.pins.iter().map(|pin| Key {
         weight: pin.weight,
         name: pin.name.clone(),

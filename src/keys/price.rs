@@ -1,8 +1,12 @@
-//! What a key saves: the error that appears when it is left out and its neighbours are slerped.
+//! What a key saves: how far the body would be off if it were left out and its neighbours slerped.
 //!
 //! Strength alone is a poor order: strong keys come in pairs round rests, and long fast passages get
 //! none. So the cheapest key is taken away, its two neighbours are priced again, and so on: one nested
 //! ranked list.
+//!
+//! "How far off" is the worst koma, not the sum over koma: a pose that is missed once shows more than
+//! a small drift that lasts. And it is the root mean square over the joints, not the mean: a foot that
+//! misses its contact shows, though the rest of the body be right.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -47,6 +51,32 @@ impl<'a> Reference<'a> {
         Self { clip, clock, koma, positions, height }
     }
 
+    /// The motion.
+    pub(super) fn clip(&self) -> &'a Clip {
+        self.clip
+    }
+
+    /// Where its koma stand.
+    pub(super) fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
+    /// square over the joints.
+    pub(super) fn speeds(&self) -> Vec<f64> {
+        let joints = self.clip.skeleton().len();
+        if joints == 0 || self.height <= 0.0 {
+            return Vec::new();
+        }
+        let percent = 100.0 * self.clock.koma_rate / self.height;
+        let rows: Vec<&[DVec3]> = self.positions.chunks_exact(joints).collect();
+        let speed = |pair: &[&[DVec3]]| {
+            let squares = pair[0].iter().zip(pair[1]).map(|(a, b)| a.distance_squared(*b));
+            percent * (squares.sum::<f64>() / joints as f64).sqrt()
+        };
+        rows.windows(2).map(speed).collect()
+    }
+
     /// The koma whose place lies strictly between two frames.
     fn koma_between(&self, from: Frame, to: Frame) -> std::ops::Range<usize> {
         let per_frame = self.clock.koma_rate / self.clock.frame_rate.fps();
@@ -84,7 +114,8 @@ impl<'a> Bridge<'a> {
         }
     }
 
-    /// Joint-position error, mean over joints, in % of body height, summed over the koma between.
+    /// The joint-position error of the worst koma between, root mean square over the joints, in % of
+    /// body height.
     fn error(&mut self, from: Frame, to: Frame) -> f64 {
         let Reference { clip, clock, .. } = self.reference;
         let range = self.reference.koma_between(from, to);
@@ -106,16 +137,17 @@ impl<'a> Bridge<'a> {
         {
             *step = DQuat::IDENTITY.slerp(from.conjugate() * *to, koma_share);
         }
-        let mut sum = 0.0;
+        let mut worst = 0.0;
         for koma in range.clone() {
             if koma > range.start {
                 self.advance(share(koma));
             }
             self.body.place(&self.pose, &mut self.positions);
             let source = &self.reference.positions[koma * joints..(koma + 1) * joints];
-            sum += source.iter().zip(&self.positions).map(|(a, b)| a.distance(*b)).sum::<f64>();
+            let squares = source.iter().zip(&self.positions).map(|(a, b)| a.distance_squared(*b));
+            worst = f64::max(worst, squares.sum());
         }
-        100.0 * sum / (joints as f64 * self.reference.height)
+        100.0 * (worst / joints as f64).sqrt() / self.reference.height
     }
 
     fn advance(&mut self, share: f64) {
@@ -133,31 +165,37 @@ impl<'a> Bridge<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
     pub(super) frame: Frame,
-    pub(super) strength: f64,
     /// Pinned keys and the clip's ends are never taken away.
     pub(super) stays: bool,
 }
 
-/// The price of each entry: the error that leaving it out adds, × √strength; infinite where it stays.
+/// The price in % of body height of each entry that is worth keeping: the error between its neighbours
+/// with it left out, infinite where it stays whatever it costs. None for those that are not.
 ///
 /// `entries` by frame, the first and the last of them the clip's ends. The cheapest goes first, then
-/// its neighbours are priced again; a price never falls below that of what went before, so that one
-/// threshold cuts the list. Once the cheapest costs more than `enough`, the rest keep the price they
-/// have then: it is only known that they cost at least that much.
-pub(super) fn prices(reference: &Reference<'_>, entries: &[Entry], enough: f64) -> Vec<f64> {
+/// its neighbours are priced again, until the cheapest costs at least `enough` and no more than `most`
+/// are left besides those that stay. What is kept for a smaller `most` or a larger `enough` is
+/// therefore part of what is kept for a larger or smaller one.
+pub(super) fn worthwhile(
+    reference: &Reference<'_>,
+    entries: &[Entry],
+    enough: f64,
+    most: usize,
+) -> Vec<Option<f64>> {
     let mut list = RankedList::new(reference, entries);
-    let mut prices = vec![f64::INFINITY; entries.len()];
-    let mut least = 0.0;
+    let mut left = entries.iter().filter(|entry| !entry.stays).count();
     while let Some((price, entry)) = list.cheapest() {
-        least = price.max(least);
-        if least > enough {
-            list.standing().for_each(|(entry, price)| prices[entry] = price.max(least));
+        if price >= enough && left <= most {
             break;
         }
-        prices[entry] = least;
         list.remove(entry);
+        left -= 1;
     }
-    prices
+    let kept = |entry: usize| {
+        let price = list.price[entry];
+        if entries[entry].stays { Some(f64::INFINITY) } else { (!price.is_nan()).then_some(price) }
+    };
+    (0..entries.len()).map(kept).collect()
 }
 
 /// Keys in a doubly linked list with the price of each, cheapest first.
@@ -166,10 +204,7 @@ struct RankedList<'a> {
     bridge: Bridge<'a>,
     before: Vec<usize>,
     after: Vec<usize>,
-    /// The error between an entry and the next one that stands.
-    gap: Vec<f64>,
-    /// The error with the entry left out, and its price; NaN once it is gone.
-    joined: Vec<f64>,
+    /// What an entry costs now; NaN where it stays or once it is gone.
     price: Vec<f64>,
     queue: BinaryHeap<Reverse<(OrderedPrice, usize)>>,
 }
@@ -177,16 +212,11 @@ struct RankedList<'a> {
 impl<'a> RankedList<'a> {
     fn new(reference: &'a Reference<'a>, entries: &'a [Entry]) -> Self {
         let count = entries.len();
-        let mut bridge = Bridge::new(reference);
-        let gap =
-            entries.windows(2).map(|pair| bridge.error(pair[0].frame, pair[1].frame)).collect();
         let mut list = Self {
             entries,
-            bridge,
+            bridge: Bridge::new(reference),
             before: (0..count).map(|entry| entry.saturating_sub(1)).collect(),
             after: (1..=count).collect(),
-            gap,
-            joined: vec![0.0; count],
             price: vec![f64::NAN; count],
             queue: BinaryHeap::with_capacity(count),
         };
@@ -195,16 +225,13 @@ impl<'a> RankedList<'a> {
     }
 
     fn set_price(&mut self, entry: usize) {
-        let Entry { strength, stays, .. } = self.entries[entry];
-        if stays {
+        if self.entries[entry].stays {
             return;
         }
         let (before, after) = (self.before[entry], self.after[entry]);
-        self.joined[entry] =
-            self.bridge.error(self.entries[before].frame, self.entries[after].frame);
-        let saved = (self.joined[entry] - self.gap[before] - self.gap[entry]).max(0.0);
-        self.price[entry] = saved * strength.max(0.0).sqrt();
-        self.queue.push(Reverse((OrderedPrice(self.price[entry]), entry)));
+        let price = self.bridge.error(self.entries[before].frame, self.entries[after].frame);
+        self.price[entry] = price;
+        self.queue.push(Reverse((OrderedPrice(price), entry)));
     }
 
     fn cheapest(&mut self) -> Option<(f64, usize)> {
@@ -221,14 +248,9 @@ impl<'a> RankedList<'a> {
         let (before, after) = (self.before[entry], self.after[entry]);
         self.after[before] = after;
         self.before[after] = before;
-        self.gap[before] = self.joined[entry];
         self.price[entry] = f64::NAN;
         self.set_price(before);
         self.set_price(after);
-    }
-
-    fn standing(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.price.iter().copied().enumerate().filter(|(_, price)| !price.is_nan())
     }
 }
 
@@ -251,13 +273,13 @@ impl PartialOrd for OrderedPrice {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::motion::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
     use crate::time::FrameRate;
 
     /// An arm of one bone that swings about Z, given by its angle in degrees at each frame of 24 fps.
-    fn swing(angles: &[f64]) -> Clip {
+    pub(in crate::keys) fn swing(angles: &[f64]) -> Clip {
         let joint = |name: &str, parent, channels: &[Channel], end_sites| Joint {
             name: name.into(),
             parent,
@@ -278,11 +300,8 @@ mod tests {
     }
 
     fn entries(frames: &[usize], last: usize) -> Vec<Entry> {
-        let entry = |frame: &usize| Entry {
-            frame: Frame(*frame),
-            strength: 1.0,
-            stays: *frame == 0 || *frame == last,
-        };
+        let entry =
+            |frame: &usize| Entry { frame: Frame(*frame), stays: *frame == 0 || *frame == last };
         frames.iter().map(entry).collect()
     }
 
@@ -291,13 +310,13 @@ mod tests {
     }
 
     #[test]
-    fn a_key_on_an_even_turn_saves_nothing_and_the_turning_point_saves_much() {
+    fn a_key_on_an_even_turn_goes_and_the_turning_point_stays() {
         let clip = swing(&triangle(21, 10));
         let reference = Reference::of(&clip, clip.clock(24.0));
-        let prices = prices(&reference, &entries(&[0, 5, 10, 20], 20), f64::INFINITY);
-        assert!(prices[1] < 1e-9, "{prices:?}");
-        assert!(prices[2] > 20.0, "{prices:?}");
-        assert_eq!((prices[0], prices[3]), (f64::INFINITY, f64::INFINITY));
+        let kept = worthwhile(&reference, &entries(&[0, 5, 10, 20], 20), 1e-6, usize::MAX);
+        assert_eq!(kept[1], None);
+        assert!(kept[2].is_some_and(|price| price > 20.0), "{kept:?}");
+        assert_eq!((kept[0], kept[3]), (Some(f64::INFINITY), Some(f64::INFINITY)));
     }
 
     #[test]
@@ -320,29 +339,57 @@ mod tests {
                 source.take_place(&clip, place);
                 body.place(&pose, &mut a);
                 body.place(&source, &mut b);
-                slow += (a[0].distance(b[0]) + a[1].distance(b[1])) / 2.0;
+                let squares = a[0].distance_squared(b[0]) + a[1].distance_squared(b[1]);
+                slow = f64::max(slow, (squares / 2.0).sqrt());
             }
         }
         slow *= 100.0 / reference.height;
         assert!((fast - slow).abs() < 1e-9 * slow, "{fast} {slow}");
     }
 
+    /// The same from the words: each round prices every entry anew and takes the cheapest away.
+    fn slowly(
+        reference: &Reference<'_>,
+        entries: &[Entry],
+        enough: f64,
+        most: usize,
+    ) -> Vec<Frame> {
+        let mut kept = entries.to_vec();
+        loop {
+            let price =
+                |at: usize| Bridge::new(reference).error(kept[at - 1].frame, kept[at + 1].frame);
+            let cheapest = (1..kept.len() - 1)
+                .filter(|at| !kept[*at].stays)
+                .map(|at| (price(at), at))
+                .reduce(|a, b| if b.0 < a.0 { b } else { a });
+            let left = kept.iter().filter(|entry| !entry.stays).count();
+            match cheapest {
+                Some((price, at)) if price < enough || left > most => kept.remove(at),
+                _ => return kept.iter().map(|entry| entry.frame).collect(),
+            };
+        }
+    }
+
     #[test]
-    fn what_stays_is_never_priced_and_the_list_is_nested() {
+    fn the_ranked_list_equals_pricing_everything_anew_each_round() {
         let angles: Vec<f64> =
             (0..60).map(|at| 30.0 * (at as f64 * 0.3).sin() + at as f64).collect();
         let clip = swing(&angles);
         let reference = Reference::of(&clip, clip.clock(24.0));
         let mut list = entries(&[0, 5, 11, 16, 22, 27, 33, 40, 48, 59], 59);
         list[4].stays = true;
-        let all = prices(&reference, &list, f64::INFINITY);
-        assert_eq!(all[4], f64::INFINITY);
-        // Cutting at any threshold gives the same keys as stopping there.
-        for enough in [0.0, 1.0, 5.0, 20.0] {
-            let cut = prices(&reference, &list, enough);
-            for (full, early) in all.iter().zip(&cut) {
-                assert_eq!(*full > enough, *early > enough, "{all:?} {cut:?}");
-            }
+        for (enough, most) in
+            [(0.0, 9), (1.0, 9), (5.0, 9), (20.0, 9), (0.0, 4), (1.0, 2), (0.0, 0)]
+        {
+            let kept = worthwhile(&reference, &list, enough, most);
+            let frames: Vec<Frame> = list
+                .iter()
+                .zip(&kept)
+                .filter(|(_, kept)| kept.is_some())
+                .map(|(e, _)| e.frame)
+                .collect();
+            assert_eq!(frames, slowly(&reference, &list, enough, most), "{enough} {most}");
+            assert_eq!(kept[4], Some(f64::INFINITY), "what stays is never taken away");
         }
     }
 
@@ -353,6 +400,6 @@ mod tests {
         assert_eq!(Bridge::new(&reference).error(Frame(0), Frame(1)), 0.0);
         let still = swing(&[0.0; 9]);
         let reference = Reference::of(&still, still.clock(24.0));
-        assert_eq!(prices(&reference, &entries(&[0, 4, 8], 8), 1.0)[1], 0.0);
+        assert_eq!(worthwhile(&reference, &entries(&[0, 4, 8], 8), 0.0, usize::MAX)[1], Some(0.0));
     }
 }

@@ -137,9 +137,17 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "keys.min_price",
         japanese: "最低の価値",
-        kind: number(0.0, 50.0),
-        unit: "% of body height × koma",
-        help: "What a key must save at the least. Higher keeps fewer; small gestures go first.",
+        kind: number(0.0, 20.0),
+        unit: "% of body height",
+        help: "How far the body must be off without a key for it to be kept. Higher keeps fewer; small \
+               gestures go first.",
+    },
+    Knob {
+        name: "keys.rest",
+        japanese: "止めとみなす速さ",
+        kind: number(0.0, 60.0),
+        unit: "% of body height a second",
+        help: "Slower than this for half a second, the whole body rests: both ends of a rest are keys.",
     },
     Knob {
         name: "keys.min_strength",
@@ -151,9 +159,9 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "keys.per_second",
         japanese: "毎秒の原画数",
-        kind: Kind::Number { min: 0.1, max: 12.0, whole: false, optional: true },
-        unit: "keys a second, or none",
-        help: "Keep that many keys, the best first, instead of a threshold.",
+        kind: number(0.1, 12.0),
+        unit: "keys a second, inf for no limit",
+        help: "That many keys at the most, the best first. Lower keeps fewer; fast passages lose theirs first.",
     },
     Knob {
         name: "spacing.on",

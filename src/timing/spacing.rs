@@ -182,10 +182,10 @@ impl Station<'_> {
             let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
             why.voters = key.voters.iter().map(name).collect();
             why.strength = Some(key.strength);
-            if key.origin == Origin::Pinned {
-                why.pinned = Some(key.name.clone().unwrap_or_default());
-            } else if key.price.is_finite() {
-                why.price = Some(key.price);
+            match key.origin {
+                Origin::Pinned => why.pinned = Some(key.name.clone().unwrap_or_default()),
+                Origin::Rest => why.rest = true,
+                Origin::Found => why.price = Some(key.price).filter(|price| price.is_finite()),
             }
         }
         Drawing { source: Source::At(self.place), role: self.role, why }
