@@ -7,6 +7,7 @@
 mod choose;
 mod peaks;
 mod price;
+mod reference;
 mod rest;
 mod sum;
 mod vote;

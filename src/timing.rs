@@ -5,12 +5,14 @@ mod amount;
 mod koma_dori;
 mod naka_nashi;
 mod omission;
+mod report;
 mod spacing;
 mod stills;
 mod strip;
 mod tournament;
 
 pub use amount::Amount;
-pub use omission::{Gone, Omission, Omitted, Order, Report, Shortfall, StageReport};
+pub use omission::{Omission, Omitted, Order};
+pub use report::{Gone, Report, Shortfall, StageReport};
 pub use spacing::{InbetweenSource, Spaced, Spacing};
 pub use stills::Stills;

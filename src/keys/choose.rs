@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::price::{self, Entry, Reference};
+use crate::keys::price::{self, Entry};
+use crate::keys::reference::Reference;
 use crate::keys::vote::Poll;
 use crate::keys::{Candidate, Candidates, Key, LayerKeys, Origin, Wall, rest, sum};
 use crate::motion::{Clip, JointId};

@@ -2,7 +2,7 @@
 //! keys whatever they save: an animator draws them to hold them, and a slow settling costs so little
 //! that no price would find them.
 
-use crate::keys::price::Reference;
+use crate::keys::reference::Reference;
 use crate::time::Frame;
 
 /// Seconds that a stillness must last to be a rest.

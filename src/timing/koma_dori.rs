@@ -1,7 +1,7 @@
 //! Koma-dori (コマ撮り): holding a drawing instead of showing a small movement (KKMFT §3.3,
 //! Algorithm 2).
 
-use crate::timing::omission::Shortfall;
+use crate::timing::report::Shortfall;
 use crate::timing::strip::{Cell, Strip};
 use crate::timing::tournament::{OUT, Tournament};
 

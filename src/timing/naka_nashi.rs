@@ -1,6 +1,6 @@
 //! Naka-nashi (中無し): leaving out the inbetweens of the fastest movement (KKMFT §3.2, Algorithm 1).
 
-use crate::timing::omission::Shortfall;
+use crate::timing::report::Shortfall;
 use crate::timing::strip::Strip;
 use crate::timing::tournament::{OUT, Tournament};
 

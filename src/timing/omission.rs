@@ -1,12 +1,11 @@
 //! Omission: naka-nashi (中無し) and koma-dori (コマ撮り) over one layer (KKMFT §3).
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::sheet::Layer;
 use crate::timing::naka_nashi::NakaNashi;
+use crate::timing::report::{Gone, Report, StageReport};
 use crate::timing::strip::Strip;
 use crate::timing::{Amount, Stills, koma_dori};
 
@@ -59,75 +58,6 @@ pub struct Omitted {
     pub layer: Layer,
     /// What was done.
     pub report: Report,
-}
-
-/// What the two stages did.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Report {
-    /// Naka-nashi: its `gone` were left out.
-    pub naka_nashi: StageReport,
-    /// Koma-dori: its `gone` were replaced by the drawing before them.
-    pub koma_dori: StageReport,
-    /// Koma that naka-nashi gave to other drawings.
-    pub lengthened: usize,
-}
-
-/// What one stage did.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct StageReport {
-    /// How many were asked for.
-    pub asked: usize,
-    /// How many were done: drawings, or koma for naka-nashi on ones without genga, where a held
-    /// drawing may lose a koma and stay.
-    pub done: usize,
-    /// Drawings that are no longer on the sheet, in the order they went.
-    pub gone: Vec<Gone>,
-    /// Why fewer were done than asked for.
-    pub shortfall: Option<Shortfall>,
-}
-
-/// A drawing that is no longer on the sheet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gone {
-    /// Its index in the layer before the omission.
-    pub drawing: usize,
-    /// Its place in the source.
-    pub place: f64,
-    /// The koma it began on before the omission, from 0.
-    pub koma: usize,
-}
-
-impl Report {
-    /// A sentence for each stage that did less than it was asked for.
-    pub fn shortfalls(&self) -> impl Iterator<Item = String> {
-        let stages = [("naka-nashi", &self.naka_nashi), ("koma-dori", &self.koma_dori)];
-        stages.into_iter().filter_map(|(name, stage)| {
-            let why = stage.shortfall?;
-            Some(format!("{name} did {} of {}: {why}", stage.done, stage.asked))
-        })
-    }
-}
-
-/// Why a stage did less than it was asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Shortfall {
-    /// No inbetween is left that could go.
-    NoneLeft,
-    /// Nothing moves between the drawings that could go and the ones before them.
-    NoMotion,
-    /// The drawings round those that could go cannot be held any longer.
-    NoRoom,
-}
-
-impl fmt::Display for Shortfall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NoneLeft => "no inbetween is left",
-            Self::NoMotion => "nothing moves in what is left",
-            Self::NoRoom => "the drawings around cannot be held any longer (max_hold)",
-        })
-    }
 }
 
 impl Default for Omission {

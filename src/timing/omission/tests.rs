@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use self::oracle::{Outcome, Row, Rules};
 use super::*;
 use crate::sheet::{Drawing, Exposure, Role, Source, Why};
+use crate::timing::Shortfall;
 
 /// A drawing to be: a position along a line for each of two joints, koma, role.
 type Plan = ((i32, i32), usize, Role);

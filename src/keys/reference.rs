@@ -1,0 +1,90 @@
+//! The source koma after koma: what keys and rests are judged against.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::motion::{Body, Clip, Pose};
+use crate::time::{Clock, Frame};
+
+/// The source at each koma, computed once: what a reconstruction is measured against.
+pub(super) struct Reference<'a> {
+    clip: &'a Clip,
+    clock: Clock,
+    koma: usize,
+    /// Koma × joints.
+    positions: Vec<DVec3>,
+    /// Height of the body in the file's unit: see [`Reference::of`].
+    height: f64,
+}
+
+impl<'a> Reference<'a> {
+    /// Samples the clip at every koma of the clock.
+    ///
+    /// The body's height is the median over the koma of the longest side of the box round all joints.
+    /// It is taken from the motion and not from the rest pose because rest poses are a matter of the
+    /// rig: arms out, arms down, or all bones along one axis.
+    pub(super) fn of(clip: &'a Clip, clock: Clock) -> Self {
+        let joints = clip.skeleton().len();
+        let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+        let mut positions = vec![DVec3::ZERO; koma * joints];
+        let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+        let mut sides = Vec::with_capacity(koma);
+        for (at, row) in positions.chunks_exact_mut(joints.max(1)).enumerate() {
+            pose.take_place(clip, clock.place_from_koma(at));
+            body.place(&pose, row);
+            let low = row.iter().copied().reduce(DVec3::min).unwrap_or_default();
+            let high = row.iter().copied().reduce(DVec3::max).unwrap_or_default();
+            sides.push((high - low).max_element());
+        }
+        sides.sort_by(f64::total_cmp);
+        let height = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+        Self { clip, clock, koma, positions, height }
+    }
+
+    /// The motion.
+    pub(super) fn clip(&self) -> &'a Clip {
+        self.clip
+    }
+
+    /// Where its koma stand.
+    pub(super) fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Where every joint stands at a koma.
+    pub(super) fn positions(&self, koma: usize) -> &[DVec3] {
+        let joints = self.clip.skeleton().len();
+        &self.positions[koma * joints..(koma + 1) * joints]
+    }
+
+    /// The body's height in the file's unit: see [`Reference::of`].
+    pub(super) fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
+    /// square over the joints.
+    pub(super) fn speeds(&self) -> Vec<f64> {
+        let joints = self.clip.skeleton().len();
+        if joints == 0 || self.height <= 0.0 {
+            return Vec::new();
+        }
+        let percent = 100.0 * self.clock.koma_rate / self.height;
+        let rows: Vec<&[DVec3]> = self.positions.chunks_exact(joints).collect();
+        let speed = |pair: &[&[DVec3]]| {
+            let squares = pair[0].iter().zip(pair[1]).map(|(a, b)| a.distance_squared(*b));
+            percent * (squares.sum::<f64>() / joints as f64).sqrt()
+        };
+        rows.windows(2).map(speed).collect()
+    }
+
+    /// The koma whose place lies strictly between two frames.
+    pub(super) fn koma_between(&self, from: Frame, to: Frame) -> Range<usize> {
+        let per_frame = self.clock.koma_rate / self.clock.frame_rate.fps();
+        let koma = |frame: Frame| (frame.0 - self.clock.first.0) as f64 * per_frame;
+        let begin = (koma(from) + 1e-9).floor() as usize + 1;
+        let end = ((koma(to) - 1e-9).ceil().max(0.0) as usize).min(self.koma);
+        begin.min(end)..end
+    }
+}

@@ -1,0 +1,177 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::time::{Frame, FrameRate};
+
+fn clock(fps: f64) -> Clock {
+    Clock { first: Frame(0), frame_rate: FrameRate::new(fps).unwrap(), koma_rate: 24.0 }
+}
+
+fn key(frame: usize, price: f64) -> Key {
+    Key {
+        frame: Frame(frame),
+        strength: 0.5,
+        price,
+        voters: Vec::new(),
+        weight: None,
+        name: None,
+        origin: Origin::Found,
+    }
+}
+
+fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
+    LayerKeys {
+        keys: keys.iter().map(|frame| key(*frame, 10.0)).collect(),
+        walls: walls.iter().map(|frame| Wall { frame: Frame(*frame), strength: 1.0 }).collect(),
+    }
+}
+
+fn place(spacing: &Spacing, layer: &LayerKeys, fps: f64, koma: usize) -> Layer {
+    spacing.place(layer, &Skeleton::default(), clock(fps), koma).layer
+}
+
+fn places(layer: &Layer) -> Vec<f64> {
+    layer.drawings.iter().map(|drawing| drawing.source.place()).collect()
+}
+
+fn begins(layer: &Layer) -> Vec<usize> {
+    layer.timed().map(|(begin, _)| begin).collect()
+}
+
+#[test]
+fn every_knob_out_of_range_is_named() {
+    let wrong = |spacing: Spacing| spacing.validate().unwrap_err().to_string();
+    assert!(wrong(Spacing { on: 0, ..Spacing::default() }).starts_with("spacing.on"));
+    for weight in [-0.1, 1.0, f64::NAN] {
+        assert!(wrong(Spacing { weight, ..Spacing::default() }).starts_with("spacing.weight"));
+    }
+    for max_shift in [-1.0, f64::INFINITY] {
+        assert!(
+            wrong(Spacing { max_shift, ..Spacing::default() }).starts_with("spacing.max_shift")
+        );
+    }
+    assert!(Spacing::default().validate().is_ok());
+}
+
+#[test]
+fn even_spacing_on_threes_has_a_short_last_exposure() {
+    let spacing = Spacing { on: 3, weight: 0.0, ..Spacing::default() };
+    let layer = place(&spacing, &layer(&[8], &[]), 24.0, 12);
+    assert_eq!(begins(&layer), [0, 3, 6, 8, 11]);
+    assert_eq!(places(&layer), [0.0, 3.0, 6.0, 8.0, 11.0]);
+    assert_eq!(layer.length(), 12);
+}
+
+#[test]
+fn inbetweens_crowd_towards_the_nearer_key_and_the_middle_stays() {
+    // Fig. 9: a ball rolls from A to B with three inbetweens.
+    let spacing =
+        Spacing { inbetweens: Some(3), weight: 0.5, max_shift: 9.0, ..Spacing::default() };
+    let layer = place(&spacing, &layer(&[], &[]), 24.0, 9);
+    assert_eq!(places(&layer), [0.0, 1.0, 4.0, 7.0, 8.0]);
+}
+
+#[test]
+fn a_wall_decides_the_side() {
+    // Fig. 10: the speed peak lies late, so the middle and what follows it still belong to A.
+    let spacing =
+        Spacing { inbetweens: Some(3), weight: 0.5, max_shift: 9.0, ..Spacing::default() };
+    let with_wall = place(&spacing, &layer(&[], &[5]), 24.0, 9);
+    assert_eq!(places(&with_wall), [0.0, 1.0, 2.0, 7.0, 8.0]);
+    let on_wall = place(&spacing, &layer(&[], &[6]), 24.0, 9);
+    assert_eq!(places(&on_wall), [0.0, 1.0, 2.0, 6.0, 8.0], "on the wall nothing moves");
+    let mut strongest = layer(&[], &[1, 5]);
+    strongest.walls[1].strength = 2.0;
+    assert_eq!(place(&spacing, &strongest, 24.0, 9), with_wall);
+}
+
+#[test]
+fn a_key_has_a_weight_of_its_own() {
+    let spacing =
+        Spacing { inbetweens: Some(3), weight: 0.0, max_shift: 9.0, ..Spacing::default() };
+    let mut keys = layer(&[8], &[]);
+    keys.keys[0].weight = Some(0.5);
+    assert_eq!(places(&place(&spacing, &keys, 24.0, 17))[..5], [0.0, 2.0, 4.0, 7.0, 8.0]);
+}
+
+#[test]
+fn a_place_moves_no_further_than_allowed() {
+    let spacing = Spacing { on: 1, weight: 0.9, max_shift: 2.0, ..Spacing::default() };
+    let layer = place(&spacing, &layer(&[], &[]), 120.0, 41);
+    for (koma, place) in places(&layer).iter().enumerate() {
+        assert!((place - 5.0 * koma as f64).abs() <= 10.0 + 1e-9);
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_reported() {
+    let spacing = Spacing { inbetweens: Some(4), ..Spacing::default() };
+    let spaced = spacing.place(&layer(&[3], &[]), &Skeleton::default(), clock(24.0), 9);
+    assert_eq!(spaced.did_not_fit, 2);
+    assert_eq!(begins(&spaced.layer), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+}
+
+#[test]
+fn a_blend_shows_the_keys_at_the_share_of_its_place() {
+    let spacing = Spacing {
+        source: InbetweenSource::Blend,
+        inbetweens: Some(1),
+        weight: 0.0,
+        ..Spacing::default()
+    };
+    let layer = place(&spacing, &layer(&[], &[]), 24.0, 5);
+    assert_eq!(layer.drawings[1].source, Source::Between { from: 0.0, to: 4.0, share: 0.5 });
+}
+
+#[test]
+fn a_key_on_an_end_gives_way_and_the_dearer_of_two_on_one_koma_stays() {
+    let mut keys = layer(&[1, 50, 52, 119], &[]);
+    keys.keys[0].voters = vec![];
+    keys.keys[2].price = 20.0;
+    let layer = place(&Spacing::default(), &keys, 120.0, 25);
+    let kept: Vec<_> = layer.drawings.iter().filter(|drawing| drawing.role.is_kept()).collect();
+    let roles: Vec<_> = kept.iter().map(|drawing| drawing.role).collect();
+    assert_eq!(roles, [Role::End, Role::Genga, Role::End]);
+    assert_eq!(kept[1].source, Source::At(52.0));
+    assert_eq!((kept[0].source, kept[2].source), (Source::At(0.0), Source::At(120.0)));
+    assert_eq!(kept[0].why.price, Some(10.0), "the end took over the key");
+}
+
+#[test]
+fn short_sheets_are_ends_alone() {
+    for koma in 0..3 {
+        let layer = place(&Spacing::default(), &layer(&[], &[]), 24.0, koma);
+        assert_eq!((layer.drawings.len(), layer.length()), (koma, koma));
+        assert!(layer.drawings.iter().all(|drawing| drawing.role == Role::End));
+    }
+}
+
+proptest! {
+    #[test]
+    fn places_never_cross_and_genga_keep_their_frames(
+        keys in prop::collection::btree_set(1usize..299, 0..20),
+        walls in prop::collection::btree_set(1usize..299, 0..20),
+        fps in prop::sample::select(vec![24.0, 30.0, 100.0, 120.0]),
+        on in 1usize..5,
+        weight in 0.0f64..0.99,
+        max_shift in 0.0f64..4.0,
+    ) {
+        let spacing = Spacing { on, weight, max_shift, ..Spacing::default() };
+        let keys: Vec<_> = keys.into_iter().collect();
+        let walls: Vec<_> = walls.into_iter().collect();
+        let koma = FrameRate::new(fps).unwrap().koma_from_frames(300, 24.0);
+        let layer = place(&spacing, &layer(&keys, &walls), fps, koma);
+        prop_assert_eq!(layer.length(), koma);
+        let places = places(&layer);
+        prop_assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", places);
+        for (begin, exposure) in layer.timed() {
+            let drawing = &layer.drawings[exposure.drawing];
+            prop_assert!(exposure.koma >= 1 && exposure.koma <= on);
+            if drawing.role == Role::Genga {
+                let place = drawing.source.place();
+                prop_assert!(keys.contains(&(place as usize)) && place.fract() == 0.0);
+                prop_assert_eq!(clock(fps).koma_from_place(place), begin);
+            }
+        }
+    }
+}
