@@ -15,11 +15,14 @@ use crate::timing::{Omission, Spacing};
 
 pub use knobs::{KNOBS, Kind, Knob};
 
+/// Koma a second beyond which a sheet is of no use and its table would not fit into memory.
+const MOST_KOMA: f64 = 1000.0;
+
 /// Every setting of the chain. The defaults alone give a sheet an animator can use.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recipe {
-    /// Koma a second of the sheet, above 0; default 24.
+    /// Koma a second of the sheet, 1 to 1000; default 24.
     pub rate: f64,
     /// How fast a joint is.
     pub speed: Speed,
@@ -55,8 +58,9 @@ impl Recipe {
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if !(self.rate > 0.0 && self.rate.is_finite()) {
-            return Err(Error::setting("rate", "must be above 0 koma a second"));
+        if !(1.0..=MOST_KOMA).contains(&self.rate) {
+            let message = format!("must be 1 to {MOST_KOMA} koma a second; 24 is usual");
+            return Err(Error::setting("rate", message));
         }
         self.speed.validate()?;
         self.filter.validate()?;
@@ -175,7 +179,7 @@ impl File {
             turns: self.turns.clone(),
             keys: self.keys.clone(),
             spacing: self.spacing.clone(),
-            omission: self.omission.clone(),
+            omission: self.omission,
         }
     }
 }
@@ -266,7 +270,9 @@ mod tests {
         assert!(error("filter.kind", "blur").contains("box, gaussian, ideal, butterworth"));
         assert!(error("spacing.on", "0").contains("or more"));
         assert!(error("spacing.on", "two").contains("spacing.on"));
-        assert!(error("rate", "-1").contains("above 0"));
+        for rate in ["-1", "0.9", "1001", "nan"] {
+            assert!(error("rate", rate).contains("1 to 1000"), "{rate}");
+        }
         assert_eq!(recipe, Recipe::default(), "nothing was changed");
     }
 

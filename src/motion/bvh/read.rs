@@ -50,7 +50,7 @@ fn frame_rate(scanner: &mut Scanner) -> Result<FrameRate, Error> {
     scanner.label(&["Frame", "Time"])?;
     let word = scanner.peek();
     let seconds = scanner.number()?;
-    if seconds >= 1.0 {
+    if seconds > 1.0 {
         let time = 1.0 / seconds;
         let message = format!(
             "{seconds} seconds a frame looks like a rate; {seconds} frames a second is \"Frame Time: {time:.6}\""
