@@ -1,6 +1,6 @@
 //! **Choose** (選ぶ): from the turns of joints to the keys (原画) and walls (壁) of a layer.
 //!
-//! Three ways to merge joints ([`vote`], [`sum`], any joint) give candidates; [`price`] says what
+//! Three ways to merge joints (`vote`, `sum`, any joint) give candidates; `price` says what
 //! each of them saves; [`Choose`] keeps those that are worth a drawing.
 
 mod choose;
