@@ -53,7 +53,8 @@ fn whole(bencher: Bencher<'_, '_>, frames: usize) {
         .counter(ItemsCount::new(frames * JOINTS))
         .with_inputs(|| Engine::new(clip.clone()).expect("a clip with motion"))
         .bench_local_values(|mut engine| {
-            let breakdown = engine.run(&Recipe::default(), &Edits::default()).expect("defaults run");
+            let breakdown =
+                engine.run(&Recipe::default(), &Edits::default()).expect("defaults run");
             breakdown.sheet.length()
         });
 }

@@ -4,6 +4,8 @@ mod drawings;
 mod koma;
 mod limited_bvh;
 mod report;
+#[cfg(test)]
+mod tests;
 mod turns;
 
 pub use drawings::{Drawings, Rows};

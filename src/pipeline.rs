@@ -10,6 +10,9 @@ use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
 use crate::time::Clock;
 use crate::timing::{Omitted, Report, Spaced, Stills};
 
+#[cfg(test)]
+mod tests;
+
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
 /// starts again at the first stage whose input changed.
 #[derive(Debug)]
@@ -93,9 +96,9 @@ impl Engine {
     /// # Errors
     /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold.
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
-        let changed = self.find(recipe, edits)?;
+        let keys_made = self.find(recipe, edits)?;
         let clock = self.clip.clock(recipe.rate);
-        self.time(recipe, clock, changed)?;
+        self.time(recipe, clock, keys_made)?;
         let [spaced, sheet] = self.sheets.output();
         Ok(Breakdown {
             clip: &self.clip,
@@ -125,116 +128,123 @@ impl Engine {
         Ok((self.turns.output(), self.keys.output()))
     }
 
-    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<bool, Error> {
+    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
-        let changed = self.measure(recipe)?;
-        Ok(self.choose(recipe, edits, self.clip.clock(recipe.rate), changed))
+        let turns = self.measure(recipe)?;
+        Ok(self.choose(recipe, edits, self.clip.clock(recipe.rate), turns))
     }
 
-    /// Speeds, smoothed, and where they turn. Says whether anything is new.
-    fn measure(&mut self, recipe: &Recipe) -> Result<bool, Error> {
+    /// Speeds, smoothed, and where they turn.
+    fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
         let clip = &self.clip;
-        let changed = self.speed.refresh(false, &recipe.speed, || recipe.speed.measure(clip))?;
+        let made = self.speed.refresh(Made::CLIP, &recipe.speed, || recipe.speed.measure(clip))?;
         let speed = self.speed.output();
-        let changed = self.spectrum.refresh(changed, &(), || Ok(Spectrum::of(speed)))?;
+        let made = self.spectrum.refresh(made, &(), || Ok(Spectrum::of(speed)))?;
         let spectrum = self.spectrum.output();
-        let changed =
-            self.filtered.refresh(changed, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;
+        let made =
+            self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;
         let filtered = self.filtered.output();
         let delay = recipe.filter.delay(clip.rate());
         let settings = (recipe.turns.clone(), recipe.filter.clone());
-        self.turns.refresh(changed, &settings, || Ok(recipe.turns.find(filtered, delay)))
+        self.turns.refresh(made, &settings, || Ok(recipe.turns.find(filtered, delay)))
     }
 
-    /// The keys and walls of the layer. Says whether anything is new.
-    fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, changed: bool) -> bool {
+    /// The keys and walls of the layer.
+    fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, turns_made: Made) -> Made {
         let (filtered, turns) = (self.filtered.output(), self.turns.output());
         let delay = recipe.filter.delay(self.clip.rate());
         // What is asked of the ranked list does not change the candidates.
         let merging = keys::Choose {
             rank: keys::Rank::Price,
             min_price: 0.0,
+            rest: 0.0,
             per_second: f64::INFINITY,
             ..recipe.keys.clone()
         };
         let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let changed = self.candidates.renew(changed, &settings, || {
+        let made = self.candidates.renew(turns_made, &settings, || {
             let apart = clock.frames_in_koma();
             recipe.keys.candidates(&recipe.turns, filtered, turns, &self.weights, delay, apart)
         });
         let candidates = self.candidates.output();
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
-        self.keys.renew(changed, &settings, || {
+        self.keys.renew(made, &settings, || {
             recipe.keys.choose(&self.clip, clock, candidates, turns, &self.weights, edits)
         })
     }
 
     /// The sheet, before and after omission.
-    fn time(&mut self, recipe: &Recipe, clock: Clock, changed: bool) -> Result<(), Error> {
+    fn time(&mut self, recipe: &Recipe, clock: Clock, keys_made: Made) -> Result<(), Error> {
         let clip = &self.clip;
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let keys = self.keys.output();
-        let changed = self.spaced.renew(changed, &(recipe.spacing.clone(), recipe.rate), || {
+        let made = self.spaced.renew(keys_made, &(recipe.spacing.clone(), recipe.rate), || {
             recipe.spacing.place(keys, clip.skeleton(), clock, koma)
         });
         let layer = &self.spaced.output().layer;
-        let changed = self.stills.renew(changed, &(), || Stills::of(clip, layer));
+        let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
         let stills = self.stills.output();
         let on = recipe.spacing.on;
         let settings = (recipe.omission, on);
-        let changed = self
-            .omitted
-            .refresh(changed, &settings, || recipe.omission.apply(layer, stills, on))?;
+        let made =
+            self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))?;
         let omitted = &self.omitted.output().layer;
-        self.sheets.renew(changed, &recipe.rate, || {
+        self.sheets.renew(made, &recipe.rate, || {
             [layer, omitted].map(|layer| Sheet { clock, layers: vec![layer.clone()] })
         });
         Ok(())
     }
 }
 
-/// A stage's last output with the settings that made it.
+/// Which of its outputs a stage holds, so that the next stage knows whether it has used that one. A
+/// run may end after any stage: whether a stage did something *in this run* would not tell.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Made(u64);
+
+impl Made {
+    /// The clip never changes.
+    const CLIP: Self = Self(0);
+}
+
+/// A stage's last output with the input and the settings that made it.
 #[derive(Debug)]
 struct Stage<Settings, Output> {
-    made: Option<(Settings, Output)>,
+    last: Option<(Made, Settings, Output)>,
+    made: Made,
 }
 
 impl<Settings, Output> Default for Stage<Settings, Output> {
     fn default() -> Self {
-        Self { made: None }
+        Self { last: None, made: Made::default() }
     }
 }
 
 impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
-    /// Makes the output again if its input or its settings changed. Says whether it did.
+    /// Makes the output again if its input or its settings changed. Says which output it holds now.
     fn refresh(
         &mut self,
-        input_changed: bool,
+        input: Made,
         settings: &Settings,
         make: impl FnOnce() -> Result<Output, Error>,
-    ) -> Result<bool, Error> {
-        let is_fresh = self.made.as_ref().is_some_and(|(made_with, _)| made_with == settings);
-        if is_fresh && !input_changed {
-            return Ok(false);
+    ) -> Result<Made, Error> {
+        let is_fresh =
+            |(from, with, _): &(Made, Settings, Output)| *from == input && with == settings;
+        if !self.last.as_ref().is_some_and(is_fresh) {
+            // Forgotten first: should `make` fail, a later run must not take the old output for the new.
+            self.last = None;
+            self.last = Some((input, settings.clone(), make()?));
+            self.made = Made(self.made.0 + 1);
         }
-        // Forgotten first: should `make` fail, a later run must not take the old output for the new.
-        self.made = None;
-        self.made = Some((settings.clone(), make()?));
-        Ok(true)
+        Ok(self.made)
     }
 
     /// [`Stage::refresh`] for a stage that cannot fail.
-    fn renew(
-        &mut self,
-        input_changed: bool,
-        settings: &Settings,
-        make: impl FnOnce() -> Output,
-    ) -> bool {
-        self.refresh(input_changed, settings, || Ok(make())).expect("this stage cannot fail")
+    fn renew(&mut self, input: Made, settings: &Settings, make: impl FnOnce() -> Output) -> Made {
+        self.refresh(input, settings, || Ok(make())).expect("this stage cannot fail")
     }
 
     fn output(&self) -> &Output {
-        &self.made.as_ref().expect("the stage was run before its output is asked for").1
+        &self.last.as_ref().expect("the stage was run before its output is asked for").2
     }
 }

@@ -15,11 +15,15 @@ use crate::timing::{Omission, Spacing};
 
 pub use knobs::{KNOBS, Kind, Knob};
 
+/// Koma a second that a sheet may have: fewer would be written as a frame time that reads as a rate, and
+/// more are of no use and their table would not fit into memory.
+const KOMA_RATES: std::ops::RangeInclusive<f64> = 2.0..=1000.0;
+
 /// Every setting of the chain. The defaults alone give a sheet an animator can use.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recipe {
-    /// Koma a second of the sheet, above 0; default 24.
+    /// Koma a second of the sheet, 2 to 1000; default 24.
     pub rate: f64,
     /// How fast a joint is.
     pub speed: Speed,
@@ -55,8 +59,8 @@ impl Recipe {
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if !(self.rate > 0.0 && self.rate.is_finite()) {
-            return Err(Error::setting("rate", "must be above 0 koma a second"));
+        if !KOMA_RATES.contains(&self.rate) {
+            return Err(Error::setting("rate", "must be 2 to 1000 koma a second; 24 is usual"));
         }
         self.speed.validate()?;
         self.filter.validate()?;
@@ -266,7 +270,9 @@ mod tests {
         assert!(error("filter.kind", "blur").contains("box, gaussian, ideal, butterworth"));
         assert!(error("spacing.on", "0").contains("or more"));
         assert!(error("spacing.on", "two").contains("spacing.on"));
-        assert!(error("rate", "-1").contains("above 0"));
+        for rate in ["-1", "0.9", "1001", "nan"] {
+            assert!(error("rate", rate).contains("2 to 1000"), "{rate}");
+        }
         assert_eq!(recipe, Recipe::default(), "nothing was changed");
     }
 

@@ -158,7 +158,7 @@ impl Choose {
     ) -> Vec<(Frame, f64)> {
         let mean = sum::mean_speed(filtered, weights);
         let turns = finder.find(&mean, delay).pop().unwrap_or_default();
-        let margin = delay.round() as usize + 1;
+        let margin = (delay.round() as usize).min(mean.frames()) + 1;
         let mut found = sum::prominences(&mean, &turns, kind, margin);
         found.retain(|(_, strength)| *strength > 0.0);
         let rows = found.into_iter().map(|(frame, strength)| (frame.0, strength)).collect();
@@ -282,7 +282,10 @@ fn voters(turns: &[Vec<Turn>], weights: &[f64], frame: Frame, reach: f64) -> Vec
     let from = Frame(frame.0.saturating_sub(reach.ceil() as usize));
     let speaks = |turns: &Vec<Turn>| {
         let begin = turns.partition_point(|turn| turn.frame < from);
-        turns[begin..].iter().take_while(|turn| turn.frame.0 <= frame.0 + reach as usize).any(near)
+        turns[begin..]
+            .iter()
+            .take_while(|turn| turn.frame.0 <= frame.0.saturating_add(reach as usize))
+            .any(near)
     };
     let joints = turns.iter().enumerate().filter(|(_, turns)| speaks(turns));
     let mut voters: Vec<JointId> = joints.map(|(joint, _)| JointId(joint)).collect();

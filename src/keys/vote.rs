@@ -46,11 +46,12 @@ impl Poll<'_> {
     /// Adds one joint's votes; `rows` are its turns in order.
     fn speak(&self, rows: &[usize], weight: f64, votes: &mut [f64]) {
         let mut from = 0;
+        let carries = (self.reach.ceil() as usize).min(self.frames);
         for (turn, &row) in rows.iter().enumerate() {
             // Frames up to half way to the next turn are nearest to this one.
             let past = rows.get(turn + 1).map_or(self.frames, |next| (row + next) / 2 + 1);
-            let begin = from.max(row.saturating_sub(self.reach.ceil() as usize));
-            let end = past.min(row + self.reach.ceil() as usize + 1).min(self.frames);
+            let begin = from.max(row.saturating_sub(carries));
+            let end = past.min(row + carries + 1).min(self.frames);
             for (at, vote) in votes.iter_mut().enumerate().take(end).skip(begin) {
                 let kernel =
                     if at == row { 1.0 } else { 1.0 - at.abs_diff(row) as f64 / self.reach };

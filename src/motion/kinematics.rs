@@ -105,8 +105,8 @@ impl Pose {
         for ((joint, rotation), translation) in
             clip.skeleton().joints.iter().zip(&mut self.rotations).zip(&mut self.translations)
         {
-            *rotation = rotation.slerp(local_rotation(joint, row), share);
-            *translation = translation.lerp(local_translation(joint, row), share);
+            *rotation = slerp(*rotation, local_rotation(joint, row), share);
+            *translation = lerp(*translation, local_translation(joint, row), share);
         }
     }
 
@@ -115,14 +115,25 @@ impl Pose {
         for (rotation, (from, to)) in
             self.rotations.iter_mut().zip(from.rotations.iter().zip(&to.rotations))
         {
-            *rotation = from.slerp(*to, share);
+            *rotation = slerp(*from, *to, share);
         }
         for (translation, (from, to)) in
             self.translations.iter_mut().zip(from.translations.iter().zip(&to.translations))
         {
-            *translation = from.lerp(*to, share);
+            *translation = lerp(*from, *to, share);
         }
     }
+}
+
+/// Slerp between two rotations; between equals there is no way, and rounding must make none: a body that
+/// stands still has to read as still.
+fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
+    if from == to { from } else { from.slerp(to, share) }
+}
+
+/// The same for translations.
+fn lerp(from: DVec3, to: DVec3, share: f64) -> DVec3 {
+    if from == to { from } else { from.lerp(to, share) }
 }
 
 /// A body in the world: the buffer that turns local poses into joint positions.
@@ -229,6 +240,20 @@ mod tests {
         exact.take_frame(&clip, Frame(1));
         pose.take_place(&clip, 7.0);
         assert_eq!(pose, exact, "a place past the end is the last frame");
+    }
+
+    #[test]
+    fn between_equal_poses_nothing_moves_by_even_the_last_digit() {
+        let row = [0.1, 33.3, -77.7];
+        let clip = clip(arm(&ZXY), &[row, row].concat());
+        let (mut between, mut frame) = (Pose::rest(clip.skeleton()), Pose::rest(clip.skeleton()));
+        frame.take_frame(&clip, Frame(0));
+        for share in [0.1, 0.3, 0.7] {
+            between.take_place(&clip, share);
+            assert_eq!(between, frame);
+            between.take_blend(&frame, &frame, share);
+            assert_eq!(between, frame);
+        }
     }
 
     fn clip(skeleton: Skeleton, values: &[f64]) -> Clip {

@@ -56,7 +56,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "rate",
         japanese: "コマ数",
-        kind: number(1.0, 60.0),
+        kind: number(2.0, 60.0),
         unit: "koma a second",
         help: "Koma a second of the sheet: 24 in film and TV animation.",
     },

@@ -178,7 +178,7 @@ impl<'a> Scan<'a> {
             fps: filtered.rate.fps(),
             for_people: filtered.unit.for_people(),
             floor: DUST * filtered.values.amax(),
-            delay: delay.round().max(0.0) as usize,
+            delay: (delay.round().max(0.0) as usize).min(frames),
             first: filtered.first,
             frames,
             signs: Vec::with_capacity(frames),

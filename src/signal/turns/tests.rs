@@ -4,7 +4,9 @@ use nalgebra::DMatrix;
 use proptest::prelude::*;
 
 use super::*;
-use crate::signal::{FilterKind, LowPass, Spectrum, Unit};
+use crate::motion::JointId;
+use crate::motion::bvh::{self, sample};
+use crate::signal::{FilterKind, LowPass, Spectrum, Speed, Unit};
 use crate::time::FrameRate;
 
 const FIRST: usize = 3;
@@ -458,6 +460,49 @@ fn one_column_of_sums_is_a_signal_like_any_other() {
     let turns = TurnFinder::default().find(&filtered, filter.delay(layer.rate));
     assert_eq!(turns.len(), 1);
     assert_eq!(rows(&turns[0], TurnKind::Key).len(), 2);
+}
+
+#[test]
+fn on_real_clips_both_readings_equal_their_words() {
+    let two = ["cmu-09_01-run", "cmu-10_03-soccer-kick"];
+    let clips = sample::real_clips().into_iter().filter(|(name, _)| two.contains(&name.as_str()));
+    for (name, bytes) in clips {
+        let (clip, _) = bvh::lead_in::strip(bvh::read(&bytes).unwrap().clip);
+        let speeds = Speed::default().measure(&clip).unwrap();
+        let filter = LowPass::default();
+        let (filtered, delay) = (filter.apply(&Spectrum::of(&speeds)), filter.delay(speeds.rate));
+        let floor = DUST * filtered.values.amax();
+        let steady = Steady::Acceleration(100.0);
+        for (reading, side, persistence) in [
+            (Reading::Event, Side::After, 12),
+            (Reading::Event, Side::After, 1),
+            (Reading::Literal, Side::After, 5),
+            (Reading::Literal, Side::Both, 10),
+            (Reading::Literal, Side::Rising, 5),
+        ] {
+            let span = Span::Frames(persistence as f64);
+            let finder = TurnFinder { reading, steady, persistence: span, side };
+            // The words of the oracle know no units: its band is in radians.
+            let band = Steady::Acceleration(100f64.to_radians());
+            let in_radians = TurnFinder { steady: band, ..finder.clone() };
+            let fps = clip.rate().fps();
+            let mut turns = 0;
+            for (joint, found) in finder.find(&filtered, delay).into_iter().enumerate() {
+                let x = filtered.joint(JointId(joint));
+                let slow = Slow { finder: &in_radians, fps, delay, floor, x };
+                let expected = match reading {
+                    Reading::Event => slow.event(persistence),
+                    Reading::Literal => slow.literal(persistence),
+                };
+                let first = clip.first().0;
+                let found: Vec<_> =
+                    found.iter().map(|turn| (turn.frame.0 - first, turn.kind)).collect();
+                turns += found.len();
+                assert_eq!(found, expected, "{name}, joint {joint}, {finder:?}");
+            }
+            assert!(turns > 20, "{name}: only {turns} turns, {finder:?}");
+        }
+    }
 }
 
 fn any_side() -> impl Strategy<Value = Side> {

@@ -1,4 +1,5 @@
 mod oracle;
+mod real;
 
 use glam::DVec3;
 use proptest::prelude::*;

@@ -1,0 +1,256 @@
+//! An engine that has run before gives what a fresh one gives; corrections hold.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::edits::Pin;
+use crate::motion::bvh;
+use crate::recipe::{KNOBS, Kind, Knob};
+use crate::sheet::{Role, Source};
+use crate::time::Frame;
+
+/// The made pitch, its hundred frames round the throw: 24 frames a second, 23 joints.
+fn pitch() -> Clip {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/pitch.bvh");
+    let clip = bvh::read(&std::fs::read(path).unwrap()).unwrap().clip;
+    clip.trimmed(Frame(20), Frame(120)).unwrap()
+}
+
+/// Values of every knob that the default is not, and the default itself.
+fn values(knob: &Knob) -> Vec<String> {
+    let mut values = match knob.kind {
+        Kind::Number { min, max, whole, optional } => {
+            let number = |share: f64| {
+                let value = min + share * (max - min);
+                if whole { value.round() } else { value }.to_string()
+            };
+            let mut values = vec![number(0.0), number(0.1), number(0.4)];
+            values.extend(optional.then(|| "none".into()));
+            values
+        }
+        Kind::Span => vec!["1".into(), "0.25s".into(), "500".into()],
+        Kind::Amount => vec!["0".into(), "7".into(), "60%".into()],
+        Kind::Band => vec!["0".into(), "900".into(), "20%".into()],
+        Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
+        Kind::Flag => vec!["true".into(), "false".into()],
+    };
+    values.push(Recipe::default().get(knob.name).unwrap());
+    values.dedup();
+    values
+}
+
+/// What two runs are compared by: everything that is made.
+#[derive(Debug, PartialEq)]
+struct Result {
+    speed: Signals,
+    filtered: Signals,
+    turns: Vec<Vec<Turn>>,
+    candidates: Candidates,
+    keys: LayerKeys,
+    did_not_fit: usize,
+    sheets: [Sheet; 2],
+    omission: Report,
+}
+
+fn run(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result {
+    let breakdown = engine.run(recipe, edits).unwrap();
+    Result {
+        speed: breakdown.speed.clone(),
+        filtered: breakdown.filtered.clone(),
+        turns: breakdown.turns.to_vec(),
+        candidates: breakdown.candidates.clone(),
+        keys: breakdown.keys.clone(),
+        did_not_fit: breakdown.did_not_fit,
+        sheets: [breakdown.spaced.clone(), breakdown.sheet.clone()],
+        omission: breakdown.omission.clone(),
+    }
+}
+
+fn fresh(clip: &Clip, recipe: &Recipe, edits: &Edits) -> Result {
+    run(&mut Engine::new(clip.clone()).unwrap(), recipe, edits)
+}
+
+/// Every knob at every value, in an order that looks random and is always the same.
+fn changes(seed: u64) -> Vec<(&'static Knob, String)> {
+    let mut changes: Vec<_> =
+        KNOBS.iter().flat_map(|knob| values(knob).into_iter().map(move |v| (knob, v))).collect();
+    let mut state = seed;
+    for at in (1..changes.len()).rev() {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        changes.swap(at, (state >> 33) as usize % (at + 1));
+    }
+    changes
+}
+
+fn corrections(step: usize) -> Edits {
+    let pin = |frame: usize| Pin::parse(&format!("{frame}:by hand")).unwrap();
+    match step % 4 {
+        0 => Edits::default(),
+        1 => Edits { pins: vec![pin(20 + step % 100)], forbidden: vec![] },
+        2 => Edits { pins: vec![pin(60)], forbidden: vec![Frame(70), Frame(90)] },
+        _ => Edits { pins: vec![], forbidden: vec![Frame(20 + step % 100)] },
+    }
+}
+
+#[test]
+fn one_knob_changed_on_a_used_engine_gives_what_a_fresh_one_gives() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    for (knob, value) in changes(1) {
+        let mut recipe = Recipe::default();
+        recipe.set(knob.name, &value).unwrap();
+        let edits = Edits::default();
+        let used = run(&mut engine, &recipe, &edits);
+        assert!(used == fresh(&clip, &recipe, &edits), "{} = {value}", knob.name);
+    }
+}
+
+#[test]
+fn knobs_that_stay_changed_and_corrections_that_come_and_go_give_what_a_fresh_engine_gives() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let mut recipe = Recipe::default();
+    for (step, (knob, value)) in changes(2).into_iter().enumerate() {
+        recipe.set(knob.name, &value).unwrap();
+        let edits = corrections(step);
+        let used = run(&mut engine, &recipe, &edits);
+        assert!(used == fresh(&clip, &recipe, &edits), "{} = {value}, {edits:?}", knob.name);
+    }
+}
+
+#[test]
+fn keys_alone_do_not_make_the_sheet_old() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let (default, none) = (Recipe::default(), Edits::default());
+    run(&mut engine, &default, &none);
+    for (name, value) in [("filter.width", "0.3s"), ("keys.min_price", "40"), ("rate", "12")] {
+        let mut recipe = default.clone();
+        recipe.set(name, value).unwrap();
+        engine.find_keys(&recipe, &none).unwrap();
+        assert!(run(&mut engine, &recipe, &none) == fresh(&clip, &recipe, &none), "{name}");
+    }
+}
+
+#[test]
+fn a_recipe_or_correction_that_is_refused_changes_nothing_afterwards() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let (default, none) = (Recipe::default(), Edits::default());
+    let before = run(&mut engine, &default, &none);
+    let wrong: [fn(&mut Recipe); 6] = [
+        |recipe| recipe.rate = f64::NAN,
+        |recipe| recipe.filter.width = crate::time::Span::Frames(-1.0),
+        |recipe| recipe.keys.min_price = -1.0,
+        |recipe| recipe.spacing.on = 0,
+        |recipe| recipe.spacing.weight = 1.0,
+        |recipe| recipe.omission.max_hold = 0,
+    ];
+    for spoil in wrong {
+        let mut recipe = Recipe::default();
+        recipe.set("filter.width", "0.4s").unwrap();
+        spoil(&mut recipe);
+        assert!(engine.run(&recipe, &none).is_err());
+        assert!(run(&mut engine, &default, &none) == before);
+    }
+    let outside = Edits { pins: vec![Pin::parse("19").unwrap()], forbidden: vec![] };
+    assert!(engine.run(&default, &outside).is_err());
+    assert!(engine.find_keys(&default, &outside).is_err());
+    assert!(run(&mut engine, &default, &none) == before);
+}
+
+#[test]
+fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
+    // A knob that nothing reads would pass every comparison with a fresh engine.
+    let clip = pitch();
+    let mut unread: Vec<&str> = KNOBS.iter().map(|knob| knob.name).collect();
+    let (mut engine, none) = (Engine::new(clip).unwrap(), Edits::default());
+    let bases = [
+        vec![],
+        vec![("turns.reading", "literal"), ("keys.rank", "strength")],
+        vec![("spacing.on", "1"), ("omission.koma_dori", "50%"), ("spacing.weight", "0.8")],
+    ];
+    for base in bases {
+        let mut recipe = Recipe::default();
+        base.iter().for_each(|(name, value)| recipe.set(name, value).unwrap());
+        let result = run(&mut engine, &recipe, &none);
+        unread.retain(|name| {
+            !values(Knob::find(name).unwrap()).iter().any(|value| {
+                let mut changed = recipe.clone();
+                changed.set(name, value).unwrap();
+                run(&mut engine, &changed, &none).sheets != result.sheets
+            })
+        });
+    }
+    assert!(unread.is_empty(), "no sheet ever changed with {unread:?}");
+}
+
+/// A recipe with some knobs turned to anything.
+fn any_recipe() -> impl Strategy<Value = Recipe> {
+    let turn = (prop::sample::select(KNOBS), any::<prop::sample::Index>());
+    prop::collection::vec(turn, 0..8).prop_map(|turns| {
+        let mut recipe = Recipe::default();
+        for (knob, value) in turns {
+            let values = values(&knob);
+            recipe.set(knob.name, &values[value.index(values.len())]).unwrap();
+        }
+        recipe
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn a_pin_stands_on_its_koma_whatever_the_recipe(recipe in any_recipe(), frame in 20usize..120) {
+        let clip = pitch();
+        let mut engine = Engine::new(clip).unwrap();
+        let pin = Pin { frame: Frame(frame), name: Some("hand".into()), weight: None };
+        let edits = Edits { pins: vec![pin], forbidden: vec![] };
+        let breakdown = engine.run(&recipe, &edits).unwrap();
+        prop_assert!(breakdown.keys.keys.iter().any(|key| key.frame == Frame(frame)));
+        for sheet in [breakdown.spaced, breakdown.sheet] {
+            let layer = &sheet.layers[0];
+            let pinned: Vec<_> = layer
+                .timed()
+                .map(|(begin, exposure)| (begin, &layer.drawings[exposure.drawing]))
+                .filter(|(_, drawing)| drawing.why.pinned.as_deref() == Some("hand"))
+                .collect();
+            prop_assert_eq!(pinned.len(), 1, "{:?}", layer);
+            let (begin, drawing) = pinned[0];
+            let last = breakdown.spaced.length() - 1;
+            let koma = breakdown.clock.koma_from_place(frame as f64).min(last);
+            if recipe.omission.keep_length || sheet == breakdown.spaced {
+                prop_assert_eq!(begin, koma);
+            }
+            if (1..last).contains(&koma) {
+                prop_assert_eq!(drawing.role, Role::Genga);
+                prop_assert_eq!(drawing.source, Source::At(frame as f64));
+            } else {
+                prop_assert_eq!(drawing.role, Role::End);
+            }
+        }
+    }
+
+    #[test]
+    fn no_key_is_found_within_a_koma_of_a_forbidden_frame(
+        recipe in any_recipe(),
+        chosen in any::<prop::sample::Index>(),
+    ) {
+        let mut engine = Engine::new(pitch()).unwrap();
+        let free = engine.run(&recipe, &Edits::default()).unwrap();
+        let apart = free.clock.frames_in_koma();
+        let found: Vec<Frame> = free.keys.keys.iter().map(|key| key.frame).collect();
+        prop_assume!(!found.is_empty());
+        let forbidden = found[chosen.index(found.len())];
+        let edits = Edits { pins: vec![], forbidden: vec![forbidden] };
+        let breakdown = engine.run(&recipe, &edits).unwrap();
+        for key in &breakdown.keys.keys {
+            prop_assert!(key.frame.0.abs_diff(forbidden.0) as f64 >= apart, "{key:?}");
+        }
+        let shown = |drawing: &crate::sheet::Drawing| {
+            drawing.role == Role::Genga && drawing.source == Source::At(forbidden.0 as f64)
+        };
+        prop_assert!(!breakdown.sheet.layers[0].drawings.iter().any(shown));
+    }
+}

@@ -1,0 +1,11 @@
+//! What the whole is held to.
+
+#![allow(clippy::unwrap_used, reason = "a test")]
+
+mod clips; // where clips come from
+#[cfg(feature = "cli")]
+mod program; // the built binary, as a person or a script uses it
+mod real_clips; // the default recipe on every real clip
+mod rerig; // the same motion in another rig gives the same sheet
+mod rooms; // who may import whom
+mod tiny_clips; // the smallest clips with any recipe never panic

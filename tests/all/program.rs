@@ -1,0 +1,565 @@
+//! The built program, as a person or a script uses it.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+use crate::clips::{here, sample};
+
+const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
+
+/// What a run writes, and how each file begins.
+const FILES: [(&str, &str); 10] = [
+    (
+        "drawings.csv",
+        "cut,column,drawing,role,genga_no,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
+    ),
+    (
+        "keys.csv",
+        "cut,column,drawing,role,genga_no,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
+    ),
+    ("limited.bvh", "HIERARCHY\nROOT "),
+    ("poses.svg", "<svg "),
+    ("recipe.toml", "# A genga recipe"),
+    ("remap.csv", "koma,source_frame,source_time_s\n"),
+    ("report.json", "{\n  \"frames\": "),
+    ("sheet.csv", "koma,layer,drawing,role,source_frame,why\n"),
+    ("sheet.svg", "<svg "),
+    ("speed.svg", "<svg "),
+];
+
+const SUBCOMMANDS: [&str; 8] =
+    ["run", "keys", "omit", "study", "inspect", "recipe", "completions", "man"];
+
+/// A folder of its own for each test; the program runs in it.
+struct Place(TempDir);
+
+impl Place {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> std::path::PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command<S: AsRef<OsStr>>(&self, args: &[S]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_genga"));
+        command.current_dir(self.0.path()).args(args).stdin(Stdio::null());
+        command
+    }
+
+    fn genga(&self, args: &str) -> Output {
+        self.command(&words(args)).output().unwrap()
+    }
+
+    /// Runs it with bytes on stdin.
+    fn fed(&self, args: &str, bytes: &[u8]) -> Output {
+        let mut command = self.command(&words(args));
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        child.stdin.take().unwrap().write_all(bytes).unwrap();
+        child.wait_with_output().unwrap()
+    }
+
+    /// Runs it, sees it succeed, and gives stdout.
+    fn done(&self, args: &str) -> String {
+        let output = self.genga(args);
+        assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
+        text(&output.stdout)
+    }
+
+    /// Runs it, sees it fail with this code and nothing on stdout, and gives the one line it says.
+    fn refused(&self, code: i32, args: &str) -> String {
+        let output = self.genga(args);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "genga {args}: {said}");
+        assert_eq!(text(&output.stdout), "", "genga {args}");
+        said
+    }
+
+    /// Every file of a folder by its name.
+    fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
+        let entries = fs::read_dir(self.path(folder)).unwrap();
+        let paths = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+        paths.map(|path| (name(&path), fs::read(&path).unwrap())).collect()
+    }
+}
+
+/// Words of a command line; `data/` means that of the repository.
+fn words(args: &str) -> Vec<String> {
+    let data = here("data").to_string_lossy().into_owned() + "/";
+    let word = |word: &str| match word.strip_prefix("data/") {
+        Some(file) => format!("{data}{file}"),
+        None => word.to_owned(),
+    };
+    args.split_whitespace().map(word).collect()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A column of a CSV table.
+fn column(table: &str, name: &str) -> Vec<String> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let at = reader.headers().unwrap().iter().position(|header| header == name).unwrap();
+    reader.records().map(|record| record.unwrap()[at].to_owned()).collect()
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap()
+}
+
+/// The pitch with an inserted T-pose: a row of zeros in front.
+fn with_t_pose() -> String {
+    let text = read(&here("data/pitch.bvh"));
+    let channels = sample("pitch.bvh").skeleton().channels();
+    let (head, motion) = text.split_once("Frame Time:").unwrap();
+    let (time, rows) = motion.split_once('\n').unwrap();
+    let zeros = vec!["0"; channels].join(" ");
+    let head = head.replace("Frames: 129", "Frames: 130");
+    format!("{head}Frame Time:{time}\n{zeros}\n{rows}")
+}
+
+#[test]
+fn a_run_writes_every_file_and_says_what_it_did() {
+    let place = Place::new();
+    for name in SAMPLES {
+        let output = place.genga(&format!("run data/{name}.bvh --out out/{name}"));
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{name}: {said}");
+        assert!(output.stdout.is_empty(), "{name}: what is said to a person is on stderr");
+        let files = place.files(&format!("out/{name}"));
+        let names: Vec<&str> = files.keys().map(String::as_str).collect();
+        assert_eq!(names, FILES.map(|(file, _)| file), "{name}");
+        for (file, begin) in FILES {
+            let made = text(&files[file]);
+            assert!(made.starts_with(begin), "{name}/{file} begins {:.90}", made);
+            assert!(made.len() > begin.len() && made.ends_with('\n'), "{name}/{file}");
+            assert!(said.contains(file), "{name}: {file} is not named in\n{said}");
+        }
+        for word in [name, "fps", "joints", "genga", "drawings", "longest hold", "naka-nashi"] {
+            assert!(said.contains(word), "{name}: no word of {word} in\n{said}");
+        }
+        let koma = column(&text(&files["sheet.csv"]), "koma").len();
+        assert_eq!(column(&text(&files["remap.csv"]), "koma").len(), koma);
+        let keys = column(&text(&files["keys.csv"]), "role");
+        assert!(keys.len() > 4 && !keys.contains(&"inbetween".into()));
+        let report: serde_json::Value = serde_json::from_slice(&files["report.json"]).unwrap();
+        assert_eq!(report["koma"], koma);
+        assert_eq!(report["genga"], keys.iter().filter(|role| *role == "genga").count());
+    }
+}
+
+#[test]
+fn the_folder_is_named_after_the_clip_unless_one_is_given() {
+    let place = Place::new();
+    place.done("run data/kick.bvh -q");
+    assert_eq!(place.files("kick-genga").len(), FILES.len());
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let place = Place::new();
+    for name in ["pitch", "kuroda-pitch"] {
+        for again in ["a", "b"] {
+            place.done(&format!("run data/{name}.bvh --out {again} --set keys.merge=sum"));
+            let omit = format!("omit data/{name}.bvh --out {again}/o.bvh --sheet {again}/o.csv");
+            place.done(&omit);
+            let study = format!("study data/{name}.bvh --out {again}/s.csv --plot {again}/s.svg");
+            place.done(&study);
+        }
+        let (a, b) = (place.files("a"), place.files("b"));
+        assert_eq!(a.len(), FILES.len() + 4);
+        for (file, bytes) in a {
+            assert!(b[&file] == bytes, "{name}: {file} came out different");
+        }
+        let keys = format!("keys data/{name}.bvh --per-joint");
+        assert_eq!(place.done(&keys), place.done(&keys));
+    }
+}
+
+#[test]
+fn keys_are_a_table_of_the_body_or_of_every_joint() {
+    let place = Place::new();
+    for name in SAMPLES {
+        let table = place.done(&format!("keys data/{name}.bvh"));
+        assert!(column(&table, "cut").iter().all(|cut| cut == name));
+        let roles = column(&table, "role");
+        assert_eq!((roles[0].as_str(), roles[roles.len() - 1].as_str()), ("end", "end"));
+        let joints = place.done(&format!("keys data/{name}.bvh --per-joint"));
+        assert!(joints.starts_with("joint,frame,kind,speed_deg_s,confirmed_for\n"));
+        let kinds = column(&joints, "kind");
+        assert!(kinds.contains(&"key".into()) && kinds.contains(&"wall".into()));
+        let skeleton = sample(&format!("{name}.bvh")).skeleton().clone();
+        assert!(column(&joints, "joint").iter().all(|joint| skeleton.find(joint).is_some()));
+        place.done(&format!("run data/{name}.bvh --out {name}"));
+        assert_eq!(table, read(&place.path(&format!("{name}/keys.csv"))), "the same as of a run");
+    }
+}
+
+#[test]
+fn omit_does_what_the_second_paper_counts() {
+    let place = Place::new();
+    for (name, naka_nashi, koma_dori) in
+        [("pitch", 4, 33), ("kick", 4, 30), ("tennis", 4, 29), ("swing", 6, 40)]
+    {
+        let output = place.genga(&format!(
+            "omit data/{name}.bvh --naka-nashi {naka_nashi} --koma-dori {koma_dori} --out {name}.bvh --sheet {name}.csv"
+        ));
+        let said = text(&output.stderr);
+        assert!(output.status.success(), "{name}: {said}");
+        assert!(said.contains(&format!("{naka_nashi} of {naka_nashi} left out")), "{said}");
+        assert!(said.contains(&format!("{koma_dori} of {koma_dori} held over")), "{said}");
+        let drawings = column(&read(&place.path(&format!("{name}.csv"))), "drawing");
+        let held = drawings.windows(2).filter(|pair| pair[0] == pair[1]).count();
+        assert_eq!(held, naka_nashi + koma_dori, "{name}");
+        let made = crate::clips::read(&place.path(&format!("{name}.bvh")));
+        assert_eq!(made.len(), sample(&format!("{name}.bvh")).len(), "{name}");
+        assert_eq!(made.rate().fps(), 24.0);
+    }
+}
+
+#[test]
+fn the_flags_of_omit_do_something_each() {
+    let place = Place::new();
+    let sheet = |flags: &str| {
+        place
+            .done(&format!("omit data/swing.bvh --naka-nashi 8 --out o.bvh --sheet o.csv {flags}"));
+        read(&place.path("o.csv"))
+    };
+    let plain = sheet("");
+    for flags in [
+        "--all-at-once",
+        "--koma-dori-first",
+        "--let-length-change",
+        "--max-hold 2",
+        "--koma-dori 5",
+    ] {
+        assert_ne!(sheet(flags), plain, "{flags}");
+    }
+    assert_eq!(sheet("--koma-dori 33% --max-hold 4"), sheet("--koma-dori 0.33"));
+    assert_eq!(column(&sheet("--let-length-change"), "koma").len(), 112);
+}
+
+#[test]
+fn a_study_has_a_row_a_cell_and_persistence_runs_fastest() {
+    let place = Place::new();
+    for name in SAMPLES {
+        let table = place.done(&format!("study data/{name}.bvh"));
+        assert!(table.starts_with("filter_width,persistence,union,total,layer_keys\n"), "{table}");
+        assert_eq!(column(&table, "filter_width"), ["10", "10", "20", "20", "30", "30"]);
+        assert_eq!(column(&table, "persistence"), ["5", "10", "5", "10", "5", "10"]);
+        let number = |name| -> Vec<usize> {
+            column(&table, name).iter().map(|cell| cell.parse().unwrap()).collect()
+        };
+        assert!(number("total").iter().zip(number("union")).all(|(total, union)| *total >= union));
+        assert!(number("union").chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
+    }
+    let table =
+        place.done("study data/kick.bvh --filter-width 0.2s,7 --persistence 3 --filter ideal");
+    assert_eq!(column(&table, "filter_width"), ["0.2s", "7"]);
+    place.done("study data/kick.bvh --out s.csv --plot s.png -q");
+    assert!(fs::read(place.path("s.png")).unwrap().starts_with(b"\x89PNG"));
+    assert_eq!(read(&place.path("s.csv")), place.done("study data/kick.bvh"));
+}
+
+#[test]
+fn inspect_names_what_is_in_a_clip() {
+    let place = Place::new();
+    for name in SAMPLES {
+        let clip = sample(&format!("{name}.bvh"));
+        let page = place.done(&format!("inspect data/{name}.bvh"));
+        for wanted in [
+            format!("frames    {}, numbers 0 to {}", clip.len(), clip.last()),
+            format!("rate      {} frames a second", clip.rate()),
+            format!("joints    23, {} channels", clip.skeleton().channels()),
+            "centimetres".into(),
+        ] {
+            assert!(page.contains(&wanted), "{wanted:?} is not in\n{page}");
+        }
+        assert!(clip.skeleton().joints.iter().all(|joint| page.contains(&joint.name)));
+    }
+}
+
+#[test]
+fn a_dash_is_stdin_and_stdout() {
+    let place = Place::new();
+    let bytes = fs::read(here("data/kick.bvh")).unwrap();
+    let output = place.fed("keys -", &bytes);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let named = place.done("keys data/kick.bvh").replace("\nkick,", "\nstdin,");
+    assert_eq!(text(&output.stdout), named);
+    let output = place.fed("omit - --out -", &bytes);
+    place.done("omit data/kick.bvh --out o.bvh");
+    assert!(output.stdout == fs::read(place.path("o.bvh")).unwrap());
+    let output = place.fed("run - --out piped -q", &bytes);
+    assert_eq!(text(&output.stderr), "");
+    assert_eq!(place.files("piped").len(), FILES.len());
+    let recipe = place.done("recipe");
+    fs::write(place.path("k.bvh"), &bytes).unwrap();
+    let output = place.fed("keys k.bvh --recipe -", recipe.as_bytes());
+    assert_eq!(text(&output.stdout).replace("\nk,", "\nstdin,"), named);
+    let output = place.fed("keys -", b"HIERARCHY\nROOT 5 {");
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
+fn what_cannot_be_done_is_code_1_and_what_is_asked_wrongly_is_code_2() {
+    let place = Place::new();
+    fs::write(place.path("empty.bvh"), "").unwrap();
+    fs::write(place.path("picture.bvh"), b"\x89PNG\r\n\x1a\n\xff\xfe").unwrap();
+    fs::write(place.path("wrong.toml"), "rate = \"many\"\n").unwrap();
+    for args in [
+        "run none.bvh --out o",
+        "keys none.bvh",
+        "keys empty.bvh",
+        "keys picture.bvh",
+        "inspect .",
+        "omit data/kick.bvh --out none/o.bvh",
+        "study data/kick.bvh --plot none/s.svg",
+        "run data/kick.bvh --out empty.bvh",
+        "run data/kick.bvh --out empty.bvh/under",
+    ] {
+        let said = place.refused(1, args);
+        assert!(said.starts_with("genga: ") && said.lines().count() == 1, "{args}: {said}");
+    }
+    for args in [
+        "run data/kick.bvh --out o --set spacing.on=0",
+        "run data/kick.bvh --out o --set spacing.off=2",
+        "run data/kick.bvh --out o --set spacing.on",
+        "run data/kick.bvh --out o --pin 92",
+        "run data/kick.bvh --out o --pin twelve",
+        "run data/kick.bvh --out o --trim 10..200",
+        "run data/kick.bvh --out o --trim 50..50",
+        "run data/kick.bvh --out o --trim 50..20",
+        "run data/kick.bvh --out o --trim 50",
+        "run data/kick.bvh --out o --recipe wrong.toml",
+        "run data/kick.bvh --out o --recipe picture.bvh",
+        "run --out o",
+        "omit data/kick.bvh --out o.bvh --koma-dori 4/3",
+        "omit data/kick.bvh --out o.bvh --max-hold 0",
+        "omit data/kick.bvh",
+        "study data/kick.bvh --filter blur",
+        "study data/kick.bvh --persistence -3",
+        "dance data/kick.bvh",
+        "completions tcl",
+        "",
+    ] {
+        place.refused(2, args);
+    }
+    assert!(!place.path("o").exists() && !place.path("o.bvh").exists(), "nothing was written");
+    for args in ["--help", "--version", "run --help", "help omit"] {
+        assert!(place.done(args).len() > 5, "{args}");
+    }
+}
+
+#[test]
+fn an_error_names_file_line_and_column() {
+    let place = Place::new();
+    let kick = read(&here("data/kick.bvh"));
+    let lines: Vec<&str> = kick.lines().collect();
+    let motion = lines.iter().position(|line| line.starts_with("Frame Time")).unwrap();
+    let mut broken: Vec<String> = lines.iter().map(|line| (*line).into()).collect();
+    let third = broken[motion + 2].match_indices(' ').nth(1).unwrap().0 + 1;
+    broken[motion + 2].replace_range(third..=third, "x");
+    fs::write(place.path("broken.bvh"), broken.join("\n")).unwrap();
+    for args in ["inspect broken.bvh", "keys broken.bvh", "run broken.bvh --out o"] {
+        let said = place.refused(1, args);
+        let place = format!("genga: broken.bvh:{}:{}: ", motion + 3, third + 1);
+        assert!(said.starts_with(&place), "{said} is not at {place}");
+    }
+    fs::write(place.path("r.toml"), "rate = 24\n\n[filter]\nwitdh = 3\n").unwrap();
+    let said = place.refused(2, "keys data/kick.bvh --recipe r.toml");
+    assert!(said.starts_with("genga: r.toml:4:1: ") && said.contains("witdh"), "{said}");
+    let said = place.refused(1, "keys none.bvh");
+    assert!(said.starts_with("genga: none.bvh: "), "{said}");
+}
+
+#[test]
+fn an_unknown_setting_is_answered_with_the_nearest() {
+    let place = Place::new();
+    for (wrong, meant) in [
+        ("filter.widht", "filter.width"),
+        ("spacing.wieght", "spacing.weight"),
+        ("omission.nakanashi", "omission.naka_nashi"),
+        ("key.merge", "keys.merge"),
+    ] {
+        let said = place.refused(2, &format!("keys data/kick.bvh --set {wrong}=1"));
+        assert!(said.contains(&format!("did you mean {meant}?")), "{said}");
+    }
+    let said = place.refused(2, "keys data/kick.bvh --set filter.kind=blur");
+    assert!(said.contains("box, gaussian, ideal, butterworth"), "{said}");
+}
+
+#[test]
+fn a_trim_counts_frames_as_in_the_file() {
+    let place = Place::new();
+    place.done("run data/kuroda-pitch.bvh --out all");
+    place.done("run data/kuroda-pitch.bvh --out part --trim 120..420");
+    let frames = |folder: &str| -> Vec<f64> {
+        let remap = read(&place.path(&format!("{folder}/remap.csv")));
+        column(&remap, "source_frame").iter().map(|cell| cell.parse().unwrap()).collect()
+    };
+    let part = frames("part");
+    assert_eq!(part[0], 120.0);
+    assert!(part.iter().all(|frame| (120.0..420.0).contains(frame)));
+    assert_eq!(part.len(), 299 * 24 / 100 + 1);
+    assert_eq!(frames("all")[0], 0.0);
+    let part = place.done("keys data/kuroda-pitch.bvh --trim 0..496");
+    assert_eq!(part, place.done("keys data/kuroda-pitch.bvh"));
+}
+
+#[test]
+fn an_inserted_t_pose_is_left_out_with_a_note_unless_it_is_to_be_kept() {
+    let place = Place::new();
+    fs::write(place.path("t.bvh"), with_t_pose()).unwrap();
+    let first = |args: &str| {
+        let output = place.genga(&format!("keys t.bvh {args}"));
+        assert!(output.status.success());
+        (column(&text(&output.stdout), "source_frame")[0].clone(), text(&output.stderr))
+    };
+    let (frame, said) = first("");
+    assert_eq!(frame, "1");
+    assert!(said.contains("W_LEAD_IN") && said.contains("--keep-lead-in"), "{said}");
+    assert_eq!(first("--keep-lead-in"), ("0".into(), String::new()));
+    assert_eq!(first("--trim 5..90"), ("5".into(), String::new()));
+    assert_eq!(first("--trim 0..90").0, "1", "from the beginning of the motion");
+    assert_eq!(first("--trim 0..90 --keep-lead-in").0, "0");
+    assert_eq!(first("-q"), ("1".into(), String::new()));
+    place.done("run t.bvh --out o");
+    assert!(read(&place.path("o/report.json")).contains("W_LEAD_IN"));
+    // What is left is the pitch, one frame later in its file.
+    let (with, without) = (place.done("keys t.bvh"), place.done("keys data/pitch.bvh"));
+    let later = |cell: &String| (cell.parse::<f64>().unwrap() + 1.0).to_string();
+    let without: Vec<String> = column(&without, "source_frame").iter().map(later).collect();
+    assert_eq!(column(&with, "source_frame"), without);
+}
+
+#[test]
+fn the_written_recipe_gives_the_same_results_again() {
+    let place = Place::new();
+    let asked = "--set filter.width=0.15s --set spacing.on=3 --set turns.steady=3% --set keys.per_second=2.5 \
+                 --set omission.naka_nashi=3 --pin 12:wind-up,70 --pin 100";
+    place.done(&format!("run data/pitch.bvh --out a {asked}"));
+    place.done("run data/pitch.bvh --out b --recipe a/recipe.toml");
+    assert_eq!(place.files("a"), place.files("b"));
+    place.done("run data/pitch.bvh --out c");
+    assert_ne!(place.files("a")["sheet.csv"], place.files("c")["sheet.csv"]);
+    let sheet = text(&place.files("a")["sheet.csv"]);
+    for (frame, why) in [("12", "pinned: wind-up"), ("70", "pinned"), ("100", "pinned")] {
+        let row = |line: &str| line.contains(&format!(",genga,{frame},")) && line.contains(why);
+        assert!(sheet.lines().any(row), "frame {frame} is not pinned in\n{sheet}");
+    }
+    // --set goes over the file.
+    let over = "--recipe a/recipe.toml --set spacing.on=1";
+    place.done(&format!("run data/pitch.bvh --out d {over}"));
+    assert!(read(&place.path("d/recipe.toml")).contains("\non = 1\n"));
+    fs::write(place.path("default.toml"), place.done("recipe")).unwrap();
+    place.done("run data/pitch.bvh --out e --recipe default.toml");
+    assert_eq!(place.files("e"), place.files("c"));
+    fs::write(place.path("study.toml"), place.done("recipe --study")).unwrap();
+    let study = place.done("study data/pitch.bvh --recipe study.toml");
+    assert_eq!(study, place.done("study data/pitch.bvh"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_has_enough_is_no_failure() {
+    let place = Place::new();
+    let data = here("data");
+    for args in [
+        "recipe".into(),
+        "man".into(),
+        "completions bash".into(),
+        format!("keys {}/kuroda-pitch.bvh --per-joint", data.display()),
+        format!("omit {}/kuroda-pitch.bvh --out -", data.display()),
+    ] {
+        let script = format!(
+            "( '{}' {args}; echo \"code $?\" >&2 ) | head -c 1",
+            env!("CARGO_BIN_EXE_genga")
+        );
+        let output =
+            Command::new("sh").arg("-c").arg(script).current_dir(place.0.path()).output().unwrap();
+        let said = text(&output.stderr);
+        assert!(said.ends_with("code 0\n"), "{args}: {said}");
+        assert!(!said.contains("panic"), "{args}: {said}");
+        assert_eq!(output.stdout.len(), 1, "{args}");
+        // The reader is gone before the first byte.
+        let script = format!(
+            "( sleep 0.1; '{}' {args}; echo \"code $?\" >&2 ) | true",
+            env!("CARGO_BIN_EXE_genga")
+        );
+        let output = Command::new("sh").arg("-c").arg(script).output().unwrap();
+        assert!(text(&output.stderr).ends_with("code 0\n"), "{args}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn what_cannot_be_written_leaves_nothing_half_written() {
+    let place = Place::new();
+    // A folder stands where a file of the run should go.
+    fs::create_dir_all(place.path("o/limited.bvh/taken")).unwrap();
+    let said = place.refused(1, "run data/kick.bvh --out o");
+    assert!(said.contains("limited.bvh"), "{said}");
+    place.done("run data/kick.bvh --out whole");
+    let whole = place.files("whole");
+    for (file, bytes) in place.files("o") {
+        assert!(whole.get(&file) == Some(&bytes), "o/{file} is not what it should be");
+    }
+    // What stood there before stays whole when the new one cannot be made.
+    fs::write(place.path("keep.bvh"), "old").unwrap();
+    place.refused(1, "omit none.bvh --out keep.bvh");
+    assert_eq!(read(&place.path("keep.bvh")), "old");
+    fs::write(place.path("keep.csv"), "old").unwrap();
+    place.refused(2, "study data/kick.bvh --set turns.steady=-1 --out keep.csv");
+    assert_eq!(read(&place.path("keep.csv")), "old");
+    let left: Vec<_> = place.files(".").into_keys().collect();
+    assert_eq!(left, ["keep.bvh", "keep.csv"], "no file beside");
+}
+
+#[test]
+fn quiet_is_quiet_and_errors_are_said_all_the_same() {
+    let place = Place::new();
+    fs::write(place.path("t.bvh"), with_t_pose()).unwrap();
+    for args in [
+        "run t.bvh --out o --quiet",
+        "keys t.bvh --quiet",
+        "omit t.bvh --out o.bvh --naka-nashi 500 --quiet",
+        "study t.bvh --quiet",
+        "inspect t.bvh --quiet",
+        "recipe --quiet",
+        "--quiet man",
+        "-q completions zsh",
+    ] {
+        let output = place.genga(args);
+        assert_eq!(
+            (output.status.code(), text(&output.stderr)),
+            (Some(0), String::new()),
+            "{args}"
+        );
+    }
+    assert!(!place.refused(1, "keys none.bvh --quiet").is_empty());
+}
+
+#[test]
+fn completions_and_the_manual_name_every_subcommand() {
+    let place = Place::new();
+    for page in ["completions bash", "completions zsh", "completions fish", "man"] {
+        let page = place.done(page);
+        for subcommand in SUBCOMMANDS {
+            assert!(page.contains(subcommand), "{subcommand}");
+        }
+    }
+    let recipe = place.done("recipe");
+    for knob in genga::recipe::KNOBS {
+        assert!(recipe.contains(&format!("{} = ", knob.path().1)), "{}", knob.name);
+    }
+}

@@ -1,0 +1,113 @@
+//! The default recipe gives a sheet an animator can use on every real clip.
+
+use std::path::Path;
+
+use genga::deliver::{Report, limited_bvh};
+use genga::edits::Edits;
+use genga::motion::{Clip, bvh};
+use genga::pipeline::{Breakdown, Engine};
+use genga::recipe::Recipe;
+use genga::sheet::{Layer, Role, Source};
+use genga::time::Frame;
+
+use crate::clips;
+
+/// Runs the default recipe on every real clip; gives the file, the clip as read with its lead-in, and
+/// the breakdown.
+fn each(look: impl Fn(&str, &Clip, &Breakdown)) {
+    let paths = clips::real();
+    assert!(paths.is_empty() || paths.len() == 15, "{} real clips", paths.len());
+    for path in paths {
+        let name = clips::name(&path);
+        let mut engine = Engine::new(clips::read(&path)).unwrap();
+        let breakdown = engine.run(&Recipe::default(), &Edits::default()).unwrap();
+        look(&name, &whole(&path), &breakdown);
+    }
+}
+
+fn whole(path: &Path) -> Clip {
+    bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
+}
+
+/// Koma, place and role of every drawing that must stay.
+fn kept(layer: &Layer) -> Vec<(usize, f64, Role)> {
+    layer
+        .timed()
+        .map(|(begin, exposure)| (begin, &layer.drawings[exposure.drawing]))
+        .filter(|(_, drawing)| drawing.role.is_kept())
+        .map(|(begin, drawing)| (begin, drawing.source.place(), drawing.role))
+        .collect()
+}
+
+#[test]
+fn the_defaults_give_a_usual_number_of_genga_and_drawings() {
+    each(|name, _, breakdown| {
+        let report = Report::of(breakdown, vec![]);
+        let (genga, drawings) = (report.genga_per_second, report.drawings_per_second);
+        let figures = format!("{name}: {genga:.2} genga, {drawings:.2} drawings a second");
+        assert!((2.0..=5.0).contains(&genga), "{figures}");
+        assert!((7.0..=10.0).contains(&drawings), "{figures}");
+        assert!(report.longest_hold <= 4, "{name}: held for {} koma", report.longest_hold);
+        assert_eq!(breakdown.sheet.length(), breakdown.spaced.length(), "{name}");
+    });
+}
+
+#[test]
+fn no_genga_is_moved_deleted_or_replaced() {
+    each(|name, _, breakdown| {
+        let before = kept(&breakdown.spaced.layers[0]);
+        assert_eq!(kept(&breakdown.sheet.layers[0]), before, "{name}");
+        assert!(before.len() > 4, "{name}");
+        for (koma, place, role) in before {
+            if role == Role::Genga {
+                assert_eq!(place.fract(), 0.0, "{name}: the genga on koma {koma}");
+                assert_eq!(breakdown.clock.koma_from_place(place), koma, "{name}");
+            }
+        }
+    });
+}
+
+#[test]
+fn source_places_run_forward_and_none_lies_in_the_lead_in() {
+    each(|name, _, breakdown| {
+        let first = breakdown.clip.first().0 as f64;
+        for sheet in [breakdown.spaced, breakdown.sheet] {
+            let places: Vec<f64> =
+                sheet.layers[0].drawings.iter().map(|drawing| drawing.source.place()).collect();
+            assert!(places.is_sorted_by(|a, b| a < b), "{name}: {places:?}");
+            assert_eq!(places[0], first, "{name}");
+        }
+        let gone =
+            breakdown.omission.naka_nashi.gone.iter().chain(&breakdown.omission.koma_dori.gone);
+        for gone in gone {
+            assert!(gone.place > first, "{name}: {gone:?}");
+        }
+    });
+}
+
+#[test]
+fn limited_motion_read_back_holds_where_the_sheet_holds() {
+    each(|name, whole, breakdown| {
+        let layer = &breakdown.sheet.layers[0];
+        let text = limited_bvh(breakdown.clip, breakdown.sheet).unwrap();
+        let read = bvh::read(text.as_bytes()).unwrap();
+        assert!(read.warnings.is_empty(), "{name}: {:?}", read.warnings);
+        let limited = read.clip;
+        assert_eq!((limited.len(), limited.rate().fps()), (layer.length(), 24.0), "{name}");
+        assert_eq!(limited.skeleton(), whole.skeleton(), "{name}");
+        let shown: Vec<usize> = layer.koma().collect();
+        for (koma, pair) in shown.windows(2).enumerate() {
+            let [before, after] = [koma, koma + 1].map(|koma| limited.row(Frame(koma)));
+            assert_eq!(before == after, pair[0] == pair[1], "{name}, koma {koma}");
+        }
+        for (koma, drawing) in shown.iter().enumerate() {
+            if let Source::At(place) = layer.drawings[*drawing].source
+                && place.fract() == 0.0
+            {
+                // By the number it has in the file as read, lead-in and all.
+                let source = whole.row(Frame(place as usize));
+                assert_eq!(limited.row(Frame(koma)), source, "{name}, koma {koma}");
+            }
+        }
+    });
+}
