@@ -177,7 +177,7 @@ impl Choose {
         edits: &Edits,
     ) -> LayerKeys {
         let reference = Reference::of(clip, clock);
-        let rests = rest::rests(&reference, self.rest);
+        let rests = rest::rest_ends(&reference, self.rest);
         let mut keys = corrected(candidates, &rests, edits, &reference);
         match self.rank {
             Rank::Price => self.keep_the_dear(&reference, &mut keys),
@@ -231,7 +231,7 @@ fn is_found(key: &Key) -> bool {
 /// forbidden frame too; the end of a rest pushes out candidates.
 fn corrected(
     candidates: &Candidates,
-    rests: &[[Frame; 2]],
+    rests: &[Frame],
     edits: &Edits,
     reference: &Reference<'_>,
 ) -> Vec<Key> {
@@ -252,7 +252,7 @@ fn corrected(
         origin,
     };
     let inside = |frame: &Frame| *frame > clip.first() && *frame < clip.last();
-    let rests = rests.iter().flatten().copied().filter(inside);
+    let rests = rests.iter().copied().filter(inside);
     let mut keys: Vec<Key> = rests
         .filter(|frame| !unwanted(*frame))
         .map(|frame| key(frame, 1.0, Origin::Rest))
