@@ -7,7 +7,7 @@ use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::Sheet;
 use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
-use crate::time::Clock;
+use crate::time::{Clock, Frame};
 use crate::timing::{Omitted, Report, Spaced, Stills};
 
 #[cfg(test)]
@@ -94,7 +94,8 @@ impl Engine {
     /// Runs the chain as far as it has to be run again.
     ///
     /// # Errors
-    /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold.
+    /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold, and when two
+    /// pins fall on one koma.
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         let keys_made = self.find(recipe, edits)?;
         let clock = self.clip.clock(recipe.rate);
@@ -131,6 +132,7 @@ impl Engine {
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
+        one_pin_a_koma(edits, self.clip.clock(recipe.rate))?;
         let turns = self.measure(recipe)?;
         Ok(self.choose(recipe, edits, self.clip.clock(recipe.rate), turns))
     }
@@ -194,6 +196,23 @@ impl Engine {
             [layer, omitted].map(|layer| Sheet { clock, layers: vec![layer.clone()] })
         });
         Ok(())
+    }
+}
+
+/// A koma shows one drawing: of two pins on it one would be lost, and pins survive everything.
+fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
+    let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).collect();
+    frames.sort_unstable();
+    frames.dedup();
+    let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);
+    match frames.windows(2).find(|pair| koma(pair[0]) == koma(pair[1])) {
+        None => Ok(()),
+        Some(pair) => {
+            let (a, b, koma) = (pair[0], pair[1], koma(pair[0]) + 1);
+            let message =
+                format!("pinned frames {a} and {b} fall on one koma, {koma}: pin one of them");
+            Err(Error::Edits { message })
+        }
     }
 }
 

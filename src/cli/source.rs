@@ -23,13 +23,15 @@ pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
     drop(bytes);
     let mut notes: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let begin = args.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
-    if !args.keep_lead_in && begin == clip.first().0 {
+    if !args.keep_lead_in {
         let (motion, note) = bvh::lead_in::strip(clip);
         clip = motion;
-        notes.extend(note.map(|note| note.to_string()));
+        if begin < clip.first().0 {
+            notes.extend(note.map(|note| note.to_string()));
+        }
     }
     if let Some(frames) = &args.trim {
-        // A trim from the file's first frame means "from the beginning of the motion".
+        // A trim from before the motion means from its beginning.
         let begin = Frame(frames.start.max(clip.first().0));
         clip = clip.trimmed(begin, Frame(frames.end)).map_err(|error| match error {
             Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),

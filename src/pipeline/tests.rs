@@ -7,7 +7,6 @@ use crate::edits::Pin;
 use crate::motion::bvh;
 use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
-use crate::time::Frame;
 
 /// The made pitch, its hundred frames round the throw: 24 frames a second, 23 joints.
 fn pitch() -> Clip {
@@ -183,6 +182,23 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
         });
     }
     assert!(unread.is_empty(), "no sheet ever changed with {unread:?}");
+}
+
+#[test]
+fn two_pins_on_one_koma_are_refused_and_never_lost() {
+    let pins = |frames: &[usize]| {
+        let pin = |frame: &usize| Pin { frame: Frame(*frame), name: None, weight: None };
+        Edits { pins: frames.iter().map(pin).collect(), forbidden: vec![] }
+    };
+    let mut engine = Engine::new(pitch()).unwrap();
+    let mut recipe = Recipe::default();
+    assert!(engine.run(&recipe, &pins(&[60, 61, 60])).is_ok(), "named twice is one pin");
+    recipe.rate = 12.0;
+    let error = engine.run(&recipe, &pins(&[62, 40, 61])).unwrap_err().to_string();
+    assert_eq!(error, "edits: pinned frames 61 and 62 fall on one koma, 22: pin one of them");
+    let breakdown = engine.run(&recipe, &pins(&[60, 61])).unwrap();
+    let pinned = |drawing: &&crate::sheet::Drawing| drawing.why.pinned.is_some();
+    assert_eq!(breakdown.sheet.layers[0].drawings.iter().filter(pinned).count(), 2);
 }
 
 /// A recipe with some knobs turned to anything.

@@ -117,15 +117,15 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// The pitch with an inserted T-pose: a row of zeros in front.
+/// The pitch with an inserted T-pose: two rows of zeros in front.
 fn with_t_pose() -> String {
     let text = read(&here("data/pitch.bvh"));
     let channels = sample("pitch.bvh").skeleton().channels();
     let (head, motion) = text.split_once("Frame Time:").unwrap();
     let (time, rows) = motion.split_once('\n').unwrap();
     let zeros = vec!["0"; channels].join(" ");
-    let head = head.replace("Frames: 129", "Frames: 130");
-    format!("{head}Frame Time:{time}\n{zeros}\n{rows}")
+    let head = head.replace("Frames: 129", "Frames: 131");
+    format!("{head}Frame Time:{time}\n{zeros}\n{zeros}\n{rows}")
 }
 
 #[test]
@@ -427,18 +427,23 @@ fn an_inserted_t_pose_is_left_out_with_a_note_unless_it_is_to_be_kept() {
         (column(&text(&output.stdout), "source_frame")[0].clone(), text(&output.stderr))
     };
     let (frame, said) = first("");
-    assert_eq!(frame, "1");
+    assert_eq!(frame, "2");
     assert!(said.contains("W_LEAD_IN") && said.contains("--keep-lead-in"), "{said}");
     assert_eq!(first("--keep-lead-in"), ("0".into(), String::new()));
     assert_eq!(first("--trim 5..90"), ("5".into(), String::new()));
-    assert_eq!(first("--trim 0..90").0, "1", "from the beginning of the motion");
+    for inside in ["--trim 0..90", "--trim 1..90"] {
+        let (frame, said) = first(inside);
+        assert_eq!(frame, "2", "{inside}: from the beginning of the motion");
+        assert!(said.contains("W_LEAD_IN"), "{inside}: {said}");
+    }
+    assert_eq!(first("--trim 2..90"), ("2".into(), String::new()));
     assert_eq!(first("--trim 0..90 --keep-lead-in").0, "0");
-    assert_eq!(first("-q"), ("1".into(), String::new()));
+    assert_eq!(first("-q"), ("2".into(), String::new()));
     place.done("run t.bvh --out o");
     assert!(read(&place.path("o/report.json")).contains("W_LEAD_IN"));
-    // What is left is the pitch, one frame later in its file.
+    // What is left is the pitch, two frames later in its file.
     let (with, without) = (place.done("keys t.bvh"), place.done("keys data/pitch.bvh"));
-    let later = |cell: &String| (cell.parse::<f64>().unwrap() + 1.0).to_string();
+    let later = |cell: &String| (cell.parse::<f64>().unwrap() + 2.0).to_string();
     let without: Vec<String> = column(&without, "source_frame").iter().map(later).collect();
     assert_eq!(column(&with, "source_frame"), without);
 }
