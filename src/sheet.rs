@@ -146,14 +146,15 @@ impl fmt::Display for Why {
         if let Some(price) = self.price {
             reasons.push(format!("saves {price:.1} % of body height"));
         }
-        let mut count = |count: usize, words: &str| {
+        let mut count = |count: usize, what: &str, words: &str| {
             if count > 0 {
-                reasons.push(format!("{words} {count}"));
+                let plural = if count > 1 && what == "drawing" { "s" } else { "" };
+                reasons.push(format!("{count} {what}{plural} {words}"));
             }
         };
-        count(self.omitted_before, "naka-nashi left out before it");
-        count(self.lengthened, "koma given by naka-nashi");
-        count(self.held_for, "held by koma-dori for");
+        count(self.omitted_before, "drawing", "left out before it by naka-nashi");
+        count(self.lengthened, "koma", "given to it by naka-nashi");
+        count(self.held_for, "drawing", "replaced by it by koma-dori");
         f.write_str(&reasons.join("; "))
     }
 }

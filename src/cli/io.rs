@@ -31,19 +31,37 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_stream(path) {
         return to_stdout(bytes);
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let mut file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))
-        .map_err(|source| failed(path, source))?;
-    file.write_all(bytes).map_err(|source| failed(path, source))?;
-    open_to_all(&file).map_err(|source| failed(path, source))?;
-    file.persist(path).map_err(|error| failed(path, error.error))?;
-    Ok(())
+    take_place(written_beside(path, bytes)?, path)
 }
 
-/// Makes a folder and writes files into it. Everything is made before the first is written.
+/// Makes a folder and writes files into it: all of them beside their places first, so that a full disk
+/// leaves what was there before.
 pub(super) fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
-    files.iter().try_for_each(|(name, bytes)| write(&folder.join(name), bytes))
+    let written: Vec<(NamedTempFile, PathBuf)> = files
+        .iter()
+        .map(|(name, bytes)| {
+            let path = folder.join(name);
+            Ok((written_beside(&path, bytes)?, path))
+        })
+        .collect::<Result<_, Failure>>()?;
+    written.into_iter().try_for_each(|(file, path)| take_place(file, &path))
+}
+
+/// A file of those bytes beside a path. It goes when it is dropped.
+fn written_beside(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let write = || {
+        let mut file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
+        file.write_all(bytes)?;
+        open_to_all(&file)?;
+        Ok(file)
+    };
+    write().map_err(|source| failed(path, source))
+}
+
+fn take_place(file: NamedTempFile, path: &Path) -> Result<(), Failure> {
+    file.persist(path).map(drop).map_err(|error| failed(path, error.error))
 }
 
 /// Writes data to stdout; a closed pipe ends the program quietly.

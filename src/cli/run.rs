@@ -21,7 +21,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let breakdown = engine.run(&recipe, &edits)?;
     working.on("writing");
     let cut = io::stem(&args.clip.clip);
-    let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{cut}-genga")));
+    let folder = folder(args, &cut)?;
     let report = Report::of(&breakdown, source.notes);
     let files = files(&cut, &breakdown, &recipe, &edits, &report)?;
     io::write_all(&folder, &files)?;
@@ -31,6 +31,18 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
     words.say(format_args!("files       {}: {}", folder.display(), names.join(" ")));
     Ok(())
+}
+
+/// The folder that is asked for, or one beside the work with the clip's name.
+fn folder(args: &RunArgs, cut: &str) -> Result<PathBuf, Failure> {
+    match &args.out {
+        None => Ok(PathBuf::from(format!("{cut}-genga"))),
+        Some(out) if io::is_stream(out) => Err(Failure::AskedWrongly(
+            "--out: run writes a folder of files, not to stdout; genga keys writes a table there"
+                .into(),
+        )),
+        Some(out) => Ok(out.clone()),
+    }
 }
 
 /// Every file of a run, made in memory: nothing is written before all of it is known.
