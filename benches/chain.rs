@@ -26,7 +26,7 @@ fn clip(frames: usize) -> Clip {
         offset: DVec3::new(0.0, 20.0, 3.0),
         channels: rotations.to_vec(),
         first_channel: 3 * joint,
-        end_sites: if joint % 6 == 0 {
+        end_sites: if joint.is_multiple_of(6) {
             vec![EndSite { name: "Site".into(), offset: DVec3::Y }]
         } else {
             vec![]

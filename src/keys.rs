@@ -83,4 +83,6 @@ pub struct LayerKeys {
     pub keys: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
+    /// Keys that were worth a drawing and went all the same, because there were too many a second.
+    pub over_limit: usize,
 }

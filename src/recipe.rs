@@ -86,7 +86,7 @@ impl Recipe {
             },
         };
         match text.trim() {
-            "none" => target.remove(field),
+            "none" if knob.is_optional() => target.remove(field),
             text => target.insert(field.into(), value_from_text(text)),
         };
         let changed: Self = Value::Table(table).try_into().map_err(|_| knob.refusal(text))?;

@@ -28,7 +28,7 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// The whole chain: key tables, timesheet, limited motion and pictures into a folder.
     Run(RunArgs),
-    /// The key table as CSV on stdout.
+    /// The key table as CSV.
     Keys(KeysArgs),
     /// Naka-nashi and koma-dori alone, on the clip at 24 drawings a second.
     Omit(OmitArgs),
@@ -95,6 +95,9 @@ pub(super) struct KeysArgs {
     /// Every joint's keys and walls instead of the body's keys.
     #[arg(long)]
     pub(super) per_joint: bool,
+    /// The table, a CSV file [default: stdout].
+    #[arg(long, short, value_name = "FILE.csv")]
+    pub(super) out: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

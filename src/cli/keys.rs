@@ -1,4 +1,6 @@
-//! `genga keys`: the key table on stdout.
+//! `genga keys`: the key table.
+
+use std::path::Path;
 
 use super::args::KeysArgs;
 use super::failure::Failure;
@@ -20,5 +22,5 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
         let table = Drawings { cut: io::stem(&args.clip.clip), rows: Rows::Keys };
         table.write(breakdown.clip, breakdown.sheet)?
     };
-    io::to_stdout(table.as_bytes())
+    io::write(args.out.as_deref().unwrap_or(Path::new("-")), table.as_bytes())
 }

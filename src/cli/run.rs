@@ -81,6 +81,12 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         "genga       原画       {} and both ends, {:.1} a second",
         report.genga, report.genga_per_second
     ));
+    if report.genga_over_limit > 0 {
+        words.say(format_args!(
+            "                       {} more would be worth a drawing (keys.per_second limits them)",
+            report.genga_over_limit
+        ));
+    }
     words.say(format_args!(
         "sheet       シート     {koma} koma, {} drawings, {:.1} a second, longest hold {} koma",
         report.drawings, report.drawings_per_second, report.longest_hold

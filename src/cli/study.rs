@@ -1,5 +1,7 @@
 //! `genga study`: how many keys each filter width and persistence leaves.
 
+use std::path::Path;
+
 use super::args::{Filter, StudyArgs};
 use super::failure::Failure;
 use super::words::Words;
@@ -21,10 +23,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if let Some(path) = &args.plot {
         pictures::write_study(path, &rows, engine.clip().rate())?;
     }
-    match &args.out {
-        Some(path) => io::write(path, table.as_bytes()),
-        None => io::to_stdout(table.as_bytes()),
-    }
+    io::write(args.out.as_deref().unwrap_or(Path::new("-")), table.as_bytes())
 }
 
 fn kind(filter: Filter) -> FilterKind {

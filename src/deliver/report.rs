@@ -31,6 +31,8 @@ pub struct Report {
     pub genga: usize,
     /// Genga a second.
     pub genga_per_second: f64,
+    /// Genga that were worth a drawing and went because there were too many a second.
+    pub genga_over_limit: usize,
     /// Drawings on the sheet.
     pub drawings: usize,
     /// Drawings a second.
@@ -94,6 +96,7 @@ impl Report {
             candidates: breakdown.candidates.keys.len(),
             genga: layer.count(Role::Genga),
             genga_per_second: per_second(layer.count(Role::Genga)),
+            genga_over_limit: breakdown.keys.over_limit,
             drawings: layer.drawings.len(),
             drawings_per_second: per_second(layer.drawings.len()),
             drawings_before_omission: breakdown.spaced.layers[0].drawings.len(),

@@ -179,19 +179,19 @@ impl Choose {
         let reference = Reference::of(clip, clock);
         let rests = rest::rest_ends(&reference, self.rest);
         let mut keys = corrected(candidates, &rests, edits, &reference);
-        match self.rank {
+        let over_limit = match self.rank {
             Rank::Price => self.keep_the_dear(&reference, &mut keys),
             Rank::Strength => self.keep_the_strong(clip.seconds(), &mut keys),
-        }
+        };
         let reach = self.reach.frames(clip.rate()).max(clip.rate().fps() / clock.koma_rate);
         for key in &mut keys {
             key.voters = voters(turns, weights, key.frame, reach);
         }
-        LayerKeys { keys, walls: candidates.walls.clone() }
+        LayerKeys { keys, walls: candidates.walls.clone(), over_limit }
     }
 
-    /// Leaves the keys that are worth a drawing, with their prices.
-    fn keep_the_dear(&self, reference: &Reference<'_>, keys: &mut Vec<Key>) {
+    /// Leaves the keys that are worth a drawing, with their prices. Says how many more would be.
+    fn keep_the_dear(&self, reference: &Reference<'_>, keys: &mut Vec<Key>) -> usize {
         let clip = reference.clip();
         let end = |frame| Entry { frame, stays: true };
         let entries: Vec<Entry> = std::iter::once(end(clip.first()))
@@ -199,22 +199,25 @@ impl Choose {
             .chain(std::iter::once(end(clip.last())))
             .collect();
         let most = self.most_keys(clip.seconds());
-        let prices = price::worthwhile(reference, &entries, self.min_price, most);
-        let mut prices = prices[1..].iter();
+        let worthwhile = price::worthwhile(reference, &entries, self.min_price, most);
+        let mut prices = worthwhile.prices[1..].iter();
         keys.retain_mut(|key| {
             let price = prices.next().copied().flatten();
             key.price = price.unwrap_or(key.price);
             price.is_some()
         });
+        worthwhile.over_limit
     }
 
-    /// Leaves the strongest keys.
-    fn keep_the_strong(&self, seconds: f64, keys: &mut Vec<Key>) {
+    /// Leaves the strongest keys. Says how many more there are.
+    fn keep_the_strong(&self, seconds: f64, keys: &mut Vec<Key>) -> usize {
+        let before = keys.len();
         let staying = keys.iter().filter(|key| !is_found(key)).count();
         let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
         keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
         keys.truncate(self.most_keys(seconds).saturating_add(staying));
         keys.sort_by_key(|key| key.frame);
+        before - keys.len()
     }
 
     /// How many found keys a clip of that length may have; pins and rests are not counted.

@@ -99,8 +99,16 @@ pub(super) struct Entry {
     pub(super) stays: bool,
 }
 
-/// The price in % of body height of each entry that is worth keeping: the error between its neighbours
-/// with it left out, infinite where it stays whatever it costs. None for those that are not.
+/// What is worth keeping.
+pub(super) struct Worthwhile {
+    /// The price in % of body height of each entry that is kept: the error between its neighbours with
+    /// it left out, infinite where it stays whatever it costs. None for those that go.
+    pub(super) prices: Vec<Option<f64>>,
+    /// How many went though they were worth it, because there were too many.
+    pub(super) over_limit: usize,
+}
+
+/// Which entries are worth keeping.
 ///
 /// `entries` by frame, the first and the last of them the clip's ends. The cheapest goes first, then
 /// its neighbours are priced again, until the cheapest costs at least `enough` and no more than `most`
@@ -111,13 +119,15 @@ pub(super) fn worthwhile(
     entries: &[Entry],
     enough: f64,
     most: usize,
-) -> Vec<Option<f64>> {
+) -> Worthwhile {
     let mut list = RankedList::new(reference, entries);
     let mut left = entries.iter().filter(|entry| !entry.stays).count();
+    let mut over_limit = 0;
     while let Some((price, entry)) = list.cheapest() {
         if price >= enough && left <= most {
             break;
         }
+        over_limit += usize::from(price >= enough);
         list.remove(entry);
         left -= 1;
     }
@@ -125,7 +135,7 @@ pub(super) fn worthwhile(
         let price = list.price[entry];
         if entries[entry].stays { Some(f64::INFINITY) } else { (!price.is_nan()).then_some(price) }
     };
-    (0..entries.len()).map(kept).collect()
+    Worthwhile { prices: (0..entries.len()).map(kept).collect(), over_limit }
 }
 
 /// Keys in a doubly linked list with the price of each, cheapest first.

@@ -115,17 +115,18 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "keys.merge",
         japanese: "部位のまとめ方",
-        kind: Kind::Choice(&["vote", "sum", "union"]),
+        kind: Kind::Choice(&["union", "vote", "sum"]),
         unit: "",
-        help: "How joints make the keys of the body: each votes with the length of what hangs on it, \
-               their speeds are added first, or a turn of any joint is a key.",
+        help: "How joints make the candidates for the body's keys: a turn of any joint is one (union), \
+               each joint votes with the length of what hangs on it, or their speeds are added first.",
     },
     Knob {
         name: "keys.reach",
         japanese: "票の届く範囲",
         kind: Kind::Span,
         unit: "source frames or seconds",
-        help: "How far a joint's vote carries. Longer joins turns that lie further apart into one key.",
+        help: "How far a joint's vote carries: longer joins turns that lie further apart into one key. With \
+               union it decides which of two turns nearer than a koma stays.",
     },
     Knob {
         name: "keys.rank",
@@ -153,7 +154,7 @@ pub const KNOBS: &[Knob] = &[
         name: "keys.min_strength",
         japanese: "最低の強さ",
         kind: number(0.0, 1.0),
-        unit: "share of all votes",
+        unit: "share of all votes, for sum the depth of the valley",
         help: "How strong a key must be at the least.",
     },
     Knob {
@@ -220,7 +221,8 @@ pub const KNOBS: &[Knob] = &[
         japanese: "最長の止め",
         kind: whole(1.0, 12.0),
         unit: "koma",
-        help: "How long a drawing may stay because others were left out. Longer freezes the body.",
+        help: "How long a drawing may stay because others were left out, though never less than two \
+               drawings' time (4 koma on twos). Longer freezes the body.",
     },
     Knob {
         name: "omission.keep_length",
@@ -263,6 +265,11 @@ impl Knob {
         self.name
             .split_once('.')
             .map_or((None, self.name), |(section, field)| (Some(section), field))
+    }
+
+    /// Whether it may be `none`.
+    pub fn is_optional(&self) -> bool {
+        matches!(self.kind, Kind::Number { optional: true, .. })
     }
 
     /// Help, Japanese name and what it takes, as lines for a comment.

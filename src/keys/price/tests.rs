@@ -38,7 +38,7 @@ fn triangle(frames: usize, turn: usize) -> Vec<f64> {
 fn a_key_on_an_even_turn_goes_and_the_turning_point_stays() {
     let clip = swing(&triangle(21, 10));
     let reference = Reference::of(&clip, clip.clock(24.0));
-    let kept = worthwhile(&reference, &entries(&[0, 5, 10, 20], 20), 1e-6, usize::MAX);
+    let kept = worthwhile(&reference, &entries(&[0, 5, 10, 20], 20), 1e-6, usize::MAX).prices;
     assert_eq!(kept[1], None);
     assert!(kept[2].is_some_and(|price| price > 20.0), "{kept:?}");
     assert_eq!((kept[0], kept[3]), (Some(f64::INFINITY), Some(f64::INFINITY)));
@@ -98,7 +98,7 @@ fn the_ranked_list_equals_pricing_everything_anew_each_round() {
     let mut list = entries(&[0, 5, 11, 16, 22, 27, 33, 40, 48, 59], 59);
     list[4].stays = true;
     for (enough, most) in [(0.0, 9), (1.0, 9), (5.0, 9), (20.0, 9), (0.0, 4), (1.0, 2), (0.0, 0)] {
-        let kept = worthwhile(&reference, &list, enough, most);
+        let kept = worthwhile(&reference, &list, enough, most).prices;
         let frames: Vec<Frame> = list
             .iter()
             .zip(&kept)
@@ -117,5 +117,23 @@ fn nothing_between_two_frames_costs_nothing() {
     assert_eq!(Bridge::new(&reference).error(Frame(0), Frame(1)), 0.0);
     let still = swing(&[0.0; 9]);
     let reference = Reference::of(&still, still.clock(24.0));
-    assert_eq!(worthwhile(&reference, &entries(&[0, 4, 8], 8), 0.0, usize::MAX)[1], Some(0.0));
+    assert_eq!(
+        worthwhile(&reference, &entries(&[0, 4, 8], 8), 0.0, usize::MAX).prices[1],
+        Some(0.0)
+    );
+}
+
+#[test]
+fn what_is_worth_it_but_over_the_limit_is_counted() {
+    let angles: Vec<f64> = (0..60).map(|at| 30.0 * (at as f64 * 0.3).sin() + at as f64).collect();
+    let clip = swing(&angles);
+    let reference = Reference::of(&clip, clip.clock(24.0));
+    let list = entries(&[0, 5, 11, 16, 22, 27, 33, 40, 48, 59], 59);
+    let kept = |most| {
+        let worthwhile = worthwhile(&reference, &list, 5.0, most);
+        (worthwhile.prices.iter().flatten().count() - 2, worthwhile.over_limit)
+    };
+    let (worth, none) = kept(usize::MAX);
+    assert!(worth > 2 && none == 0);
+    assert_eq!(kept(2), (2, worth - 2));
 }

@@ -23,6 +23,7 @@ fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
     LayerKeys {
         keys: keys.iter().map(|frame| key(*frame, 10.0)).collect(),
         walls: walls.iter().map(|frame| Wall { frame: Frame(*frame), strength: 1.0 }).collect(),
+        over_limit: 0,
     }
 }
 
