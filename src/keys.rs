@@ -15,8 +15,7 @@ mod vote;
 use crate::motion::JointId;
 use crate::time::Frame;
 
-pub(crate) use choose::weights;
-pub use choose::{Choose, Merge, Rank};
+pub use choose::{Choose, Merge, Rank, weights};
 
 /// A key (原画) of a layer.
 #[derive(Debug, Clone, PartialEq)]

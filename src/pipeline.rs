@@ -64,11 +64,12 @@ impl Engine {
     /// An engine for a clip.
     ///
     /// # Errors
-    /// [`Error::Clip`] when the clip has no frame or no joint.
+    /// [`Error::Clip`] when the clip has no frame or no joint, or values that are no motion.
     pub fn new(clip: Clip) -> Result<Self, Error> {
         if clip.is_empty() || clip.skeleton().is_empty() {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
+        clip.check_size()?;
         let weights = keys::weights(&clip);
         Ok(Self {
             clip,

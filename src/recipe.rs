@@ -113,12 +113,31 @@ impl Recipe {
     ///
     /// # Errors
     /// [`Error::Recipe`] with line and column when it is no TOML, names a setting that does not exist
-    /// or gives one a value it cannot have.
+    /// or gives one a value of another kind; [`Error::Setting`] when a value is out of its range.
     pub fn parse(text: &str) -> Result<(Self, Edits), Error> {
         let file: File = toml::from_str(text).map_err(|error| located(text, &error))?;
         let recipe = file.recipe();
         recipe.validate()?;
         Ok((recipe, file.edits))
+    }
+
+    /// [`Recipe::parse`] on top of this recipe: settings that are not named keep its values.
+    ///
+    /// # Errors
+    /// Those of [`Recipe::parse`].
+    pub fn overlaid(&self, text: &str) -> Result<(Self, Edits), Error> {
+        // First by itself: its errors know their place in the file.
+        let (_, edits) = Self::parse(text)?;
+        let mut table = self.table();
+        let named: Table = toml::from_str(text).map_err(|error| located(text, &error))?;
+        for (section, value) in named.into_iter().filter(|(section, _)| section != "edits") {
+            match (table.get_mut(&section), value) {
+                (Some(Value::Table(under)), Value::Table(over)) => under.extend(over),
+                (_, value) => drop(table.insert(section, value)),
+            }
+        }
+        let recipe = Value::Table(table).try_into().map_err(|error| located(text, &error))?;
+        Ok((recipe, edits))
     }
 
     /// The recipe with a comment for every knob, and the corrections, as TOML that
@@ -263,12 +282,25 @@ mod tests {
     }
 
     #[test]
+    fn a_recipe_on_top_of_another_changes_what_it_names_alone() {
+        let mut under = Recipe::default();
+        under.set("filter.width", "20").unwrap();
+        under.set("filter.kind", "gaussian").unwrap();
+        let (recipe, edits) =
+            under.overlaid("[filter]\nwidth = 30\n[[edits.pins]]\nframe = 7\n").unwrap();
+        under.set("filter.width", "30").unwrap();
+        assert_eq!(recipe, under);
+        assert_eq!(edits.pins[0].frame, Frame(7));
+        assert!(under.overlaid("[filter]\nwidht = 30\n").is_err());
+    }
+
+    #[test]
     fn wrong_settings_say_what_would_be_right() {
         let mut recipe = Recipe::default();
         let mut error = |name, value| recipe.set(name, value).unwrap_err().to_string();
         assert!(error("filter.widht", "1").contains("filter.width"), "the nearest name is offered");
         assert!(error("filter.kind", "blur").contains("box, gaussian, ideal, butterworth"));
-        assert!(error("spacing.on", "0").contains("or more"));
+        assert!(error("spacing.on", "0").contains("1 (ones)"));
         assert!(error("spacing.on", "two").contains("spacing.on"));
         for rate in ["-1", "0.9", "1001", "nan"] {
             assert!(error("rate", rate).contains("2 to 1000"), "{rate}");

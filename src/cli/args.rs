@@ -70,6 +70,13 @@ pub(super) struct Settings {
     /// One setting, over the recipe: --set spacing.on=3 (may be given again).
     #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
     pub(super) set: Vec<(String, String)>,
+}
+
+/// The recipe, and a person's corrections.
+#[derive(Debug, ClapArgs)]
+pub(super) struct Corrections {
+    #[command(flatten)]
+    pub(super) settings: Settings,
     /// Frames that are keys whatever is found, with a name if you like: --pin 12,150:wrist-top
     #[arg(long, value_name = "FRAME[:NAME],…", value_delimiter = ',')]
     pub(super) pin: Vec<String>,
@@ -80,7 +87,7 @@ pub(super) struct RunArgs {
     #[command(flatten)]
     pub(super) clip: ClipArgs,
     #[command(flatten)]
-    pub(super) settings: Settings,
+    pub(super) corrections: Corrections,
     /// The folder for the results [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -91,7 +98,7 @@ pub(super) struct KeysArgs {
     #[command(flatten)]
     pub(super) clip: ClipArgs,
     #[command(flatten)]
-    pub(super) settings: Settings,
+    pub(super) corrections: Corrections,
     /// Every joint's keys and walls instead of the body's keys.
     #[arg(long)]
     pub(super) per_joint: bool,
@@ -151,6 +158,9 @@ pub(super) struct StudyArgs {
     /// The table as curves, an SVG or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,
+    /// Draw the paper's own six counts beside, of a clip that is not public.
+    #[arg(long, requires = "plot")]
+    pub(super) paper: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -178,10 +188,14 @@ pub(super) struct RecipeArgs {
 pub(super) type Frames = std::ops::Range<usize>;
 
 fn frames(text: &str) -> Result<Frames, String> {
+    let number = |text: &str, open: usize| match text.trim() {
+        "" => Some(open),
+        text => text.parse().ok(),
+    };
     let parsed = text
         .split_once("..")
-        .and_then(|(begin, end)| Some(begin.trim().parse().ok()?..end.trim().parse().ok()?));
-    parsed.ok_or_else(|| "expected two frame numbers, as in 120..480".into())
+        .and_then(|(begin, end)| Some(number(begin, 0)?..number(end, usize::MAX)?));
+    parsed.ok_or_else(|| "expected frame numbers, as in 120..480, 120.. or ..480".into())
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {
@@ -201,8 +215,10 @@ mod tests {
     }
 
     #[test]
-    fn a_range_is_two_frames() {
+    fn a_range_is_two_frames_or_open() {
         assert_eq!(frames("120..480").unwrap(), 120..480);
-        assert!(frames("120-480").is_err() && frames("..").is_err() && frames("a..b").is_err());
+        assert_eq!(frames("120..").unwrap(), 120..usize::MAX);
+        assert_eq!(frames("..480").unwrap(), 0..480);
+        assert!(frames("120-480").is_err() && frames("a..b").is_err() && frames("-1..5").is_err());
     }
 }

@@ -9,6 +9,9 @@ use super::{io, source};
 use crate::motion::{Axis, Body, Channel, Clip, Joint, Pose};
 use crate::time::KOMA_RATE;
 
+/// Levels that are indented; deeper ones would only run off the screen.
+const DEEPEST: usize = 32;
+
 pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
@@ -29,15 +32,13 @@ fn page(name: &str, clip: &Clip) -> String {
     line("joints", format!("{}, {} channels", skeleton.len(), skeleton.channels()));
     line("size", size(clip));
     page.push('\n');
+    let mut depths = Vec::with_capacity(skeleton.len());
     for (_, joint) in skeleton.iter() {
-        let _ = writeln!(page, "{}{}", "  ".repeat(depth(clip, joint)), described(joint));
+        let depth = joint.parent.map_or(0, |parent| depths[parent.0] + 1);
+        depths.push(depth);
+        let _ = writeln!(page, "{}{}", "  ".repeat(depth.min(DEEPEST)), described(joint));
     }
     page
-}
-
-fn depth(clip: &Clip, joint: &Joint) -> usize {
-    let parent = |joint: &Joint| joint.parent.map(|parent| &clip.skeleton().joints[parent.0]);
-    std::iter::successors(parent(joint), |joint| parent(joint)).count()
 }
 
 fn described(joint: &Joint) -> String {

@@ -37,6 +37,9 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// Makes a folder and writes files into it: all of them beside their places first, so that a full disk
 /// leaves what was there before.
 pub(super) fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), Failure> {
+    if folder.exists() && !folder.is_dir() {
+        return Err(Failure::CouldNot(format!("{}: is a file, not a folder", folder.display())));
+    }
     fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
     let written: Vec<(NamedTempFile, PathBuf)> = files
         .iter()
@@ -51,13 +54,35 @@ pub(super) fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), 
 /// A file of those bytes beside a path. It goes when it is dropped.
 fn written_beside(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, Failure> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(Failure::CouldNot(format!("{}: there is no such folder", folder.display())));
+    }
+    if path.is_dir() {
+        return Err(Failure::CouldNot(format!("{}: is a folder", path.display())));
+    }
     let write = || {
-        let mut file = NamedTempFile::new_in(folder.unwrap_or(Path::new(".")))?;
+        let mut file = like_any_other(&mut tempfile::Builder::new()).tempfile_in(folder)?;
         file.write_all(bytes)?;
-        open_to_all(&file)?;
         Ok(file)
     };
     write().map_err(|source| failed(path, source))
+}
+
+/// A temporary file is private; what a person asked for is as readable as any file they make.
+#[cfg(unix)]
+fn like_any_other<'a, 'b, 'c>(
+    builder: &'c mut tempfile::Builder<'a, 'b>,
+) -> &'c mut tempfile::Builder<'a, 'b> {
+    use std::os::unix::fs::PermissionsExt;
+    builder.permissions(fs::Permissions::from_mode(0o666))
+}
+
+#[cfg(not(unix))]
+fn like_any_other<'a, 'b, 'c>(
+    builder: &'c mut tempfile::Builder<'a, 'b>,
+) -> &'c mut tempfile::Builder<'a, 'b> {
+    builder
 }
 
 fn take_place(file: NamedTempFile, path: &Path) -> Result<(), Failure> {
@@ -73,6 +98,18 @@ pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     })
 }
 
+/// Refuses to write where the motion is read from: it is somebody's only take.
+pub(super) fn spare(source: &Path, target: &Path) -> Result<(), Failure> {
+    let same = |a: &Path, b: &Path| fs::canonicalize(a).ok().zip(fs::canonicalize(b).ok());
+    match same(source, target) {
+        Some((source, target)) if source == target => Err(Failure::AskedWrongly(format!(
+            "{}: this is the motion itself; write beside it",
+            target.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// The name a clip is called by: its file name without the ending.
 pub(super) fn stem(path: &Path) -> String {
     if is_stream(path) {
@@ -84,16 +121,4 @@ pub(super) fn stem(path: &Path) -> String {
 fn failed(path: &Path, source: io::Error) -> Failure {
     let path = if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() };
     Error::Io { path, source }.into()
-}
-
-/// A temporary file is private; what a person asked for is readable as any file they make.
-#[cfg(unix)]
-fn open_to_all(file: &NamedTempFile) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.as_file().set_permissions(fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn open_to_all(_: &NamedTempFile) -> io::Result<()> {
-    Ok(())
 }

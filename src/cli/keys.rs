@@ -8,10 +8,9 @@ use super::words::Words;
 use super::{io, source};
 use crate::deliver::{self, Drawings, Rows};
 use crate::pipeline::Engine;
-use crate::recipe::Recipe;
 
 pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
-    let (recipe, edits) = source::recipe(&args.settings, Recipe::default())?;
+    let (recipe, edits) = source::corrected(&args.corrections)?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let mut engine = Engine::new(source.clip)?;

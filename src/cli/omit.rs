@@ -10,6 +10,7 @@ use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Omitted, Order, Report, Stills};
 
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
+    io::spare(&args.clip.clip, &args.out)?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let clip = source.clip;

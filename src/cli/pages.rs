@@ -13,11 +13,17 @@ pub(super) fn completions(shell: clap_complete::Shell) -> Result<(), Failure> {
     io::to_stdout(&page)
 }
 
-/// The manual page.
+/// The manual page, with a page for each command after it.
 pub(super) fn man() -> Result<(), Failure> {
+    let mut program = Args::command();
+    program.build();
+    let commands =
+        program.get_subcommands().filter(|command| command.get_name() != "help").cloned();
     let mut page = Vec::new();
-    clap_mangen::Man::new(Args::command())
-        .render(&mut page)
-        .map_err(|error| Failure::CouldNot(error.to_string()))?;
+    for command in std::iter::once(program.clone()).chain(commands) {
+        clap_mangen::Man::new(command)
+            .render(&mut page)
+            .map_err(|error| Failure::CouldNot(error.to_string()))?;
+    }
     io::to_stdout(&page)
 }

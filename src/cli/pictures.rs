@@ -9,7 +9,7 @@ use crate::pipeline::Breakdown;
 use crate::plot::{self, PoseRow, SheetPlot, SpeedPlot, StudyPlot};
 use crate::sheet::Sheet;
 use crate::study::StudyRow;
-use crate::time::Frame;
+use crate::time::{Frame, FrameRate};
 use crate::timing::Stills;
 
 /// Speeds before and after the filter with keys and walls, of the joints that move most.
@@ -64,7 +64,8 @@ pub(super) fn poses(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
 pub(super) fn write_study(
     path: &Path,
     rows: &[StudyRow],
-    rate: crate::time::FrameRate,
+    rate: FrameRate,
+    paper: bool,
 ) -> Result<(), Failure> {
     let rows: Vec<plot::StudyRow> = rows
         .iter()
@@ -76,12 +77,16 @@ pub(super) fn write_study(
             layer_keys: row.layer_keys,
         })
         .collect();
-    write(path, &StudyPlot { paper: true, ..StudyPlot::default() }.draw(&rows)?)
+    write(path, &StudyPlot { paper, ..StudyPlot::default() }.draw(&rows)?)
 }
 
 fn write(path: &Path, svg: &str) -> Result<(), Failure> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        return io::write(path, &plot::png_from_svg(svg, 2.0)?);
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("png") => io::write(path, &plot::png_from_svg(svg, 2.0)?),
+        Some("svg") | None => io::write(path, svg.as_bytes()),
+        Some(other) => {
+            Err(Failure::AskedWrongly(format!("--plot: a picture is .svg or .png, not .{other}")))
+        }
     }
-    io::write(path, svg.as_bytes())
 }

@@ -12,7 +12,7 @@ use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
-    let (recipe, edits) = source::recipe(&args.settings, Recipe::default())?;
+    let (recipe, edits) = source::corrected(&args.corrections)?;
     let working = words.working();
     working.on("reading the motion");
     let source = source::clip(&args.clip)?;

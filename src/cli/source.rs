@@ -1,6 +1,6 @@
 //! The clip and the recipe that a command asks for.
 
-use super::args::{ClipArgs, Settings};
+use super::args::{ClipArgs, Corrections, Settings};
 use super::failure::Failure;
 use super::io;
 use crate::edits::{Edits, Pin};
@@ -33,30 +33,40 @@ pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
     if let Some(frames) = &args.trim {
         // A trim from before the motion means from its beginning.
         let begin = Frame(frames.start.max(clip.first().0));
-        clip = clip.trimmed(begin, Frame(frames.end)).map_err(|error| match error {
+        let end = Frame(if frames.end == usize::MAX { clip.last().0 + 1 } else { frames.end });
+        clip = clip.trimmed(begin, end).map_err(|error| match error {
             Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),
             other => failed(other),
         })?;
     }
+    clip.check_size().map_err(failed)?;
     Ok(Source { clip, notes })
 }
 
 /// The recipe and corrections that are asked for, on top of `default`.
 pub(super) fn recipe(args: &Settings, default: Recipe) -> Result<(Recipe, Edits), Failure> {
-    let (mut recipe, mut edits) = match &args.recipe {
+    let (mut recipe, edits) = match &args.recipe {
         None => (default, Edits::default()),
         Some(path) => {
             let bytes = io::read(path)?;
             let text = String::from_utf8(bytes)
                 .map_err(|_| Failure::AskedWrongly(format!("{}: is not text", path.display())))?;
-            Recipe::parse(&text).map_err(|error| Failure::of_file(path, error))?
+            default.overlaid(&text).map_err(|error| Failure::of_file(path, error))?
         }
     };
     for (name, value) in &args.set {
         recipe.set(name, value)?;
     }
+    Ok((recipe, edits))
+}
+
+/// The recipe and corrections of a run: those of the settings, and pins on top.
+pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> {
+    let (recipe, mut edits) = recipe(&args.settings, Recipe::default())?;
     for pin in &args.pin {
-        edits.pins.push(Pin::parse(pin)?);
+        let pin =
+            Pin::parse(pin).map_err(|error| Failure::AskedWrongly(format!("--pin: {error}")))?;
+        edits.pins.push(pin);
     }
     Ok((recipe, edits))
 }

@@ -12,6 +12,14 @@ use crate::study::{self, StudyRow};
 
 pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let (mut recipe, _) = source::recipe(&args.settings, study::table_1_recipe())?;
+    let listed = [("filter.width", "--filter-width"), ("turns.persistence", "--persistence")];
+    for (name, list) in listed {
+        if args.settings.set.iter().any(|(set, _)| set == name) {
+            return Err(Failure::AskedWrongly(format!(
+                "--set {name}: a study takes it from {list}"
+            )));
+        }
+    }
     if let Some(filter) = args.filter {
         recipe.filter.kind = kind(filter);
     }
@@ -21,7 +29,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let rows = study::sweep(&mut engine, &recipe, &args.filter_width, &args.persistence)?;
     let table = table(&rows);
     if let Some(path) = &args.plot {
-        pictures::write_study(path, &rows, engine.clip().rate())?;
+        pictures::write_study(path, &rows, engine.clip().rate(), args.paper)?;
     }
     io::write(args.out.as_deref().unwrap_or(Path::new("-")), table.as_bytes())
 }

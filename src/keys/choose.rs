@@ -29,7 +29,7 @@ pub enum Merge {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rank {
-    /// By what a key saves: the error that leaving it out adds.
+    /// By what a key saves: how far the body would be off at the worst koma without it.
     #[default]
     Price,
     /// By how strong it is.
@@ -52,13 +52,14 @@ pub struct Choose {
     /// ranked by price.
     pub min_price: f64,
     /// The speed below which the whole body rests, in % of its height a second (root mean square over
-    /// the joints); 0 or more, default 15, 0 for no rests. Both ends of a rest of half a second or more
+    /// the joints); 0 or more, default 12, 0 for no rests. Both ends of a rest of half a second or more
     /// are keys whatever they save. Raised, slow gestures count as rests.
     pub rest: f64,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
     pub min_strength: f64,
-    /// Keys a second at the most, the best first; above 0, default 4.5, `inf` for no limit. Lowered, fast
+    /// Found keys a second at the most, the best first; pins and the ends of rests come on top. Above
+    /// 0, default 4.5, `inf` for no limit. Lowered, fast
     /// passages lose their keys first.
     pub per_second: f64,
 }
@@ -70,7 +71,7 @@ impl Default for Choose {
             reach: Span::Seconds(0.06),
             rank: Rank::Price,
             min_price: 3.0,
-            rest: 15.0,
+            rest: 12.0,
             min_strength: 0.0,
             per_second: 4.5,
         }
@@ -105,7 +106,10 @@ impl Choose {
         Ok(())
     }
 
-    /// What the joints say together. `weights` is one value a joint; `delay` that of the filter.
+    /// What the joints say together.
+    ///
+    /// `turns` are the finder's on `filtered`; `weights` one value a joint, see [`weights`]; `delay`
+    /// that of the filter and `apart` the least distance of two keys, both in frames.
     pub fn candidates(
         &self,
         finder: &TurnFinder,
@@ -181,7 +185,7 @@ impl Choose {
         let mut keys = corrected(candidates, &rests, edits, &reference);
         let over_limit = match self.rank {
             Rank::Price => self.keep_the_dear(&reference, &mut keys),
-            Rank::Strength => self.keep_the_strong(clip.seconds(), &mut keys),
+            Rank::Strength => self.keep_the_strong(reference.seconds(), &mut keys),
         };
         let reach = self.reach.frames(clip.rate()).max(clip.rate().fps() / clock.koma_rate);
         for key in &mut keys {
@@ -198,7 +202,7 @@ impl Choose {
             .chain(keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) }))
             .chain(std::iter::once(end(clip.last())))
             .collect();
-        let most = self.most_keys(clip.seconds());
+        let most = self.most_keys(reference.seconds());
         let worthwhile = price::worthwhile(reference, &entries, self.min_price, most);
         let mut prices = worthwhile.prices[1..].iter();
         keys.retain_mut(|key| {
@@ -220,9 +224,9 @@ impl Choose {
         before - keys.len()
     }
 
-    /// How many found keys a clip of that length may have; pins and rests are not counted.
+    /// How many found keys a sheet of that length may have; pins and rests are not counted.
     fn most_keys(&self, seconds: f64) -> usize {
-        (self.per_second * seconds).round() as usize
+        (self.per_second * seconds).floor() as usize
     }
 }
 
@@ -298,7 +302,7 @@ fn voters(turns: &[Vec<Turn>], weights: &[f64], frame: Frame, reach: f64) -> Vec
 
 /// The weight of each joint: how far its rotation carries, the largest set to 1, so that fingers
 /// cannot outvote an arm.
-pub(crate) fn weights(clip: &Clip) -> Vec<f64> {
+pub fn weights(clip: &Clip) -> Vec<f64> {
     let mut weights = clip.skeleton().reaches();
     let largest = weights.iter().copied().fold(0.0, f64::max);
     if largest > 0.0 {

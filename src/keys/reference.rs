@@ -33,12 +33,12 @@ impl<'a> Reference<'a> {
         for (at, row) in positions.chunks_exact_mut(joints.max(1)).enumerate() {
             pose.take_place(clip, clock.place_from_koma(at));
             body.place(&pose, row);
-            let low = row.iter().copied().reduce(DVec3::min).unwrap_or_default();
-            let high = row.iter().copied().reduce(DVec3::max).unwrap_or_default();
-            sides.push((high - low).max_element());
+            sides.push(longest_side(row));
         }
         sides.sort_by(f64::total_cmp);
-        let height = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+        let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+        // A body of one point has no height; what it moves through stands for it.
+        let height = if median > 0.0 { median } else { longest_side(&positions) };
         Self { clip, clock, koma, positions, height }
     }
 
@@ -50,6 +50,11 @@ impl<'a> Reference<'a> {
     /// Where its koma stand.
     pub(super) fn clock(&self) -> Clock {
         self.clock
+    }
+
+    /// Seconds that its koma last.
+    pub(super) fn seconds(&self) -> f64 {
+        self.koma as f64 / self.clock.koma_rate
     }
 
     /// Where every joint stands at a koma.
@@ -87,4 +92,11 @@ impl<'a> Reference<'a> {
         let end = ((koma(to) - 1e-9).ceil().max(0.0) as usize).min(self.koma);
         begin.min(end)..end
     }
+}
+
+/// The longest side of the box round some points.
+fn longest_side(points: &[DVec3]) -> f64 {
+    let low = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
+    let high = points.iter().copied().reduce(DVec3::max).unwrap_or_default();
+    (high - low).max_element()
 }

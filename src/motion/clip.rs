@@ -1,8 +1,11 @@
 //! A motion clip: a skeleton and one flat table of channel values, frame after frame.
 
 use crate::error::Error;
-use crate::motion::Skeleton;
+use crate::motion::{Joint, Skeleton};
 use crate::time::{Clock, Frame, FrameRate};
+
+/// The largest value that a motion may hold: beyond it distances squared and summed could overflow.
+const LARGEST: f64 = 1e12;
 
 /// A motion clip (モーション): the values as written, never turned into anything else, so that a
 /// drawing which is a source frame can be written back as the same numbers.
@@ -42,6 +45,23 @@ impl Clip {
             return Err(Error::clip(format!("frame {frame} holds a value that is not a number")));
         }
         Ok(Self { skeleton, rate, first, frames, values })
+    }
+
+    /// Checks that no value is so large that work on it would overflow: none may be beyond 10¹².
+    ///
+    /// # Errors
+    /// [`Error::Clip`] naming the frame or the joint.
+    pub fn check_size(&self) -> Result<(), Error> {
+        let channels = self.skeleton.channels();
+        if let Some(at) = self.values.iter().position(|value| value.abs() > LARGEST) {
+            let (frame, value) = (self.first.0 + at / channels, self.values[at]);
+            return Err(Error::clip(format!("frame {frame} holds {value:e}, which is no motion")));
+        }
+        let wild = |joint: &&Joint| !(joint.offset.abs().max_element() <= LARGEST);
+        match self.skeleton.joints.iter().find(wild) {
+            Some(joint) => Err(Error::clip(format!("the offset of {} is no length", joint.name))),
+            None => Ok(()),
+        }
     }
 
     /// The joints.
@@ -134,7 +154,7 @@ impl Clip {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{Axis, Channel, Joint};
+    use crate::motion::{Axis, Channel};
 
     fn clip(values: &[f64]) -> Result<Clip, Error> {
         let root = Joint {
@@ -154,6 +174,9 @@ mod tests {
         assert!(clip(&[0.0; 3]).is_err());
         let error = clip(&[0.0, f64::NAN, 0.0, 0.0]).unwrap_err();
         assert_eq!(error.to_string(), "frame 1 holds a value that is not a number");
+        let wild = clip(&[0.0, 0.0, 1e300, 0.0]).unwrap();
+        assert!(wild.check_size().unwrap_err().to_string().starts_with("frame 2 holds"));
+        assert!(clip(&[0.0, 0.0, 1e9, 0.0]).unwrap().check_size().is_ok());
     }
 
     #[test]

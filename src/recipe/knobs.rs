@@ -162,7 +162,7 @@ pub const KNOBS: &[Knob] = &[
         japanese: "毎秒の原画数",
         kind: number(0.1, 12.0),
         unit: "keys a second, inf for no limit",
-        help: "That many keys at the most, the best first. Lower keeps fewer; fast passages lose theirs first.",
+        help: "That many found keys at the most, the best first; pins and ends of rests come on top. Lower keeps fewer; fast passages lose theirs first.",
     },
     Knob {
         name: "spacing.on",

@@ -16,20 +16,21 @@ pub(super) struct Replaced {
 /// Replaces `count` drawings by the one before them, the smallest movements first.
 pub(super) fn run(count: usize, strip: &mut Strip<'_>) -> Replaced {
     let mut replaced = Replaced::default();
+    let mut refused = false;
     if count == 0 {
         return replaced;
     }
     let mut smallest = Tournament::new(strip.cells.iter().map(smallness));
     while replaced.gone.len() < count {
         let Some((drawing, _)) = smallest.best() else {
-            let left = strip.cells.iter().any(|cell| cell.koma > 0 && !cell.kept);
-            replaced.shortfall = Some(if left { Shortfall::NoRoom } else { Shortfall::NoneLeft });
+            replaced.shortfall = Some(why_not_more(strip, refused));
             break;
         };
         smallest.set(drawing, OUT);
         let Cell { before, after, koma, .. } = strip.cells[drawing];
         // For good: the one before only grows, and so does what stands before it.
         if strip.cells[before].koma + koma > strip.bound {
+            refused = true;
             continue;
         }
         strip.cells[before].koma += strip.remove(drawing);
@@ -39,6 +40,15 @@ pub(super) fn run(count: usize, strip: &mut Strip<'_>) -> Replaced {
         smallest.set(after, smallness(&strip.cells[after]));
     }
     replaced
+}
+
+/// `refused`: whether a hold would have grown too long.
+fn why_not_more(strip: &Strip<'_>, refused: bool) -> Shortfall {
+    match strip.cells.iter().any(|cell| cell.koma > 0 && !cell.kept) {
+        false => Shortfall::NoneLeft,
+        true if refused => Shortfall::NoRoom,
+        true => Shortfall::AllHolds,
+    }
 }
 
 /// SSD to the drawing before. Kept drawings stay, and replacing one that is itself held longer would

@@ -57,6 +57,8 @@ impl Report {
 pub enum Shortfall {
     /// No inbetween is left that could go.
     NoneLeft,
+    /// Every inbetween that is left is a hold already.
+    AllHolds,
     /// Nothing moves between the drawings that could go and the ones before them.
     NoMotion,
     /// The drawings round those that could go cannot be held any longer.
@@ -67,6 +69,7 @@ impl fmt::Display for Shortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NoneLeft => "no inbetween is left",
+            Self::AllHolds => "every inbetween that is left is a hold already",
             Self::NoMotion => "nothing moves in what is left",
             Self::NoRoom => "the drawings around cannot be held any longer (max_hold)",
         })

@@ -20,6 +20,9 @@ pub enum InbetweenSource {
     Blend,
 }
 
+/// Koma between two drawings, and drawings between two keys, beyond which nobody spaces.
+const MOST: usize = 1000;
+
 /// Puts inbetweens (中割り) between keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -77,8 +80,11 @@ impl Spacing {
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if self.on == 0 {
-            return Err(Error::setting("spacing.on", "must be 1 koma (ones) or more"));
+        if !(1..=MOST).contains(&self.on) {
+            return Err(Error::setting("spacing.on", "must be 1 (ones) to 1000 koma"));
+        }
+        if self.inbetweens.is_some_and(|count| count > MOST) {
+            return Err(Error::setting("spacing.inbetweens", "must be 1000 at the most, or none"));
         }
         if !(0.0..1.0).contains(&self.weight) {
             return Err(Error::setting("spacing.weight", "must be at least 0 (even) and below 1"));
@@ -168,7 +174,8 @@ fn stations(keys: &[Key], clock: Clock, koma: usize) -> Vec<Station<'_>> {
         Some(station) if station.role == Role::End => {}
         Some(station) => {
             let key = station.key;
-            *station = Station { key, ..end(last) };
+            *station = end(last);
+            key.into_iter().for_each(|key| station.take_over(key));
         }
         None => stations.push(end(last)),
     }
@@ -193,9 +200,13 @@ impl Station<'_> {
 }
 
 impl<'a> Station<'a> {
+    /// An end shows what it shows, unless a person wants the key there.
     fn take_over(&mut self, key: &'a Key) {
         if self.key.is_none_or(|other| key.price > other.price) {
             self.key = Some(key);
+        }
+        if key.origin == Origin::Pinned {
+            self.place = key.frame.0 as f64;
         }
     }
 }

@@ -52,9 +52,13 @@ fn frame_rate(scanner: &mut Scanner) -> Result<FrameRate, Error> {
     let seconds = scanner.number()?;
     if seconds >= 1.0 {
         let time = 1.0 / seconds;
-        let message = format!(
-            "{seconds} seconds a frame looks like a rate; {seconds} frames a second is \"Frame Time: {time:.6}\""
-        );
+        let message = if (10.0..1000.0).contains(&seconds) {
+            format!(
+                "{seconds} seconds a frame looks like a rate; {seconds} frames a second is \"Frame Time: {time:.6}\""
+            )
+        } else {
+            format!("expected a frame time below 1 second, found {seconds}")
+        };
         return Err(scanner.error(word.at, message));
     }
     FrameRate::from_frame_time(seconds)

@@ -148,6 +148,22 @@ fn layers_of_up_to_three_drawings_and_far_too_much_asked_do_not_break() {
 }
 
 #[test]
+fn a_shortfall_says_whether_a_longer_hold_would_help() {
+    let (layer, stills) = on_ones(&(0..20).collect::<Vec<_>>());
+    let short = |max_hold| {
+        let omission = Omission {
+            naka_nashi: Amount::Count(0),
+            koma_dori: Amount::Count(99),
+            max_hold,
+            ..Omission::default()
+        };
+        omission.apply(&layer, &stills, 1).unwrap().report.koma_dori.shortfall
+    };
+    assert_eq!(short(2), Some(Shortfall::NoRoom));
+    assert_eq!(short(99), Some(Shortfall::AllHolds));
+}
+
+#[test]
 fn a_body_that_does_not_move_loses_nothing_to_naka_nashi() {
     let (layer, stills) = on_ones(&[7; 9]);
     let omitted = counts(3, 0).apply(&layer, &stills, 1).unwrap();

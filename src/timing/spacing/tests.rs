@@ -42,7 +42,11 @@ fn begins(layer: &Layer) -> Vec<usize> {
 #[test]
 fn every_knob_out_of_range_is_named() {
     let wrong = |spacing: Spacing| spacing.validate().unwrap_err().to_string();
-    assert!(wrong(Spacing { on: 0, ..Spacing::default() }).starts_with("spacing.on"));
+    for on in [0, 1001, usize::MAX] {
+        assert!(wrong(Spacing { on, ..Spacing::default() }).starts_with("spacing.on"));
+    }
+    let inbetweens = Some(usize::MAX);
+    assert!(wrong(Spacing { inbetweens, ..Spacing::default() }).starts_with("spacing.inbetweens"));
     for weight in [-0.1, 1.0, f64::NAN] {
         assert!(wrong(Spacing { weight, ..Spacing::default() }).starts_with("spacing.weight"));
     }
@@ -136,6 +140,18 @@ fn a_key_on_an_end_gives_way_and_the_dearer_of_two_on_one_koma_stays() {
     assert_eq!(kept[1].source, Source::At(52.0));
     assert_eq!((kept[0].source, kept[2].source), (Source::At(0.0), Source::At(120.0)));
     assert_eq!(kept[0].why.price, Some(10.0), "the end took over the key");
+}
+
+#[test]
+fn a_pin_on_an_end_is_what_the_end_shows() {
+    let mut keys = layer(&[2, 118], &[]);
+    for key in &mut keys.keys {
+        (key.origin, key.price) = (Origin::Pinned, f64::INFINITY);
+    }
+    let layer = place(&Spacing::default(), &keys, 120.0, 25);
+    let (first, last) = (&layer.drawings[0], &layer.drawings[layer.drawings.len() - 1]);
+    assert_eq!((first.role, first.source), (Role::End, Source::At(2.0)));
+    assert_eq!((last.role, last.source), (Role::End, Source::At(118.0)));
 }
 
 #[test]
