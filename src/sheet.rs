@@ -152,9 +152,9 @@ impl fmt::Display for Why {
                 reasons.push(format!("{count} {what}{plural} {words}"));
             }
         };
-        count(self.omitted_before, "drawing", "left out before it by naka-nashi");
-        count(self.lengthened, "koma", "given to it by naka-nashi");
-        count(self.held_for, "drawing", "replaced by it by koma-dori");
+        count(self.omitted_before, "drawing", "left out before it (naka-nashi)");
+        count(self.lengthened, "koma", "given to it (naka-nashi)");
+        count(self.held_for, "drawing", "held over (koma-dori)");
         f.write_str(&reasons.join("; "))
     }
 }
