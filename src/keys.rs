@@ -5,17 +5,23 @@
 //! worth a drawing.
 
 mod choose;
+mod correct;
+mod merge;
 mod peaks;
 mod price;
 mod reference;
 mod rest;
 mod sum;
 mod vote;
+mod voters;
 
 use crate::motion::JointId;
 use crate::time::Frame;
 
-pub use choose::{Choose, Merge, Rank, weights};
+pub use choose::{Choose, Merge, Rank};
+pub use merge::JointTurns;
+pub use reference::Reference;
+pub use voters::weights;
 
 /// A key (原画) of a layer.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{self, Candidates, LayerKeys};
+use crate::keys::{self, Candidates, JointTurns, LayerKeys, Reference};
 use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::Sheet;
@@ -24,6 +24,7 @@ pub struct Engine {
     filtered: Stage<LowPass, Signals>,
     turns: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
     candidates: Stage<CandidateSettings, Candidates>,
+    reference: Stage<f64, Reference>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
@@ -79,6 +80,7 @@ impl Engine {
             filtered: Stage::default(),
             turns: Stage::default(),
             candidates: Stage::default(),
+            reference: Stage::default(),
             keys: Stage::default(),
             spaced: Stage::default(),
             stills: Stage::default(),
@@ -155,8 +157,15 @@ impl Engine {
 
     /// The keys and walls of the layer.
     fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, turns_made: Made) -> Made {
-        let (filtered, turns) = (self.filtered.output(), self.turns.output());
-        let delay = recipe.filter.delay(self.clip.rate());
+        let clip = &self.clip;
+        let joints = JointTurns {
+            filtered: self.filtered.output(),
+            turns: self.turns.output(),
+            finder: &recipe.turns,
+            delay: recipe.filter.delay(clip.rate()),
+            weights: &self.weights,
+            apart: clock.frames_in_koma(),
+        };
         // What is asked of the ranked list does not change the candidates.
         let merging = keys::Choose {
             rank: keys::Rank::Price,
@@ -166,14 +175,13 @@ impl Engine {
             ..recipe.keys.clone()
         };
         let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let made = self.candidates.renew(turns_made, &settings, || {
-            let apart = clock.frames_in_koma();
-            recipe.keys.candidates(&recipe.turns, filtered, turns, &self.weights, delay, apart)
-        });
+        let made = self.candidates.renew(turns_made, &settings, || recipe.keys.candidates(&joints));
         let candidates = self.candidates.output();
+        self.reference.renew(Made::CLIP, &recipe.rate, || Reference::of(clip, clock));
+        let reference = self.reference.output();
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
         self.keys.renew(made, &settings, || {
-            recipe.keys.choose(&self.clip, clock, candidates, turns, &self.weights, edits)
+            recipe.keys.choose(clip, reference, candidates, &joints, edits)
         })
     }
 

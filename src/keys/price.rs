@@ -13,13 +13,14 @@ use std::collections::BinaryHeap;
 
 use glam::{DQuat, DVec3};
 
-use crate::keys::reference::Reference;
-use crate::motion::{Body, Pose};
+use crate::keys::Reference;
+use crate::motion::{Body, Clip, Pose};
 use crate::time::Frame;
 
 /// The error of slerping between two keys, with its buffers.
 struct Bridge<'a> {
-    reference: &'a Reference<'a>,
+    clip: &'a Clip,
+    reference: &'a Reference,
     from: Pose,
     to: Pose,
     /// The rotation of a joint from one koma to the next.
@@ -30,10 +31,11 @@ struct Bridge<'a> {
 }
 
 impl<'a> Bridge<'a> {
-    fn new(reference: &'a Reference<'a>) -> Self {
-        let skeleton = reference.clip().skeleton();
+    fn new(clip: &'a Clip, reference: &'a Reference) -> Self {
+        let skeleton = clip.skeleton();
         let rest = Pose::rest(skeleton);
         Self {
+            clip,
             reference,
             from: rest.clone(),
             to: rest.clone(),
@@ -47,7 +49,7 @@ impl<'a> Bridge<'a> {
     /// The joint-position error of the worst koma between, root mean square over the joints, in % of
     /// body height.
     fn error(&mut self, from: Frame, to: Frame) -> f64 {
-        let (clip, clock) = (self.reference.clip(), self.reference.clock());
+        let (clip, clock) = (self.clip, self.reference.clock());
         let range = self.reference.koma_between(from, to);
         let joints = self.positions.len();
         if range.is_empty() || joints == 0 || self.reference.height() <= 0.0 {
@@ -115,12 +117,13 @@ pub(super) struct Worthwhile {
 /// are left besides those that stay. What is kept for a smaller `most` or a larger `enough` is
 /// therefore part of what is kept for a larger or smaller one.
 pub(super) fn worthwhile(
-    reference: &Reference<'_>,
+    clip: &Clip,
+    reference: &Reference,
     entries: &[Entry],
     enough: f64,
     most: usize,
 ) -> Worthwhile {
-    let mut list = RankedList::new(reference, entries);
+    let mut list = RankedList::new(clip, reference, entries);
     let mut left = entries.iter().filter(|entry| !entry.stays).count();
     let mut over_limit = 0;
     while let Some((price, entry)) = list.cheapest() {
@@ -150,11 +153,11 @@ struct RankedList<'a> {
 }
 
 impl<'a> RankedList<'a> {
-    fn new(reference: &'a Reference<'a>, entries: &'a [Entry]) -> Self {
+    fn new(clip: &'a Clip, reference: &'a Reference, entries: &'a [Entry]) -> Self {
         let count = entries.len();
         let mut list = Self {
             entries,
-            bridge: Bridge::new(reference),
+            bridge: Bridge::new(clip, reference),
             before: (0..count).map(|entry| entry.saturating_sub(1)).collect(),
             after: (1..=count).collect(),
             price: vec![f64::NAN; count],

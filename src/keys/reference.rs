@@ -8,23 +8,24 @@ use crate::motion::{Body, Clip, Pose};
 use crate::time::{Clock, Frame};
 
 /// The source at each koma, computed once: what a reconstruction is measured against.
-pub(super) struct Reference<'a> {
-    clip: &'a Clip,
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
     clock: Clock,
     koma: usize,
+    joints: usize,
     /// Koma × joints.
     positions: Vec<DVec3>,
     /// Height of the body in the file's unit: see [`Reference::of`].
     height: f64,
 }
 
-impl<'a> Reference<'a> {
+impl Reference {
     /// Samples the clip at every koma of the clock.
     ///
     /// The body's height is the median over the koma of the longest side of the box round all joints.
     /// It is taken from the motion and not from the rest pose because rest poses are a matter of the
     /// rig: arms out, arms down, or all bones along one axis.
-    pub(super) fn of(clip: &'a Clip, clock: Clock) -> Self {
+    pub fn of(clip: &Clip, clock: Clock) -> Self {
         let joints = clip.skeleton().len();
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![DVec3::ZERO; koma * joints];
@@ -39,12 +40,7 @@ impl<'a> Reference<'a> {
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
         // A body of one point has no height; what it moves through stands for it.
         let height = if median > 0.0 { median } else { longest_side(&positions) };
-        Self { clip, clock, koma, positions, height }
-    }
-
-    /// The motion.
-    pub(super) fn clip(&self) -> &'a Clip {
-        self.clip
+        Self { clock, koma, joints, positions, height }
     }
 
     /// Where its koma stand.
@@ -59,8 +55,7 @@ impl<'a> Reference<'a> {
 
     /// Where every joint stands at a koma.
     pub(super) fn positions(&self, koma: usize) -> &[DVec3] {
-        let joints = self.clip.skeleton().len();
-        &self.positions[koma * joints..(koma + 1) * joints]
+        &self.positions[koma * self.joints..(koma + 1) * self.joints]
     }
 
     /// The body's height in the file's unit: see [`Reference::of`].
@@ -71,7 +66,7 @@ impl<'a> Reference<'a> {
     /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
     /// square over the joints.
     pub(super) fn speeds(&self) -> Vec<f64> {
-        let joints = self.clip.skeleton().len();
+        let joints = self.joints;
         if joints == 0 || self.height <= 0.0 {
             return Vec::new();
         }

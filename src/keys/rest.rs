@@ -2,7 +2,7 @@
 //! keys whatever they save: an animator draws them to hold them, and a slow settling costs so little
 //! that no price would find them.
 
-use crate::keys::reference::Reference;
+use crate::keys::Reference;
 use crate::time::Frame;
 
 /// Seconds that a stillness must last to be a rest.
@@ -14,7 +14,7 @@ const SMOOTH: usize = 3;
 /// The frames on which rests begin and end: the body is slower than `speed`, in % of its height a
 /// second (root mean square over the joints' ways through the world), for at least half a second. A
 /// rest that reaches the sheet's first or last koma only ends or only begins.
-pub(super) fn rest_ends(reference: &Reference<'_>, speed: f64) -> Vec<Frame> {
+pub(super) fn rest_ends(reference: &Reference, speed: f64) -> Vec<Frame> {
     let clock = reference.clock();
     let speeds = smoothed(&reference.speeds());
     let least = (LEAST * clock.koma_rate).round() as usize;

@@ -57,7 +57,8 @@ impl Clip {
             let (frame, value) = (self.first.0 + at / channels, self.values[at]);
             return Err(Error::clip(format!("frame {frame} holds {value:e}, which is no motion")));
         }
-        let wild = |joint: &&Joint| !(joint.offset.abs().max_element() <= LARGEST);
+        let is_wild = |length: &f64| length.is_nan() || length.abs() > LARGEST;
+        let wild = |joint: &&Joint| joint.offset.to_array().iter().any(is_wild);
         match self.skeleton.joints.iter().find(wild) {
             Some(joint) => Err(Error::clip(format!("the offset of {} is no length", joint.name))),
             None => Ok(()),

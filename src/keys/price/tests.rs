@@ -1,5 +1,4 @@
 use super::*;
-use crate::motion::Clip;
 use crate::motion::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
 use crate::time::FrameRate;
 
@@ -38,7 +37,8 @@ fn triangle(frames: usize, turn: usize) -> Vec<f64> {
 fn a_key_on_an_even_turn_goes_and_the_turning_point_stays() {
     let clip = swing(&triangle(21, 10));
     let reference = Reference::of(&clip, clip.clock(24.0));
-    let kept = worthwhile(&reference, &entries(&[0, 5, 10, 20], 20), 1e-6, usize::MAX).prices;
+    let kept =
+        worthwhile(&clip, &reference, &entries(&[0, 5, 10, 20], 20), 1e-6, usize::MAX).prices;
     assert_eq!(kept[1], None);
     assert!(kept[2].is_some_and(|price| price > 20.0), "{kept:?}");
     assert_eq!((kept[0], kept[3]), (Some(f64::INFINITY), Some(f64::INFINITY)));
@@ -49,7 +49,7 @@ fn the_bridge_equals_a_slerp_a_koma() {
     let clip = swing(&(0..40).map(|at| 40.0 * (at as f64 * 0.4).sin()).collect::<Vec<_>>());
     let clip = clip.with_rate(FrameRate::new(50.0).unwrap());
     let reference = Reference::of(&clip, clip.clock(24.0));
-    let fast = Bridge::new(&reference).error(Frame(3), Frame(36));
+    let fast = Bridge::new(&clip, &reference).error(Frame(3), Frame(36));
     let (mut from, mut to) = (Pose::rest(clip.skeleton()), Pose::rest(clip.skeleton()));
     from.take_frame(&clip, Frame(3));
     to.take_frame(&clip, Frame(36));
@@ -73,11 +73,17 @@ fn the_bridge_equals_a_slerp_a_koma() {
 }
 
 /// The same from the words: each round prices every entry anew and takes the cheapest away.
-fn slowly(reference: &Reference<'_>, entries: &[Entry], enough: f64, most: usize) -> Vec<Frame> {
+fn slowly(
+    clip: &Clip,
+    reference: &Reference,
+    entries: &[Entry],
+    enough: f64,
+    most: usize,
+) -> Vec<Frame> {
     let mut kept = entries.to_vec();
     loop {
         let price =
-            |at: usize| Bridge::new(reference).error(kept[at - 1].frame, kept[at + 1].frame);
+            |at: usize| Bridge::new(clip, reference).error(kept[at - 1].frame, kept[at + 1].frame);
         let cheapest = (1..kept.len() - 1)
             .filter(|at| !kept[*at].stays)
             .map(|at| (price(at), at))
@@ -98,14 +104,14 @@ fn the_ranked_list_equals_pricing_everything_anew_each_round() {
     let mut list = entries(&[0, 5, 11, 16, 22, 27, 33, 40, 48, 59], 59);
     list[4].stays = true;
     for (enough, most) in [(0.0, 9), (1.0, 9), (5.0, 9), (20.0, 9), (0.0, 4), (1.0, 2), (0.0, 0)] {
-        let kept = worthwhile(&reference, &list, enough, most).prices;
+        let kept = worthwhile(&clip, &reference, &list, enough, most).prices;
         let frames: Vec<Frame> = list
             .iter()
             .zip(&kept)
             .filter(|(_, kept)| kept.is_some())
             .map(|(e, _)| e.frame)
             .collect();
-        assert_eq!(frames, slowly(&reference, &list, enough, most), "{enough} {most}");
+        assert_eq!(frames, slowly(&clip, &reference, &list, enough, most), "{enough} {most}");
         assert_eq!(kept[4], Some(f64::INFINITY), "what stays is never taken away");
     }
 }
@@ -114,11 +120,11 @@ fn the_ranked_list_equals_pricing_everything_anew_each_round() {
 fn nothing_between_two_frames_costs_nothing() {
     let clip = swing(&[0.0, 10.0, 0.0]);
     let reference = Reference::of(&clip, clip.clock(24.0));
-    assert_eq!(Bridge::new(&reference).error(Frame(0), Frame(1)), 0.0);
+    assert_eq!(Bridge::new(&clip, &reference).error(Frame(0), Frame(1)), 0.0);
     let still = swing(&[0.0; 9]);
     let reference = Reference::of(&still, still.clock(24.0));
     assert_eq!(
-        worthwhile(&reference, &entries(&[0, 4, 8], 8), 0.0, usize::MAX).prices[1],
+        worthwhile(&still, &reference, &entries(&[0, 4, 8], 8), 0.0, usize::MAX).prices[1],
         Some(0.0)
     );
 }
@@ -130,7 +136,7 @@ fn what_is_worth_it_but_over_the_limit_is_counted() {
     let reference = Reference::of(&clip, clip.clock(24.0));
     let list = entries(&[0, 5, 11, 16, 22, 27, 33, 40, 48, 59], 59);
     let kept = |most| {
-        let worthwhile = worthwhile(&reference, &list, 5.0, most);
+        let worthwhile = worthwhile(&clip, &reference, &list, 5.0, most);
         (worthwhile.prices.iter().flatten().count() - 2, worthwhile.over_limit)
     };
     let (worth, none) = kept(usize::MAX);

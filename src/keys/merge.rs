@@ -1,0 +1,79 @@
+//! From the turns of joints to candidates of the layer: union, vote or sum.
+
+use crate::keys::peaks::strongest_apart;
+use crate::keys::vote::Poll;
+use crate::keys::{Candidate, Candidates, Choose, Merge, Wall, sum};
+use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
+use crate::time::Frame;
+
+/// What is known of the joints when they are merged.
+#[derive(Debug, Clone, Copy)]
+pub struct JointTurns<'a> {
+    /// The smoothed speeds.
+    pub filtered: &'a Signals,
+    /// Their turns, one list a joint.
+    pub turns: &'a [Vec<Turn>],
+    /// What finds turns: `sum` looks for those of the whole layer.
+    pub finder: &'a TurnFinder,
+    /// The delay of the filter, in frames.
+    pub delay: f64,
+    /// One value a joint, at least 0: see [`weights`](crate::keys::weights).
+    pub weights: &'a [f64],
+    /// The least distance of two keys, in frames: one koma.
+    pub apart: f64,
+}
+
+impl Choose {
+    /// What the joints say together.
+    pub fn candidates(&self, joints: &JointTurns<'_>) -> Candidates {
+        let filtered = joints.filtered;
+        let merged = |kind| match self.merge {
+            Merge::Sum => summed(joints, kind),
+            Merge::Vote => {
+                let poll = self.poll(joints);
+                poll.elected(&poll.count(joints.turns, kind))
+            }
+            Merge::Union => {
+                let poll = self.poll(joints);
+                poll.named(joints.turns, kind, &poll.count(joints.turns, kind))
+            }
+        };
+        let inside = |frame: Frame| {
+            frame > filtered.first && frame.0 + 1 < filtered.first.0 + filtered.frames()
+        };
+        Candidates {
+            keys: merged(TurnKind::Key)
+                .into_iter()
+                .filter(|(frame, strength)| inside(*frame) && *strength >= self.min_strength)
+                .map(|(frame, strength)| Candidate { frame, strength })
+                .collect(),
+            walls: merged(TurnKind::Wall)
+                .into_iter()
+                .map(|(frame, strength)| Wall { frame, strength })
+                .collect(),
+        }
+    }
+
+    fn poll<'a>(&self, joints: &JointTurns<'a>) -> Poll<'a> {
+        let filtered = joints.filtered;
+        Poll {
+            first: filtered.first,
+            frames: filtered.frames(),
+            weights: joints.weights,
+            reach: self.reach.frames(filtered.rate),
+            apart: joints.apart,
+        }
+    }
+}
+
+/// The turns of the layer's mean speed, with their prominence.
+fn summed(joints: &JointTurns<'_>, kind: TurnKind) -> Vec<(Frame, f64)> {
+    let mean = sum::mean_speed(joints.filtered, joints.weights);
+    let turns = joints.finder.find(&mean, joints.delay).pop().unwrap_or_default();
+    let margin = (joints.delay.round() as usize).min(mean.frames()) + 1;
+    let mut found = sum::prominences(&mean, &turns, kind, margin);
+    found.retain(|(_, strength)| *strength > 0.0);
+    let rows = found.into_iter().map(|(frame, strength)| (frame.0, strength)).collect();
+    let apart = strongest_apart(rows, joints.apart);
+    apart.into_iter().map(|(frame, strength)| (Frame(frame), strength)).collect()
+}
