@@ -2,7 +2,7 @@
 
 use super::args::OmitArgs;
 use super::failure::Failure;
-use super::words::Words;
+use super::words::{Words, counted};
 use super::{io, source};
 use crate::deliver;
 use crate::sheet::Sheet;
@@ -46,11 +46,14 @@ fn omission(args: &OmitArgs) -> Omission {
 fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &Report, seconds: f64) {
     let layer = &sheet.layers[0];
     let (naka, dori) = (&report.naka_nashi, &report.koma_dori);
-    words.say(format_args!("koma        {koma} → {}", layer.length()));
-    words.say(format_args!("naka-nashi  中無し     {} of {} left out", naka.done, naka.asked));
-    words.say(format_args!("koma-dori   コマ撮り   {} of {} held over", dori.done, dori.asked));
-    let (drawings, longest) = (layer.drawings.len(), layer.longest_hold());
-    words.say(format_args!("drawings    {drawings}, longest hold {longest} koma"));
-    words.say(format_args!("time        {:.3} ms for positions and both stages", 1e3 * seconds));
-    report.shortfalls().for_each(|reason| words.say(reason));
+    words.say(format_args!("length      尺         {koma} → {} koma", layer.length()));
+    words.say(format_args!("left out    中無し     {} of {} by naka-nashi", naka.done, naka.asked));
+    words.say(format_args!("held        コマ撮り   {} of {} by koma-dori", dori.done, dori.asked));
+    let (drawings, longest) = (counted(layer.drawings.len(), "drawing"), layer.longest_hold());
+    words.say(format_args!("sheet       シート     {drawings}, longest hold {longest} koma"));
+    words.say(format_args!(
+        "time                   {:.3} ms for positions and both stages",
+        1e3 * seconds
+    ));
+    report.shortfalls().for_each(|reason| words.say(format_args!("note        {reason}")));
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::args::RunArgs;
 use super::failure::Failure;
-use super::words::Words;
+use super::words::{Words, counted};
 use super::{io, pictures, source};
 use crate::deliver::{self, Drawings, Report, Rows};
 use crate::edits::Edits;
@@ -27,7 +27,8 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     io::write_all(&folder, &files)?;
     drop(working);
     summary(words, &cut, &report);
-    breakdown.omission.shortfalls().for_each(|reason| words.say(reason));
+    let shortfalls = breakdown.omission.shortfalls();
+    shortfalls.for_each(|reason| words.say(format_args!("note        {reason}")));
     let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
     words.say(format_args!("files       {}: {}", folder.display(), names.join(" ")));
     Ok(())
@@ -88,8 +89,10 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         ));
     }
     words.say(format_args!(
-        "sheet       シート     {koma} koma, {} drawings, {:.1} a second, longest hold {} koma",
-        report.drawings, report.drawings_per_second, report.longest_hold
+        "sheet       シート     {koma} koma, {}, {:.1} a second, longest hold {} koma",
+        counted(report.drawings, "drawing"),
+        report.drawings_per_second,
+        report.longest_hold
     ));
     let omission = &report.omission;
     words.say(format_args!(

@@ -43,6 +43,11 @@ impl Words {
     }
 }
 
+/// A count with its noun: `1 drawing`, `3 drawings`.
+pub(super) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A spinner that says what is being done.
 pub(super) struct Working(Option<ProgressBar>);
 
