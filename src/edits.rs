@@ -91,6 +91,7 @@ mod tests {
         assert!(!check(edits("10", &[], None)));
         assert!(!check(edits("7", &[7], None)));
         assert!(!check(edits("7", &[], Some(1.0))));
+        assert!(!check(edits("7", &[], Some(-0.1))));
     }
 
     #[test]
@@ -98,6 +99,7 @@ mod tests {
         let pin = Pin::parse("150: left-wrist-top").unwrap();
         assert_eq!((pin.frame, pin.name.as_deref()), (Frame(150), Some("left-wrist-top")));
         assert_eq!(Pin::parse("12").unwrap().name, None);
+        assert_eq!(Pin::parse("12: ").unwrap().name, None, "an empty name is none");
         assert!(Pin::parse("twelve").is_err());
     }
 }

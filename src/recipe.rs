@@ -270,9 +270,19 @@ mod tests {
     #[test]
     fn the_written_recipe_reads_back_with_its_corrections() {
         let mut recipe = Recipe::default();
-        recipe.set("filter.width", "20").unwrap();
-        recipe.set("turns.steady", "5%").unwrap();
-        recipe.set("spacing.inbetweens", "3").unwrap();
+        for (name, value) in [
+            ("rate", "25"),
+            ("speed.measure", "displacement"),
+            ("filter.width", "20"),
+            ("turns.steady", "5%"),
+            ("keys.min_price", "4.5"),
+            ("spacing.inbetweens", "3"),
+            ("omission.max_hold", "5"),
+        ] {
+            let before = recipe.clone();
+            recipe.set(name, value).unwrap();
+            assert_ne!(recipe, before, "{name} is not its default");
+        }
         let pin = Pin { weight: Some(0.5), ..Pin::parse("150:top").unwrap() };
         let edits = Edits { pins: vec![pin], forbidden: vec![Frame(7)] };
         let text = recipe.write(&edits);

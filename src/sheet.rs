@@ -254,5 +254,6 @@ mod tests {
         let begins: Vec<_> = layer.timed().map(|(begin, _)| begin).collect();
         assert_eq!(begins, [0, 4, 5]);
         assert_eq!((layer.length(), layer.longest_hold(), layer.held_koma()), (6, 4, 3));
+        assert_eq!(layer.koma().collect::<Vec<_>>(), [0, 0, 0, 0, 1, 2]);
     }
 }

@@ -241,7 +241,9 @@ mod tests {
         assert_eq!(FrameRate::from_frame_time(1.0 / 29.97).unwrap().fps(), 29.97);
         assert_eq!(FrameRate::from_frame_time(0.1).unwrap().fps(), 10.0, "an unusual rate stays");
         assert!(FrameRate::from_frame_time(0.0).is_err());
-        assert!(FrameRate::new(f64::NAN).is_err());
+        for fps in [f64::NAN, f64::INFINITY, 0.0, -24.0] {
+            assert!(FrameRate::new(fps).is_err(), "{fps}");
+        }
     }
 
     #[test]
@@ -253,6 +255,11 @@ mod tests {
         assert_eq!(rate(120.0).koma_from_frames(6, 24.0), 2);
         assert_eq!(rate(24.0).koma_from_frames(129, 24.0), 129);
         assert_eq!(rate(100.0).koma_from_frames(496, 24.0), 119);
+        assert_eq!(
+            rate(23.976).koma_from_frames(44, 23.976),
+            44,
+            "43 · 23.976 / 23.976 falls short"
+        );
     }
 
     #[test]

@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn an_end_and_a_start_of_one_rest_share_its_prominence() {
-        let speed = signals(&[&[8.0, 4.0, 1.0, 1.2, 1.0, 4.0, 8.0, 2.0]]);
+        let speed = signals(&[&[8.0, 4.0, 1.0, 1.2, 1.1, 4.0, 8.0, 2.0]]);
         let turn = |frame, kind| Turn { frame: Frame(frame), kind, confirmed_for: 1 };
         let turns = [
             turn(12, TurnKind::Key),

@@ -151,6 +151,9 @@ mod tests {
     fn nobody_turns_and_nobody_is_elected() {
         let poll = poll(&[1.0]);
         let votes = poll.count(&turns(&[&[]]), TurnKind::Key);
+        assert_eq!(votes, [0.0; 60]);
         assert!(poll.elected(&votes).is_empty());
+        let keys = turns(&[&[120]]);
+        assert_eq!(poll.count(&keys, TurnKind::Wall), [0.0; 60], "a key is no vote for a wall");
     }
 }

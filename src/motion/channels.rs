@@ -257,5 +257,30 @@ mod tests {
         let mut row = [0.0];
         RowWriter::new(&narrow).write(Source::At(3.25), &mut row);
         assert_eq!(row, [12.5]);
+        let twice = clip(&[Axis::X, Axis::Y, Axis::X], &[10.0, 30.0, 10.0, 20.0, 40.0, 20.0]);
+        let mut row = [0.0; 3];
+        RowWriter::new(&twice).write(Source::At(3.25), &mut row);
+        assert_eq!(row, [12.5, 32.5, 12.5], "one axis twice is no three axes");
+    }
+
+    #[test]
+    fn a_blend_over_equal_frames_is_a_blend_of_its_keys() {
+        let angles = [0.0, 80.0, 80.0, 20.0];
+        let clip = clip(&ORDERS[0], &angles.map(|angle| [angle, 0.0, 0.0]).concat());
+        let mut row = [0.0; 3];
+        RowWriter::new(&clip).write(Source::Between { from: 3.0, to: 6.0, share: 0.5 }, &mut row);
+        assert!((row[0] - 10.0).abs() < 1e-9, "{row:?}");
+    }
+
+    #[test]
+    fn a_position_between_frames_goes_straight() {
+        let positions = [Axis::Z, Axis::X, Axis::Y].map(Channel::Position);
+        let joint = Joint { channels: positions.to_vec(), ..joint(&[]) };
+        let values = vec![1.0, 10.0, 100.0, 2.0, 20.0, 200.0];
+        let rate = FrameRate::new(24.0).unwrap();
+        let clip = Clip::new(Skeleton { joints: vec![joint] }, rate, Frame(3), 2, values).unwrap();
+        let mut row = [0.0; 3];
+        RowWriter::new(&clip).write(Source::At(3.5), &mut row);
+        assert_eq!(row, [1.5, 15.0, 150.0]);
     }
 }

@@ -189,6 +189,7 @@ mod tests {
         let again = clip.trimmed(Frame(2), Frame(3)).unwrap();
         assert_eq!(again.row(Frame(2)), [12.0]);
         assert!(again.clone().trimmed(Frame(1), Frame(3)).is_err());
+        assert!(again.clone().trimmed(Frame(2), Frame(4)).is_err(), "past the end");
         assert!(again.trimmed(Frame(2), Frame(2)).is_err());
     }
 }
