@@ -216,8 +216,8 @@ fn omit_does_what_the_second_paper_counts() {
         ));
         let said = text(&output.stderr);
         assert!(output.status.success(), "{name}: {said}");
-        assert!(said.contains(&format!("{naka_nashi} of {naka_nashi} left out")), "{said}");
-        assert!(said.contains(&format!("{koma_dori} of {koma_dori} held over")), "{said}");
+        assert!(said.contains(&format!("{naka_nashi} of {naka_nashi} by naka-nashi")), "{said}");
+        assert!(said.contains(&format!("{koma_dori} of {koma_dori} by koma-dori")), "{said}");
         let drawings = column(&read(&place.path(&format!("{name}.csv"))), "drawing");
         let held = drawings.windows(2).filter(|pair| pair[0] == pair[1]).count();
         assert_eq!(held, naka_nashi + koma_dori, "{name}");
