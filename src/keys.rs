@@ -8,6 +8,7 @@ mod choose;
 mod correct;
 mod merge;
 mod peaks;
+mod points;
 mod price;
 mod reference;
 mod rest;

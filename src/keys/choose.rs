@@ -41,17 +41,17 @@ pub enum Rank {
 pub struct Choose {
     /// How joints are merged. Default: `union`, and the price picks from it.
     pub merge: Merge,
-    /// How far a joint's vote carries, frames or seconds. Default 0.06 s. Raised, it joins turns that
+    /// How far a joint's vote carries, frames or seconds. Default 0.08 s. Raised, it joins turns that
     /// lie further apart into one key, and quick double actions become one.
     pub reach: Span,
     /// By what keys are ranked. Default: `price`.
     pub rank: Rank,
     /// The least a key must save, in % of body height: how far the body would be off at the worst koma
-    /// without it; 0 or more, default 3. Raised, small gestures lose their keys first. It counts when
+    /// without it; 0 or more, default 2.5. Raised, small gestures lose their keys first. It counts when
     /// ranked by price.
     pub min_price: f64,
     /// The speed below which the whole body rests, in % of its height a second (root mean square over
-    /// the joints); 0 or more, default 12, 0 for no rests. Both ends of a rest of half a second or more
+    /// the bones); 0 or more, default 12, 0 for no rests. Both ends of a rest of half a second or more
     /// are keys whatever they save. Raised, slow gestures count as rests.
     pub rest: f64,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
@@ -67,9 +67,9 @@ impl Default for Choose {
     fn default() -> Self {
         Self {
             merge: Merge::Union,
-            reach: Span::Seconds(0.06),
+            reach: Span::Seconds(0.08),
             rank: Rank::Price,
-            min_price: 3.0,
+            min_price: 2.5,
             rest: 12.0,
             min_strength: 0.0,
             per_second: 4.5,

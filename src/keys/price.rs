@@ -5,8 +5,8 @@
 //! ranked list.
 //!
 //! "How far off" is the worst koma, not the sum over koma: a pose that is missed once shows more than
-//! a small drift that lasts. And it is the root mean square over the joints, not the mean: a foot that
-//! misses its contact shows, though the rest of the body be right.
+//! a small drift that lasts. And it is the root mean square over the body, not the mean: a foot that
+//! misses its contact shows, though the rest be right.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -42,17 +42,16 @@ impl<'a> Bridge<'a> {
             step: vec![DQuat::IDENTITY; skeleton.len()],
             pose: rest,
             body: Body::new(skeleton),
-            positions: vec![DVec3::ZERO; skeleton.len()],
+            positions: vec![DVec3::ZERO; reference.points().len()],
         }
     }
 
-    /// The joint-position error of the worst koma between, root mean square over the joints, in % of
+    /// The position error of the worst koma between, root mean square over the body's points, in % of
     /// body height.
     fn error(&mut self, from: Frame, to: Frame) -> f64 {
         let (clip, clock) = (self.clip, self.reference.clock());
         let range = self.reference.koma_between(from, to);
-        let joints = self.positions.len();
-        if range.is_empty() || joints == 0 || self.reference.height() <= 0.0 {
+        if range.is_empty() || self.positions.is_empty() || self.reference.height() <= 0.0 {
             return 0.0;
         }
         self.from.take_frame(clip, from);
@@ -74,12 +73,11 @@ impl<'a> Bridge<'a> {
             if koma > range.start {
                 self.advance(share(koma));
             }
-            self.body.place(&self.pose, &mut self.positions);
-            let source = self.reference.positions(koma);
-            let squares = source.iter().zip(&self.positions).map(|(a, b)| a.distance_squared(*b));
-            worst = f64::max(worst, squares.sum());
+            let points = self.reference.points();
+            points.place(&mut self.body, &self.pose, &mut self.positions);
+            worst = f64::max(worst, points.apart(self.reference.positions(koma), &self.positions));
         }
-        100.0 * (worst / joints as f64).sqrt() / self.reference.height()
+        100.0 * worst.sqrt() / self.reference.height()
     }
 
     fn advance(&mut self, share: f64) {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use crate::keys::points::Points;
 use crate::motion::{Body, Clip, Pose};
 use crate::time::{Clock, Frame};
 
@@ -12,8 +13,8 @@ use crate::time::{Clock, Frame};
 pub struct Reference {
     clock: Clock,
     koma: usize,
-    joints: usize,
-    /// Koma × joints.
+    points: Points,
+    /// Koma × points.
     positions: Vec<DVec3>,
     /// Height of the body in the file's unit: see [`Reference::of`].
     height: f64,
@@ -22,25 +23,25 @@ pub struct Reference {
 impl Reference {
     /// Samples the clip at every koma of the clock.
     ///
-    /// The body's height is the median over the koma of the longest side of the box round all joints.
+    /// The body's height is the median over the koma of the longest side of the box round all its points.
     /// It is taken from the motion and not from the rest pose because rest poses are a matter of the
     /// rig: arms out, arms down, or all bones along one axis.
     pub fn of(clip: &Clip, clock: Clock) -> Self {
-        let joints = clip.skeleton().len();
+        let points = Points::of(clip.skeleton());
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-        let mut positions = vec![DVec3::ZERO; koma * joints];
+        let mut positions = vec![DVec3::ZERO; koma * points.len()];
         let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
         let mut sides = Vec::with_capacity(koma);
-        for (at, row) in positions.chunks_exact_mut(joints.max(1)).enumerate() {
+        for (at, row) in positions.chunks_exact_mut(points.len().max(1)).enumerate() {
             pose.take_place(clip, clock.place_from_koma(at));
-            body.place(&pose, row);
+            points.place(&mut body, &pose, row);
             sides.push(longest_side(row));
         }
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
         // A body of one point has no height; what it moves through stands for it.
         let height = if median > 0.0 { median } else { longest_side(&positions) };
-        Self { clock, koma, joints, positions, height }
+        Self { clock, koma, points, positions, height }
     }
 
     /// Where its koma stand.
@@ -53,9 +54,15 @@ impl Reference {
         self.koma as f64 / self.clock.koma_rate
     }
 
-    /// Where every joint stands at a koma.
+    /// The points that positions are of.
+    pub(super) fn points(&self) -> &Points {
+        &self.points
+    }
+
+    /// Where every point stands at a koma.
     pub(super) fn positions(&self, koma: usize) -> &[DVec3] {
-        &self.positions[koma * self.joints..(koma + 1) * self.joints]
+        let points = self.points.len();
+        &self.positions[koma * points..(koma + 1) * points]
     }
 
     /// The body's height in the file's unit: see [`Reference::of`].
@@ -64,18 +71,14 @@ impl Reference {
     }
 
     /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
-    /// square over the joints.
+    /// square over its points.
     pub(super) fn speeds(&self) -> Vec<f64> {
-        let joints = self.joints;
-        if joints == 0 || self.height <= 0.0 {
+        if self.points.len() == 0 || self.height <= 0.0 {
             return Vec::new();
         }
         let percent = 100.0 * self.clock.koma_rate / self.height;
-        let rows: Vec<&[DVec3]> = self.positions.chunks_exact(joints).collect();
-        let speed = |pair: &[&[DVec3]]| {
-            let squares = pair[0].iter().zip(pair[1]).map(|(a, b)| a.distance_squared(*b));
-            percent * (squares.sum::<f64>() / joints as f64).sqrt()
-        };
+        let rows: Vec<&[DVec3]> = self.positions.chunks_exact(self.points.len()).collect();
+        let speed = |pair: &[&[DVec3]]| percent * self.points.apart(pair[0], pair[1]).sqrt();
         rows.windows(2).map(speed).collect()
     }
 

@@ -12,7 +12,7 @@ const LEAST: f64 = 0.5;
 const SMOOTH: usize = 3;
 
 /// The frames on which rests begin and end: the body is slower than `speed`, in % of its height a
-/// second (root mean square over the joints' ways through the world), for at least half a second. A
+/// second (root mean square over its points' ways through the world), for at least half a second. A
 /// rest that reaches the sheet's first or last koma only ends or only begins.
 pub(super) fn rest_ends(reference: &Reference, speed: f64) -> Vec<Frame> {
     let clock = reference.clock();

@@ -64,7 +64,9 @@ fn the_bridge_equals_a_slerp_a_koma() {
             source.take_place(&clip, place);
             body.place(&pose, &mut a);
             body.place(&source, &mut b);
-            let squares = a[0].distance_squared(b[0]) + a[1].distance_squared(b[1]);
+            // The arm is straight: its tip lies as far from the hand as the hand from the shoulder.
+            let tip = |arm: &[DVec3; 2]| 2.0 * arm[1] - arm[0];
+            let squares = a[1].distance_squared(b[1]) + tip(&a).distance_squared(tip(&b));
             slow = f64::max(slow, (squares / 2.0).sqrt());
         }
     }
