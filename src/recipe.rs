@@ -315,6 +315,7 @@ mod tests {
         for rate in ["-1", "0.9", "1001", "nan"] {
             assert!(error("rate", rate).contains("2 to 1000"), "{rate}");
         }
+        assert!(error("omission.naka_nashi", "none").contains("share of the koma"), "0 is none");
         assert_eq!(recipe, Recipe::default(), "nothing was changed");
     }
 
