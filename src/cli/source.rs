@@ -66,6 +66,8 @@ pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> 
     for pin in &args.pin {
         let pin =
             Pin::parse(pin).map_err(|error| Failure::AskedWrongly(format!("--pin: {error}")))?;
+        // A pin given again says more about the same frame.
+        edits.pins.retain(|other| other.frame != pin.frame);
         edits.pins.push(pin);
     }
     Ok((recipe, edits))

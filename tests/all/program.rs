@@ -206,6 +206,14 @@ fn keys_are_a_table_of_the_body_or_of_every_joint() {
 }
 
 #[test]
+fn a_pin_given_again_has_its_last_name() {
+    let place = Place::new();
+    let output = place.genga("keys data/kick.bvh --pin 42,42:contact");
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("pinned: contact"));
+}
+
+#[test]
 fn omit_does_what_the_second_paper_counts() {
     let place = Place::new();
     for (name, naka_nashi, koma_dori) in
