@@ -102,9 +102,9 @@ pub(super) struct KeysArgs {
     /// Every joint's keys and walls instead of the body's keys.
     #[arg(long)]
     pub(super) per_joint: bool,
-    /// The table, a CSV file [default: stdout].
-    #[arg(long, short, value_name = "FILE.csv")]
-    pub(super) out: Option<PathBuf>,
+    /// The table, a CSV file; - is stdout.
+    #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
+    pub(super) out: PathBuf,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -152,9 +152,9 @@ pub(super) struct StudyArgs {
     /// The filter.
     #[arg(long, value_name = "KIND")]
     pub(super) filter: Option<Filter>,
-    /// The table, a CSV file [default: stdout].
-    #[arg(long, short, value_name = "FILE.csv")]
-    pub(super) out: Option<PathBuf>,
+    /// The table, a CSV file; - is stdout.
+    #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
+    pub(super) out: PathBuf,
     /// The table as curves, an SVG or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,

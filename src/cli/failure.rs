@@ -27,7 +27,7 @@ impl Failure {
 
     /// An error that concerns a file, which its message then names.
     pub(super) fn of_file(path: &Path, error: Error) -> Self {
-        let name = if path.as_os_str() == "-" { Path::new("stdin") } else { path }.display();
+        let name = path.display();
         match error {
             Error::Bvh { .. } => Self::CouldNot(format!("{name}:{error}")),
             Error::Recipe { message } => Self::AskedWrongly(format!("{name}:{message}")),

@@ -118,7 +118,11 @@ pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
+/// What a file that is read is called in messages.
+pub(super) fn named(path: &Path) -> PathBuf {
+    if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() }
+}
+
 fn failed(path: &Path, source: io::Error) -> Failure {
-    let path = if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() };
-    Error::Io { path, source }.into()
+    Error::Io { path: named(path), source }.into()
 }

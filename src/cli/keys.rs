@@ -1,7 +1,5 @@
 //! `genga keys`: the key table.
 
-use std::path::Path;
-
 use super::args::KeysArgs;
 use super::failure::Failure;
 use super::words::Words;
@@ -21,5 +19,5 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
         let table = Drawings { cut: io::stem(&args.clip.clip), rows: Rows::Keys };
         table.write(breakdown.clip, breakdown.sheet)?
     };
-    io::write(args.out.as_deref().unwrap_or(Path::new("-")), table.as_bytes())
+    io::write(&args.out, table.as_bytes())
 }

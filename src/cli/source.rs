@@ -18,7 +18,7 @@ pub(super) struct Source {
 /// Reads the clip, leaves out an inserted T-pose unless asked to keep it, and trims.
 pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
     let bytes = io::read(&args.clip)?;
-    let failed = |error| Failure::of_file(&args.clip, error);
+    let failed = |error| Failure::of_file(&io::named(&args.clip), error);
     let bvh::Read { mut clip, warnings } = bvh::read(&bytes).map_err(failed)?;
     drop(bytes);
     let mut notes: Vec<String> = warnings.iter().map(ToString::to_string).collect();
@@ -51,7 +51,7 @@ pub(super) fn recipe(args: &Settings, default: Recipe) -> Result<(Recipe, Edits)
             let bytes = io::read(path)?;
             let text = String::from_utf8(bytes)
                 .map_err(|_| Failure::AskedWrongly(format!("{}: is not text", path.display())))?;
-            default.overlaid(&text).map_err(|error| Failure::of_file(path, error))?
+            default.overlaid(&text).map_err(|error| Failure::of_file(&io::named(path), error))?
         }
     };
     for (name, value) in &args.set {

@@ -1,7 +1,5 @@
 //! `genga study`: how many keys each filter width and persistence leaves.
 
-use std::path::Path;
-
 use super::args::{Filter, StudyArgs};
 use super::failure::Failure;
 use super::words::Words;
@@ -31,7 +29,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if let Some(path) = &args.plot {
         pictures::write_study(path, &rows, engine.clip().rate(), args.paper)?;
     }
-    io::write(args.out.as_deref().unwrap_or(Path::new("-")), table.as_bytes())
+    io::write(&args.out, table.as_bytes())
 }
 
 fn kind(filter: Filter) -> FilterKind {

@@ -58,8 +58,7 @@ pub struct Choose {
     /// lose their keys.
     pub min_strength: f64,
     /// Found keys a second at the most, the best first; pins and the ends of rests come on top. Above
-    /// 0, default 4.5, `inf` for no limit. Lowered, fast
-    /// passages lose their keys first.
+    /// 0, default 4.5, `inf` for no limit. Lowered, fast passages lose their keys first.
     pub per_second: f64,
 }
 

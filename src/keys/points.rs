@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::motion::{Body, Pose, Skeleton};
+use crate::motion::{Body, Joint, Pose, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -22,8 +22,7 @@ pub(super) struct Points {
 impl Points {
     /// The points of a skeleton. Without any bone they all weigh the same.
     pub(super) fn of(skeleton: &Skeleton) -> Self {
-        let bone =
-            |joint: &crate::motion::Joint| joint.parent.map_or(0.0, |_| joint.offset.length());
+        let bone = |joint: &Joint| joint.parent.map_or(0.0, |_| joint.offset.length());
         let mut weights: Vec<f64> = skeleton.joints.iter().map(bone).collect();
         let mut tips = Vec::new();
         for (joint, data) in skeleton.iter() {
@@ -64,7 +63,7 @@ impl Points {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{EndSite, Joint, JointId};
+    use crate::motion::{EndSite, JointId};
 
     /// A chain of bones along x with a tip at its end.
     fn chain(bones: &[f64], tip: f64) -> Skeleton {
