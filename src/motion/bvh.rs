@@ -14,6 +14,7 @@ mod rows;
 #[cfg(test)]
 pub(crate) mod sample;
 mod scanner;
+mod table;
 #[cfg(test)]
 mod tests;
 mod write;

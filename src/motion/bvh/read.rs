@@ -2,7 +2,7 @@
 
 use super::rows::Table;
 use super::scanner::Scanner;
-use super::{Read, hierarchy};
+use super::{Read, hierarchy, table};
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::time::{Frame, FrameRate};
@@ -29,12 +29,15 @@ pub fn read(bytes: &[u8]) -> Result<Read, Error> {
     let said = frames(&mut scanner)?;
     let rate = frame_rate(&mut scanner)?;
     let begin = scanner.at();
-    let mut values = values(&mut scanner, said.saturating_mul(channels))?;
+    let mut values = match table::read(scanner.rest(), channels, said) {
+        Some(values) => values,
+        None => values(&mut scanner, said.saturating_mul(channels))?,
+    };
     let table = Table { begin, channels, said, values: values.len() };
     let (frames, warning) = table.complete_frames(&scanner)?;
     warnings.extend(warning);
     values.truncate(frames * channels);
-    Ok(Read { clip: Clip::new(skeleton, rate, Frame(0), frames, values)?, warnings })
+    Ok(Read { clip: Clip::of_finite(skeleton, rate, Frame(0), frames, values), warnings })
 }
 
 fn frames(scanner: &mut Scanner) -> Result<usize, Error> {
