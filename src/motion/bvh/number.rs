@@ -64,10 +64,11 @@ fn short_size(window: &[u8; WINDOW]) -> Option<(f64, usize)> {
         places += (10 * digit(window[at + 2])? + digit(window[at + 3])?) as usize;
         at += 4;
     }
-    if !is_blank(window[at]) || mantissa > EXACT_WHOLE {
+    if !is_blank(window[at]) {
         return None;
     }
-    // Both operands are exact, so the one operation rounds once, as a correct parser must.
+    // There are 15 digits at most, so both operands are exact and the one operation rounds once, as a
+    // correct parser must.
     Some((mantissa as f64 / EXACT_POWERS.get(places)?, at))
 }
 
@@ -266,7 +267,7 @@ mod tests {
             ("1.5x ", "no blank after it"),
             ("1.5} ", "a brace is for the long way"),
             ("1.123456789012345 ", "more digits than are exact"),
-            ("9999.999999999999 ", "more than 2^53"),
+            ("9999.999999999999 ", "sixteen digits"),
             ("1e-23 ", "a power that is not exact"),
             ("1.5e+03 ", "no common exponent"),
             ("1.5e-7 ", "an exponent of one digit"),
