@@ -6,6 +6,7 @@
 use crate::error::Warning;
 use crate::motion::Clip;
 
+mod file;
 mod hierarchy;
 pub mod lead_in;
 mod number;
@@ -17,6 +18,7 @@ mod scanner;
 mod table;
 #[cfg(test)]
 mod tests;
+mod threads;
 mod write;
 
 pub use lead_in::LeadIn;

@@ -3,23 +3,17 @@
 //! Nearly every file is such a one, and this reads it as fast as it can. What is odd in any way is left
 //! to those who can tell what is wrong with it: the answer is then `None`, and they begin again.
 
-use std::num::NonZero;
-use std::thread;
-
 use memchr::{memchr, memchr_iter};
 
 use super::number::{self, is_blank};
-
-/// Bytes that are worth a thread of their own.
-const PART: usize = 4 << 20;
+use super::threads;
 
 /// All values of a table, frame after frame, when every line is one frame of `channels` finite numbers
 /// or blank. `said` is what the file says of its frames; it need not be true.
 ///
 /// Large tables are read by as many threads as the machine has cores for them.
 pub(super) fn read(text: &[u8], channels: usize, said: usize) -> Option<Vec<f64>> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let parts = threads.min(text.len() / PART);
+    let parts = threads::parts(text.len());
     let by_parts = (parts > 1).then(|| read_parts(text, channels, said, parts)).flatten();
     by_parts.or_else(|| read_whole(text, channels, said))
 }
@@ -45,7 +39,7 @@ fn most_values(text: &[u8]) -> usize {
 /// only where the file has the lines that it says.
 fn read_parts(text: &[u8], channels: usize, said: usize, parts: usize) -> Option<Vec<f64>> {
     let parts = split_at_lines(text.trim_ascii_end(), parts);
-    let lines = in_threads(parts.iter().map(|part| || 1 + memchr_iter(b'\n', part).count()));
+    let lines = threads::all(parts.iter().map(|part| || 1 + memchr_iter(b'\n', part).count()));
     if lines.iter().sum::<usize>() != said || said.saturating_mul(channels) > most_values(text) {
         return None;
     }
@@ -57,7 +51,7 @@ fn read_parts(text: &[u8], channels: usize, said: usize, parts: usize) -> Option
         target
     });
     let jobs = parts.iter().zip(targets).map(|(text, target)| || read_part(text, channels, target));
-    in_threads(jobs).into_iter().all(|is_read| is_read.is_some()).then_some(values)
+    threads::all(jobs).into_iter().all(|is_read| is_read.is_some()).then_some(values)
 }
 
 fn read_part(text: &[u8], channels: usize, values: &mut [f64]) -> Option<()> {
@@ -77,17 +71,6 @@ fn split_at_lines(text: &[u8], parts: usize) -> Vec<&[u8]> {
     }
     lines.push(rest);
     lines
-}
-
-/// What the jobs give, each done in a thread of its own.
-fn in_threads<T: Send>(jobs: impl Iterator<Item: FnOnce() -> T + Send>) -> Vec<T> {
-    thread::scope(|scope| {
-        let threads: Vec<_> = jobs.map(|job| scope.spawn(job)).collect();
-        let result = |thread: thread::ScopedJoinHandle<'_, T>| {
-            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
-        threads.into_iter().map(result).collect()
-    })
 }
 
 /// Lines still to be read.
@@ -138,6 +121,7 @@ fn long(text: &[u8]) -> Option<(f64, usize)> {
 mod tests {
     use proptest::prelude::*;
 
+    use super::threads::PART;
     use super::*;
 
     /// Every word of every line, by `str::parse`: as slow as it is plain.
