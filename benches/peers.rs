@@ -170,6 +170,8 @@ impl Engine {
 
 /// Nanoseconds that this thread has run; none where the system does not say.
 fn cpu() -> Option<u64> {
+    // The system brings its account up to date when a thread yields, and otherwise a few times a second.
+    std::thread::yield_now();
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split(' ').next()?.parse().ok()
 }
