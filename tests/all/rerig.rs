@@ -23,13 +23,13 @@ const ORDERS: [[Axis; 3]; 6] = [
 ];
 
 /// What is changed of a rig; the motion in the world stays.
-struct Rerig {
+pub(crate) struct Rerig {
     /// Joint j gets the order `orders[(j + first_order) % 6]`.
-    first_order: usize,
+    pub(crate) first_order: usize,
     /// Whether the rest pose of every bone is turned.
-    other_axes: bool,
+    pub(crate) other_axes: bool,
     /// World units a unit of the file.
-    scale: f64,
+    pub(crate) scale: f64,
 }
 
 impl Rerig {
@@ -52,7 +52,7 @@ impl Rerig {
     }
 
     /// The clip in the other rig, as its file would be read.
-    fn of(&self, clip: &Clip) -> Clip {
+    pub(crate) fn of(&self, clip: &Clip) -> Clip {
         let old = clip.skeleton();
         let turns = self.turns(old);
         let parent_turn = |joint: &Joint| {

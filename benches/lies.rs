@@ -1,0 +1,124 @@
+//! Time and memory that a reader spends on files that lie: `cargo bench --bench lies`.
+//!
+//! Every file is read in a process of its own, whose peak of memory is taken from /proc. Two sizes show
+//! whether both grow with the size and no faster.
+
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "it prints a table")]
+
+use std::env;
+use std::fs;
+use std::hint::black_box;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use genga::motion::bvh;
+
+#[path = "../tests/all/lying_files.rs"]
+mod lying_files;
+
+use lying_files::LIES;
+
+/// Bytes of a file.
+const SIZES: [usize; 2] = [8 << 20, 64 << 20];
+
+/// A file that takes longer than so many seconds is called a hang.
+const LONGEST: u64 = 20;
+
+fn main() {
+    let arguments: Vec<String> = env::args().collect();
+    match &arguments[1..] {
+        [word, lie, size] if word == "one" => one(lie.parse().unwrap(), size.parse().unwrap()),
+        _ => table(),
+    }
+}
+
+/// What a process of its own prints: bytes, outcome, nanoseconds, bytes of memory beyond the file's.
+fn one(lie: usize, size: usize) {
+    let bytes = (LIES[lie].2)(size);
+    let before = status("VmRSS:");
+    // From here on the peak is counted anew.
+    fs::write("/proc/self/clear_refs", "5").unwrap();
+    let (start, cpu) = (Instant::now(), cpu());
+    let read = bvh::read(black_box(&bytes));
+    let nanos = cpu_since(cpu).unwrap_or(start.elapsed().as_nanos() as u64);
+    let taken = status("VmHWM:").saturating_sub(before);
+    let outcome = match &read {
+        Ok(read) => {
+            let (clip, codes) = (&read.clip, read.warnings.len());
+            format!(
+                "read: {} joints, {} frames, {codes} warnings",
+                clip.skeleton().len(),
+                clip.len()
+            )
+        }
+        Err(error) => error.to_string().chars().take(90).collect(),
+    };
+    println!("{}\t{nanos}\t{taken}\t{outcome}", bytes.len());
+}
+
+fn table() {
+    println!(
+        "| file | size | CPU time | ns a byte | at 8 times the size | memory beyond the file | outcome |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
+    for (lie, (name, ..)) in LIES.iter().enumerate() {
+        let both = || Some((run(lie, SIZES[0])?, run(lie, SIZES[1])?));
+        let Some((small, large)) = both() else {
+            println!("| {name} | | over {LONGEST} s: A HANG | | | | |");
+            continue;
+        };
+        // A file of a few bytes takes what a process takes for nothing.
+        let growth =
+            if large.0 > small.0 { format!("{:.1} times", large.1 / small.1) } else { "-".into() };
+        let memory =
+            if large.0 > 1e6 { format!("{:.2} times", large.2 / large.0) } else { "-".into() };
+        println!(
+            "| {name} | {:.1} MB | {:.1} ms | {:.2} | {growth} | {memory} | {} |",
+            large.0 / 1e6,
+            large.1 / 1e6,
+            large.1 / large.0,
+            large.3.replace('|', "\\|"),
+        );
+    }
+}
+
+/// Bytes, nanoseconds, bytes of memory and outcome of one file; none when it takes too long.
+fn run(lie: usize, size: usize) -> Option<(f64, f64, f64, String)> {
+    let program = env::current_exe().unwrap();
+    let arguments = ["one".to_owned(), lie.to_string(), size.to_string()];
+    let mut child = Command::new(program).args(arguments).stdout(Stdio::piped()).spawn().unwrap();
+    let start = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if start.elapsed() > Duration::from_secs(LONGEST) {
+            child.kill().unwrap();
+            child.wait().unwrap();
+            return None;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}: {output:?}", LIES[lie].0);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let words: Vec<&str> = text.trim_end().splitn(4, '\t').collect();
+    let number = |at: usize| words[at].parse().unwrap();
+    Some((number(0), number(1), number(2), words[3].to_owned()))
+}
+
+/// A line of /proc/self/status, in bytes.
+fn status(name: &str) -> usize {
+    let text = fs::read_to_string("/proc/self/status").unwrap();
+    let line = text.lines().find_map(|line| line.strip_prefix(name)).unwrap();
+    1024 * line.trim().trim_end_matches(" kB").parse::<usize>().unwrap()
+}
+
+/// Nanoseconds that this thread has run; none where the system does not say.
+fn cpu() -> Option<u64> {
+    // The system brings its account up to date when a thread yields, and otherwise a few times a second.
+    std::thread::yield_now();
+    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split(' ').next()?.parse().ok()
+}
+
+fn cpu_since(before: Option<u64>) -> Option<u64> {
+    Some(cpu()? - before?)
+}
