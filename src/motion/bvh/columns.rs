@@ -118,8 +118,8 @@ mod tests {
     fn columns_that_are_not_kept_are_taken_out_of_every_row() {
         assert_eq!(compacted(&columns("kkk"), 2), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         assert_eq!(compacted(&columns("-k-kk-"), 2), [1.0, 3.0, 4.0, 7.0, 9.0, 10.0]);
-        assert_eq!(compacted(&columns("--"), 2), []);
-        assert_eq!(compacted(&columns("-k"), 0), []);
+        assert!(compacted(&columns("--"), 2).is_empty());
+        assert!(compacted(&columns("-k"), 0).is_empty());
     }
 
     #[test]
