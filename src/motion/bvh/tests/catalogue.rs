@@ -7,7 +7,7 @@ mod text; // bytes, lines and names
 use super::{clip, sample};
 use crate::error::Warning;
 use crate::motion::Clip;
-use crate::motion::bvh::warnings::{AXIS_TWICE, ROOTS};
+use crate::motion::bvh::warnings::{self, AXIS_TWICE, ROOTS};
 use crate::motion::bvh::{Options, Read, read, write};
 
 /// A file and what must come of it.
@@ -102,6 +102,9 @@ fn there_are_64_cases_and_the_documentation_tells_of_each() {
             Expected::Refused(..) => "error",
         };
         assert!(row.contains(word), "{word} is not in {row}");
+    }
+    for code in warnings::ALL {
+        assert!(page.contains(&format!("\n| `{code}` | ")), "{code}");
     }
     numbers.sort_unstable();
     numbers.dedup();

@@ -13,7 +13,8 @@ fn a_file_that_lies_about_its_frames_reserves_no_more_than_it_can_hold() {
 #[test]
 fn ten_thousand_levels_are_read_and_written_without_recursion() {
     let levels = 10_000;
-    let open = "JOINT a\n{\nOFFSET 0 1 0\n".repeat(levels);
+    let joint = |level| format!("JOINT a{level}\n{{\nOFFSET 0 1 0\n");
+    let open: String = (0..levels).map(joint).collect();
     let text = with("\tJOINT", &format!("{open}JOINT")).replacen(
         "MOTION",
         &format!("{}MOTION", "}".repeat(levels)),
@@ -75,7 +76,7 @@ fn a_long_line_of_anything_ends_fast() {
         ("1".repeat(many), false),
         ("x".repeat(many), false),
         ("1-".repeat(many), false),
-        ("-1".repeat(many), true),
+        ("-1".repeat(many), false),
         ("1,".repeat(many), false),
         ("nan-".repeat(many), false),
         ("-nan".repeat(many), false),
@@ -114,7 +115,7 @@ fn a_file_that_is_odd_in_every_value_has_one_warning_of_each_kind() {
     let warnings = read(text.as_bytes()).unwrap().warnings;
     let said: Vec<_> = warnings.iter().map(|warning| (warning.code, warning.place)).collect();
     let expected = [
-        ("W_AXIS_TWICE", Some((9, 31))),
+        ("W_AXIS_TWICE", Some((9, 29))),
         ("W_DECIMAL_COMMA", Some((19, 13))),
         ("W_GLUED_MINUS", Some((19, 16))),
     ];

@@ -183,7 +183,7 @@ fn more_or_fewer_frames_than_said_are_used_as_far_as_they_are_complete() {
             "the file says 1000000000000 frames and has 2 complete frames",
         ),
         (
-            with("Frames: 2", "Frames: 3").replace(" 30 ", " 30\n").replace(" 6 ", " 6\n"),
+            with("Frames: 2", "Frames: 3").replace(" 30 ", " 30\n").replace(" 5 6 ", " 5 6\n"),
             2,
             "the file says 3 frames and has 2 complete frames",
         ),
