@@ -2,7 +2,8 @@
 //! wrong is told with its place.
 
 use super::columns::Columns;
-use super::scanner::Scanner;
+use super::odd::piece;
+use super::scanner::{Scanner, quoted};
 use super::warnings::{ROW_CUT, VALUE_HELD};
 use crate::error::Error;
 use crate::motion::{Axis, Channel, Skeleton};
@@ -127,7 +128,7 @@ impl Table<'_> {
                 Channel::Position(axis) => format!("{}position", letter(*axis)),
                 Channel::Rotation(axis) => format!("{}rotation", letter(*axis)),
             };
-            let joint = super::scanner::quoted(joint.name.as_bytes());
+            let joint = quoted(joint.name.as_bytes());
             format!(" for {name} of {joint} in frame {frame}")
         })
     }
@@ -146,12 +147,12 @@ pub(super) fn first_line(scanner: &Scanner) -> usize {
     let mut rest = scanner.rest().trim_ascii_start();
     let mut values = 0;
     loop {
-        let piece = super::odd::piece(rest);
-        if piece.is_empty() {
+        let length = piece(rest).len();
+        if length == 0 {
             return values;
         }
         values += 1;
-        rest = &rest[piece.len()..];
+        rest = &rest[length..];
         let blanks = rest.iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
         rest = &rest[blanks..];
     }

@@ -64,9 +64,9 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 #[test]
+#[allow(clippy::print_stdout, reason = "shown when the test fails: the case and its text")]
 fn every_case_is_read_as_the_catalogue_asks() {
     for Case { number, bytes, expected } in cases() {
-        // Shown when the check below fails.
         println!("case {number}: {}", String::from_utf8_lossy(&bytes));
         match (read(&bytes), expected) {
             (Ok(Read { clip, warnings, .. }), Expected::Accepted(check)) => {

@@ -120,7 +120,7 @@ fn bytes_of_no_encoding_in_the_table_are_an_error_in_their_row() {
     let (before, after) =
         sample().split_once(" 20 ").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
     let error = read(&[before.as_bytes(), b" \xff ", after.as_bytes()].concat()).unwrap_err();
-    assert_eq!(error.position(), Some((19, 10)));
+    assert!(error.to_string().starts_with("19:10: expected a number, found "), "{error}");
 }
 
 #[test]

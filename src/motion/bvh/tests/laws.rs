@@ -4,12 +4,12 @@ use proptest::prelude::*;
 
 use super::{clip, sample, with};
 use crate::motion::bvh::sample::text;
-use crate::motion::bvh::{Read, read, write};
+use crate::motion::bvh::{Options, Read, read, write};
 use crate::time::Frame;
 
 proptest! {
     #[test]
-    fn edited_bytes_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4u8), 1..8)) {
+    fn edited_bytes_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4u8), 1..8), repair: bool) {
         let mut bytes = sample().into_bytes();
         for (index, byte, kind) in edits {
             let at = index.index(bytes.len().max(1)).min(bytes.len());
@@ -20,7 +20,8 @@ proptest! {
                 _ => bytes.truncate(at),
             }
         }
-        if let Ok(Read { clip, .. }) = read(&bytes) {
+        let options = Options { repair, ..Options::default() };
+        if let Ok(Read { clip, .. }) = options.read(&bytes) {
             prop_assert!(!clip.is_empty());
             let again = read(write(&clip).as_bytes());
             prop_assert!(again.is_ok_and(|again| again.clip == clip));
