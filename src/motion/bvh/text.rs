@@ -48,6 +48,10 @@ fn from_utf_16(
 fn from_names<'a>(text: &'a [u8], notices: &mut Notices) -> Result<Cow<'a, [u8]>, Error> {
     let (head, table) = text.split_at(begin_of_motion(text));
     let Err(wrong) = std::str::from_utf8(head) else { return Ok(Cow::Borrowed(text)) };
+    if !is_hierarchy(head) {
+        // A picture, perhaps: whoever reads on says that this is no BVH file.
+        return Ok(Cow::Borrowed(text));
+    }
     let Some(names) = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(head) else {
         let (line, column) = Lines::of(text).place(wrong.valid_up_to());
         let message = "the names are neither UTF-8 nor Shift-JIS text; save the file as UTF-8";
@@ -56,10 +60,15 @@ fn from_names<'a>(text: &'a [u8], notices: &mut Notices) -> Result<Cow<'a, [u8]>
     // All before it is ASCII and stands where it stood.
     let first = head.iter().position(|byte| !byte.is_ascii()).unwrap_or(0);
     notices.add(ENCODING, first, || "the names are Shift-JIS; save the file as UTF-8".into());
-    let mut decoded = Vec::with_capacity(names.len() + table.len());
-    decoded.extend_from_slice(names.as_bytes());
+    let mut decoded = names.into_owned().into_bytes();
     decoded.extend_from_slice(table);
     Ok(Cow::Owned(decoded))
+}
+
+fn is_hierarchy(head: &[u8]) -> bool {
+    let begin = head.iter().position(|&byte| !is_blank(byte)).unwrap_or(0);
+    let word = head[begin..].get(..9);
+    word.is_some_and(|word| word.eq_ignore_ascii_case(b"HIERARCHY"))
 }
 
 /// Where the line MOTION begins; the end when there is none.

@@ -116,6 +116,15 @@ fn names_of_no_known_encoding_are_an_error() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_no_bvh_and_not_a_question_of_encoding() {
+    for bytes in [&b"\x89PNG\r\n\x1a\n\x00\xff"[..], b"\xff\x00", b"\x83\x83\x83\x83"] {
+        let error = read(bytes).unwrap_err().to_string();
+        assert!(error.starts_with("1:1: this is not a BVH file: "), "{error}");
+        assert!(!error.contains('ャ'), "{error}");
+    }
+}
+
+#[test]
 fn bytes_of_no_encoding_in_the_table_are_an_error_in_their_row() {
     let (before, after) =
         sample().split_once(" 20 ").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
