@@ -87,17 +87,27 @@ pub struct Warning {
     pub code: &'static str,
     /// One plain sentence.
     pub message: String,
+    /// Line and column in the file, from 1, where there is a place to point at.
+    pub place: Option<(usize, usize)>,
 }
 
 impl Warning {
-    /// A warning with a stable code.
+    /// A warning with a stable code, about the whole.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into() }
+        Self { code, message: message.into(), place: None }
+    }
+
+    /// A warning about a line and column of the file, from 1.
+    pub fn at(place: (usize, usize), code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into(), place: Some(place) }
     }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((line, column)) = self.place {
+            write!(f, "{line}:{column}: ")?;
+        }
         write!(f, "{} [{}]", self.message, self.code)
     }
 }

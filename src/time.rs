@@ -5,6 +5,7 @@
 //! file, also after a lead-in or a trim; koma count from 0 in code and from 1 on paper.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -24,7 +25,10 @@ const USUAL_RATES: [f64; 15] = [
 /// 29.97 and 30 differ by 0.1 %.
 const SNAP: f64 = 0.0005;
 
-/// Frames a second, always finite and above 0.
+/// Frames a second that a rate can be; beyond them a file lies.
+const RATES: RangeInclusive<f64> = 1e-3..=1e6;
+
+/// Frames a second, from 0.001 to 1,000,000.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct FrameRate(f64);
@@ -33,23 +37,21 @@ impl FrameRate {
     /// A rate in frames a second.
     ///
     /// # Errors
-    /// [`Error::Setting`] unless it is finite and above 0.
+    /// [`Error::Setting`] outside that range.
     pub fn new(fps: f64) -> Result<Self, Error> {
-        if fps.is_finite() && fps > 0.0 {
-            Ok(Self(fps))
-        } else {
-            Err(Error::setting(
-                "rate",
-                format!("{fps} frames a second is no rate; it must be above 0"),
-            ))
+        if RATES.contains(&fps) {
+            return Ok(Self(fps));
         }
+        let (least, most) = (RATES.start(), RATES.end());
+        let message = format!("{fps} frames a second is no rate; it is from {least} to {most}");
+        Err(Error::setting("rate", message))
     }
 
     /// The rate meant by a frame time in seconds: within 0.05 % of a usual rate it is that rate,
     /// so that `.0083333` is exactly 120.
     ///
     /// # Errors
-    /// [`Error::Setting`] unless the frame time is finite and above 0.
+    /// [`Error::Setting`] where that is no [`FrameRate`].
     pub fn from_frame_time(seconds: f64) -> Result<Self, Error> {
         let fps = Self::new(1.0 / seconds)?;
         let near = |usual: &f64| (fps.0 - usual).abs() < SNAP * usual;
@@ -241,7 +243,7 @@ mod tests {
         assert_eq!(FrameRate::from_frame_time(1.0 / 29.97).unwrap().fps(), 29.97);
         assert_eq!(FrameRate::from_frame_time(0.1).unwrap().fps(), 10.0, "an unusual rate stays");
         assert!(FrameRate::from_frame_time(0.0).is_err());
-        for fps in [f64::NAN, f64::INFINITY, 0.0, -24.0] {
+        for fps in [f64::NAN, f64::INFINITY, 0.0, -24.0, 1e-4, 1e7] {
             assert!(FrameRate::new(fps).is_err(), "{fps}");
         }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
-use crate::time::Span;
+use crate::time::{FrameRate, Span};
 use crate::timing::Amount;
 
 /// Motion capture to Japanese limited animation.
@@ -59,6 +59,18 @@ pub(super) struct ClipArgs {
     /// Work on source frames A up to but not including B, numbered from 0 as in the file.
     #[arg(long, value_name = "A..B", value_parser = frames)]
     pub(super) trim: Option<Frames>,
+    /// The frame rate, whatever the file says.
+    #[arg(long, value_name = "N", value_parser = rate)]
+    pub(super) fps: Option<FrameRate>,
+    /// Of several trees of joints only the one whose root has this name.
+    #[arg(long, value_name = "NAME")]
+    pub(super) root: Option<String>,
+    /// Hold the value before a nan or inf, and leave out what is too much in a row; said in a note.
+    #[arg(long, conflicts_with = "strict")]
+    pub(super) repair: bool,
+    /// Refuse a file that has anything to warn of (see inspect --warnings).
+    #[arg(long)]
+    pub(super) strict: bool,
 }
 
 /// The recipe: a file, then single settings on top.
@@ -175,6 +187,9 @@ pub(super) enum Filter {
 pub(super) struct InspectArgs {
     #[command(flatten)]
     pub(super) clip: ClipArgs,
+    /// Only the warnings, on stdout: one a line, its code, line:column (- for the whole clip), sentence.
+    #[arg(long)]
+    pub(super) warnings: bool,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -198,6 +213,11 @@ fn frames(text: &str) -> Result<Frames, String> {
     parsed.ok_or_else(|| "expected frame numbers, as in 120..480, 120.. or ..480".into())
 }
 
+fn rate(text: &str) -> Result<FrameRate, String> {
+    let fps = text.parse().ok().and_then(|fps| FrameRate::new(fps).ok());
+    fps.ok_or_else(|| "expected frames a second above 0, as in 120 or 29.97".into())
+}
+
 fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("expected KEY=VALUE, as in spacing.on=3")?;
     Ok((name.trim().into(), value.trim().into()))
@@ -212,6 +232,14 @@ mod tests {
     #[test]
     fn the_definition_holds() {
         Args::command().debug_assert();
+    }
+
+    #[test]
+    fn a_rate_is_a_number_above_0() {
+        assert_eq!(rate("29.97").unwrap().fps(), 29.97);
+        for wrong in ["0", "-24", "nan", "inf", "fast", ""] {
+            assert!(rate(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

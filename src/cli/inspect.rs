@@ -4,21 +4,37 @@ use std::fmt::Write;
 
 use super::args::InspectArgs;
 use super::failure::Failure;
+use super::source::Source;
 use super::words::Words;
 use super::{io, source};
+use crate::error::Warning;
 use crate::motion::{Axis, Body, Channel, Clip, Joint, Pose};
-use crate::time::KOMA_RATE;
+use crate::time::{FrameRate, KOMA_RATE};
 
 /// Levels that are indented; deeper ones would only run off the screen.
 const DEEPEST: usize = 32;
 
 pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     let source = source::clip(&args.clip)?;
+    if args.warnings {
+        return io::to_stdout(listed(&source.notes).as_bytes());
+    }
     source.notes.iter().for_each(|note| words.say(note));
-    io::to_stdout(page(&io::stem(&args.clip.clip), &source.clip).as_bytes())
+    io::to_stdout(page(&io::stem(&args.clip.clip), &source).as_bytes())
 }
 
-fn page(name: &str, clip: &Clip) -> String {
+/// Warnings for a script: code, place, sentence.
+fn listed(warnings: &[Warning]) -> String {
+    let mut list = String::new();
+    for Warning { code, message, place } in warnings {
+        let place = place.map_or("-".into(), |(line, column)| format!("{line}:{column}"));
+        let _ = writeln!(list, "{code} {place} {message}");
+    }
+    list
+}
+
+fn page(name: &str, source: &Source) -> String {
+    let clip = &source.clip;
     let skeleton = clip.skeleton();
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let mut page = String::new();
@@ -27,7 +43,7 @@ fn page(name: &str, clip: &Clip) -> String {
     };
     line("clip", name.into());
     line("frames", format!("{}, numbers {} to {}", clip.len(), clip.first(), clip.last()));
-    line("rate", format!("{} frames a second", clip.rate()));
+    line("rate", rate(clip.rate(), source.written_frame_time));
     line("length", format!("{:.2} s, {koma} koma at 24 a second", clip.seconds()));
     line("joints", format!("{}, {} channels", skeleton.len(), skeleton.channels()));
     line("size", size(clip));
@@ -39,6 +55,19 @@ fn page(name: &str, clip: &Clip) -> String {
         let _ = writeln!(page, "{}{}", "  ".repeat(depth.min(DEEPEST)), described(joint));
     }
     page
+}
+
+/// The rate, and the one that the file writes when that is another.
+fn rate(rate: FrameRate, written: f64) -> String {
+    let by_file = 1.0 / written;
+    let text = format!("{rate} frames a second");
+    if (by_file - rate.fps()).abs() <= 1e-9 * rate.fps() {
+        return text;
+    }
+    if written > 0.0 {
+        return format!("{text} (the file writes {written} s a frame: {by_file:.4} a second)");
+    }
+    format!("{text} (the file writes {written} s a frame)")
 }
 
 fn described(joint: &Joint) -> String {

@@ -22,7 +22,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     working.on("writing");
     let cut = io::stem(&args.clip.clip);
     let folder = folder(args, &cut)?;
-    let report = Report::of(&breakdown, source.notes);
+    let report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
     let files = files(&cut, &breakdown, &recipe, &edits, &report)?;
     io::write_all(&folder, &files)?;
     drop(working);

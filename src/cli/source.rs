@@ -4,7 +4,7 @@ use super::args::{ClipArgs, Corrections, Settings};
 use super::failure::Failure;
 use super::io;
 use crate::edits::{Edits, Pin};
-use crate::error::Error;
+use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
 use crate::recipe::Recipe;
 use crate::time::Frame;
@@ -12,22 +12,31 @@ use crate::time::Frame;
 /// A clip ready to be worked on, and what a person should know about it.
 pub(super) struct Source {
     pub(super) clip: Clip,
-    pub(super) notes: Vec<String>,
+    pub(super) notes: Vec<Warning>,
+    /// Seconds a frame as the file writes them.
+    pub(super) written_frame_time: f64,
 }
 
 /// Reads the clip, leaves out an inserted T-pose unless asked to keep it, and trims.
+///
+/// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
 pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
     let bytes = io::read(&args.clip)?;
     let failed = |error| Failure::of_file(&io::named(&args.clip), error);
-    let bvh::Read { mut clip, warnings } = bvh::read(&bytes).map_err(failed)?;
+    let bvh::Read { mut clip, warnings: mut notes, written_frame_time } =
+        options(args).read(&bytes).map_err(|error| match error {
+            Error::Setting { name, message } => {
+                Failure::AskedWrongly(format!("--{name}: {message}"))
+            }
+            other => failed(other),
+        })?;
     drop(bytes);
-    let mut notes: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let begin = args.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
     if !args.keep_lead_in {
         let (motion, note) = bvh::lead_in::strip(clip);
         clip = motion;
         if begin < clip.first().0 {
-            notes.extend(note.map(|note| note.to_string()));
+            notes.extend(note);
         }
     }
     if let Some(frames) = &args.trim {
@@ -40,7 +49,12 @@ pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
         })?;
     }
     clip.check_size().map_err(failed)?;
-    Ok(Source { clip, notes })
+    Ok(Source { clip, notes, written_frame_time })
+}
+
+fn options(args: &ClipArgs) -> bvh::Options {
+    let ClipArgs { fps, root, repair, strict, .. } = args;
+    bvh::Options { strict: *strict, repair: *repair, fps: *fps, root: root.clone() }
 }
 
 /// The recipe and corrections that are asked for, on top of `default`.

@@ -2,27 +2,38 @@
 //!
 //! Degrees and the file's own unit, right-handed, Y up by custom. A joint's rest rotation is the
 //! identity; a position channel *replaces* the offset on its axis.
+//!
+//! Reading runs one way: bytes → text in UTF-8 → the skeleton and which columns of the table are its
+//! channels → the table → [`Clip`]. `docs/formats.md` lists every peculiarity of real files and what
+//! the reader does with it.
 
 use crate::error::Warning;
 use crate::motion::Clip;
 
+mod careful;
+mod columns;
 mod file;
 mod hierarchy;
 pub mod lead_in;
+mod names;
 mod number;
+mod odd;
 mod read;
-mod rows;
+mod repair;
 #[cfg(test)]
 pub(crate) mod sample;
 mod scanner;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text;
 mod threads;
+mod trees;
+pub mod warnings;
 mod write;
 
 pub use lead_in::LeadIn;
-pub use read::read;
+pub use read::{Options, open, read};
 pub use write::{Writer, write};
 
 /// What a reader gives.
@@ -30,6 +41,10 @@ pub use write::{Writer, write};
 pub struct Read {
     /// The motion.
     pub clip: Clip,
-    /// What a person should know about the file.
+    /// What a person should know about the file, in the order of its lines: one warning a code, with
+    /// the first place and how many there are. The codes are those of [`warnings`].
     pub warnings: Vec<Warning>,
+    /// Seconds a frame as the file writes them, before they became a usual rate or another was asked
+    /// for; NaN when the file writes no number there.
+    pub written_frame_time: f64,
 }

@@ -298,6 +298,101 @@ fn inspect_names_what_is_in_a_clip() {
 }
 
 #[test]
+fn inspect_says_what_rate_the_file_writes_when_it_is_another() {
+    let place = Place::new();
+    let rate = |args: &str| {
+        let page = place.done(&format!("inspect {args}"));
+        page.lines().find(|line| line.starts_with("rate")).unwrap().to_owned()
+    };
+    let kick = read(&here("data/kick.bvh"));
+    let (before, after) = kick.split_once("Frame Time:").unwrap();
+    let (_, rows) = after.split_once('\n').unwrap();
+    for (time, args, expected) in [
+        (
+            ".0083333",
+            "",
+            "120 frames a second (the file writes 0.0083333 s a frame: 120.0005 a second)",
+        ),
+        ("0.1", "", "10 frames a second"),
+        ("0", "--fps 25", "25 frames a second (the file writes 0 s a frame)"),
+        ("30", "--fps 30", "30 frames a second (the file writes 30 s a frame: 0.0333 a second)"),
+    ] {
+        fs::write(place.path("k.bvh"), format!("{before}Frame Time: {time}\n{rows}")).unwrap();
+        assert_eq!(rate(&format!("k.bvh {args}")), format!("rate      {expected}"));
+    }
+    for (args, wrong) in [("", "--fps"), ("--fps 0", "--fps")] {
+        let output = place.genga(&format!("inspect k.bvh {args}"));
+        assert!(!output.status.success() && text(&output.stderr).contains(wrong));
+    }
+    assert_eq!(place.done("run data/kick.bvh --out o -q"), "");
+    assert!(read(&place.path("o/report.json")).contains("\"notes\": []"));
+}
+
+#[test]
+fn warnings_are_listed_noted_and_made_errors() {
+    let place = Place::new();
+    let odd = with_t_pose().replace("Frames: 131", "Frames : 140");
+    fs::write(place.path("odd.bvh"), &odd).unwrap();
+    let line = odd.lines().position(|line| line.starts_with("Frames")).unwrap() + 1;
+    let listed = place.done("inspect odd.bvh --warnings");
+    let lines: Vec<&str> = listed.lines().collect();
+    let places = [
+        format!("W_LABEL_SPACING {line}:7 a blank "),
+        format!("W_FRAMES_MISMATCH {line}:10 the file says 140 frames "),
+    ];
+    assert_eq!(lines.len(), 3, "{listed}");
+    assert!(lines[0].starts_with(&places[0]) && lines[1].starts_with(&places[1]), "{listed}");
+    assert!(lines[2].starts_with("W_LEAD_IN - frames 0 to 1 are "), "{listed}");
+    let noted = text(&place.genga("inspect odd.bvh").stderr);
+    assert!(noted.starts_with(&format!("{line}:7: a blank ")), "{noted}");
+    assert!(noted.contains("[W_LABEL_SPACING]") && noted.contains("[W_LEAD_IN]"), "{noted}");
+    assert_eq!(place.done("inspect data/kick.bvh --warnings"), "");
+    for args in [
+        "inspect odd.bvh",
+        "keys odd.bvh",
+        "run odd.bvh --out o",
+        "omit odd.bvh --out o.bvh",
+        "study odd.bvh",
+    ] {
+        let said = place.refused(1, &format!("{args} --strict"));
+        assert!(said.starts_with(&format!("genga: odd.bvh:{line}:7: ")), "{said}");
+        assert!(said.ends_with("[W_LABEL_SPACING]\n"), "{said}");
+    }
+    fs::write(place.path("t.bvh"), with_t_pose()).unwrap();
+    place.done("inspect t.bvh --strict");
+}
+
+#[test]
+fn a_broken_file_is_repaired_when_asked_for() {
+    let place = Place::new();
+    let kick = read(&here("data/kick.bvh"));
+    let last = kick.trim_end().rfind(' ').unwrap();
+    fs::write(place.path("nan.bvh"), format!("{} nan 7\n", &kick[..last])).unwrap();
+    let said = place.refused(1, "inspect nan.bvh");
+    assert!(said.contains("found \"nan\"; --repair "), "{said}");
+    let listed = place.done("inspect nan.bvh --repair --warnings");
+    let codes: Vec<&str> = listed.lines().map(|line| line.split(' ').next().unwrap()).collect();
+    assert_eq!(codes, ["W_VALUE_HELD", "W_ROW_CUT"]);
+    place.done("keys nan.bvh --repair");
+    place.refused(2, "inspect nan.bvh --repair --strict");
+}
+
+#[test]
+fn a_tree_is_chosen_by_its_root() {
+    let place = Place::new();
+    let sword = "ROOT Sword\n{\nOFFSET 0 0 0\nCHANNELS 0\n}\nMOTION";
+    let kick = read(&here("data/kick.bvh"));
+    fs::write(place.path("two.bvh"), kick.replacen("MOTION", sword, 1)).unwrap();
+    let root = sample("kick.bvh").skeleton().joints[0].name.clone();
+    assert!(place.done("inspect two.bvh --warnings").starts_with("W_ROOTS "));
+    assert_eq!(place.done(&format!("inspect two.bvh --warnings --root {root}")), "");
+    let named = place.done("keys data/kick.bvh").replace("\nkick,", "\ntwo,");
+    assert_eq!(place.done(&format!("keys two.bvh --root {root}")), named);
+    let said = place.refused(2, "keys two.bvh --root Spear");
+    assert!(said.starts_with("genga: --root: no tree is called \"Spear\""), "{said}");
+}
+
+#[test]
 fn a_dash_is_stdin_and_stdout() {
     let place = Place::new();
     let bytes = fs::read(here("data/kick.bvh")).unwrap();

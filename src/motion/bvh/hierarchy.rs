@@ -2,26 +2,46 @@
 
 use glam::DVec3;
 
+use super::columns::{Columns, channel, is_like_a_channel};
 use super::scanner::{Scanner, Word, quoted};
-use crate::error::{Error, Warning};
-use crate::motion::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
+use super::warnings::{
+    AXIS_TWICE, CHANNEL_COUNT, CHANNEL_UNKNOWN, END_SITE_CHANNELS, NAME_MISSING,
+};
+use crate::error::Error;
+use crate::motion::{Channel, EndSite, Joint, JointId, Skeleton};
+
+/// What the HIERARCHY part says.
+pub(super) struct Head {
+    pub(super) skeleton: Skeleton,
+    /// Columns of the motion table.
+    pub(super) columns: Columns,
+    /// The byte where each joint's name stands.
+    pub(super) names_at: Vec<usize>,
+}
 
 /// Reads everything up to and with the word MOTION.
-pub(super) fn read(scanner: &mut Scanner, warnings: &mut Vec<Warning>) -> Result<Skeleton, Error> {
+pub(super) fn read(scanner: &mut Scanner) -> Result<Head, Error> {
     let first = scanner.word();
     if !first.is("HIERARCHY") {
         let found = quoted(first.text);
         let message = format!("this is not a BVH file: expected \"HIERARCHY\", found {found}");
         return Err(scanner.error(first.at, message));
     }
-    let mut reader =
-        Reader { scanner, warnings, joints: Vec::new(), channels: 0, open: Vec::new() };
+    let mut reader = Reader {
+        scanner,
+        joints: Vec::new(),
+        names_at: Vec::new(),
+        channels: 0,
+        columns: Columns::default(),
+        open: Vec::new(),
+    };
     loop {
         let word = reader.scanner.word();
         if word.is("ROOT") {
             reader.tree()?;
         } else if word.is("MOTION") && !reader.joints.is_empty() {
-            return Ok(Skeleton { joints: reader.joints });
+            let Reader { joints, columns, names_at, .. } = reader;
+            return Ok(Head { skeleton: Skeleton { joints }, columns, names_at });
         } else {
             let expected =
                 if reader.joints.is_empty() { "\"ROOT\"" } else { "\"MOTION\" or \"ROOT\"" };
@@ -32,9 +52,11 @@ pub(super) fn read(scanner: &mut Scanner, warnings: &mut Vec<Warning>) -> Result
 
 struct Reader<'s, 'a> {
     scanner: &'s mut Scanner<'a>,
-    warnings: &'s mut Vec<Warning>,
     joints: Vec<Joint>,
+    names_at: Vec<usize>,
+    /// Channels of all joints so far.
     channels: usize,
+    columns: Columns,
     /// Joints whose brace is still open: a stack of its own, so that no nesting is too deep.
     open: Vec<Open>,
 }
@@ -81,7 +103,7 @@ impl Reader<'_, '_> {
         let name = self.scanner.rest_of_line();
         let joint = JointId(self.joints.len());
         let data = Joint {
-            name: self.joint_name(name, joint)?,
+            name: self.joint_name(name, joint),
             parent: self.open.last().map(|open| open.joint),
             offset: DVec3::ZERO,
             channels: Vec::new(),
@@ -89,28 +111,21 @@ impl Reader<'_, '_> {
             end_sites: Vec::new(),
         };
         self.joints.push(data);
+        self.names_at.push(name.at);
         self.brace()?;
         let at = name.at;
         self.open.push(Open { joint, at, offset: false, channels: false, children: false });
         Ok(())
     }
 
-    fn joint_name(&mut self, name: Word, joint: JointId) -> Result<String, Error> {
+    fn joint_name(&mut self, name: Word, joint: JointId) -> String {
         if !name.text.is_empty() {
-            return self.text(name);
+            return text(name);
         }
-        let (line, _) = self.scanner.place(name.at);
         let given = format!("joint_{}", joint.0);
-        let message = format!("the joint in line {line} has no name; it is called {given}");
-        self.warnings.push(Warning::new("W_NAME_MISSING", message));
-        Ok(given)
-    }
-
-    fn text(&self, name: Word) -> Result<String, Error> {
-        String::from_utf8(name.text.to_vec()).map_err(|_| {
-            let message = "the name is not UTF-8 text; save the file as UTF-8";
-            self.scanner.error(name.at, message)
-        })
+        let message = || format!("a joint has no name; it is called {given}");
+        self.scanner.notices.add(NAME_MISSING, name.at, message);
+        given
     }
 
     fn brace(&mut self) -> Result<(), Error> {
@@ -148,24 +163,57 @@ impl Reader<'_, '_> {
     }
 
     fn channels(&mut self, joint: JointId) -> Result<(), Error> {
-        let count = self.scanner.count()?;
-        self.joints[joint.0].first_channel = self.channels;
-        for read in 0..count {
-            let word = self.scanner.word();
-            let Some(channel) = channel(word.text) else {
-                let expected =
-                    format!("channel name {} of {count}, such as Xposition or Zrotation", read + 1);
-                return Err(self.scanner.expected(&expected, word));
-            };
-            self.joints[joint.0].channels.push(channel);
-        }
-        self.channels += count;
+        let channels = self.channel_list(Some(joint))?;
+        let data = &mut self.joints[joint.0];
+        data.first_channel = self.channels;
+        self.channels += channels.len();
+        data.channels = channels;
         Ok(())
+    }
+
+    /// What follows CHANNELS. Every name is a column of the table, however many are said to come; those
+    /// of an End Site and those that nobody knows are left out.
+    fn channel_list(&mut self, joint: Option<JointId>) -> Result<Vec<Channel>, Error> {
+        let at = self.scanner.peek().at;
+        let said = self.scanner.count()?;
+        let (mut names, mut channels, mut seen) = (0, Vec::new(), Vec::with_capacity(6));
+        loop {
+            let word = self.scanner.peek();
+            if !is_like_a_channel(word.text) && (names == said || !is_a_name(word)) {
+                break;
+            }
+            self.scanner.word();
+            names += 1;
+            let channel = channel(word.text).filter(|_| joint.is_some());
+            self.columns.push(channel.is_some());
+            let Some(joint) = joint else { continue };
+            let name = || quoted(self.joints[joint.0].name.as_bytes());
+            let Some(channel) = channel else {
+                let message = || {
+                    let word = quoted(word.text);
+                    format!("joint {} has a channel {word}; its column is left out", name())
+                };
+                self.scanner.notices.add(CHANNEL_UNKNOWN, word.at, message);
+                continue;
+            };
+            channels.push(channel);
+            if !seen.contains(&channel) {
+                seen.push(channel);
+                continue;
+            }
+            let message = || format!("joint {} has {} twice", name(), quoted(word.text));
+            self.scanner.notices.add(AXIS_TWICE, word.at, message);
+        }
+        if names != said {
+            let message = || format!("{said} channels are said to come and {names} do");
+            self.scanner.notices.add(CHANNEL_COUNT, at, message);
+        }
+        Ok(channels)
     }
 
     fn end_site(&mut self) -> Result<EndSite, Error> {
         let name = self.scanner.rest_of_line();
-        let name = self.text(name)?;
+        let name = text(name);
         self.brace()?;
         let mut offset = None;
         loop {
@@ -173,7 +221,7 @@ impl Reader<'_, '_> {
             if word.is("OFFSET") && offset.is_none() {
                 offset = Some(self.offset()?);
             } else if word.is("CHANNELS") {
-                self.no_channels()?;
+                self.end_site_channels()?;
             } else if let (true, Some(offset)) = (word.is("}"), offset) {
                 return Ok(EndSite { name, offset });
             } else {
@@ -183,12 +231,14 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn no_channels(&mut self) -> Result<(), Error> {
-        let word = self.scanner.peek();
-        match self.scanner.count()? {
-            0 => Ok(()),
-            _ => Err(self.scanner.expected("0, for an End Site has no channels", word)),
+    fn end_site_channels(&mut self) -> Result<(), Error> {
+        let (at, before) = (self.scanner.peek().at, self.columns.width());
+        self.channel_list(None)?;
+        if self.columns.width() > before {
+            let message = || "an End Site has channels; their columns are left out".into();
+            self.scanner.notices.add(END_SITE_CHANNELS, at, message);
         }
+        Ok(())
     }
 
     fn close(&mut self, word: Word) -> Result<(), Error> {
@@ -212,13 +262,6 @@ impl Reader<'_, '_> {
             let expected = format!("\"}}\" of joint {joint}, opened in line {line}");
             return self.scanner.expected(&expected, word);
         }
-        if channel(word.text).is_some() {
-            let message = format!(
-                "joint {joint} has more channel names than its CHANNELS says, found {}",
-                quoted(word.text)
-            );
-            return self.scanner.error(word.at, message);
-        }
         let expected = "\"OFFSET\", \"CHANNELS\", \"JOINT\", \"End Site\" or \"}\"";
         self.scanner.expected(expected, word)
     }
@@ -228,19 +271,14 @@ fn open_joint(open: &[Open]) -> JointId {
     open.last().expect("a joint is open inside a tree").joint
 }
 
-fn channel(name: &[u8]) -> Option<Channel> {
-    let (axis, kind) = name.split_first()?;
-    let axis = match axis {
-        b'X' | b'x' => Axis::X,
-        b'Y' | b'y' => Axis::Y,
-        b'Z' | b'z' => Axis::Z,
-        _ => return None,
-    };
-    if kind.eq_ignore_ascii_case(b"position") {
-        Some(Channel::Position(axis))
-    } else if kind.eq_ignore_ascii_case(b"rotation") {
-        Some(Channel::Rotation(axis))
-    } else {
-        None
-    }
+/// The text is UTF-8 up to the word MOTION.
+fn text(name: Word) -> String {
+    String::from_utf8_lossy(name.text).into_owned()
+}
+
+/// Whether a word may be the name of something: not a number, a brace or a keyword.
+fn is_a_name(word: Word) -> bool {
+    let keywords = ["ROOT", "JOINT", "End", "OFFSET", "CHANNELS", "MOTION"];
+    let begins = |byte: &u8| byte.is_ascii_alphabetic() || *byte == b'_' || !byte.is_ascii();
+    word.text.first().is_some_and(begins) && !keywords.iter().any(|keyword| word.is(keyword))
 }

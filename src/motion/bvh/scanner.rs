@@ -1,15 +1,20 @@
 //! Tokens of a BVH file, and where they stand.
 
 use super::number::{self, is_blank};
+use super::odd::{self, piece, with_point};
+use super::warnings::{DECIMAL_COMMA, GLUED_MINUS, LABEL_SPACING, Notices};
 use crate::error::Error;
 
 /// So much of a wrong word is quoted in an error.
 const QUOTED_BYTES: usize = 32;
 
-/// A cursor over the bytes of a file. It counts no lines: an error finds its own when it is made.
+/// A cursor over the text of a file. It counts no lines: an error finds its own when it is made.
 pub(super) struct Scanner<'a> {
-    bytes: &'a [u8],
+    text: &'a [u8],
     at: usize,
+    /// Whether a comma may stand for the decimal point.
+    pub(super) takes_commas: bool,
+    pub(super) notices: Notices,
 }
 
 /// A token and the byte it starts at; empty at the end of the file.
@@ -27,14 +32,14 @@ impl Word<'_> {
 }
 
 impl<'a> Scanner<'a> {
-    /// A cursor at the first byte after a byte order mark.
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), at: 0 }
+    /// A cursor at the beginning of a text, and what is already to be said about it.
+    pub(super) fn new(text: &'a [u8], notices: Notices) -> Self {
+        Self { text, at: 0, takes_commas: true, notices }
     }
 
-    /// All of the file, after a byte order mark.
-    pub(super) fn bytes(&self) -> &'a [u8] {
-        self.bytes
+    /// All of the text.
+    pub(super) fn text(&self) -> &'a [u8] {
+        self.text
     }
 
     /// The byte the cursor stands at.
@@ -44,19 +49,19 @@ impl<'a> Scanner<'a> {
 
     /// What is still to be read.
     pub(super) fn rest(&self) -> &'a [u8] {
-        &self.bytes[self.at..]
+        &self.text[self.at..]
     }
 
     /// Skips blanks and line ends; false at the end of the file.
     #[inline]
     pub(super) fn has_more(&mut self) -> bool {
-        let mut rest = &self.bytes[self.at..];
+        let mut rest = &self.text[self.at..];
         while let [byte, after @ ..] = rest
             && is_blank(*byte)
         {
             rest = after;
         }
-        self.at = self.bytes.len() - rest.len();
+        self.at = self.text.len() - rest.len();
         !rest.is_empty()
     }
 
@@ -70,12 +75,7 @@ impl<'a> Scanner<'a> {
     /// The next token, without taking it.
     pub(super) fn peek(&mut self) -> Word<'a> {
         self.has_more();
-        let rest = self.rest();
-        let length = match rest {
-            [b'{' | b'}', ..] => 1,
-            _ => rest.iter().position(|&byte| ends_a_word(byte)).unwrap_or(rest.len()),
-        };
-        Word { text: &rest[..length], at: self.at }
+        word_at(self.text, self.at)
     }
 
     /// Takes what is left of the line, up to a `{`, without blanks around it.
@@ -83,8 +83,10 @@ impl<'a> Scanner<'a> {
         let rest = self.rest();
         let ends = |&byte: &u8| matches!(byte, b'\n' | b'\r' | b'{');
         let length = rest.iter().position(ends).unwrap_or(rest.len());
-        let blanks = rest[..length].iter().take_while(|&&byte| is_blank(byte)).count();
-        let word = Word { text: rest[..length].trim_ascii(), at: self.at + blanks };
+        let is_mark = |&byte: &u8| !is_blank(byte);
+        let begin = rest[..length].iter().position(is_mark).unwrap_or(length);
+        let end = rest[..length].iter().rposition(is_mark).map_or(length, |last| last + 1);
+        let word = Word { text: &rest[begin..end], at: self.at + begin };
         self.at += length;
         word
     }
@@ -92,11 +94,18 @@ impl<'a> Scanner<'a> {
     /// Takes the keyword `words` and the colon after it, blanks or not between them.
     pub(super) fn label(&mut self, words: &[&str]) -> Result<(), Error> {
         let start = self.peek();
-        let found = words.iter().all(|word| self.take(word.as_bytes())) && self.take(b":");
-        if found {
-            return Ok(());
+        let is_named = words.iter().all(|word| self.take(word.as_bytes()));
+        let end = self.at;
+        if !(is_named && self.take(b":")) {
+            return Err(self.expected(&format!("\"{}:\"", words.join(" ")), start));
         }
-        Err(self.expected(&format!("\"{}:\"", words.join(" ")), start))
+        if self.at > end + 1 {
+            self.notices.add(LABEL_SPACING, end, || {
+                let label = words.join(" ");
+                format!("a blank stands before the colon of \"{label}:\"; some programs find none")
+            });
+        }
+        Ok(())
     }
 
     fn take(&mut self, text: &[u8]) -> bool {
@@ -107,16 +116,46 @@ impl<'a> Scanner<'a> {
     }
 
     /// Takes the next number, always finite.
-    #[inline]
     pub(super) fn number(&mut self) -> Result<f64, Error> {
+        self.has_more();
+        let at = self.at;
+        self.value()?.ok_or_else(|| self.no_value(at, "", ""))
+    }
+
+    /// Takes the next number; none where a program wrote that it has no finite one, as `nan` does.
+    pub(super) fn value(&mut self) -> Result<Option<f64>, Error> {
         self.has_more();
         match number::scan(self.rest()) {
             Some((value, length)) if value.is_finite() => {
                 self.at += length;
-                Ok(value)
+                Ok(Some(value))
             }
-            _ => Err(self.not_a_number()),
+            _ => self.odd_value(),
         }
+    }
+
+    #[cold]
+    fn odd_value(&mut self) -> Result<Option<f64>, Error> {
+        let (all, at, text) = (self.text, self.at, piece(self.rest()));
+        let has_comma = text.contains(&b',');
+        let scanned = if has_comma { with_point(text) } else { number::scan(text) };
+        let value = match scanned {
+            Some(_) if has_comma && !self.takes_commas => return Err(self.not_a_number()),
+            Some((value, _)) => Some(value).filter(|value| value.is_finite()),
+            None if odd::is_no_finite_number(text) => None,
+            None => return Err(self.not_a_number()),
+        };
+        let word = || quoted(word_at(all, at).text);
+        if has_comma {
+            let message = || format!("{} has a decimal comma", word());
+            self.notices.add(DECIMAL_COMMA, at, message);
+        }
+        if self.rest().get(text.len()) == Some(&b'-') {
+            let message = || format!("a blank is missing before a minus in {}", word());
+            self.notices.add(GLUED_MINUS, at + text.len(), message);
+        }
+        self.at += text.len();
+        Ok(value)
     }
 
     /// Takes a whole number of at least 0, such as `2` or `2.0`; one too large is the largest.
@@ -130,20 +169,33 @@ impl<'a> Scanner<'a> {
     }
 
     #[cold]
-    fn not_a_number(&mut self) -> Error {
-        let word = self.peek();
+    fn not_a_number(&self) -> Error {
+        let word = word_at(self.text, self.at);
         let has = |byte| word.text.contains(&byte);
-        let only = |allowed: &[u8]| word.text.iter().all(|byte| allowed.contains(byte));
-        let hint = if number::scan(word.text).is_some() {
-            " (it is too large)"
-        } else if has(b',') && only(b"0123456789+-,") {
-            " (write decimals with a dot)"
-        } else if !word.text.is_empty() && only(b"0123456789+-.") {
+        let is_only = |allowed: &[u8]| word.text.iter().all(|byte| allowed.contains(byte));
+        let hint = if has(b',') && is_only(b"0123456789+-,") {
+            " (other decimals here are written with a dot)"
+        } else if !word.text.is_empty() && is_only(b"0123456789+-.") {
             " (a blank may be missing)"
         } else {
             ""
         };
         self.error(word.at, format!("expected a number, found {}{hint}", quoted(word.text)))
+    }
+
+    /// The error that a program wrote at a byte that it has no finite number. `what` it should be and
+    /// the way `out` are added to the sentence.
+    #[cold]
+    pub(super) fn no_value(&self, at: usize, what: &str, out: &str) -> Error {
+        let word = word_at(self.text, at).text;
+        let hint = if word.contains(&b'#') {
+            " (Windows for: this is no number)"
+        } else if number::scan(piece(word)).is_some() {
+            " (it is too large)"
+        } else {
+            ""
+        };
+        self.error(at, format!("expected a number{what}, found {}{hint}{out}", quoted(word)))
     }
 
     /// The error that something else stands where `expected` should.
@@ -152,31 +204,64 @@ impl<'a> Scanner<'a> {
         self.error(found.at, format!("expected {expected}, found {}", quoted(found.text)))
     }
 
-    /// An error at a byte of the file.
+    /// An error at a byte of the text.
     #[cold]
     pub(super) fn error(&self, at: usize, message: impl Into<String>) -> Error {
         let (line, column) = self.place(at);
         Error::Bvh { line, column, message: message.into() }
     }
 
-    /// Line and column of a byte, from 1. Lines end in LF, CRLF or CR.
+    /// Line and column of a byte, from 1.
     pub(super) fn place(&self, at: usize) -> (usize, usize) {
-        let (mut line, mut start) = (1, 0);
-        for (index, &byte) in self.bytes[..at].iter().enumerate() {
-            let ends = match byte {
-                b'\n' => true,
-                b'\r' => self.bytes.get(index + 1) != Some(&b'\n'),
-                _ => false,
-            };
-            if ends {
-                (line, start) = (line + 1, index + 1);
-            }
-        }
-        (line, at - start + 1)
+        Lines::of(self.text).place(at)
     }
 }
 
-fn ends_a_word(byte: u8) -> bool {
+/// Counts the lines of a text on the way to places in it, which come in order. Lines end in LF, CRLF or
+/// CR.
+pub(super) struct Lines<'a> {
+    text: &'a [u8],
+    at: usize,
+    line: usize,
+    start: usize,
+}
+
+impl<'a> Lines<'a> {
+    /// Stands at the beginning.
+    pub(super) fn of(text: &'a [u8]) -> Self {
+        Self { text, at: 0, line: 1, start: 0 }
+    }
+
+    /// Line and column of a byte, from 1.
+    pub(super) fn place(&mut self, at: usize) -> (usize, usize) {
+        let at = at.min(self.text.len());
+        for (index, &byte) in self.text[..at].iter().enumerate().skip(self.at) {
+            let ends = match byte {
+                b'\n' => true,
+                b'\r' => self.text.get(index + 1) != Some(&b'\n'),
+                _ => false,
+            };
+            if ends {
+                (self.line, self.start) = (self.line + 1, index + 1);
+            }
+        }
+        self.at = at;
+        (self.line, at - self.start + 1)
+    }
+}
+
+/// The token at a byte: a brace, or what stands between blanks and braces.
+fn word_at(text: &[u8], at: usize) -> Word<'_> {
+    let rest = &text[at..];
+    let length = match rest {
+        [b'{' | b'}', ..] => 1,
+        _ => rest.iter().position(|&byte| ends_a_word(byte)).unwrap_or(rest.len()),
+    };
+    Word { text: &rest[..length], at }
+}
+
+/// Whether a byte stands between words: a blank or a brace.
+pub(super) fn ends_a_word(byte: u8) -> bool {
     is_blank(byte) || matches!(byte, b'{' | b'}')
 }
 
@@ -185,9 +270,13 @@ pub(super) fn quoted(text: &[u8]) -> String {
     if text.is_empty() {
         return "the end of the file".to_owned();
     }
-    let shown = String::from_utf8_lossy(&text[..text.len().min(QUOTED_BYTES)]);
-    let dots = if text.len() > QUOTED_BYTES { "…" } else { "" };
-    format!("\"{}{dots}\"", shown.escape_debug())
+    let cut = &text[..text.len().min(QUOTED_BYTES)];
+    let shown = String::from_utf8_lossy(cut);
+    if cut.len() == text.len() {
+        return format!("\"{}\"", shown.escape_debug());
+    }
+    // A character may have been cut in two.
+    format!("\"{}…\"", shown.trim_end_matches('\u{fffd}').escape_debug())
 }
 
 #[cfg(test)]
@@ -196,14 +285,14 @@ mod tests {
 
     #[test]
     fn lines_end_in_lf_crlf_or_cr_and_columns_are_bytes() {
-        let scanner = Scanner::new(b"\xef\xbb\xbfa\nb\r\nc\rd e");
-        let places = [0, 1, 2, 3, 5, 7, 9].map(|at| scanner.place(at));
+        let mut lines = Lines::of(b"a\nb\r\nc\rd e");
+        let places = [0, 1, 2, 3, 5, 7, 9].map(|at| lines.place(at));
         assert_eq!(places, [(1, 1), (1, 2), (2, 1), (2, 2), (3, 1), (4, 1), (4, 3)]);
     }
 
     #[test]
     fn braces_are_tokens_even_when_glued() {
-        let mut scanner = Scanner::new(b" a{b}\x0b}");
+        let mut scanner = Scanner::new(b" a{b}\x0b}", Notices::default());
         let words: Vec<_> =
             std::iter::from_fn(|| Some(scanner.word().text).filter(|text| !text.is_empty()))
                 .collect();
@@ -213,6 +302,7 @@ mod tests {
     #[test]
     fn a_long_or_odd_word_is_cut_and_escaped() {
         assert_eq!(quoted(&[b'x'; 100]), format!("\"{}…\"", "x".repeat(32)));
+        assert_eq!(quoted("腰".repeat(40).as_bytes()), format!("\"{}…\"", "腰".repeat(10)));
         assert_eq!(quoted(b"\0\x1b"), "\"\\0\\u{1b}\"");
         assert_eq!(quoted(b""), "the end of the file");
     }

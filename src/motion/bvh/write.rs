@@ -129,7 +129,10 @@ impl<'a> Hierarchy<'a> {
         self.offset(joint.offset, depth + 1);
         self.channels(joint, depth + 1);
         for end in &joint.end_sites {
-            self.line(depth + 1, format_args!("{}", format!("End {}", end.name).trim_end()));
+            self.line(
+                depth + 1,
+                format_args!("{}", format!("End {}", end.name).trim_end_matches(' ')),
+            );
             self.line(depth + 1, format_args!("{{"));
             self.offset(end.offset, depth + 2);
             self.line(depth + 1, format_args!("}}"));
@@ -187,8 +190,9 @@ fn frame_time(rate: FrameRate) -> String {
         let near = (read - seconds).abs() <= NEAR * seconds;
         near && FrameRate::from_frame_time(read).is_ok_and(|again| again == rate)
     };
-    // Where 1/(1/rate) is not the rate, the nearest decimal has to do.
-    let texts = (1..=24).map(|places| format!("{seconds:.places$}"));
+    // 1/(1/rate) may miss the rate by the last digit: a neighbour then is what the rate came from.
+    let near = [seconds, seconds.next_up(), seconds.next_down()].map(|time| format!("{time}"));
+    let texts = (1..=24).map(|places| format!("{seconds:.places$}")).chain(near);
     texts.into_iter().find(reads_back).unwrap_or_else(|| format!("{seconds}"))
 }
 
