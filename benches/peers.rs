@@ -77,7 +77,7 @@ const BVH_ANIM: usize = 4;
 
 /// File to clip, as a program has it.
 fn open(path: &Path) -> Clip {
-    bvh::read(&fs::read(path).unwrap()).unwrap().clip
+    bvh::open(path).unwrap().clip
 }
 
 fn words(input: &Input) -> impl Iterator<Item = &[u8]> {
@@ -271,7 +271,6 @@ fn main() {
             mean(ratios.iter().map(|ratio| ratio[0]))
         );
     }
-    // A file over 8 MB on one core and on all of them belongs here once the reader can use two.
 }
 
 fn heading(first: &str, names: &[String], last: &str) {

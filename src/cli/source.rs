@@ -21,16 +21,20 @@ pub(super) struct Source {
 ///
 /// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
 pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
-    let bytes = io::read(&args.clip)?;
     let failed = |error| Failure::of_file(&io::named(&args.clip), error);
+    let options = options(args);
+    let read = if io::is_stream(&args.clip) {
+        options.read(&io::read(&args.clip)?)
+    } else {
+        options.open(&args.clip)
+    };
     let bvh::Read { mut clip, warnings: mut notes, written_frame_time } =
-        options(args).read(&bytes).map_err(|error| match error {
+        read.map_err(|error| match error {
             Error::Setting { name, message } => {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
             other => failed(other),
         })?;
-    drop(bytes);
     let begin = args.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
     if !args.keep_lead_in {
         let (motion, note) = bvh::lead_in::strip(clip);
