@@ -8,6 +8,7 @@
 //! a small drift that lasts. And it is the root mean square over the body, not the mean: a foot that
 //! misses its contact shows, though the rest be right.
 
+use std::array;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::ops::Range;
@@ -33,18 +34,23 @@ struct Stances {
 }
 
 impl Stances {
-    fn of(clip: &Clip, rig: &Rig, frames: impl ExactSizeIterator<Item = Frame>) -> Self {
+    fn of(clip: &Clip, rig: &Rig, entries: &[Entry]) -> Self {
         let moving: Vec<usize> = rig.moving().collect();
-        let (count, groups) = (frames.len(), rig.len().div_ceil(LANES));
-        let mut rotations = vec![LaneQuat::default(); count * groups];
-        let mut translations = Vec::with_capacity(count * moving.len());
+        let groups = rig.len().div_ceil(LANES);
+        let mut rotations = vec![LaneQuat::default(); entries.len() * groups];
+        let mut translations = Vec::with_capacity(entries.len() * moving.len());
         let mut pose = LanePose::rest(clip.skeleton());
-        for (frame, groups) in frames.zip(rotations.chunks_exact_mut(groups.max(1))) {
-            pose.take_rows(rig, &[clip.row(frame); LANES]);
-            for (joint, rotation) in pose.rotations.iter().enumerate() {
-                groups[joint / LANES].set_lane(joint % LANES, rotation.lane(0));
+        let into = rotations.chunks_mut((LANES * groups).max(1));
+        for (entries, rotations) in entries.chunks(LANES).zip(into) {
+            let entry = |lane: usize| entries[lane.min(entries.len() - 1)];
+            pose.take_rows(rig, &array::from_fn(|lane| clip.row(entry(lane).frame)));
+            for (lane, groups) in rotations.chunks_exact_mut(groups).enumerate() {
+                for (joint, rotation) in pose.rotations.iter().enumerate() {
+                    groups[joint / LANES].set_lane(joint % LANES, rotation.lane(lane));
+                }
+                translations
+                    .extend(moving.iter().map(|joint| pose.translations[*joint].lane(lane)));
             }
-            translations.extend(moving.iter().map(|joint| pose.translations[*joint].lane(0)));
         }
         Self { rotations, translations, groups, moving }
     }
@@ -74,7 +80,7 @@ struct Bridge<'a> {
 impl<'a> Bridge<'a> {
     fn new(clip: &'a Clip, reference: &'a Reference, entries: &'a [Entry]) -> Self {
         let rig = Rig::of(clip.skeleton());
-        let stances = Stances::of(clip, &rig, entries.iter().map(|entry| entry.frame));
+        let stances = Stances::of(clip, &rig, entries);
         Self {
             reference,
             entries,

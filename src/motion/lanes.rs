@@ -23,50 +23,50 @@ impl Lanes {
     pub(crate) const ZERO: Self = Self([0.0; LANES]);
     pub(crate) const ONE: Self = Self([1.0; LANES]);
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn splat(value: f64) -> Self {
         Self([value; LANES])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
         Self(array::from_fn(value))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn map(self, of: impl Fn(f64) -> f64) -> Self {
         Self::from_fn(|lane| of(self.0[lane]))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn with(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self::from_fn(|lane| of(self.0[lane], other.0[lane]))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn abs(self) -> Self {
         self.map(f64::abs)
     }
 
     /// The lesser of each lane; plain comparisons, as no lane is ever NaN.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn min(self, other: Self) -> Self {
         self.with(other, |a, b| if b < a { b } else { a })
     }
 
     /// The greater of each lane.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
         self.with(other, |a, b| if b > a { b } else { a })
     }
 
     /// Each lane takes what the one before it holds, the first takes `first`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn shifted(self, first: f64) -> Self {
         Self::from_fn(|lane| if lane == 0 { first } else { self.0[lane - 1] })
     }
@@ -75,7 +75,7 @@ impl Lanes {
 impl Add for Lanes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         self.with(other, |a, b| a + b)
     }
@@ -84,7 +84,7 @@ impl Add for Lanes {
 impl Sub for Lanes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self.with(other, |a, b| a - b)
     }
@@ -93,7 +93,7 @@ impl Sub for Lanes {
 impl Mul for Lanes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.with(other, |a, b| a * b)
     }

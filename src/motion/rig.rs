@@ -47,7 +47,7 @@ impl Rig {
     }
 
     /// The rotation of a joint against its parent: [`local_rotation`](super::local_rotation) of each row.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rotation(&self, joint: usize, rows: &Rows<'_>) -> LaneQuat {
         let mut turns = self.joints[joint].turns.iter();
         let half = |column: usize| gather(rows, column).half_sin_cos();
@@ -58,7 +58,7 @@ impl Rig {
 
     /// Where a joint stands against its parent: [`local_translation`](super::local_translation) of each
     /// row.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn translation(&self, joint: usize, rows: &Rows<'_>) -> LaneVec {
         let RigJoint { offset, moves, .. } = &self.joints[joint];
         let mut translation = LaneVec::splat(*offset);
@@ -92,7 +92,7 @@ impl Rig {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn gather(rows: &Rows<'_>, column: usize) -> Lanes {
     Lanes(array::from_fn(|lane| rows[lane][column]))
 }

@@ -16,17 +16,17 @@ pub(crate) struct LaneVec {
 }
 
 impl LaneVec {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn splat(vec: DVec3) -> Self {
         Self { x: Lanes::splat(vec.x), y: Lanes::splat(vec.y), z: Lanes::splat(vec.z) }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> DVec3 {
         DVec3::new(self.x.0[lane], self.y.0[lane], self.z.0[lane])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn axis_mut(&mut self, axis: Axis) -> &mut Lanes {
         match axis {
             Axis::X => &mut self.x,
@@ -35,17 +35,17 @@ impl LaneVec {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn with(self, other: Self, of: impl Fn(Lanes, Lanes) -> Lanes) -> Self {
         Self { x: of(self.x, other.x), y: of(self.y, other.y), z: of(self.z, other.z) }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> Lanes {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    #[inline]
+    #[inline(always)]
     fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,
@@ -55,13 +55,13 @@ impl LaneVec {
     }
 
     /// `share` of the way from one to the other, and not even a digit off where both are the same.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn lerp(self, to: Self, share: Lanes) -> Self {
         self + (to - self) * share
     }
 
     /// Each lane takes what the one before it holds, the first takes `first`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn shifted(self, first: DVec3) -> Self {
         Self { x: self.x.shifted(first.x), y: self.y.shifted(first.y), z: self.z.shifted(first.z) }
     }
@@ -70,7 +70,7 @@ impl LaneVec {
 impl Add for LaneVec {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         self.with(other, |a, b| a + b)
     }
@@ -79,7 +79,7 @@ impl Add for LaneVec {
 impl Sub for LaneVec {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self.with(other, |a, b| a - b)
     }
@@ -88,7 +88,7 @@ impl Sub for LaneVec {
 impl Mul<Lanes> for LaneVec {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, by: Lanes) -> Self {
         Self { x: self.x * by, y: self.y * by, z: self.z * by }
     }
@@ -109,18 +109,18 @@ impl Default for LaneQuat {
 }
 
 impl LaneQuat {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn splat(q: DQuat) -> Self {
         Self { v: LaneVec::splat(q.xyz()), w: Lanes::splat(q.w) }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> DQuat {
         let v = self.v.lane(lane);
         DQuat::from_xyzw(v.x, v.y, v.z, self.w.0[lane])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn set_lane(&mut self, lane: usize, q: DQuat) {
         self.v.x.0[lane] = q.x;
         self.v.y.0[lane] = q.y;
@@ -129,7 +129,7 @@ impl LaneQuat {
     }
 
     /// The rotation about an axis by the angle whose half has that sine and cosine.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn about(axis: Axis, (sin, cos): (Lanes, Lanes)) -> Self {
         let mut quat = Self { v: LaneVec::default(), w: cos };
         *quat.v.axis_mut(axis) = sin;
@@ -137,7 +137,7 @@ impl LaneQuat {
     }
 
     /// This rotation times one about an axis: half the products of a whole multiplication.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn turned(self, axis: Axis, (sin, cos): (Lanes, Lanes)) -> Self {
         let Self { v: LaneVec { x, y, z }, w } = self;
         let (x_cos, y_cos, z_cos, w_cos) = (x * cos, y * cos, z * cos, w * cos);
@@ -151,7 +151,7 @@ impl LaneQuat {
     }
 
     /// The rotation from this one to `to`; between equals exactly none.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn way_to(self, to: Self) -> Self {
         Self {
             v: to.v * self.w - self.v * to.w - self.v.cross(to.v),
@@ -160,7 +160,7 @@ impl LaneQuat {
     }
 
     /// The same rotation written so that it is at most half a turn.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn short(self) -> Self {
         let sign = self.w.map(|w| 1f64.copysign(w));
         Self { v: self.v * sign, w: self.w * sign }
@@ -168,33 +168,33 @@ impl LaneQuat {
 
     /// Half the angle of the rotation in radians, 0 to π/2, the same for q and −q. The arc cosine of
     /// the scalar part would lose half the digits of a small angle, which is where holds are decided.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn half_angle(self) -> Lanes {
         self.v.dot(self.v).sqrt().atan_over(self.w.abs())
     }
 
     /// `share` of the short way to `to` (slerp); between equals there is no way.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn slerp(self, to: Self, share: Lanes) -> Self {
         let Arc { across, degrees } = Arc::between(self, to);
         let (sin, cos) = (degrees * share).half_sin_cos();
         self.scaled(cos) + across.scaled(sin)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn scaled(self, by: Lanes) -> Self {
         Self { v: self.v * by, w: self.w * by }
     }
 
     /// A vector turned by this rotation.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rotate(self, vec: LaneVec) -> LaneVec {
         let twice = self.v.cross(vec) * Lanes::splat(2.0);
         vec + twice * self.w + self.v.cross(twice)
     }
 
     /// Each lane takes what the one before it holds, the first takes `first`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn shifted(self, first: DQuat) -> Self {
         Self { v: self.v.shifted(first.xyz()), w: self.w.shifted(first.w) }
     }
@@ -203,7 +203,7 @@ impl LaneQuat {
 impl Add for LaneQuat {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self { v: self.v + other.v, w: self.w + other.w }
     }
@@ -212,7 +212,7 @@ impl Add for LaneQuat {
 impl Mul for LaneQuat {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             v: other.v * self.w + self.v * other.w + self.v.cross(other.v),
@@ -231,7 +231,7 @@ pub(crate) struct Arc {
 }
 
 impl Arc {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn between(from: LaneQuat, to: LaneQuat) -> Self {
         let way = from.way_to(to).short();
         let sin = way.v.dot(way.v).sqrt();

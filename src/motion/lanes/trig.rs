@@ -55,10 +55,10 @@ impl Lanes {
     ///
     /// Half turns come off in degrees, where they are whole numbers: what is left is exact, at any
     /// angle, and only then becomes radians. Sine and cosine are within 2⁻⁵² of the true ones.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn half_sin_cos(self) -> (Self, Self) {
         let near = self.0.iter().fold(true, |near, degrees| near & (degrees.abs() < FAR));
-        let degrees = if near { self } else { self.map(|degrees| degrees % 720.0) };
+        let degrees = if near { self } else { self.without_whole_turns() };
         let rounded = degrees * Self::splat(1.0 / 180.0) + Self::splat(ROUNDER);
         let half_turns = rounded - Self::splat(ROUNDER);
         let rest = degrees - half_turns * Self::splat(180.0);
@@ -76,14 +76,24 @@ impl Lanes {
         )
     }
 
+    #[cold]
+    fn without_whole_turns(self) -> Self {
+        self.map(|degrees| degrees % 720.0)
+    }
+
+    #[cold]
+    fn steep_atan_over(self, along: Self) -> Self {
+        self.with(along, f64::atan2)
+    }
+
     /// The angle in radians, 0 to π/2, at which `self` is the rise and `along` the run, both at least
     /// 0: `atan2` to within two units in the last place.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn atan_over(self, along: Self) -> Self {
         let ratio = self.with(along, |rise, run| rise / run);
         // Steep angles are rare from frame to frame; a ratio of nothing to nothing is not below either.
         if !ratio.0.iter().fold(true, |flat, ratio| flat & (*ratio <= STEEP)) {
-            return self.with(along, f64::atan2);
+            return self.steep_atan_over(along);
         }
         let square = ratio * ratio;
         ratio - ratio * square * polynomial(&ARC_TANGENT, square)
@@ -91,7 +101,7 @@ impl Lanes {
 }
 
 /// Sine and cosine for |x| ≤ π/4.
-#[inline]
+#[inline(always)]
 fn near_sin_cos(x: Lanes) -> (Lanes, Lanes) {
     let square = x * x;
     let sin = x + x * square * polynomial(&SINE, square);
@@ -104,7 +114,7 @@ fn near_sin_cos(x: Lanes) -> (Lanes, Lanes) {
 }
 
 /// Horner's rule, the constant first.
-#[inline]
+#[inline(always)]
 fn polynomial<const TERMS: usize>(coefficients: &[f64; TERMS], x: Lanes) -> Lanes {
     let mut sum = Lanes::splat(coefficients[TERMS - 1]);
     for coefficient in coefficients[..TERMS - 1].iter().rev() {
