@@ -1,19 +1,32 @@
 //! The chain, stage by stage and as a whole, on a synthetic body: `cargo bench --bench chain`.
-//! Read the items a second as frames × joints a second.
+//!
+//! First a table: the time of each stage in ns per frame·joint, in CPU time where the system tells it.
+//! Then what is run again when one knob is turned, as items (frames ×
+//! joints) a second.
+
+#![allow(clippy::print_stdout)]
+
+use std::time::Instant;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use genga::edits::Edits;
+use genga::keys::{self, JointTurns, Reference};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
+use genga::signal::Spectrum;
 use genga::time::{Frame, FrameRate};
+use genga::timing::Stills;
 use glam::DVec3;
 
 const JOINTS: usize = 31;
-const FRAMES: [usize; 3] = [129, 5_000, 100_000];
+const FRAMES: [usize; 4] = [129, 1_000, 5_000, 100_000];
 
 fn main() {
+    if std::env::args().all(|argument| argument != "--test" && argument != "--list") {
+        print_shares();
+    }
     divan::main();
 }
 
@@ -45,18 +58,101 @@ fn clip(frames: usize) -> Clip {
     Clip::new(skeleton, rate, Frame(0), frames, values).expect("a whole table")
 }
 
-/// From the clip to the sheet, nothing kept from before.
-#[divan::bench(args = FRAMES, sample_count = 5)]
-fn whole(bencher: Bencher<'_, '_>, frames: usize) {
+/// Nanoseconds that this thread has run; those on the clock where the system does not tell.
+fn now(begin: Instant) -> f64 {
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let ran = told.as_deref().and_then(|text| text.split(' ').next()?.parse().ok());
+    ran.unwrap_or_else(|| begin.elapsed().as_nanos() as f64)
+}
+
+/// The times of one run of the chain, stage after stage.
+struct Stopwatch {
+    begin: Instant,
+    last: f64,
+    laps: Vec<(&'static str, f64)>,
+}
+
+impl Stopwatch {
+    fn start() -> Self {
+        let begin = Instant::now();
+        Self { begin, last: now(begin), laps: Vec::new() }
+    }
+
+    fn lap(&mut self, stage: &'static str) {
+        let time = now(self.begin);
+        self.laps.push((stage, time - self.last));
+        self.last = now(self.begin);
+    }
+}
+
+/// One run over a clip, each stage by itself, and the whole by the engine.
+fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
+    let recipe = Recipe::default();
+    let mut watch = Stopwatch::start();
+    let speed = recipe.speed.measure(clip).expect("a clip with motion");
+    watch.lap("speeds");
+    let spectrum = Spectrum::of(&speed);
+    watch.lap("spectrum");
+    let filtered = recipe.filter.apply(&spectrum);
+    watch.lap("filter");
+    let delay = recipe.filter.delay(clip.rate());
+    let turns = recipe.turns.find(&filtered, delay);
+    watch.lap("turns");
+    let clock = clip.clock(recipe.rate);
+    let joints = JointTurns {
+        filtered: &filtered,
+        turns: &turns,
+        finder: &recipe.turns,
+        delay,
+        weights: &keys::weights(clip),
+        apart: clock.frames_in_koma(),
+    };
+    let candidates = recipe.keys.candidates(&joints);
+    watch.lap("merge");
+    let reference = Reference::of(clip, clock);
+    watch.lap("reference");
+    let keys = recipe.keys.choose(clip, &reference, &candidates, &joints, &Edits::default());
+    watch.lap("rests, prices");
+    let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+    let spaced = recipe.spacing.place(&keys, clip.skeleton(), clock, koma);
+    watch.lap("spacing");
+    let stills = Stills::of(clip, &spaced.layer);
+    watch.lap("stills");
+    let omitted = recipe.omission.apply(&spaced.layer, &stills, recipe.spacing.on);
+    watch.lap("omission");
+    drop(omitted);
+    let mut engine = Engine::new(clip.clone()).expect("a clip with motion");
+    watch.last = now(watch.begin);
+    engine.run(&recipe, &Edits::default()).expect("defaults run");
+    watch.lap("whole");
+    watch.laps
+}
+
+/// The table of shares: a row a stage, a column a length of clip.
+fn print_shares() {
+    let columns: Vec<Vec<(&str, f64)>> = FRAMES.iter().map(|frames| means(*frames)).collect();
+    print!("{:<16}", "ns/frame·joint");
+    FRAMES.iter().for_each(|frames| print!("{frames:>10}"));
+    println!();
+    for stage in 0..columns[0].len() {
+        print!("{:<16}", columns[0][stage].0);
+        columns.iter().for_each(|column| print!("{:>10.2}", column[stage].1));
+        println!();
+    }
+    println!();
+}
+
+/// The mean of many rounds for each stage: the system counts a thread's time in steps of some
+/// milliseconds, and a mean over steps is exact where a median is not.
+fn means(frames: usize) -> Vec<(&'static str, f64)> {
     let clip = clip(frames);
-    bencher
-        .counter(ItemsCount::new(frames * JOINTS))
-        .with_inputs(|| Engine::new(clip.clone()).expect("a clip with motion"))
-        .bench_local_values(|mut engine| {
-            let breakdown =
-                engine.run(&Recipe::default(), &Edits::default()).expect("defaults run");
-            breakdown.sheet.length()
-        });
+    let count = (1_000_000 / frames).clamp(8, 2000);
+    let rounds: Vec<_> = (0..count).map(|_| timed(&clip)).collect();
+    let mean = |stage: usize| {
+        let sum: f64 = rounds.iter().map(|round| round[stage].1).sum();
+        (rounds[0][stage].0, sum / (count * frames * JOINTS) as f64)
+    };
+    (0..rounds[0].len()).map(mean).collect()
 }
 
 /// What is run again when one knob was turned on an engine that ran before.

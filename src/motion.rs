@@ -4,6 +4,9 @@ pub mod bvh;
 mod channels;
 mod clip;
 mod kinematics;
+pub(crate) mod lanes;
+pub(crate) mod rig;
+pub(crate) mod sampler;
 mod skeleton;
 
 pub use channels::RowWriter;

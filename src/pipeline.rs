@@ -19,8 +19,8 @@ mod tests;
 pub struct Engine {
     clip: Clip,
     weights: Vec<f64>,
-    speed: Stage<crate::signal::Speed, Signals>,
-    spectrum: Stage<(), Spectrum>,
+    /// The speeds, and what filters make of them first.
+    speed: Stage<crate::signal::Speed, Spectrum>,
     filtered: Stage<LowPass, Signals>,
     turns: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
     candidates: Stage<CandidateSettings, Candidates>,
@@ -76,7 +76,6 @@ impl Engine {
             clip,
             weights,
             speed: Stage::default(),
-            spectrum: Stage::default(),
             filtered: Stage::default(),
             turns: Stage::default(),
             candidates: Stage::default(),
@@ -103,11 +102,26 @@ impl Engine {
         let keys_made = self.find(recipe, edits)?;
         let clock = self.clip.clock(recipe.rate);
         self.time(recipe, clock, keys_made)?;
+        Ok(self.breakdown(clock))
+    }
+
+    /// [`Engine::run`] for the last time: what only another run would use is forgotten.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
+        let clock = self.run(recipe, edits)?.clock;
+        self.reference.forget();
+        self.stills.forget();
+        Ok(self.breakdown(clock))
+    }
+
+    fn breakdown(&self, clock: Clock) -> Breakdown<'_> {
         let [spaced, sheet] = self.sheets.output();
-        Ok(Breakdown {
+        Breakdown {
             clip: &self.clip,
             clock,
-            speed: self.speed.output(),
+            speed: self.speed.output().unfiltered(),
             filtered: self.filtered.output(),
             turns: self.turns.output(),
             candidates: self.candidates.output(),
@@ -116,7 +130,7 @@ impl Engine {
             spaced,
             sheet,
             omission: &self.omitted.output().report,
-        })
+        }
     }
 
     /// Runs the chain up to the keys: every joint's turns, and the keys of the layer.
@@ -143,10 +157,9 @@ impl Engine {
     /// Speeds, smoothed, and where they turn.
     fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
         let clip = &self.clip;
-        let made = self.speed.refresh(Made::CLIP, &recipe.speed, || recipe.speed.measure(clip))?;
-        let speed = self.speed.output();
-        let made = self.spectrum.refresh(made, &(), || Ok(Spectrum::of(speed)))?;
-        let spectrum = self.spectrum.output();
+        let measure = || recipe.speed.measure(clip).map(Spectrum::from);
+        let made = self.speed.refresh(Made::CLIP, &recipe.speed, measure)?;
+        let spectrum = self.speed.output();
         let made =
             self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;
         let filtered = self.filtered.output();
@@ -270,6 +283,11 @@ impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
     /// [`Stage::refresh`] for a stage that cannot fail.
     fn renew(&mut self, input: Made, settings: &Settings, make: impl FnOnce() -> Output) -> Made {
         self.refresh(input, settings, || Ok(make())).expect("this stage cannot fail")
+    }
+
+    /// Drops the output; asked for again, it is made again.
+    fn forget(&mut self) {
+        self.last = None;
     }
 
     fn output(&self) -> &Output {

@@ -34,21 +34,35 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     take_place(written_beside(path, bytes)?, path)
 }
 
-/// Makes a folder and writes files into it: all of them beside their places first, so that a full disk
-/// leaves what was there before.
-pub(super) fn write_all(folder: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), Failure> {
-    if folder.exists() && !folder.is_dir() {
-        return Err(Failure::CouldNot(format!("{}: is a file, not a folder", folder.display())));
+/// Files for a folder, each written beside its place as soon as it is made, so that none waits in
+/// memory; they take their places together, so that a full disk leaves what was there before.
+pub(super) struct Bundle<'a> {
+    folder: &'a Path,
+    written: Vec<(NamedTempFile, PathBuf)>,
+}
+
+impl<'a> Bundle<'a> {
+    /// Makes the folder.
+    pub(super) fn begin(folder: &'a Path) -> Result<Self, Failure> {
+        if folder.exists() && !folder.is_dir() {
+            let message = format!("{}: is a file, not a folder", folder.display());
+            return Err(Failure::CouldNot(message));
+        }
+        fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
+        Ok(Self { folder, written: Vec::new() })
     }
-    fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
-    let written: Vec<(NamedTempFile, PathBuf)> = files
-        .iter()
-        .map(|(name, bytes)| {
-            let path = folder.join(name);
-            Ok((written_beside(&path, bytes)?, path))
-        })
-        .collect::<Result<_, Failure>>()?;
-    written.into_iter().try_for_each(|(file, path)| take_place(file, &path))
+
+    /// Writes a file beside its place.
+    pub(super) fn add(&mut self, name: &str, text: impl AsRef<[u8]>) -> Result<(), Failure> {
+        let path = self.folder.join(name);
+        self.written.push((written_beside(&path, text.as_ref())?, path));
+        Ok(())
+    }
+
+    /// Puts all files into their places.
+    pub(super) fn finish(self) -> Result<(), Failure> {
+        self.written.into_iter().try_for_each(|(file, path)| take_place(file, &path))
+    }
 }
 
 /// A file of those bytes beside a path. It goes when it is dropped.

@@ -7,9 +7,7 @@ use super::failure::Failure;
 use super::words::{Words, counted};
 use super::{io, pictures, source};
 use crate::deliver::{self, Drawings, Report, Rows};
-use crate::edits::Edits;
 use crate::pipeline::{Breakdown, Engine};
-use crate::recipe::Recipe;
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let (recipe, edits) = source::corrected(&args.corrections)?;
@@ -18,19 +16,20 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let source = source::clip(&args.clip)?;
     working.on("finding the key drawings");
     let mut engine = Engine::new(source.clip)?;
-    let breakdown = engine.run(&recipe, &edits)?;
+    let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
     let cut = io::stem(&args.clip.clip);
     let folder = folder(args, &cut)?;
     let report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
-    let files = files(&cut, &breakdown, &recipe, &edits, &report)?;
-    io::write_all(&folder, &files)?;
+    let mut bundle = io::Bundle::begin(&folder)?;
+    write(&mut bundle, &cut, &breakdown, &report)?;
+    bundle.add("recipe.toml", recipe.write(&edits))?;
+    bundle.finish()?;
     drop(working);
     summary(words, &cut, &report);
     let shortfalls = breakdown.omission.shortfalls();
     shortfalls.for_each(|reason| words.say(format_args!("note        {reason}")));
-    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    words.say(format_args!("files       {}: {}", folder.display(), names.join(" ")));
+    words.say(format_args!("files       {}: {}", folder.display(), NAMES.join(" ")));
     Ok(())
 }
 
@@ -46,30 +45,40 @@ fn folder(args: &RunArgs, cut: &str) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Every file of a run, made in memory: nothing is written before all of it is known.
-fn files(
+/// What a run writes.
+const NAMES: [&str; 10] = [
+    "keys.csv",
+    "drawings.csv",
+    "sheet.csv",
+    "remap.csv",
+    "limited.bvh",
+    "speed.svg",
+    "sheet.svg",
+    "poses.svg",
+    "recipe.toml",
+    "report.json",
+];
+
+/// Everything that the breakdown says, one file made after the other.
+fn write(
+    bundle: &mut io::Bundle<'_>,
     cut: &str,
     breakdown: &Breakdown<'_>,
-    recipe: &Recipe,
-    edits: &Edits,
     report: &Report,
-) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
+) -> Result<(), Failure> {
     let (clip, sheet) = (breakdown.clip, breakdown.sheet);
     let table = |rows| Drawings { cut: cut.into(), rows }.write(clip, sheet);
     let report = serde_json::to_string_pretty(report)
         .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
-    Ok(vec![
-        ("keys.csv", table(Rows::Keys)?.into()),
-        ("drawings.csv", table(Rows::All)?.into()),
-        ("sheet.csv", deliver::sheet_csv(sheet)?.into()),
-        ("remap.csv", deliver::remap_csv(sheet)?.into()),
-        ("limited.bvh", deliver::limited_bvh(clip, sheet)?.into()),
-        ("speed.svg", pictures::speed(breakdown)?.into()),
-        ("sheet.svg", pictures::sheet(breakdown)?.into()),
-        ("poses.svg", pictures::poses(breakdown)?.into()),
-        ("recipe.toml", recipe.write(edits).into()),
-        ("report.json", (report + "\n").into()),
-    ])
+    bundle.add("keys.csv", table(Rows::Keys)?)?;
+    bundle.add("drawings.csv", table(Rows::All)?)?;
+    bundle.add("sheet.csv", deliver::sheet_csv(sheet)?)?;
+    bundle.add("remap.csv", deliver::remap_csv(sheet)?)?;
+    bundle.add("limited.bvh", deliver::limited_bvh(clip, sheet)?)?;
+    bundle.add("speed.svg", pictures::speed(breakdown)?)?;
+    bundle.add("sheet.svg", pictures::sheet(breakdown)?)?;
+    bundle.add("poses.svg", pictures::poses(breakdown)?)?;
+    bundle.add("report.json", report + "\n")
 }
 
 fn summary(words: &Words, cut: &str, report: &Report) {

@@ -34,7 +34,10 @@ pub(super) fn corrected(
         .filter(|frame| !unwanted(*frame))
         .map(|frame| key(frame, 1.0, Origin::Rest))
         .collect();
-    let at_rest = |frame: Frame| keys.iter().any(|rest| near(rest.frame, frame));
+    let at_rest = |frame: Frame| {
+        let after = keys.partition_point(|rest| rest.frame < frame);
+        keys[after.saturating_sub(1)..].iter().take(2).any(|rest| near(rest.frame, frame))
+    };
     let found: Vec<Key> = candidates
         .keys
         .iter()

@@ -27,22 +27,31 @@ pub(super) fn peaks(values: &[f64], dust: f64) -> Vec<usize> {
 /// Which of `found` (place, strength) stay when the strongest are taken first and whatever lies
 /// nearer than `distance` to one already taken is dropped; among equals the earlier. By place.
 pub(super) fn strongest_apart(mut found: Vec<(usize, f64)>, distance: f64) -> Vec<(usize, f64)> {
-    found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let mut taken: Vec<(usize, f64)> = Vec::with_capacity(found.len());
-    for (place, strength) in found {
-        let after = taken.partition_point(|other| other.0 < place);
-        let near = |other: Option<&(usize, f64)>| {
-            other.is_some_and(|other| (other.0.abs_diff(place) as f64) < distance)
+    let Some(last) = found.iter().map(|(place, _)| *place).max() else { return found };
+    found.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    // A cell is as wide as the distance, so it holds one at the most, and only neighbours are near.
+    let width = distance.max(1.0);
+    let cell = |place: usize| (place as f64 / width) as usize + 1;
+    let mut cells = vec![None; cell(last) + 2];
+    found.retain(|&(place, _)| {
+        let at = cell(place);
+        let near = |other: &Option<usize>| {
+            other.is_some_and(|other: usize| (other.abs_diff(place) as f64) < distance)
         };
-        if !near(taken.get(after)) && !near(after.checked_sub(1).map(|before| &taken[before])) {
-            taken.insert(after, (place, strength));
+        let apart = !cells[at - 1..=at + 1].iter().any(near);
+        if apart {
+            cells[at] = Some(place);
         }
-    }
-    taken
+        apart
+    });
+    found.sort_unstable_by_key(|(place, _)| *place);
+    found
 }
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     #[test]
@@ -70,5 +79,29 @@ mod tests {
     #[test]
     fn exactly_the_distance_apart_is_far_enough() {
         assert_eq!(strongest_apart(vec![(0, 1.0), (5, 1.0)], 5.0).len(), 2);
+    }
+
+    /// The slow way: each against all that are taken.
+    fn slowly(mut found: Vec<(usize, f64)>, distance: f64) -> Vec<(usize, f64)> {
+        found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let mut taken: Vec<(usize, f64)> = Vec::new();
+        for (place, strength) in found {
+            if taken.iter().all(|other| other.0.abs_diff(place) as f64 >= distance) {
+                taken.push((place, strength));
+            }
+        }
+        taken.sort_by_key(|(place, _)| *place);
+        taken
+    }
+
+    proptest! {
+        #[test]
+        fn cells_choose_what_comparing_all_chooses(
+            found in prop::collection::btree_map(0usize..200, 0u8..9, 0..60),
+            distance in prop_oneof![0.0..0.9, 0.9..8.0, 8.0..500.0, (0u32..9).prop_map(f64::from)],
+        ) {
+            let found: Vec<_> = found.into_iter().map(|(at, high)| (at, f64::from(high))).collect();
+            prop_assert_eq!(strongest_apart(found.clone(), distance), slowly(found, distance));
+        }
     }
 }

@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use crate::motion::{Body, Joint, Pose, Skeleton};
+use crate::motion::lanes::{LaneVec, Lanes};
+use crate::motion::rig::Rig;
+use crate::motion::sampler::LanePose;
+use crate::motion::{Joint, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -44,19 +47,24 @@ impl Points {
         self.weights.len()
     }
 
-    /// Writes where each point of a pose stands in the world, in the file's unit.
-    pub(super) fn place(&self, body: &mut Body, pose: &Pose, positions: &mut [DVec3]) {
+    /// Places poses in the world and writes where each of their points stands, in the file's unit.
+    pub(super) fn place(&self, rig: &Rig, pose: &mut LanePose, positions: &mut [LaneVec]) {
+        pose.place(rig);
         let (joints, tips) = positions.split_at_mut(self.joints);
-        body.place(pose, joints);
+        joints.copy_from_slice(&pose.translations);
         for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
-            *tip = joints[*joint] + body.rotations()[*joint] * *offset;
+            *tip = joints[*joint] + pose.rotations[*joint].rotate(LaneVec::splat(*offset));
         }
     }
 
     /// The squared distance of two poses, a weighted mean over the points.
-    pub(super) fn apart(&self, a: &[DVec3], b: &[DVec3]) -> f64 {
-        let squares = a.iter().zip(b).map(|(a, b)| a.distance_squared(*b));
-        squares.zip(&self.weights).map(|(square, weight)| weight * square).sum()
+    pub(super) fn apart(&self, a: &[LaneVec], b: &[LaneVec]) -> Lanes {
+        let mut sum = Lanes::ZERO;
+        for ((a, b), weight) in a.iter().zip(b).zip(&self.weights) {
+            let way = *a - *b;
+            sum = sum + way.dot(way) * Lanes::splat(*weight);
+        }
+        sum
     }
 }
 
@@ -87,20 +95,21 @@ mod tests {
     fn a_point_weighs_as_much_as_the_bone_that_leads_to_it() {
         let points = Points::of(&chain(&[3.0, 0.0], 1.0));
         assert_eq!(points.weights, [0.0, 0.75, 0.0, 0.25], "the root's offset is no bone");
-        let rest = [DVec3::ZERO; 4];
-        let moved = [DVec3::Y * 5.0, DVec3::Y * 2.0, DVec3::Y * 5.0, DVec3::Y * 4.0];
-        assert_eq!(points.apart(&rest, &moved), 0.75 * 4.0 + 0.25 * 16.0);
+        let rest = [LaneVec::default(); 4];
+        let moved = [5.0, 2.0, 5.0, 4.0].map(|way| LaneVec::splat(DVec3::Y * way));
+        assert_eq!(points.apart(&rest, &moved).0[1], 0.75 * 4.0 + 0.25 * 16.0);
     }
 
     #[test]
     fn a_joint_more_on_the_same_bone_changes_nothing_that_turns_with_it() {
         let apart = |skeleton: &Skeleton| {
             let points = Points::of(skeleton);
-            let (mut body, pose) = (Body::new(skeleton), Pose::rest(skeleton));
-            let mut positions = vec![DVec3::ZERO; points.len()];
-            points.place(&mut body, &pose, &mut positions);
-            let moved: Vec<DVec3> = positions.iter().map(|position| *position + DVec3::Y).collect();
-            points.apart(&positions, &moved)
+            let (rig, mut pose) = (Rig::of(skeleton), LanePose::rest(skeleton));
+            let mut positions = vec![LaneVec::default(); points.len()];
+            points.place(&rig, &mut pose, &mut positions);
+            let up = LaneVec::splat(DVec3::Y);
+            let moved: Vec<LaneVec> = positions.iter().map(|position| *position + up).collect();
+            points.apart(&positions, &moved).0[0]
         };
         assert_eq!(apart(&chain(&[4.0], 2.0)), 1.0);
         assert!((apart(&chain(&[1.0, 0.0, 3.0], 2.0)) - 1.0).abs() < 1e-15);
@@ -110,11 +119,13 @@ mod tests {
     fn a_tip_turns_with_its_joint() {
         let skeleton = chain(&[2.0], 1.0);
         let points = Points::of(&skeleton);
-        let mut pose = Pose::rest(&skeleton);
-        pose.rotations[1] = glam::DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
-        let mut positions = vec![DVec3::ZERO; points.len()];
-        points.place(&mut Body::new(&skeleton), &pose, &mut positions);
-        assert!(positions[2].abs_diff_eq(DVec3::new(11.0, 1.0, 0.0), 1e-12), "{}", positions[2]);
+        let mut pose = LanePose::rest(&skeleton);
+        let quarter = glam::DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        pose.rotations[1] = crate::motion::lanes::LaneQuat::splat(quarter);
+        let mut positions = vec![LaneVec::default(); points.len()];
+        points.place(&Rig::of(&skeleton), &mut pose, &mut positions);
+        let tip = positions[2].lane(0);
+        assert!(tip.abs_diff_eq(DVec3::new(11.0, 1.0, 0.0), 1e-12), "{tip}");
     }
 
     #[test]

@@ -1,11 +1,15 @@
 //! The source koma after koma: what keys and rests are judged against.
 
+use std::array;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use crate::keys::points::Points;
-use crate::motion::{Body, Clip, Pose};
+use crate::motion::Clip;
+use crate::motion::lanes::{LANES, LaneVec, Lanes};
+use crate::motion::rig::Rig;
+use crate::motion::sampler::LanePose;
 use crate::time::{Clock, Frame};
 
 /// The source at each koma, computed once: what a reconstruction is measured against.
@@ -14,8 +18,8 @@ pub struct Reference {
     clock: Clock,
     koma: usize,
     points: Points,
-    /// Koma × points.
-    positions: Vec<DVec3>,
+    /// Blocks of [`LANES`] koma × points; behind the last koma the last again.
+    positions: Vec<LaneVec>,
     /// Height of the body in the file's unit: see [`Reference::of`].
     height: f64,
 }
@@ -29,18 +33,20 @@ impl Reference {
     pub fn of(clip: &Clip, clock: Clock) -> Self {
         let points = Points::of(clip.skeleton());
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-        let mut positions = vec![DVec3::ZERO; koma * points.len()];
-        let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
-        let mut sides = Vec::with_capacity(koma);
-        for (at, row) in positions.chunks_exact_mut(points.len().max(1)).enumerate() {
-            pose.take_place(clip, clock.place_from_koma(at));
-            points.place(&mut body, &pose, row);
-            sides.push(longest_side(row));
+        let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
+        let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
+        let mut sides = Vec::with_capacity(koma + LANES);
+        for (block, row) in positions.chunks_exact_mut(points.len().max(1)).enumerate() {
+            let place = |lane: usize| clock.place_from_koma((LANES * block + lane).min(koma - 1));
+            pose.take_places(clip, &rig, array::from_fn(place));
+            points.place(&rig, &mut pose, row);
+            sides.extend(longest_sides(row).0);
         }
+        sides.truncate(koma);
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
         // A body of one point has no height; what it moves through stands for it.
-        let height = if median > 0.0 { median } else { longest_side(&positions) };
+        let height = if median > 0.0 { median } else { whole_side(&positions) };
         Self { clock, koma, points, positions, height }
     }
 
@@ -59,10 +65,10 @@ impl Reference {
         &self.points
     }
 
-    /// Where every point stands at a koma.
-    pub(super) fn positions(&self, koma: usize) -> &[DVec3] {
+    /// Where every point stands at the [`LANES`] koma of a block.
+    pub(super) fn positions(&self, block: usize) -> &[LaneVec] {
         let points = self.points.len();
-        &self.positions[koma * points..(koma + 1) * points]
+        &self.positions[block * points..(block + 1) * points]
     }
 
     /// The body's height in the file's unit: see [`Reference::of`].
@@ -73,13 +79,24 @@ impl Reference {
     /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
     /// square over its points.
     pub(super) fn speeds(&self) -> Vec<f64> {
-        if self.points.len() == 0 || self.height <= 0.0 {
+        if self.koma == 0 || self.points.len() == 0 || self.height <= 0.0 {
             return Vec::new();
         }
         let percent = 100.0 * self.clock.koma_rate / self.height;
-        let rows: Vec<&[DVec3]> = self.positions.chunks_exact(self.points.len()).collect();
-        let speed = |pair: &[&[DVec3]]| percent * self.points.apart(pair[0], pair[1]).sqrt();
-        rows.windows(2).map(speed).collect()
+        let mut before: Vec<LaneVec> = self.positions(0).to_vec();
+        let mut speeds = Vec::with_capacity(self.koma + LANES);
+        for now in self.positions.chunks_exact(self.points.len()) {
+            // One koma back: the last of the block before, then all but the last of this one.
+            for (before, now) in before.iter_mut().zip(now) {
+                *before = now.shifted(before.lane(LANES - 1));
+            }
+            speeds.extend(self.points.apart(&before, now).0.map(|apart| percent * apart.sqrt()));
+            before.copy_from_slice(now);
+        }
+        speeds.truncate(self.koma);
+        // There is no step into the first koma.
+        speeds.drain(..1.min(self.koma));
+        speeds
     }
 
     /// The koma whose place lies strictly between two frames.
@@ -92,9 +109,25 @@ impl Reference {
     }
 }
 
-/// The longest side of the box round some points.
-fn longest_side(points: &[DVec3]) -> f64 {
-    let low = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
-    let high = points.iter().copied().reduce(DVec3::max).unwrap_or_default();
+/// The longest side of the box round some points, of each lane by itself.
+fn longest_sides(points: &[LaneVec]) -> Lanes {
+    let (low, high) = corners(points);
+    let sides = high - low;
+    sides.x.max(sides.y).max(sides.z)
+}
+
+/// The longest side of the box round the points of all lanes.
+fn whole_side(points: &[LaneVec]) -> f64 {
+    let (low, high) = corners(points);
+    let lanes = 0..LANES;
+    let low = lanes.clone().map(|lane| low.lane(lane)).reduce(DVec3::min).unwrap_or_default();
+    let high = lanes.map(|lane| high.lane(lane)).reduce(DVec3::max).unwrap_or_default();
     (high - low).max_element()
+}
+
+fn corners(points: &[LaneVec]) -> (LaneVec, LaneVec) {
+    let corner = |of: fn(Lanes, Lanes) -> Lanes| {
+        points.iter().copied().reduce(|a, b| a.with(b, of)).unwrap_or_default()
+    };
+    (corner(Lanes::min), corner(Lanes::max))
 }

@@ -27,6 +27,7 @@ impl Poll<'_> {
         let mut votes = vec![0.0; self.frames];
         let mut all_weight = 0.0;
         let mut rows = Vec::new();
+        let kernel = self.kernel();
         for (turns, weight) in turns.iter().zip(self.weights) {
             rows.clear();
             rows.extend(
@@ -35,7 +36,7 @@ impl Poll<'_> {
             if !turns.is_empty() {
                 all_weight += weight;
             }
-            self.speak(&rows, *weight, &mut votes);
+            self.speak(&rows, *weight, &kernel, &mut votes);
         }
         if all_weight > 0.0 {
             votes.iter_mut().for_each(|vote| *vote /= all_weight);
@@ -43,19 +44,28 @@ impl Poll<'_> {
         votes
     }
 
-    /// Adds one joint's votes; `rows` are its turns in order.
-    fn speak(&self, rows: &[usize], weight: f64, votes: &mut [f64]) {
-        let mut from = 0;
+    /// What a turn says at each distance, from 0 on.
+    fn kernel(&self) -> Vec<f64> {
         let carries = (self.reach.ceil() as usize).min(self.frames);
+        let says = |distance: usize| (1.0 - distance as f64 / self.reach).max(0.0);
+        std::iter::once(1.0).chain((1..=carries).map(says)).collect()
+    }
+
+    /// Adds one joint's votes; `rows` are its turns in order.
+    fn speak(&self, rows: &[usize], weight: f64, kernel: &[f64], votes: &mut [f64]) {
+        let mut from = 0;
+        let carries = kernel.len() - 1;
         for (turn, &row) in rows.iter().enumerate() {
             // Frames up to half way to the next turn are nearest to this one.
             let past = rows.get(turn + 1).map_or(self.frames, |next| (row + next) / 2 + 1);
             let begin = from.max(row.saturating_sub(carries));
             let end = past.min(row + carries + 1).min(self.frames);
-            for (at, vote) in votes.iter_mut().enumerate().take(end).skip(begin) {
-                let kernel =
-                    if at == row { 1.0 } else { 1.0 - at.abs_diff(row) as f64 / self.reach };
-                *vote += weight * kernel.max(0.0);
+            let (before, after) = votes[begin..end].split_at_mut(row - begin);
+            for (vote, says) in before.iter_mut().rev().zip(&kernel[1..]) {
+                *vote += weight * says;
+            }
+            for (vote, says) in after.iter_mut().zip(kernel) {
+                *vote += weight * says;
             }
             from = past;
         }
@@ -75,15 +85,12 @@ impl Poll<'_> {
         kind: TurnKind,
         votes: &[f64],
     ) -> Vec<(Frame, f64)> {
-        let mut rows: Vec<usize> = turns
-            .iter()
-            .flatten()
-            .filter(|turn| turn.kind == kind)
-            .map(|turn| self.row(turn.frame))
-            .collect();
-        rows.sort_unstable();
-        rows.dedup();
-        let found = rows.into_iter().map(|row| (row, votes[row])).collect();
+        let mut named = vec![false; self.frames];
+        for turn in turns.iter().flatten().filter(|turn| turn.kind == kind) {
+            named[self.row(turn.frame)] = true;
+        }
+        let rows = (0..self.frames).filter(|row| named[*row]);
+        let found = rows.map(|row| (row, votes[row])).collect();
         self.frames_of(strongest_apart(found, self.apart))
     }
 

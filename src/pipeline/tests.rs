@@ -118,6 +118,23 @@ fn knobs_that_stay_changed_and_corrections_that_come_and_go_give_what_a_fresh_en
 }
 
 #[test]
+fn an_engine_that_forgot_what_it_could_runs_on_as_before() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let (mut recipe, edits) = (Recipe::default(), Edits::default());
+    let sheet = |breakdown: Breakdown<'_>| (breakdown.keys.clone(), breakdown.sheet.clone());
+    let first = sheet(engine.run(&recipe, &edits).unwrap());
+    assert_eq!(sheet(engine.run_once(&recipe, &edits).unwrap()), first);
+    assert_eq!(sheet(engine.run(&recipe, &edits).unwrap()), first);
+    recipe.set("keys.min_price", "9").unwrap();
+    engine.run_once(&recipe, &edits).unwrap();
+    let mut fresh = Engine::new(pitch()).unwrap();
+    assert_eq!(
+        sheet(engine.run(&recipe, &edits).unwrap()),
+        sheet(fresh.run(&recipe, &edits).unwrap())
+    );
+}
+
+#[test]
 fn keys_alone_do_not_make_the_sheet_old() {
     let clip = pitch();
     let mut engine = Engine::new(clip.clone()).unwrap();

@@ -72,9 +72,29 @@ pub(super) fn paint(
     drop(canvas);
     // The viewBox keeps the units; the size is the one in px.
     let of_size = |(width, height): (u32, u32)| format!("width=\"{width}\" height=\"{height}\"");
-    let svg = svg.replacen(&of_size(units), &of_size((width, height)), 1);
+    let size = of_size(units);
+    if let Some(at) = svg.find(&size) {
+        svg.replace_range(at..at + size.len(), &of_size((width, height)));
+    }
     // Opaque is what a stroke is anyhow. Quotes in words are escaped, so no word can hold this.
-    Ok(svg.replace(" opacity=\"1\"", ""))
+    Ok(without(svg, " opacity=\"1\""))
+}
+
+/// A text with every occurrence of a word taken out, in its own memory: pictures of long clips are
+/// large.
+fn without(text: String, word: &str) -> String {
+    let mut bytes = text.into_bytes();
+    let (mut read, mut kept) = (0, 0);
+    while read < bytes.len() {
+        if bytes[read..].starts_with(word.as_bytes()) {
+            read += word.len();
+        } else {
+            bytes[kept] = bytes[read];
+            (read, kept) = (read + 1, kept + 1);
+        }
+    }
+    bytes.truncate(kept);
+    String::from_utf8(bytes).expect("whole words were taken out of a text")
 }
 
 impl Canvas<'_> {

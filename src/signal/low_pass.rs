@@ -1,5 +1,7 @@
-//! Smoothing of speeds, zero-phase, over all joints in the frequency domain [KT11 §3.2].
+//! Smoothing of speeds, zero-phase, over all joints [KT11 §3.2]: `box` as a running sum, the others in
+//! the frequency domain.
 
+mod moving;
 mod response;
 mod spectrum;
 
@@ -9,6 +11,7 @@ use crate::error::Error;
 use crate::signal::Signals;
 use crate::time::{FrameRate, Span};
 
+use moving::Window;
 pub use spectrum::Spectrum;
 
 /// The kinds of low-pass filter. The paper names none.
@@ -65,9 +68,17 @@ impl LowPass {
     pub fn apply(&self, spectrum: &Spectrum) -> Signals {
         let frames = spectrum.frames();
         match self.filtering_width(spectrum.rate()) {
-            Some(width) if frames > 1 => spectrum.times(&self.kind.response(width, frames)),
+            Some(width) if frames > 1 => match self.window(width, frames) {
+                Some(window) => window.means(spectrum.unfiltered()),
+                None => spectrum.times(&self.kind.response(width, frames)),
+            },
             _ => spectrum.unfiltered().clone(),
         }
+    }
+
+    /// The window of a moving average that is narrower than the clip.
+    fn window(&self, width: f64, frames: usize) -> Option<Window> {
+        (self.kind == FilterKind::Box).then(|| Window::within(width, frames))?
     }
 
     /// How much of a steady stretch the filter eats at each of its ends, in frames: W/2 for `box`, W/3

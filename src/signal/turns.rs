@@ -151,6 +151,11 @@ impl TurnFinder {
     }
 }
 
+/// The largest size of a value, 0 for none.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| if value.abs() > most { value.abs() } else { most })
+}
+
 /// One joint after another, with the buffers they share. Rows count from 0 here.
 struct Scan<'a> {
     finder: &'a TurnFinder,
@@ -177,12 +182,12 @@ impl<'a> Scan<'a> {
             finder,
             fps: filtered.rate.fps(),
             for_people: filtered.unit.for_people(),
-            floor: DUST * filtered.values.amax(),
+            floor: DUST * largest(filtered.values.as_slice()),
             delay: (delay.round().max(0.0) as usize).min(frames),
             first: filtered.first,
             frames,
             signs: Vec::with_capacity(frames),
-            persistence: Persistence::new(frames),
+            persistence: Persistence::new(),
             sizes: Vec::with_capacity(frames),
         }
     }

@@ -231,13 +231,13 @@ impl Interval {
         walls: &[Wall],
         clock: Clock,
     ) -> Self {
-        let between = |wall: &&Wall| {
-            let frame = wall.frame.0 as f64;
-            frame > from.place && frame < to.place
-        };
+        let begin = walls.partition_point(|wall| wall.frame.0 as f64 <= from.place);
+        let before_next = |wall: &&Wall| (wall.frame.0 as f64) < to.place;
         // `reduce` with a strict comparison keeps the earlier of two equals.
-        let wall =
-            walls.iter().filter(between).reduce(|a, b| if b.strength > a.strength { b } else { a });
+        let wall = walls[begin..]
+            .iter()
+            .take_while(before_next)
+            .reduce(|a, b| if b.strength > a.strength { b } else { a });
         let weight = |station: &Station<'_>| {
             station.key.and_then(|key| key.weight).unwrap_or(spacing.weight)
         };

@@ -1,12 +1,17 @@
 //! Where every joint stands in each drawing, computed once, and how far apart two drawings are.
 
+use std::array;
+
 use glam::DVec3;
 
-use crate::motion::{Body, Clip, Pose};
+use crate::motion::Clip;
+use crate::motion::lanes::{LANES, LaneVec, Lanes};
+use crate::motion::rig::Rig;
+use crate::motion::sampler::LanePose;
 use crate::sheet::{Layer, Source};
 
 /// Sums kept side by side, so that a distance is computed several coordinates at a time.
-const LANES: usize = 8;
+const WIDE: usize = 8;
 
 /// The world positions of a layer's drawings (静止画), in the file's unit: what the omission stages
 /// measure movement by, over the whole body.
@@ -14,8 +19,8 @@ const LANES: usize = 8;
 pub struct Stills {
     joints: usize,
     drawings: usize,
-    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole lanes.
-    coordinates: Vec<[f64; LANES]>,
+    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows of [`WIDE`].
+    coordinates: Vec<[f64; WIDE]>,
 }
 
 impl Stills {
@@ -33,8 +38,12 @@ impl Stills {
         let mut stills = Self::new(clip.skeleton().len());
         stills.coordinates.reserve_exact(stills.width() * layer.drawings.len());
         let mut sampler = Sampler::new(clip);
-        for drawing in &layer.drawings {
-            stills.push(sampler.positions(drawing.source));
+        for drawings in layer.drawings.chunks(LANES) {
+            let last = drawings.len() - 1;
+            let placed = sampler.place(array::from_fn(|lane| drawings[lane.min(last)].source));
+            for lane in 0..drawings.len() {
+                stills.add(placed.iter().map(|position| position.lane(lane)));
+            }
         }
         stills
     }
@@ -45,8 +54,12 @@ impl Stills {
     /// Unless there is one position a joint.
     pub fn push(&mut self, positions: &[DVec3]) {
         assert_eq!(positions.len(), self.joints, "a drawing has one position a joint");
+        self.add(positions.iter().copied());
+    }
+
+    fn add(&mut self, positions: impl Iterator<Item = DVec3>) {
         let begin = self.coordinates.len();
-        self.coordinates.resize(begin + self.width(), [0.0; LANES]);
+        self.coordinates.resize(begin + self.width(), [0.0; WIDE]);
         let row = self.coordinates[begin..].as_flattened_mut();
         for (xyz, position) in row.chunks_exact_mut(3).zip(positions) {
             xyz.copy_from_slice(&position.to_array());
@@ -70,9 +83,9 @@ impl Stills {
     /// # Panics
     /// When there is no such drawing.
     pub fn ssd(&self, a: usize, b: usize) -> f64 {
-        let mut sums = [0.0; LANES];
+        let mut sums = [0.0; WIDE];
         for (a, b) in self.row(a).iter().zip(self.row(b)) {
-            for lane in 0..LANES {
+            for lane in 0..WIDE {
                 let apart = a[lane] - b[lane];
                 sums[lane] += apart * apart;
             }
@@ -90,57 +103,47 @@ impl Stills {
     }
 
     fn width(&self) -> usize {
-        (3 * self.joints).div_ceil(LANES)
+        (3 * self.joints).div_ceil(WIDE)
     }
 
-    fn row(&self, drawing: usize) -> &[[f64; LANES]] {
+    fn row(&self, drawing: usize) -> &[[f64; WIDE]] {
         let width = self.width();
         &self.coordinates[drawing * width..(drawing + 1) * width]
     }
 }
 
-/// Buffers that turn sources into world positions, one after the other.
+/// Buffers that turn sources into world positions, several at a time.
 struct Sampler<'a> {
     clip: &'a Clip,
-    pose: Pose,
-    keys: [(f64, Pose); 2],
-    body: Body,
-    positions: Vec<DVec3>,
+    rig: Rig,
+    pose: LanePose,
+    from: LanePose,
+    to: LanePose,
 }
 
 impl<'a> Sampler<'a> {
     fn new(clip: &'a Clip) -> Self {
-        let skeleton = clip.skeleton();
-        let rest = Pose::rest(skeleton);
-        Self {
-            clip,
-            // No place is NaN: the first blend fills both.
-            keys: [(f64::NAN, rest.clone()), (f64::NAN, rest.clone())],
-            pose: rest,
-            body: Body::new(skeleton),
-            positions: vec![DVec3::ZERO; skeleton.len()],
-        }
+        let rest = LanePose::rest(clip.skeleton());
+        let rig = Rig::of(clip.skeleton());
+        Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
     }
 
-    fn positions(&mut self, source: Source) -> &[DVec3] {
-        match source {
-            Source::At(place) => self.pose.take_place(self.clip, place),
-            Source::Between { from, to, share } => self.take_blend(from, to, share),
+    fn place(&mut self, sources: [Source; LANES]) -> &[LaneVec] {
+        let Self { clip, rig, pose, from, to } = self;
+        if sources.iter().all(|source| matches!(source, Source::At(_))) {
+            pose.take_places(clip, rig, sources.map(Source::place));
+        } else {
+            // What is no blend is one of a pose with itself.
+            let blends = sources.map(|source| match source {
+                Source::At(place) => (place, place, 0.0),
+                Source::Between { from, to, share } => (from, to, share),
+            });
+            from.take_places(clip, rig, blends.map(|blend| blend.0));
+            to.take_places(clip, rig, blends.map(|blend| blend.1));
+            pose.take_blends(from, to, Lanes(blends.map(|blend| blend.2)));
         }
-        self.body.place(&self.pose, &mut self.positions);
-        &self.positions
-    }
-
-    /// All blends of an interval have the same two keys, so their poses are kept.
-    fn take_blend(&mut self, from: f64, to: f64, share: f64) {
-        for ((held, pose), key) in self.keys.iter_mut().zip([from, to]) {
-            if *held != key {
-                pose.take_place(self.clip, key);
-                *held = key;
-            }
-        }
-        let [(_, from), (_, to)] = &self.keys;
-        self.pose.take_blend(from, to, share);
+        pose.place(rig);
+        &pose.translations
     }
 }
 

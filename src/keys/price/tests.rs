@@ -1,5 +1,5 @@
 use super::*;
-use crate::motion::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
+use crate::motion::{Axis, Body, Channel, EndSite, Joint, JointId, Pose, Skeleton};
 use crate::time::FrameRate;
 
 /// An arm of one bone that swings about Z, given by its angle in degrees at each frame of 24 fps.
@@ -49,7 +49,8 @@ fn the_bridge_equals_a_slerp_a_koma() {
     let clip = swing(&(0..40).map(|at| 40.0 * (at as f64 * 0.4).sin()).collect::<Vec<_>>());
     let clip = clip.with_rate(FrameRate::new(50.0).unwrap());
     let reference = Reference::of(&clip, clip.clock(24.0));
-    let fast = Bridge::new(&clip, &reference).error(Frame(3), Frame(36));
+    let ends = entries(&[3, 36], 36);
+    let fast = Bridge::new(&clip, &reference, &ends).error(0, 1);
     let (mut from, mut to) = (Pose::rest(clip.skeleton()), Pose::rest(clip.skeleton()));
     from.take_frame(&clip, Frame(3));
     to.take_frame(&clip, Frame(36));
@@ -84,8 +85,7 @@ fn slowly(
 ) -> Vec<Frame> {
     let mut kept = entries.to_vec();
     loop {
-        let price =
-            |at: usize| Bridge::new(clip, reference).error(kept[at - 1].frame, kept[at + 1].frame);
+        let price = |at: usize| Bridge::new(clip, reference, &kept).error(at - 1, at + 1);
         let cheapest = (1..kept.len() - 1)
             .filter(|at| !kept[*at].stays)
             .map(|at| (price(at), at))
@@ -122,7 +122,7 @@ fn the_ranked_list_equals_pricing_everything_anew_each_round() {
 fn nothing_between_two_frames_costs_nothing() {
     let clip = swing(&[0.0, 10.0, 0.0]);
     let reference = Reference::of(&clip, clip.clock(24.0));
-    assert_eq!(Bridge::new(&clip, &reference).error(Frame(0), Frame(1)), 0.0);
+    assert_eq!(Bridge::new(&clip, &reference, &entries(&[0, 1], 2)).error(0, 1), 0.0);
     let still = swing(&[0.0; 9]);
     let reference = Reference::of(&still, still.clock(24.0));
     assert_eq!(

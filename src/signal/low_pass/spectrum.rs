@@ -4,7 +4,7 @@
 //! odd ones backwards, then a turn by k quarter steps (Makhoul 1980).
 
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 use realfft::num_complex::Complex;
@@ -13,48 +13,45 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use crate::signal::Signals;
 use crate::time::FrameRate;
 
-/// Spectrum (周波数成分) of signals: made once, then any number of filters are products with it.
+/// Spectrum (周波数成分) of signals: made when the first filter asks for it, then any number of filters
+/// are products with it.
 #[derive(Clone)]
 pub struct Spectrum {
-    /// Σ x[n] cos(πk(2n + 1)/2N), k × joints.
-    cosines: DMatrix<f64>,
     signals: Signals,
+    cosines: OnceLock<Cosines>,
+}
+
+#[derive(Clone)]
+struct Cosines {
+    /// Σ x[n] cos(πk(2n + 1)/2N), k × joints.
+    values: DMatrix<f64>,
     /// exp(iπk/2N), k = 0 … N/2.
     quarter_steps: Vec<Complex<f64>>,
-    back: Option<Arc<dyn ComplexToReal<f64>>>,
+    back: Arc<dyn ComplexToReal<f64>>,
 }
 
 impl std::fmt::Debug for Spectrum {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (frames, joints) = self.cosines.shape();
+        let (frames, joints) = self.signals.values.shape();
         write!(f, "Spectrum({frames} frames × {joints} joints)")
+    }
+}
+
+impl From<Signals> for Spectrum {
+    fn from(signals: Signals) -> Self {
+        Self { signals, cosines: OnceLock::new() }
     }
 }
 
 impl Spectrum {
     /// The spectrum of every joint.
     pub fn of(signals: &Signals) -> Self {
-        let frames = signals.frames();
-        let mut spectrum = Self {
-            cosines: DMatrix::zeros(frames, signals.joints()),
-            signals: signals.clone(),
-            quarter_steps: (0..=frames / 2)
-                .map(|k| Complex::cis(PI * k as f64 / (2 * frames.max(1)) as f64))
-                .collect(),
-            back: None,
-        };
-        // No transform of length 0 or 1 is needed: such clips are never filtered.
-        if frames > 1 {
-            let mut planner = RealFftPlanner::new();
-            spectrum.back = Some(planner.plan_fft_inverse(frames));
-            spectrum.fill(planner.plan_fft_forward(frames).as_ref());
-        }
-        spectrum
+        signals.clone().into()
     }
 
     /// Number of frames.
     pub fn frames(&self) -> usize {
-        self.cosines.nrows()
+        self.signals.frames()
     }
 
     /// Frames a second.
@@ -67,13 +64,35 @@ impl Spectrum {
         &self.signals
     }
 
-    fn fill(&mut self, forth: &dyn RealToComplex<f64>) {
-        let frames = self.frames();
+    /// The signals whose k-th cosine is `gains[k]` times as large; of at least one frame.
+    pub(super) fn times(&self, gains: &[f64]) -> Signals {
+        let cosines = self.cosines.get_or_init(|| Cosines::of(&self.signals));
+        Signals { values: cosines.times(gains), ..self.signals }
+    }
+}
+
+impl Cosines {
+    fn of(signals: &Signals) -> Self {
+        let frames = signals.frames();
+        let mut planner = RealFftPlanner::new();
+        let mut cosines = Self {
+            values: DMatrix::zeros(frames, signals.joints()),
+            quarter_steps: (0..=frames / 2)
+                .map(|k| Complex::cis(PI * k as f64 / (2 * frames) as f64))
+                .collect(),
+            back: planner.plan_fft_inverse(frames),
+        };
+        cosines.fill(signals, planner.plan_fft_forward(frames).as_ref());
+        cosines
+    }
+
+    fn fill(&mut self, signals: &Signals, forth: &dyn RealToComplex<f64>) {
+        let frames = signals.frames();
         let mut shuffled = forth.make_input_vec();
         let mut waves = forth.make_output_vec();
         let mut scratch = forth.make_scratch_vec();
-        let joints = self.signals.values.as_slice().chunks_exact(frames);
-        for (joint, cosines) in joints.zip(self.cosines.as_mut_slice().chunks_exact_mut(frames)) {
+        let joints = signals.values.as_slice().chunks_exact(frames);
+        for (joint, cosines) in joints.zip(self.values.as_mut_slice().chunks_exact_mut(frames)) {
             for (n, value) in joint.iter().enumerate() {
                 shuffled[shuffled_place(n, frames)] = *value;
             }
@@ -90,16 +109,15 @@ impl Spectrum {
         }
     }
 
-    /// The signals whose k-th cosine is `gains[k]` times as large.
-    pub(super) fn times(&self, gains: &[f64]) -> Signals {
-        let frames = self.frames();
-        let Some(back) = &self.back else { return self.signals.clone() };
-        let mut values = DMatrix::zeros(frames, self.signals.joints());
+    fn times(&self, gains: &[f64]) -> DMatrix<f64> {
+        let (frames, joints) = self.values.shape();
+        let back = &self.back;
+        let mut values = DMatrix::zeros(frames, joints);
         let mut waves = back.make_input_vec();
         let mut shuffled = back.make_output_vec();
         let mut scratch = back.make_scratch_vec();
         let gains: Vec<f64> = gains.iter().map(|gain| gain / frames as f64).collect();
-        let joints = self.cosines.as_slice().chunks_exact(frames);
+        let joints = self.values.as_slice().chunks_exact(frames);
         for (cosines, joint) in joints.zip(values.as_mut_slice().chunks_exact_mut(frames)) {
             self.waves_from_cosines(cosines, &gains, &mut waves);
             back.process_with_scratch(&mut waves, &mut shuffled, &mut scratch)
@@ -108,7 +126,7 @@ impl Spectrum {
                 *value = shuffled[shuffled_place(n, frames)];
             }
         }
-        Signals { values, ..self.signals }
+        values
     }
 
     fn waves_from_cosines(&self, cosines: &[f64], gains: &[f64], waves: &mut [Complex<f64>]) {

@@ -148,6 +148,22 @@ fn every_filter_equals_its_slow_way_at_every_length_and_width() {
 }
 
 #[test]
+fn a_running_sum_equals_the_spectrum_on_a_long_clip_and_does_not_drift() {
+    let mut values = noise(5000);
+    values[4000..].fill(0.0);
+    let spectrum = Spectrum::of(&column(&values));
+    for width in [1.5, 12.0, 100.4, 2047.0, 4998.0, 9990.0] {
+        let summed = Window::within(width, 5000).unwrap().means(spectrum.unfiltered());
+        let by_waves = spectrum.times(&Box.response(width, 5000));
+        let apart = (&summed.values - &by_waves.values).amax();
+        assert!(apart < 1e-9 * by_waves.values.amax(), "{width}: {apart}");
+    }
+    assert!(Window::within(12.0, 7).is_some() && Window::within(13.0, 7).is_none());
+    let still = filter(Box, 12.0, &values)[4200..].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    assert!(still < 1e-8, "what stands still stays so but for rounding: {still}");
+}
+
+#[test]
 fn a_window_of_20_has_half_weight_on_its_outer_taps_and_one_of_21_is_even() {
     let mut values = [0.0; 41];
     values[20] = 1.0;

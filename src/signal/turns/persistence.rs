@@ -2,91 +2,188 @@
 
 use super::{Side, TurnKind};
 
-/// Four counts a row: how many frames after it, and before it, are all faster (which confirms a key)
-/// or all slower (a wall), by more than the floor.
+/// How many entries of one line are summed up by one of the line above.
+const SPAN: usize = 16;
+
+/// How many frames after a row, and before it, are all faster (which confirms a key) or all slower (a
+/// wall), by more than the floor. Asked of few rows, so it is looked up and not counted for all.
 pub(super) struct Persistence {
-    after: [Vec<usize>; 2],
-    before: [Vec<usize>; 2],
-    stack: Vec<usize>,
+    valleys: Minima,
+    /// Of the speeds below zero: there a wall is a key.
+    hills: Minima,
+    floor: f64,
+    /// With `rising` the counts after a row, for both kinds.
+    rising: [Vec<usize>; 2],
+    side: Side,
 }
 
 impl Persistence {
-    pub(super) fn new(frames: usize) -> Self {
-        let counts = || vec![0; frames];
+    pub(super) fn new() -> Self {
         Self {
-            after: [counts(), counts()],
-            before: [counts(), counts()],
-            stack: Vec::with_capacity(frames),
+            valleys: Minima::default(),
+            hills: Minima::default(),
+            floor: 0.0,
+            rising: [Vec::new(), Vec::new()],
+            side: Side::After,
         }
     }
 
-    /// Counts anew for another joint. With `rising` each frame after must be faster than the one
-    /// before it; the frames before are counted for `both` alone.
+    /// Takes on another joint. With `rising` each frame after must be faster than the one before it.
     pub(super) fn read(&mut self, speeds: &[f64], floor: f64, side: Side) {
-        for kind in [TurnKind::Key, TurnKind::Wall] {
-            let gain = |from: usize, to: usize| match kind {
-                TurnKind::Key => speeds[to] - speeds[from],
-                TurnKind::Wall => speeds[from] - speeds[to],
-            };
-            let after = &mut self.after[kind as usize];
-            if side == Side::Rising {
-                count_rising(gain, floor, after);
-            } else {
-                count_faster(gain, floor, &mut self.stack, after);
-            }
-            if side == Side::Both {
-                let last = speeds.len() - 1;
-                let before = &mut self.before[kind as usize];
-                count_faster(
-                    |from, to| gain(last - from, last - to),
-                    floor,
-                    &mut self.stack,
-                    before,
-                );
-                before.reverse();
-            }
+        (self.floor, self.side) = (floor, side);
+        self.valleys.read(speeds.iter().copied());
+        self.hills.read(speeds.iter().map(|speed| -speed));
+        if side == Side::Rising {
+            let [keys, walls] = &mut self.rising;
+            count_rising(&self.valleys.lines[0], floor, keys);
+            count_rising(&self.hills.lines[0], floor, walls);
         }
     }
 
     /// How many frames after a row in a row confirm it as such a turn.
     pub(super) fn after(&self, kind: TurnKind, row: usize) -> usize {
-        self.after[kind as usize][row]
+        match self.side {
+            Side::Rising => self.rising[kind as usize][row],
+            Side::After | Side::Both => self.minima(kind).higher_after(row, self.floor),
+        }
     }
 
     /// How many frames before a row in a row confirm it as such a turn.
     pub(super) fn before(&self, kind: TurnKind, row: usize) -> usize {
-        self.before[kind as usize][row]
+        self.minima(kind).higher_before(row, self.floor)
+    }
+
+    fn minima(&self, kind: TurnKind) -> &Minima {
+        match kind {
+            TurnKind::Key => &self.valleys,
+            TurnKind::Wall => &self.hills,
+        }
     }
 }
 
-/// Of each row, the number of rows after it up to the first that does not gain more than `floor` on
-/// it, or up to the end.
-///
-/// The stack holds the rows ahead that are lower than all rows between: the next one that does not
-/// gain is always one of them. A row that does gain on this one is higher than it and so leaves the
-/// stack for good, which keeps the whole search linear.
-fn count_faster(
-    gain: impl Fn(usize, usize) -> f64,
-    floor: f64,
-    stack: &mut Vec<usize>,
-    counts: &mut [usize],
-) {
-    stack.clear();
-    for row in (0..counts.len()).rev() {
-        while stack.pop_if(|ahead| gain(row, *ahead) > floor).is_some() {}
-        let next = stack.last().copied().unwrap_or(counts.len());
-        counts[row] = next - row - 1;
-        while stack.pop_if(|ahead| gain(row, *ahead) >= 0.0).is_some() {}
-        stack.push(row);
+/// Values, and above them lines of the least of each [`SPAN`] entries of the line below: a search for
+/// the next low value passes over what is high by whole spans of spans.
+#[derive(Default)]
+struct Minima {
+    lines: Vec<Vec<f64>>,
+}
+
+impl Minima {
+    fn read(&mut self, values: impl Iterator<Item = f64>) {
+        if self.lines.is_empty() {
+            self.lines.push(Vec::new());
+        }
+        self.lines[0].clear();
+        self.lines[0].extend(values);
+        let mut level = 0;
+        while self.lines[level].len() > SPAN {
+            if self.lines.len() == level + 1 {
+                self.lines.push(Vec::new());
+            }
+            let (below, above) = self.lines.split_at_mut(level + 1);
+            above[0].clear();
+            above[0].extend(below[level].chunks(SPAN).map(least));
+            level += 1;
+        }
     }
+
+    /// The number of rows after one up to the first that is not higher by more than `floor`.
+    fn higher_after(&self, row: usize, floor: f64) -> usize {
+        let bottom = self.lines[0][row];
+        let is_low = |value: f64| value - bottom <= floor;
+        let (mut level, mut at) = (0, row + 1);
+        let mut low = loop {
+            let line = &self.lines[level];
+            let end = line.len().min(at.next_multiple_of(SPAN));
+            if let Some(low) = (at..end).find(|at| is_low(line[*at])) {
+                break low;
+            }
+            if end == line.len() {
+                return self.lines[0].len() - row - 1;
+            }
+            (level, at) = (level + 1, end / SPAN);
+        };
+        for line in self.lines[..level].iter().rev() {
+            let span = low * SPAN..line.len().min((low + 1) * SPAN);
+            low = span.clone().find(|at| is_low(line[*at])).unwrap_or(span.end);
+        }
+        low - row - 1
+    }
+
+    /// The number of rows before one down to the first that is not higher by more than `floor`.
+    fn higher_before(&self, row: usize, floor: f64) -> usize {
+        let bottom = self.lines[0][row];
+        let is_low = |value: f64| value - bottom <= floor;
+        let (mut level, mut past) = (0, row);
+        let mut low = loop {
+            let line = &self.lines[level];
+            let begin = past / SPAN * SPAN;
+            if let Some(low) = (begin..past).rfind(|at| is_low(line[*at])) {
+                break low;
+            }
+            if begin == 0 {
+                return row;
+            }
+            (level, past) = (level + 1, begin / SPAN);
+        };
+        for line in self.lines[..level].iter().rev() {
+            let span = low * SPAN..line.len().min((low + 1) * SPAN);
+            low = span.clone().rfind(|at| is_low(line[*at])).unwrap_or(span.start);
+        }
+        row - low - 1
+    }
+}
+
+/// The least of some values, four side by side: one after the other each would wait for the last.
+fn least(values: &[f64]) -> f64 {
+    let lesser = |a: f64, b: f64| if b < a { b } else { a };
+    let (fours, rest) = values.as_chunks::<4>();
+    let mut low = [f64::INFINITY; 4];
+    for four in fours {
+        low = std::array::from_fn(|lane| lesser(low[lane], four[lane]));
+    }
+    low.iter().chain(rest).copied().fold(f64::INFINITY, lesser)
 }
 
 /// Of each row, the number of steps from it that each gain more than `floor`.
-fn count_rising(gain: impl Fn(usize, usize) -> f64, floor: f64, counts: &mut [usize]) {
+fn count_rising(values: &[f64], floor: f64, counts: &mut Vec<usize>) {
+    counts.clear();
+    counts.resize(values.len(), 0);
     let mut rising = 0;
-    for row in (0..counts.len()).rev() {
-        let goes_on = row + 1 < counts.len() && gain(row, row + 1) > floor;
-        rising = if goes_on { rising + 1 } else { 0 };
+    for row in (0..values.len().saturating_sub(1)).rev() {
+        rising = if values[row + 1] - values[row] > floor { rising + 1 } else { 0 };
         counts[row] = rising;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn spans_find_what_counting_frame_by_frame_finds(
+            speeds in prop_oneof![
+                prop::collection::vec((0u8..6).prop_map(f64::from), 1..600),
+                prop::collection::vec(0.0..9.0, 1..600),
+                (1usize..600).prop_map(|n| (0..n).map(|at| at as f64).collect()),
+            ],
+            floor in prop_oneof![Just(0.0), Just(1.0), 0.0..3.0],
+        ) {
+            let mut persistence = Persistence::new();
+            persistence.read(&[5.0; 700], 0.0, Side::Both);
+            persistence.read(&speeds, floor, Side::Both);
+            for (kind, sign) in [(TurnKind::Key, 1.0), (TurnKind::Wall, -1.0)] {
+                for row in 0..speeds.len() {
+                    let higher = |at: &usize| sign * speeds[*at] - sign * speeds[row] > floor;
+                    let after = (row + 1..speeds.len()).take_while(higher).count();
+                    let before = (0..row).rev().take_while(higher).count();
+                    prop_assert_eq!(persistence.after(kind, row), after);
+                    prop_assert_eq!(persistence.before(kind, row), before);
+                }
+            }
+        }
     }
 }

@@ -1,0 +1,315 @@
+//! Quaternions and vectors, one a lane.
+
+use std::ops::{Add, Mul, Sub};
+
+use glam::{DQuat, DVec3};
+
+use super::Lanes;
+use crate::motion::Axis;
+
+/// A vector a lane.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct LaneVec {
+    pub(crate) x: Lanes,
+    pub(crate) y: Lanes,
+    pub(crate) z: Lanes,
+}
+
+impl LaneVec {
+    #[inline(always)]
+    pub(crate) fn splat(vec: DVec3) -> Self {
+        Self { x: Lanes::splat(vec.x), y: Lanes::splat(vec.y), z: Lanes::splat(vec.z) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> DVec3 {
+        DVec3::new(self.x.0[lane], self.y.0[lane], self.z.0[lane])
+    }
+
+    #[inline(always)]
+    pub(crate) fn axis_mut(&mut self, axis: Axis) -> &mut Lanes {
+        match axis {
+            Axis::X => &mut self.x,
+            Axis::Y => &mut self.y,
+            Axis::Z => &mut self.z,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn with(self, other: Self, of: impl Fn(Lanes, Lanes) -> Lanes) -> Self {
+        Self { x: of(self.x, other.x), y: of(self.y, other.y), z: of(self.z, other.z) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Self) -> Lanes {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline(always)]
+    fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    /// `share` of the way from one to the other, and not even a digit off where both are the same.
+    #[inline(always)]
+    pub(crate) fn lerp(self, to: Self, share: Lanes) -> Self {
+        self + (to - self) * share
+    }
+
+    /// Each lane takes what the one before it holds, the first takes `first`.
+    #[inline(always)]
+    pub(crate) fn shifted(self, first: DVec3) -> Self {
+        Self { x: self.x.shifted(first.x), y: self.y.shifted(first.y), z: self.z.shifted(first.z) }
+    }
+}
+
+impl Add for LaneVec {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.with(other, |a, b| a + b)
+    }
+}
+
+impl Sub for LaneVec {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.with(other, |a, b| a - b)
+    }
+}
+
+impl Mul<Lanes> for LaneVec {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, by: Lanes) -> Self {
+        Self { x: self.x * by, y: self.y * by, z: self.z * by }
+    }
+}
+
+/// A quaternion a lane: vector part `v`, scalar part `w`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LaneQuat {
+    pub(crate) v: LaneVec,
+    pub(crate) w: Lanes,
+}
+
+impl Default for LaneQuat {
+    /// No rotation.
+    fn default() -> Self {
+        Self { v: LaneVec::default(), w: Lanes::ONE }
+    }
+}
+
+impl LaneQuat {
+    #[inline(always)]
+    pub(crate) fn splat(q: DQuat) -> Self {
+        Self { v: LaneVec::splat(q.xyz()), w: Lanes::splat(q.w) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> DQuat {
+        let v = self.v.lane(lane);
+        DQuat::from_xyzw(v.x, v.y, v.z, self.w.0[lane])
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_lane(&mut self, lane: usize, q: DQuat) {
+        self.v.x.0[lane] = q.x;
+        self.v.y.0[lane] = q.y;
+        self.v.z.0[lane] = q.z;
+        self.w.0[lane] = q.w;
+    }
+
+    /// The rotation about an axis by the angle whose half has that sine and cosine.
+    #[inline(always)]
+    pub(crate) fn about(axis: Axis, (sin, cos): (Lanes, Lanes)) -> Self {
+        let mut quat = Self { v: LaneVec::default(), w: cos };
+        *quat.v.axis_mut(axis) = sin;
+        quat
+    }
+
+    /// This rotation times one about an axis: half the products of a whole multiplication.
+    #[inline(always)]
+    pub(crate) fn turned(self, axis: Axis, (sin, cos): (Lanes, Lanes)) -> Self {
+        let Self { v: LaneVec { x, y, z }, w } = self;
+        let (x_cos, y_cos, z_cos, w_cos) = (x * cos, y * cos, z * cos, w * cos);
+        let (x_sin, y_sin, z_sin, w_sin) = (x * sin, y * sin, z * sin, w * sin);
+        let (x, y, z, w) = match axis {
+            Axis::X => (x_cos + w_sin, y_cos + z_sin, z_cos - y_sin, w_cos - x_sin),
+            Axis::Y => (x_cos - z_sin, y_cos + w_sin, z_cos + x_sin, w_cos - y_sin),
+            Axis::Z => (x_cos + y_sin, y_cos - x_sin, z_cos + w_sin, w_cos - z_sin),
+        };
+        Self { v: LaneVec { x, y, z }, w }
+    }
+
+    /// The rotation from this one to `to`; between equals exactly none.
+    #[inline(always)]
+    pub(crate) fn way_to(self, to: Self) -> Self {
+        Self {
+            v: to.v * self.w - self.v * to.w - self.v.cross(to.v),
+            w: self.v.dot(to.v) + self.w * to.w,
+        }
+    }
+
+    /// The same rotation written so that it is at most half a turn.
+    #[inline(always)]
+    pub(crate) fn short(self) -> Self {
+        let sign = self.w.map(|w| 1f64.copysign(w));
+        Self { v: self.v * sign, w: self.w * sign }
+    }
+
+    /// Half the angle of the rotation in radians, 0 to π/2, the same for q and −q. The arc cosine of
+    /// the scalar part would lose half the digits of a small angle, which is where holds are decided.
+    #[inline(always)]
+    pub(crate) fn half_angle(self) -> Lanes {
+        self.v.dot(self.v).sqrt().atan_over(self.w.abs())
+    }
+
+    /// `share` of the short way to `to` (slerp); between equals there is no way.
+    #[inline(always)]
+    pub(crate) fn slerp(self, to: Self, share: Lanes) -> Self {
+        let Arc { across, degrees } = Arc::between(self, to);
+        let (sin, cos) = (degrees * share).half_sin_cos();
+        self.scaled(cos) + across.scaled(sin)
+    }
+
+    #[inline(always)]
+    pub(crate) fn scaled(self, by: Lanes) -> Self {
+        Self { v: self.v * by, w: self.w * by }
+    }
+
+    /// A vector turned by this rotation.
+    #[inline(always)]
+    pub(crate) fn rotate(self, vec: LaneVec) -> LaneVec {
+        let twice = self.v.cross(vec) * Lanes::splat(2.0);
+        vec + twice * self.w + self.v.cross(twice)
+    }
+
+    /// Each lane takes what the one before it holds, the first takes `first`.
+    #[inline(always)]
+    pub(crate) fn shifted(self, first: DQuat) -> Self {
+        Self { v: self.v.shifted(first.xyz()), w: self.w.shifted(first.w) }
+    }
+}
+
+impl Add for LaneQuat {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { v: self.v + other.v, w: self.w + other.w }
+    }
+}
+
+impl Mul for LaneQuat {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self {
+            v: other.v * self.w + self.v * other.w + self.v.cross(other.v),
+            w: self.w * other.w - self.v.dot(other.v),
+        }
+    }
+}
+
+/// The short way from one rotation to another: `from · cos + across · sin` of half the angle gone.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Arc {
+    /// A quarter turn of the four-dimensional circle further on; 0 where there is no way to go.
+    pub(crate) across: LaneQuat,
+    /// The whole way in degrees, 0 to 180.
+    pub(crate) degrees: Lanes,
+}
+
+impl Arc {
+    #[inline(always)]
+    pub(crate) fn between(from: LaneQuat, to: LaneQuat) -> Self {
+        let way = from.way_to(to).short();
+        let sin = way.v.dot(way.v).sqrt();
+        let per_sin = sin.map(|sin| if sin > 0.0 { 1.0 / sin } else { 0.0 });
+        let axis = LaneQuat { v: way.v * per_sin, w: Lanes::ZERO };
+        let degrees = sin.atan_over(way.w) * Lanes::splat(360.0 / std::f64::consts::PI);
+        Self { across: from * axis, degrees }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn unit() -> impl Strategy<Value = DQuat> {
+        prop::array::uniform3(-400.0..400.0f64).prop_map(|[z, x, y]| {
+            DQuat::from_rotation_z(z.to_radians())
+                * DQuat::from_rotation_x(x.to_radians())
+                * DQuat::from_rotation_y(y.to_radians())
+        })
+    }
+
+    fn vector() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-10.0..10.0).prop_map(DVec3::from_array)
+    }
+
+    proptest! {
+        #[test]
+        fn lanes_multiply_turn_and_rotate_as_single_ones_do(
+            a in unit(), b in unit(), vec in vector(), degrees in -400.0..400.0, lane in 0..super::super::LANES,
+        ) {
+            let (wide_a, wide_b) = (LaneQuat::splat(a), LaneQuat::splat(b));
+            let near = |found: LaneQuat, expected: DQuat| found.lane(lane).abs_diff_eq(expected, 1e-14);
+            prop_assert!(near(wide_a * wide_b, a * b));
+            prop_assert!(near(wide_a.way_to(wide_b), a.conjugate() * b));
+            let rotated = wide_a.rotate(LaneVec::splat(vec)).lane(lane);
+            prop_assert!(rotated.abs_diff_eq(a * vec, 1e-13));
+            let half = Lanes::splat(degrees).half_sin_cos();
+            for (axis, unit) in [(Axis::X, DVec3::X), (Axis::Y, DVec3::Y), (Axis::Z, DVec3::Z)] {
+                let about = DQuat::from_axis_angle(unit, f64::to_radians(degrees));
+                prop_assert!(near(LaneQuat::about(axis, half), about));
+                prop_assert!(near(wide_a.turned(axis, half), a * about));
+            }
+        }
+
+        #[test]
+        fn a_slerp_goes_evenly_on_the_short_way(a in unit(), b in unit(), share in 0.0..1.0) {
+            let found = LaneQuat::splat(a).slerp(LaneQuat::splat(b), Lanes::splat(share)).lane(1);
+            let expected = a.slerp(b, share);
+            // glam measures the way by an arc cosine, which knows half the digits of a small angle.
+            prop_assert!(found.dot(expected).abs() > 1.0 - 1e-13, "{found} {expected}");
+            let same = LaneQuat::splat(a).slerp(LaneQuat::splat(a), Lanes::splat(share)).lane(0);
+            prop_assert_eq!(same, a, "between equals nothing moves");
+        }
+    }
+
+    #[test]
+    fn a_slerp_of_a_tiny_way_is_exact() {
+        let (a, b) = (DQuat::from_rotation_z(0.3), DQuat::from_rotation_z(0.3 + 1e-7));
+        let found = LaneQuat::splat(a).slerp(LaneQuat::splat(b), Lanes::splat(0.25)).lane(0);
+        let expected = DQuat::from_rotation_z(0.3 + 0.25e-7);
+        assert!(found.abs_diff_eq(expected, 2e-16), "{found} {expected}");
+    }
+
+    #[test]
+    fn each_lane_goes_its_own_way() {
+        let (mut from, mut to) = (LaneQuat::default(), LaneQuat::default());
+        from.set_lane(1, DQuat::from_rotation_x(0.5));
+        to.set_lane(1, -DQuat::from_rotation_x(1.5));
+        let found = from.slerp(to, Lanes([0.5, 0.5]));
+        assert_eq!(found.lane(0), DQuat::IDENTITY);
+        assert!(found.lane(1).abs_diff_eq(DQuat::from_rotation_x(1.0), 1e-15));
+        let shifted = to.shifted(DQuat::from_rotation_z(1.0));
+        assert_eq!(shifted.lane(0), DQuat::from_rotation_z(1.0));
+        assert_eq!(shifted.lane(1), to.lane(0));
+        let turned = to.way_to(from).half_angle();
+        assert!(turned.0[0] == 0.0 && (turned.0[1] - 0.5).abs() < 1e-15);
+    }
+}

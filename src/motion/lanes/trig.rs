@@ -1,0 +1,218 @@
+//! Sines, cosines and arc tangents of all lanes at once, without a branch a lane.
+
+use std::f64::consts::PI;
+
+use super::{LANES, Lanes};
+
+/// Added to a number below 2⁵¹ it rounds it to a whole one, which then stands in the lowest bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// Degrees beyond which whole turns are taken off first: below, 180 · k is exact.
+const FAR: f64 = 1e15;
+
+/// The coefficients of fdlibm (Sun, 1993) for |x| ≤ π/4: (sin x − x)/x³ and (cos x − 1 + x²/2)/x⁴ in
+/// powers of x², both within 2⁻⁵⁸ of x and 1.
+#[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+const SINE: [f64; 6] = [
+    -1.66666666666666324348e-01,
+    8.33333333332248946124e-03,
+    -1.98412698298579493134e-04,
+    2.75573137070700676789e-06,
+    -2.50507602534068634195e-08,
+    1.58969099521155010221e-10,
+];
+#[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+const COSINE: [f64; 6] = [
+    4.16666666666666019037e-02,
+    -1.38888888888741095749e-03,
+    2.48015872894767294178e-05,
+    -2.75573143513906633035e-07,
+    2.08757232129817482790e-09,
+    -1.13596475577881948265e-11,
+];
+
+/// The same for the arc tangent, (x − atan x)/x³ in powers of x², for |x| ≤ 7/16.
+#[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+const ARC_TANGENT: [f64; 11] = [
+    3.33333333333329318027e-01,
+    -1.99999999998764832476e-01,
+    1.42857142725034663711e-01,
+    -1.11111104054623557880e-01,
+    9.09088713343650656196e-02,
+    -7.69187620504482999495e-02,
+    6.66107313738753120669e-02,
+    -5.83357013379057348645e-02,
+    4.97687799461593236017e-02,
+    -3.65315727442169155270e-02,
+    1.62858201153657823623e-02,
+];
+
+/// The largest ratio that the polynomial takes.
+const STEEP: f64 = 7.0 / 16.0;
+
+impl Lanes {
+    /// Sine and cosine of *half* of each angle in degrees, which is what quaternions are made of.
+    ///
+    /// Half turns come off in degrees, where they are whole numbers: what is left is exact, at any
+    /// angle, and only then becomes radians. Sine and cosine are within 2⁻⁵² of the true ones.
+    #[inline(always)]
+    pub(crate) fn half_sin_cos(self) -> (Self, Self) {
+        let near = self.0.iter().fold(true, |near, degrees| near & (degrees.abs() < FAR));
+        let degrees = if near { self } else { self.without_whole_turns() };
+        let rounded = degrees * Self::splat(1.0 / 180.0) + Self::splat(ROUNDER);
+        let half_turns = rounded - Self::splat(ROUNDER);
+        let rest = degrees - half_turns * Self::splat(180.0);
+        let (sin, cos) = near_sin_cos(rest * Self::splat(PI / 360.0));
+        let bits: [u64; LANES] = std::array::from_fn(|lane| rounded.0[lane].to_bits());
+        // Quarter after quarter: sin, cos, −sin, −cos; the cosine is a quarter ahead.
+        let pick = |lane: usize, even: f64, odd: f64, quarter: u64| {
+            let swap = (bits[lane] & 1).wrapping_neg();
+            let picked = (even.to_bits() & !swap) | (odd.to_bits() & swap);
+            f64::from_bits(picked ^ ((quarter & 2) << 62))
+        };
+        (
+            Self::from_fn(|lane| pick(lane, sin.0[lane], cos.0[lane], bits[lane])),
+            Self::from_fn(|lane| pick(lane, cos.0[lane], sin.0[lane], bits[lane].wrapping_add(1))),
+        )
+    }
+
+    #[cold]
+    fn without_whole_turns(self) -> Self {
+        self.map(|degrees| degrees % 720.0)
+    }
+
+    #[cold]
+    fn steep_atan_over(self, along: Self) -> Self {
+        self.with(along, f64::atan2)
+    }
+
+    /// The angle in radians, 0 to π/2, at which `self` is the rise and `along` the run, both at least
+    /// 0: `atan2` to within two units in the last place.
+    #[inline(always)]
+    pub(crate) fn atan_over(self, along: Self) -> Self {
+        let ratio = self.with(along, |rise, run| rise / run);
+        // Steep angles are rare from frame to frame; a ratio of nothing to nothing is not below either.
+        if !ratio.0.iter().fold(true, |flat, ratio| flat & (*ratio <= STEEP)) {
+            return self.steep_atan_over(along);
+        }
+        let square = ratio * ratio;
+        ratio - ratio * square * polynomial(&ARC_TANGENT, square)
+    }
+}
+
+/// Sine and cosine for |x| ≤ π/4.
+#[inline(always)]
+fn near_sin_cos(x: Lanes) -> (Lanes, Lanes) {
+    let square = x * x;
+    let sin = x + x * square * polynomial(&SINE, square);
+    let half = square * Lanes::splat(0.5);
+    let bulk = Lanes::ONE - half;
+    // What rounding took from 1 − x²/2 goes back in with the small terms.
+    let lost = (Lanes::ONE - bulk) - half;
+    let cos = bulk + (lost + square * square * polynomial(&COSINE, square));
+    (sin, cos)
+}
+
+/// Horner's rule, the constant first.
+#[inline(always)]
+fn polynomial<const TERMS: usize>(coefficients: &[f64; TERMS], x: Lanes) -> Lanes {
+    let mut sum = Lanes::splat(coefficients[TERMS - 1]);
+    for coefficient in coefficients[..TERMS - 1].iter().rev() {
+        sum = sum * x + Lanes::splat(*coefficient);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// One lane at a time by the standard library, half turns taken off exactly.
+    fn slow(degrees: f64) -> (f64, f64) {
+        let degrees = degrees % 720.0;
+        let half_turns = (degrees / 180.0).round();
+        let (sin, cos) = (0.5 * (degrees - 180.0 * half_turns)).to_radians().sin_cos();
+        match half_turns.rem_euclid(4.0) as u8 {
+            0 => (sin, cos),
+            1 => (cos, -sin),
+            2 => (-sin, -cos),
+            _ => (-cos, sin),
+        }
+    }
+
+    fn close(found: (f64, f64), expected: (f64, f64)) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= f64::EPSILON.min(3.0 * f64::EPSILON * b.abs());
+        near(found.0, expected.0) && near(found.1, expected.1)
+    }
+
+    fn lane(degrees: f64, lane: usize) -> (f64, f64) {
+        let mut lanes = [1e9, 33.0];
+        lanes[lane] = degrees;
+        let (sin, cos) = Lanes(lanes).half_sin_cos();
+        (sin.0[lane], cos.0[lane])
+    }
+
+    #[test]
+    fn whole_quarters_are_exact() {
+        for (degrees, expected) in [
+            (0.0, (0.0, 1.0)),
+            (180.0, (1.0, 0.0)),
+            (-180.0, (-1.0, 0.0)),
+            (360.0, (0.0, -1.0)),
+            (540.0, (-1.0, 0.0)),
+            (720.0, (0.0, 1.0)),
+            (-720.0 * 1e9, (0.0, 1.0)),
+        ] {
+            assert_eq!(lane(degrees, 1), expected, "{degrees}");
+        }
+    }
+
+    #[test]
+    fn an_angle_of_any_size_has_its_sine() {
+        for degrees in [1e12 + 0.25, -1e14 - 0.5, 1e15 + 45.0, 3e17, -1e300, f64::MAX] {
+            let (sin, cos) = lane(degrees, 1);
+            assert!(close((sin, cos), slow(degrees)), "{degrees}: {sin} {cos}");
+        }
+    }
+
+    #[test]
+    fn a_tiny_angle_keeps_its_digits() {
+        for degrees in [1e-3, 1e-9, 1e-100, -1e-300] {
+            assert!(close(lane(degrees, 0), slow(degrees)), "{degrees}");
+            let angle = Lanes::splat(degrees.abs()).atan_over(Lanes::ONE);
+            assert_eq!(angle.0[1], degrees.abs().atan2(1.0));
+        }
+    }
+
+    #[test]
+    fn no_rise_is_no_angle_and_no_run_a_quarter_turn() {
+        assert_eq!(Lanes::ZERO.atan_over(Lanes::ONE), Lanes::ZERO);
+        assert_eq!(Lanes::ZERO.atan_over(Lanes::ZERO), Lanes::ZERO);
+        assert_eq!(Lanes::ONE.atan_over(Lanes::ZERO).0[0], PI / 2.0);
+    }
+
+    proptest! {
+        #[test]
+        fn half_sines_are_those_of_the_standard_library(
+            degrees in prop_oneof![-800.0..800.0, -1.0..1.0, -1e6..1e6, (-9i32..9).prop_map(|k| f64::from(k) * 45.0)],
+            at in 0..LANES,
+        ) {
+            let (found, expected) = (lane(degrees, at), slow(degrees));
+            prop_assert!(close(found, expected), "{degrees}: {found:?} for {expected:?}");
+        }
+
+        #[test]
+        fn arc_tangents_are_those_of_the_standard_library(
+            rises in prop::array::uniform2(prop_oneof![0.0..1.0, 0.0..1e-6, 0.0..0.5]),
+            runs in prop::array::uniform2(prop_oneof![0.0..1.0, Just(1.0)]),
+        ) {
+            let found = Lanes(rises).atan_over(Lanes(runs));
+            for (lane, found) in found.0.iter().enumerate() {
+                let expected = rises[lane].atan2(runs[lane]);
+                prop_assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected, "{found}");
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! A skeleton read for work on several poses at once: which columns of a row turn and move what.
+
+use std::array;
+
+use glam::DVec3;
+
+use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
+use crate::motion::{Axis, Channel, Skeleton};
+
+/// One row of channel values a lane.
+pub(crate) type Rows<'a> = [&'a [f64]; LANES];
+
+/// The columns of each joint, looked up once instead of at every value.
+#[derive(Debug, Clone)]
+pub(crate) struct Rig {
+    joints: Vec<RigJoint>,
+}
+
+#[derive(Debug, Clone)]
+struct RigJoint {
+    parent: Option<usize>,
+    offset: DVec3,
+    /// Axis and column of each rotation, in the order they are multiplied.
+    turns: Vec<(Axis, usize)>,
+    /// Axis and column of each position.
+    moves: Vec<(Axis, usize)>,
+}
+
+impl Rig {
+    pub(crate) fn of(skeleton: &Skeleton) -> Self {
+        let joint = |(_, joint): (_, &crate::motion::Joint)| {
+            let (mut turns, mut moves) = (Vec::new(), Vec::new());
+            for (column, channel) in (joint.first_channel..).zip(&joint.channels) {
+                match *channel {
+                    Channel::Rotation(axis) => turns.push((axis, column)),
+                    Channel::Position(axis) => moves.push((axis, column)),
+                }
+            }
+            let parent = joint.parent.map(|parent| parent.0);
+            RigJoint { parent, offset: joint.offset, turns, moves }
+        };
+        Self { joints: skeleton.iter().map(joint).collect() }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// The rotation of a joint against its parent: [`local_rotation`](super::local_rotation) of each row.
+    #[inline(always)]
+    pub(crate) fn rotation(&self, joint: usize, rows: &Rows<'_>) -> LaneQuat {
+        let mut turns = self.joints[joint].turns.iter();
+        let half = |column: usize| gather(rows, column).half_sin_cos();
+        let Some(&(axis, column)) = turns.next() else { return LaneQuat::default() };
+        let first = LaneQuat::about(axis, half(column));
+        turns.fold(first, |rotation, &(axis, column)| rotation.turned(axis, half(column)))
+    }
+
+    /// Where a joint stands against its parent: [`local_translation`](super::local_translation) of each
+    /// row.
+    #[inline(always)]
+    pub(crate) fn translation(&self, joint: usize, rows: &Rows<'_>) -> LaneVec {
+        let RigJoint { offset, moves, .. } = &self.joints[joint];
+        let mut translation = LaneVec::splat(*offset);
+        for &(axis, column) in moves {
+            *translation.axis_mut(axis) = gather(rows, column);
+        }
+        translation
+    }
+
+    /// Turns local poses into world ones in place: rotations into world rotations, translations into
+    /// positions.
+    pub(crate) fn place(&self, rotations: &mut [LaneQuat], translations: &mut [LaneVec]) {
+        for (joint, RigJoint { parent, .. }) in self.joints.iter().enumerate() {
+            if let Some(parent) = *parent {
+                let carrier = rotations[parent];
+                translations[joint] = translations[parent] + carrier.rotate(translations[joint]);
+                rotations[joint] = carrier * rotations[joint];
+            }
+        }
+    }
+
+    /// Joints that have a position of their own in the file.
+    pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
+        let moves = |(_, joint): &(usize, &RigJoint)| !joint.moves.is_empty();
+        self.joints.iter().enumerate().filter(moves).map(|(joint, _)| joint)
+    }
+
+    /// The offset of a joint at rest.
+    pub(crate) fn offset(&self, joint: usize) -> DVec3 {
+        self.joints[joint].offset
+    }
+}
+
+#[inline(always)]
+fn gather(rows: &Rows<'_>, column: usize) -> Lanes {
+    Lanes(array::from_fn(|lane| rows[lane][column]))
+}

@@ -1,0 +1,162 @@
+//! Several instants of a clip at once: local poses, their blends, and where every joint stands.
+//!
+//! What [`Pose`](super::Pose) and [`Body`](super::Body) do for one instant.
+
+use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
+use crate::motion::rig::{Rig, Rows};
+use crate::motion::{Clip, Skeleton};
+use crate::time::Frame;
+
+/// A local pose a lane: a rotation and a translation a joint, in joint order.
+#[derive(Debug, Clone)]
+pub(crate) struct LanePose {
+    pub(crate) rotations: Vec<LaneQuat>,
+    pub(crate) translations: Vec<LaneVec>,
+}
+
+impl LanePose {
+    /// A buffer for poses of a skeleton.
+    pub(crate) fn rest(skeleton: &Skeleton) -> Self {
+        let offsets = skeleton.joints.iter().map(|joint| LaneVec::splat(joint.offset));
+        Self {
+            rotations: vec![LaneQuat::default(); skeleton.len()],
+            translations: offsets.collect(),
+        }
+    }
+
+    /// Takes on the poses at some places, fractional frame numbers: slerp between the two neighbouring
+    /// frames. Places outside the clip give its first or last frame.
+    pub(crate) fn take_places(&mut self, clip: &Clip, rig: &Rig, places: [f64; LANES]) {
+        let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
+        let places = places.map(|place| place.clamp(first, last));
+        let row = |place: f64| clip.row(Frame(place as usize));
+        let before = places.map(|place| row(place.floor()));
+        let shares = Lanes(places).map(|place| place - place.floor());
+        if shares == Lanes::ZERO {
+            return self.take_rows(rig, &before);
+        }
+        let after = places.map(|place| row(place.ceil()));
+        for joint in 0..rig.len() {
+            let (from, to) = (rig.rotation(joint, &before), rig.rotation(joint, &after));
+            self.rotations[joint] = from.slerp(to, shares);
+            let (from, to) = (rig.translation(joint, &before), rig.translation(joint, &after));
+            self.translations[joint] = from.lerp(to, shares);
+        }
+    }
+
+    /// Takes on the poses of rows of the table.
+    pub(crate) fn take_rows(&mut self, rig: &Rig, rows: &Rows<'_>) {
+        for joint in 0..rig.len() {
+            self.rotations[joint] = rig.rotation(joint, rows);
+            self.translations[joint] = rig.translation(joint, rows);
+        }
+    }
+
+    /// Takes on the poses `shares` of the way from some poses to others: slerp of every joint.
+    pub(crate) fn take_blends(&mut self, from: &Self, to: &Self, shares: Lanes) {
+        for joint in 0..self.rotations.len() {
+            let (a, b) = (from.rotations[joint], to.rotations[joint]);
+            self.rotations[joint] = a.slerp(b, shares);
+            let (a, b) = (from.translations[joint], to.translations[joint]);
+            self.translations[joint] = a.lerp(b, shares);
+        }
+    }
+
+    /// Into the world: rotations become world rotations, translations positions.
+    pub(crate) fn place(&mut self, rig: &Rig) {
+        rig.place(&mut self.rotations, &mut self.translations);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::motion::{Axis, Body, Channel, Joint, JointId, Pose};
+    use crate::time::FrameRate;
+
+    /// A root that travels, an arm with every order of axes, a bone without channels, and columns that
+    /// do not stand in the order of joints.
+    fn clip(values: &[f64]) -> Clip {
+        let turn = |axis| Channel::Rotation(axis);
+        let joint = |parent: Option<usize>, channels: Vec<Channel>, first_channel| Joint {
+            name: "joint".into(),
+            parent: parent.map(JointId),
+            offset: DVec3::new(0.5, 2.0, -1.0),
+            channels,
+            first_channel,
+            end_sites: vec![],
+        };
+        let root = vec![
+            Channel::Position(Axis::Y),
+            turn(Axis::Z),
+            Channel::Position(Axis::X),
+            turn(Axis::Y),
+            turn(Axis::X),
+        ];
+        let joints = vec![
+            joint(None, root, 4),
+            joint(Some(0), vec![turn(Axis::Y), turn(Axis::Y), turn(Axis::Z)], 1),
+            joint(Some(1), vec![], 9),
+            joint(Some(1), vec![turn(Axis::X)], 0),
+        ];
+        let skeleton = Skeleton { joints };
+        let frames = values.len() / skeleton.channels();
+        let values = values[..frames * skeleton.channels()].to_vec();
+        Clip::new(skeleton, FrameRate::new(24.0).unwrap(), Frame(3), frames, values).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn several_poses_are_what_each_is_alone(
+            values in prop::collection::vec(-400.0..400.0, 9..45),
+            places in prop::array::uniform2(prop_oneof![0.0..9.0, (0u32..9).prop_map(f64::from)]),
+            share in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0],
+        ) {
+            let clip = clip(&values);
+            let (rig, skeleton) = (Rig::of(clip.skeleton()), clip.skeleton());
+            let mut wide = LanePose::rest(skeleton);
+            wide.take_places(&clip, &rig, places);
+            let other = wide.clone();
+            wide.take_places(&clip, &rig, [places[1], places[0]]);
+            let mut blend = LanePose::rest(skeleton);
+            blend.take_blends(&other, &wide, Lanes::splat(share));
+            blend.place(&rig);
+            wide.place(&rig);
+            let (mut from, mut to) = (Pose::rest(skeleton), Pose::rest(skeleton));
+            from.take_place(&clip, places[0]);
+            to.take_place(&clip, places[1]);
+            let mut mix = from.clone();
+            mix.take_blend(&from, &to, share);
+            let mut positions = vec![DVec3::ZERO; skeleton.len()];
+            let mut body = Body::new(skeleton);
+            for (pose, wide, lane) in [(&to, &wide, 0), (&from, &wide, 1), (&mix, &blend, 0)] {
+                body.place(pose, &mut positions);
+                for (joint, position) in positions.iter().enumerate() {
+                    let found = wide.translations[joint].lane(lane);
+                    // At half a turn apart either way round is a shortest one; nothing else may differ.
+                    let half_turn = pose == &mix
+                        && from.rotations.iter().zip(&to.rotations).any(|(a, b)| a.dot(*b).abs() < 1e-6);
+                    prop_assert!(half_turn || found.abs_diff_eq(*position, 1e-10), "{found} {position}");
+                    let turned = wide.rotations[joint].lane(lane).dot(body.rotations()[joint]);
+                    prop_assert!(half_turn || turned.abs() > 1.0 - 1e-12, "{turned}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn between_equal_frames_nothing_moves_by_even_the_last_digit() {
+        let row = [33.3, 0.1, -77.7, 12.0, 5.0, 179.0, -3.0, 361.0, 40.0];
+        let clip = clip(&[row, row].concat());
+        let rig = Rig::of(clip.skeleton());
+        let (mut frame, mut between) =
+            (LanePose::rest(clip.skeleton()), LanePose::rest(clip.skeleton()));
+        frame.take_places(&clip, &rig, [3.0, 4.0]);
+        between.take_places(&clip, &rig, [3.3, 3.9]);
+        assert_eq!(frame.rotations, between.rotations);
+        assert_eq!(frame.translations, between.translations);
+    }
+}
