@@ -16,7 +16,7 @@ const SAFE_DIGITS: usize = 19;
 const WINDOW: usize = 24;
 
 /// The number that `text` starts with and its length in bytes, when it is written as motion capture
-/// writes: up to four digits, a dot, some more, perhaps `e-06`, and then a blank. `None` says nothing.
+/// writes: up to four digits, a dot, some more, perhaps `e-06`, and then a space, a tab or LF. `None` says nothing.
 ///
 /// It only knows what it can do with one exact operation on a window of fixed size: no bounds to
 /// check, nothing to look up but a power. Four decimals, which most files have, are read at once.
@@ -64,7 +64,8 @@ fn short_size(window: &[u8; WINDOW]) -> Option<(f64, usize)> {
         places += (10 * digit(window[at + 2])? + digit(window[at + 3])?) as usize;
         at += 4;
     }
-    if !is_blank(window[at]) {
+    // Not CR: where it stands alone it ends a line, and who reads on must see it.
+    if !matches!(window[at], b' ' | b'\t' | b'\n') {
         return None;
     }
     // There are 15 digits at most, so both operands are exact and the one operation rounds once, as a
@@ -272,8 +273,10 @@ mod tests {
             ("1.5e+03 ", "no common exponent"),
             ("1.5e-7 ", "an exponent of one digit"),
             ("- 5 ", "a sign alone"),
+            ("1.5\r", "CR may be a line end of its own"),
         ] {
-            let after = if text.ends_with(' ') { "7".repeat(WINDOW) } else { String::new() };
+            let after =
+                if text.ends_with([' ', '\r']) { "7".repeat(WINDOW) } else { String::new() };
             assert_eq!(short(format!("{text}{after}").as_bytes()), None, "{why}");
         }
     }

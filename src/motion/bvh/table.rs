@@ -176,6 +176,8 @@ mod tests {
             "1 2 3-4\n",
             "1 2 0,5\n",
             "1 2 3}\n",
+            "1\r2 3\n",
+            "1 2\r3\n",
             "1 2 3\n\0",
         ] {
             assert_eq!(read(text.as_bytes(), 3, 2), None, "{text:?}");
