@@ -10,5 +10,37 @@ memory=$(awk '/^MemTotal/ { printf "%.0f GiB", $2 / 1048576 }' /proc/meminfo)
 printf '%s, %s cores, %s; %s; load %s.\n\n' "${processor:-unknown processor}" "$cores" "$memory" \
   "$(rustc --version)" "$(cut -d' ' -f1 /proc/loadavg)"
 
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if [ ! -x /usr/bin/time ]; then
+  apt-get update -qq && apt-get install -y -qq --no-install-recommends time >/dev/null
+fi
+
+# A long take: the rows of a clip again and again, about 100 MB.
+clip=../shared/data/bvh/cmu-01_06-playground-long.bvh
+[ -e "$clip" ] || clip=data/kick.bvh
+long=$work/long.bvh
+sed '1,/^Frame Time/d' "$clip" >"$work/rows"
+times=$((100000000 / $(wc -c <"$work/rows")))
+frames=$(($(grep -c . "$work/rows") * times))
+sed -n '1,/^Frame Time/p' "$clip" | sed -E "s/^Frames:.*/Frames: $frames/" >"$long"
+for _ in $(seq "$times"); do cat "$work/rows"; done >>"$long"
+
 printf '## Reading\n\n'
 cargo bench --locked --quiet --bench peers
+
+printf '\n## Two cores\n\n'
+cargo bench --locked --quiet --bench cores -- "$long"
+
+printf '\n## The chain\n\n'
+cargo bench --locked --quiet --bench chain
+
+printf '\n## A long take\n\n'
+cargo build --locked --quiet --release
+/usr/bin/time -v target/release/genga --quiet run "$long" --out "$work/out" 2>"$work/time"
+awk -v bytes="$(wc -c <"$long")" -v frames="$frames" '
+  /Elapsed/ { seconds = $NF } /Maximum resident/ { peak = 1024 * $NF }
+  END {
+    print "| take | file | wall (m:s) | peak memory | of the file |\n| --- | --- | --- | --- | --- |"
+    printf "| %d frames | %.0f MB | %s | %.0f MB | %.2f times |\n", frames, bytes / 1e6, seconds, peak / 1e6, peak / bytes
+  }' "$work/time"

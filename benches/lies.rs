@@ -13,6 +13,8 @@ use std::time::{Duration, Instant};
 
 use genga::motion::bvh;
 
+#[path = "common/cpu.rs"]
+mod cpu;
 #[path = "../tests/all/lying_files.rs"]
 mod lying_files;
 
@@ -38,9 +40,10 @@ fn one(lie: usize, size: usize) {
     let before = status("VmRSS:");
     // From here on the peak is counted anew.
     fs::write("/proc/self/clear_refs", "5").unwrap();
-    let (start, cpu) = (Instant::now(), cpu());
+    let begin = Instant::now();
+    let ran = cpu::nanos(begin);
     let read = bvh::read(black_box(&bytes));
-    let nanos = cpu_since(cpu).unwrap_or(start.elapsed().as_nanos() as u64);
+    let nanos = cpu::nanos(begin) - ran;
     let taken = status("VmHWM:").saturating_sub(before);
     let outcome = match &read {
         Ok(read) => {
@@ -109,16 +112,4 @@ fn status(name: &str) -> usize {
     let text = fs::read_to_string("/proc/self/status").unwrap();
     let line = text.lines().find_map(|line| line.strip_prefix(name)).unwrap();
     1024 * line.trim().trim_end_matches(" kB").parse::<usize>().unwrap()
-}
-
-/// Nanoseconds that this thread has run; none where the system does not say.
-fn cpu() -> Option<u64> {
-    // The system brings its account up to date when a thread yields, and otherwise a few times a second.
-    std::thread::yield_now();
-    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split(' ').next()?.parse().ok()
-}
-
-fn cpu_since(before: Option<u64>) -> Option<u64> {
-    Some(cpu()? - before?)
 }

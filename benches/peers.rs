@@ -14,6 +14,9 @@ use std::time::Instant;
 
 use genga::motion::{Clip, bvh};
 
+#[path = "common/cpu.rs"]
+mod cpu;
+
 const FILES: [&str; 6] = [
     "cmu-01_06-playground-long",
     "cmu-02_05-punch-strike",
@@ -157,23 +160,13 @@ impl Engine {
 
     /// Nanoseconds of one run.
     fn time(&self, input: &Input) -> f64 {
-        let (wall, before) = (Instant::now(), cpu());
+        let begin = Instant::now();
+        let before = cpu::nanos(begin);
         let made = black_box(self.run_on(input));
-        let nanos = match (before, cpu()) {
-            (Some(before), Some(after)) if after > before => (after - before) as f64,
-            _ => wall.elapsed().as_nanos() as f64,
-        };
+        let nanos = cpu::nanos(begin) - before;
         drop(made);
         nanos
     }
-}
-
-/// Nanoseconds that this thread has run; none where the system does not say.
-fn cpu() -> Option<u64> {
-    // The system brings its account up to date when a thread yields, and otherwise a few times a second.
-    std::thread::yield_now();
-    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split(' ').next()?.parse().ok()
 }
 
 fn input(path: PathBuf) -> Input {
