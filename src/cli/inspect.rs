@@ -65,7 +65,7 @@ fn rate(rate: FrameRate, written: f64) -> String {
         return text;
     }
     if written > 0.0 {
-        return format!("{text} (the file writes {written} s a frame: {by_file:.4} a second)");
+        return format!("{text} (the file writes {written} s a frame: {by_file:.5} a second)");
     }
     format!("{text} (the file writes {written} s a frame)")
 }

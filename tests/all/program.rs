@@ -311,7 +311,7 @@ fn inspect_says_what_rate_the_file_writes_when_it_is_another() {
         (
             ".0083333",
             "",
-            "120 frames a second (the file writes 0.0083333 s a frame: 120.0005 a second)",
+            "120 frames a second (the file writes 0.0083333 s a frame: 120.00048 a second)",
         ),
         ("0.1", "", "10 frames a second"),
         ("0", "--fps 25", "25 frames a second (the file writes 0 s a frame)"),
