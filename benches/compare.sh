@@ -29,7 +29,7 @@ for _ in $(seq "$times"); do cat "$work/rows"; done >>"$long"
 printf '## Reading\n\n'
 cargo bench --locked --quiet --bench peers
 
-printf '\n## Two cores\n\n'
+printf '\n## Several cores\n\n'
 cargo bench --locked --quiet --bench cores -- "$long"
 
 printf '\n## The chain\n\n'
