@@ -83,6 +83,19 @@ fn the_bridge_equals_a_slerp_a_koma() {
     assert!((fast - slow).abs() < 1e-9 * slow, "{fast} {slow}");
 }
 
+#[test]
+fn the_error_is_the_same_whichever_koma_was_looked_at_first() {
+    let clip = swing(&(0..40).map(|at| 40.0 * (at as f64 * 0.4).sin()).collect::<Vec<_>>());
+    let reference = Reference::of(&clip, clip.clock(24.0));
+    let list = entries(&(3..37).collect::<Vec<_>>(), 36);
+    let mut bridge = Bridge::new(&clip, &reference, &list);
+    let last = list.len() - 1;
+    let wholes: Vec<f64> = (0..=last).map(|at| whole_error(&mut bridge, 0, at, last)).collect();
+    assert!(wholes.iter().all(|whole| *whole == wholes[0]), "{wholes:?}");
+    let leasts = (0..=last).map(|at| bridge.least_error(0, at, last).0);
+    assert_eq!(leasts.fold(0.0, f64::max), wholes[0], "the worst koma is one of them");
+}
+
 /// The same from the words: each round prices every entry anew and takes the cheapest away.
 fn slowly(
     clip: &Clip,
