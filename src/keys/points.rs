@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::motion::lanes::{LaneVec, Lanes};
+use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
 use crate::motion::{Joint, Skeleton};
@@ -50,10 +50,15 @@ impl Points {
     /// Places poses in the world and writes where each of their points stands, in the file's unit.
     pub(super) fn place(&self, rig: &Rig, pose: &mut LanePose, positions: &mut [LaneVec]) {
         pose.place(rig);
+        positions[..self.joints].copy_from_slice(&pose.translations);
+        self.place_tips(&pose.rotations, positions);
+    }
+
+    /// Writes where the tips stand behind where the joints do, whose world rotations these are.
+    pub(super) fn place_tips(&self, rotations: &[LaneQuat], positions: &mut [LaneVec]) {
         let (joints, tips) = positions.split_at_mut(self.joints);
-        joints.copy_from_slice(&pose.translations);
         for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
-            *tip = joints[*joint] + pose.rotations[*joint].rotate(LaneVec::splat(*offset));
+            *tip = joints[*joint] + rotations[*joint].rotate(LaneVec::splat(*offset));
         }
     }
 

@@ -8,179 +8,16 @@
 //! a small drift that lasts. And it is the root mean square over the body, not the mean: a foot that
 //! misses its contact shows, though the rest be right.
 
-use std::array;
+mod bridge;
+mod stances;
+
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::ops::Range;
-
-use glam::DVec3;
 
 use crate::keys::Reference;
+use crate::keys::price::bridge::Bridge;
 use crate::motion::Clip;
-use crate::motion::lanes::{Arc, LANES, LaneQuat, LaneVec, Lanes};
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::time::Frame;
-
-/// The local pose of each entry, read once for all bridges that begin or end there.
-struct Stances {
-    /// Entries × groups of [`LANES`] joints.
-    rotations: Vec<LaneQuat>,
-    /// Entries × joints that have a position of their own.
-    translations: Vec<DVec3>,
-    groups: usize,
-    /// The joints that have a position of their own.
-    moving: Vec<usize>,
-}
-
-impl Stances {
-    fn of(clip: &Clip, rig: &Rig, entries: &[Entry]) -> Self {
-        let moving: Vec<usize> = rig.moving().collect();
-        let groups = rig.len().div_ceil(LANES);
-        let mut rotations = vec![LaneQuat::default(); entries.len() * groups];
-        let mut translations = Vec::with_capacity(entries.len() * moving.len());
-        let mut pose = LanePose::rest(clip.skeleton());
-        let into = rotations.chunks_mut((LANES * groups).max(1));
-        for (entries, rotations) in entries.chunks(LANES).zip(into) {
-            let entry = |lane: usize| entries[lane.min(entries.len() - 1)];
-            pose.take_rows(rig, &array::from_fn(|lane| clip.row(entry(lane).frame)));
-            for (lane, groups) in rotations.chunks_exact_mut(groups).enumerate() {
-                for (joint, rotation) in pose.rotations.iter().enumerate() {
-                    groups[joint / LANES].set_lane(joint % LANES, rotation.lane(lane));
-                }
-                translations
-                    .extend(moving.iter().map(|joint| pose.translations[*joint].lane(lane)));
-            }
-        }
-        Self { rotations, translations, groups, moving }
-    }
-
-    fn rotations(&self, entry: usize) -> &[LaneQuat] {
-        &self.rotations[entry * self.groups..(entry + 1) * self.groups]
-    }
-
-    fn translations(&self, entry: usize) -> &[DVec3] {
-        let moving = self.moving.len();
-        &self.translations[entry * moving..(entry + 1) * moving]
-    }
-}
-
-/// The error of slerping between two entries, with its buffers.
-struct Bridge<'a> {
-    reference: &'a Reference,
-    entries: &'a [Entry],
-    rig: Rig,
-    stances: Stances,
-    /// The way of each joint, [`LANES`] joints together.
-    arcs: Vec<Arc>,
-    pose: LanePose,
-    positions: Vec<LaneVec>,
-}
-
-impl<'a> Bridge<'a> {
-    fn new(clip: &'a Clip, reference: &'a Reference, entries: &'a [Entry]) -> Self {
-        let rig = Rig::of(clip.skeleton());
-        let stances = Stances::of(clip, &rig, entries);
-        Self {
-            reference,
-            entries,
-            arcs: vec![Arc::default(); stances.groups],
-            stances,
-            rig,
-            pose: LanePose::rest(clip.skeleton()),
-            positions: vec![LaneVec::default(); reference.points().len()],
-        }
-    }
-
-    /// The position error of the worst koma between two entries, root mean square over the body's
-    /// points, in % of body height.
-    fn error(&mut self, from: usize, to: usize) -> f64 {
-        let koma = self.koma(from, to);
-        self.error_at(from, to, koma.clone(), koma)
-    }
-
-    /// What the error is at least, and whether it is that: looked at round one koma alone. It is
-    /// largest where the movement turns, so the koma of the key left out says nearly all.
-    fn least_error(&mut self, from: usize, at: usize, to: usize) -> (f64, bool) {
-        let koma = self.koma(from, to);
-        if koma.is_empty() {
-            return (0.0, true);
-        }
-        let clock = self.reference.clock();
-        let nearest = clock.koma_from_place(self.entries[at].frame.0 as f64);
-        let block = nearest.clamp(koma.start, koma.end - 1) / LANES * LANES;
-        let near = koma.start.max(block)..koma.end.min(block + LANES);
-        let is_all = near == koma;
-        (self.error_at(from, to, koma, near), is_all)
-    }
-
-    fn koma(&self, from: usize, to: usize) -> Range<usize> {
-        if self.positions.is_empty() || self.reference.height() <= 0.0 {
-            return 0..0;
-        }
-        self.reference.koma_between(self.entries[from].frame, self.entries[to].frame)
-    }
-
-    /// The error at the worst of the `looked` among the koma between two entries.
-    fn error_at(
-        &mut self,
-        from: usize,
-        to: usize,
-        koma: Range<usize>,
-        looked: Range<usize>,
-    ) -> f64 {
-        if koma.is_empty() {
-            return 0.0;
-        }
-        let ends = self.stances.rotations(from).iter().zip(self.stances.rotations(to));
-        for (arc, (from, to)) in self.arcs.iter_mut().zip(ends) {
-            *arc = Arc::between(*from, *to);
-        }
-        let clock = self.reference.clock();
-        let [begin, end] = [from, to].map(|entry| self.entries[entry].frame.0 as f64);
-        let mut worst = 0.0;
-        for block in looked.start / LANES..looked.end.div_ceil(LANES) {
-            // Lanes outside the range show the nearest koma inside it: they change no maximum.
-            let koma = |lane: usize| (block * LANES + lane).clamp(koma.start, koma.end - 1);
-            let place = Lanes::from_fn(|lane| clock.place_from_koma(koma(lane)));
-            self.pose_at(from, to, place.map(|place| (place - begin) / (end - begin)));
-            let points = self.reference.points();
-            points.place(&self.rig, &mut self.pose, &mut self.positions);
-            let apart = points.apart(self.reference.positions(block), &self.positions);
-            for (lane, apart) in apart.0.into_iter().enumerate() {
-                if looked.contains(&(block * LANES + lane)) {
-                    worst = f64::max(worst, apart);
-                }
-            }
-        }
-        100.0 * worst.sqrt() / self.reference.height()
-    }
-
-    /// The local pose some shares of the way along.
-    fn pose_at(&mut self, from: usize, to: usize, shares: Lanes) {
-        let starts = self.stances.rotations(from);
-        for (joint, rotation) in self.pose.rotations.iter_mut().enumerate() {
-            let (group, lane) = (joint / LANES, joint % LANES);
-            let start = LaneQuat::splat(starts[group].lane(lane));
-            let Arc { across, degrees } = &self.arcs[group];
-            *rotation = if degrees.0[lane] == 0.0 {
-                start
-            } else {
-                let (sin, cos) = (Lanes::splat(degrees.0[lane]) * shares).half_sin_cos();
-                start.scaled(cos) + LaneQuat::splat(across.lane(lane)).scaled(sin)
-            };
-        }
-        // Placing the pose in the world has overwritten what never changes as well.
-        for (joint, translation) in self.pose.translations.iter_mut().enumerate() {
-            *translation = LaneVec::splat(self.rig.offset(joint));
-        }
-        let ends = self.stances.translations(from).iter().zip(self.stances.translations(to));
-        for (joint, (from, to)) in self.stances.moving.iter().zip(ends) {
-            let (from, to) = (LaneVec::splat(*from), LaneVec::splat(*to));
-            self.pose.translations[*joint] = from.lerp(to, shares);
-        }
-    }
-}
 
 /// A key that stands in the list to be priced.
 #[derive(Debug, Clone, Copy)]
@@ -273,7 +110,8 @@ impl<'a> RankedList<'a> {
     /// The whole price of an entry; none once it is gone.
     fn exact_price(&mut self, entry: usize) -> Option<f64> {
         if !self.exact[entry] && !self.price[entry].is_nan() {
-            self.price[entry] = self.bridge.error(self.before[entry], self.after[entry]);
+            let (before, after) = (self.before[entry], self.after[entry]);
+            self.price[entry] = self.bridge.error(before, entry, after, self.price[entry]);
             self.exact[entry] = true;
         }
         Some(self.price[entry]).filter(|price| !price.is_nan())

@@ -126,8 +126,8 @@ fn whole_side(points: &[LaneVec]) -> f64 {
 }
 
 fn corners(points: &[LaneVec]) -> (LaneVec, LaneVec) {
-    let corner = |of: fn(Lanes, Lanes) -> Lanes| {
-        points.iter().copied().reduce(|a, b| a.with(b, of)).unwrap_or_default()
-    };
-    (corner(Lanes::min), corner(Lanes::max))
+    let Some((first, others)) = points.split_first() else { return Default::default() };
+    others.iter().fold((*first, *first), |(low, high), point| {
+        (low.with(*point, Lanes::min), high.with(*point, Lanes::max))
+    })
 }

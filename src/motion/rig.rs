@@ -86,6 +86,12 @@ impl Rig {
         self.joints.iter().enumerate().filter(moves).map(|(joint, _)| joint)
     }
 
+    /// The joint that carries a joint.
+    #[inline(always)]
+    pub(crate) fn parent(&self, joint: usize) -> Option<usize> {
+        self.joints[joint].parent
+    }
+
     /// The offset of a joint at rest.
     pub(crate) fn offset(&self, joint: usize) -> DVec3 {
         self.joints[joint].offset

@@ -1,3 +1,5 @@
+use glam::DVec3;
+
 use super::*;
 use crate::motion::{Axis, Body, Channel, EndSite, Joint, JointId, Pose, Skeleton};
 use crate::time::FrameRate;
@@ -33,6 +35,12 @@ fn triangle(frames: usize, turn: usize) -> Vec<f64> {
     (0..frames).map(|at| 3.0 * (turn as f64 - at.abs_diff(turn) as f64)).collect()
 }
 
+/// The error of a bridge without anything known of it before.
+fn whole_error(bridge: &mut Bridge<'_>, from: usize, at: usize, to: usize) -> f64 {
+    let (least, _) = bridge.least_error(from, at, to);
+    bridge.error(from, at, to, least)
+}
+
 #[test]
 fn a_key_on_an_even_turn_goes_and_the_turning_point_stays() {
     let clip = swing(&triangle(21, 10));
@@ -50,7 +58,7 @@ fn the_bridge_equals_a_slerp_a_koma() {
     let clip = clip.with_rate(FrameRate::new(50.0).unwrap());
     let reference = Reference::of(&clip, clip.clock(24.0));
     let ends = entries(&[3, 36], 36);
-    let fast = Bridge::new(&clip, &reference, &ends).error(0, 1);
+    let fast = whole_error(&mut Bridge::new(&clip, &reference, &ends), 0, 0, 1);
     let (mut from, mut to) = (Pose::rest(clip.skeleton()), Pose::rest(clip.skeleton()));
     from.take_frame(&clip, Frame(3));
     to.take_frame(&clip, Frame(36));
@@ -75,6 +83,19 @@ fn the_bridge_equals_a_slerp_a_koma() {
     assert!((fast - slow).abs() < 1e-9 * slow, "{fast} {slow}");
 }
 
+#[test]
+fn the_error_is_the_same_whichever_koma_was_looked_at_first() {
+    let clip = swing(&(0..40).map(|at| 40.0 * (at as f64 * 0.4).sin()).collect::<Vec<_>>());
+    let reference = Reference::of(&clip, clip.clock(24.0));
+    let list = entries(&(3..37).collect::<Vec<_>>(), 36);
+    let mut bridge = Bridge::new(&clip, &reference, &list);
+    let last = list.len() - 1;
+    let wholes: Vec<f64> = (0..=last).map(|at| whole_error(&mut bridge, 0, at, last)).collect();
+    assert!(wholes.iter().all(|whole| *whole == wholes[0]), "{wholes:?}");
+    let leasts = (0..=last).map(|at| bridge.least_error(0, at, last).0);
+    assert_eq!(leasts.fold(0.0, f64::max), wholes[0], "the worst koma is one of them");
+}
+
 /// The same from the words: each round prices every entry anew and takes the cheapest away.
 fn slowly(
     clip: &Clip,
@@ -85,7 +106,8 @@ fn slowly(
 ) -> Vec<Frame> {
     let mut kept = entries.to_vec();
     loop {
-        let price = |at: usize| Bridge::new(clip, reference, &kept).error(at - 1, at + 1);
+        let price =
+            |at: usize| whole_error(&mut Bridge::new(clip, reference, &kept), at - 1, at, at + 1);
         let cheapest = (1..kept.len() - 1)
             .filter(|at| !kept[*at].stays)
             .map(|at| (price(at), at))
@@ -122,7 +144,8 @@ fn the_ranked_list_equals_pricing_everything_anew_each_round() {
 fn nothing_between_two_frames_costs_nothing() {
     let clip = swing(&[0.0, 10.0, 0.0]);
     let reference = Reference::of(&clip, clip.clock(24.0));
-    assert_eq!(Bridge::new(&clip, &reference, &entries(&[0, 1], 2)).error(0, 1), 0.0);
+    let ends = entries(&[0, 1], 2);
+    assert_eq!(whole_error(&mut Bridge::new(&clip, &reference, &ends), 0, 0, 1), 0.0);
     let still = swing(&[0.0; 9]);
     let reference = Reference::of(&still, still.clock(24.0));
     assert_eq!(

@@ -1,0 +1,168 @@
+//! How far the body is off, koma after koma, when the poses of two entries are slerped.
+
+use std::ops::Range;
+
+use crate::keys::Reference;
+use crate::keys::price::Entry;
+use crate::keys::price::stances::Stances;
+use crate::motion::Clip;
+use crate::motion::lanes::{Arc, LANES, LaneQuat, LaneVec, Lanes};
+use crate::motion::rig::Rig;
+
+/// The error of slerping between two entries, with its buffers.
+pub(super) struct Bridge<'a> {
+    reference: &'a Reference,
+    entries: &'a [Entry],
+    rig: Rig,
+    stances: Stances,
+    /// The way of each joint, [`LANES`] joints together.
+    arcs: Vec<Arc>,
+    /// World rotations at the koma of a block.
+    rotations: Vec<LaneQuat>,
+    /// Where each joint stands against its parent there.
+    translations: Vec<LaneVec>,
+    /// Where each point stands in the world there.
+    positions: Vec<LaneVec>,
+}
+
+/// The ends of a bridge and the koma between them.
+struct Piers {
+    from: usize,
+    to: usize,
+    koma: Range<usize>,
+}
+
+impl Piers {
+    /// Blocks of the reference in which its koma lie.
+    fn blocks(&self) -> Range<usize> {
+        self.koma.start / LANES..self.koma.end.div_ceil(LANES)
+    }
+}
+
+impl<'a> Bridge<'a> {
+    pub(super) fn new(clip: &'a Clip, reference: &'a Reference, entries: &'a [Entry]) -> Self {
+        let rig = Rig::of(clip.skeleton());
+        let stances = Stances::of(clip, &rig, entries);
+        Self {
+            reference,
+            entries,
+            arcs: vec![Arc::default(); stances.groups()],
+            rotations: vec![LaneQuat::default(); rig.len()],
+            translations: (0..rig.len()).map(|joint| LaneVec::splat(rig.offset(joint))).collect(),
+            positions: vec![LaneVec::default(); reference.points().len()],
+            stances,
+            rig,
+        }
+    }
+
+    /// What the error is at least, and whether it is that: looked at round one koma alone. It is
+    /// largest where the movement turns, so the koma of the key left out says nearly all.
+    pub(super) fn least_error(&mut self, from: usize, at: usize, to: usize) -> (f64, bool) {
+        let piers = self.piers(from, to);
+        if piers.koma.is_empty() {
+            return (0.0, true);
+        }
+        let near = self.near(at, &piers);
+        self.aim(&piers);
+        (self.error_in(near, &piers), piers.blocks().len() == 1)
+    }
+
+    /// The position error of the worst koma between two entries, root mean square over the body's
+    /// points, in % of body height; `least` is what [`Self::least_error`] said of it.
+    pub(super) fn error(&mut self, from: usize, at: usize, to: usize, least: f64) -> f64 {
+        let piers = self.piers(from, to);
+        if piers.koma.is_empty() {
+            return least;
+        }
+        let near = self.near(at, &piers);
+        self.aim(&piers);
+        let blocks = piers.blocks().filter(|block| *block != near);
+        blocks.fold(least, |worst, block| worst.max(self.error_in(block, &piers)))
+    }
+
+    fn piers(&self, from: usize, to: usize) -> Piers {
+        let nothing = self.positions.is_empty() || self.reference.height() <= 0.0;
+        let [begin, end] = [from, to].map(|entry| self.entries[entry].frame);
+        let koma = if nothing { 0..0 } else { self.reference.koma_between(begin, end) };
+        Piers { from, to, koma }
+    }
+
+    /// The block of the koma that is nearest to an entry.
+    fn near(&self, at: usize, piers: &Piers) -> usize {
+        let clock = self.reference.clock();
+        let koma = clock.koma_from_place(self.entries[at].frame.0 as f64);
+        koma.clamp(piers.koma.start, piers.koma.end - 1) / LANES
+    }
+
+    /// Finds the way of each joint from one end to the other.
+    fn aim(&mut self, piers: &Piers) {
+        let ends = self.stances.rotations(piers.from).iter();
+        let ends = ends.zip(self.stances.rotations(piers.to));
+        for (arc, (from, to)) in self.arcs.iter_mut().zip(ends) {
+            *arc = Arc::between(*from, *to);
+        }
+    }
+
+    /// The error at the worst koma of a block.
+    fn error_in(&mut self, block: usize, piers: &Piers) -> f64 {
+        let koma = &piers.koma;
+        // Lanes outside the bridge show the nearest koma inside it: they change no maximum.
+        let inside = |lane: usize| (block * LANES + lane).clamp(koma.start, koma.end - 1);
+        let [begin, end] = [piers.from, piers.to].map(|entry| self.entries[entry].frame.0 as f64);
+        let clock = self.reference.clock();
+        let place = Lanes::from_fn(|lane| clock.place_from_koma(inside(lane)));
+        let shares = place.map(|place| (place - begin) / (end - begin));
+        self.move_joints(piers, shares);
+        self.turn_joints(piers.from, shares);
+        let points = self.reference.points();
+        points.place_tips(&self.rotations, &mut self.positions);
+        let apart = points.apart(self.reference.positions(block), &self.positions);
+        let lanes = (0..LANES).filter(|lane| koma.contains(&(block * LANES + lane)));
+        let worst = lanes.map(|lane| apart.0[lane]).fold(0.0, f64::max);
+        100.0 * worst.sqrt() / self.reference.height()
+    }
+
+    /// Puts the joints that have a position of their own some shares of the way along.
+    fn move_joints(&mut self, piers: &Piers, shares: Lanes) {
+        let ends = self.stances.translations(piers.from).iter();
+        let ends = ends.zip(self.stances.translations(piers.to));
+        for (joint, (from, to)) in self.stances.moving().iter().zip(ends) {
+            let (from, to) = (LaneVec::splat(*from), LaneVec::splat(*to));
+            self.translations[*joint] = from.lerp(to, shares);
+        }
+    }
+
+    /// Turns every joint some shares of the way along and places it in the world, both at once: what
+    /// is local is never written down.
+    fn turn_joints(&mut self, from: usize, shares: Lanes) {
+        let starts = self.stances.rotations(from);
+        let groups = self.arcs.iter().zip(starts).zip(self.translations.chunks(LANES));
+        let mut joint = 0;
+        for ((arc, start), translations) in groups {
+            for (lane, translation) in translations.iter().enumerate() {
+                let local = along(arc, start, lane, shares);
+                (self.rotations[joint], self.positions[joint]) = match self.rig.parent(joint) {
+                    None => (local, *translation),
+                    Some(parent) => {
+                        let carrier = self.rotations[parent];
+                        let position = self.positions[parent] + carrier.rotate(*translation);
+                        (carrier * local, position)
+                    }
+                };
+                joint += 1;
+            }
+        }
+    }
+}
+
+/// The rotation of one of a group's joints some shares of its way along.
+#[inline(always)]
+fn along(arc: &Arc, start: &LaneQuat, lane: usize, shares: Lanes) -> LaneQuat {
+    let start = LaneQuat::splat(start.lane(lane));
+    let degrees = arc.degrees.0[lane];
+    if degrees == 0.0 {
+        return start;
+    }
+    let (sin, cos) = (Lanes::splat(degrees) * shares).half_sin_cos();
+    start.scaled(cos) + LaneQuat::splat(arc.across.lane(lane)).scaled(sin)
+}

@@ -1,0 +1,66 @@
+//! The local poses between which bridges are built.
+
+use std::array;
+
+use glam::DVec3;
+
+use crate::keys::price::Entry;
+use crate::motion::Clip;
+use crate::motion::lanes::{LANES, LaneQuat};
+use crate::motion::rig::Rig;
+use crate::motion::sampler::LanePose;
+
+/// The local pose of each entry, read once for all bridges that begin or end there.
+pub(super) struct Stances {
+    /// Entries × groups of [`LANES`] joints.
+    rotations: Vec<LaneQuat>,
+    /// Entries × joints that have a position of their own.
+    translations: Vec<DVec3>,
+    groups: usize,
+    /// The joints that have a position of their own.
+    moving: Vec<usize>,
+}
+
+impl Stances {
+    pub(super) fn of(clip: &Clip, rig: &Rig, entries: &[Entry]) -> Self {
+        let moving: Vec<usize> = rig.moving().collect();
+        let groups = rig.len().div_ceil(LANES);
+        let mut rotations = vec![LaneQuat::default(); entries.len() * groups];
+        let mut translations = Vec::with_capacity(entries.len() * moving.len());
+        let mut pose = LanePose::rest(clip.skeleton());
+        let into = rotations.chunks_mut((LANES * groups).max(1));
+        for (entries, rotations) in entries.chunks(LANES).zip(into) {
+            let entry = |lane: usize| entries[lane.min(entries.len() - 1)];
+            pose.take_rows(rig, &array::from_fn(|lane| clip.row(entry(lane).frame)));
+            for (lane, groups) in rotations.chunks_exact_mut(groups).enumerate() {
+                for (joint, rotation) in pose.rotations.iter().enumerate() {
+                    groups[joint / LANES].set_lane(joint % LANES, rotation.lane(lane));
+                }
+                translations
+                    .extend(moving.iter().map(|joint| pose.translations[*joint].lane(lane)));
+            }
+        }
+        Self { rotations, translations, groups, moving }
+    }
+
+    /// Groups of [`LANES`] joints in a pose.
+    pub(super) fn groups(&self) -> usize {
+        self.groups
+    }
+
+    /// The joints that have a position of their own.
+    pub(super) fn moving(&self) -> &[usize] {
+        &self.moving
+    }
+
+    /// The rotations of an entry's joints, [`LANES`] joints together.
+    pub(super) fn rotations(&self, entry: usize) -> &[LaneQuat] {
+        &self.rotations[entry * self.groups..(entry + 1) * self.groups]
+    }
+
+    /// Where the moving joints of an entry stand.
+    pub(super) fn translations(&self, entry: usize) -> &[DVec3] {
+        let moving = self.moving.len();
+        &self.translations[entry * moving..(entry + 1) * moving]
+    }
+}
