@@ -314,7 +314,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_angle_between_two_is_that_of_the_way_from_one_to_the_other(
-            a in unit(), b in unit(), size in prop_oneof![0.0..PI, 0.0..1e-6, 3.14..PI], flip in prop::bool::ANY,
+            a in unit(), b in unit(), size in prop_oneof![0.0..PI, 0.0..1e-6, 3.1..PI], flip in prop::bool::ANY,
         ) {
             let axis = b.xyz().try_normalize().unwrap_or(DVec3::X);
             let to = a * DQuat::from_axis_angle(axis, size);
