@@ -3,12 +3,14 @@
 //!
 //! Plain arrays and plain loops: a lane's result does not depend on what the other lanes hold.
 
+mod euler;
 mod quat;
 mod trig;
 
 use std::array;
 use std::ops::{Add, Mul, Sub};
 
+pub(crate) use euler::ThreeAxes;
 pub(crate) use quat::{Arc, LaneQuat, LaneVec};
 
 /// Numbers side by side: one register of the oldest 64-bit processors. More would not fit into the
@@ -46,11 +48,6 @@ impl Lanes {
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
         self.map(f64::sqrt)
-    }
-
-    #[inline(always)]
-    pub(crate) fn abs(self) -> Self {
-        self.map(f64::abs)
     }
 
     /// The lesser of each lane; plain comparisons, as no lane is ever NaN.

@@ -1,6 +1,6 @@
 //! How fast each joint moves [KT11 §3.1].
 
-use std::array;
+mod steps;
 
 use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
@@ -12,6 +12,8 @@ use crate::motion::rig::Rig;
 use crate::motion::{Body, Clip, Pose, local_rotation};
 use crate::signal::{Signals, Unit};
 use crate::time::Frame;
+
+use steps::{BLOCK, JointSteps, PARTS, block};
 
 /// What of the motion is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -78,29 +80,23 @@ fn still(clip: &Clip) -> DMatrix<f64> {
     DMatrix::zeros(clip.len(), clip.skeleton().len())
 }
 
-/// Frames that are read for one joint before the next: their rows stay in the fastest cache.
-const BLOCK: usize = 8 * LANES;
-
 /// Several frames at once, joint by joint: the quaternions live no longer than their step.
 fn rotation(clip: &Clip) -> DMatrix<f64> {
     let mut values = still(clip);
     let (rig, frames) = (Rig::of(clip.skeleton()), clip.len());
-    let per_second = Lanes::splat(2.0 * clip.rate().fps());
     let rows: Vec<&[f64]> = clip.rows().collect();
     let Some(first) = rows.first() else { return values };
-    let mut before: Vec<DQuat> =
-        (0..rig.len()).map(|joint| rig.rotation(joint, &[first; LANES]).lane(0)).collect();
+    let mut joints = JointSteps::of(clip.skeleton(), &rig, first);
+    let per_second = Lanes::splat(clip.rate().fps());
+    let mut steps = [Lanes::ZERO; PARTS];
     for begin in (0..frames).step_by(BLOCK) {
+        let block = block(&rows[begin..]);
         let columns = values.as_mut_slice().chunks_exact_mut(frames);
-        for (joint, (column, before)) in columns.zip(&mut before).enumerate() {
-            let end = frames.min(begin + BLOCK);
-            let read = rows[begin..end].chunks(LANES);
-            for (speeds, rows) in column[begin..end].chunks_mut(LANES).zip(read) {
-                let rows = array::from_fn(|lane| rows[lane.min(rows.len() - 1)]);
-                let now = rig.rotation(joint, &rows);
-                let step = now.shifted(*before).way_to(now).half_angle() * per_second;
-                speeds.copy_from_slice(&step.0[..speeds.len()]);
-                *before = now.lane(LANES - 1);
+        for (joint, column) in joints.iter_mut().zip(columns) {
+            joint.steps(&block, &mut steps);
+            let speeds = &mut column[begin..frames.min(begin + BLOCK)];
+            for (speeds, step) in speeds.chunks_mut(LANES).zip(steps) {
+                speeds.copy_from_slice(&(step * per_second).0[..speeds.len()]);
             }
         }
     }

@@ -151,9 +151,15 @@ impl TurnFinder {
     }
 }
 
-/// The largest size of a value, 0 for none.
+/// The largest size of a value, 0 for none; four side by side, as each waits for the last.
 fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| if value.abs() > most { value.abs() } else { most })
+    let greater = |most: f64, value: f64| if value.abs() > most { value.abs() } else { most };
+    let (fours, rest) = values.as_chunks::<4>();
+    let mut most = [0.0; 4];
+    for four in fours {
+        most = std::array::from_fn(|lane| greater(most[lane], four[lane]));
+    }
+    most.iter().chain(rest).copied().fold(0.0, greater)
 }
 
 /// One joint after another, with the buffers they share. Rows count from 0 here.
@@ -212,16 +218,14 @@ impl<'a> Scan<'a> {
 
     fn read_signs(&mut self, speeds: &[f64]) {
         let band = self.finder.steady.step(speeds, self.fps, self.for_people, &mut self.sizes);
-        let sign = |step: &[f64]| {
-            let change = step[1] - step[0];
-            if change.abs() <= self.floor || change.abs() <= band {
-                Ordering::Equal
-            } else {
-                change.total_cmp(&0.0)
-            }
+        let band = if band > self.floor { band } else { self.floor };
+        // Both comparisons always, so that no step waits for a guess.
+        let sign = |(before, after): (&f64, &f64)| {
+            let change = after - before;
+            u8::from(change > band).cmp(&u8::from(change < -band))
         };
         self.signs.clear();
-        self.signs.extend(speeds.windows(2).map(sign));
+        self.signs.extend(speeds.iter().zip(&speeds[1..]).map(sign));
     }
 
     /// A turn at a row, which is brought inside the clip's first and last frame.

@@ -166,11 +166,21 @@ impl LaneQuat {
         Self { v: self.v * sign, w: self.w * sign }
     }
 
-    /// Half the angle of the rotation in radians, 0 to π/2, the same for q and −q. The arc cosine of
-    /// the scalar part would lose half the digits of a small angle, which is where holds are decided.
+    /// The angle of the rotation between two in radians, 0 to π, the same for q and −q.
+    ///
+    /// By Kahan: on the sphere of unit quaternions the nearer of ±`to` is half that angle away, and the
+    /// tangent of half of a half is |a − b| / |a + b|, exact for tiny angles and for large ones.
     #[inline(always)]
-    pub(crate) fn half_angle(self) -> Lanes {
-        self.v.dot(self.v).sqrt().atan_over(self.w.abs())
+    pub(crate) fn angle_to(self, to: Self) -> Lanes {
+        let (difference, sum) = ((to - self).squared(), (to + self).squared());
+        let least = difference.min(sum);
+        let tangent = least.with(difference.max(sum), |least, most| least / most).sqrt();
+        tangent.atan() * Lanes::splat(4.0)
+    }
+
+    #[inline(always)]
+    fn squared(self) -> Lanes {
+        (self.v.x * self.v.x + self.v.y * self.v.y) + (self.v.z * self.v.z + self.w * self.w)
     }
 
     /// `share` of the short way to `to` (slerp); between equals there is no way.
@@ -209,6 +219,15 @@ impl Add for LaneQuat {
     }
 }
 
+impl Sub for LaneQuat {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { v: self.v - other.v, w: self.w - other.w }
+    }
+}
+
 impl Mul for LaneQuat {
     type Output = Self;
 
@@ -244,6 +263,8 @@ impl Arc {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use proptest::prelude::*;
 
     use super::*;
@@ -290,6 +311,34 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn the_angle_between_two_is_that_of_the_way_from_one_to_the_other(
+            a in unit(), b in unit(), size in prop_oneof![0.0..PI, 0.0..1e-6, 3.1..PI], flip in prop::bool::ANY,
+        ) {
+            let axis = b.xyz().try_normalize().unwrap_or(DVec3::X);
+            let to = a * DQuat::from_axis_angle(axis, size);
+            for to in [b, if flip { -to } else { to }] {
+                let way = a.conjugate() * to;
+                let expected = 2.0 * way.xyz().length().atan2(way.w.abs());
+                let found = LaneQuat::splat(a).angle_to(LaneQuat::splat(to)).0[1];
+                // Both are as exact as the digits of the quaternions let them.
+                let near = 8.0 * f64::EPSILON * expected + 2e-15;
+                prop_assert!((found - expected).abs() < near, "{found} {expected}");
+            }
+            prop_assert_eq!(LaneQuat::splat(a).angle_to(LaneQuat::splat(-a)), Lanes::ZERO);
+        }
+    }
+
+    #[test]
+    fn a_tiny_angle_between_two_keeps_its_digits() {
+        for angle in [1e-3, 1e-6, 1e-9, 1e-12, 1e-100] {
+            let to = DQuat::from_xyzw(0.0, f64::sin(0.5 * angle), 0.0, f64::cos(0.5 * angle));
+            let found = LaneQuat::default().angle_to(LaneQuat::splat(-to)).0[0];
+            assert!((found - angle).abs() <= 4.0 * f64::EPSILON * angle, "{found} {angle}");
+        }
+    }
+
     #[test]
     fn a_slerp_of_a_tiny_way_is_exact() {
         let (a, b) = (DQuat::from_rotation_z(0.3), DQuat::from_rotation_z(0.3 + 1e-7));
@@ -309,7 +358,7 @@ mod tests {
         let shifted = to.shifted(DQuat::from_rotation_z(1.0));
         assert_eq!(shifted.lane(0), DQuat::from_rotation_z(1.0));
         assert_eq!(shifted.lane(1), to.lane(0));
-        let turned = to.way_to(from).half_angle();
-        assert!(turned.0[0] == 0.0 && (turned.0[1] - 0.5).abs() < 1e-15);
+        let turned = to.angle_to(from);
+        assert!(turned.0[0] == 0.0 && (turned.0[1] - 1.0).abs() < 1e-15);
     }
 }

@@ -10,8 +10,8 @@ const ROUNDER: f64 = 6_755_399_441_055_744.0;
 /// Degrees beyond which whole turns are taken off first: below, 180 · k is exact.
 const FAR: f64 = 1e15;
 
-/// The coefficients of fdlibm (Sun, 1993) for |x| ≤ π/4: (sin x − x)/x³ and (cos x − 1 + x²/2)/x⁴ in
-/// powers of x², both within 2⁻⁵⁸ of x and 1.
+/// The coefficients of fdlibm (Sun, 1993) for |x| ≤ π/4: (sin x − x)/x³ in powers of x², within 2⁻⁵⁸
+/// of x.
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
 const SINE: [f64; 6] = [
     -1.66666666666666324348e-01,
@@ -21,30 +21,24 @@ const SINE: [f64; 6] = [
     -2.50507602534068634195e-08,
     1.58969099521155010221e-10,
 ];
-#[allow(clippy::unreadable_literal, clippy::excessive_precision)]
-const COSINE: [f64; 6] = [
-    4.16666666666666019037e-02,
-    -1.38888888888741095749e-03,
-    2.48015872894767294178e-05,
-    -2.75573143513906633035e-07,
-    2.08757232129817482790e-09,
-    -1.13596475577881948265e-11,
-];
 
-/// The same for the arc tangent, (x − atan x)/x³ in powers of x², for |x| ≤ 7/16.
+/// The same for the arc tangent, (x − atan x)/x³ for |x| ≤ 7/16: the even powers of x², and the odd.
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
-const ARC_TANGENT: [f64; 11] = [
+const ARC_TANGENT_EVEN: [f64; 6] = [
     3.33333333333329318027e-01,
-    -1.99999999998764832476e-01,
     1.42857142725034663711e-01,
-    -1.11111104054623557880e-01,
     9.09088713343650656196e-02,
-    -7.69187620504482999495e-02,
     6.66107313738753120669e-02,
-    -5.83357013379057348645e-02,
     4.97687799461593236017e-02,
-    -3.65315727442169155270e-02,
     1.62858201153657823623e-02,
+];
+#[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+const ARC_TANGENT_ODD: [f64; 5] = [
+    -1.99999999998764832476e-01,
+    -1.11111104054623557880e-01,
+    -7.69187620504482999495e-02,
+    -5.83357013379057348645e-02,
+    -3.65315727442169155270e-02,
 ];
 
 /// The largest ratio that the polynomial takes.
@@ -62,7 +56,7 @@ impl Lanes {
         let rounded = degrees * Self::splat(1.0 / 180.0) + Self::splat(ROUNDER);
         let half_turns = rounded - Self::splat(ROUNDER);
         let rest = degrees - half_turns * Self::splat(180.0);
-        let (sin, cos) = near_sin_cos(rest * Self::splat(PI / 360.0));
+        let (sin, cos) = rest.near_half_sin_cos();
         let bits: [u64; LANES] = std::array::from_fn(|lane| rounded.0[lane].to_bits());
         // Quarter after quarter: sin, cos, −sin, −cos; the cosine is a quarter ahead.
         let pick = |lane: usize, even: f64, odd: f64, quarter: u64| {
@@ -74,6 +68,24 @@ impl Lanes {
             Self::from_fn(|lane| pick(lane, sin.0[lane], cos.0[lane], bits[lane])),
             Self::from_fn(|lane| pick(lane, cos.0[lane], sin.0[lane], bits[lane].wrapping_add(1))),
         )
+    }
+
+    /// The same, to the last digit, for angles within a quarter turn.
+    ///
+    /// The cosine comes from the sine: up to half a quarter turn that loses nothing, and a root is done
+    /// while other lanes are multiplied.
+    #[inline(always)]
+    pub(crate) fn near_half_sin_cos(self) -> (Self, Self) {
+        let x = self * Self::splat(PI / 360.0);
+        let square = x * x;
+        let sin = x + x * square * horner(&SINE, square);
+        (sin, (Self::ONE - sin * sin).sqrt())
+    }
+
+    /// Whether all angles in degrees are within a quarter turn.
+    #[inline(always)]
+    pub(crate) fn all_near(self) -> bool {
+        self.0.iter().fold(true, |near, degrees| near & (degrees.abs() < 90.0))
     }
 
     #[cold]
@@ -92,30 +104,39 @@ impl Lanes {
     pub(crate) fn atan_over(self, along: Self) -> Self {
         let ratio = self.with(along, |rise, run| rise / run);
         // Steep angles are rare from frame to frame; a ratio of nothing to nothing is not below either.
-        if !ratio.0.iter().fold(true, |flat, ratio| flat & (*ratio <= STEEP)) {
-            return self.steep_atan_over(along);
-        }
-        let square = ratio * ratio;
-        ratio - ratio * square * polynomial(&ARC_TANGENT, square)
+        if ratio.all_flat() { ratio.flat_atan() } else { self.steep_atan_over(along) }
     }
-}
 
-/// Sine and cosine for |x| ≤ π/4.
-#[inline(always)]
-fn near_sin_cos(x: Lanes) -> (Lanes, Lanes) {
-    let square = x * x;
-    let sin = x + x * square * polynomial(&SINE, square);
-    let half = square * Lanes::splat(0.5);
-    let bulk = Lanes::ONE - half;
-    // What rounding took from 1 − x²/2 goes back in with the small terms.
-    let lost = (Lanes::ONE - bulk) - half;
-    let cos = bulk + (lost + square * square * polynomial(&COSINE, square));
-    (sin, cos)
+    /// The arc tangent of ratios of at least 0, to within two units in the last place.
+    #[inline(always)]
+    pub(crate) fn atan(self) -> Self {
+        if self.all_flat() { self.flat_atan() } else { self.steep_atan() }
+    }
+
+    #[cold]
+    fn steep_atan(self) -> Self {
+        self.map(f64::atan)
+    }
+
+    #[inline(always)]
+    fn all_flat(self) -> bool {
+        self.0.iter().fold(true, |flat, ratio| flat & (*ratio <= STEEP))
+    }
+
+    /// The arc tangent of ratios from 0 to 7/16.
+    #[inline(always)]
+    fn flat_atan(self) -> Self {
+        let square = self * self;
+        let fourth = square * square;
+        // Two short chains of products instead of a long one: each step waits for the last.
+        let sum = horner(&ARC_TANGENT_EVEN, fourth) + square * horner(&ARC_TANGENT_ODD, fourth);
+        self - self * square * sum
+    }
 }
 
 /// Horner's rule, the constant first.
 #[inline(always)]
-fn polynomial<const TERMS: usize>(coefficients: &[f64; TERMS], x: Lanes) -> Lanes {
+fn horner<const TERMS: usize>(coefficients: &[f64; TERMS], x: Lanes) -> Lanes {
     let mut sum = Lanes::splat(coefficients[TERMS - 1]);
     for coefficient in coefficients[..TERMS - 1].iter().rev() {
         sum = sum * x + Lanes::splat(*coefficient);
@@ -167,6 +188,17 @@ mod tests {
         ] {
             assert_eq!(lane(degrees, 1), expected, "{degrees}");
         }
+    }
+
+    #[test]
+    fn within_a_quarter_turn_both_ways_give_the_same_digits() {
+        let within = (-1800..1800).map(|tenths| f64::from(tenths) / 20.0).skip(1);
+        for degrees in within.chain([f64::from_bits(90f64.to_bits() - 1), 1e-300, 0.0]) {
+            let angle = Lanes::splat(degrees);
+            assert!(angle.all_near());
+            assert_eq!(angle.near_half_sin_cos(), angle.half_sin_cos(), "{degrees}");
+        }
+        assert!(!Lanes([0.0, -90.0]).all_near() && !Lanes([f64::NAN, 0.0]).all_near());
     }
 
     #[test]

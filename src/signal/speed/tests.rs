@@ -177,6 +177,29 @@ proptest! {
         }
     }
 
+    /// Blocks, their seams and the last that is not full; near angles, far ones, and lists of channels
+    /// that are no three axes: all against one pose after the other.
+    #[test]
+    fn every_step_is_the_angle_from_one_pose_to_the_next(
+        values in prop::collection::vec(prop_oneof![-80.0..80.0, -80.0..80.0, -800.0..800.0], 14 * 40),
+        frames in 2usize..40,
+    ) {
+        let turn = |axis| Channel::Rotation(axis);
+        let root = [turn(Axis::Y), Channel::Position(Axis::X), turn(Axis::X), turn(Axis::Z)];
+        let twice = [turn(Axis::Z), turn(Axis::X), turn(Axis::Z)];
+        let skeleton = chain(&[&root, &ZXY, &[], &twice, &ZXY[..1], &ZXY]);
+        let rows: Vec<Vec<f64>> = values.chunks(14).take(frames).map(<[f64]>::to_vec).collect();
+        let clip = clip(skeleton, 1.0, &rows);
+        let found = measured(Measure::Rotation, &clip).values;
+        for (joint, data) in clip.skeleton().joints.iter().enumerate() {
+            for (row, step) in (1..).zip(rows.windows(2)) {
+                let way = local_rotation(data, &step[0]).conjugate() * local_rotation(data, &step[1]);
+                let (found, expected) = (found[(row, joint)], angle_of(way));
+                prop_assert!((found - expected).abs() < 1e-12, "{joint} {row}: {found} {expected}");
+            }
+        }
+    }
+
     /// The slow way: rotation matrices, and the angle from their trace and skew part.
     #[test]
     fn rotation_is_the_angle_between_rotation_matrices(

@@ -3,7 +3,7 @@
 //! Not the paper's words: read to the letter they lose most ends of movements (動き終わり), because
 //! nothing is faster after an end.
 
-use std::cmp::Ordering::{Greater, Less};
+use std::cmp::Ordering::{self, Greater, Less};
 
 use super::{Scan, Turn, TurnKind};
 use crate::time::KOMA_RATE;
@@ -14,26 +14,15 @@ const SHORT: f64 = 2.0 / KOMA_RATE;
 
 /// The turns of every valley (keys) and hill (walls), with the filter's delay undone.
 pub(super) fn turns(scan: &Scan, speeds: &[f64], turns: &mut Vec<Turn>) {
-    let last = scan.frames - 1;
-    let mut begin = 0;
-    while begin <= last {
-        let steady = scan.signs[begin..].iter().take_while(|sign| sign.is_eq()).count();
-        let run = Run { begin, end: begin + steady };
-        // A run without a step on one side touches the clip's edge there.
-        let entry = run.begin.checked_sub(1).map(|step| scan.signs[step]);
-        let exit = scan.signs.get(run.end).copied();
-        match (entry, exit) {
-            (Some(Less), Some(Greater)) => run.between(scan, TurnKind::Key, speeds, turns),
-            (Some(Greater), Some(Less)) => run.between(scan, TurnKind::Wall, speeds, turns),
-            (None, Some(Greater)) => turns.extend(run.start(scan, TurnKind::Key)),
-            (None, Some(Less)) => turns.extend(run.start(scan, TurnKind::Wall)),
-            (Some(Less), None) => turns.extend(run.finish(scan, TurnKind::Key)),
-            (Some(Greater), None) => turns.extend(run.finish(scan, TurnKind::Wall)),
-            // A pause inside an acceleration, or a joint that is steady throughout.
-            _ => {}
+    let (mut begin, mut entry) = (0, None);
+    for (step, &sign) in scan.signs.iter().enumerate().filter(|(_, sign)| sign.is_ne()) {
+        // Else a pause inside an acceleration, or just another step of it.
+        if entry != Some(sign) {
+            Run { begin, end: step }.read(entry, Some(sign), scan, speeds, turns);
         }
-        begin = run.end + 1;
+        (begin, entry) = (step + 1, Some(sign));
     }
+    Run { begin, end: scan.frames - 1 }.read(entry, None, scan, speeds, turns);
 }
 
 /// The rows `begin..=end` with only steady steps between them, as many as there are.
@@ -44,6 +33,27 @@ struct Run {
 }
 
 impl Run {
+    /// By the steps into the run and out of it; without one it touches the clip's edge there.
+    fn read(
+        self,
+        entry: Option<Ordering>,
+        exit: Option<Ordering>,
+        scan: &Scan,
+        speeds: &[f64],
+        turns: &mut Vec<Turn>,
+    ) {
+        match (entry, exit) {
+            (Some(Less), Some(Greater)) => self.between(scan, TurnKind::Key, speeds, turns),
+            (Some(Greater), Some(Less)) => self.between(scan, TurnKind::Wall, speeds, turns),
+            (None, Some(Greater)) => turns.extend(self.start(scan, TurnKind::Key)),
+            (None, Some(Less)) => turns.extend(self.start(scan, TurnKind::Wall)),
+            (Some(Less), None) => turns.extend(self.finish(scan, TurnKind::Key)),
+            (Some(Greater), None) => turns.extend(self.finish(scan, TurnKind::Wall)),
+            // A joint that is steady throughout.
+            _ => {}
+        }
+    }
+
     fn between(self, scan: &Scan, kind: TurnKind, speeds: &[f64], turns: &mut Vec<Turn>) {
         if (self.end - self.begin) as f64 / scan.fps < SHORT {
             let (first, last) = self.extreme(kind, speeds, scan.floor);
@@ -74,6 +84,9 @@ impl Run {
     /// is slowest in a short hold, where only rounding differs: if they counted against each other, no
     /// such hold would ever be confirmed.
     fn extreme(self, kind: TurnKind, speeds: &[f64], floor: f64) -> (usize, usize) {
+        if self.begin == self.end {
+            return (self.begin, self.end);
+        }
         let height = |row: usize| match kind {
             TurnKind::Key => speeds[row],
             TurnKind::Wall => -speeds[row],

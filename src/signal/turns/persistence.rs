@@ -35,8 +35,8 @@ impl Persistence {
         self.hills.read(speeds.iter().map(|speed| -speed));
         if side == Side::Rising {
             let [keys, walls] = &mut self.rising;
-            count_rising(&self.valleys.lines[0], floor, keys);
-            count_rising(&self.hills.lines[0], floor, walls);
+            count_rising(self.valleys.values(), floor, keys);
+            count_rising(self.hills.values(), floor, walls);
         }
     }
 
@@ -65,6 +65,9 @@ impl Persistence {
 /// the next low value passes over what is high by whole spans of spans.
 #[derive(Default)]
 struct Minima {
+    /// Number of values.
+    rows: usize,
+    /// Filled up to whole spans with what is never low.
     lines: Vec<Vec<f64>>,
 }
 
@@ -75,6 +78,8 @@ impl Minima {
         }
         self.lines[0].clear();
         self.lines[0].extend(values);
+        self.rows = self.lines[0].len();
+        fill_up(&mut self.lines[0]);
         let mut level = 0;
         while self.lines[level].len() > SPAN {
             if self.lines.len() == level + 1 {
@@ -82,30 +87,36 @@ impl Minima {
             }
             let (below, above) = self.lines.split_at_mut(level + 1);
             above[0].clear();
-            above[0].extend(below[level].chunks(SPAN).map(least));
+            above[0].extend(spans(&below[level]).iter().map(least));
+            fill_up(&mut above[0]);
             level += 1;
         }
+    }
+
+    fn values(&self) -> &[f64] {
+        &self.lines[0][..self.rows]
     }
 
     /// The number of rows after one up to the first that is not higher by more than `floor`.
     fn higher_after(&self, row: usize, floor: f64) -> usize {
         let bottom = self.lines[0][row];
-        let is_low = |value: f64| value - bottom <= floor;
         let (mut level, mut at) = (0, row + 1);
         let mut low = loop {
-            let line = &self.lines[level];
-            let end = line.len().min(at.next_multiple_of(SPAN));
-            if let Some(low) = (at..end).find(|at| is_low(line[*at])) {
-                break low;
+            let (spans, span) = (spans(&self.lines[level]), at / SPAN);
+            // Behind a full last span there is none; nor behind the only one of the topmost line.
+            let Some(values) = spans.get(span) else { return self.rows - row - 1 };
+            let lows = lows(values, bottom, floor) >> (at % SPAN);
+            if lows != 0 {
+                break at + lows.trailing_zeros() as usize;
             }
-            if end == line.len() {
-                return self.lines[0].len() - row - 1;
+            if span + 1 == spans.len() {
+                return self.rows - row - 1;
             }
-            (level, at) = (level + 1, end / SPAN);
+            (level, at) = (level + 1, span + 1);
         };
         for line in self.lines[..level].iter().rev() {
-            let span = low * SPAN..line.len().min((low + 1) * SPAN);
-            low = span.clone().find(|at| is_low(line[*at])).unwrap_or(span.end);
+            let lows = lows(&spans(line)[low], bottom, floor);
+            low = low * SPAN + lows.trailing_zeros() as usize;
         }
         low - row - 1
     }
@@ -113,36 +124,49 @@ impl Minima {
     /// The number of rows before one down to the first that is not higher by more than `floor`.
     fn higher_before(&self, row: usize, floor: f64) -> usize {
         let bottom = self.lines[0][row];
-        let is_low = |value: f64| value - bottom <= floor;
         let (mut level, mut past) = (0, row);
         let mut low = loop {
-            let line = &self.lines[level];
-            let begin = past / SPAN * SPAN;
-            if let Some(low) = (begin..past).rfind(|at| is_low(line[*at])) {
-                break low;
+            let Some(before) = past.checked_sub(1) else { return row };
+            let span = before / SPAN;
+            let lows =
+                lows(&spans(&self.lines[level])[span], bottom, floor) << (SPAN - 1 - before % SPAN);
+            if let Some(last) = (lows as u16).checked_ilog2() {
+                break before - (SPAN - 1 - last as usize);
             }
-            if begin == 0 {
-                return row;
-            }
-            (level, past) = (level + 1, begin / SPAN);
+            (level, past) = (level + 1, span);
         };
         for line in self.lines[..level].iter().rev() {
-            let span = low * SPAN..line.len().min((low + 1) * SPAN);
-            low = span.clone().rfind(|at| is_low(line[*at])).unwrap_or(span.start);
+            let lows = lows(&spans(line)[low], bottom, floor);
+            low = low * SPAN + lows.ilog2() as usize;
         }
         row - low - 1
     }
 }
 
+fn fill_up(line: &mut Vec<f64>) {
+    line.resize(line.len().next_multiple_of(SPAN), f64::INFINITY);
+}
+
+fn spans(line: &[f64]) -> &[[f64; SPAN]] {
+    line.as_chunks().0
+}
+
+/// A bit for each value of a span that is not higher than `bottom` by more than `floor`. All are looked
+/// at, as where the first one stands is nothing a processor could guess.
+#[inline(always)]
+fn lows(values: &[f64; SPAN], bottom: f64, floor: f64) -> u32 {
+    let bit = |at: usize| u32::from(values[at] - bottom <= floor) << at;
+    (0..SPAN).fold(0, |bits, at| bits | bit(at))
+}
+
 /// The least of some values, four side by side: one after the other each would wait for the last.
-fn least(values: &[f64]) -> f64 {
+fn least(values: &[f64; SPAN]) -> f64 {
     let lesser = |a: f64, b: f64| if b < a { b } else { a };
-    let (fours, rest) = values.as_chunks::<4>();
     let mut low = [f64::INFINITY; 4];
-    for four in fours {
+    for four in values.as_chunks::<4>().0 {
         low = std::array::from_fn(|lane| lesser(low[lane], four[lane]));
     }
-    low.iter().chain(rest).copied().fold(f64::INFINITY, lesser)
+    low.into_iter().fold(f64::INFINITY, lesser)
 }
 
 /// Of each row, the number of steps from it that each gain more than `floor`.

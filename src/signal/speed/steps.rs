@@ -1,0 +1,110 @@
+//! The angles a joint turns by from frame to frame, a block of frames at a time.
+
+use std::array;
+
+use glam::DQuat;
+
+use crate::motion::lanes::{LANES, LaneQuat, Lanes, ThreeAxes};
+use crate::motion::rig::Rig;
+use crate::motion::{Channel, Joint, Skeleton};
+
+/// Frames that are read for one joint before the next: their rows stay in the fastest cache.
+pub(super) const BLOCK: usize = PARTS * LANES;
+
+/// A block in lanes.
+pub(super) const PARTS: usize = 8;
+
+/// The rows of a block.
+pub(super) type Rows<'a> = [&'a [f64]; BLOCK];
+
+/// The first rows of many; a last block that is not full repeats its last row.
+pub(super) fn block<'a>(rows: &[&'a [f64]]) -> Rows<'a> {
+    array::from_fn(|at| rows[at.min(rows.len() - 1)])
+}
+
+/// One joint on its way through the clip.
+pub(super) struct JointSteps<'a> {
+    reading: Reading<'a>,
+    /// The rotation at the frame before the block.
+    before: DQuat,
+}
+
+/// How the rotations of a joint come out of its channels.
+enum Reading<'a> {
+    /// As nearly every file has it: three axes, and their columns.
+    ThreeAxes(ThreeAxes, [usize; 3]),
+    /// Whatever else there is.
+    Listed(&'a Rig, usize),
+}
+
+impl<'a> JointSteps<'a> {
+    /// Every joint before the first of its steps, which goes from the first row to itself.
+    pub(super) fn of(skeleton: &Skeleton, rig: &'a Rig, first: &[f64]) -> Vec<Self> {
+        let joint = |(at, joint)| {
+            let reading = three_axes(joint).unwrap_or(Reading::Listed(rig, at));
+            let mut rotations = [LaneQuat::default(); PARTS];
+            reading.rotations(&[first; BLOCK], &mut rotations);
+            Self { reading, before: rotations[0].lane(0) }
+        };
+        skeleton.joints.iter().enumerate().map(joint).collect()
+    }
+
+    /// The angle of the step into each frame of the next block, in radians.
+    pub(super) fn steps(&mut self, rows: &Rows<'_>, steps: &mut [Lanes; PARTS]) {
+        let mut rotations = [LaneQuat::default(); PARTS];
+        self.reading.rotations(rows, &mut rotations);
+        for (step, now) in steps.iter_mut().zip(&rotations) {
+            *step = now.shifted(self.before).angle_to(*now);
+            self.before = now.lane(LANES - 1);
+        }
+    }
+}
+
+fn three_axes<'a>(joint: &Joint) -> Option<Reading<'a>> {
+    let turn = |(column, channel): (usize, &Channel)| match *channel {
+        Channel::Rotation(axis) => Some((axis, column)),
+        Channel::Position(_) => None,
+    };
+    let turns: Vec<_> = (joint.first_channel..).zip(&joint.channels).filter_map(turn).collect();
+    let turns: [_; 3] = turns.try_into().ok()?;
+    let axes = ThreeAxes::new(turns.map(|(axis, _)| axis))?;
+    Some(Reading::ThreeAxes(axes, turns.map(|(_, column)| column)))
+}
+
+impl Reading<'_> {
+    // Loops over buffers: closures over whole arrays are not inlined.
+    fn rotations(&self, rows: &Rows<'_>, rotations: &mut [LaneQuat; PARTS]) {
+        match *self {
+            Self::ThreeAxes(axes, columns) => {
+                let mut halves = [[(Lanes::ZERO, Lanes::ZERO); PARTS]; 3];
+                for (halves, column) in halves.iter_mut().zip(columns) {
+                    half_sines(rows, column, halves);
+                }
+                let [a, b, c] = &halves;
+                for (part, rotation) in rotations.iter_mut().enumerate() {
+                    *rotation = axes.product([a[part], b[part], c[part]]);
+                }
+            }
+            Self::Listed(rig, joint) => {
+                for (rows, rotation) in rows.as_chunks().0.iter().zip(rotations) {
+                    *rotation = rig.rotation(joint, rows);
+                }
+            }
+        }
+    }
+}
+
+/// Sines and cosines of half of each angle. Most channels stay within a quarter turn: asked once for
+/// all of a block.
+#[inline(always)]
+fn half_sines(rows: &Rows<'_>, column: usize, halves: &mut [(Lanes, Lanes); PARTS]) {
+    let mut degrees = [Lanes::ZERO; PARTS];
+    let mut near = true;
+    for (rows, degrees) in rows.as_chunks::<LANES>().0.iter().zip(&mut degrees) {
+        *degrees = Lanes::from_fn(|lane| rows[lane][column]);
+        near &= degrees.all_near();
+    }
+    for (half, degrees) in halves.iter_mut().zip(degrees) {
+        *half = if near { degrees.near_half_sin_cos() } else { degrees.half_sin_cos() };
+    }
+}
