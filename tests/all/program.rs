@@ -315,7 +315,7 @@ fn inspect_says_what_rate_the_file_writes_when_it_is_another() {
         ),
         ("0.1", "", "10 frames a second"),
         ("0", "--fps 25", "25 frames a second (the file writes 0 s a frame)"),
-        ("30", "--fps 30", "30 frames a second (the file writes 30 s a frame: 0.0333 a second)"),
+        ("30", "--fps 30", "30 frames a second (the file writes 30 s a frame: 0.03333 a second)"),
     ] {
         fs::write(place.path("k.bvh"), format!("{before}Frame Time: {time}\n{rows}")).unwrap();
         assert_eq!(rate(&format!("k.bvh {args}")), format!("rate      {expected}"));
