@@ -18,6 +18,7 @@ pub mod lead_in;
 mod names;
 mod number;
 mod odd;
+mod places;
 mod read;
 mod repair;
 #[cfg(test)]

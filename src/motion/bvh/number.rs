@@ -117,7 +117,7 @@ pub(super) fn scan(text: &[u8]) -> Option<(f64, usize)> {
         exponent += power;
         rest = after;
     }
-    if !rest.first().is_none_or(|&byte| ends_a_number(byte)) {
+    if !rest.first().is_none_or(|&byte| ends_a_word(byte)) {
         return None;
     }
     let length = text.len() - rest.len();
@@ -136,8 +136,9 @@ pub(super) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t'..=b'\r')
 }
 
+/// Whether a byte stands between words: a blank or a brace.
 #[inline]
-fn ends_a_number(byte: u8) -> bool {
+pub(super) fn ends_a_word(byte: u8) -> bool {
     is_blank(byte) || matches!(byte, b'{' | b'}')
 }
 

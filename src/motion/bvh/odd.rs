@@ -1,8 +1,7 @@
 //! Numbers as some programs write them: with a comma, with a minus that nothing separates from the
 //! number before it, and those that say there is no number.
 
-use super::number;
-use super::scanner::ends_a_word;
+use super::number::{self, ends_a_word};
 
 /// The word that a text starts with, up to a minus glued to it: `3` of `3-10`, all of `1e-3`.
 pub(super) fn piece(text: &[u8]) -> &[u8] {

@@ -1,7 +1,8 @@
 //! Tokens of a BVH file, and where they stand.
 
-use super::number::{self, is_blank};
+use super::number::{self, ends_a_word, is_blank};
 use super::odd::{self, piece, with_point};
+use super::places::Places;
 use super::warnings::{DECIMAL_COMMA, GLUED_MINUS, LABEL_SPACING, Notices};
 use crate::error::Error;
 
@@ -213,40 +214,7 @@ impl<'a> Scanner<'a> {
 
     /// Line and column of a byte, from 1.
     pub(super) fn place(&self, at: usize) -> (usize, usize) {
-        Lines::of(self.text).place(at)
-    }
-}
-
-/// Counts the lines of a text on the way to places in it, which come in order. Lines end in LF, CRLF or
-/// CR.
-pub(super) struct Lines<'a> {
-    text: &'a [u8],
-    at: usize,
-    line: usize,
-    start: usize,
-}
-
-impl<'a> Lines<'a> {
-    /// Stands at the beginning.
-    pub(super) fn of(text: &'a [u8]) -> Self {
-        Self { text, at: 0, line: 1, start: 0 }
-    }
-
-    /// Line and column of a byte, from 1.
-    pub(super) fn place(&mut self, at: usize) -> (usize, usize) {
-        let at = at.min(self.text.len());
-        for (index, &byte) in self.text[..at].iter().enumerate().skip(self.at) {
-            let ends = match byte {
-                b'\n' => true,
-                b'\r' => self.text.get(index + 1) != Some(&b'\n'),
-                _ => false,
-            };
-            if ends {
-                (self.line, self.start) = (self.line + 1, index + 1);
-            }
-        }
-        self.at = at;
-        (self.line, at - self.start + 1)
+        Places::of(self.text).place(at)
     }
 }
 
@@ -258,11 +226,6 @@ fn word_at(text: &[u8], at: usize) -> Word<'_> {
         _ => rest.iter().position(|&byte| ends_a_word(byte)).unwrap_or(rest.len()),
     };
     Word { text: &rest[..length], at }
-}
-
-/// Whether a byte stands between words: a blank or a brace.
-pub(super) fn ends_a_word(byte: u8) -> bool {
-    is_blank(byte) || matches!(byte, b'{' | b'}')
 }
 
 /// A word as a person should see it.
@@ -282,13 +245,6 @@ pub(super) fn quoted(text: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lines_end_in_lf_crlf_or_cr_and_columns_are_bytes() {
-        let mut lines = Lines::of(b"a\nb\r\nc\rd e");
-        let places = [0, 1, 2, 3, 5, 7, 9].map(|at| lines.place(at));
-        assert_eq!(places, [(1, 1), (1, 2), (2, 1), (2, 2), (3, 1), (4, 1), (4, 3)]);
-    }
 
     #[test]
     fn braces_are_tokens_even_when_glued() {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use encoding_rs::{Encoding, SHIFT_JIS, UTF_16BE, UTF_16LE};
 
 use super::number::is_blank;
-use super::scanner::Lines;
+use super::places::Places;
 use super::warnings::{ENCODING, Notices, TRAILING_BYTES};
 use crate::error::Error;
 
@@ -53,7 +53,7 @@ fn from_names<'a>(text: &'a [u8], notices: &mut Notices) -> Result<Cow<'a, [u8]>
         return Ok(Cow::Borrowed(text));
     }
     let Some(names) = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(head) else {
-        let (line, column) = Lines::of(text).place(wrong.valid_up_to());
+        let (line, column) = Places::of(text).place(wrong.valid_up_to());
         let message = "the names are neither UTF-8 nor Shift-JIS text; save the file as UTF-8";
         return Err(Error::Bvh { line, column, message: message.into() });
     };

@@ -1,6 +1,6 @@
 //! The codes of everything a BVH file may be warned of, and how warnings are gathered.
 
-use super::scanner::Lines;
+use super::places::Places;
 use crate::error::Warning;
 
 /// The file has more or fewer complete frames than it says.
@@ -82,13 +82,13 @@ impl Notices {
     /// All of them as warnings about the text, in its order.
     pub(super) fn into_warnings(mut self, text: &[u8]) -> Vec<Warning> {
         self.0.sort_by_key(|notice| notice.at);
-        let mut lines = Lines::of(text);
+        let mut places = Places::of(text);
         let warning = |notice: Notice| {
             let Notice { code, at, count, mut message } = notice;
             if count > 1 {
                 message.push_str(&format!(" (the first of {count})"));
             }
-            Warning::at(lines.place(at), code, message)
+            Warning::at(places.place(at), code, message)
         };
         self.0.into_iter().map(warning).collect()
     }
