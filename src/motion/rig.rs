@@ -4,7 +4,7 @@ use std::array;
 
 use glam::DVec3;
 
-use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
+use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes, ThreeAxes};
 use crate::motion::{Axis, Channel, Skeleton};
 
 /// One row of channel values a lane.
@@ -20,10 +20,28 @@ pub(crate) struct Rig {
 struct RigJoint {
     parent: Option<usize>,
     offset: DVec3,
-    /// Axis and column of each rotation, in the order they are multiplied.
-    turns: Vec<(Axis, usize)>,
+    turns: Turns,
     /// Axis and column of each position.
     moves: Vec<(Axis, usize)>,
+}
+
+/// How the rotation of a joint comes out of a row.
+#[derive(Debug, Clone)]
+enum Turns {
+    /// As nearly every file has it: three different axes, and their columns.
+    Three(ThreeAxes, [usize; 3]),
+    /// Axis and column of each rotation, in the order they are multiplied.
+    Listed(Vec<(Axis, usize)>),
+}
+
+impl Turns {
+    fn of(listed: Vec<(Axis, usize)>) -> Self {
+        let three = |turns: [(Axis, usize); 3]| {
+            let axes = ThreeAxes::new(turns.map(|(axis, _)| axis))?;
+            Some(Self::Three(axes, turns.map(|(_, column)| column)))
+        };
+        listed[..].try_into().ok().and_then(three).unwrap_or(Self::Listed(listed))
+    }
 }
 
 impl Rig {
@@ -37,7 +55,7 @@ impl Rig {
                 }
             }
             let parent = joint.parent.map(|parent| parent.0);
-            RigJoint { parent, offset: joint.offset, turns, moves }
+            RigJoint { parent, offset: joint.offset, turns: Turns::of(turns), moves }
         };
         Self { joints: skeleton.iter().map(joint).collect() }
     }
@@ -49,11 +67,24 @@ impl Rig {
     /// The rotation of a joint against its parent: [`local_rotation`](super::local_rotation) of each row.
     #[inline(always)]
     pub(crate) fn rotation(&self, joint: usize, rows: &Rows<'_>) -> LaneQuat {
-        let mut turns = self.joints[joint].turns.iter();
         let half = |column: usize| gather(rows, column).half_sin_cos();
-        let Some(&(axis, column)) = turns.next() else { return LaneQuat::default() };
-        let first = LaneQuat::about(axis, half(column));
-        turns.fold(first, |rotation, &(axis, column)| rotation.turned(axis, half(column)))
+        match &self.joints[joint].turns {
+            Turns::Three(axes, [a, b, c]) => axes.rotation([half(*a), half(*b), half(*c)]),
+            Turns::Listed(turns) => {
+                let turn = |rotation: LaneQuat, &(axis, column): &(Axis, usize)| {
+                    rotation.turned(axis, half(column))
+                };
+                turns.iter().fold(LaneQuat::default(), turn)
+            }
+        }
+    }
+
+    /// The three different axes of a joint and their columns, where it has such.
+    pub(crate) fn three_axes(&self, joint: usize) -> Option<(ThreeAxes, [usize; 3])> {
+        match self.joints[joint].turns {
+            Turns::Three(axes, columns) => Some((axes, columns)),
+            Turns::Listed(_) => None,
+        }
     }
 
     /// Where a joint stands against its parent: [`local_translation`](super::local_translation) of each

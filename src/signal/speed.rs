@@ -86,7 +86,7 @@ fn rotation(clip: &Clip) -> DMatrix<f64> {
     let (rig, frames) = (Rig::of(clip.skeleton()), clip.len());
     let rows: Vec<&[f64]> = clip.rows().collect();
     let Some(first) = rows.first() else { return values };
-    let mut joints = JointSteps::of(clip.skeleton(), &rig, first);
+    let mut joints = JointSteps::of(&rig, first);
     let per_second = Lanes::splat(clip.rate().fps());
     let mut steps = [Lanes::ZERO; PARTS];
     for begin in (0..frames).step_by(BLOCK) {

@@ -6,6 +6,7 @@ use crate::motion::Axis;
 /// Three different axes in the order their rotations are multiplied.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ThreeAxes {
+    axes: [Axis; 3],
     /// 1 where the axes follow each other as x, y, z do, −1 where they run the other way round.
     sense: f64,
 }
@@ -16,7 +17,7 @@ impl ThreeAxes {
         let [first, second, third] = axes.map(|axis| axis as usize);
         let different = first != second && second != third && third != first;
         let sense = if (first + 1) % 3 == second { 1.0 } else { -1.0 };
-        different.then_some(Self { sense })
+        different.then_some(Self { axes, sense })
     }
 
     /// The product of three rotations, given by sine and cosine of half of each angle: in a basis of
@@ -34,6 +35,18 @@ impl ThreeAxes {
             z: neither * sin_c + both * cos_c,
         };
         LaneQuat { v, w: neither * cos_c - both * sin_c }
+    }
+
+    /// The same product in the basis that the joint has.
+    #[inline(always)]
+    pub(crate) fn rotation(self, halves: [(Lanes, Lanes); 3]) -> LaneQuat {
+        let LaneQuat { v, w } = self.product(halves);
+        let [first, second, third] = self.axes;
+        let mut turned = LaneVec::default();
+        *turned.axis_mut(first) = v.x;
+        *turned.axis_mut(second) = v.y;
+        *turned.axis_mut(third) = v.z * Lanes::splat(self.sense);
+        LaneQuat { v: turned, w }
     }
 }
 
@@ -65,10 +78,12 @@ mod tests {
                 let closed = |degrees| ThreeAxes::new(axes).unwrap().product(halves(degrees)).lane(1);
                 let single = |degrees: [f64; 3]| {
                     let [a, b, c] = halves(degrees);
-                    LaneQuat::about(axes[0], a).turned(axes[1], b).turned(axes[2], c).lane(1)
+                    LaneQuat::default().turned(axes[0], a).turned(axes[1], b).turned(axes[2], c).lane(1)
                 };
                 let (found, expected) = (closed(before).dot(closed(after)), single(before).dot(single(after)));
                 prop_assert!((found - expected).abs() < 1e-14, "{axes:?}: {found} {expected}");
+                let turned = ThreeAxes::new(axes).unwrap().rotation(halves(before)).lane(0);
+                prop_assert!(turned.abs_diff_eq(single(before), 1e-15), "{axes:?}: {turned}");
             }
         }
     }

@@ -6,7 +6,6 @@ use glam::DQuat;
 
 use crate::motion::lanes::{LANES, LaneQuat, Lanes, ThreeAxes};
 use crate::motion::rig::Rig;
-use crate::motion::{Channel, Joint, Skeleton};
 
 /// Frames that are read for one joint before the next: their rows stay in the fastest cache.
 pub(super) const BLOCK: usize = PARTS * LANES;
@@ -39,14 +38,17 @@ enum Reading<'a> {
 
 impl<'a> JointSteps<'a> {
     /// Every joint before the first of its steps, which goes from the first row to itself.
-    pub(super) fn of(skeleton: &Skeleton, rig: &'a Rig, first: &[f64]) -> Vec<Self> {
-        let joint = |(at, joint)| {
-            let reading = three_axes(joint).unwrap_or(Reading::Listed(rig, at));
+    pub(super) fn of(rig: &'a Rig, first: &[f64]) -> Vec<Self> {
+        let joint = |joint: usize| {
+            let reading = match rig.three_axes(joint) {
+                Some((axes, columns)) => Reading::ThreeAxes(axes, columns),
+                None => Reading::Listed(rig, joint),
+            };
             let mut rotations = [LaneQuat::default(); PARTS];
             reading.rotations(&[first; BLOCK], &mut rotations);
             Self { reading, before: rotations[0].lane(0) }
         };
-        skeleton.joints.iter().enumerate().map(joint).collect()
+        (0..rig.len()).map(joint).collect()
     }
 
     /// The angle of the step into each frame of the next block, in radians.
@@ -58,17 +60,6 @@ impl<'a> JointSteps<'a> {
             self.before = now.lane(LANES - 1);
         }
     }
-}
-
-fn three_axes<'a>(joint: &Joint) -> Option<Reading<'a>> {
-    let turn = |(column, channel): (usize, &Channel)| match *channel {
-        Channel::Rotation(axis) => Some((axis, column)),
-        Channel::Position(_) => None,
-    };
-    let turns: Vec<_> = (joint.first_channel..).zip(&joint.channels).filter_map(turn).collect();
-    let turns: [_; 3] = turns.try_into().ok()?;
-    let axes = ThreeAxes::new(turns.map(|(axis, _)| axis))?;
-    Some(Reading::ThreeAxes(axes, turns.map(|(_, column)| column)))
 }
 
 impl Reading<'_> {
