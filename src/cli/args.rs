@@ -215,7 +215,7 @@ fn frames(text: &str) -> Result<Frames, String> {
 
 fn rate(text: &str) -> Result<FrameRate, String> {
     let fps = text.parse().ok().and_then(|fps| FrameRate::new(fps).ok());
-    fps.ok_or_else(|| "expected frames a second above 0, as in 120 or 29.97".into())
+    fps.ok_or_else(|| "expected frames a second from 0.001 to 1000000, as in 120 or 29.97".into())
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_is_a_number_above_0() {
+    fn a_rate_is_a_number_of_frames_a_second() {
         assert_eq!(rate("29.97").unwrap().fps(), 29.97);
         for wrong in ["0", "-24", "nan", "inf", "fast", ""] {
             assert!(rate(wrong).is_err(), "{wrong}");

@@ -8,6 +8,7 @@ use crate::deliver::{self, Drawings, Rows};
 use crate::pipeline::Engine;
 
 pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
+    io::spare(&args.clip.clip, &args.out)?;
     let (recipe, edits) = source::corrected(&args.corrections)?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));

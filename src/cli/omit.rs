@@ -10,7 +10,9 @@ use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Omitted, Order, Report, Stills};
 
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
-    io::spare(&args.clip.clip, &args.out)?;
+    for target in args.sheet.iter().chain([&args.out]) {
+        io::spare(&args.clip.clip, target)?;
+    }
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let clip = source.clip;

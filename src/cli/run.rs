@@ -11,6 +11,11 @@ use crate::pipeline::{Breakdown, Engine};
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let (recipe, edits) = source::corrected(&args.corrections)?;
+    let cut = io::stem(&args.clip.clip);
+    let folder = folder(args, &cut)?;
+    for name in NAMES {
+        io::spare(&args.clip.clip, &folder.join(name))?;
+    }
     let working = words.working();
     working.on("reading the motion");
     let source = source::clip(&args.clip)?;
@@ -18,8 +23,6 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut engine = Engine::new(source.clip)?;
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
-    let cut = io::stem(&args.clip.clip);
-    let folder = folder(args, &cut)?;
     let report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
     let mut bundle = io::Bundle::begin(&folder)?;
     write(&mut bundle, &cut, &breakdown, &report)?;

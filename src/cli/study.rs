@@ -9,6 +9,9 @@ use crate::signal::FilterKind;
 use crate::study::{self, StudyRow};
 
 pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
+    for target in args.plot.iter().chain([&args.out]) {
+        io::spare(&args.clip.clip, target)?;
+    }
     let (mut recipe, _) = source::recipe(&args.settings, study::table_1_recipe())?;
     let listed = [("filter.width", "--filter-width"), ("turns.persistence", "--persistence")];
     for (name, list) in listed {

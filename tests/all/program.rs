@@ -671,3 +671,28 @@ fn completions_and_the_manual_name_every_subcommand() {
         assert!(recipe.contains(&format!("{} = ", knob.path().1)), "{}", knob.name);
     }
 }
+
+#[test]
+fn nothing_is_written_over_the_motion_itself() {
+    let place = Place::new();
+    let kick = fs::read(here("data/kick.bvh")).unwrap();
+    fs::create_dir(place.path("out")).unwrap();
+    for motion in ["k.bvh", "out/limited.bvh"] {
+        fs::write(place.path(motion), &kick).unwrap();
+    }
+    for args in [
+        "keys k.bvh -o k.bvh",
+        "study k.bvh -o k.bvh",
+        "study k.bvh --plot k.bvh",
+        "omit k.bvh -o k.bvh",
+        "omit k.bvh -o l.bvh --sheet k.bvh",
+        "run out/limited.bvh -o out",
+    ] {
+        let output = place.genga(args);
+        assert_eq!(output.status.code(), Some(2), "{args}");
+        assert!(text(&output.stderr).contains("this is the motion itself"), "{args}");
+        for motion in ["k.bvh", "out/limited.bvh"] {
+            assert!(fs::read(place.path(motion)).unwrap() == kick, "{args} wrote over {motion}");
+        }
+    }
+}

@@ -83,7 +83,8 @@ impl Table<'_> {
         let mut faults = [lines.short, lines.long.filter(|_| !self.repair)];
         faults.sort_by_key(|fault| fault.map_or(usize::MAX, |fault| fault.at));
         if let Some(Fault { at, found }) = faults[0].or(faults[1]) {
-            let message = format!("expected {width} values in this row, found {found}");
+            let out = if found > width { "; --repair leaves the rest out" } else { "" };
+            let message = format!("expected {width} values in this row, found {found}{out}");
             return Err(scanner.error(at, message));
         }
         for Extras { at, found, .. } in &lines.extras {

@@ -8,10 +8,9 @@ use super::threads;
 
 /// All bytes of a file. Most of the time goes into new memory, so large files share that between threads.
 pub(super) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let size = fs::metadata(path)?.len() as usize;
-    match threads::parts(size) {
-        1 => fs::read(path),
-        parts => in_parts(path, size, parts),
+    match usize::try_from(fs::metadata(path)?.len()) {
+        Ok(size) if threads::parts(size) > 1 => in_parts(path, size, threads::parts(size)),
+        _ => fs::read(path),
     }
 }
 
@@ -20,6 +19,9 @@ fn in_parts(path: &Path, size: usize, parts: usize) -> io::Result<Vec<u8>> {
     use std::os::unix::fs::FileExt;
 
     let file = fs::File::open(path)?;
+    // Asked first whether there is so much memory: what gives zeroes untouched, for the threads to
+    // touch, cannot say no.
+    Vec::<u8>::new().try_reserve_exact(size)?;
     let mut bytes = vec![0; size];
     let part = size.div_ceil(parts);
     let jobs = bytes.chunks_mut(part).enumerate().map(|(index, target)| {
@@ -47,6 +49,7 @@ mod tests {
             assert_eq!(in_parts(&path, whole.len(), parts).unwrap(), whole);
         }
         assert_eq!(bytes(&path).unwrap(), whole);
+        #[cfg(unix)]
         let longer = in_parts(&path, whole.len() + 1, 2).map_err(|error| error.kind());
         #[cfg(unix)]
         assert_eq!(longer, Err(io::ErrorKind::UnexpectedEof), "it got shorter meanwhile");

@@ -171,6 +171,7 @@ fn check_channel_count(scanner: &Scanner, width: usize) -> Result<(), Error> {
 fn mismatch(said: usize, frames: usize, cut: usize) -> String {
     let cut = match cut {
         0 => String::new(),
+        1 => " and 1 value of a cut one, left out".to_owned(),
         cut => format!(" and {cut} values of a cut one, left out"),
     };
     let s = if frames == 1 { "" } else { "s" };

@@ -38,7 +38,7 @@ fn most_values(text: &[u8]) -> usize {
 /// A thread a part. Where each of them has to write follows from the lines before it, so this works
 /// only where the file has the lines that it says.
 fn read_parts(text: &[u8], channels: usize, said: usize, parts: usize) -> Option<Vec<f64>> {
-    let parts = split_at_lines(text.trim_ascii_end(), parts);
+    let parts = split_at_lines(text.trim_ascii(), parts);
     let lines = threads::all(parts.iter().map(|part| || 1 + memchr_iter(b'\n', part).count()));
     if lines.iter().sum::<usize>() != said || said.saturating_mul(channels) > most_values(text) {
         return None;
@@ -205,8 +205,11 @@ mod tests {
 
     #[test]
     fn in_parts_is_the_same_as_in_one() {
-        for (end, tail) in [("\n", ""), ("\r\n", ""), (" \n", "\n \n")] {
-            let text = rows(1000, end) + tail;
+        // The text begins where the line of the frame time ends.
+        for (head, end, tail) in
+            [("", "\n", ""), ("\n", "\n", ""), ("\r\n", "\r\n", ""), (" \n", " \n", "\n \n")]
+        {
+            let text = head.to_owned() + &rows(1000, end) + tail;
             let whole = read_whole(text.as_bytes(), 3, 1000);
             assert!(whole.is_some());
             for parts in 2..6 {
@@ -229,6 +232,7 @@ mod tests {
         let frames = 2 * PART / rows(1, "\n").len();
         let text = rows(frames, "\n");
         assert!(text.len() > 2 * PART);
+        assert!(read_parts(text.as_bytes(), 3, frames, 2).is_some());
         let values = read(text.as_bytes(), 3, frames).unwrap();
         assert_eq!(values.len(), 3 * frames);
         assert!((0..frames).all(|frame| values[3 * frame] == frame as f64));

@@ -36,10 +36,9 @@ pub(super) fn choose(
             Some(tree) => select(tree.joints.clone(), head),
             None => {
                 let listed = listed(&trees, &head.skeleton.joints);
-                let name = quoted(name.as_bytes());
                 return Err(Error::setting(
                     "root",
-                    format!("no tree is called {name}; the file has {listed}"),
+                    format!("no tree is called {name:?}; the file has {listed}"),
                 ));
             }
         },

@@ -15,6 +15,9 @@ const NEAR: f64 = 1.5e-5;
 const MOST_TABS: usize = 32;
 
 /// Writes (書く) a clip as a BVH file: see [`Writer`].
+///
+/// A rate of one frame a second or less is written too, but the format's readers, this one among them,
+/// take such a frame time for a rate; [`super::Options::fps`] reads it.
 pub fn write(clip: &Clip) -> String {
     let mut writer = Writer::new(clip.skeleton(), clip.rate());
     writer.rows(clip.rows());

@@ -237,8 +237,10 @@ fn a_row_is_named_only_where_the_rows_before_leave_no_doubt() {
 fn a_row_too_short_or_too_long_is_an_error_where_it_is() {
     let rows = |rows: &[&str]| text("0.01", rows);
     let (short, long) = ("1 2 3 4 5 6 7 8 ", "1 2 3 4 5 6 7 8 9 10 11");
-    let (less, more) =
-        ("expected 9 values in this row, found 8", "expected 9 values in this row, found 11");
+    let (less, more) = (
+        "expected 9 values in this row, found 8",
+        "expected 9 values in this row, found 11; --repair leaves the rest out",
+    );
     for (text, line, column, message) in [
         (rows(&[ROW, short, ROW]), 20, 16, less),
         (rows(&[short, ROW]), 19, 16, less),
@@ -248,7 +250,12 @@ fn a_row_too_short_or_too_long_is_an_error_where_it_is() {
         (rows(&[short, short, short]), 19, 16, less),
         // As many values as there should be, but the lines are as many as frames.
         (rows(&[short, "1 2 3 4 5 6 7 8 9 10"]), 19, 16, less),
-        (rows(&["1 2 3 4 5 6 7 8 9 10", short]), 19, 19, "expected 9 values in this row, found 10"),
+        (
+            rows(&["1 2 3 4 5 6 7 8 9 10", short]),
+            19,
+            19,
+            "expected 9 values in this row, found 10; --repair leaves the rest out",
+        ),
         (rows(&[long, long, long]).replace("Frames: 3", "Frames: 9"), 19, 19, more),
     ] {
         assert_error(&text, line, column, message);

@@ -116,7 +116,7 @@ fn rows() -> Vec<Case> {
             35,
             with(ROW, &format!("{ROW} 70")),
             (19, 25),
-            "expected 9 values in this row, found 10",
+            "expected 9 values in this row, found 10; --repair leaves the rest out",
         ),
         accepted(36, spread, same),
         accepted(37, with(OTHER_ROW, &format!("\n \n{OTHER_ROW}")), same),
