@@ -1,6 +1,8 @@
 //! The `genga` program. It uses the public library and nothing else.
 
 mod args;
+mod asked;
+mod deliver;
 mod failure;
 mod inspect;
 mod io;
@@ -28,6 +30,7 @@ pub fn main() -> ExitCode {
     let words = Words::new(args.quiet);
     let done = match args.command {
         Command::Run(args) => run::run(&args, &words),
+        Command::Deliver(args) => deliver::run(&args, &words),
         Command::Keys(args) => keys::run(&args, &words),
         Command::Omit(args) => omit::run(&args, &words),
         Command::Study(args) => study::run(&args, &words),

@@ -1,17 +1,28 @@
 //! **Hand over** (渡す): one file a format, each a function of clip and sheet.
+//!
+//! [`FORMATS`] lists those that can be asked for by name. A format is a row there and a file here.
 
+mod cut;
 mod drawings;
+mod format;
 mod koma;
 mod limited_bvh;
+mod pictures;
 mod report;
+mod settings;
+pub mod sheet_json;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod turns;
 
+pub use cut::Cut;
 pub use drawings::{Drawings, Rows};
+pub use format::{FORMATS, Format, Sink};
 pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::limited_bvh;
+pub use pictures::{bars, poses};
 pub use report::Report;
+pub use settings::{CsvSettings, Settings};
 pub use turns::turns_csv;
 
 use crate::error::Error;

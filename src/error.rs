@@ -44,6 +44,14 @@ pub enum Error {
         /// What was named and what there is.
         message: String,
     },
+    /// A sheet is not what it should be, or does not fit its clip.
+    #[error("{}{message}", located(*place))]
+    Sheet {
+        /// Line and column in the file, from 1, where there is a place to point at.
+        place: Option<(usize, usize)>,
+        /// What is wrong, and the way out.
+        message: String,
+    },
     /// Reading or writing failed.
     #[error("{}: {source}", path.display())]
     Io {
@@ -71,13 +79,23 @@ impl Error {
         Self::Clip { message: message.into() }
     }
 
+    /// An error of a sheet as a whole.
+    pub fn sheet(message: impl Into<String>) -> Self {
+        Self::Sheet { place: None, message: message.into() }
+    }
+
     /// Line and column in the file, from 1, where there is a file to point into.
     pub fn position(&self) -> Option<(usize, usize)> {
         match self {
             Self::Bvh { line, column, .. } => Some((*line, *column)),
+            Self::Sheet { place, .. } => *place,
             _ => None,
         }
     }
+}
+
+fn located(place: Option<(usize, usize)>) -> String {
+    place.map_or_else(String::new, |(line, column)| format!("{line}:{column}: "))
 }
 
 /// Something a person should know which does not stop the work.

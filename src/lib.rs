@@ -16,9 +16,9 @@
 //! [`time`], [`sheet`] and [`edits`], which are plain data.
 //!
 //! ```text
-//! read        measure      choose      time         hand over
-//! motion  →   signal   →   keys   →    timing   →   deliver, plot
-//! Clip        Signals      LayerKeys   Sheet        files, pictures
+//! read        measure      choose      time         show         hand over
+//! motion  →   signal   →   keys   →    timing   →   plot     →   deliver
+//! Clip        Signals      LayerKeys   Sheet        pictures     files
 //! ```
 //!
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's

@@ -30,6 +30,7 @@ pub struct Layer {
 
 /// A drawing and the number of koma it stays on screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Exposure {
     /// Index into [`Layer::drawings`].
     pub drawing: usize,
@@ -105,24 +106,38 @@ impl Role {
 
 /// Why a drawing is on the sheet, and what was done round it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Why {
     /// Names of the joints that have a turn of their own here.
+    #[serde(skip_serializing_if = "is_default")]
     pub voters: Vec<String>,
     /// Set by a person, with the name they gave it (empty when they gave none).
+    #[serde(skip_serializing_if = "is_default")]
     pub pinned: Option<String>,
     /// The begin or the end of a rest (止め).
+    #[serde(skip_serializing_if = "is_default")]
     pub rest: bool,
     /// How strong the key is, 0 to 1 for votes; none for inbetweens.
+    #[serde(skip_serializing_if = "is_default")]
     pub strength: Option<f64>,
     /// What the key saves, in % of body height: how far the body would be off without it; none for
     /// inbetweens.
+    #[serde(skip_serializing_if = "is_default")]
     pub price: Option<f64>,
     /// Koma that naka-nashi gave to it.
+    #[serde(skip_serializing_if = "is_default")]
     pub lengthened: usize,
     /// Drawings just before it that naka-nashi left out.
+    #[serde(skip_serializing_if = "is_default")]
     pub omitted_before: usize,
     /// Drawings after it that koma-dori replaced by it.
+    #[serde(skip_serializing_if = "is_default")]
     pub held_for: usize,
+}
+
+/// What says nothing is not written.
+pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// In words, for the reason columns.

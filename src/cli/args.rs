@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
+use crate::deliver::FORMATS;
 use crate::time::{FrameRate, Span};
 use crate::timing::Amount;
 
@@ -28,6 +29,8 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// The whole chain: key tables, timesheet, limited motion and pictures into a folder.
     Run(RunArgs),
+    /// A sheet again, edited or not, in the formats that are asked for.
+    Deliver(DeliverArgs),
     /// The key table as CSV.
     Keys(KeysArgs),
     /// Naka-nashi and koma-dori alone, on the clip at 24 drawings a second.
@@ -59,6 +62,13 @@ pub(super) struct ClipArgs {
     /// Work on source frames A up to but not including B, numbered from 0 as in the file.
     #[arg(long, value_name = "A..B", value_parser = frames)]
     pub(super) trim: Option<Frames>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+}
+
+/// How a clip is read.
+#[derive(Debug, ClapArgs)]
+pub(super) struct Reading {
     /// The frame rate, whatever the file says.
     #[arg(long, value_name = "N", value_parser = rate)]
     pub(super) fps: Option<FrameRate>,
@@ -94,13 +104,48 @@ pub(super) struct Corrections {
     pub(super) pin: Vec<String>,
 }
 
+/// Settings of the formats.
 #[derive(Debug, ClapArgs)]
+pub(super) struct FormatSettings {
+    /// One setting of a format: --with csv.bom=true (may be given again).
+    #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
+    pub(super) with: Vec<(String, String)>,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = formats_help())]
 pub(super) struct RunArgs {
     #[command(flatten)]
     pub(super) clip: ClipArgs,
     #[command(flatten)]
     pub(super) corrections: Corrections,
+    /// Formats to write besides: --deliver remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
+    pub(super) deliver: Vec<String>,
+    #[command(flatten)]
+    pub(super) settings: FormatSettings,
     /// The folder for the results [default: the clip's name with -genga].
+    #[arg(long, short, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = formats_help())]
+pub(super) struct DeliverArgs {
+    /// The sheet, a sheet.json; - is stdin.
+    #[arg(value_name = "SHEET.json")]
+    pub(super) sheet: PathBuf,
+    /// The motion it was made of, the whole BVH file.
+    #[arg(value_name = "CLIP.bvh")]
+    pub(super) clip: PathBuf,
+    /// The formats to write: --to remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required = true)]
+    pub(super) to: Vec<String>,
+    #[command(flatten)]
+    pub(super) settings: FormatSettings,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    /// The folder for the files [default: the one the sheet is in].
     #[arg(long, short, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
 }
@@ -197,6 +242,15 @@ pub(super) struct RecipeArgs {
     /// The settings of the first paper's Table 1 instead.
     #[arg(long)]
     pub(super) study: bool,
+}
+
+/// The formats, a line each.
+fn formats_help() -> String {
+    let lines = FORMATS.iter().map(|format| {
+        let (name, help, japanese) = (format.name, format.help, format.japanese);
+        format!("\n  {name:<12}{help} ({japanese}): {}", format.files.join(" "))
+    });
+    format!("Formats:{}", lines.collect::<String>())
 }
 
 /// A half-open range of source frames.

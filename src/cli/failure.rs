@@ -29,9 +29,11 @@ impl Failure {
     pub(super) fn of_file(path: &Path, error: Error) -> Self {
         let name = path.display();
         match error {
-            Error::Bvh { .. } => Self::CouldNot(format!("{name}:{error}")),
+            Error::Bvh { .. } | Error::Sheet { place: Some(_), .. } => {
+                Self::CouldNot(format!("{name}:{error}"))
+            }
             Error::Recipe { message } => Self::AskedWrongly(format!("{name}:{message}")),
-            Error::Clip { .. } => Self::CouldNot(format!("{name}: {error}")),
+            Error::Clip { .. } | Error::Sheet { .. } => Self::CouldNot(format!("{name}: {error}")),
             other => other.into(),
         }
     }

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 use super::failure::Failure;
 use crate::error::Error;
@@ -35,10 +35,13 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Files for a folder, each written beside its place as soon as it is made, so that none waits in
-/// memory; they take their places together, so that a full disk leaves what was there before.
+/// memory or stays open; they take their places together, so that a full disk leaves what was there
+/// before.
 pub(super) struct Bundle<'a> {
     folder: &'a Path,
-    written: Vec<(NamedTempFile, PathBuf)>,
+    written: Vec<(TempPath, PathBuf)>,
+    /// Folders that were made for it; what stays empty goes again.
+    made: Vec<PathBuf>,
 }
 
 impl<'a> Bundle<'a> {
@@ -48,39 +51,64 @@ impl<'a> Bundle<'a> {
             let message = format!("{}: is a file, not a folder", folder.display());
             return Err(Failure::CouldNot(message));
         }
-        fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
-        Ok(Self { folder, written: Vec::new() })
+        let mut bundle = Self { folder, written: Vec::new(), made: Vec::new() };
+        bundle.make(folder)?;
+        Ok(bundle)
     }
 
-    /// Writes a file beside its place.
-    pub(super) fn add(&mut self, name: &str, text: impl AsRef<[u8]>) -> Result<(), Failure> {
+    /// Writes a file beside its place. Its name may have folders in it, with `/`.
+    pub(super) fn add(&mut self, name: &str, text: impl AsRef<[u8]>) -> Result<(), Error> {
         let path = self.folder.join(name);
-        self.written.push((written_beside(&path, text.as_ref())?, path));
+        if let Some(folder) = path.parent() {
+            self.make(folder)?;
+        }
+        let file = written_beside(&path, text.as_ref())?;
+        self.written.push((file.into_temp_path(), path));
         Ok(())
     }
 
     /// Puts all files into their places.
-    pub(super) fn finish(self) -> Result<(), Failure> {
-        self.written.into_iter().try_for_each(|(file, path)| take_place(file, &path))
+    pub(super) fn finish(mut self) -> Result<(), Failure> {
+        self.made.clear();
+        let place = |(file, path): (TempPath, PathBuf)| {
+            file.persist(&path).map_err(|error| io_error(&path, error.error))
+        };
+        Ok(std::mem::take(&mut self.written).into_iter().try_for_each(place)?)
+    }
+
+    fn make(&mut self, folder: &Path) -> Result<(), Error> {
+        let missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+        self.made.extend(folder.ancestors().take_while(missing).map(Path::to_owned));
+        fs::create_dir_all(folder).map_err(|source| io_error(folder, source))
+    }
+}
+
+/// What was begun and not finished leaves nothing, no empty folder either.
+impl Drop for Bundle<'_> {
+    fn drop(&mut self) {
+        self.written.clear();
+        self.made.sort();
+        // The deepest first; one that somebody else has put something into stays.
+        self.made.iter().rev().for_each(|folder| drop(fs::remove_dir(folder)));
     }
 }
 
 /// A file of those bytes beside a path. It goes when it is dropped.
-fn written_beside(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, Failure> {
+fn written_beside(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, Error> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     if !folder.is_dir() {
-        return Err(Failure::CouldNot(format!("{}: there is no such folder", folder.display())));
+        return Err(io_error(folder, io::Error::other("there is no such folder")));
     }
     if path.is_dir() {
-        return Err(Failure::CouldNot(format!("{}: is a folder", path.display())));
+        return Err(io_error(path, io::Error::other("is a folder")));
     }
     let write = || {
         let mut file = like_any_other(&mut tempfile::Builder::new()).tempfile_in(folder)?;
         file.write_all(bytes)?;
         Ok(file)
     };
-    write().map_err(|source| failed(path, source))
+    write().map_err(|source| io_error(path, source))
 }
 
 /// A temporary file is private; what a person asked for is as readable as any file they make.
@@ -132,11 +160,21 @@ pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
+/// The name of a file without its folders; of stdin it is `stdin`.
+pub(super) fn file_name(path: &Path) -> String {
+    let named = named(path);
+    named.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
 /// What a file that is read is called in messages.
 pub(super) fn named(path: &Path) -> PathBuf {
     if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() }
 }
 
 fn failed(path: &Path, source: io::Error) -> Failure {
-    Error::Io { path: named(path), source }.into()
+    io_error(path, source).into()
+}
+
+fn io_error(path: &Path, source: io::Error) -> Error {
+    Error::Io { path: named(path), source }
 }

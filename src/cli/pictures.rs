@@ -1,4 +1,4 @@
-//! The pictures of a run and of a study.
+//! The pictures of what was measured, of a run and of a study.
 
 use std::path::Path;
 
@@ -6,11 +6,9 @@ use super::failure::Failure;
 use super::io;
 use crate::motion::JointId;
 use crate::pipeline::Breakdown;
-use crate::plot::{self, PoseRow, SheetPlot, SpeedPlot, StudyPlot};
-use crate::sheet::Sheet;
+use crate::plot::{self, SpeedPlot, StudyPlot};
 use crate::study::StudyRow;
 use crate::time::{Frame, FrameRate};
-use crate::timing::Stills;
 
 /// Speeds before and after the filter with keys and walls, of the joints that move most.
 pub(super) fn speed(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
@@ -36,28 +34,6 @@ fn movers_first(breakdown: &Breakdown<'_>) -> Vec<JointId> {
     let mut joints: Vec<JointId> = (0..reaches.len()).map(JointId).collect();
     joints.sort_by(|a, b| carries(b).total_cmp(&carries(a)));
     joints
-}
-
-/// The sheet as bars, with what was left out and how far the body moves into each koma.
-pub(super) fn sheet(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
-    let ones = Sheet::on_ones(breakdown.clock, breakdown.sheet.length());
-    let stills = Stills::of(breakdown.clip, &ones.layers[0]);
-    let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
-    let steps: Vec<f64> = (0..stills.len()).map(step).collect();
-    Ok(SheetPlot::default().draw(breakdown.sheet, Some(breakdown.spaced), Some(&steps))?)
-}
-
-/// The kept drawings as poses in a row.
-pub(super) fn poses(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
-    let layer = &breakdown.sheet.layers[0];
-    let kept = layer.timed().filter_map(|(koma, exposure)| {
-        let drawing = &layer.drawings[exposure.drawing];
-        let label = move |number: usize| format!("{number} · koma {}", koma + 1);
-        drawing.role.is_kept().then_some((drawing.source.place(), label, drawing.role))
-    });
-    let poses: Vec<_> =
-        kept.enumerate().map(|(at, (place, label, role))| (place, label(at + 1), role)).collect();
-    Ok(PoseRow::default().draw(breakdown.clip, &poses)?)
 }
 
 /// The study as curves, an SVG or, for a name that ends in `.png`, a PNG.

@@ -3,19 +3,25 @@
 use std::path::PathBuf;
 
 use super::args::RunArgs;
+use super::asked::Asked;
 use super::failure::Failure;
 use super::words::{Words, counted};
 use super::{io, pictures, source};
-use crate::deliver::{self, Drawings, Report, Rows};
-use crate::pipeline::{Breakdown, Engine};
+use crate::deliver::{Cut, Report};
+use crate::pipeline::Engine;
+
+/// What a run writes whether or not it is asked for: formats, and files of its own.
+const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
+const OWN: [&str; 3] = ["speed.svg", "recipe.toml", "report.json"];
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let (recipe, edits) = source::corrected(&args.corrections)?;
-    let cut = io::stem(&args.clip.clip);
-    let folder = folder(args, &cut)?;
-    for name in NAMES {
-        io::spare(&args.clip.clip, &folder.join(name))?;
-    }
+    let asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.settings)?;
+    let name = io::stem(&args.clip.clip);
+    let folder = folder(args, &name)?;
+    let own = OWN.map(str::to_owned);
+    asked.spare(&args.clip.clip, &folder)?;
+    own.iter().try_for_each(|file| io::spare(&args.clip.clip, &folder.join(file)))?;
     let working = words.working();
     working.on("reading the motion");
     let source = source::clip(&args.clip)?;
@@ -24,16 +30,33 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
     let report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
+    let cut = Cut {
+        name: &name,
+        clip_file: &io::file_name(&args.clip.clip),
+        clip: breakdown.clip,
+        sheet: breakdown.sheet,
+        spaced: Some(breakdown.spaced),
+        made_with: Some((&recipe, &edits)),
+    };
     let mut bundle = io::Bundle::begin(&folder)?;
-    write(&mut bundle, &cut, &breakdown, &report)?;
+    let mut files = asked.write(&cut, &mut bundle)?;
+    bundle.add("speed.svg", pictures::speed(&breakdown)?)?;
     bundle.add("recipe.toml", recipe.write(&edits))?;
+    bundle.add("report.json", json(&report)?)?;
     bundle.finish()?;
     drop(working);
-    summary(words, &cut, &report);
+    summary(words, &name, &report);
     let shortfalls = breakdown.omission.shortfalls();
     shortfalls.for_each(|reason| words.say(format_args!("note        {reason}")));
-    words.say(format_args!("files       {}: {}", folder.display(), NAMES.join(" ")));
+    files.extend(own);
+    words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     Ok(())
+}
+
+fn json(report: &Report) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(report)
+        .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
+    Ok(text + "\n")
 }
 
 /// The folder that is asked for, or one beside the work with the clip's name.
@@ -46,42 +69,6 @@ fn folder(args: &RunArgs, cut: &str) -> Result<PathBuf, Failure> {
         )),
         Some(out) => Ok(out.clone()),
     }
-}
-
-/// What a run writes.
-const NAMES: [&str; 10] = [
-    "keys.csv",
-    "drawings.csv",
-    "sheet.csv",
-    "remap.csv",
-    "limited.bvh",
-    "speed.svg",
-    "sheet.svg",
-    "poses.svg",
-    "recipe.toml",
-    "report.json",
-];
-
-/// Everything that the breakdown says, one file made after the other.
-fn write(
-    bundle: &mut io::Bundle<'_>,
-    cut: &str,
-    breakdown: &Breakdown<'_>,
-    report: &Report,
-) -> Result<(), Failure> {
-    let (clip, sheet) = (breakdown.clip, breakdown.sheet);
-    let table = |rows| Drawings { cut: cut.into(), rows }.write(clip, sheet);
-    let report = serde_json::to_string_pretty(report)
-        .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
-    bundle.add("keys.csv", table(Rows::Keys)?)?;
-    bundle.add("drawings.csv", table(Rows::All)?)?;
-    bundle.add("sheet.csv", deliver::sheet_csv(sheet)?)?;
-    bundle.add("remap.csv", deliver::remap_csv(sheet)?)?;
-    bundle.add("limited.bvh", deliver::limited_bvh(clip, sheet)?)?;
-    bundle.add("speed.svg", pictures::speed(breakdown)?)?;
-    bundle.add("sheet.svg", pictures::sheet(breakdown)?)?;
-    bundle.add("poses.svg", pictures::poses(breakdown)?)?;
-    bundle.add("report.json", report + "\n")
 }
 
 fn summary(words: &Words, cut: &str, report: &Report) {

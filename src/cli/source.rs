@@ -1,6 +1,8 @@
 //! The clip and the recipe that a command asks for.
 
-use super::args::{ClipArgs, Corrections, Settings};
+use std::path::Path;
+
+use super::args::{ClipArgs, Corrections, Reading, Settings};
 use super::failure::Failure;
 use super::io;
 use crate::edits::{Edits, Pin};
@@ -22,19 +24,8 @@ pub(super) struct Source {
 /// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
 pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
     let failed = |error| Failure::of_file(&io::named(&args.clip), error);
-    let options = options(args);
-    let read = if io::is_stream(&args.clip) {
-        options.read(&io::read(&args.clip)?)
-    } else {
-        options.open(&args.clip)
-    };
     let bvh::Read { mut clip, warnings: mut notes, written_frame_time } =
-        read.map_err(|error| match error {
-            Error::Setting { name, message } => {
-                Failure::AskedWrongly(format!("--{name}: {message}"))
-            }
-            other => failed(other),
-        })?;
+        whole(&args.clip, &args.reading)?;
     let begin = args.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
     if !args.keep_lead_in {
         let (motion, note) = bvh::lead_in::strip(clip);
@@ -56,8 +47,19 @@ pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
     Ok(Source { clip, notes, written_frame_time })
 }
 
-fn options(args: &ClipArgs) -> bvh::Options {
-    let ClipArgs { fps, root, repair, strict, .. } = args;
+/// Reads the whole file, with everything that stands in front of the motion.
+pub(super) fn whole(path: &Path, reading: &Reading) -> Result<bvh::Read, Failure> {
+    let options = options(reading);
+    let read =
+        if io::is_stream(path) { options.read(&io::read(path)?) } else { options.open(path) };
+    read.map_err(|error| match error {
+        Error::Setting { name, message } => Failure::AskedWrongly(format!("--{name}: {message}")),
+        other => Failure::of_file(&io::named(path), other),
+    })
+}
+
+fn options(args: &Reading) -> bvh::Options {
+    let Reading { fps, root, repair, strict } = args;
     bvh::Options { strict: *strict, repair: *repair, fps: *fps, root: root.clone() }
 }
 

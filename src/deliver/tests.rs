@@ -55,7 +55,7 @@ fn arm(time: f64) -> f64 {
 
 /// A wave of an arm at 50 frames a second: raised, held, thrown down, settled. Frames are numbered
 /// from 4, as after a lead-in. Four decimals, as files have them.
-fn wave() -> Clip {
+pub(crate) fn wave() -> Clip {
     let row = |frame: i32| {
         let time = f64::from(frame) / 50.0;
         let (arm, hand) = (arm(time), 0.5 * arm(time - 0.06));
@@ -71,13 +71,13 @@ fn wave() -> Clip {
     bvh::read(text.as_bytes()).unwrap().clip.trimmed(Frame(4), Frame(105)).unwrap()
 }
 
-fn recipe() -> Recipe {
+pub(crate) fn recipe() -> Recipe {
     let mut recipe = Recipe::default();
     recipe.set("omission.naka_nashi", "2").unwrap();
     recipe
 }
 
-fn edits() -> Edits {
+pub(crate) fn edits() -> Edits {
     let pin = Pin { weight: Some(0.5), ..Pin::parse("66:top, \"held\"").unwrap() };
     Edits { pins: vec![pin], forbidden: vec![] }
 }

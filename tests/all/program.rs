@@ -14,7 +14,7 @@ use crate::clips::{here, sample};
 const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
 
 /// What a run writes, and how each file begins.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 11] = [
     (
         "drawings.csv",
         "cut,column,drawing,role,genga_no,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
@@ -29,12 +29,13 @@ const FILES: [(&str, &str); 10] = [
     ("remap.csv", "koma,source_frame,source_time_s\n"),
     ("report.json", "{\n  \"frames\": "),
     ("sheet.csv", "koma,layer,drawing,role,source_frame,why\n"),
+    ("sheet.json", "{\n  \"schema\": \"genga-sheet-1\",\n"),
     ("sheet.svg", "<svg "),
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 8] =
-    ["run", "keys", "omit", "study", "inspect", "recipe", "completions", "man"];
+const SUBCOMMANDS: [&str; 9] =
+    ["run", "deliver", "keys", "omit", "study", "inspect", "recipe", "completions", "man"];
 
 /// A folder of its own for each test; the program runs in it.
 struct Place(TempDir);
@@ -695,4 +696,58 @@ fn nothing_is_written_over_the_motion_itself() {
             assert!(fs::read(place.path(motion)).unwrap() == kick, "{args} wrote over {motion}");
         }
     }
+}
+
+#[test]
+fn a_sheet_is_delivered_again_as_the_run_wrote_it() {
+    let place = Place::new();
+    fs::write(place.path("t.bvh"), with_t_pose()).unwrap();
+    for run in ["data/kick.bvh", "data/kick.bvh --trim 10..61", "t.bvh", "data/kick.bvh --fps 30"] {
+        place.done(&format!("run {run} --out a"));
+        let clip = run.split(' ').next().unwrap();
+        let fps = run.find("--fps").map_or("", |at| &run[at..]);
+        place.done(&format!("deliver a/sheet.json {clip} --to all --out b {fps}"));
+        let (a, b) = (place.files("a"), place.files("b"));
+        for file in
+            ["sheet.json", "keys.csv", "drawings.csv", "sheet.csv", "remap.csv", "limited.bvh"]
+        {
+            assert!(a[file] == b[file], "{run}: {file} came out different");
+        }
+    }
+}
+
+#[test]
+fn a_sheet_edited_by_hand_is_delivered_as_it_is() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --deliver remap,bvh");
+    let sheet = read(&place.path("a/sheet.json"));
+    let (head, exposures) = sheet.split_once("\"exposures\": [").unwrap();
+    let edited = exposures.replacen("\"koma\": 4", "\"koma\": 7", 1);
+    assert_ne!(edited, exposures);
+    fs::write(place.path("a/sheet.json"), format!("{head}\"exposures\": [{edited}")).unwrap();
+    let rows = |table: &str| column(&read(&place.path(table)), "koma").len();
+    let before = rows("a/sheet.csv");
+    let said = text(&place.genga("deliver a/sheet.json data/kick.bvh --to csv,remap").stderr);
+    assert!(said.contains("files       a: keys.csv drawings.csv sheet.csv remap.csv\n"), "{said}");
+    assert_eq!((rows("a/sheet.csv"), rows("a/remap.csv")), (before + 3, before + 3));
+    let sheet = fs::read(place.path("a/sheet.json")).unwrap();
+    let output = place.fed("deliver - data/kick.bvh --to json", &sheet);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(fs::read(place.path("sheet.json")).unwrap() == sheet);
+}
+
+#[test]
+fn an_unknown_format_or_setting_lists_the_known_ones() {
+    let place = Place::new();
+    for (args, option) in [
+        ("run data/kick.bvh --deliver json,xdst --out o", "--deliver: xdst: "),
+        ("deliver s.json data/kick.bvh --to xdst", "--to: xdst: "),
+        ("deliver s.json data/kick.bvh --to json --with csv.mob=1", "--with: csv.mob: "),
+    ] {
+        let said = place.refused(2, args);
+        assert!(said.starts_with(&format!("genga: {option}")), "{said}");
+        let known = if option.starts_with("--with") { "csv.bom" } else { "json, csv, " };
+        assert!(said.contains("there are ") && said.contains(known), "{said}");
+    }
+    assert!(place.files(".").is_empty(), "nothing was written");
 }

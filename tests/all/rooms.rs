@@ -15,8 +15,8 @@ const ROOMS: [&[&str]; 11] = [
     &["recipe"],
     &["pipeline"],
     &["study"],
-    &["deliver"],
     &["plot"],
+    &["deliver"],
     &["cli"],
 ];
 

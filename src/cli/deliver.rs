@@ -1,0 +1,59 @@
+//! `genga deliver`: a sheet, as it was or edited, in the formats that are asked for.
+
+use std::path::PathBuf;
+
+use super::args::DeliverArgs;
+use super::asked::Asked;
+use super::failure::Failure;
+use super::words::{Words, counted};
+use super::{io, source};
+use crate::deliver::{Cut, sheet_json};
+use crate::sheet::Role;
+
+pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
+    let asked = Asked::new("to", &args.to, &[], &args.settings)?;
+    if io::is_stream(&args.sheet) && io::is_stream(&args.clip) {
+        let message = "sheet and clip cannot both come from stdin".into();
+        return Err(Failure::AskedWrongly(message));
+    }
+    let folder = folder(args)?;
+    asked.spare(&args.clip, &folder)?;
+    let of_sheet = |error| Failure::of_file(&io::named(&args.sheet), error);
+    let file = sheet_json::read(&io::read(&args.sheet)?).map_err(of_sheet)?;
+    let read = source::whole(&args.clip, &args.reading)?;
+    let (clip, notes) = file.fit(read.clip).map_err(of_sheet)?;
+    clip.check_size()?;
+    read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
+    let cut = Cut {
+        name: &file.cut,
+        clip_file: &io::file_name(&args.clip),
+        clip: &clip,
+        sheet: &file.sheet,
+        spaced: None,
+        made_with: file.made_with.as_ref().map(|(recipe, edits)| (recipe, edits)),
+    };
+    let mut bundle = io::Bundle::begin(&folder)?;
+    let files = asked.write(&cut, &mut bundle)?;
+    bundle.finish()?;
+    for layer in &file.sheet.layers {
+        let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));
+        let drawings = counted(layer.drawings.len(), "drawing");
+        words.say(format_args!(
+            "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
+        ));
+    }
+    words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
+    Ok(())
+}
+
+/// The folder that is asked for, or the one that the sheet is in.
+fn folder(args: &DeliverArgs) -> Result<PathBuf, Failure> {
+    let beside = || args.sheet.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match &args.out {
+        Some(out) if io::is_stream(out) => Err(Failure::AskedWrongly(
+            "--out: deliver writes a folder of files, not to stdout".into(),
+        )),
+        Some(out) => Ok(out.clone()),
+        None => Ok(beside().map_or_else(|| PathBuf::from("."), PathBuf::from)),
+    }
+}

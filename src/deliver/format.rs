@@ -1,0 +1,170 @@
+//! The formats that can be asked for by name. A new one is a row here and a file of its own.
+
+use std::fmt;
+
+use crate::deliver::settings::Settings;
+use crate::deliver::{
+    Cut, Drawings, Rows, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json,
+};
+use crate::error::Error;
+
+/// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
+pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), Error> + 'a;
+
+/// A form in which a sheet is handed over (納品形式).
+#[derive(Clone, Copy)]
+pub struct Format {
+    /// The name by which it is asked for.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub help: &'static str,
+    /// The word of the field.
+    pub japanese: &'static str,
+    /// The files that it writes: `CUT` stands for the name of the cut, `0001` for the number of a drawing.
+    pub files: &'static [&'static str],
+    /// Makes the files and hands them on, one at a time.
+    make: fn(&Cut<'_>, &Settings, &mut Sink<'_>) -> Result<(), Error>,
+}
+
+/// Every format, in the order in which they are listed and written.
+pub const FORMATS: &[Format] = &[
+    Format {
+        name: "json",
+        help: "the sheet itself, to edit by hand and deliver again",
+        japanese: "タイムシート",
+        files: &["sheet.json"],
+        make: |cut, _, put| put("sheet.json", sheet_json::write(cut)?.as_bytes()),
+    },
+    Format {
+        name: "csv",
+        help: "tables of the keys, of every drawing and of every koma",
+        japanese: "表",
+        files: &["keys.csv", "drawings.csv", "sheet.csv"],
+        make: |cut, settings, put| {
+            let table = |rows| Drawings { cut: cut.name.into(), rows }.write(cut.clip, cut.sheet);
+            let csv = &settings.csv;
+            put("keys.csv", &csv.encode(table(Rows::Keys)?))?;
+            put("drawings.csv", &csv.encode(table(Rows::All)?))?;
+            put("sheet.csv", &csv.encode(sheet_csv(cut.sheet)?))
+        },
+    },
+    Format {
+        name: "remap",
+        help: "the timing alone, for a rig that plays the same take",
+        japanese: "タイムリマップ",
+        files: &["remap.csv"],
+        make: |cut, settings, put| put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?)),
+    },
+    Format {
+        name: "bvh",
+        help: "the motion stepped: a row a koma, holds repeated",
+        japanese: "リミテッドモーション",
+        files: &["limited.bvh"],
+        make: |cut, _, put| put("limited.bvh", limited_bvh(cut.clip, cut.sheet)?.as_bytes()),
+    },
+    Format {
+        name: "bars",
+        help: "picture: a bar a drawing over koma, with what was left out",
+        japanese: "シートの図",
+        files: &["sheet.svg"],
+        make: |cut, _, put| put("sheet.svg", pictures::bars(cut)?.as_bytes()),
+    },
+    Format {
+        name: "poses",
+        help: "picture: genga and ends as poses in a row",
+        japanese: "ポーズの図",
+        files: &["poses.svg"],
+        make: |cut, _, put| put("poses.svg", pictures::poses(cut)?.as_bytes()),
+    },
+];
+
+impl Format {
+    /// The format of that name.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] listing the formats there are.
+    pub fn find(name: &str) -> Result<&'static Self, Error> {
+        FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
+            let known: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
+            let message = format!("there is no such format; there are {}", known.join(", "));
+            Error::setting(name, message)
+        })
+    }
+
+    /// The formats of some names, each once and in the order of [`FORMATS`]; `all` is every one.
+    ///
+    /// # Errors
+    /// Those of [`Format::find`].
+    pub fn find_all<'a>(
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Vec<&'static Self>, Error> {
+        let mut asked = Vec::new();
+        for name in names.into_iter().map(str::trim) {
+            match name {
+                "all" => asked.extend(FORMATS),
+                name => asked.push(Self::find(name)?),
+            }
+        }
+        let is_asked = |format: &&Self| asked.iter().any(|other| other.name == format.name);
+        Ok(FORMATS.iter().filter(is_asked).collect())
+    }
+
+    /// Makes the files of this format and hands them on, one at a time.
+    ///
+    /// # Errors
+    /// What the format cannot be made of, what is wrong with a setting, and what `put` says.
+    pub fn write(
+        &self,
+        cut: &Cut<'_>,
+        settings: &Settings,
+        put: &mut Sink<'_>,
+    ) -> Result<(), Error> {
+        (self.make)(cut, settings, put)
+    }
+}
+
+impl fmt::Debug for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Format").field(&self.name).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_format_lists_the_known_ones() {
+        let error = Format::find("xdst").unwrap_err().to_string();
+        assert!(
+            error.starts_with("xdst: there is no such format; there are json, csv,"),
+            "{error}"
+        );
+        for format in FORMATS {
+            assert!(error.contains(format.name), "{error}");
+        }
+    }
+
+    #[test]
+    fn formats_come_once_and_in_their_order() {
+        let names = |asked: &[&str]| -> Vec<&str> {
+            let found = Format::find_all(asked.iter().copied()).unwrap();
+            found.iter().map(|format| format.name).collect()
+        };
+        assert_eq!(names(&["bvh", " json", "bvh"]), ["json", "bvh"]);
+        assert_eq!(names(&["all", "bvh"]).len(), FORMATS.len());
+        assert_eq!(names(&[]), [""; 0]);
+        assert!(Format::find_all(["json", ""]).is_err());
+    }
+
+    #[test]
+    fn no_two_formats_have_one_name_or_write_one_file() {
+        let mut names: Vec<_> = FORMATS.iter().map(|format| format.name).collect();
+        names.extend(FORMATS.iter().flat_map(|format| format.files));
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        assert!(!names.contains(&"all"));
+    }
+}

@@ -1,0 +1,36 @@
+//! The pictures of a sheet: as bars, and its kept drawings as poses.
+
+use crate::deliver::Cut;
+use crate::error::Error;
+use crate::plot::{PoseRow, SheetPlot};
+use crate::sheet::Sheet;
+use crate::timing::Stills;
+
+/// The sheet as bars (SVG), with how far the body moves into each koma and, where the sheet before
+/// omission is known, what was left out.
+///
+/// # Errors
+/// [`Error::Picture`] when it cannot be drawn.
+pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
+    let ones = Sheet::on_ones(cut.sheet.clock, cut.sheet.length());
+    let stills = Stills::of(cut.clip, &ones.layers[0]);
+    let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
+    let steps: Vec<f64> = (0..stills.len()).map(step).collect();
+    SheetPlot::default().draw(cut.sheet, cut.spaced, Some(&steps))
+}
+
+/// The kept drawings of the first layer as poses in a row (SVG).
+///
+/// # Errors
+/// [`Error::Picture`] when it cannot be drawn.
+pub fn poses(cut: &Cut<'_>) -> Result<String, Error> {
+    let layer = cut.sheet.layers.first().ok_or_else(|| Error::clip("the sheet has no layer"))?;
+    let kept = layer.timed().filter_map(|(koma, exposure)| {
+        let drawing = &layer.drawings[exposure.drawing];
+        let label = move |number: usize| format!("{number} · koma {}", koma + 1);
+        drawing.role.is_kept().then_some((drawing.source.place(), label, drawing.role))
+    });
+    let poses: Vec<_> =
+        kept.enumerate().map(|(at, (place, label, role))| (place, label(at + 1), role)).collect();
+    PoseRow::default().draw(cut.clip, &poses)
+}

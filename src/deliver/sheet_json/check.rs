@@ -1,0 +1,77 @@
+//! What a sheet must be, whether it is written or read.
+
+use super::{MadeOf, SheetFile};
+use crate::error::Error;
+use crate::sheet::{Exposure, Source};
+use crate::time::FrameRate;
+
+/// Koma of a layer at most, half a day of film: a longer hold is a slip of the hand, and would fill the
+/// memory.
+const MOST_KOMA: usize = 1_000_000;
+
+impl SheetFile {
+    /// Checks all of it.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let clock = self.sheet.clock;
+        if clock.first.0 != self.clip.first_frame {
+            let (first, clip) = (clock.first, self.clip.first_frame);
+            let message =
+                format!("koma 0 shows frame {first}, but the clip begins at frame {clip}");
+            return Err(Error::sheet(message));
+        }
+        if clock.frame_rate.fps() != self.clip.frame_rate {
+            let (rate, clip) = (clock.frame_rate, self.clip.frame_rate);
+            let message = format!("it is made for {rate} frames a second, the clip has {clip}");
+            return Err(Error::sheet(message));
+        }
+        FrameRate::new(clock.koma_rate).map_err(|error| Error::sheet(format!("fps: {error}")))?;
+        for layer in &self.sheet.layers {
+            let named = |message: String| Error::sheet(format!("layer {}: {message}", layer.name));
+            for drawing in &layer.drawings {
+                source(drawing.source, &self.clip).map_err(named)?;
+            }
+            let drawings = layer.drawings.len();
+            let there = |exposure: &Exposure| exposure.drawing < drawings;
+            if let Some(wrong) = layer.exposures.iter().find(|exposure| !there(exposure)) {
+                let wrong = wrong.drawing;
+                return Err(named(format!("an exposure shows drawing {wrong} of {drawings}")));
+            }
+            layer
+                .exposures
+                .iter()
+                .try_fold(0, |before, exposure| koma(before, exposure.koma))
+                .map_err(named)?;
+        }
+        Ok(())
+    }
+}
+
+/// The koma of a layer after an exposure, if it may stand for so long.
+pub(super) fn koma(before: usize, koma: usize) -> Result<usize, String> {
+    if koma == 0 {
+        return Err("an exposure of 0 koma is not seen: 1 at the least, or leave it out".into());
+    }
+    let after = before.checked_add(koma).filter(|after| *after <= MOST_KOMA);
+    after.ok_or_else(|| format!("{koma} koma here: a layer has {MOST_KOMA} koma at the most"))
+}
+
+/// Whether a pose can be taken from the clip.
+pub(super) fn source(source: Source, clip: &MadeOf) -> Result<(), String> {
+    let (first, last) = (clip.first_frame, clip.last_frame());
+    let is_in_clip = |place: f64| clip.frames > 0 && (first as f64..=last as f64).contains(&place);
+    let (places, share) = match source {
+        Source::At(place) => ([place, place], 0.0),
+        Source::Between { from, to, share } => ([from, to], share),
+    };
+    if let Some(place) = places.into_iter().find(|place| !is_in_clip(*place)) {
+        return Err(format!(
+            "frame {place} is not in the clip, which has frames {first} to {last}"
+        ));
+    }
+    if !(0.0..=1.0).contains(&share) {
+        return Err(format!(
+            "share is {share}; it is 0 at the first frame of between and 1 at the second"
+        ));
+    }
+    Ok(())
+}

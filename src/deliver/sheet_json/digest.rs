@@ -1,0 +1,63 @@
+//! Short digests by which a sheet knows its clip again. They tell mistakes, not forgeries.
+
+use crate::motion::{Axis, Channel, Clip, Skeleton};
+
+/// FNV-1a of 64 bits over 64-bit words.
+struct Digest(u64);
+
+impl Digest {
+    fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn word(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+        // The product carries upwards alone: without this the sign of a value would hardly count.
+        self.0 ^= self.0 >> 32;
+    }
+
+    fn number(&mut self, value: f64) {
+        // Adding 0 makes 0 of −0, as a file would.
+        self.word((value + 0.0).to_bits());
+    }
+
+    fn text(self) -> String {
+        format!("{:016x}", self.0)
+    }
+}
+
+/// The joints' parents, offsets and channels, End Sites too; not their names.
+pub(super) fn skeleton(skeleton: &Skeleton) -> String {
+    let mut digest = Digest::new();
+    for joint in &skeleton.joints {
+        digest.word(joint.parent.map_or(u64::MAX, |parent| parent.0 as u64));
+        joint.offset.to_array().into_iter().for_each(|value| digest.number(value));
+        digest.word(joint.channels.len() as u64);
+        joint.channels.iter().for_each(|channel| digest.word(number_of(*channel)));
+        digest.word(joint.end_sites.len() as u64);
+        for end in &joint.end_sites {
+            end.offset.to_array().into_iter().for_each(|value| digest.number(value));
+        }
+    }
+    digest.text()
+}
+
+/// Every channel value of every frame.
+pub(super) fn motion(clip: &Clip) -> String {
+    let mut digest = Digest::new();
+    clip.rows().flatten().for_each(|value| digest.number(*value));
+    digest.text()
+}
+
+fn number_of(channel: Channel) -> u64 {
+    let (kind, axis) = match channel {
+        Channel::Position(axis) => (0, axis),
+        Channel::Rotation(axis) => (3, axis),
+    };
+    let axis = match axis {
+        Axis::X => 0,
+        Axis::Y => 1,
+        Axis::Z => 2,
+    };
+    kind + axis
+}

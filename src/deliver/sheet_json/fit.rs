@@ -1,0 +1,94 @@
+//! Whether a sheet and a clip belong together.
+
+use super::{MadeOf, SheetFile, digest};
+use crate::error::{Error, Warning};
+use crate::motion::Clip;
+use crate::time::Frame;
+
+/// The clip has the sheet's joints on other bones.
+pub const OTHER_BONES: &str = "W_SHEET_BONES";
+/// The clip has another motion than the one that the sheet was made of.
+pub const OTHER_MOTION: &str = "W_SHEET_MOTION";
+
+impl MadeOf {
+    /// What there is to say of a clip.
+    pub fn of(file: &str, clip: &Clip) -> Self {
+        Self {
+            file: file.into(),
+            frame_rate: clip.rate().fps(),
+            first_frame: clip.first().0,
+            frames: clip.len(),
+            motion: digest::motion(clip),
+            skeleton: digest::skeleton(clip.skeleton()),
+            joints: clip.skeleton().joints.iter().map(|joint| joint.name.clone()).collect(),
+        }
+    }
+
+    /// The number of its last frame; the first for an empty clip.
+    pub fn last_frame(&self) -> usize {
+        self.first_frame.saturating_add(self.frames.saturating_sub(1))
+    }
+}
+
+impl SheetFile {
+    /// The part of a clip that the sheet was made of, and what is odd about it. The clip is the file as it
+    /// is, with its lead-in and untrimmed.
+    ///
+    /// Other bones or another motion under the same joints are no error: a take that was cleaned up keeps
+    /// its sheet.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] saying which joint, which rate or which frames do not fit.
+    pub fn fit(&self, clip: Clip) -> Result<(Clip, Vec<Warning>), Error> {
+        let made_of = &self.clip;
+        self.fit_joints(&clip)?;
+        let rate = clip.rate().fps();
+        if rate != made_of.frame_rate {
+            let meant = made_of.frame_rate;
+            return Err(Error::sheet(format!(
+                "the sheet is for {meant} frames a second, the clip has {rate}; if it is the same take, \
+                 --fps {meant} reads it so"
+            )));
+        }
+        let (first, last) = (made_of.first_frame, made_of.last_frame());
+        let (begin, end) = (clip.first(), clip.last());
+        let Ok(clip) = clip.trimmed(Frame(first), Frame(last.saturating_add(1))) else {
+            return Err(Error::sheet(format!(
+                "the sheet shows frames {first} to {last}, the clip has frames {begin} to {end}"
+            )));
+        };
+        let now = MadeOf::of(&made_of.file, &clip);
+        let mut notes = Vec::new();
+        if now.skeleton != made_of.skeleton {
+            notes.push(Warning::new(
+                OTHER_BONES,
+                "the clip's joints have other bones or channels than those that the sheet was made of",
+            ));
+        } else if now.motion != made_of.motion {
+            notes.push(Warning::new(
+                OTHER_MOTION,
+                "the clip has another motion than the one that the sheet was made of; the drawings are \
+                 taken from this one",
+            ));
+        }
+        Ok((clip, notes))
+    }
+
+    fn fit_joints(&self, clip: &Clip) -> Result<(), Error> {
+        let (sheet, clip) = (&self.clip.joints, &clip.skeleton().joints);
+        if let Some((sheet, clip)) = sheet.iter().zip(clip).find(|(a, b)| **a != b.name) {
+            let clip = &clip.name;
+            return Err(Error::sheet(format!(
+                "the sheet has the joint {sheet} where the clip has {clip}: they belong to different \
+                 skeletons"
+            )));
+        }
+        let (ours, theirs) = (sheet.len(), clip.len());
+        let extra = match ours.cmp(&theirs) {
+            std::cmp::Ordering::Equal => return Ok(()),
+            std::cmp::Ordering::Greater => format!("{} is only in the sheet", sheet[theirs]),
+            std::cmp::Ordering::Less => format!("{} is only in the clip", clip[ours].name),
+        };
+        Err(Error::sheet(format!("the sheet has {ours} joints, the clip {theirs}: {extra}")))
+    }
+}

@@ -1,0 +1,140 @@
+//! Reads a sheet, with the place of what is wrong.
+
+use std::collections::HashMap;
+
+use serde::Deserialize;
+use serde_json::value::RawValue;
+
+use super::layer::DrawingLine;
+use super::made::MadeWith;
+use super::text::Text;
+use super::{MadeOf, SCHEMA, SheetFile, check};
+use crate::error::Error;
+use crate::sheet::{Exposure, Layer, Sheet};
+use crate::time::{Clock, Frame, FrameRate};
+
+/// What every version of the schema has.
+#[derive(Deserialize)]
+struct AnyVersion<'a> {
+    #[serde(borrow)]
+    schema: Option<&'a RawValue>,
+}
+
+/// The file. What is looked at more closely is parsed by itself, so that its place is known.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written<'a> {
+    #[serde(borrow, rename = "schema")]
+    _schema: &'a RawValue,
+    #[serde(default)]
+    genga: String,
+    cut: String,
+    fps: f64,
+    #[serde(borrow)]
+    frame_base: &'a RawValue,
+    #[serde(borrow)]
+    clip: &'a RawValue,
+    #[serde(borrow, default)]
+    made_with: Option<&'a RawValue>,
+    #[serde(borrow)]
+    layers: Vec<&'a RawValue>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenLayer<'a> {
+    name: String,
+    #[serde(borrow)]
+    drawings: Vec<&'a RawValue>,
+    #[serde(borrow)]
+    exposures: Vec<&'a RawValue>,
+}
+
+/// Reads a `sheet.json`.
+///
+/// A drawing is called by its number, any that no other of its layer has; on the sheet the drawings are in
+/// the order of the list, whatever their numbers.
+///
+/// # Errors
+/// [`Error::Sheet`] with line and column when it is no such file, is of another version of the schema, or
+/// says something that cannot be.
+pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| Error::sheet("this is not text in UTF-8; a sheet is JSON"))?;
+    let text = Text(text);
+    check_version(text)?;
+    let written: Written<'_> = text.whole()?;
+    if written.frame_base.get() != "0" {
+        let message = "frame_base is 0 in this schema: frames, koma and drawings count from 0";
+        return Err(text.error(written.frame_base, message));
+    }
+    let clip: MadeOf = text.value(written.clip)?;
+    let frame_rate = FrameRate::new(clip.frame_rate)
+        .map_err(|error| text.error(written.clip, error.to_string()))?;
+    let clock = Clock { first: Frame(clip.first_frame), frame_rate, koma_rate: written.fps };
+    let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip));
+    let layers = layers.collect::<Result<_, _>>()?;
+    let made_with = written.made_with.map(|raw| {
+        let made: MadeWith = text.value(raw)?;
+        made.read().map_err(|error| text.error(raw, error.to_string()))
+    });
+    let file = SheetFile {
+        cut: written.cut,
+        genga: written.genga,
+        clip,
+        made_with: made_with.transpose()?,
+        sheet: Sheet { clock, layers },
+    };
+    file.check()?;
+    Ok(file)
+}
+
+fn check_version(text: Text<'_>) -> Result<(), Error> {
+    let AnyVersion { schema } = text.whole()?;
+    let Some(raw) = schema else {
+        let message = format!("this is no sheet of genga: it has no \"schema\": \"{SCHEMA}\"");
+        return Err(Error::sheet(message));
+    };
+    match text.value::<String>(raw)? {
+        version if version == SCHEMA => Ok(()),
+        other => Err(text.error(
+            raw,
+            format!(
+                "the sheet is of the schema {other}, and this genga reads {SCHEMA}; the genga that wrote \
+                 it reads it"
+            ),
+        )),
+    }
+}
+
+fn layer(text: Text<'_>, raw: &RawValue, clip: &MadeOf) -> Result<Layer, Error> {
+    let written: WrittenLayer<'_> = text.value(raw)?;
+    let mut numbers = HashMap::new();
+    let mut drawings = Vec::with_capacity(written.drawings.len());
+    for raw in written.drawings {
+        let line: DrawingLine = text.value(raw)?;
+        let number = line.drawing;
+        if numbers.insert(number, drawings.len()).is_some() {
+            let message =
+                format!("there is a drawing {number} before; give this one another number");
+            return Err(text.error(raw, message));
+        }
+        let drawing = line.drawing().map_err(|message| text.error(raw, message))?;
+        check::source(drawing.source, clip).map_err(|message| text.error(raw, message))?;
+        drawings.push(drawing);
+    }
+    let mut length = 0;
+    let mut exposures = Vec::with_capacity(written.exposures.len());
+    for raw in written.exposures {
+        let Exposure { drawing, koma } = text.value(raw)?;
+        let Some(&drawing) = numbers.get(&drawing) else {
+            let (name, count) = (&written.name, drawings.len());
+            let message = format!("layer {name} has {count} drawings, none of them is {drawing}");
+            return Err(text.error(raw, message));
+        };
+        length = check::koma(length, koma).map_err(|message| text.error(raw, message))?;
+        exposures.push(Exposure { drawing, koma });
+    }
+    Ok(Layer { name: written.name, drawings, exposures })
+}

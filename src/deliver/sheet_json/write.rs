@@ -1,0 +1,70 @@
+//! Writes a sheet.
+
+use serde::Serialize;
+use serde_json::Serializer;
+
+use super::layer::LayerLines;
+use super::lines::Lines;
+use super::made::MadeWith;
+use super::{MadeOf, SCHEMA, SheetFile};
+use crate::deliver::Cut;
+use crate::error::Error;
+
+/// The sheet of a cut as `sheet.json`.
+///
+/// # Errors
+/// [`Error::Sheet`] when the sheet is none of that clip: see [`SheetFile::write`].
+pub fn write(cut: &Cut<'_>) -> Result<String, Error> {
+    SheetFile::of(cut).write()
+}
+
+/// The file, field by field in its order.
+#[derive(Serialize)]
+struct Written<'a> {
+    schema: &'static str,
+    genga: &'a str,
+    cut: &'a str,
+    fps: f64,
+    frame_base: u8,
+    clip: &'a MadeOf,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    made_with: Option<MadeWith>,
+    layers: Vec<LayerLines>,
+}
+
+impl SheetFile {
+    /// What `sheet.json` says of a cut.
+    pub fn of(cut: &Cut<'_>) -> Self {
+        Self {
+            cut: cut.name.into(),
+            genga: env!("CARGO_PKG_VERSION").into(),
+            clip: MadeOf::of(cut.clip_file, cut.clip),
+            made_with: cut.made_with.map(|(recipe, edits)| (recipe.clone(), edits.clone())),
+            sheet: cut.sheet.clone(),
+        }
+    }
+
+    /// The file: tidy, and the same bytes for the same sheet.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] when the sheet does not begin on its clip's first frame, is at another rate, has a
+    /// place outside of the clip, an exposure of no koma or of a drawing that is not there.
+    pub fn write(&self) -> Result<String, Error> {
+        self.check()?;
+        let file = Written {
+            schema: SCHEMA,
+            genga: &self.genga,
+            cut: &self.cut,
+            fps: self.sheet.clock.koma_rate,
+            frame_base: 0,
+            clip: &self.clip,
+            made_with: self.made_with.as_ref().map(|(recipe, edits)| MadeWith::of(recipe, edits)),
+            layers: self.sheet.layers.iter().map(LayerLines::of).collect(),
+        };
+        let mut bytes = Vec::new();
+        file.serialize(&mut Serializer::with_formatter(&mut bytes, Lines::default()))
+            .map_err(|error| Error::sheet(format!("cannot be written: {error}")))?;
+        bytes.push(b'\n');
+        Ok(String::from_utf8(bytes).expect("JSON is text"))
+    }
+}
