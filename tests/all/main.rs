@@ -2,12 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-mod clips;
-mod found; // where clips come from
+mod clips; // where clips come from
+mod found; // what fuzzing found
 mod lead_ins; // the same lead-in in every dialect and at every rate
 mod lies; // files that say what is not so end fast
 mod lying_files; // how such files are made
 mod mutated; // real files with anything changed: no panic, and what is read is written
+mod opened; // a file in blocks is the file from memory
 #[cfg(feature = "cli")]
 mod program; // the built binary, as a person or a script uses it
 mod real_clips; // the default recipe on every real clip

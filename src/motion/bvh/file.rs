@@ -1,58 +1,181 @@
-//! The bytes of a file.
+//! A file in blocks of whole lines, which stay in the cache from the system's copy to the last number.
 
-use std::fs;
+use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::ops::Range;
 
-use super::threads;
+use memchr::{memchr, memchr_iter, memrchr};
 
-/// All bytes of a file. Most of the time goes into new memory, so large files share that between threads.
-pub(super) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    match usize::try_from(fs::metadata(path)?.len()) {
-        Ok(size) if threads::parts(size) > 1 => in_parts(path, size, threads::parts(size)),
-        _ => fs::read(path),
+/// Bytes of a block.
+const BLOCK: usize = 128 << 10;
+
+/// Part of a file, block after block.
+pub(super) struct Blocks<'f> {
+    file: &'f File,
+    /// What of the file has not been read.
+    ahead: Range<u64>,
+    buffer: Vec<u8>,
+    /// Where the begin of a line stands whose end is in the next block.
+    cut: Range<usize>,
+}
+
+impl<'f> Blocks<'f> {
+    /// Those of a range of bytes, which begins where a line does.
+    pub(super) fn of(file: &'f File, range: Range<u64>) -> Self {
+        let size = range.end.saturating_sub(range.start).min(BLOCK as u64);
+        Self { file, ahead: range, buffer: vec![0; size as usize], cut: 0..0 }
+    }
+
+    /// Bytes of the file that have not been read.
+    pub(super) fn left(&self) -> Option<usize> {
+        usize::try_from(self.ahead.end - self.ahead.start).ok()
+    }
+
+    /// The next lines, all whole; empty at the end. `None` when the file cannot be read any further or
+    /// a line is longer than a block.
+    pub(super) fn next(&mut self) -> Option<&[u8]> {
+        self.buffer.copy_within(self.cut.clone(), 0);
+        let kept = self.cut.len();
+        let left = self.left()?;
+        let room = &mut self.buffer[kept..];
+        let size = room.len().min(left);
+        read_exact_at(self.file, &mut room[..size], self.ahead.start).ok()?;
+        self.ahead.start += size as u64;
+        let filled = kept + size;
+        let is_last = self.ahead.is_empty();
+        let end = if is_last { filled } else { memrchr(b'\n', &self.buffer[..filled])? + 1 };
+        self.cut = end..filled;
+        Some(&self.buffer[..end])
+    }
+}
+
+/// A regular file's length; a pipe has none.
+pub(super) fn length(file: &File) -> Option<u64> {
+    let about = file.metadata().ok()?;
+    about.is_file().then(|| about.len())
+}
+
+/// About equal parts of a range that begins where a line does, each of whole lines. `None` when there
+/// are too few lines for them, or too long ones.
+pub(super) fn split_at_lines(
+    file: &File,
+    range: Range<u64>,
+    parts: usize,
+) -> Option<Vec<Range<u64>>> {
+    let mut rest = range;
+    let mut split = Vec::with_capacity(parts);
+    for left in (2..=parts as u64).rev() {
+        let about = rest.start + (rest.end - rest.start) / left;
+        let mut ahead = Blocks::of(file, about..rest.end);
+        let end = about + memchr(b'\n', ahead.next()?)? as u64 + 1;
+        split.push(rest.start..end);
+        rest.start = end;
+    }
+    split.push(rest);
+    Some(split)
+}
+
+/// How many lines there are in a range, the last with a line end or without.
+pub(super) fn lines(file: &File, range: Range<u64>) -> Option<usize> {
+    let mut blocks = Blocks::of(file, range);
+    let (mut lines, mut last) = (0, b'\n');
+    loop {
+        let block = blocks.next()?;
+        let Some(&byte) = block.last() else { return Some(lines + usize::from(last != b'\n')) };
+        lines += memchr_iter(b'\n', block).count();
+        last = byte;
     }
 }
 
 #[cfg(unix)]
-fn in_parts(path: &Path, size: usize, parts: usize) -> io::Result<Vec<u8>> {
-    use std::os::unix::fs::FileExt;
-
-    let file = fs::File::open(path)?;
-    // Asked first whether there is so much memory: what gives zeroes untouched, for the threads to
-    // touch, cannot say no.
-    Vec::<u8>::new().try_reserve_exact(size)?;
-    let mut bytes = vec![0; size];
-    let part = size.div_ceil(parts);
-    let jobs = bytes.chunks_mut(part).enumerate().map(|(index, target)| {
-        let file = &file;
-        move || file.read_exact_at(target, (index * part) as u64)
-    });
-    threads::all(jobs).into_iter().collect::<io::Result<()>>()?;
-    Ok(bytes)
+fn read_exact_at(file: &File, buffer: &mut [u8], at: u64) -> io::Result<()> {
+    std::os::unix::fs::FileExt::read_exact_at(file, buffer, at)
 }
 
-#[cfg(not(unix))]
-fn in_parts(path: &Path, _: usize, _: usize) -> io::Result<Vec<u8>> {
-    fs::read(path)
+#[cfg(windows)]
+fn read_exact_at(file: &File, mut buffer: &mut [u8], mut at: u64) -> io::Result<()> {
+    while !buffer.is_empty() {
+        let read = std::os::windows::fs::FileExt::seek_read(file, buffer, at)?;
+        if read == 0 {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        buffer = &mut buffer[read..];
+        at += read as u64;
+    }
+    Ok(())
+}
+
+#[cfg(not(any(unix, windows)))]
+fn read_exact_at(_: &File, _: &mut [u8], _: u64) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use super::*;
 
+    fn file(text: &[u8]) -> File {
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(text).unwrap();
+        file
+    }
+
+    fn all(mut blocks: Blocks) -> Option<Vec<Vec<u8>>> {
+        std::iter::from_fn(|| match blocks.next() {
+            Some([]) => None,
+            block => Some(block.map(<[u8]>::to_vec)),
+        })
+        .collect()
+    }
+
     #[test]
-    fn a_file_read_in_parts_is_the_file() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh");
-        let whole = fs::read(&path).unwrap();
-        for parts in 1..5 {
-            assert_eq!(in_parts(&path, whole.len(), parts).unwrap(), whole);
+    fn blocks_are_whole_lines_and_nothing_is_lost() {
+        let line = "x".repeat(999);
+        for end in ["", "\n"] {
+            let text = vec![line.as_str(); 1000].join("\n") + end;
+            let file = file(text.as_bytes());
+            let blocks = all(Blocks::of(&file, 0..text.len() as u64)).unwrap();
+            assert!(blocks.len() > 5);
+            assert!(blocks.iter().rev().skip(1).all(|block| block.ends_with(b"\n")));
+            assert_eq!(blocks.concat(), text.as_bytes());
+            assert_eq!(lines(&file, 0..text.len() as u64), Some(1000));
+            assert_eq!(lines(&file, 0..5000), Some(5), "{end:?}");
+            assert_eq!(lines(&file, 0..5001), Some(6), "{end:?}");
         }
-        assert_eq!(bytes(&path).unwrap(), whole);
-        #[cfg(unix)]
-        let longer = in_parts(&path, whole.len() + 1, 2).map_err(|error| error.kind());
-        #[cfg(unix)]
-        assert_eq!(longer, Err(io::ErrorKind::UnexpectedEof), "it got shorter meanwhile");
-        assert!(bytes(Path::new("no such file")).is_err());
+    }
+
+    #[test]
+    fn a_line_longer_than_a_block_and_a_file_that_got_shorter_are_left_to_others() {
+        let long = file(&[b'x'; 2 * BLOCK]);
+        assert_eq!(all(Blocks::of(&long, 0..2 * BLOCK as u64)), None);
+        let short = file(b"1 2\n");
+        assert_eq!(all(Blocks::of(&short, 0..5)), None);
+        assert_eq!(all(Blocks::of(&short, 0..4)), Some(vec![b"1 2\n".to_vec()]));
+        assert_eq!(all(Blocks::of(&short, 4..4)), Some(vec![]));
+    }
+
+    #[test]
+    fn parts_are_whole_lines_and_nothing_is_lost() {
+        for frames in [20, 21, 100] {
+            let text: String = (0..frames).map(|frame| format!("{frame} 0.5\n")).collect();
+            let file = file(text.as_bytes());
+            for parts in [1, 2, 3, 5] {
+                let split = split_at_lines(&file, 4..text.len() as u64, parts).unwrap();
+                assert_eq!(split.len(), parts);
+                assert_eq!((split[0].start, split[parts - 1].end), (4, text.len() as u64));
+                for pair in split.windows(2) {
+                    assert_eq!(pair[0].end, pair[1].start);
+                    assert_eq!(text.as_bytes()[pair[0].end as usize - 1], b'\n');
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn only_a_regular_file_has_a_length() {
+        assert_eq!(length(&file(b"1 2\n")), Some(4));
+        assert_eq!(length(&File::open(env!("CARGO_MANIFEST_DIR")).unwrap()), None);
     }
 }

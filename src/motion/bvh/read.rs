@@ -1,17 +1,20 @@
 //! Reads a BVH file.
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::careful::{self, Rows, Table};
-use super::file;
+use super::columns::Columns;
+use super::file::{self, Blocks};
 use super::hierarchy::{self, Head};
 use super::scanner::Scanner;
 use super::warnings::{CHANNEL_COUNT, FRAMES_MISMATCH, Notices, VALUE_HELD};
-use super::{Read, names, repair, table, text, trees};
+use super::{Read, names, repair, table, text, threads, trees};
 use crate::error::Error;
-use crate::motion::Clip;
+use crate::motion::{Clip, Skeleton};
 use crate::time::{Frame, FrameRate};
 
 /// Reads (読む) a BVH file as [`Options::read`] does by default.
@@ -54,9 +57,39 @@ impl Options {
     /// # Errors
     /// [`Error::Io`] when the file cannot be read, and those of [`Options::read`].
     pub fn open(&self, path: &Path) -> Result<Read, Error> {
-        let bytes =
-            file::bytes(path).map_err(|source| Error::Io { path: path.to_owned(), source })?;
+        let failed = |source| Error::Io { path: path.to_owned(), source };
+        let mut file = File::open(path).map_err(failed)?;
+        if let Some(read) = self.read_blocks(&file) {
+            return read;
+        }
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(failed)?;
         self.read(&bytes)
+    }
+
+    /// Reads a file without ever having all of it, which is faster than memory is. `None` says only that
+    /// this cannot be done: then it is read whole.
+    fn read_blocks(&self, file: &File) -> Option<Result<Read, Error>> {
+        let size = file::length(file)?;
+        let mut head = Blocks::of(file, 0..size);
+        let first = head.next()?;
+        let mut notices = Notices::default();
+        let text = text::decode(first, &mut notices).ok()?;
+        if text.len() != first.len() {
+            return None;
+        }
+        let mut scanner = Scanner::new(&text, notices);
+        let begun = self.begin(&mut scanner).ok()?;
+        scanner.has_more();
+        let (width, said) = (begun.columns.width(), begun.said);
+        let table = scanner.at() as u64..size;
+        let parts = threads::parts(size);
+        let by_parts = (parts > 1).then(|| table::read_parts(file, table, width, said, parts));
+        let values = by_parts.flatten().or_else(|| {
+            let rest = Blocks::of(file, first.len() as u64..size);
+            table::read_on(scanner.rest(), rest, width, said)
+        });
+        Some(self.finish(scanner, begun, Rows { values: values?, cut: 0 }))
     }
 
     /// Reads a file from memory: any channel order and number of channels, positions on any joint, several roots,
@@ -74,46 +107,58 @@ impl Options {
         let mut notices = Notices::default();
         let text = text::decode(bytes, &mut notices)?;
         let mut scanner = Scanner::new(&text, notices);
-        let mut head = hierarchy::read(&mut scanner)?;
+        let begun = self.begin(&mut scanner)?;
+        let Begun { skeleton, columns, said, .. } = &begun;
+        let rows = match table::read(scanner.rest(), columns.width(), *said) {
+            Some(values) => Rows { values, cut: 0 },
+            None => {
+                Table { skeleton, columns, said: *said, repair: self.repair }.read(&mut scanner)?
+            }
+        };
+        self.finish(scanner, begun, rows)
+    }
+
+    /// All that stands before the table.
+    fn begin(&self, scanner: &mut Scanner) -> Result<Begun, Error> {
+        let mut head = hierarchy::read(scanner)?;
         trees::choose(self.root.as_deref(), &mut head, &mut scanner.notices)?;
-        names::make_unique(&mut head.skeleton.joints, &head.names_at, &mut scanner.notices);
-        let (clip, written_frame_time) = self.motion(&mut scanner, head)?;
-        let warnings = scanner.notices.into_warnings(&text);
+        let Head { mut skeleton, columns, names_at } = head;
+        names::make_unique(&mut skeleton.joints, &names_at, &mut scanner.notices);
+        if skeleton.channels() == 0 {
+            let message = "no joint has a channel: there is no motion";
+            return Err(scanner.error(scanner.at(), message));
+        }
+        let (said_at, said) = frames(scanner)?;
+        let (rate, written_frame_time) = self.rate(scanner)?;
+        check_channel_count(scanner, columns.width())?;
+        Ok(Begun { skeleton, columns, said_at, said, rate, written_frame_time })
+    }
+
+    /// The clip of the rows, and what there is to say about the file.
+    fn finish(&self, mut scanner: Scanner, begun: Begun, rows: Rows) -> Result<Read, Error> {
+        let Begun { skeleton, columns, said_at, said, rate, written_frame_time } = begun;
+        let Rows { mut values, cut } = rows;
+        columns.compact(&mut values);
+        if scanner.notices.first(VALUE_HELD).is_some() {
+            repair::hold(&mut values, &skeleton);
+        }
+        let frames = values.len() / skeleton.channels();
+        if frames != said || cut > 0 {
+            scanner.notices.add(FRAMES_MISMATCH, said_at, || mismatch(said, frames, cut));
+        }
+        let text = scanner.text();
+        let warnings = scanner.notices.into_warnings(text);
         match warnings.first() {
             Some(warning) if self.strict => {
                 let (line, column) = warning.place.unwrap_or((1, 1));
                 let message = format!("{} [{}]", warning.message, warning.code);
                 Err(Error::Bvh { line, column, message })
             }
-            _ => Ok(Read { clip, warnings, written_frame_time }),
+            _ => {
+                let clip = Clip::of_finite(skeleton, rate, Frame(0), frames, values);
+                Ok(Read { clip, warnings, written_frame_time })
+            }
         }
-    }
-
-    /// The MOTION part, and the frame time that it writes.
-    fn motion(&self, scanner: &mut Scanner, head: Head) -> Result<(Clip, f64), Error> {
-        let Head { skeleton, columns, .. } = head;
-        let channels = skeleton.channels();
-        if channels == 0 {
-            let message = "no joint has a channel: there is no motion";
-            return Err(scanner.error(scanner.at(), message));
-        }
-        let (said_at, said) = frames(scanner)?;
-        let (rate, written) = self.rate(scanner)?;
-        check_channel_count(scanner, columns.width())?;
-        let Rows { mut values, cut } = match table::read(scanner.rest(), columns.width(), said) {
-            Some(values) => Rows { values, cut: 0 },
-            None => Table { skeleton: &skeleton, columns: &columns, said, repair: self.repair }
-                .read(scanner)?,
-        };
-        columns.compact(&mut values);
-        if scanner.notices.first(VALUE_HELD).is_some() {
-            repair::hold(&mut values, &skeleton);
-        }
-        let frames = values.len() / channels;
-        if frames != said || cut > 0 {
-            scanner.notices.add(FRAMES_MISMATCH, said_at, || mismatch(said, frames, cut));
-        }
-        Ok((Clip::of_finite(skeleton, rate, Frame(0), frames, values), written))
     }
 
     /// The rate of the clip, and the frame time that the file writes.
@@ -126,6 +171,17 @@ impl Options {
         };
         Ok((fps, scanner.value()?.unwrap_or(f64::NAN)))
     }
+}
+
+/// What a file says before its table.
+struct Begun {
+    skeleton: Skeleton,
+    columns: Columns,
+    /// Frames that it says it has, and where it says so.
+    said: usize,
+    said_at: usize,
+    rate: FrameRate,
+    written_frame_time: f64,
 }
 
 /// How many frames the file says it has, and where.

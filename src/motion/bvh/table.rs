@@ -3,44 +3,54 @@
 //! Nearly every file is such a one, and this reads it as fast as it can. What is odd in any way is left
 //! to those who can tell what is wrong with it: the answer is then `None`, and they begin again.
 
-use memchr::{memchr, memchr_iter};
+use std::fs::File;
+use std::ops::Range;
 
+use memchr::memchr;
+
+use super::file::{self, Blocks};
 use super::number::{self, is_blank};
 use super::threads;
 
 /// All values of a table, frame after frame, when every line is one frame of `channels` finite numbers
 /// or blank. `said` is what the file says of its frames; it need not be true.
-///
-/// Large tables are read by as many threads as the machine has cores for them.
 pub(super) fn read(text: &[u8], channels: usize, said: usize) -> Option<Vec<f64>> {
-    let parts = threads::parts(text.len());
-    let by_parts = (parts > 1).then(|| read_parts(text, channels, said, parts)).flatten();
-    by_parts.or_else(|| read_whole(text, channels, said))
+    let mut table = Growing::new(channels, said, text.len())?;
+    table.take(text)?;
+    table.finish()
 }
 
-/// One thread, frame after frame, as many as there are.
-fn read_whole(text: &[u8], channels: usize, said: usize) -> Option<Vec<f64>> {
-    let mut values = Vec::with_capacity(said.saturating_mul(channels).min(most_values(text)));
-    let mut rows = Rows { text };
-    while rows.has_more() && channels <= most_values(rows.text) {
-        let begin = values.len();
-        values.resize(begin + channels, 0.0);
-        rows.next(&mut values[begin..])?;
+/// [`read`] for a table whose first lines have been read from a file and whose others have not.
+pub(super) fn read_on(
+    first: &[u8],
+    mut blocks: Blocks,
+    channels: usize,
+    said: usize,
+) -> Option<Vec<f64>> {
+    let mut table = Growing::new(channels, said, first.len() + blocks.left()?)?;
+    table.take(first)?;
+    loop {
+        match blocks.next()? {
+            [] => return table.finish(),
+            lines => table.take(lines)?,
+        }
     }
-    (rows.text.is_empty() && !values.is_empty()).then_some(values)
 }
 
-/// So many values a text can hold, whatever the file says of it: a value and its blank are two bytes.
-fn most_values(text: &[u8]) -> usize {
-    text.len() / 2 + 1
-}
-
-/// A thread a part. Where each of them has to write follows from the lines before it, so this works
-/// only where the file has the lines that it says.
-fn read_parts(text: &[u8], channels: usize, said: usize, parts: usize) -> Option<Vec<f64>> {
-    let parts = split_at_lines(text.trim_ascii(), parts);
-    let lines = threads::all(parts.iter().map(|part| || 1 + memchr_iter(b'\n', part).count()));
-    if lines.iter().sum::<usize>() != said || said.saturating_mul(channels) > most_values(text) {
+/// [`read`] for a part of a file, with a thread for each of `parts`. Where each of them has to write
+/// follows from the lines before it, so this works only where the file has the lines that it says.
+pub(super) fn read_parts(
+    file: &File,
+    range: Range<u64>,
+    channels: usize,
+    said: usize,
+    parts: usize,
+) -> Option<Vec<f64>> {
+    let most = most_values(usize::try_from(range.end - range.start).ok()?);
+    let parts = file::split_at_lines(file, range, parts)?;
+    let lines = threads::all(parts.iter().map(|part| || file::lines(file, part.clone())));
+    let lines: Vec<usize> = lines.into_iter().collect::<Option<_>>()?;
+    if lines.iter().sum::<usize>() != said || said.saturating_mul(channels) > most {
         return None;
     }
     let mut values = vec![0.0; said * channels];
@@ -50,27 +60,61 @@ fn read_parts(text: &[u8], channels: usize, said: usize, parts: usize) -> Option
         left = after;
         target
     });
-    let jobs = parts.iter().zip(targets).map(|(text, target)| || read_part(text, channels, target));
+    let jobs = parts
+        .into_iter()
+        .zip(targets)
+        .map(|(part, target)| || read_part(Blocks::of(file, part), channels, target));
     threads::all(jobs).into_iter().all(|is_read| is_read.is_some()).then_some(values)
 }
 
-fn read_part(text: &[u8], channels: usize, values: &mut [f64]) -> Option<()> {
-    let mut rows = Rows { text };
-    values.chunks_exact_mut(channels).try_for_each(|row| rows.next(row))
+/// Lines that are exactly the rows of `values`.
+fn read_part(mut blocks: Blocks, channels: usize, values: &mut [f64]) -> Option<()> {
+    let mut rows = values.chunks_exact_mut(channels);
+    loop {
+        let text = blocks.next()?;
+        if text.is_empty() {
+            return rows.next().is_none().then_some(());
+        }
+        let mut lines = Rows { text };
+        while lines.has_more() {
+            lines.next(rows.next()?)?;
+        }
+    }
 }
 
-/// About equal parts, each of whole lines without the last line end.
-fn split_at_lines(text: &[u8], parts: usize) -> Vec<&[u8]> {
-    let mut rest = text;
-    let mut lines = Vec::with_capacity(parts);
-    for left in (2..=parts).rev() {
-        let about = rest.len() / left;
-        let Some(end) = memchr(b'\n', &rest[about..]) else { break };
-        lines.push(&rest[..about + end]);
-        rest = &rest[about + end + 1..];
+/// So many values a text can hold, whatever the file says of it: a value and its blank are two bytes.
+fn most_values(bytes: usize) -> usize {
+    bytes / 2 + 1
+}
+
+/// The frames so far of a table that may have more of them than it says, or fewer.
+struct Growing {
+    values: Vec<f64>,
+    channels: usize,
+}
+
+impl Growing {
+    /// None when not even one frame can be in so many bytes.
+    fn new(channels: usize, said: usize, bytes: usize) -> Option<Self> {
+        let most = most_values(bytes);
+        let values = Vec::with_capacity(said.saturating_mul(channels).min(most));
+        (channels <= most).then_some(Self { values, channels })
     }
-    lines.push(rest);
-    lines
+
+    /// The frames of some whole lines.
+    fn take(&mut self, lines: &[u8]) -> Option<()> {
+        let mut rows = Rows { text: lines };
+        while rows.has_more() {
+            let begin = self.values.len();
+            self.values.resize(begin + self.channels, 0.0);
+            rows.next(&mut self.values[begin..])?;
+        }
+        Some(())
+    }
+
+    fn finish(self) -> Option<Vec<f64>> {
+        Some(self.values).filter(|values| !values.is_empty())
+    }
 }
 
 /// Lines still to be read.
@@ -119,10 +163,30 @@ fn long(text: &[u8]) -> Option<(f64, usize)> {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use proptest::prelude::*;
 
-    use super::threads::PART;
     use super::*;
+
+    /// `read_parts` of a file of the text.
+    fn in_parts(text: &str, channels: usize, said: usize, parts: usize) -> Option<Vec<f64>> {
+        let file = file(text);
+        read_parts(&file, 0..text.len() as u64, channels, said, parts)
+    }
+
+    /// `read_on` of a file of the text, of which so many bytes are already there.
+    fn in_blocks(text: &str, first: usize, channels: usize, said: usize) -> Option<Vec<f64>> {
+        let file = file(text);
+        let blocks = Blocks::of(&file, first as u64..text.len() as u64);
+        read_on(&text.as_bytes()[..first], blocks, channels, said)
+    }
+
+    fn file(text: &str) -> File {
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(text.as_bytes()).unwrap();
+        file
+    }
 
     /// Every word of every line, by `str::parse`: as slow as it is plain.
     fn oracle(text: &str, channels: usize) -> Option<Vec<u64>> {
@@ -192,57 +256,44 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_whole_lines_and_nothing_is_lost() {
-        for frames in [1, 2, 3, 7, 100] {
-            for parts in [1, 2, 3, 5] {
-                let text = rows(frames, "\n");
-                let lines = split_at_lines(text.trim_end().as_bytes(), parts);
-                assert!(lines.len() <= parts && lines.len() >= parts.min(frames) / 2);
-                assert_eq!(lines.join(&b'\n'), text.trim_end().as_bytes());
-            }
-        }
-    }
-
-    #[test]
-    fn in_parts_is_the_same_as_in_one() {
-        // The text begins where the line of the frame time ends.
-        for (head, end, tail) in
-            [("", "\n", ""), ("\n", "\n", ""), ("\r\n", "\r\n", ""), (" \n", " \n", "\n \n")]
-        {
-            let text = head.to_owned() + &rows(1000, end) + tail;
-            let whole = read_whole(text.as_bytes(), 3, 1000);
+    fn from_a_file_in_blocks_or_in_parts_is_the_same_as_from_memory() {
+        for end in ["\n", "\r\n", " \n"] {
+            let text = rows(20_000, end);
+            let whole = read(text.as_bytes(), 3, 20_000);
             assert!(whole.is_some());
-            for parts in 2..6 {
-                assert_eq!(read_parts(text.as_bytes(), 3, 1000, parts), whole, "{parts}");
-                for said in [999, 1001, usize::MAX] {
-                    assert_eq!(read_parts(text.as_bytes(), 3, said, parts), None, "{said}");
-                }
+            let first_lines = text.find('\n').unwrap() + 1;
+            for said in [0, 1, 20_000, usize::MAX] {
+                assert_eq!(in_blocks(&text, first_lines, 3, said), whole);
+            }
+            assert_eq!(in_blocks(&text, 0, 3, 20_000), whole);
+            assert_eq!(in_blocks(text.trim_end(), text.trim_end().len(), 3, 20_000), whole);
+            for parts in 1..6 {
+                assert_eq!(in_parts(&text, 3, 20_000, parts), whole, "{parts}");
+                assert_eq!(in_parts(text.trim_end(), 3, 20_000, parts), whole, "{parts}");
             }
         }
-        let odd = rows(1000, "\n").replacen("\n600 ", "\n600,5 ", 1);
-        assert_eq!(read_parts(odd.as_bytes(), 3, 1000, 2), None);
-        let blank = rows(1000, "\n").replacen("\n600 ", "\n\n600 ", 1);
-        assert_eq!(read_parts(blank.as_bytes(), 3, 1001, 2), None);
-        let joined = rows(1000, "\n").replacen("\n600 ", " 600 ", 1);
-        assert_eq!(read_parts(joined.as_bytes(), 3, 999, 2), None);
     }
 
     #[test]
-    fn a_table_large_enough_for_two_threads_is_read_whole() {
-        let frames = 2 * PART / rows(1, "\n").len();
-        let text = rows(frames, "\n");
-        assert!(text.len() > 2 * PART);
-        assert!(read_parts(text.as_bytes(), 3, frames, 2).is_some());
-        let values = read(text.as_bytes(), 3, frames).unwrap();
-        assert_eq!(values.len(), 3 * frames);
-        assert!((0..frames).all(|frame| values[3 * frame] == frame as f64));
+    fn parts_need_the_frames_that_the_file_says() {
+        let text = rows(1000, "\n");
+        for said in [0, 999, 1001, usize::MAX] {
+            assert_eq!(in_parts(&text, 3, said, 2), None, "{said}");
+        }
+        let odd = text.replacen("\n600 ", "\n600,5 ", 1);
+        assert_eq!(in_parts(&odd, 3, 1000, 2), None);
+        let blank = text.replacen("\n600 ", "\n\n600 ", 1);
+        assert_eq!(in_parts(&blank, 3, 1001, 2), None);
+        let joined = text.replacen("\n600 ", " 600 ", 1);
+        assert_eq!(in_parts(&joined, 3, 999, 2), None);
     }
 
     #[test]
     fn lines_that_cannot_hold_what_is_said_reserve_nothing() {
-        let text = "\n".repeat(3 * PART);
-        assert_eq!(read(text.as_bytes(), 1 << 40, 3 * PART), None);
-        assert_eq!(read_parts(text.as_bytes(), 1 << 40, 1, 2), None);
+        let text = "\n".repeat(1 << 20);
+        assert_eq!(read(text.as_bytes(), 1 << 40, 1 << 20), None);
+        assert_eq!(in_parts(&text, 1 << 40, 1 << 20, 2), None);
+        assert_eq!(in_blocks(&text, 0, 1 << 40, 1), None);
         assert_eq!(read(&[text.as_bytes(), b"1"].concat(), 1 << 40, 1), None);
     }
 
@@ -254,9 +305,11 @@ mod tests {
             said in 0usize..20,
         ) {
             let text = words.concat();
-            let read = bits(read_whole(text.as_bytes(), channels, said));
+            let read = bits(read(text.as_bytes(), channels, said));
             prop_assert_eq!(&read, &oracle(&text, channels), "{:?}", text);
-            if let Some(by_parts) = bits(read_parts(text.as_bytes(), channels, said, 2)) {
+            let first = text.find('\n').map_or(0, |end| end + 1);
+            prop_assert_eq!(&bits(in_blocks(&text, first, channels, said)), &read);
+            if let Some(by_parts) = bits(in_parts(&text, channels, said, 2)) {
                 prop_assert_eq!(Some(by_parts), read);
             }
         }

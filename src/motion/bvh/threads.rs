@@ -1,15 +1,15 @@
-//! Large files are brought in and read by several threads, each its own part.
+//! Large files are read by several threads, each its own part.
 
 use std::num::NonZero;
 use std::thread;
 
 /// Bytes that are worth a thread of their own.
-pub(super) const PART: usize = 4 << 20;
+pub(super) const PART: u64 = 4 << 20;
 
 /// Into how many parts so many bytes are best divided on this machine.
-pub(super) fn parts(bytes: usize) -> usize {
+pub(super) fn parts(bytes: u64) -> usize {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    threads.min(bytes / PART).max(1)
+    threads.min((bytes / PART) as usize).max(1)
 }
 
 /// What the jobs give, each done in a thread of its own.

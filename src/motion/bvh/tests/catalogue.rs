@@ -8,7 +8,7 @@ use super::{clip, sample};
 use crate::error::Warning;
 use crate::motion::Clip;
 use crate::motion::bvh::warnings::{self, AXIS_TWICE, ROOTS};
-use crate::motion::bvh::{Options, Read, read, write};
+use crate::motion::bvh::{Options, Read, open, read, write};
 
 /// A file and what must come of it.
 pub(super) struct Case {
@@ -84,6 +84,17 @@ fn every_case_is_read_as_the_catalogue_asks() {
             (Ok(read), Expected::Refused(..)) => panic!("case {number} is accepted: {read:?}"),
             (Err(error), _) => panic!("case {number} is refused: {error}"),
         }
+    }
+}
+
+#[test]
+fn every_case_is_opened_as_it_is_read() {
+    for Case { number, bytes, .. } in cases() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), &bytes).unwrap();
+        // As text: NaN is not equal to itself.
+        let opened = format!("{:?}", open(file.path()));
+        assert_eq!(opened, format!("{:?}", read(&bytes)), "case {number}");
     }
 }
 

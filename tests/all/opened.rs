@@ -1,0 +1,73 @@
+//! A file that is opened, in blocks and by several threads, is the file that is read from memory.
+
+use std::fs;
+
+use genga::motion::bvh;
+use tempfile::NamedTempFile;
+
+use crate::clips;
+
+/// Whether the reader says the same of both, also when it is strict or repairs.
+fn agree(bytes: &[u8]) -> bool {
+    let file = NamedTempFile::new().unwrap();
+    fs::write(file.path(), bytes).unwrap();
+    let plain = bvh::Options::default();
+    let strict = bvh::Options { strict: true, ..plain.clone() };
+    let repair = bvh::Options { repair: true, ..plain.clone() };
+    // As text: NaN is not equal to itself.
+    [plain, strict, repair].iter().all(|options| {
+        format!("{:?}", options.open(file.path())) == format!("{:?}", options.read(bytes))
+    })
+}
+
+/// A sample, one row, many times, and what the file says of its frames.
+fn repeated(rows: usize, said: usize) -> Vec<u8> {
+    let text = fs::read_to_string(clips::here("data/swing.bvh")).unwrap();
+    let motion = text.find("Frames:").unwrap();
+    let table = text.find("Frame Time:").unwrap();
+    let row = table + text[table..].find('\n').unwrap() + 1;
+    let begin = format!("{}Frames: {said}\n{}", &text[..motion], &text[table..row]);
+    let line = text[row..].lines().next().unwrap().to_owned() + "\n";
+    (begin + &line.repeat(rows)).into_bytes()
+}
+
+#[test]
+fn every_clip_and_every_find_is_opened_as_it_is_read() {
+    let found = fs::read_dir(clips::here("tests/bvh/found")).unwrap();
+    let found = found.map(|entry| entry.unwrap().path());
+    let samples = ["kick", "pitch", "swing", "tennis"];
+    let samples = samples.map(|name| clips::here(&format!("data/{name}.bvh")));
+    for path in found.chain(samples).chain(clips::real()) {
+        assert!(agree(&fs::read(&path).unwrap()), "{}", path.display());
+    }
+}
+
+#[test]
+fn a_file_large_enough_for_threads_is_opened_as_it_is_read() {
+    let line = repeated(1, 1).len() - repeated(0, 1).len();
+    let rows = (10 << 20) / line;
+    let plain = repeated(rows, rows);
+    assert!(agree(&plain));
+    assert!(agree(&repeated(rows, rows + 1)), "too few");
+    assert!(agree(&repeated(rows, rows - 1)), "too many");
+    let mut odd = plain.clone();
+    let middle = odd.len() / 2;
+    odd[middle] = b'x';
+    assert!(agree(&odd), "no number");
+    assert!(agree(&[&plain[..], b"\n \n"].concat()), "blank lines behind");
+    assert!(agree(&[&plain[..], b"\0\0"].concat()), "NUL behind");
+    assert!(agree(&plain[..plain.len() - line / 2]), "cut");
+    assert!(agree(&[b"\xef\xbb\xbf", &plain[..]].concat()), "a mark before");
+    let name = plain.windows(5).position(|word| word == b"ROOT ").unwrap() + 5;
+    let japanese = [&plain[..name], &b"\x8d\x98".repeat(9), &plain[name..]].concat();
+    assert!(agree(&japanese), "names in Shift-JIS, longer in UTF-8");
+}
+
+#[test]
+fn a_hierarchy_longer_than_a_block_is_opened_as_it_is_read() {
+    let text = String::from_utf8(repeated(9, 9)).unwrap();
+    let blanks = format!("OFFSET{}", " ".repeat(1 << 18));
+    assert!(agree(text.replacen("OFFSET", &blanks, 1).as_bytes()), "one long line");
+    let lines = format!("{}OFFSET", "\n".repeat(1 << 18));
+    assert!(agree(text.replacen("OFFSET", &lines, 1).as_bytes()), "many lines");
+}
