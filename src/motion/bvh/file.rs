@@ -52,7 +52,7 @@ impl<'f> Blocks<'f> {
 /// A regular file's length; a pipe has none.
 pub(super) fn length(file: &File) -> Option<u64> {
     let about = file.metadata().ok()?;
-    about.is_file().then(|| about.len())
+    about.is_file().then_some(about.len())
 }
 
 /// About equal parts of a range that begins where a line does, each of whole lines. `None` when there
