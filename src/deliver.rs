@@ -19,7 +19,7 @@ pub use cut::Cut;
 pub use drawings::{Drawings, Rows};
 pub use format::{FORMATS, Format, Sink};
 pub use koma::{remap_csv, sheet_csv};
-pub use limited_bvh::limited_bvh;
+pub use limited_bvh::{keys_bvh, limited_bvh};
 pub use pictures::{bars, poses};
 pub use report::Report;
 pub use settings::{CsvSettings, Settings};

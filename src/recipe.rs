@@ -17,7 +17,7 @@ pub use knobs::{KNOBS, Kind, Knob};
 
 /// Koma a second that a sheet may have: fewer would be written as a frame time that reads as a rate, and
 /// more are of no use and their table would not fit into memory.
-const KOMA_RATES: std::ops::RangeInclusive<f64> = 2.0..=1000.0;
+pub(crate) const KOMA_RATES: std::ops::RangeInclusive<f64> = 2.0..=1000.0;
 
 /// Every setting of the chain. The defaults alone give a sheet an animator can use.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -30,7 +30,7 @@ pub struct Layer {
 
 /// A drawing and the number of koma it stays on screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an exposure {\"drawing\", \"koma\"}")]
 pub struct Exposure {
     /// Index into [`Layer::drawings`].
     pub drawing: usize,

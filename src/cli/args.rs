@@ -104,12 +104,23 @@ pub(super) struct Corrections {
     pub(super) pin: Vec<String>,
 }
 
-/// Settings of the formats.
+/// What both commands that write formats take.
 #[derive(Debug, ClapArgs)]
-pub(super) struct FormatSettings {
+pub(super) struct FormatArgs {
+    /// A BVH with these rows: the formats bvh and bvh-keys by other words.
+    #[arg(long, value_name = "ROWS")]
+    pub(super) bvh: Option<BvhRows>,
     /// One setting of a format: --with csv.bom=true (may be given again).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
     pub(super) with: Vec<(String, String)>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum BvhRows {
+    /// A row a koma, holds repeated: limited.bvh.
+    Stepped,
+    /// A row a key drawing, a pose library: keys.bvh.
+    Keys,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -123,7 +134,7 @@ pub(super) struct RunArgs {
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
     pub(super) deliver: Vec<String>,
     #[command(flatten)]
-    pub(super) settings: FormatSettings,
+    pub(super) formats: FormatArgs,
     /// The folder for the results [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -139,10 +150,10 @@ pub(super) struct DeliverArgs {
     #[arg(value_name = "CLIP.bvh")]
     pub(super) clip: PathBuf,
     /// The formats to write: --to remap,bvh, or all.
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required = true)]
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required_unless_present = "bvh")]
     pub(super) to: Vec<String>,
     #[command(flatten)]
-    pub(super) settings: FormatSettings,
+    pub(super) formats: FormatArgs,
     #[command(flatten)]
     pub(super) reading: Reading,
     /// The folder for the files [default: the one the sheet is in].

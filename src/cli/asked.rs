@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::args::FormatSettings;
+use super::args::{BvhRows, FormatArgs};
 use super::failure::Failure;
 use super::io;
 use crate::deliver::{Cut, Format, Settings};
@@ -18,24 +18,24 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// What `--option` names, and what comes `always`.
+    /// What `--option` names, what else is asked for, and what comes `always`.
     pub(super) fn new(
         option: &str,
         names: &[String],
         always: &[&str],
-        settings: &FormatSettings,
+        args: &FormatArgs,
     ) -> Result<Self, Failure> {
-        let asked_wrongly = |option: &'static str| {
-            move |error: Error| Failure::AskedWrongly(format!("--{option}: {error}"))
-        };
-        let names = names.iter().map(String::as_str).chain(always.iter().copied());
-        let formats = Format::find_all(names)
-            .map_err(|error| Failure::AskedWrongly(format!("--{option}: {error}")))?;
-        let mut made = Settings::default();
-        for (name, value) in &settings.with {
-            made.set(name, value).map_err(asked_wrongly("with"))?;
+        let bvh = args.bvh.map(|rows| match rows {
+            BvhRows::Stepped => "bvh",
+            BvhRows::Keys => "bvh-keys",
+        });
+        let names = names.iter().map(String::as_str).chain(bvh).chain(always.iter().copied());
+        let formats = Format::find_all(names).map_err(|error| wrongly(option, &error))?;
+        let mut settings = Settings::default();
+        for (name, value) in &args.with {
+            settings.set(name, value).map_err(|error| wrongly("with", &error))?;
         }
-        Ok(Self { formats, settings: made })
+        Ok(Self { formats, settings })
     }
 
     /// Refuses to write where the motion is read from.
@@ -65,4 +65,8 @@ impl Asked {
         }
         Ok(all)
     }
+}
+
+fn wrongly(option: &str, error: &Error) -> Failure {
+    Failure::AskedWrongly(format!("--{option}: {error}"))
 }

@@ -11,7 +11,7 @@ use crate::deliver::{Cut, sheet_json};
 use crate::sheet::Role;
 
 pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
-    let asked = Asked::new("to", &args.to, &[], &args.settings)?;
+    let asked = Asked::new("to", &args.to, &[], &args.formats)?;
     if io::is_stream(&args.sheet) && io::is_stream(&args.clip) {
         let message = "sheet and clip cannot both come from stdin".into();
         return Err(Failure::AskedWrongly(message));
@@ -30,7 +30,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         clip: &clip,
         sheet: &file.sheet,
         spaced: None,
-        made_with: file.made_with.as_ref().map(|(recipe, edits)| (recipe, edits)),
+        made_with: file.made_with.as_ref(),
     };
     let mut bundle = io::Bundle::begin(&folder)?;
     let files = asked.write(&cut, &mut bundle)?;

@@ -178,3 +178,61 @@ fn failed(path: &Path, source: io::Error) -> Failure {
 fn io_error(path: &Path, source: io::Error) -> Error {
     Error::Io { path: named(path), source }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn more_files_than_can_be_open_take_their_places_together() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("a/b");
+        let mut bundle = Bundle::begin(&folder).unwrap();
+        bundle.add("sheet.json", "{}").unwrap();
+        for number in 0..3000 {
+            bundle.add(&format!("images/A_{number:04}.png"), [number as u8]).unwrap();
+        }
+        assert!(!folder.join("sheet.json").exists(), "not before all are made");
+        bundle.finish().unwrap();
+        assert_eq!(names(&folder), ["images", "sheet.json"]);
+        assert_eq!(names(&folder.join("images")).len(), 3000);
+        assert_eq!(fs::read(folder.join("images/A_0007.png")).unwrap(), [7]);
+    }
+
+    #[test]
+    fn what_is_not_finished_leaves_nothing_that_was_not_there() {
+        let place = tempfile::tempdir().unwrap();
+        fs::write(place.path().join("taken"), "old").unwrap();
+        let folder = place.path().join("a/b");
+        let mut bundle = Bundle::begin(&folder).unwrap();
+        bundle.add("images/A_0001.png", "new").unwrap();
+        assert_eq!(names(&folder.join("images")).len(), 1, "beside its place");
+        drop(bundle);
+        assert_eq!(names(place.path()), ["taken"]);
+        // A folder that was there stays, with what is in it.
+        fs::create_dir_all(place.path().join("a/images")).unwrap();
+        fs::write(place.path().join("a/sheet.json"), "old").unwrap();
+        let folder = place.path().join("a");
+        let mut bundle = Bundle::begin(&folder).unwrap();
+        bundle.add("sheet.json", "new").unwrap();
+        bundle.add("images/A_0001.png", "new").unwrap();
+        assert!(bundle.add("sheet.json/A_0001.png", "new").is_err(), "a file stands there");
+        assert!(bundle.add("images", "new").is_err(), "a folder stands there");
+        drop(bundle);
+        assert_eq!(names(&folder), ["images", "sheet.json"]);
+        assert_eq!(names(&folder.join("images")), [""; 0]);
+        assert_eq!(fs::read(folder.join("sheet.json")).unwrap(), b"old");
+        assert!(Bundle::begin(&place.path().join("taken")).is_err());
+        assert!(Bundle::begin(&place.path().join("taken/under")).is_err());
+        assert_eq!(names(place.path()), ["a", "taken"]);
+    }
+}

@@ -7,6 +7,7 @@ use super::asked::Asked;
 use super::failure::Failure;
 use super::words::{Words, counted};
 use super::{io, pictures, source};
+use crate::deliver::sheet_json::MadeWith;
 use crate::deliver::{Cut, Report};
 use crate::pipeline::Engine;
 
@@ -16,7 +17,7 @@ const OWN: [&str; 3] = ["speed.svg", "recipe.toml", "report.json"];
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let (recipe, edits) = source::corrected(&args.corrections)?;
-    let asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.settings)?;
+    let asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
     let name = io::stem(&args.clip.clip);
     let folder = folder(args, &name)?;
     let own = OWN.map(str::to_owned);
@@ -36,7 +37,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         clip: breakdown.clip,
         sheet: breakdown.sheet,
         spaced: Some(breakdown.spaced),
-        made_with: Some((&recipe, &edits)),
+        made_with: Some(&MadeWith::of(&recipe, &edits)),
     };
     let mut bundle = io::Bundle::begin(&folder)?;
     let mut files = asked.write(&cut, &mut bundle)?;

@@ -1,8 +1,7 @@
 //! What is handed over: a clip, its sheet and what they are called.
 
-use crate::edits::Edits;
+use crate::deliver::sheet_json::MadeWith;
 use crate::motion::Clip;
-use crate::recipe::Recipe;
 use crate::sheet::Sheet;
 
 /// A cut (カット): everything that a format may be made of.
@@ -19,7 +18,7 @@ pub struct Cut<'a> {
     /// The sheet before anything was left out, where it is known.
     pub spaced: Option<&'a Sheet>,
     /// What the sheet was made with, where it is known.
-    pub made_with: Option<(&'a Recipe, &'a Edits)>,
+    pub made_with: Option<&'a MadeWith>,
 }
 
 impl Cut<'_> {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::deliver::settings::Settings;
 use crate::deliver::{
-    Cut, Drawings, Rows, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json,
+    Cut, Drawings, Rows, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json,
 };
 use crate::error::Error;
 
@@ -61,6 +61,13 @@ pub const FORMATS: &[Format] = &[
         japanese: "リミテッドモーション",
         files: &["limited.bvh"],
         make: |cut, _, put| put("limited.bvh", limited_bvh(cut.clip, cut.sheet)?.as_bytes()),
+    },
+    Format {
+        name: "bvh-keys",
+        help: "the key drawings as poses: a row a genga",
+        japanese: "ポーズ集",
+        files: &["keys.bvh"],
+        make: |cut, _, put| put("keys.bvh", keys_bvh(cut.clip, cut.sheet)?.as_bytes()),
     },
     Format {
         name: "bars",

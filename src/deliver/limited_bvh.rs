@@ -1,8 +1,8 @@
-//! The limited motion as BVH: one row a koma, holds repeated.
+//! The motion of a sheet as BVH: stepped, or its poses alone.
 
 use crate::error::Error;
 use crate::motion::{Clip, RowWriter, bvh};
-use crate::sheet::Sheet;
+use crate::sheet::{Layer, Sheet, Source};
 use crate::time::FrameRate;
 
 /// The motion of a sheet's first layer as a BVH at the sheet's rate, 24 fps: one row a koma. A drawing
@@ -11,16 +11,45 @@ use crate::time::FrameRate;
 /// # Errors
 /// [`Error::Clip`] when the sheet has no koma.
 pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+    let layer = first_layer(sheet, "there is no koma to write")?;
+    let shown = layer.exposures.iter();
+    let rows = shown.map(|shown| (layer.drawings[shown.drawing].source, shown.koma));
+    written(clip, sheet, rows)
+}
+
+/// The genga and ends of a sheet's first layer as a BVH for a pose library (ポーズ集): one row a drawing, in
+/// their order. Its rate is that of the sheet and means nothing.
+///
+/// # Errors
+/// [`Error::Clip`] when the sheet has no genga and no end.
+pub fn keys_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+    let layer = first_layer(sheet, "there is no pose to write")?;
+    let kept = layer.drawings.iter().filter(|drawing| drawing.role.is_kept());
+    let rows: Vec<_> = kept.map(|drawing| (drawing.source, 1)).collect();
+    if rows.is_empty() {
+        return Err(Error::clip("the sheet has neither genga nor ends: there is no pose to write"));
+    }
+    written(clip, sheet, rows)
+}
+
+fn first_layer<'a>(sheet: &'a Sheet, so: &str) -> Result<&'a Layer, Error> {
     let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
-    let layer =
-        layer.ok_or_else(|| Error::clip("the sheet is empty: there is no koma to write"))?;
+    layer.ok_or_else(|| Error::clip(format!("the sheet is empty: {so}")))
+}
+
+/// Rows at the sheet's rate, each pose as many times as is asked for.
+fn written(
+    clip: &Clip,
+    sheet: &Sheet,
+    poses: impl IntoIterator<Item = (Source, usize)>,
+) -> Result<String, Error> {
     let rate = FrameRate::new(sheet.clock.koma_rate)?;
     let mut file = bvh::Writer::new(clip.skeleton(), rate);
     let mut row = vec![0.0; clip.skeleton().channels()];
     let mut writer = RowWriter::new(clip);
-    for exposure in &layer.exposures {
-        writer.write(layer.drawings[exposure.drawing].source, &mut row);
-        (0..exposure.koma).for_each(|_| file.row(&row));
+    for (source, times) in poses {
+        writer.write(source, &mut row);
+        (0..times).for_each(|_| file.row(&row));
     }
     Ok(file.finish())
 }

@@ -18,10 +18,9 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::edits::Edits;
-use crate::recipe::Recipe;
 use crate::sheet::Sheet;
 
+pub use made::MadeWith;
 pub use read::read;
 pub use write::write;
 
@@ -38,14 +37,14 @@ pub struct SheetFile {
     /// The clip it was made of.
     pub clip: MadeOf,
     /// What it was made with, where that is known.
-    pub made_with: Option<(Recipe, Edits)>,
+    pub made_with: Option<MadeWith>,
     /// The sheet.
     pub sheet: Sheet,
 }
 
 /// The clip that a sheet was made of: enough to tell whether another one fits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "what there is to know of the clip")]
 pub struct MadeOf {
     /// The name of its file, without folders.
     pub file: String,

@@ -96,6 +96,7 @@ fn made(file: &str) -> String {
         "remap.csv" => remap_csv(sheet).unwrap(),
         "turns.csv" => turns_csv(clip.skeleton(), breakdown.filtered, breakdown.turns).unwrap(),
         "limited.bvh" => limited_bvh(clip, sheet).unwrap(),
+        "keys.bvh" => keys_bvh(clip, sheet).unwrap(),
         "recipe.toml" => recipe.write(&edits),
         "report.json" => {
             let report = Report::of(&breakdown, vec!["a note".into()]);
@@ -134,6 +135,28 @@ fn the_turns_look_as_they_did() {
 #[test]
 fn the_limited_motion_looks_as_it_did() {
     insta::assert_snapshot!(made("limited.bvh"));
+}
+
+#[test]
+fn the_key_poses_look_as_they_did() {
+    insta::assert_snapshot!(made("keys.bvh"));
+}
+
+#[test]
+fn a_row_of_the_key_poses_is_a_genga_as_it_stands_on_its_koma() {
+    let motion = |file: &str| {
+        let text = made(file);
+        let (head, rows) = text.split_once("Frame Time:").unwrap();
+        let rows: Vec<String> = rows.lines().skip(1).map(String::from).collect();
+        (head.split("MOTION").next().unwrap().to_owned(), rows)
+    };
+    let ((head, keys), (stepped_head, stepped)) = (motion("keys.bvh"), motion("limited.bvh"));
+    assert_eq!(head, stepped_head);
+    let text = made("keys.csv");
+    let rows = csv::Reader::from_reader(text.as_bytes()).into_records().map(|row| row.unwrap());
+    let shown: Vec<String> =
+        rows.map(|row| stepped[row[5].parse::<usize>().unwrap() - 1].clone()).collect();
+    assert_eq!(keys, shown);
 }
 
 #[test]
@@ -178,4 +201,5 @@ fn an_empty_sheet_has_headers_and_no_motion() {
     let table = Drawings { cut: "wave".into(), rows: Rows::All }.write(&clip, &sheet).unwrap();
     assert_eq!(table.lines().count(), 1);
     assert!(limited_bvh(&clip, &sheet).is_err());
+    assert!(keys_bvh(&clip, &sheet).is_err());
 }

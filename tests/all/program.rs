@@ -751,3 +751,132 @@ fn an_unknown_format_or_setting_lists_the_known_ones() {
     }
     assert!(place.files(".").is_empty(), "nothing was written");
 }
+
+#[test]
+fn the_key_poses_are_a_bvh_by_either_name() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --bvh keys --deliver bvh-keys");
+    let keys = read(&place.path("a/keys.bvh"));
+    let genga = column(&read(&place.path("a/keys.csv")), "genga_no").len();
+    assert!(keys.contains(&format!("\nFrames: {genga}\nFrame Time: 0.041667\n")), "{genga}");
+    for (asked, file) in [
+        ("--bvh keys", "keys.bvh"),
+        ("--bvh stepped", "limited.bvh"),
+        ("--to bvh-keys", "keys.bvh"),
+    ] {
+        fs::create_dir_all(place.path("b")).unwrap();
+        place.done(&format!("deliver a/sheet.json data/kick.bvh --out b {asked}"));
+        assert_eq!(place.files("b").into_keys().collect::<Vec<_>>(), [file], "{asked}");
+        assert!(place.files("b")[file] == place.files("a")[file], "{asked}");
+        fs::remove_dir_all(place.path("b")).unwrap();
+    }
+    assert!(place.refused(2, "deliver a/sheet.json data/kick.bvh").contains("--to"));
+    assert!(
+        place.refused(2, "deliver a/sheet.json data/kick.bvh --bvh held").contains("stepped, keys")
+    );
+}
+
+#[test]
+fn a_sheet_that_does_not_fit_says_what_and_leaves_nothing() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    place.done("run data/kick.bvh --out short --trim 0..50");
+    let sheet = read(&place.path("a/sheet.json"));
+    fs::write(place.path("short.bvh"), read(&place.path("short/limited.bvh"))).unwrap();
+    fs::write(place.path("slip.json"), sheet.replacen("\"koma\": 4", "\"koma\": 0", 1)).unwrap();
+    fs::write(place.path("later.json"), sheet.replacen("genga-sheet-1", "genga-sheet-2", 1))
+        .unwrap();
+    fs::write(place.path("kick.bvh"), read(&here("data/kick.bvh")).replace("LeftArm", "Arm_L"))
+        .unwrap();
+    let empty = sheet.split("\"exposures\"").next().unwrap().to_owned() + "\"exposures\": []}]}";
+    fs::write(place.path("empty.json"), empty).unwrap();
+    for (args, words) in [
+        (
+            "a/sheet.json kick.bvh",
+            "genga: a/sheet.json: the sheet has the joint LeftArm where the clip has Arm_L",
+        ),
+        (
+            "a/sheet.json short.bvh",
+            "genga: a/sheet.json: the sheet shows frames 0 to 91, the clip has frames 0 to 49\n",
+        ),
+        (
+            "a/sheet.json data/kick.bvh --fps 60",
+            "is for 24 frames a second, the clip has 60; if it is the same take, --fps 24",
+        ),
+        ("slip.json data/kick.bvh", ": an exposure of 0 koma is not seen"),
+        (
+            "later.json data/kick.bvh",
+            "genga: later.json:2:13: the sheet is of the schema genga-sheet-2",
+        ),
+        ("data/kick.bvh data/kick.bvh", "data/kick.bvh: this is no sheet of genga"),
+        ("none.json data/kick.bvh", "genga: none.json: "),
+        ("a/sheet.json none.bvh", "genga: none.bvh: "),
+        ("empty.json data/kick.bvh", "the sheet is empty"),
+    ] {
+        let said = place.refused(1, &format!("deliver {args} --to json,bvh --out o/p"));
+        assert!(said.contains(words), "{args}: {said}");
+        assert_eq!(said.matches('\n').count(), 1, "{said}");
+        assert!(!place.path("o").exists(), "{args} left something");
+    }
+    let said = place.refused(1, "deliver slip.json data/kick.bvh --to all --out o");
+    let line = sheet.lines().position(|line| line.contains("\"koma\": 4")).unwrap() + 1;
+    assert!(said.starts_with(&format!("genga: slip.json:{line}:9: ")), "{said}");
+    assert!(place.refused(2, "deliver - - --to all").contains("both"));
+    assert!(
+        place.refused(2, "deliver a/sheet.json data/kick.bvh --to all --out -").contains("--out")
+    );
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_leaves_nothing_half_written() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    let before = place.files("a");
+    fs::write(place.path("file"), "mine").unwrap();
+    for out in ["file", "file/under"] {
+        place.refused(1, &format!("deliver a/sheet.json data/kick.bvh --to all --out {out}"));
+        place.refused(1, &format!("run data/kick.bvh --out {out}"));
+    }
+    assert_eq!(read(&place.path("file")), "mine");
+    // One of several files cannot be put there: none is.
+    fs::create_dir_all(place.path("o/remap.csv")).unwrap();
+    let said = place.refused(1, "deliver a/sheet.json data/kick.bvh --to all --out o");
+    assert!(said.contains("remap.csv: is a folder"), "{said}");
+    assert!(place.files("o").is_empty());
+    assert!(place.files("a") == before);
+}
+
+#[test]
+fn another_motion_on_the_same_frames_is_taken_with_a_note() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    let clip = read(&here("data/kick.bvh"));
+    let (head, last) = clip.trim_end().rsplit_once(' ').unwrap();
+    fs::write(
+        place.path("cleaned.bvh"),
+        format!("{head} {}\n", last.parse::<f64>().unwrap() + 1.0),
+    )
+    .unwrap();
+    let output = place.genga("deliver a/sheet.json cleaned.bvh --to bvh --out b");
+    assert!(output.status.success());
+    assert!(text(&output.stderr).contains("[W_SHEET_MOTION]"), "{}", text(&output.stderr));
+    assert!(place.files("b")["limited.bvh"] != place.files("a")["limited.bvh"]);
+    let output = place.genga("deliver a/sheet.json data/kick.bvh --to bvh --out b");
+    assert!(!text(&output.stderr).contains("W_SHEET"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn tables_begin_with_a_mark_where_that_is_asked_for() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --with csv.bom=true");
+    place.done("run data/kick.bvh --out b");
+    let (a, b) = (place.files("a"), place.files("b"));
+    for file in ["keys.csv", "drawings.csv", "sheet.csv", "remap.csv"] {
+        assert!(a[file] == [b"\xef\xbb\xbf", &b[file][..]].concat(), "{file}");
+    }
+    assert!(
+        place
+            .refused(2, "run data/kick.bvh --with csv.bom=1 --out c")
+            .contains("csv.bom: cannot be \"1\"")
+    );
+}

@@ -2,8 +2,8 @@
 
 use super::{MadeOf, SheetFile};
 use crate::error::Error;
-use crate::sheet::{Exposure, Source};
-use crate::time::FrameRate;
+use crate::recipe::KOMA_RATES;
+use crate::sheet::{Exposure, Source, Why};
 
 /// Koma of a layer at most, half a day of film: a longer hold is a slip of the hand, and would fill the
 /// memory.
@@ -24,11 +24,15 @@ impl SheetFile {
             let message = format!("it is made for {rate} frames a second, the clip has {clip}");
             return Err(Error::sheet(message));
         }
-        FrameRate::new(clock.koma_rate).map_err(|error| Error::sheet(format!("fps: {error}")))?;
+        koma_rate(clock.koma_rate).map_err(Error::sheet)?;
         for layer in &self.sheet.layers {
             let named = |message: String| Error::sheet(format!("layer {}: {message}", layer.name));
             for drawing in &layer.drawings {
                 source(drawing.source, &self.clip).map_err(named)?;
+                let Why { strength, price, .. } = drawing.why;
+                if [strength, price].into_iter().flatten().any(|value| !value.is_finite()) {
+                    return Err(named("a strength or price is no number".into()));
+                }
             }
             let drawings = layer.drawings.len();
             let there = |exposure: &Exposure| exposure.drawing < drawings;
@@ -44,6 +48,14 @@ impl SheetFile {
         }
         Ok(())
     }
+}
+
+/// Whether a sheet can have so many koma a second.
+pub(super) fn koma_rate(rate: f64) -> Result<(), String> {
+    let (least, most) = (KOMA_RATES.start(), KOMA_RATES.end());
+    let wrong =
+        || format!("fps is {rate}; a sheet has {least} to {most} koma a second, 24 is usual");
+    KOMA_RATES.contains(&rate).then_some(()).ok_or_else(wrong)
 }
 
 /// The koma of a layer after an exposure, if it may stand for so long.

@@ -14,7 +14,7 @@ pub(super) struct LayerLines {
 
 /// A drawing as a line: its number, what it is, where its pose comes from, why it is here.
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a drawing {\"drawing\", \"role\", \"frame\"}")]
 pub(super) struct DrawingLine {
     /// The number by which exposures name it.
     pub(super) drawing: usize,

@@ -6,9 +6,8 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::layer::DrawingLine;
-use super::made::MadeWith;
 use super::text::Text;
-use super::{MadeOf, SCHEMA, SheetFile, check};
+use super::{MadeOf, MadeWith, SCHEMA, SheetFile, check};
 use crate::error::Error;
 use crate::sheet::{Exposure, Layer, Sheet};
 use crate::time::{Clock, Frame, FrameRate};
@@ -22,26 +21,27 @@ struct AnyVersion<'a> {
 
 /// The file. What is looked at more closely is parsed by itself, so that its place is known.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a sheet")]
 struct Written<'a> {
     #[serde(borrow, rename = "schema")]
     _schema: &'a RawValue,
     #[serde(default)]
     genga: String,
     cut: String,
-    fps: f64,
+    #[serde(borrow)]
+    fps: &'a RawValue,
     #[serde(borrow)]
     frame_base: &'a RawValue,
     #[serde(borrow)]
     clip: &'a RawValue,
-    #[serde(borrow, default)]
+    #[serde(borrow)]
     made_with: Option<&'a RawValue>,
     #[serde(borrow)]
     layers: Vec<&'a RawValue>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a layer {\"name\", \"drawings\", \"exposures\"}")]
 struct WrittenLayer<'a> {
     name: String,
     #[serde(borrow)]
@@ -72,18 +72,17 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let clip: MadeOf = text.value(written.clip)?;
     let frame_rate = FrameRate::new(clip.frame_rate)
         .map_err(|error| text.error(written.clip, error.to_string()))?;
-    let clock = Clock { first: Frame(clip.first_frame), frame_rate, koma_rate: written.fps };
+    let koma_rate = text.value(written.fps)?;
+    check::koma_rate(koma_rate).map_err(|message| text.error(written.fps, message))?;
+    let clock = Clock { first: Frame(clip.first_frame), frame_rate, koma_rate };
     let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip));
     let layers = layers.collect::<Result<_, _>>()?;
-    let made_with = written.made_with.map(|raw| {
-        let made: MadeWith = text.value(raw)?;
-        made.read().map_err(|error| text.error(raw, error.to_string()))
-    });
+    let made_with: Option<MadeWith> = written.made_with.map(|raw| text.value(raw)).transpose()?;
     let file = SheetFile {
         cut: written.cut,
         genga: written.genga,
         clip,
-        made_with: made_with.transpose()?,
+        made_with,
         sheet: Sheet { clock, layers },
     };
     file.check()?;
@@ -91,6 +90,9 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
 }
 
 fn check_version(text: Text<'_>) -> Result<(), Error> {
+    if !text.0.trim_start().starts_with('{') {
+        return Err(Error::sheet("this is no sheet of genga, which is JSON and begins with {"));
+    }
     let AnyVersion { schema } = text.whole()?;
     let Some(raw) = schema else {
         let message = format!("this is no sheet of genga: it has no \"schema\": \"{SCHEMA}\"");

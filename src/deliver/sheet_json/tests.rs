@@ -1,14 +1,17 @@
 //! What is written reads back, and what is wrong is said with its place.
 
+mod fits;
+mod laws;
+mod mistakes;
+
 use super::*;
 use crate::deliver::Cut;
 use crate::deliver::tests::{edits, recipe, wave};
-use crate::error::Error;
-use crate::motion::Clip;
 use crate::pipeline::Engine;
+use crate::sheet::{Role, Source};
 
 /// The sheet of the wave.
-fn file() -> (Clip, SheetFile) {
+fn file() -> SheetFile {
     let (recipe, edits) = (recipe(), edits());
     let mut engine = Engine::new(wave()).unwrap();
     let breakdown = engine.run(&recipe, &edits).unwrap();
@@ -18,32 +21,121 @@ fn file() -> (Clip, SheetFile) {
         clip: breakdown.clip,
         sheet: breakdown.sheet,
         spaced: None,
-        made_with: Some((&recipe, &edits)),
+        made_with: Some(&MadeWith::of(&recipe, &edits)),
     };
-    (wave(), SheetFile::of(&cut))
+    SheetFile::of(&cut)
 }
 
-fn said(error: Error) -> String {
-    error.to_string()
+/// It as text.
+fn text() -> String {
+    file().write().unwrap()
 }
 
 #[test]
 fn the_sheet_looks_as_it_did() {
-    insta::assert_snapshot!(file().1.write().unwrap());
+    insta::assert_snapshot!(text());
 }
 
 #[test]
 fn what_is_written_reads_back() {
-    let (_, file) = file();
-    let text = file.write().unwrap();
-    let again = read(text.as_bytes()).unwrap();
-    assert_eq!(again, file);
-    assert_eq!(again.write().unwrap(), text);
+    let again = read(text().as_bytes()).unwrap();
+    assert_eq!(again, file());
+    assert_eq!(again.write().unwrap(), text());
 }
 
 #[test]
-fn another_version_is_named() {
-    let text = file().1.write().unwrap().replace(SCHEMA, "genga-sheet-7");
-    let error = said(read(text.as_bytes()).unwrap_err());
-    assert!(error.starts_with("2:13: the sheet is of the schema genga-sheet-7"), "{error}");
+fn a_drawing_and_an_exposure_are_a_line_each() {
+    let (file, text) = (file(), text());
+    let layer = &file.sheet.layers[0];
+    let lines = |what: &str| text.lines().filter(|line| line.contains(what)).count();
+    assert_eq!(lines("{\"drawing\": "), layer.drawings.len() + layer.exposures.len());
+    assert_eq!(lines("{\"drawing\": 3, \"role\": "), 1);
+    assert_eq!(lines("{\"drawing\": 3, \"koma\": "), 1);
+}
+
+#[test]
+fn the_recipe_that_made_it_makes_it_again() {
+    let made = read(text().as_bytes()).unwrap().made_with.unwrap();
+    assert_eq!(made.recipe().unwrap(), recipe());
+    assert_eq!(made.edits, edits());
+    let mut endless = recipe();
+    endless.set("keys.per_second", "inf").unwrap();
+    assert_eq!(MadeWith::of(&endless, &edits()).recipe().unwrap(), endless);
+    // A record of settings that are gone is a record.
+    let text = text().replace("\"keys.rest\"", "\"keys.of_old\"");
+    let made = read(text.as_bytes()).unwrap().made_with.unwrap();
+    assert!(made.recipe().unwrap_err().to_string().starts_with("keys.of_old: "));
+}
+
+#[test]
+fn a_person_may_write_it_otherwise() {
+    let text = text();
+    let other = format!("\u{feff}{}", text.replace('\n', "\r\n").replace("\": ", "\":"));
+    assert_eq!(read(other.as_bytes()).unwrap(), file());
+    // Numbers of drawings are names; the list has the order.
+    let renamed = text
+        .replace("{\"drawing\": 2, ", "{\"drawing\": 900, ")
+        .replace("{\"drawing\": 1, ", "{\"drawing\": 2, ");
+    assert_eq!(read(renamed.as_bytes()).unwrap(), file());
+    // Shown again, shown never.
+    let again = text.replace("{\"drawing\": 2, \"koma\"", "{\"drawing\": 5, \"koma\"");
+    assert_eq!(read(again.as_bytes()).unwrap().sheet.layers[0].exposures[2].drawing, 5);
+    // What nobody has to say.
+    let (head, tail) = text.split_once("  \"made_with\"").unwrap();
+    let (_, tail) = tail.split_once("  \"layers\"").unwrap();
+    let bare = format!("{head}  \"layers\"{tail}").replace("  \"genga\": \"0.1.0\",\n", "");
+    let read = read(bare.as_bytes()).unwrap();
+    assert_eq!((read.made_with, read.genga.as_str()), (None, ""));
+}
+
+#[test]
+fn a_blend_is_written_as_two_frames_and_a_share() {
+    let mut file = file();
+    file.sheet.layers[0].drawings[1].source = Source::Between { from: 4.0, to: 23.5, share: 0.1 };
+    let text = file.write().unwrap();
+    let line = "{\"drawing\": 1, \"role\": \"inbetween\", \"between\": [4, 23.5], \"share\": 0.1, ";
+    assert!(text.contains(line), "{text}");
+    assert_eq!(read(text.as_bytes()).unwrap(), file);
+}
+
+#[test]
+fn a_sheet_that_no_reader_would_take_is_not_written() {
+    let spoilt: [(&str, fn(&mut SheetFile)); 8] = [
+        ("koma 0 shows frame 5, but", |file| file.sheet.clock.first.0 = 5),
+        ("it is made for 50 frames a second, the clip has 60", |file| file.clip.frame_rate = 60.0),
+        ("fps is 0; ", |file| file.sheet.clock.koma_rate = 0.0),
+        ("layer A: frame NaN is not in", |file| {
+            file.sheet.layers[0].drawings[0].source = Source::At(f64::NAN);
+        }),
+        ("layer A: frame 104.5 is not in the clip, which has frames 4 to 104", |file| {
+            file.sheet.layers[0].drawings[0].source = Source::At(104.5);
+        }),
+        ("layer A: an exposure shows drawing 17 of 17", |file| {
+            file.sheet.layers[0].exposures[0].drawing = 17;
+        }),
+        ("layer A: an exposure of 0 koma", |file| file.sheet.layers[0].exposures[0].koma = 0),
+        ("layer A: a strength or price", |file| {
+            file.sheet.layers[0].drawings[3].why.price = Some(f64::INFINITY);
+        }),
+    ];
+    for (words, spoil) in spoilt {
+        let mut file = file();
+        spoil(&mut file);
+        let error = file.write().unwrap_err().to_string();
+        assert!(error.starts_with(words), "{words}: {error}");
+    }
+}
+
+#[test]
+fn the_smallest_sheets_are_sheets() {
+    let mut file = file();
+    file.sheet.layers[0].drawings.truncate(1);
+    file.sheet.layers[0].exposures.truncate(1);
+    assert_eq!(file.sheet.layers[0].drawings[0].role, Role::End);
+    assert_eq!(read(file.write().unwrap().as_bytes()).unwrap(), file);
+    file.sheet.layers[0].exposures.clear();
+    file.sheet.layers[0].drawings.clear();
+    assert_eq!(read(file.write().unwrap().as_bytes()).unwrap(), file);
+    file.sheet.layers.clear();
+    assert_eq!(read(file.write().unwrap().as_bytes()).unwrap(), file);
 }

@@ -5,8 +5,7 @@ use serde_json::Serializer;
 
 use super::layer::LayerLines;
 use super::lines::Lines;
-use super::made::MadeWith;
-use super::{MadeOf, SCHEMA, SheetFile};
+use super::{MadeOf, MadeWith, SCHEMA, SheetFile};
 use crate::deliver::Cut;
 use crate::error::Error;
 
@@ -28,7 +27,7 @@ struct Written<'a> {
     frame_base: u8,
     clip: &'a MadeOf,
     #[serde(skip_serializing_if = "Option::is_none")]
-    made_with: Option<MadeWith>,
+    made_with: Option<&'a MadeWith>,
     layers: Vec<LayerLines>,
 }
 
@@ -39,7 +38,7 @@ impl SheetFile {
             cut: cut.name.into(),
             genga: env!("CARGO_PKG_VERSION").into(),
             clip: MadeOf::of(cut.clip_file, cut.clip),
-            made_with: cut.made_with.map(|(recipe, edits)| (recipe.clone(), edits.clone())),
+            made_with: cut.made_with.cloned(),
             sheet: cut.sheet.clone(),
         }
     }
@@ -58,7 +57,7 @@ impl SheetFile {
             fps: self.sheet.clock.koma_rate,
             frame_base: 0,
             clip: &self.clip,
-            made_with: self.made_with.as_ref().map(|(recipe, edits)| MadeWith::of(recipe, edits)),
+            made_with: self.made_with.as_ref(),
             layers: self.sheet.layers.iter().map(LayerLines::of).collect(),
         };
         let mut bytes = Vec::new();

@@ -1,0 +1,125 @@
+//! Any sheet at all: written, read and written again it is the same, to the last byte.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::edits::{Edits, Pin};
+use crate::sheet::{Drawing, Exposure, Layer, Sheet, Why};
+use crate::time::{Clock, Frame, FrameRate};
+
+const FIRST: usize = 7;
+const LAST: usize = 5000;
+
+/// A number with all its digits.
+fn place() -> impl Strategy<Value = f64> {
+    prop_oneof![(FIRST..=LAST).prop_map(|frame| frame as f64), FIRST as f64..=LAST as f64]
+}
+
+fn source() -> impl Strategy<Value = Source> {
+    let share = prop_oneof![Just(0.0), Just(1.0), 0.0..=1.0];
+    prop_oneof![
+        place().prop_map(Source::At),
+        (place(), place(), share).prop_map(|(from, to, share)| Source::Between { from, to, share }),
+    ]
+}
+
+fn why() -> impl Strategy<Value = Why> {
+    let words = prop::collection::vec(any::<String>(), 0..3);
+    let value = || prop::option::of(prop_oneof![Just(0.0), -1e300..1e300, 0.0..1e-300, 0.0..100.0]);
+    let counts = prop::array::uniform3(0..4usize);
+    let pinned = prop::option::of(any::<String>());
+    (words, pinned, any::<bool>(), value(), value(), counts).prop_map(
+        |(voters, pinned, rest, strength, price, [lengthened, omitted_before, held_for])| Why {
+            voters,
+            pinned,
+            rest,
+            strength,
+            price,
+            lengthened,
+            omitted_before,
+            held_for,
+        },
+    )
+}
+
+fn drawing() -> impl Strategy<Value = Drawing> {
+    let role = prop::sample::select(vec![Role::Genga, Role::Inbetween, Role::End]);
+    (source(), role, why()).prop_map(|(source, role, why)| Drawing { source, role, why })
+}
+
+fn layer() -> impl Strategy<Value = Layer> {
+    let drawings = prop::collection::vec(drawing(), 0..6);
+    let shown = prop::collection::vec((any::<prop::sample::Index>(), 1..200usize), 0..9);
+    (any::<String>(), drawings, shown).prop_map(|(name, drawings, shown)| {
+        let exposure = |(drawing, koma): (prop::sample::Index, usize)| {
+            (!drawings.is_empty())
+                .then(|| Exposure { drawing: drawing.index(drawings.len()), koma })
+        };
+        let exposures = shown.into_iter().filter_map(exposure).collect();
+        Layer { name, drawings, exposures }
+    })
+}
+
+fn made_with() -> impl Strategy<Value = MadeWith> {
+    let recipe = prop::collection::btree_map(any::<String>(), any::<String>(), 0..3);
+    let pin = (any::<u32>(), prop::option::of(any::<String>()), prop::option::of(0.0..1.0))
+        .prop_map(|(frame, name, weight)| Pin { frame: Frame(frame as usize), name, weight });
+    let forbidden =
+        prop::collection::vec(any::<u32>().prop_map(|frame| Frame(frame as usize)), 0..3);
+    (recipe, prop::collection::vec(pin, 0..3), forbidden)
+        .prop_map(|(recipe, pins, forbidden)| MadeWith { recipe, edits: Edits { pins, forbidden } })
+}
+
+fn sheet_file() -> impl Strategy<Value = SheetFile> {
+    let rates = (0.01..1000.0, prop_oneof![Just(24.0), 2.0..1000.0]);
+    let layers = prop::collection::vec(layer(), 0..4);
+    let joints = prop::collection::vec(any::<String>(), 0..4);
+    let words = prop::array::uniform2(any::<String>());
+    (rates, layers, joints, words, prop::option::of(made_with())).prop_map(
+        |((frame_rate, koma_rate), layers, joints, [cut, file], made_with)| SheetFile {
+            cut,
+            genga: "0.1.0".into(),
+            clip: MadeOf {
+                file,
+                frame_rate,
+                first_frame: FIRST,
+                frames: LAST - FIRST + 1,
+                motion: "0".into(),
+                skeleton: "1".into(),
+                joints,
+            },
+            made_with,
+            sheet: Sheet {
+                clock: Clock {
+                    first: Frame(FIRST),
+                    frame_rate: FrameRate::new(frame_rate).unwrap(),
+                    koma_rate,
+                },
+                layers,
+            },
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn any_sheet_written_reads_back_and_is_written_the_same(file in sheet_file()) {
+        let text = file.write().unwrap();
+        let again = read(text.as_bytes()).unwrap();
+        prop_assert_eq!(&again, &file);
+        prop_assert_eq!(again.write().unwrap(), text);
+    }
+
+    #[test]
+    fn no_bytes_make_the_reader_panic(at in any::<prop::sample::Index>(), byte in any::<u8>(), cut in any::<bool>()) {
+        let mut bytes = text().into_bytes();
+        let at = at.index(bytes.len());
+        bytes[at] = byte;
+        if cut {
+            bytes.truncate(at);
+        }
+        if let Ok(file) = read(&bytes) {
+            prop_assert!(file.write().is_ok());
+        }
+    }
+}

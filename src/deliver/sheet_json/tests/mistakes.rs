@@ -1,0 +1,128 @@
+//! A person's slips, and what they are told.
+
+use super::*;
+
+/// What a person is told after replacing the first `from` by `to`.
+fn told(from: &str, to: &str) -> String {
+    let text = text();
+    assert!(text.contains(from), "{from}");
+    read(text.replacen(from, to, 1).as_bytes()).unwrap_err().to_string()
+}
+
+/// Line and column of the first `what` in the sheet, from 1.
+fn place(what: &str) -> String {
+    let text = text();
+    let before = &text[..text.find(what).unwrap()];
+    let line = before.matches('\n').count() + 1;
+    format!("{line}:{}: ", before.len() - before.rfind('\n').map_or(0, |at| at + 1) + 1)
+}
+
+#[test]
+fn what_is_wrong_with_a_line_is_said_with_its_place() {
+    let shown = "{\"drawing\": 5, \"koma\": 2}";
+    let drawn = "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 21.522222222222222}";
+    for (line, wrong, words) in [
+        (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 17 drawings, none of them is 40"),
+        (shown, "{\"drawing\": 5, \"koma\": 0}", "an exposure of 0 koma is not seen"),
+        (shown, "{\"drawing\": 5, \"koma\": 99999999}", "99999999 koma here: a layer has 1000000"),
+        (
+            drawn,
+            "{\"drawing\": 1, \"role\": \"inbetween\", \"frame\": 21}",
+            "there is a drawing 1 before",
+        ),
+        (
+            drawn,
+            "{\"drawing\": 2, \"role\": \"inbetween\"}",
+            "a drawing shows a source frame, \"frame\": 42",
+        ),
+        (
+            drawn,
+            "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 9, \"share\": 0.5}",
+            "a drawing shows a source frame",
+        ),
+        (
+            drawn,
+            "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 3.9}",
+            "frame 3.9 is not in the clip, which has frames 4 to 104",
+        ),
+        (
+            drawn,
+            "{\"drawing\": 2, \"role\": \"inbetween\", \"between\": [4, 105], \"share\": 0.5}",
+            "frame 105 is not in the clip",
+        ),
+        (
+            drawn,
+            "{\"drawing\": 2, \"role\": \"inbetween\", \"between\": [4, 9], \"share\": 1.5}",
+            "share is 1.5; it is 0 at",
+        ),
+    ] {
+        let error = told(line, wrong);
+        assert!(error.starts_with(&(place(line) + words)), "{wrong}: {error}");
+    }
+}
+
+#[test]
+fn what_is_no_such_file_is_said_with_its_place() {
+    for (from, to, at, words) in [
+        // The place is where the reader stopped: behind the word.
+        ("\"koma\": 4", "\"koma\": 4.5", "", "invalid type: floating point `4.5`"),
+        ("\"koma\": 4", "\"koma\": -4", "", "invalid value: integer `-4`"),
+        ("\"koma\": 4", "\"coma\": 4", "", "unknown field `coma`, expected `drawing` or `koma`"),
+        (
+            "\"role\": \"genga\"",
+            "\"role\": \"key\"",
+            "",
+            "unknown variant `key`, expected one of `genga`",
+        ),
+        ("\"fps\": 24", "\"fps\": \"24\"", "5:13: ", "invalid type: string \"24\", expected f64"),
+        ("\"fps\": 24,", "\"fps\": 24,,", "5:13: ", "key must be a string"),
+        ("  \"fps\": 24,\n", "", "", "missing field `fps`"),
+        ("\"fps\": 24", "\"fps\": 0", "5:10: ", "fps is 0; a sheet has 2 to 1000 koma a second"),
+        ("\"frame_base\": 0", "\"frame_base\": 1", "6:17: ", "frame_base is 0 in this schema"),
+        ("\"frame_rate\": 50", "\"frame_rate\": 0", "7:11: ", "rate: 0 frames a second is no rate"),
+        ("{\"drawing\": 0, \"koma\": 4}", "4", "", "expected an exposure {\"drawing\", \"koma\"}"),
+        ("\"frames\": 101", "\"frames\": -1", "11:16: ", "invalid value: integer `-1`"),
+    ] {
+        let error = told(from, to);
+        assert!(error.starts_with(at) && error.contains(words), "{to}: {error}");
+        if at.is_empty() {
+            let place = error.splitn(3, ':').take(2).map(|number| number.parse::<usize>());
+            assert_eq!(place.filter(Result::is_ok).count(), 2, "{to}: {error}");
+        }
+        assert!(!error.contains(" at line "), "the place is said once: {error}");
+    }
+}
+
+#[test]
+fn a_mistake_within_a_line_has_the_column_of_that_line() {
+    let line =
+        text().lines().position(|line| line.ends_with("{\"drawing\": 0, \"koma\": 4},")).unwrap();
+    let error = told("\"koma\": 4", "\"koma\": true");
+    // Eight blanks, `{"drawing": 0, "koma": true`.
+    assert!(error.starts_with(&format!("{}:35: invalid type: boolean", line + 1)), "{error}");
+}
+
+#[test]
+fn another_version_and_other_files_are_named() {
+    let error = told(SCHEMA, "genga-sheet-7");
+    assert!(error.starts_with("2:13: the sheet is of the schema genga-sheet-7"), "{error}");
+    assert!(error.contains(SCHEMA), "{error}");
+    // Whatever else a later version says.
+    let later = format!("{{\"schema\": \"genga-sheet-2\", \"sheets\": [{}]}}", text());
+    assert!(read(later.as_bytes()).unwrap_err().to_string().contains("genga-sheet-2"));
+    for (other, words) in [
+        ("{}", "this is no sheet of genga: it has no \"schema\""),
+        ("{\"frames\": 92}", "this is no sheet of genga"),
+        ("[]", "this is no sheet of genga, which is JSON"),
+        ("", "this is no sheet of genga, which is JSON"),
+        ("HIERARCHY\nROOT Hips", "this is no sheet of genga, which is JSON"),
+        ("{", "1:1: EOF while parsing an object"),
+    ] {
+        let error = read(other.as_bytes()).unwrap_err().to_string();
+        assert!(error.starts_with(words), "{other}: {error}");
+    }
+    let error = read(b"\xff\xfe{\x00").unwrap_err().to_string();
+    assert!(error.starts_with("this is not text in UTF-8"), "{error}");
+    assert!(read(&text().as_bytes()[..900]).is_err());
+    assert!(read(format!("{}{}", text(), text()).as_bytes()).is_err(), "two sheets in one file");
+}
