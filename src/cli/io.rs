@@ -69,7 +69,6 @@ impl<'a> Bundle<'a> {
 
     /// Puts all files into their places.
     pub(super) fn finish(mut self) -> Result<(), Failure> {
-        self.made.clear();
         let place = |(file, path): (TempPath, PathBuf)| {
             file.persist(&path).map_err(|error| io_error(&path, error.error))
         };

@@ -880,3 +880,19 @@ fn tables_begin_with_a_mark_where_that_is_asked_for() {
             .contains("csv.bom: cannot be \"1\"")
     );
 }
+
+#[cfg(unix)]
+#[test]
+fn files_that_wait_for_their_places_are_not_open() {
+    let place = Place::new();
+    let clip = here("data/kick.bvh");
+    let script = format!(
+        "ulimit -n 12; exec '{}' run '{}' --deliver all --out o",
+        env!("CARGO_BIN_EXE_genga"),
+        clip.display()
+    );
+    let mut command = Command::new("sh");
+    let output = command.arg("-c").arg(script).current_dir(place.0.path()).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(place.files("o").len() > 11);
+}
