@@ -77,12 +77,14 @@ fn what_is_written_out_koma_by_koma_is_a_hold() {
 
 #[test]
 fn unknown_members_and_fields_are_passed_over() {
+    let douga = r#"{"data":[{"id":0,"values":["9"]}],"frame":0}"#;
+    let douga = format!(r#"{{"fieldId":4,"tracks":[{{"frames":[{douga}],"trackNo":0}}]}}"#);
     let odd = file(&PLAIN)
         .replace(r#""duration":6"#, r#""frameRate":24,"duration":6,"color":0"#)
         .replace(r#""version":5"#, r#""subversion":"p1","version":10"#)
         .replace(
             r#"[{"fieldId":0,"tracks""#,
-            r#"[{"fieldId":4,"tracks":[]},{"fieldId":0,"tracks""#,
+            &format!(r#"[{douga},{{"fieldId":0,"tracks""#),
         );
     assert_eq!(koma(&odd), PLAIN_KOMA);
     let without_names = file(&PLAIN).replace(r#"[{"fieldId":0,"names":["A"]}]"#, "[]");
