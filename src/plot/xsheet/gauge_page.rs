@@ -103,16 +103,18 @@ fn ticks(
     (from, base): (f64, f64),
 ) -> Result<(), Error> {
     let small = Type::new(10.0).align(Align::Center);
-    let mut free = [from + 9.0; 2];
+    // Above the circles of the keys there is room for a number, below them no fraction is needed.
+    let mut free = [from - 9.0; 2];
     for (at, share) in gauge.between().iter().enumerate() {
         let x = from + share * LONG;
-        canvas.line((x, base - 7.0), (x, base + 7.0), style::INK, 1.2)?;
+        // Longer than a circle is high: a drawing close to a key must not hide behind it.
+        canvas.line((x, base - 10.5), (x, base + 10.5), style::INK, 1.2)?;
         let number = (leaf.layer.exposures[gauge.first + 1 + at].drawing + 1).to_string();
         let below = written(*share).unwrap_or_default();
-        let labels = [(number.as_str(), base - 10.0), (below, base + 18.0)];
+        let labels = [(number.as_str(), base - 13.0), (below, base + 21.0)];
         for ((text, y), free) in labels.into_iter().zip(&mut free) {
             let half = 0.5 * style::text_width(text, 10.0);
-            if x - half >= *free && x + half <= from + LONG - 8.0 {
+            if x - half >= *free && x + half <= from + LONG + 9.0 {
                 canvas.text(text, (x, y), small)?;
                 *free = x + half + 2.0;
             }

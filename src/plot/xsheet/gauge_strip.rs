@@ -81,6 +81,8 @@ impl Span {
             let (Some(y), Some(fraction)) = (self.y(*share).filter(room), written(*share)) else {
                 continue;
             };
+            let (left, width) = (self.x + KEY_TICK + 1.0, style::text_width(fraction, 8.5) + 2.0);
+            canvas.rect((left, y - 4.0), (left + width, y + 4.5), style::PAPER)?;
             canvas.text(fraction, (self.x + KEY_TICK + 2.0, y + 3.0), small)?;
             last = y;
         }

@@ -82,10 +82,7 @@ fn unknown_members_and_fields_are_passed_over() {
     let odd = file(&PLAIN)
         .replace(r#""duration":6"#, r#""frameRate":24,"duration":6,"color":0"#)
         .replace(r#""version":5"#, r#""subversion":"p1","version":10"#)
-        .replace(
-            r#"[{"fieldId":0,"tracks""#,
-            &format!(r#"[{douga},{{"fieldId":0,"tracks""#),
-        );
+        .replace(r#"[{"fieldId":0,"tracks""#, &format!(r#"[{douga},{{"fieldId":0,"tracks""#));
     assert_eq!(koma(&odd), PLAIN_KOMA);
     let without_names = file(&PLAIN).replace(r#"[{"fieldId":0,"names":["A"]}]"#, "[]");
     assert_eq!(read(without_names.as_bytes()).unwrap().columns[0].name, "A");

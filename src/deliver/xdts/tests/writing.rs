@@ -133,6 +133,7 @@ fn a_cut_s_digits_go_into_the_header_and_its_whole_name_stays() {
     assert_eq!(header("C012A"), ["12", "1"]);
     assert_eq!(header("s03_c045"), ["45", "3"]);
     assert_eq!(header("S3-7"), ["7", "3"]);
+    assert_eq!(header("ep12_c034"), ["34", "1"]);
     assert_eq!(header("カット７ 018"), ["18", "1"]);
     assert_eq!(header("c000"), ["0", "1"]);
     assert_eq!(header("cmu-11_01-soccer-kick"), ["11", "1"]);
