@@ -53,6 +53,31 @@ pub(super) fn marked(
     Ok(notes)
 }
 
+/// Refuses to write over the marked sheet: a person's work is in it.
+pub(super) fn spare(
+    args: &Corrections,
+    deliver: &[String],
+    folder: &Path,
+    cut: &str,
+) -> Result<(), Failure> {
+    let (Some(marked), true) =
+        (&args.pin_from, deliver.iter().any(|name| matches!(name.trim(), "xdts" | "all")))
+    else {
+        return Ok(());
+    };
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    let written = ["genga", "douga"].map(|kind| folder.join(format!("{cut}_{kind}.xdts")));
+    let over = written.iter().any(|path| real(path).is_some() && real(path) == real(marked));
+    if over {
+        return Err(Failure::AskedWrongly(format!(
+            "{}: --deliver xdts would write over the sheet you marked; save it under another name, or \
+             write elsewhere with --out",
+            marked.display()
+        )));
+    }
+    Ok(())
+}
+
 /// The column that is asked for, else the only one that has a drawing, else the one called A as ours.
 fn column<'a>(file: &'a Exchange, asked: Option<&str>, path: &Path) -> Result<&'a Column, Failure> {
     let drawn =

@@ -21,6 +21,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let folder = folder(args, &name)?;
     let own = OWN.map(str::to_owned);
     asked.spare(&args.clip.clip, &folder)?;
+    pins::spare(&args.corrections, &args.deliver, &folder, &name)?;
     own.iter().try_for_each(|file| io::spare(&args.clip.clip, &folder.join(file)))?;
     let working = words.working();
     working.on("reading the motion");

@@ -71,6 +71,20 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
 }
 
 #[test]
+fn the_marked_sheet_is_not_written_over() {
+    let folder = delivered(&[]);
+    let (kick, marked) = (kick(), folder.path().join("out/kick_genga.xdts"));
+    let before = fs::read(&marked).unwrap();
+    let run = ["run", &kick, "--pin-from", "out/kick_genga.xdts", "--out", "out"];
+    for format in ["xdts", "csv,all"] {
+        let said = refused(folder.path(), &[&run[..], &["--deliver", format]].concat());
+        assert!(said.contains("write over the sheet you marked"), "{said}");
+        assert_eq!(fs::read(&marked).unwrap(), before);
+    }
+    assert!(genga(folder.path(), &run).status.success(), "no sheet is written");
+}
+
+#[test]
 fn a_douga_sheet_without_circles_has_no_keys_and_says_what_to_give() {
     let folder = delivered(&[]);
     let kick = kick();

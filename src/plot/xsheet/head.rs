@@ -44,7 +44,7 @@ pub(super) fn boxes(canvas: &mut Canvas<'_>, page: &Page<'_>, sheet: &str) -> Re
         // A long name is smaller before it is cut off.
         let size = [size, 13.0, 11.0]
             .into_iter()
-            .find(|size| style::text_width(value, *size) < width - 12.0)
+            .find(|size| style::text_width(value, *size) < width - 26.0)
             .unwrap_or(11.0);
         let value = style::fitted(value, size, width - 10.0);
         let look = Type::new(size).bold().align(Align::Center);
