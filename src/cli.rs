@@ -10,6 +10,7 @@ mod keys;
 mod omit;
 mod pages;
 mod pictures;
+mod pins;
 mod recipe;
 mod run;
 mod source;

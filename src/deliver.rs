@@ -14,6 +14,8 @@ pub mod sheet_json;
 #[cfg(test)]
 pub(crate) mod tests;
 mod turns;
+pub mod xdts;
+mod xsheet;
 
 pub use cut::Cut;
 pub use drawings::{Drawings, Rows};
@@ -24,6 +26,7 @@ pub use pictures::{bars, poses};
 pub use report::Report;
 pub use settings::{CsvSettings, Settings};
 pub use turns::turns_csv;
+pub use xsheet::{XSheetFiles, xsheet};
 
 use crate::error::Error;
 

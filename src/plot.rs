@@ -13,6 +13,7 @@ mod speed;
 mod study;
 mod style;
 mod view;
+mod xsheet;
 
 #[cfg(test)]
 mod tests;
@@ -23,3 +24,4 @@ pub use raster::png_from_svg;
 pub use sheet::SheetPlot;
 pub use speed::SpeedPlot;
 pub use study::{StudyCount, StudyPlot, StudyRow};
+pub use xsheet::{HoldLine, InbetweenMark, XSheet};

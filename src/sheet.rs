@@ -201,6 +201,16 @@ impl Layer {
         self.drawings.iter().filter(|drawing| drawing.role == role).count()
     }
 
+    /// The number of each drawing among the kept ones, genga and ends as one series from 1; none for
+    /// inbetweens.
+    pub fn genga_numbers(&self) -> Vec<Option<usize>> {
+        let number = |kept: &mut usize, drawing: &Drawing| {
+            *kept += usize::from(drawing.role.is_kept());
+            Some(drawing.role.is_kept().then_some(*kept))
+        };
+        self.drawings.iter().scan(0, number).collect()
+    }
+
     /// Koma of the longest exposure; 0 for an empty layer.
     pub fn longest_hold(&self) -> usize {
         self.exposures.iter().map(|exposure| exposure.koma).max().unwrap_or(0)

@@ -2,6 +2,7 @@
 //! (コマ撮り) leave some out.
 
 mod amount;
+mod gauge;
 mod koma_dori;
 mod naka_nashi;
 mod omission;
@@ -12,6 +13,7 @@ mod strip;
 mod tournament;
 
 pub use amount::Amount;
+pub use gauge::{Gauge, Packing, fraction};
 pub use omission::{Omission, Omitted, Order};
 pub use report::{Gone, Report, Shortfall, StageReport};
 pub use spacing::{InbetweenSource, Spaced, Spacing};

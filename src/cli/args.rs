@@ -102,6 +102,12 @@ pub(super) struct Corrections {
     /// Frames that are keys whatever is found, with a name if you like: --pin 12,150:wrist-top
     #[arg(long, value_name = "FRAME[:NAME],…", value_delimiter = ',')]
     pub(super) pin: Vec<String>,
+    /// Keys marked on a timesheet of this clip, an XDTS file: its numbers, or those circled as keys.
+    #[arg(long, value_name = "FILE.xdts")]
+    pub(super) pin_from: Option<PathBuf>,
+    /// The column of that timesheet [default: the only one, or A].
+    #[arg(long, value_name = "NAME", requires = "pin_from")]
+    pub(super) pin_column: Option<String>,
 }
 
 /// What both commands that write formats take.

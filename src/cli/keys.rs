@@ -3,16 +3,18 @@
 use super::args::KeysArgs;
 use super::failure::Failure;
 use super::words::Words;
-use super::{io, source};
+use super::{io, pins, source};
 use crate::deliver::{self, Drawings, Rows};
 use crate::pipeline::Engine;
 
 pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     io::spare(&args.clip.clip, &args.out)?;
-    let (recipe, edits) = source::corrected(&args.corrections)?;
+    let (recipe, mut edits) = source::corrected(&args.corrections)?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let mut engine = Engine::new(source.clip)?;
+    let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;
+    marked.iter().for_each(|note| words.say(note));
     let breakdown = engine.run(&recipe, &edits)?;
     let table = if args.per_joint {
         deliver::turns_csv(breakdown.clip.skeleton(), breakdown.filtered, breakdown.turns)?

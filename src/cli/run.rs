@@ -6,7 +6,7 @@ use super::args::RunArgs;
 use super::asked::Asked;
 use super::failure::Failure;
 use super::words::{Words, counted};
-use super::{io, pictures, source};
+use super::{io, pictures, pins, source};
 use crate::deliver::sheet_json::MadeWith;
 use crate::deliver::{Cut, Report};
 use crate::pipeline::Engine;
@@ -16,21 +16,24 @@ const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
 const OWN: [&str; 3] = ["speed.svg", "recipe.toml", "report.json"];
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
-    let (recipe, edits) = source::corrected(&args.corrections)?;
+    let (recipe, mut edits) = source::corrected(&args.corrections)?;
     let asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
     let name = io::stem(&args.clip.clip);
     let folder = folder(args, &name)?;
     let own = OWN.map(str::to_owned);
     asked.spare(&args.clip.clip, &folder)?;
+    pins::spare(&args.corrections, &args.deliver, &folder, &name)?;
     own.iter().try_for_each(|file| io::spare(&args.clip.clip, &folder.join(file)))?;
     let working = words.working();
     working.on("reading the motion");
     let source = source::clip(&args.clip)?;
     working.on("finding the key drawings");
     let mut engine = Engine::new(source.clip)?;
+    let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
-    let report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
+    let notes = source.notes.iter().map(ToString::to_string).chain(marked);
+    let report = Report::of(&breakdown, notes.collect());
     let cut = Cut {
         name: &name,
         clip_file: &io::file_name(&args.clip.clip),

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::deliver::settings::Settings;
 use crate::deliver::{
-    Cut, Drawings, Rows, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json,
+    Cut, Drawings, Rows, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json, xsheet,
 };
 use crate::error::Error;
 
@@ -20,7 +20,8 @@ pub struct Format {
     pub help: &'static str,
     /// The word of the field.
     pub japanese: &'static str,
-    /// The files that it writes: `CUT` stands for the name of the cut, `0001` for the number of a drawing.
+    /// The files that it writes: `CUT` stands for the name of the cut, `0001` for the number of a
+    /// drawing or a page.
     pub files: &'static [&'static str],
     /// Makes the files and hands them on, one at a time.
     make: fn(&Cut<'_>, &Settings, &mut Sink<'_>) -> Result<(), Error>,
@@ -68,6 +69,30 @@ pub const FORMATS: &[Format] = &[
         japanese: "ポーズ集",
         files: &["keys.bvh"],
         make: |cut, _, put| put("keys.bvh", keys_bvh(cut.clip, cut.sheet)?.as_bytes()),
+    },
+    Format {
+        name: "xdts",
+        help: "timesheets for drawing programs: the keys for ACTION, every drawing for CELL",
+        japanese: "デジタルタイムシート",
+        files: &["CUT_genga.xdts", "CUT_douga.xdts"],
+        make: |cut, settings, put| {
+            let made = settings.xdts.write(cut.sheet, cut.name)?;
+            put(&cut.file("CUT_genga.xdts"), made.genga.as_bytes())?;
+            put(&cut.file("CUT_douga.xdts"), made.douga.as_bytes())
+        },
+    },
+    Format {
+        name: "xsheet",
+        help: "the timesheet on paper, to print on A4 or B4: HTML, and a page each as SVG",
+        japanese: "タイムシート用紙",
+        files: &["CUT_xsheet.html", "xsheet/0001.svg"],
+        make: |cut, settings, put| {
+            let made = xsheet(&settings.xsheet, cut.name, cut.clip, cut.sheet)?;
+            put(&cut.file("CUT_xsheet.html"), made.html.as_bytes())?;
+            made.pages.iter().enumerate().try_for_each(|(at, page)| {
+                put(&format!("xsheet/{:04}.svg", at + 1), page.as_bytes())
+            })
+        },
     },
     Format {
         name: "bars",

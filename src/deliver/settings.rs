@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use crate::deliver::xdts::Xdts;
 use crate::error::Error;
+use crate::plot::XSheet;
 
 /// The settings of every format, by its name. A new format's are a field here.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -11,6 +13,10 @@ use crate::error::Error;
 pub struct Settings {
     /// The tables.
     pub csv: CsvSettings,
+    /// The timesheets for programs.
+    pub xdts: Xdts,
+    /// The timesheet on paper.
+    pub xsheet: XSheet,
 }
 
 /// How tables are written.

@@ -129,7 +129,8 @@ impl SheetPlot {
     }
 }
 
-fn check(sheet: &Sheet) -> Result<(), Error> {
+/// Refuses a sheet that shows a drawing it does not have.
+pub(super) fn check(sheet: &Sheet) -> Result<(), Error> {
     for layer in &sheet.layers {
         let drawings = layer.drawings.len();
         if let Some(wrong) = layer.exposures.iter().find(|shown| shown.drawing >= drawings) {

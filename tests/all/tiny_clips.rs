@@ -4,7 +4,7 @@ use genga::deliver::{self, Drawings, Report, Rows};
 use genga::edits::{Edits, Pin};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use genga::pipeline::{Breakdown, Engine};
-use genga::plot::{PoseRow, SheetPlot, SpeedPlot};
+use genga::plot::{PoseRow, SheetPlot, SpeedPlot, XSheet};
 use genga::recipe::{KNOBS, Kind, Recipe};
 use genga::sheet::Role;
 use genga::study;
@@ -110,6 +110,8 @@ fn hand_over(breakdown: &Breakdown) {
     deliver::sheet_csv(sheet).unwrap();
     deliver::remap_csv(sheet).unwrap();
     deliver::turns_csv(clip.skeleton(), filtered, turns).unwrap();
+    deliver::xdts::Xdts::default().write(sheet, "tiny").unwrap();
+    deliver::xsheet(&XSheet::default(), "tiny", clip, sheet).unwrap();
     let limited = deliver::limited_bvh(clip, sheet).unwrap();
     let read = genga::motion::bvh::read(limited.as_bytes()).unwrap();
     assert_eq!(read.clip.len(), sheet.length());

@@ -1,0 +1,34 @@
+//! XDTS (デジタルタイムシート), the timesheet that drawing and compositing programs read: a signature line
+//! and JSON, version 5.
+//!
+//! A file has one column of the paper, so a sheet is two files: what the key animator writes into
+//! ACTION (keys numbered, a mark an inbetween) and what the inbetweener writes into CELL (every
+//! drawing numbered).
+
+mod file;
+mod pins;
+mod read;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use pins::{Numbered, marked_keys, pins};
+pub use read::{Cell, Column, Exchange, Mark, read};
+pub use write::{Xdts, XdtsPair};
+
+/// How an XDTS file begins.
+const SIGNATURE: &str = "exchangeDigitalTimeSheet Save Data";
+/// How a TDTS file begins, which is made of the same parts.
+const TDTS_SIGNATURE: &str = "toeiDigitalTimeSheet Save Data";
+
+/// The field of cels; in a TDTS file the ACTION column.
+const CELS: u32 = 0;
+
+const INBETWEEN: &str = "SYMBOL_TICK_1";
+const REVERSE: &str = "SYMBOL_TICK_2";
+const BLANK: &str = "SYMBOL_NULL_CELL";
+const CONTINUED: &str = "SYMBOL_HYPHEN";
+
+/// An extension of OpenToonz: the number is circled. A file that uses it says so by [`EXTENDED`].
+const CIRCLED: &str = "OPTION_KEYFRAME";
+const EXTENDED: &str = "p1";

@@ -1,0 +1,185 @@
+//! XDTS as a sheet of columns, tolerant of what programs in use write.
+
+use super::file::{Entry, Header, Root, TimeTable};
+use super::write::letters;
+use super::{BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SIGNATURE, TDTS_SIGNATURE};
+use crate::error::Error;
+
+/// The cels of an XDTS or TDTS file: its first time table, field 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exchange {
+    /// The name of the time table: often the whole name of the cut.
+    pub name: String,
+    /// The number of the cut, as text.
+    pub cut: Option<String>,
+    /// The number of the scene, as text.
+    pub scene: Option<String>,
+    /// Koma.
+    pub length: usize,
+    /// The columns by track, back to front.
+    pub columns: Vec<Column>,
+}
+
+/// A column of cels. Two may have one name: they differ by track.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// The number of the track, from 0.
+    pub track: usize,
+    /// The column's name; by its track (A, B, C …) where the file gives none.
+    pub name: String,
+    /// What changes, by koma: the first on koma 0, all within the length, no drawing after itself.
+    pub cells: Vec<Cell>,
+}
+
+/// What stands on a column from a koma on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cell {
+    /// Koma, from 0.
+    pub koma: usize,
+    /// What stands there.
+    pub mark: Mark,
+    /// Whether it is circled as a key: an extension, `OPTION_KEYFRAME`.
+    pub circled: bool,
+}
+
+/// What a cell can say.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Mark {
+    /// A drawing by its number or name.
+    Drawing(String),
+    /// An inbetween goes here; the drawing before it stays.
+    Inbetween,
+    /// Inbetweens go here backwards; the drawing before them stays.
+    Reverse,
+    /// Nothing is shown (カラ).
+    Blank,
+}
+
+/// Reads an XDTS or TDTS file: with or without BOM, any line ends, entries in any order, unknown
+/// members passed over.
+///
+/// # Errors
+/// [`Error::Sheet`] with line and column for what is neither, or not JSON of that shape.
+pub fn read(bytes: &[u8]) -> Result<Exchange, Error> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let message = "expected UTF-8, which XDTS is written in; save the sheet again as XDTS";
+        let before = &bytes[..error.valid_up_to()];
+        let line = before.iter().filter(|byte| **byte == b'\n').count();
+        let column = before.iter().rev().take_while(|byte| **byte != b'\n').count();
+        wrong((line + 1, column + 1), message)
+    })?;
+    let signature = [SIGNATURE, TDTS_SIGNATURE].into_iter().find(|line| text.starts_with(line));
+    let signature = signature.ok_or_else(|| unsigned(text))?;
+    let json = &text[signature.len()..];
+    let root: Root = serde_json::from_str(json).map_err(|error| {
+        let on_first = if error.line() == 1 { signature.len() } else { 0 };
+        let (line, column) = (error.line().max(1), (error.column() + on_first).max(1));
+        wrong((line, column), without_place(&error))
+    })?;
+    let (header, table) = first_table(root).ok_or_else(|| {
+        wrong((1, 1), "expected a time table (timeTables), found none; save a sheet with one")
+    })?;
+    Ok(exchange(header, table))
+}
+
+fn unsigned(text: &str) -> Error {
+    let found: String = text.lines().next().unwrap_or_default().chars().take(40).collect();
+    let message = format!(
+        "expected \"{SIGNATURE}\" (XDTS) or \"{TDTS_SIGNATURE}\" (TDTS), found \"{found}\"; \
+         export the sheet as XDTS"
+    );
+    wrong((1, 1), message)
+}
+
+fn wrong(place: (usize, usize), message: impl Into<String>) -> Error {
+    Error::Sheet { place: Some(place), message: message.into() }
+}
+
+/// What the JSON reader says, without the place: that counts from the end of the signature.
+fn without_place(error: &serde_json::Error) -> String {
+    let message = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let message = message.strip_suffix(&place).unwrap_or(&message);
+    format!("{message}; if you did not write this by hand, save the sheet again as XDTS")
+}
+
+fn first_table(root: Root) -> Option<(Option<Header>, TimeTable)> {
+    if let Some(table) = root.time_tables.into_iter().next() {
+        return Some((root.header, table));
+    }
+    let sheet = root.time_sheets.into_iter().next()?;
+    Some((root.header.or(sheet.header), sheet.time_tables.into_iter().next()?))
+}
+
+fn exchange(header: Option<Header>, table: TimeTable) -> Exchange {
+    let length = table.duration as usize;
+    let headers = table.time_table_headers.into_iter();
+    let names: Vec<String> =
+        headers.filter(|header| header.field_id == CELS).flat_map(|header| header.names).collect();
+    let name = |track: usize| match names.get(track).map(|name| name.trim()) {
+        None | Some("") => letters(track),
+        Some(name) => name.into(),
+    };
+    let fields = table.fields.into_iter().filter(|field| field.field_id == CELS);
+    let tracks = fields.flat_map(|field| field.tracks);
+    let mut columns: Vec<_> = tracks
+        .map(|track| Column {
+            track: track.track_no,
+            name: name(track.track_no),
+            cells: cells(track.frames, length),
+        })
+        .collect();
+    columns.sort_by_key(|column| column.track);
+    let number = |number: fn(&Header) -> &String| {
+        header.as_ref().map(|header| number(header).clone()).filter(|number| !number.is_empty())
+    };
+    Exchange {
+        name: table.name,
+        cut: number(|header| &header.cut),
+        scene: number(|header| &header.scene),
+        length,
+        columns,
+    }
+}
+
+/// Entries as cells: by koma, those before the cut as what it begins with, of two on one koma the
+/// later one, and only what changes.
+fn cells(mut entries: Vec<Entry>, length: usize) -> Vec<Cell> {
+    entries.sort_by_key(|entry| entry.frame);
+    let mut cells = vec![Cell { koma: 0, mark: Mark::Blank, circled: false }];
+    for entry in entries {
+        let koma = usize::try_from(entry.frame).unwrap_or(0);
+        let Some(mark) = mark(&entry.data[0].values[0]).filter(|_| koma < length) else { continue };
+        let circled = entry.data[0].options.iter().any(|option| option == CIRCLED);
+        cells.pop_if(|last| last.koma == koma);
+        let goes_on = matches!(mark, Mark::Drawing(_) | Mark::Blank);
+        match cells.last_mut() {
+            Some(last) if goes_on && last.mark == mark => last.circled |= circled,
+            _ => cells.push(Cell { koma, mark, circled }),
+        }
+    }
+    cells
+}
+
+/// None for a mark that the cell before goes on.
+fn mark(value: &str) -> Option<Mark> {
+    match value {
+        CONTINUED => None,
+        INBETWEEN => Some(Mark::Inbetween),
+        REVERSE => Some(Mark::Reverse),
+        BLANK | "" => Some(Mark::Blank),
+        drawing => Some(Mark::Drawing(drawing.into())),
+    }
+}
+
+impl Column {
+    /// What stands on each koma of a length: the mark and the koma it was set on.
+    pub fn on_koma(&self, length: usize) -> impl Iterator<Item = &Cell> + '_ {
+        let ends = self.cells.iter().skip(1).map(|cell| cell.koma).chain([length]);
+        self.cells
+            .iter()
+            .zip(ends)
+            .flat_map(|(cell, end)| std::iter::repeat_n(cell, end.saturating_sub(cell.koma)))
+    }
+}

@@ -1,0 +1,86 @@
+//! The cut of 24 koma as both files, member by member as the format's description has them.
+
+use serde_json::Value;
+
+use super::sheets::{cut_of_24, spelled};
+use crate::deliver::xdts::{Xdts, read};
+
+const GENGA: &str = r#"exchangeDigitalTimeSheet Save Data
+{"header":{"cut":"1","scene":"1"},"timeTables":[{"duration":24,"fields":[{"fieldId":0,"tracks":[{"frames":[
+{"data":[{"id":0,"values":["1"]}],"frame":0},
+{"data":[{"id":0,"values":["SYMBOL_TICK_1"]}],"frame":6},
+{"data":[{"id":0,"values":["SYMBOL_TICK_1"]}],"frame":8},
+{"data":[{"id":0,"values":["2"]}],"frame":10},
+{"data":[{"id":0,"values":["3"]}],"frame":13},
+{"data":[{"id":0,"values":["SYMBOL_TICK_1"]}],"frame":16},
+{"data":[{"id":0,"values":["4"]}],"frame":19},
+{"data":[{"id":0,"values":["SYMBOL_NULL_CELL"]}],"frame":24}],"trackNo":0}]}],
+"name":"c001","timeTableHeaders":[{"fieldId":0,"names":["A"]}]}],"version":5}"#;
+
+/// With a line of dialogue, which a person added.
+const DOUGA: &str = r#"exchangeDigitalTimeSheet Save Data
+{"header":{"cut":"1","scene":"1"},"timeTables":[{"duration":24,"fields":[{"fieldId":0,"tracks":[{"frames":[
+{"data":[{"id":0,"values":["1"]}],"frame":0},{"data":[{"id":0,"values":["2"]}],"frame":6},
+{"data":[{"id":0,"values":["3"]}],"frame":8},{"data":[{"id":0,"values":["4"]}],"frame":10},
+{"data":[{"id":0,"values":["5"]}],"frame":13},{"data":[{"id":0,"values":["6"]}],"frame":16},
+{"data":[{"id":0,"values":["7"]}],"frame":19},{"data":[{"id":0,"values":["SYMBOL_NULL_CELL"]}],"frame":24}],"trackNo":0}]},
+{"fieldId":3,"tracks":[{"frames":[{"data":[{"id":0,"values":["アキ","えい！"]}],"frame":2},
+{"data":[{"id":0,"values":["SYMBOL_HYPHEN"]}],"frame":3},{"data":[{"id":0,"values":["SYMBOL_HYPHEN"]}],"frame":4}],"trackNo":0}]}],
+"name":"c001","timeTableHeaders":[{"fieldId":0,"names":["A"]},{"fieldId":3,"names":["S1"]}]}],"version":5}"#;
+
+const GENGA_KOMA: &str = "1 1 1 1 1 1 1o 1 1o 1 2 2 2 3 3 3 3o 3 3 4 4 4 4 4";
+const DOUGA_KOMA: &str = "1 1 1 1 1 1 2 2 3 3 4 4 4 5 5 5 6 6 6 7 7 7 7 7";
+
+fn json(file: &str) -> Value {
+    serde_json::from_str(file.split_once('\n').unwrap().1).unwrap()
+}
+
+/// A file without what is not a cel.
+fn cels_alone(file: &str) -> Value {
+    let mut file = json(file);
+    for list in ["fields", "timeTableHeaders"] {
+        let items = file["timeTables"][0][list].as_array_mut().unwrap();
+        items.retain(|item| item["fieldId"] == 0);
+    }
+    file
+}
+
+#[test]
+fn both_examples_are_made_again_from_their_sheet() {
+    let made = Xdts::default().write(&cut_of_24(), "c001").unwrap();
+    assert_eq!(json(&made.genga), json(GENGA));
+    assert_eq!(json(&made.douga), cels_alone(DOUGA));
+}
+
+#[test]
+fn both_examples_read_koma_by_koma_as_their_page_says() {
+    for (file, koma) in [(GENGA, GENGA_KOMA), (DOUGA, DOUGA_KOMA)] {
+        let read = read(file.as_bytes()).unwrap();
+        assert_eq!((read.length, read.columns.len()), (24, 1));
+        assert_eq!((read.cut.as_deref(), read.scene.as_deref()), (Some("1"), Some("1")));
+        assert_eq!(spelled(&read.columns[0], read.length), koma);
+    }
+}
+
+#[test]
+fn circled_keys_are_marked_in_the_douga_file_when_asked_for() {
+    let plain = Xdts::default().write(&cut_of_24(), "c001").unwrap();
+    let made = Xdts { circled: true }.write(&cut_of_24(), "c001").unwrap();
+    assert_eq!(made.genga, plain.genga);
+    let file = json(&made.douga);
+    assert_eq!(file["subversion"], "p1");
+    let frames = file["timeTables"][0]["fields"][0]["tracks"][0]["frames"].as_array().unwrap();
+    let circled = frames
+        .iter()
+        .filter(|entry| entry["data"][0]["options"] == serde_json::json!(["OPTION_KEYFRAME"]));
+    let circled: Vec<_> = circled.map(|entry| entry["frame"].as_u64().unwrap()).collect();
+    assert_eq!(circled, [0, 10, 13, 19]);
+    assert!(!plain.douga.contains("OPTION") && !plain.douga.contains("subversion"));
+}
+
+#[test]
+fn both_examples_follow_the_schema() {
+    for file in [GENGA, DOUGA] {
+        super::writing::follows_the_schema(file);
+    }
+}

@@ -1,0 +1,61 @@
+//! Sheets built by hand, and what stands on their koma.
+
+use super::super::read::{Column, Mark};
+use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
+use crate::time::{Clock, Frame, FrameRate};
+
+pub(super) fn clock() -> Clock {
+    Clock { first: Frame(10), frame_rate: FrameRate::new(120.0).unwrap(), koma_rate: 24.0 }
+}
+
+/// A layer of drawings by role (`e`nd, `g`enga, `i`nbetween) and exposures as (drawing, koma).
+pub(super) fn layer(name: &str, roles: &str, shown: &[(usize, usize)]) -> Layer {
+    let role = |letter| match letter {
+        'e' => Role::End,
+        'g' => Role::Genga,
+        _ => Role::Inbetween,
+    };
+    let drawing = |(at, letter)| Drawing {
+        source: Source::At(10.0 + 3.0 * at as f64),
+        role: role(letter),
+        why: Why::default(),
+    };
+    Layer {
+        name: name.into(),
+        drawings: roles.chars().enumerate().map(drawing).collect(),
+        exposures: shown.iter().map(|&(drawing, koma)| Exposure { drawing, koma }).collect(),
+    }
+}
+
+pub(super) fn sheet(layers: Vec<Layer>) -> Sheet {
+    Sheet { clock: clock(), layers }
+}
+
+/// The cut of 24 koma that both examples of the format show: four keys, three inbetweens, none
+/// between the second key and the third.
+pub(super) fn cut_of_24() -> Sheet {
+    let shown = [(0, 6), (1, 2), (2, 2), (3, 3), (4, 3), (5, 3), (6, 5)];
+    sheet(vec![layer("A", "eiiggie", &shown)])
+}
+
+/// What stands on each koma of a column, as a person would say it: `3`, `3o` where an inbetween
+/// begins, `x` for nothing.
+pub(super) fn spelled(column: &Column, length: usize) -> String {
+    let mut shown = "x".to_owned();
+    let mut koma = Vec::new();
+    for (at, cell) in column.on_koma(length).enumerate() {
+        let begins = cell.koma == at;
+        match &cell.mark {
+            Mark::Drawing(number) => shown = number.clone(),
+            Mark::Blank => shown = "x".into(),
+            Mark::Inbetween | Mark::Reverse => {}
+        }
+        let tick = match cell.mark {
+            Mark::Inbetween if begins => "o",
+            Mark::Reverse if begins => "*",
+            _ => "",
+        };
+        koma.push(format!("{shown}{tick}"));
+    }
+    koma.join(" ")
+}

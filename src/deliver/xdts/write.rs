@@ -1,0 +1,202 @@
+//! A sheet as XDTS.
+
+use std::io;
+
+use serde::{Deserialize, Serialize};
+use serde_json::ser::{CompactFormatter, Formatter, Serializer};
+
+use super::file::{Datum, Entry, Field, Header, Names, Root, TimeTable, Track};
+use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE};
+use crate::error::Error;
+use crate::sheet::{Layer, Sheet};
+
+/// A sheet as XDTS version 5.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Xdts {
+    /// Whether the douga file says which numbers are keys: default no. An extension of OpenToonz,
+    /// which other programs may not read.
+    pub circled: bool,
+}
+
+/// The two files of a sheet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct XdtsPair {
+    /// For the ACTION column: keys and ends numbered as in `keys.csv`, a mark an inbetween.
+    pub genga: String,
+    /// For the CELL column: every drawing numbered as in `drawings.csv`.
+    pub douga: String,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Genga,
+    Douga,
+}
+
+impl Xdts {
+    /// The sheet as two files, a track a layer in the sheet's order, back to front. The digits of `cut`
+    /// go into the header, which has room for no more; the whole name is that of the time table.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] for a sheet without a koma, or one that shows a drawing it does not have.
+    pub fn write(&self, sheet: &Sheet, cut: &str) -> Result<XdtsPair, Error> {
+        if sheet.length() == 0 {
+            return Err(Error::sheet("the sheet has no koma, and a time table needs one"));
+        }
+        for layer in &sheet.layers {
+            let drawings = layer.drawings.len();
+            if let Some(wrong) = layer.exposures.iter().find(|shown| shown.drawing >= drawings) {
+                let (name, drawing) = (&layer.name, wrong.drawing);
+                let message = format!("layer {name} shows drawing {drawing} but has {drawings}");
+                return Err(Error::sheet(message));
+            }
+        }
+        Ok(XdtsPair {
+            genga: text(&self.file(sheet, cut, Kind::Genga))?,
+            douga: text(&self.file(sheet, cut, Kind::Douga))?,
+        })
+    }
+
+    fn file(&self, sheet: &Sheet, cut: &str, kind: Kind) -> Root {
+        let tracks = sheet.layers.iter().enumerate();
+        let tracks =
+            tracks.map(|(track_no, layer)| Track { frames: self.entries(layer, kind), track_no });
+        let names = sheet.layers.iter().enumerate().map(|(track, layer)| name(track, &layer.name));
+        let extended = kind == Kind::Douga && self.circled;
+        Root {
+            header: header(cut),
+            subversion: extended.then(|| EXTENDED.into()),
+            time_tables: vec![TimeTable {
+                duration: sheet.length() as u64,
+                fields: vec![Field { field_id: CELS, tracks: tracks.collect() }],
+                name: cut.into(),
+                time_table_headers: vec![Names { field_id: CELS, names: names.collect() }],
+            }],
+            time_sheets: vec![],
+            version: 5,
+        }
+    }
+
+    /// What changes on a layer, closed by a blank after its last koma.
+    fn entries(&self, layer: &Layer, kind: Kind) -> Vec<Entry> {
+        let genga = layer.genga_numbers();
+        let mut entries = Vec::new();
+        let mut before = None;
+        for (koma, shown) in layer.timed().filter(|(_, shown)| shown.koma > 0) {
+            // A drawing that goes on is no change.
+            if before.replace(shown.drawing) == Some(shown.drawing) {
+                continue;
+            }
+            let key = genga[shown.drawing];
+            let value = match kind {
+                Kind::Genga => key.map_or(INBETWEEN.into(), |number| number.to_string()),
+                Kind::Douga => (shown.drawing + 1).to_string(),
+            };
+            let circled = kind == Kind::Douga && self.circled && key.is_some();
+            entries.push(entry(koma, value, circled));
+        }
+        entries.push(entry(layer.length(), BLANK.into(), false));
+        entries
+    }
+}
+
+fn entry(koma: usize, value: String, circled: bool) -> Entry {
+    let options = if circled { vec![CIRCLED.into()] } else { vec![] };
+    Entry { data: vec![Datum { id: 0, options, values: vec![value] }], frame: koma as i64 }
+}
+
+/// A column's name as programs take it: never empty, and never `S0` to `S9`, which Clip Studio reads
+/// as sound.
+fn name(track: usize, name: &str) -> String {
+    let is_sound = |name: &str| {
+        name.strip_prefix(['S', 's'])
+            .is_some_and(|rest| matches!(rest.as_bytes(), [digit] if digit.is_ascii_digit()))
+    };
+    match name.trim() {
+        "" => letters(track),
+        name if is_sound(name) => format!("cel_{name}"),
+        name => name.into(),
+    }
+}
+
+/// The usual name of a column: A to Z, then AA, AB ….
+pub(super) fn letters(track: usize) -> String {
+    let letter = char::from(b'A' + (track % 26) as u8);
+    let mut name = if track < 26 { String::new() } else { letters(track / 26 - 1) };
+    name.push(letter);
+    name
+}
+
+/// The numbers of cut and scene, of 1 to 4 digits as the format wants them; none when the name has no
+/// such number, since no number is better than a wrong one.
+///
+/// The cut is the number after a `c`, else the first one; the scene the number after an `s`, else 1.
+fn header(cut: &str) -> Option<Header> {
+    let numbers = numbers(cut);
+    let after = |letter: char| numbers.iter().find(|(before, _)| *before == Some(letter));
+    let scene = after('s');
+    let first = numbers.iter().find(|number| Some(*number) != scene);
+    let cut = after('c').or(first)?.1.clone();
+    Some(Header { cut, scene: scene.map_or("1".into(), |scene| scene.1.clone()) })
+}
+
+/// Every run of at most four digits without leading zeros, and the small letter before it where that
+/// letter stands alone.
+fn numbers(text: &str) -> Vec<(Option<char>, String)> {
+    let letters: Vec<char> = text.chars().collect();
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < letters.len() {
+        let run = letters[at..].iter().take_while(|letter| letter.is_ascii_digit()).count();
+        if (1..=4).contains(&run) {
+            let digits: String = letters[at..at + run].iter().collect();
+            let number = digits.trim_start_matches('0');
+            let number = if number.is_empty() { "0" } else { number };
+            let alone = at < 2 || !letters[at - 2].is_alphabetic();
+            let before = at.checked_sub(1).map(|before| letters[before].to_ascii_lowercase());
+            found.push((before.filter(|_| alone), number.into()));
+        }
+        at += run.max(1);
+    }
+    found
+}
+
+fn text(file: &Root) -> Result<String, Error> {
+    let mut bytes = format!("{SIGNATURE}\n").into_bytes();
+    let mut writer = Serializer::with_formatter(&mut bytes, LineAnEntry::default());
+    file.serialize(&mut writer)
+        .map_err(|error| Error::sheet(format!("the time table could not be written: {error}")))?;
+    bytes.push(b'\n');
+    Ok(String::from_utf8(bytes).expect("JSON is text"))
+}
+
+/// Compact JSON, but for a line an entry of a track, so that a person can read and compare it.
+#[derive(Default)]
+struct LineAnEntry {
+    lists: usize,
+}
+
+/// Lists around an entry: time tables, fields, tracks, frames.
+const ENTRIES: usize = 4;
+
+impl Formatter for LineAnEntry {
+    fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.lists += 1;
+        CompactFormatter.begin_array(writer)
+    }
+
+    fn end_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.lists -= 1;
+        CompactFormatter.end_array(writer)
+    }
+
+    fn begin_array_value<W: ?Sized + io::Write>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        CompactFormatter.begin_array_value(writer, first)?;
+        if self.lists == ENTRIES { writer.write_all(b"\n") } else { Ok(()) }
+    }
+}

@@ -1,0 +1,111 @@
+//! The spacing gauges (ツメ指示) beside ACTION, upright like the time.
+
+use crate::error::Error;
+use crate::plot::canvas::{Align, Canvas, Type};
+use crate::plot::style;
+use crate::plot::xsheet::gauge_page::written;
+use crate::plot::xsheet::page::{Half, Leaf, NUMBERS, Page, ROW, STRIP};
+use crate::timing::{Gauge, Packing};
+
+/// Half the length of a tick, and of one at a key.
+const TICK: f64 = 3.5;
+const KEY_TICK: f64 = 5.5;
+/// Two fractions nearer than this would lie on each other.
+const APART: f64 = 9.5;
+
+/// The strip of one layer; the first alone has room for words and fractions.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    page: &Page<'_>,
+    leaf: &Leaf<'_>,
+    half: Half,
+    at: usize,
+) -> Result<(), Error> {
+    let begins: Vec<usize> = leaf.layer.timed().map(|(begin, _)| begin).collect();
+    let lane = STRIP / page.leaves.len() as f64;
+    let alone = page.leaves.len() == 1;
+    let left = half.left + NUMBERS + lane * at as f64;
+    let x = left + if alone { 12.0 } else { 0.5 * lane };
+    for gauge in leaf.gauges {
+        let from = begins[gauge.first];
+        let to = begins[gauge.first + gauge.shares.len() - 1];
+        if to <= half.begin || from >= half.end() {
+            continue;
+        }
+        let span = Span { half, x, from, to };
+        span.line(canvas, gauge)?;
+        if alone {
+            span.words(canvas, gauge, left + STRIP)?;
+        }
+    }
+    Ok(())
+}
+
+/// From the middle of a key's koma to that of the next key's.
+struct Span {
+    half: Half,
+    x: f64,
+    from: usize,
+    to: usize,
+}
+
+impl Span {
+    /// Where a share of the way lies, if it does on this half.
+    fn y(&self, share: f64) -> Option<f64> {
+        let koma = self.from as f64 + 0.5 + share * (self.to - self.from) as f64;
+        let here = koma >= self.half.begin as f64 && koma <= self.half.end() as f64;
+        here.then(|| self.half.y_at(koma))
+    }
+
+    fn line(&self, canvas: &mut Canvas<'_>, gauge: &Gauge) -> Result<(), Error> {
+        let (x, half) = (self.x, self.half);
+        let top = self.y(0.0).unwrap_or(half.y(half.begin));
+        let bottom = self.y(1.0).unwrap_or(half.y(half.end()));
+        canvas.line((x, top), (x, bottom), style::FAINT, 1.0)?;
+        for y in [self.y(0.0), self.y(1.0)].into_iter().flatten() {
+            canvas.line((x - KEY_TICK, y), (x + KEY_TICK, y), style::INK, 1.3)?;
+        }
+        for y in gauge.between().iter().filter_map(|share| self.y(*share)) {
+            canvas.line((x - TICK, y), (x + TICK, y), style::INK, 1.0)?;
+        }
+        Ok(())
+    }
+
+    /// The fractions beside the ticks, and how the drawings are packed.
+    fn words(&self, canvas: &mut Canvas<'_>, gauge: &Gauge, right: f64) -> Result<(), Error> {
+        let mut last = self.y(0.0).unwrap_or(f64::NEG_INFINITY) - 0.5 * APART;
+        let end = self.y(1.0).unwrap_or(f64::INFINITY) + 0.5 * APART;
+        let small = Type::new(8.5).color(style::FAINT);
+        for share in gauge.between() {
+            let room = |y: &f64| y - last >= APART && end - y >= APART;
+            let (Some(y), Some(fraction)) = (self.y(*share).filter(room), written(*share)) else {
+                continue;
+            };
+            let (left, width) = (self.x + KEY_TICK + 1.0, style::text_width(fraction, 8.5) + 2.0);
+            canvas.rect((left, y - 4.0), (left + width, y + 4.5), style::PAPER)?;
+            canvas.text(fraction, (self.x + KEY_TICK + 2.0, y + 3.0), small)?;
+            last = y;
+        }
+        let Some(y) = self.y(0.5) else { return Ok(()) };
+        let look = Type::new(11.0).align(Align::Right);
+        match gauge.packing() {
+            None if self.to - self.from > 1 => {
+                let word = "中無し";
+                canvas.text(word, (right - 2.0, y + 3.2), Type::new(9.0).align(Align::Right))
+            }
+            Some(packing) if (self.to - self.from) as f64 * ROW > 20.0 => {
+                canvas.text(kanji(packing), (right - 3.0, y + 4.0), look.bold())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn kanji(packing: Packing) -> &'static str {
+    match packing {
+        Packing::Even => "均",
+        Packing::Sakizume => "先",
+        Packing::Atozume => "後",
+        Packing::Both => "両",
+    }
+}

@@ -1,0 +1,177 @@
+//! What stands on the paper.
+
+use super::*;
+use crate::motion::bvh;
+use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
+
+fn clip() -> Clip {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh");
+    bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
+}
+
+/// A layer of drawings by role (`e`nd, `g`enga, `i`nbetween), each on screen once for so many koma.
+fn layer(name: &str, shown: &[(char, usize)]) -> Layer {
+    let role = |letter| match letter {
+        'e' => Role::End,
+        'g' => Role::Genga,
+        _ => Role::Inbetween,
+    };
+    let drawing = |(at, (letter, _)): (usize, &(char, usize))| Drawing {
+        source: Source::At(at as f64),
+        role: role(*letter),
+        why: Why::default(),
+    };
+    let exposure =
+        |(drawing, (_, koma)): (usize, &(char, usize))| Exposure { drawing, koma: *koma };
+    Layer {
+        name: name.into(),
+        drawings: shown.iter().enumerate().map(drawing).collect(),
+        exposures: shown.iter().enumerate().map(exposure).collect(),
+    }
+}
+
+fn sheet(layers: Vec<Layer>) -> Sheet {
+    Sheet { clock: clip().clock(24.0), layers }
+}
+
+fn pages(settings: &XSheet, layers: Vec<Layer>) -> Vec<String> {
+    settings.draw("c012 蹴り", &clip(), &sheet(layers)).unwrap()
+}
+
+/// The words of a page, without the koma numbers, which stand right-aligned.
+fn words(page: &str) -> Vec<String> {
+    let lines: Vec<&str> = page.lines().collect();
+    let texts = lines.windows(2).filter(|pair| pair[0].starts_with("<text"));
+    texts
+        .filter(|pair| !(pair[0].contains("\"end\"") && pair[1].parse::<usize>().is_ok()))
+        .map(|pair| pair[1].to_owned())
+        .collect()
+}
+
+/// How many lines of ink stand upright: hold lines, and that of the legend.
+fn hold_lines(page: &str) -> usize {
+    let number = |line: &str, name: &str| {
+        let rest = line.split(&format!(" {name}=\"")).nth(1).unwrap();
+        rest.split('"').next().unwrap().parse::<f64>().unwrap()
+    };
+    let upright = |line: &&str| {
+        let ink = line.contains("stroke=\"#22252B\"");
+        ink && number(line, "x1") == number(line, "x2") && number(line, "y1") != number(line, "y2")
+    };
+    page.lines().filter(|line| line.starts_with("<line")).filter(upright).count()
+}
+
+const CUT: [(char, usize); 7] =
+    [('e', 6), ('i', 2), ('i', 2), ('g', 3), ('g', 3), ('i', 3), ('e', 5)];
+
+#[test]
+fn the_words_of_a_small_sheet_are_as_they_were() {
+    let pages = pages(&XSheet::default(), vec![layer("A", &CUT)]);
+    assert_eq!(pages.len(), 2, "the koma, and the gauges");
+    let words: Vec<_> = pages.iter().map(|page| words(page).join("\n")).collect();
+    insta::assert_snapshot!(words.join("\n\n"));
+}
+
+#[test]
+fn a_page_has_144_koma_and_eight_layers_at_most() {
+    let long = |koma| vec![layer("A", &vec![('i', 1); koma])];
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    for (koma, count) in [(0, 1), (1, 1), (144, 1), (145, 2), (288, 2), (289, 3)] {
+        assert_eq!(pages(&settings, long(koma)).len(), count, "{koma} koma");
+    }
+    let many = (0..9).map(|at| layer(&format!("L{at}"), &[('e', 150)])).collect();
+    let pages = pages(&settings, many);
+    assert_eq!(pages.len(), 4);
+    for (at, page) in pages.iter().enumerate() {
+        let words = words(page);
+        assert!(words.contains(&format!("{} / 4", at + 1)));
+        assert_eq!(words.contains(&"L7".to_owned()), at < 2);
+        assert_eq!(words.contains(&"L8".to_owned()), at >= 2);
+    }
+    assert_eq!(self::pages(&settings, vec![]).len(), 1, "an empty sheet is a page to write on");
+}
+
+#[test]
+fn a_hold_line_stands_under_what_stays_for_more_than_three_koma() {
+    let lines = |hold_line, shown: &[(char, usize)]| {
+        let settings = XSheet { hold_line, gauges: false, ..XSheet::default() };
+        // One line is in the legend; each drawing has its line in both columns.
+        (hold_lines(&pages(&settings, vec![layer("A", shown)])[0]) - 1) / 2
+    };
+    for (shown, count) in [
+        (&[('e', 3), ('i', 3), ('e', 3)][..], 0),
+        (&[('e', 4), ('i', 3), ('e', 3)], 1),
+        (&[('e', 4), ('i', 4), ('e', 9)], 3),
+    ] {
+        assert_eq!(lines(HoldLine::Long, shown), count, "{shown:?}");
+        assert_eq!(lines(HoldLine::Always, shown), 3);
+        assert_eq!(lines(HoldLine::Never, shown), 0);
+    }
+    assert_eq!(lines(HoldLine::Long, &[('e', 70), ('e', 20)]), 3, "on in the second half");
+    assert_eq!(lines(HoldLine::Always, &[('e', 1), ('i', 1), ('e', 1)]), 0);
+}
+
+#[test]
+fn keys_are_circled_in_both_columns_and_inbetweens_are_marks_in_one() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let circles = |settings: &XSheet, radius: u32| {
+        let page = &pages(settings, vec![layer("A", &CUT)])[0];
+        let circle = format!(" r=\"{radius}\"");
+        let outer = |line: &&str| line.starts_with("<circle") && line.contains(&circle);
+        page.lines().filter(outer).filter(|line| line.contains("stroke=\"#")).count()
+    };
+    // Four keys in two columns, and two in the legend.
+    let rings = |settings| circles(settings, 58);
+    assert_eq!(rings(&settings), 10);
+    let dots = pages(&settings, vec![layer("A", &CUT)])[0].matches(" r=\"18\"").count();
+    assert_eq!(dots, 4, "three inbetweens and the legend");
+    let round = XSheet { inbetween: InbetweenMark::Circle, ..settings };
+    assert_eq!(circles(&round, 32), 4);
+}
+
+#[test]
+fn the_highest_number_carries_end_once() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    for koma in [2, 72, 73, 144] {
+        let mut shown = vec![('i', 1); koma - 1];
+        shown.push(('e', 1));
+        let page = &pages(&settings, vec![layer("A", &shown)])[0];
+        assert_eq!(words(page).iter().filter(|word| *word == "END").count(), 1, "{koma} koma");
+    }
+}
+
+#[test]
+fn what_goes_on_into_the_next_half_is_named_there_in_brackets() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let page = &pages(&settings, vec![layer("A", &[('e', 10), ('g', 80), ('e', 1)])])[0];
+    assert_eq!(words(page).iter().filter(|word| *word == "(2)").count(), 2);
+    let inbetween = &pages(&settings, vec![layer("A", &[('e', 10), ('i', 80), ('e', 1)])])[0];
+    assert_eq!(words(inbetween).iter().filter(|word| *word == "(・)").count(), 1);
+    let cut = &pages(&settings, vec![layer("A", &[('e', 72), ('g', 80)])])[0];
+    let in_brackets = words(cut).iter().filter(|word| word.starts_with('(')).count();
+    assert_eq!(in_brackets, 1, "the legend alone: a drawing of its own begins there");
+}
+
+#[test]
+fn a_layer_that_ends_early_is_crossed_and_one_drawing_says_hold() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let page = |layers| pages(&settings, layers).remove(0);
+    let waves = |page: &str| page.matches("<polyline").count();
+    let even = page(vec![layer("A", &CUT), layer("B", &[('e', 12), ('e', 12)])]);
+    let short = page(vec![layer("A", &CUT), layer("B", &[('e', 6), ('e', 6)])]);
+    assert_eq!((waves(&even), waves(&short)), (0, 2));
+    let hold = page(vec![layer("A", &[('e', 24)])]);
+    let down = ["止", "メ", "H", "O", "L", "D"];
+    for letter in down {
+        assert_eq!(words(&hold).iter().filter(|word| *word == letter).count(), 2, "{letter}");
+    }
+    assert!(!words(&even).iter().any(|word| word == "止"));
+}
+
+#[test]
+fn a_sheet_that_shows_what_it_has_not_is_refused() {
+    let mut lying = layer("A", &CUT);
+    lying.exposures[0].drawing = 7;
+    let error = XSheet::default().draw("c1", &clip(), &sheet(vec![lying])).unwrap_err();
+    assert!(error.to_string().contains("layer A shows drawing 7"), "{error}");
+}

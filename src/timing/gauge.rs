@@ -1,0 +1,186 @@
+//! The spacing gauge (ツメ指示): where the drawings between two keys stand on the way from one to the
+//! other.
+
+use crate::motion::{Clip, JointId};
+use crate::sheet::{Layer, Role};
+use crate::timing::Stills;
+
+/// A gap at an end that is smaller than this share of the mean gap is packed (詰め).
+const PACKED: f64 = 0.75;
+
+/// Fractions an animator writes on a gauge.
+const FRACTIONS: [(f64, &str); 13] = [
+    (0.0, "0"),
+    (0.125, "1/8"),
+    (1.0 / 6.0, "1/6"),
+    (0.25, "1/4"),
+    (1.0 / 3.0, "1/3"),
+    (0.375, "3/8"),
+    (0.5, "1/2"),
+    (0.625, "5/8"),
+    (2.0 / 3.0, "2/3"),
+    (0.75, "3/4"),
+    (5.0 / 6.0, "5/6"),
+    (0.875, "7/8"),
+    (1.0, "1"),
+];
+
+/// The gauge of two kept drawings that follow each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gauge {
+    /// The exposure of the first, as an index into [`Layer::exposures`].
+    pub first: usize,
+    /// The joint that travels furthest between the two: the gauge is measured along its path.
+    pub joint: JointId,
+    /// How far each exposure from the first to the second has come, from 0 to 1, never falling.
+    pub shares: Vec<f64>,
+}
+
+/// Where the drawings of a gauge are packed: where they lie close, the motion is slow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Packing {
+    /// Even spacing (均等割り).
+    Even,
+    /// Packed at the start (先ヅメ): slow-out.
+    Sakizume,
+    /// Packed at the end (後ヅメ): slow-in.
+    Atozume,
+    /// Packed at both ends (両ヅメ).
+    Both,
+}
+
+impl Gauge {
+    /// The gauges of a layer by time; none for two keys between which nothing moves.
+    ///
+    /// # Panics
+    /// When the layer shows a drawing that it does not have.
+    pub fn of(clip: &Clip, layer: &Layer) -> Vec<Self> {
+        let stills = Stills::of(clip, layer);
+        let drawings: Vec<usize> = layer.exposures.iter().map(|shown| shown.drawing).collect();
+        let kept: Vec<usize> = (0..drawings.len())
+            .filter(|at| layer.drawings[drawings[*at]].role != Role::Inbetween)
+            .collect();
+        kept.windows(2)
+            .filter_map(|pair| {
+                let path = &drawings[pair[0]..=pair[1]];
+                let (joint, whole) = furthest(&stills, path, clip.skeleton().len())?;
+                let ways = steps(&stills, path, joint).scan(0.0, |way, step| {
+                    *way += step;
+                    Some(*way / whole)
+                });
+                let shares = std::iter::once(0.0).chain(ways).collect();
+                Some(Self { first: pair[0], joint: JointId(joint), shares })
+            })
+            .collect()
+    }
+
+    /// The shares of the drawings between the two.
+    pub fn between(&self) -> &[f64] {
+        &self.shares[1..self.shares.len() - 1]
+    }
+
+    /// Where its drawings are packed, by the first and the last third of its gaps against the mean gap;
+    /// none where nothing lies between the two.
+    pub fn packing(&self) -> Option<Packing> {
+        let gaps = self.shares.len() - 1;
+        if gaps < 2 {
+            return None;
+        }
+        let third = (gaps / 3).max(1);
+        let even = third as f64 / gaps as f64;
+        let starts = self.shares[third] < PACKED * even;
+        let ends = 1.0 - self.shares[gaps - third] < PACKED * even;
+        Some(match (starts, ends) {
+            (false, false) => Packing::Even,
+            (true, false) => Packing::Sakizume,
+            (false, true) => Packing::Atozume,
+            (true, true) => Packing::Both,
+        })
+    }
+}
+
+impl Packing {
+    /// The word of the field.
+    pub fn japanese(self) -> &'static str {
+        match self {
+            Self::Even => "均等",
+            Self::Sakizume => "先ヅメ",
+            Self::Atozume => "後ヅメ",
+            Self::Both => "両ヅメ",
+        }
+    }
+
+    /// The word and, since it is a false friend, what it means.
+    pub fn english(self) -> &'static str {
+        match self {
+            Self::Even => "even",
+            Self::Sakizume => "sakizume: slow-out",
+            Self::Atozume => "atozume: slow-in",
+            Self::Both => "slow-out, slow-in",
+        }
+    }
+}
+
+/// The nearest fraction that an animator writes: halves, thirds, quarters, sixths, eighths.
+pub fn fraction(share: f64) -> &'static str {
+    let apart = |fraction: &&(f64, &str)| (fraction.0 - share).abs();
+    let nearest = FRACTIONS.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    nearest.map_or("", |fraction| fraction.1)
+}
+
+/// The joint with the longest path over some drawings, and that length; none where nothing moves.
+fn furthest(stills: &Stills, path: &[usize], joints: usize) -> Option<(usize, f64)> {
+    (0..joints)
+        .map(|joint| (joint, steps(stills, path, joint).sum::<f64>()))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })
+        .filter(|(_, whole)| *whole > 0.0)
+}
+
+fn steps<'a>(
+    stills: &'a Stills,
+    path: &'a [usize],
+    joint: usize,
+) -> impl Iterator<Item = f64> + 'a {
+    let position = move |drawing: usize| stills.position(drawing, joint);
+    path.windows(2).map(move |pair| position(pair[0]).distance(position(pair[1])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_reads_as_the_nearest_fraction() {
+        assert_eq!(fraction(0.26), "1/4");
+        assert_eq!(fraction(0.34), "1/3");
+        assert_eq!(fraction(0.99), "1");
+    }
+
+    fn packing(between: &[f64]) -> Option<Packing> {
+        let shares = [&[0.0], between, &[1.0]].concat();
+        let gauge = Gauge { first: 0, joint: JointId(0), shares };
+        assert_eq!(gauge.between(), between);
+        gauge.packing()
+    }
+
+    #[test]
+    fn close_ticks_at_an_end_are_packing_there() {
+        use Packing::{Atozume, Both, Even, Sakizume};
+        for (between, expected) in [
+            (&[0.5][..], Even),
+            (&[0.4], Even),
+            (&[1.0 / 3.0], Sakizume),
+            (&[0.75], Atozume),
+            (&[1.0 / 3.0, 2.0 / 3.0], Even),
+            (&[0.125, 0.25, 0.5], Sakizume),
+            (&[0.5, 0.75, 0.875], Atozume),
+            (&[0.125, 0.875], Both),
+            (&[0.05, 0.15, 0.5, 0.85, 0.95], Both),
+            (&[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9], Even),
+            (&[0.5, 0.5], Even),
+        ] {
+            assert_eq!(packing(between), Some(expected), "{between:?}");
+        }
+        assert_eq!(packing(&[]), None, "nothing lies between");
+    }
+}

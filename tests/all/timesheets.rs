@@ -1,0 +1,110 @@
+//! Sheets for programs and for paper as the program writes them, and keys that a person marked there.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use crate::clips::here;
+
+fn genga(folder: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_genga"));
+    command.current_dir(folder).args(args).stdin(Stdio::null()).output().unwrap()
+}
+
+fn kick() -> String {
+    here("data/kick.bvh").to_string_lossy().into_owned()
+}
+
+/// A folder with what `run` delivers of the kick.
+fn delivered(more: &[&str]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let kick = kick();
+    let run = ["run", &kick, "--deliver", "xdts,xsheet", "--out", "out"];
+    let made = genga(folder.path(), &[&run, more].concat());
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    folder
+}
+
+fn refused(folder: &Path, args: &[&str]) -> String {
+    let output = genga(folder, args);
+    assert!(!output.status.success());
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn run_delivers_both_timesheets_and_the_paper() {
+    let folder = delivered(&[]);
+    let text = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    for name in ["kick_genga.xdts", "kick_douga.xdts"] {
+        assert!(text(name).starts_with("exchangeDigitalTimeSheet Save Data\n{"));
+        assert!(!text(name).contains("OPTION_KEYFRAME"));
+    }
+    assert!(text("kick_xsheet.html").starts_with("<!DOCTYPE html>"));
+    assert!(text("xsheet/0001.svg").starts_with("<svg "));
+}
+
+#[test]
+fn keys_marked_on_a_sheet_come_back_as_pins() {
+    let folder = delivered(&["--with", "xdts.circled=true"]);
+    let kick = kick();
+    let alone = ["--set", "keys.min_price=1000", "--set", "keys.rest=0"];
+    let keys = |more: &[&str]| {
+        let output = genga(folder.path(), &[&["keys", &kick], more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let table = String::from_utf8(output.stdout).unwrap();
+        // Column, koma and source frame.
+        let row = |row: csv::StringRecord| format!("{} {} {}", &row[1], &row[5], &row[8]);
+        let mut reader = csv::Reader::from_reader(table.as_bytes());
+        let rows: Vec<_> = reader.records().map(|record| row(record.unwrap())).collect();
+        (rows, table, String::from_utf8(output.stderr).unwrap())
+    };
+    let (own, ..) = keys(&[]);
+    for file in ["out/kick_genga.xdts", "out/kick_douga.xdts"] {
+        let (back, table, said) = keys(&[&["--pin-from", file], &alone[..]].concat());
+        assert_eq!(back, own, "{file}");
+        assert!(table.contains("pinned: A2"), "{table}");
+        assert!(said.contains(&format!("pinned from {file}: {} keys of column A", own.len())));
+    }
+    let (_, table, _) = keys(&["--pin-from", "out/kick_genga.xdts", "--pin", "0:mine"]);
+    assert!(table.contains("pinned: mine") && !table.contains("pinned: A1;"), "{table}");
+}
+
+#[test]
+fn the_marked_sheet_is_not_written_over() {
+    let folder = delivered(&[]);
+    let (kick, marked) = (kick(), folder.path().join("out/kick_genga.xdts"));
+    let before = fs::read(&marked).unwrap();
+    let run = ["run", &kick, "--pin-from", "out/kick_genga.xdts", "--out", "out"];
+    for format in ["xdts", "csv,all"] {
+        let said = refused(folder.path(), &[&run[..], &["--deliver", format]].concat());
+        assert!(said.contains("write over the sheet you marked"), "{said}");
+        assert_eq!(fs::read(&marked).unwrap(), before);
+    }
+    assert!(genga(folder.path(), &run).status.success(), "no sheet is written");
+}
+
+#[test]
+fn a_douga_sheet_without_circles_has_no_keys_and_says_what_to_give() {
+    let folder = delivered(&[]);
+    let kick = kick();
+    let said = refused(folder.path(), &["keys", &kick, "--pin-from", "out/kick_douga.xdts"]);
+    for word in ["out/kick_douga.xdts: ", "circled", "_genga.xdts", "--with xdts.circled=true"] {
+        assert!(said.contains(word), "{said}");
+    }
+}
+
+#[test]
+fn what_is_no_timesheet_or_not_of_this_clip_is_refused_in_words() {
+    let folder = delivered(&[]);
+    let (kick, place) = (kick(), folder.path());
+    let said = refused(place, &["keys", &kick, "--pin-from", &kick]);
+    assert!(said.contains("kick.bvh:1:1: expected \"exchangeDigitalTimeSheet"), "{said}");
+    let genga = ["keys", &kick, "--pin-from", "out/kick_genga.xdts"];
+    let said = refused(place, &[&genga[..], &["--trim", "0..40"]].concat());
+    assert!(said.contains("the same --trim?"), "{said}");
+    let said = refused(place, &[&genga[..], &["--pin-column", "B"]].concat());
+    assert!(said.contains("there is no column B; there are A"), "{said}");
+    let said = refused(place, &["keys", &kick, "--pin-from", "none.xdts"]);
+    assert!(said.contains("none.xdts"), "{said}");
+}
