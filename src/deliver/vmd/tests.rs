@@ -1,0 +1,4 @@
+//! The motion for MMD, as a file and as a body.
+
+mod body;
+mod reader;
