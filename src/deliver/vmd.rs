@@ -18,8 +18,8 @@ use crate::error::{Error, Warning};
 use crate::motion::{Clip, JointId, Skeleton};
 use crate::sheet::{Layer, Sheet};
 use bones::{Model, Side};
-use map::Found;
 pub use map::BoneMap;
+use map::Found;
 pub use record::{VmdKey, VmdMotion};
 use retarget::{Local, Retarget};
 use source::Source;
@@ -154,11 +154,7 @@ impl Frames {
 }
 
 /// Every bone on the first frame of each drawing, and on the last where that is another.
-fn keys(
-    layer: &Layer,
-    frames: &Frames,
-    retarget: &mut Retarget<'_>,
-) -> Result<Vec<VmdKey>, Error> {
+fn keys(layer: &Layer, frames: &Frames, retarget: &mut Retarget<'_>) -> Result<Vec<VmdKey>, Error> {
     let bones = retarget.bones();
     let mut before = vec![DQuat::IDENTITY; bones.len()];
     let mut keys = Vec::with_capacity(2 * bones.len() * layer.exposures.len());

@@ -87,8 +87,7 @@ fn upright_rest(source: &Source<'_>) -> Option<DMat3> {
     let down = |side| source.rest_span(side, "足", "足首").or(source.rest_span(side, "足", "ひざ"));
     let legs_hang = Side::BOTH.iter().filter_map(|side| down(*side)).all(|leg| leg.dot(up) < -0.7);
     let arm = |side: Side| source.rest_span(side, "腕", "手首");
-    let crosses =
-        |side: &Side| arm(*side).is_some_and(|arm| side.sign() * arm.dot(left) < -0.3);
+    let crosses = |side: &Side| arm(*side).is_some_and(|arm| side.sign() * arm.dot(left) < -0.3);
     if !legs_hang || left.dot(up).abs() > 0.3 || Side::BOTH.iter().any(crosses) {
         return None;
     }
@@ -153,12 +152,7 @@ fn toward(
 }
 
 /// Pelvis and spine.
-fn trunk(
-    source: &Source<'_>,
-    index: usize,
-    name: &str,
-    turns: &[Option<DQuat>],
-) -> Option<DQuat> {
+fn trunk(source: &Source<'_>, index: usize, name: &str, turns: &[Option<DQuat>]) -> Option<DQuat> {
     let model = source.model();
     let turn_of = |name: &str| model.find(name).and_then(|bone| turns[bone]);
     match name {
@@ -218,9 +212,7 @@ fn limb(
     let bend = || {
         let below = source.model().sided(side, below)?;
         let (lower, direction) = (source.joint(below)?, source.direction(below)?);
-        let cross = |world: &[DQuat]| {
-            (world[joint.0] * own).cross(world[lower.0] * direction)
-        };
+        let cross = |world: &[DQuat]| (world[joint.0] * own).cross(world[lower.0] * direction);
         source.mean_local(joint, cross)
     };
     let carried = || {

@@ -16,7 +16,13 @@ use crate::time::KOMA_RATE;
 
 /// What every standard model agrees on: the bone a bone hangs on.
 fn parent(bone: &str) -> Option<String> {
-    let up = [("上半身", "センター"), ("下半身", "センター"), ("上半身2", "上半身"), ("首", "上半身2"), ("頭", "首")];
+    let up = [
+        ("上半身", "センター"),
+        ("下半身", "センター"),
+        ("上半身2", "上半身"),
+        ("首", "上半身2"),
+        ("頭", "首"),
+    ];
     if let Some((_, parent)) = up.iter().find(|(name, _)| *name == bone) {
         return Some((*parent).into());
     }
@@ -199,5 +205,44 @@ fn pelvis_chest_and_feet_face_where_those_of_the_capture_do() {
             // Of those the whole spine: how it bows is between the two.
             close("上半身2", DVec3::Y, capture.way(&pelvis, &neck), 45.0);
         });
+    }
+}
+
+/// Where rests are no body, what is turned about itself is found from the clip: the thumb shows whether
+/// it was found right.
+#[test]
+fn the_palm_of_a_rest_along_one_axis_faces_as_in_the_capture() {
+    let (_, clip) = clips().into_iter().find(|(name, _)| name == "rokoko-jesse-dance").unwrap();
+    each_koma(&clip, &Vmd::default(), |koma, model, capture| {
+        for (side, joint) in [("左", "Left"), ("右", "Right")] {
+            let named = |name: &str| capture.of(&[&format!("{joint}{name}")]);
+            let along = (named("HandMiddle1") - named("Hand")).normalize();
+            let thumb = (named("HandThumb2") - named("Hand")).reject_from_normalized(along);
+            let ahead = model.world(&format!("{side}手首")) * DVec3::NEG_Z;
+            let off = ahead.reject_from_normalized(along).angle_between(thumb).to_degrees();
+            assert!(off < 25.0, "koma {koma}: the {joint} thumb is {off}° off");
+        }
+    });
+}
+
+/// Elbows and knees turn about one axis, the way a body's do.
+#[test]
+fn knees_bend_back_and_elbows_forward() {
+    for (name, clip) in clips() {
+        let bent = std::cell::RefCell::new([DVec3::ZERO; 4]);
+        each_koma(&clip, &Vmd::default(), |_, model, _| {
+            for (sum, bone) in
+                bent.borrow_mut().iter_mut().zip(["左ひざ", "右ひざ", "左ひじ", "右ひじ"])
+            {
+                let turn = model.local(bone);
+                *sum += if turn.w < 0.0 { -turn.xyz() } else { turn.xyz() };
+            }
+        });
+        let axes = bent.into_inner().map(DVec3::normalize);
+        // In MMD's axes a knee that bends turns about −X, the elbows about the vertical.
+        for knee in &axes[..2] {
+            assert!(knee.x < -0.85, "{name}: a knee turns about {knee}");
+        }
+        assert!(axes[2].y > 0.4 && axes[3].y < -0.4, "{name}: elbows turn about {axes:?}");
     }
 }
