@@ -7,7 +7,7 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use genga::deliver::{BoneMap, Vmd};
+use genga::deliver::Vmd;
 use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::Engine;
@@ -25,7 +25,7 @@ fn write(folder: &Path, path: &Path) -> Result<(), Box<dyn Error>> {
     let (clip, _) = bvh::lead_in::strip(bvh::read(&fs::read(path)?)?.clip);
     let mut engine = Engine::new(clip)?;
     let breakdown = engine.run_once(&Recipe::default(), &Edits::default())?;
-    let made = Vmd::default().make(breakdown.clip, breakdown.sheet, &BoneMap::default())?;
+    let made = Vmd::default().make(breakdown.clip, breakdown.sheet)?;
     let target = folder.join(name);
     fs::write(target.with_extension("vmd"), made.motion.bytes()?)?;
     fs::write(target.with_extension("json"), serde_json::to_string(&made.motion)?)?;

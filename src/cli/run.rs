@@ -29,7 +29,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut engine = Engine::new(source.clip)?;
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
-    let report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
+    let mut report = Report::of(&breakdown, source.notes.iter().map(ToString::to_string).collect());
     let cut = Cut {
         name: &name,
         clip_file: &io::file_name(&args.clip.clip),
@@ -38,6 +38,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         spaced: Some(breakdown.spaced),
         made_with: Some((&recipe, &edits)),
     };
+    report.notes.extend(asked.notes(&cut)?.iter().map(ToString::to_string));
     let mut bundle = io::Bundle::begin(&folder)?;
     let mut files = asked.write(&cut, &mut bundle)?;
     bundle.add("speed.svg", pictures::speed(&breakdown)?)?;

@@ -6,7 +6,7 @@ use crate::deliver::settings::Settings;
 use crate::deliver::{
     Cut, Drawings, Rows, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json,
 };
-use crate::error::Error;
+use crate::error::{Error, Warning};
 
 /// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), Error> + 'a;
@@ -61,6 +61,17 @@ pub const FORMATS: &[Format] = &[
         japanese: "リミテッドモーション",
         files: &["limited.bvh"],
         make: |cut, _, put| put("limited.bvh", limited_bvh(cut.clip, cut.sheet)?.as_bytes()),
+    },
+    Format {
+        name: "vmd",
+        help: "the motion for MikuMikuDance, and which joint became which bone",
+        japanese: "MMDモーション",
+        files: &["CUT.vmd", "CUT-bones.csv"],
+        make: |cut, settings, put| {
+            let made = settings.vmd.make(cut.clip, cut.sheet)?;
+            put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
+            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))
+        },
     },
     Format {
         name: "bars",
@@ -120,6 +131,17 @@ impl Format {
         put: &mut Sink<'_>,
     ) -> Result<(), Error> {
         (self.make)(cut, settings, put)
+    }
+
+    /// What a person should know of its files, such as what they cannot hold.
+    ///
+    /// # Errors
+    /// Those of [`Format::write`].
+    pub fn notes(&self, cut: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
+        match self.name {
+            "vmd" => settings.vmd.notes(cut.clip),
+            _ => Ok(Vec::new()),
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use crate::deliver::Vmd;
 use crate::error::Error;
 
 /// The settings of every format, by its name. A new format's are a field here.
@@ -11,6 +12,8 @@ use crate::error::Error;
 pub struct Settings {
     /// The tables.
     pub csv: CsvSettings,
+    /// The motion for MikuMikuDance.
+    pub vmd: Vmd,
 }
 
 /// How tables are written.
@@ -34,7 +37,7 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        Ok(())
+        self.vmd.validate()
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.
@@ -58,7 +61,10 @@ impl Settings {
             Error::setting(name, format!("cannot be \"{text}\": {reason}"))
         })?;
         changed.validate()?;
+        // A table of bones is no word; it stays.
+        let bones = self.vmd.bones.take();
         *self = changed;
+        self.vmd.bones = bones;
         Ok(())
     }
 

@@ -9,11 +9,13 @@ mod stance;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use glam::DQuat;
 use serde::{Deserialize, Serialize};
 
+use crate::deliver::csv_table;
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, JointId, Skeleton};
 use crate::sheet::{Layer, Sheet};
@@ -44,6 +46,9 @@ pub struct Vmd {
     pub leg: f64,
     /// The name of the model; default genga. MMD warns when another one loads the motion, and loads it.
     pub model: String,
+    /// Which joints drive which bone; none, the default, is the table that comes with the program.
+    #[serde(skip)]
+    pub bones: Option<BoneMap>,
 }
 
 /// A motion for MMD, and what became of the joints.
@@ -72,9 +77,30 @@ pub struct VmdReport {
     pub scale: f64,
 }
 
+impl VmdReport {
+    /// `joint,bone,what` as CSV, joints in the order of their lists: `drives` a bone or several, is
+    /// `carried` in the turning of those it carries, or is `left_out`.
+    ///
+    /// # Errors
+    /// Only when memory runs out.
+    pub fn csv(&self) -> Result<String, Error> {
+        let driving = self.bones.iter().flat_map(|(bone, joints)| {
+            joints.iter().map(move |joint| [joint.clone(), bone.clone(), "drives".into()])
+        });
+        let without = |joints: &'static str, list: &[String]| {
+            list.iter()
+                .map(|joint| [joint.clone(), String::new(), joints.into()])
+                .collect::<Vec<_>>()
+        };
+        let carried = without("carried", &self.carried);
+        let left_out = without("left_out", &self.left_out);
+        csv_table(&["joint", "bone", "what"], driving.chain(carried).chain(left_out))
+    }
+}
+
 impl Default for Vmd {
     fn default() -> Self {
-        Self { fps: 30.0, arm_angle: 35.0, leg: 9.7, model: "genga".into() }
+        Self { fps: 30.0, arm_angle: 35.0, leg: 9.7, model: "genga".into(), bones: None }
     }
 }
 
@@ -104,25 +130,50 @@ impl Vmd {
     /// # Errors
     /// [`Error::Clip`] when the sheet has no koma, or no joint is known to the map; [`Error::Setting`]
     /// when a setting is out of its range, or two koma would fall on one frame.
-    pub fn make(&self, clip: &Clip, sheet: &Sheet, map: &BoneMap) -> Result<VmdMade, Error> {
+    pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
         self.validate()?;
         let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
         let layer = layer.filter(|_| !clip.is_empty());
         let layer =
             layer.ok_or_else(|| Error::clip("the sheet is empty: there is no koma to write"))?;
         let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
+        let map = self.map();
         let found = map.find(clip.skeleton())?;
-        let source = Source::of(clip, map, &found);
+        let source = Source::of(clip, &map, &found);
         let stance = Stance::of(&source, self.arm_angle.to_radians());
         let mut retarget = Retarget::new(clip, &map.model, &source, &stance, self.leg);
-        let (model, cut) = cut(&self.model)?;
+        let (model, _) = cut(&self.model)?;
         let report = report(clip.skeleton(), &map.model, &found, retarget.scale);
-        let mut notes = notes(&report, &found);
-        notes.extend(cut);
-        notes.extend(source.leg().is_none().then(no_legs));
+        let notes = self.notes(clip)?;
         let keys = keys(layer, &frames, &mut retarget)?;
         let ik_off = ik_off(&map.model, &found);
         Ok(VmdMade { motion: VmdMotion { model, keys, ik_off }, report, notes })
+    }
+}
+
+impl Vmd {
+    /// What a person should know of the motion of a clip: the notes of [`Vmd::make`].
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when no joint is known to the map; [`Error::Setting`] when the model's name cannot
+    /// be written.
+    pub fn notes(&self, clip: &Clip) -> Result<Vec<Warning>, Error> {
+        let map = self.map();
+        let found = map.find(clip.skeleton())?;
+        let report = report(clip.skeleton(), &map.model, &found, 1.0);
+        let mut notes = notes(&report, &found);
+        notes.extend(cut(&self.model)?.1);
+        let legs = ["足", "ひざ", "足首"];
+        let has_legs = Side::BOTH.iter().any(|side| {
+            let bones = legs.map(|name| map.model.sided(*side, name));
+            bones.into_iter().flatten().all(|bone| !found.joints[bone].is_empty())
+        });
+        notes.extend((!has_legs).then(no_legs));
+        Ok(notes)
+    }
+
+    fn map(&self) -> Cow<'_, BoneMap> {
+        self.bones.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
     }
 }
 

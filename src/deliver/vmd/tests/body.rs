@@ -7,7 +7,7 @@ use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
-use super::super::{BoneMap, Vmd};
+use super::super::Vmd;
 use super::reader::read;
 use crate::motion::bvh::{self, sample};
 use crate::motion::{Body, Clip, Pose, RowWriter, local_rotation, local_translation};
@@ -70,7 +70,7 @@ impl Stood {
 pub(super) fn each_koma(clip: &Clip, vmd: &Vmd, look: impl Fn(usize, &Stood, &Places<'_>)) {
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let sheet = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
-    let made = vmd.make(clip, &sheet, &BoneMap::default()).unwrap();
+    let made = vmd.make(clip, &sheet).unwrap();
     let file = read(&made.motion.bytes().unwrap()).motion;
     let mut stood: HashMap<u32, Stood> = HashMap::new();
     for key in file.keys {
@@ -244,5 +244,26 @@ fn knees_bend_back_and_elbows_forward() {
             assert!(knee.x < -0.85, "{name}: a knee turns about {knee}");
         }
         assert!(axes[2].y > 0.4 && axes[3].y < -0.4, "{name}: elbows turn about {axes:?}");
+    }
+}
+
+#[test]
+fn the_model_travels_as_the_waist_does_by_the_length_of_its_leg() {
+    for (name, clip) in clips() {
+        let vmd = Vmd { leg: 10.0, ..Vmd::default() };
+        let legs = [true, false].map(|left| limb(&clip, false, left));
+        let waist = ["LowerBack", "lowerback", "Spine", "Chest", "abdomen"];
+        let first = std::cell::Cell::new(None);
+        each_koma(&clip, &vmd, |koma, model, capture| {
+            let span = |a: &[&str], b: &[&str]| (capture.of(b) - capture.of(a)).length();
+            let leg = legs.map(|[hip, knee, ankle]| span(&hip, &knee) + span(&knee, &ankle));
+            let scale = 10.0 / (0.5 * (leg[0] + leg[1]));
+            let (moved, place) = (model.moved(), scale * capture.of(&waist));
+            let (moved_at_first, place_at_first) = first.get().unwrap_or((moved, place));
+            first.set(Some((moved_at_first, place_at_first)));
+            let off = ((moved - moved_at_first) - (place - place_at_first)).length();
+            assert!(off < 1e-4, "{name} koma {koma}: {off} units off");
+            assert!(moved.y.abs() < 12.0, "{name} koma {koma}: {} above the ground", moved.y);
+        });
     }
 }

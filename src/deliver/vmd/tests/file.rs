@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use proptest::prelude::*;
 
 use super::super::bones::{LONGEST_NAME, Model};
-use super::super::{BoneMap, Frames, Vmd, VmdKey, VmdMotion, record};
+use super::super::{Frames, Vmd, VmdKey, VmdMotion, record};
 use super::body::clips;
 use super::reader::read;
 use super::rests::{kick, on_ones, standing};
@@ -19,7 +19,7 @@ use crate::time::KOMA_RATE;
 fn limited(clip: crate::motion::Clip) -> (Sheet, VmdMotion) {
     let mut engine = Engine::new(clip).unwrap();
     let breakdown = engine.run(&Recipe::default(), &Edits::default()).unwrap();
-    let made = Vmd::default().make(breakdown.clip, breakdown.sheet, &BoneMap::default());
+    let made = Vmd::default().make(breakdown.clip, breakdown.sheet);
     (breakdown.sheet.clone(), made.unwrap().motion)
 }
 
@@ -84,7 +84,7 @@ fn a_hold_is_written_again_on_the_frame_before_the_next_key() {
     let exposures = [(0, 3), (1, 1), (2, 2)];
     sheet.layers[0].exposures =
         exposures.map(|(drawing, koma)| Exposure { drawing, koma }).to_vec();
-    let motion = Vmd::default().make(&clip, &sheet, &BoneMap::default()).unwrap().motion;
+    let motion = Vmd::default().make(&clip, &sheet).unwrap().motion;
     let head: Vec<&VmdKey> = motion.keys.iter().filter(|key| key.bone == "頭").collect();
     let frames: Vec<u32> = head.iter().map(|key| key.frame).collect();
     assert_eq!(frames, [0, 3, 4, 5, 7], "to the end of the last koma");
@@ -138,7 +138,7 @@ fn every_bone_has_a_name_that_fits() {
 fn a_long_name_of_a_model_is_cut_between_letters_and_said() {
     let (clip, model) = (standing(glam::DVec3::ZERO), "とても長い名前のモデル".to_owned());
     let sheet = Sheet::on_ones(clip.clock(KOMA_RATE), 1);
-    let made = Vmd { model, ..Vmd::default() }.make(&clip, &sheet, &BoneMap::default()).unwrap();
+    let made = Vmd { model, ..Vmd::default() }.make(&clip, &sheet).unwrap();
     assert_eq!(read(&made.motion.bytes().unwrap()).motion.model, "とても長い名前のモデ");
     assert!(made.notes.iter().any(|note| note.code == "W_VMD_MODEL_NAME"), "{:?}", made.notes);
 }
@@ -147,7 +147,7 @@ fn a_long_name_of_a_model_is_cut_between_letters_and_said() {
 fn settings_out_of_range_and_empty_sheets_are_refused() {
     let clip = standing(glam::DVec3::ZERO);
     let sheet = |koma| Sheet::on_ones(clip.clock(KOMA_RATE), koma);
-    let make = |vmd: Vmd, koma| vmd.make(&clip, &sheet(koma), &BoneMap::default());
+    let make = |vmd: Vmd, koma| vmd.make(&clip, &sheet(koma));
     for (vmd, name) in [
         (Vmd { fps: 0.0, ..Vmd::default() }, "vmd.fps"),
         (Vmd { fps: f64::NAN, ..Vmd::default() }, "vmd.fps"),
