@@ -84,8 +84,11 @@ const MIDDLE: [(&str, Option<&str>, Part); 6] = [
     ("頭", Some("首"), Part::Trunk),
 ];
 
+/// Name, parent and part on a side.
+type Sided = (&'static str, &'static str, fn(Side) -> Part);
+
 /// Those of each side without 左 and 右; a parent that begins with `=` has no side.
-const SIDED: [(&str, &str, fn(Side) -> Part); 22] = [
+const SIDED: [Sided; 22] = [
     ("肩", "=上半身2", |_| Part::Trunk),
     ("腕", "肩", Part::Arm),
     ("ひじ", "腕", Part::Arm),
