@@ -14,6 +14,7 @@ pub mod sheet_json;
 #[cfg(test)]
 pub(crate) mod tests;
 mod turns;
+mod vmd;
 pub mod xdts;
 mod xsheet;
 
@@ -26,6 +27,7 @@ pub use pictures::{bars, poses};
 pub use report::Report;
 pub use settings::{CsvSettings, Settings};
 pub use turns::turns_csv;
+pub use vmd::{BoneMap, Vmd, VmdKey, VmdMade, VmdMotion, VmdReport};
 pub use xsheet::{XSheetFiles, xsheet};
 
 use crate::error::Error;

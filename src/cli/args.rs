@@ -119,6 +119,9 @@ pub(super) struct FormatArgs {
     /// One setting of a format: --with csv.bom=true (may be given again).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
     pub(super) with: Vec<(String, String)>,
+    /// For vmd: which of your joints drive which bone, over the table that comes with genga.
+    #[arg(long, value_name = "BONES.toml")]
+    pub(super) bones: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::args::{BvhRows, FormatArgs};
 use super::failure::Failure;
 use super::io;
-use crate::deliver::{Cut, Format, Settings};
-use crate::error::Error;
+use crate::deliver::{BoneMap, Cut, Format, Settings};
+use crate::error::{Error, Warning};
 
 /// More files of one format than this are named by the first and the last.
 const MOST_NAMES: usize = 3;
@@ -35,6 +35,7 @@ impl Asked {
         for (name, value) in &args.with {
             settings.set(name, value).map_err(|error| wrongly("with", &error))?;
         }
+        settings.vmd.bones = args.bones.as_deref().map(bones).transpose()?;
         Ok(Self { formats, settings })
     }
 
@@ -65,6 +66,25 @@ impl Asked {
         }
         Ok(all)
     }
+    /// What a person should know of the files.
+    pub(super) fn notes(&self, cut: &Cut<'_>) -> Result<Vec<Warning>, Failure> {
+        let mut notes = Vec::new();
+        for format in &self.formats {
+            notes.extend(format.notes(cut, &self.settings)?);
+        }
+        Ok(notes)
+    }
+}
+
+/// A person's table of bones.
+fn bones(path: &Path) -> Result<BoneMap, Failure> {
+    let name = io::named(path);
+    let wrong = |reason: &dyn std::fmt::Display| {
+        Failure::AskedWrongly(format!("--bones: {}: {reason}", name.display()))
+    };
+    let bytes = io::read(path)?;
+    let text = std::str::from_utf8(&bytes).map_err(|_| wrong(&"is not UTF-8"))?;
+    BoneMap::parse(text).map_err(|error| wrong(&error))
 }
 
 fn wrongly(option: &str, error: &Error) -> Failure {

@@ -34,6 +34,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     };
     let mut bundle = io::Bundle::begin(&folder)?;
     let files = asked.write(&cut, &mut bundle)?;
+    asked.notes(&cut)?.iter().for_each(|note| words.say(note));
     bundle.finish()?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));

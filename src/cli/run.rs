@@ -33,7 +33,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
     let notes = source.notes.iter().map(ToString::to_string).chain(marked);
-    let report = Report::of(&breakdown, notes.collect());
+    let mut report = Report::of(&breakdown, notes.collect());
     let cut = Cut {
         name: &name,
         clip_file: &io::file_name(&args.clip.clip),
@@ -42,6 +42,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         spaced: Some(breakdown.spaced),
         made_with: Some(&MadeWith::of(&recipe, &edits)),
     };
+    report.notes.extend(asked.notes(&cut)?.iter().map(ToString::to_string));
     let mut bundle = io::Bundle::begin(&folder)?;
     let mut files = asked.write(&cut, &mut bundle)?;
     bundle.add("speed.svg", pictures::speed(&breakdown)?)?;

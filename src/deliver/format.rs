@@ -6,7 +6,7 @@ use crate::deliver::settings::Settings;
 use crate::deliver::{
     Cut, Drawings, Rows, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json, xsheet,
 };
-use crate::error::Error;
+use crate::error::{Error, Warning};
 
 /// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), Error> + 'a;
@@ -95,6 +95,17 @@ pub const FORMATS: &[Format] = &[
         },
     },
     Format {
+        name: "vmd",
+        help: "the motion for MikuMikuDance, and which joint became which bone",
+        japanese: "MMDモーション",
+        files: &["CUT.vmd", "CUT-bones.csv"],
+        make: |cut, settings, put| {
+            let made = settings.vmd.make(cut.clip, cut.sheet)?;
+            put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
+            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))
+        },
+    },
+    Format {
         name: "bars",
         help: "picture: a bar a drawing over koma, with what was left out",
         japanese: "シートの図",
@@ -152,6 +163,17 @@ impl Format {
         put: &mut Sink<'_>,
     ) -> Result<(), Error> {
         (self.make)(cut, settings, put)
+    }
+
+    /// What a person should know of its files, such as what they cannot hold.
+    ///
+    /// # Errors
+    /// Those of [`Format::write`].
+    pub fn notes(&self, cut: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
+        match self.name {
+            "vmd" => settings.vmd.notes(cut.clip),
+            _ => Ok(Vec::new()),
+        }
     }
 }
 

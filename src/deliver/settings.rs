@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use crate::deliver::Vmd;
 use crate::deliver::xdts::Xdts;
 use crate::error::Error;
 use crate::plot::XSheet;
@@ -17,6 +18,8 @@ pub struct Settings {
     pub xdts: Xdts,
     /// The timesheet on paper.
     pub xsheet: XSheet,
+    /// The motion for MikuMikuDance.
+    pub vmd: Vmd,
 }
 
 /// How tables are written.
@@ -40,7 +43,7 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        Ok(())
+        self.vmd.validate()
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.
@@ -64,7 +67,10 @@ impl Settings {
             Error::setting(name, format!("cannot be \"{text}\": {reason}"))
         })?;
         changed.validate()?;
+        // A table of bones is no word; it stays.
+        let bones = self.vmd.bones.take();
         *self = changed;
+        self.vmd.bones = bones;
         Ok(())
     }
 

@@ -896,3 +896,28 @@ fn files_that_wait_for_their_places_are_not_open() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(place.files("o").len() > 11);
 }
+
+#[test]
+fn the_motion_for_mmd_says_which_joints_it_leaves_out_and_takes_a_table_of_bones() {
+    let place = Place::new();
+    let said = text(&place.genga("run data/kick.bvh --deliver vmd --out a").stderr);
+    let note = "no bone for LeftToeBase, RightToeBase";
+    assert!(said.contains(note) && said.contains("kick.vmd kick-bones.csv"), "{said}");
+    assert!(read(&place.path("a/report.json")).contains(note));
+    assert!(read(&place.path("a/kick-bones.csv")).contains("LeftToeBase,,left_out\n"));
+    assert!(
+        fs::read(place.path("a/kick.vmd")).unwrap().starts_with(b"Vocaloid Motion Data 0002\0")
+    );
+    let toes = ["左", "右"].map(|side| {
+        let joint = if side == "左" { "LeftToeBase" } else { "RightToeBase" };
+        format!("[extra.\"{side}足先EX\"]\nparent = \"{side}足首\"\njoints = \"{joint}\"\n")
+    });
+    fs::write(place.path("bones.toml"), toes.concat()).unwrap();
+    let again = "deliver a/sheet.json data/kick.bvh --to vmd --out b --bones bones.toml";
+    let said = text(&place.genga(again).stderr);
+    assert!(!said.contains("no bone"), "{said}");
+    assert!(read(&place.path("b/kick-bones.csv")).contains("LeftToeBase,左足先EX,drives\n"));
+    fs::write(place.path("bones.toml"), "[bones]\n\"左うで\" = \"A\"\n").unwrap();
+    let said = place.refused(2, again);
+    assert!(said.contains("--bones: ") && said.contains("2:1: there is no bone 左うで"), "{said}");
+}

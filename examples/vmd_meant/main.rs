@@ -1,0 +1,35 @@
+//! Writes VMD files and beside each what was meant by it, as JSON, so that a reader by others can be
+//! held against it: `cargo run --example vmd_meant -- FOLDER CLIP.bvh…`.
+
+#![allow(clippy::print_stdout, reason = "a program that reports to a person")]
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use genga::deliver::Vmd;
+use genga::edits::Edits;
+use genga::motion::bvh;
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = std::env::args_os().skip(1).map(PathBuf::from);
+    let folder = words.next().ok_or("say a folder and clips")?;
+    fs::create_dir_all(&folder)?;
+    words.try_for_each(|clip| write(&folder, &clip))
+}
+
+fn write(folder: &Path, path: &Path) -> Result<(), Box<dyn Error>> {
+    let name = path.file_stem().unwrap_or_default();
+    let (clip, _) = bvh::lead_in::strip(bvh::read(&fs::read(path)?)?.clip);
+    let mut engine = Engine::new(clip)?;
+    let breakdown = engine.run_once(&Recipe::default(), &Edits::default())?;
+    let made = Vmd::default().make(breakdown.clip, breakdown.sheet)?;
+    let target = folder.join(name);
+    fs::write(target.with_extension("vmd"), made.motion.bytes()?)?;
+    fs::write(target.with_extension("json"), serde_json::to_string(&made.motion)?)?;
+    let (keys, bones) = (made.motion.keys.len(), made.report.bones.len());
+    println!("{}: {keys} keys of {bones} bones", name.to_string_lossy());
+    Ok(())
+}

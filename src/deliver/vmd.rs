@@ -1,0 +1,315 @@
+//! The limited motion for MikuMikuDance (MMD): a VMD file for a model with the standard bones.
+
+mod bones;
+mod map;
+mod record;
+mod retarget;
+mod source;
+mod stance;
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+use glam::DQuat;
+use serde::{Deserialize, Serialize};
+
+use crate::deliver::csv_table;
+use crate::error::{Error, Warning};
+use crate::motion::{Clip, JointId, Skeleton};
+use crate::sheet::{Layer, Sheet};
+use bones::{Model, Side};
+pub use map::BoneMap;
+use map::Found;
+pub use record::{VmdKey, VmdMotion};
+use retarget::{Local, Retarget};
+use source::Source;
+use stance::Stance;
+
+/// The longest name of a model, in bytes of CP932.
+const LONGEST_MODEL: usize = 20;
+
+/// How a motion is written for MMD.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Vmd {
+    /// Frames a second that the motion is played at, 1 to 1000; default 30, MMD's own. At the sheet's
+    /// own rate a koma is a frame.
+    pub fps: f64,
+    /// How far below the horizontal the model's upper arms hang at rest, in degrees, 0 to 90; default
+    /// 35. Models differ from 30 to 45.
+    pub arm_angle: f64,
+    /// The model's leg from where it begins (足) to the ankle (足首), in MMD units; default 9.7, that of
+    /// a figure of 158 cm at 8 cm a unit. Ways are scaled by this over the capture's own leg, so that
+    /// feet stay where they stand.
+    pub leg: f64,
+    /// The name of the model; default genga. MMD warns when another one loads the motion, and loads it.
+    pub model: String,
+    /// Which joints drive which bone; none, the default, is the table that comes with the program.
+    #[serde(skip)]
+    pub bones: Option<BoneMap>,
+}
+
+/// A motion for MMD, and what became of the joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VmdMade {
+    /// What the file says; [`VmdMotion::bytes`] is the file.
+    pub motion: VmdMotion,
+    /// Which joint became which bone, and which none.
+    pub report: VmdReport,
+    /// What a person should know.
+    pub notes: Vec<Warning>,
+}
+
+/// What became of the joints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VmdReport {
+    /// The dialect whose names fitted best.
+    pub dialect: String,
+    /// Bones with the joints that make each, from the body outward.
+    pub bones: Vec<(String, Vec<String>)>,
+    /// Joints without a bone whose turning is in that of the mapped joints they carry.
+    pub carried: Vec<String>,
+    /// Joints whose motion is not in the file.
+    pub left_out: Vec<String>,
+    /// MMD units in the clip's unit.
+    pub scale: f64,
+}
+
+impl VmdReport {
+    /// `joint,bone,what` as CSV, joints in the order of their lists: `drives` a bone or several, is
+    /// `carried` in the turning of those it carries, or is `left_out`.
+    ///
+    /// # Errors
+    /// Only when memory runs out.
+    pub fn csv(&self) -> Result<String, Error> {
+        let driving = self.bones.iter().flat_map(|(bone, joints)| {
+            joints.iter().map(move |joint| [joint.clone(), bone.clone(), "drives".into()])
+        });
+        let without = |joints: &'static str, list: &[String]| {
+            list.iter()
+                .map(|joint| [joint.clone(), String::new(), joints.into()])
+                .collect::<Vec<_>>()
+        };
+        let carried = without("carried", &self.carried);
+        let left_out = without("left_out", &self.left_out);
+        csv_table(&["joint", "bone", "what"], driving.chain(carried).chain(left_out))
+    }
+}
+
+impl Default for Vmd {
+    fn default() -> Self {
+        Self { fps: 30.0, arm_angle: 35.0, leg: 9.7, model: "genga".into(), bones: None }
+    }
+}
+
+impl Vmd {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let wrong = |name: &str, message: &str| Err(Error::setting(format!("vmd.{name}"), message));
+        if !(1.0..=1000.0).contains(&self.fps) {
+            return wrong("fps", "must be 1 to 1000 frames a second; 30 is MMD's own");
+        }
+        if !(0.0..=90.0).contains(&self.arm_angle) {
+            return wrong("arm_angle", "must be 0 (T-pose) to 90 (arms down) degrees");
+        }
+        if !(self.leg > 0.0 && self.leg <= 1e6) {
+            return wrong("leg", "must be a length in MMD units above 0; 9.7 is usual");
+        }
+        Ok(())
+    }
+
+    /// The motion of a sheet's first layer for a model with MMD's standard bones.
+    ///
+    /// MMD has no steps: where a drawing stays, its pose is written again on the frame before the next.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when the sheet has no koma, or no joint is known to the map; [`Error::Setting`]
+    /// when a setting is out of its range, or two koma would fall on one frame.
+    pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
+        self.validate()?;
+        let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
+        let layer = layer.filter(|_| !clip.is_empty());
+        let layer =
+            layer.ok_or_else(|| Error::clip("the sheet is empty: there is no koma to write"))?;
+        let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
+        let map = self.map();
+        let found = map.find(clip.skeleton())?;
+        let source = Source::of(clip, &map, &found);
+        let stance = Stance::of(&source, self.arm_angle.to_radians());
+        let mut retarget = Retarget::new(clip, &map.model, &source, &stance, self.leg);
+        let (model, _) = cut(&self.model)?;
+        let report = report(clip.skeleton(), &map.model, &found, retarget.scale);
+        let notes = self.notes(clip)?;
+        let keys = keys(layer, &frames, &mut retarget)?;
+        let ik_off = ik_off(&map.model, &found);
+        Ok(VmdMade { motion: VmdMotion { model, keys, ik_off }, report, notes })
+    }
+}
+
+impl Vmd {
+    /// What a person should know of the motion of a clip: the notes of [`Vmd::make`].
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when no joint is known to the map; [`Error::Setting`] when the model's name cannot
+    /// be written.
+    pub fn notes(&self, clip: &Clip) -> Result<Vec<Warning>, Error> {
+        let map = self.map();
+        let found = map.find(clip.skeleton())?;
+        let report = report(clip.skeleton(), &map.model, &found, 1.0);
+        let mut notes = notes(&report, &found);
+        notes.extend(cut(&self.model)?.1);
+        let legs = ["足", "ひざ", "足首"];
+        let has_legs = Side::BOTH.iter().any(|side| {
+            let bones = legs.map(|name| map.model.sided(*side, name));
+            bones.into_iter().flatten().all(|bone| !found.joints[bone].is_empty())
+        });
+        notes.extend((!has_legs).then(no_legs));
+        Ok(notes)
+    }
+
+    fn map(&self) -> Cow<'_, BoneMap> {
+        self.bones.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
+    }
+}
+
+/// From koma to frames.
+struct Frames {
+    in_koma: f64,
+}
+
+impl Frames {
+    fn new(fps: f64, koma_rate: f64) -> Result<Self, Error> {
+        if koma_rate > fps {
+            let message = format!(
+                "{koma_rate} koma a second do not go into {fps} frames: two would be one; take {koma_rate} or more"
+            );
+            return Err(Error::setting("vmd.fps", message));
+        }
+        Ok(Self { in_koma: fps / koma_rate })
+    }
+
+    /// The frame on which a koma begins: its time rounded, halves up.
+    fn of(&self, koma: usize) -> Result<u32, Error> {
+        let frame = (koma as f64 * self.in_koma + 0.5).floor();
+        if frame <= f64::from(u32::MAX) {
+            Ok(frame as u32)
+        } else {
+            Err(Error::clip("the sheet is too long for a VMD file"))
+        }
+    }
+}
+
+/// Every bone on the first frame of each drawing, and on the last where that is another.
+fn keys(layer: &Layer, frames: &Frames, retarget: &mut Retarget<'_>) -> Result<Vec<VmdKey>, Error> {
+    let bones = retarget.bones();
+    let mut before = vec![DQuat::IDENTITY; bones.len()];
+    let mut keys = Vec::with_capacity(2 * bones.len() * layer.exposures.len());
+    for (begin, exposure) in layer.timed() {
+        let mut pose = retarget.take(layer.drawings[exposure.drawing].source);
+        for (local, before) in pose.iter_mut().zip(&mut before) {
+            // q and −q are one rotation, but between the two MMD would turn the long way round.
+            if local.rotation.dot(*before) < 0.0 {
+                local.rotation = -local.rotation;
+            }
+            *before = local.rotation;
+        }
+        let (first, last) = (frames.of(begin)?, frames.of(begin + exposure.koma)? - 1);
+        let held = (last > first).then_some(last);
+        for frame in [Some(first), held].into_iter().flatten() {
+            let posed = bones.iter().zip(&pose);
+            keys.extend(posed.map(|(bone, local)| retarget.key(*bone, frame, *local)));
+        }
+    }
+    Ok(keys)
+}
+
+impl Retarget<'_> {
+    /// A pose as MMD has it: its axes are left-handed, with z the other way.
+    fn key(&self, bone: usize, frame: u32, local: Local) -> VmdKey {
+        let Local { translation: t, rotation: q } = local;
+        // Adding 0 makes a plain zero of a negative one.
+        let single = |value: f64| value as f32 + 0.0;
+        VmdKey {
+            bone: self.name(bone).into(),
+            frame,
+            translation: [t.x, t.y, -t.z].map(single),
+            rotation: [-q.x, -q.y, q.z, q.w].map(single),
+        }
+    }
+}
+
+/// The IK of legs that have a motion of their own: left on, it would pull them back.
+fn ik_off(model: &Model, found: &Found) -> Vec<String> {
+    let has_leg = |side: &Side| {
+        let bones = ["足", "ひざ", "足首"].map(|name| model.sided(*side, name));
+        bones.into_iter().flatten().any(|bone| !found.joints[bone].is_empty())
+    };
+    let sides: Vec<Side> = Side::BOTH.into_iter().filter(has_leg).collect();
+    let names = ["足ＩＫ", "つま先ＩＫ"];
+    let ik = names.iter().flat_map(|name| sides.iter().map(move |side| (side, name)));
+    ik.map(|(side, name)| format!("{}{name}", side.word())).collect()
+}
+
+/// The model's name, cut where a VMD would cut it, but never within a letter.
+fn cut(name: &str) -> Result<(String, Option<Warning>), Error> {
+    let mut short = name.to_owned();
+    while record::name(&short, usize::MAX)?.len() > LONGEST_MODEL {
+        short.pop();
+    }
+    let note = (short != name).then(|| {
+        let message = format!("the model's name is cut to \"{short}\": a VMD holds 20 bytes");
+        Warning::new("W_VMD_MODEL_NAME", message)
+    });
+    Ok((short, note))
+}
+
+fn no_legs() -> Warning {
+    let message = "no legs to measure: lengths are taken as centimetres, 8 to an MMD unit";
+    Warning::new("W_VMD_NO_LEGS", message)
+}
+
+fn report(skeleton: &Skeleton, model: &Model, found: &Found, scale: f64) -> VmdReport {
+    let name = |joint: &JointId| skeleton.joints[joint.0].name.clone();
+    let driven = model.bones.iter().zip(&found.joints).filter(|(_, joints)| !joints.is_empty());
+    let bones = driven.map(|(bone, joints)| (bone.name.clone(), joints.iter().map(name).collect()));
+    let mapped: HashSet<usize> = found.joints.iter().flatten().map(|joint| joint.0).collect();
+    let mut carrying = vec![false; skeleton.len()];
+    for (JointId(joint), data) in skeleton.iter().rev() {
+        if let Some(JointId(parent)) = data.parent {
+            carrying[parent] |= carrying[joint] || mapped.contains(&joint);
+        }
+    }
+    let others = |carries: bool| {
+        let joints = skeleton.iter().filter(|(joint, _)| !mapped.contains(&joint.0));
+        let joints = joints.filter(|(joint, _)| carrying[joint.0] == carries);
+        joints.map(|(_, joint)| joint.name.clone()).collect::<Vec<_>>()
+    };
+    VmdReport {
+        dialect: found.dialect.clone(),
+        bones: bones.collect(),
+        carried: others(true),
+        left_out: others(false),
+        scale,
+    }
+}
+
+fn notes(report: &VmdReport, found: &Found) -> Vec<Warning> {
+    let mut notes = Vec::new();
+    if !report.left_out.is_empty() {
+        let joints = report.left_out.join(", ");
+        let message = format!(
+            "vmd: no bone for {joints}: their motion is not in it (a file of bones says where it belongs)"
+        );
+        notes.push(Warning::new("W_VMD_LEFT_OUT", message));
+    }
+    if !found.missing.is_empty() {
+        let message = format!("vmd: the clip has no joint {}", found.missing.join(", "));
+        notes.push(Warning::new("W_VMD_NO_JOINT", message));
+    }
+    notes
+}

@@ -1,0 +1,165 @@
+//! The bones of an MMD model (標準ボーン) that a motion is written for, and how they hang together.
+
+use glam::DVec3;
+
+use crate::error::Error;
+
+/// The longest name of a bone in a VMD, in bytes of CP932; a longer one would be cut there and match
+/// no bone of any model.
+pub(super) const LONGEST_NAME: usize = 15;
+
+/// Left or right of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Side {
+    /// 左, which is +X also in MMD.
+    Left,
+    /// 右.
+    Right,
+}
+
+impl Side {
+    pub(super) const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Left => "左",
+            Self::Right => "右",
+        }
+    }
+
+    /// 1 for left, −1 for right: the sign of its x.
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+}
+
+/// What a bone is to the body: how the model's rest and the capture's are brought together there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Part {
+    /// Carries the whole and turns nothing.
+    Center,
+    /// Pelvis, spine, neck, head, collar bones, feet: upright in the one is upright in the other,
+    /// whatever slant the bone itself has.
+    Trunk,
+    /// Upper arm or forearm: the bone points where the capture's does.
+    Arm(Side),
+    /// Thigh or shin: likewise.
+    Leg(Side),
+    /// Hand, fingers and what a person adds: as the bone it hangs on.
+    Follows,
+}
+
+impl Part {
+    /// Where the bone of a limb points in a model at rest: arms hang `arm_angle` radians below the
+    /// horizontal, legs straight down. Axes as in BVH: +X is left, +Y up, +Z in front.
+    pub(super) fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
+        let (sin, cos) = arm_angle.sin_cos();
+        match self {
+            Self::Arm(side) => Some(DVec3::new(side.sign() * cos, -sin, 0.0)),
+            Self::Leg(_) => Some(DVec3::NEG_Y),
+            Self::Center | Self::Trunk | Self::Follows => None,
+        }
+    }
+}
+
+/// A bone of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bone {
+    pub(super) name: String,
+    /// Index of the bone it hangs on, which stands before it.
+    pub(super) parent: Option<usize>,
+    pub(super) part: Part,
+}
+
+/// Name, parent and part of those in the middle. Upper and lower body are siblings in MMD.
+const MIDDLE: [(&str, Option<&str>, Part); 6] = [
+    ("センター", None, Part::Center),
+    ("下半身", Some("センター"), Part::Trunk),
+    ("上半身", Some("センター"), Part::Trunk),
+    ("上半身2", Some("上半身"), Part::Trunk),
+    ("首", Some("上半身2"), Part::Trunk),
+    ("頭", Some("首"), Part::Trunk),
+];
+
+/// Name, parent and part on a side.
+type Sided = (&'static str, &'static str, fn(Side) -> Part);
+
+/// Those of each side without 左 and 右; a parent that begins with `=` has no side.
+const SIDED: [Sided; 22] = [
+    ("肩", "=上半身2", |_| Part::Trunk),
+    ("腕", "肩", Part::Arm),
+    ("ひじ", "腕", Part::Arm),
+    ("手首", "ひじ", |_| Part::Follows),
+    ("親指０", "手首", |_| Part::Follows),
+    ("親指１", "親指０", |_| Part::Follows),
+    ("親指２", "親指１", |_| Part::Follows),
+    ("人指１", "手首", |_| Part::Follows),
+    ("人指２", "人指１", |_| Part::Follows),
+    ("人指３", "人指２", |_| Part::Follows),
+    ("中指１", "手首", |_| Part::Follows),
+    ("中指２", "中指１", |_| Part::Follows),
+    ("中指３", "中指２", |_| Part::Follows),
+    ("薬指１", "手首", |_| Part::Follows),
+    ("薬指２", "薬指１", |_| Part::Follows),
+    ("薬指３", "薬指２", |_| Part::Follows),
+    ("小指１", "手首", |_| Part::Follows),
+    ("小指２", "小指１", |_| Part::Follows),
+    ("小指３", "小指２", |_| Part::Follows),
+    ("足", "=下半身", Part::Leg),
+    ("ひざ", "足", Part::Leg),
+    ("足首", "ひざ", |_| Part::Trunk),
+];
+
+/// The bones of a model, parents before children.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Model {
+    pub(super) bones: Vec<Bone>,
+}
+
+impl Model {
+    /// The standard and semi-standard bones that a motion can drive.
+    pub(super) fn standard() -> Self {
+        let mut model = Self { bones: Vec::new() };
+        for (name, parent, part) in MIDDLE {
+            model.hang(name.into(), parent, part);
+        }
+        for side in Side::BOTH {
+            for (name, parent, part) in SIDED {
+                let sided = format!("{}{parent}", side.word());
+                let parent = parent.strip_prefix('=').unwrap_or(&sided);
+                model.hang(format!("{}{name}", side.word()), Some(parent), part(side));
+            }
+        }
+        model
+    }
+
+    fn hang(&mut self, name: String, parent: Option<&str>, part: Part) {
+        let parent = parent.map(|parent| self.find(parent).expect("parents stand first"));
+        self.bones.push(Bone { name, parent, part });
+    }
+
+    /// Adds a bone that a person named; it follows the one it hangs on.
+    pub(super) fn add(&mut self, name: &str, parent: &str) -> Result<(), Error> {
+        let wrong = |message| Err(Error::setting("bones", message));
+        if self.find(name).is_some() {
+            return wrong(format!("{name} is there already: give its joints under [bones]"));
+        }
+        let Some(parent) = self.find(parent) else {
+            return wrong(format!("{name} cannot hang on {parent}, which is no bone"));
+        };
+        self.bones.push(Bone { name: name.into(), parent: Some(parent), part: Part::Follows });
+        Ok(())
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        self.bones.iter().position(|bone| bone.name == name)
+    }
+
+    /// The bone of a side by its name without 左 or 右.
+    pub(super) fn sided(&self, side: Side, name: &str) -> Option<usize> {
+        self.find(&format!("{}{name}", side.word()))
+    }
+}

@@ -1,0 +1,263 @@
+//! Which joints drive which bone: the table of dialects, a person's own rows over it, and what of it a
+//! clip has.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::bones::{LONGEST_NAME, Model, Side};
+use super::record;
+use crate::error::Error;
+use crate::motion::{JointId, Skeleton};
+
+/// The table that comes with the program.
+const DIALECTS: &str = include_str!("dialects.toml");
+
+/// What programs put before the names of all their joints, as [`plain`] leaves it.
+const PREFIXES: [&str; 4] = ["mixamorig", "bip001", "bip01", "character1"];
+
+/// The table of bones (ボーン対応表): how programs name the joints of each MMD bone, and a person's own
+/// rows over that.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoneMap {
+    pub(super) model: Model,
+    dialects: Vec<Dialect>,
+    own: BTreeMap<String, Vec<String>>,
+}
+
+/// One program's way to name joints.
+#[derive(Debug, Clone, PartialEq)]
+struct Dialect {
+    name: String,
+    /// Of each bone the joints that make it, from the body outward.
+    rows: BTreeMap<String, Vec<String>>,
+}
+
+/// What of the table a skeleton has.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Found {
+    pub(super) dialect: String,
+    /// Of each bone of the model its joints, from the body outward; none when it is not driven.
+    pub(super) joints: Vec<Vec<JointId>>,
+    /// Names in a person's own rows that no joint has.
+    pub(super) missing: Vec<String>,
+}
+
+impl Default for BoneMap {
+    /// The table that comes with the program.
+    fn default() -> Self {
+        let mut map = Self { model: Model::standard(), dialects: vec![], own: BTreeMap::new() };
+        map.take(DIALECTS).expect("the table that comes with the program is tested");
+        map
+    }
+}
+
+impl BoneMap {
+    /// The program's table with a person's file over it: rows under `[bones]` stand in place of those
+    /// of whichever dialect fits, `[[dialect]]` adds one, `[extra."NAME"]` a bone that models have
+    /// besides the standard ones. `docs/formats.md` shows each.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with line and column when it is no TOML, or has a key or a bone that there is
+    /// not, or a name that is longer than a VMD holds.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let mut map = Self::default();
+        map.take(text)?;
+        Ok(map)
+    }
+
+    /// The names of the dialects, in the order in which they are asked.
+    pub fn dialects(&self) -> impl Iterator<Item = &str> {
+        self.dialects.iter().map(|dialect| &dialect.name[..])
+    }
+
+    fn take(&mut self, text: &str) -> Result<(), Error> {
+        let failed = |span: Option<std::ops::Range<usize>>, message: &str| {
+            let place = span.map(|span| place(text, span.start)).unwrap_or_default();
+            Error::setting("bones", format!("{place}{message}"))
+        };
+        let file: File =
+            toml::from_str(text).map_err(|error| failed(error.span(), error.message()))?;
+        for (name, extra) in &file.extra {
+            let bytes = record::name(name.get_ref(), LONGEST_NAME).map(drop);
+            bytes
+                .and_then(|()| self.model.add(name.get_ref(), &extra.parent))
+                .map_err(|error| failed(Some(name.span()), said(&error)))?;
+            self.own.insert(name.get_ref().clone(), extra.joints.list());
+        }
+        let known = |rows: &Rows| {
+            let unknown = rows.keys().find(|bone| self.model.find(bone.get_ref()).is_none());
+            unknown.map_or(Ok(()), |bone| {
+                let message = format!("there is no bone {}; see docs/formats.md", bone.get_ref());
+                Err(failed(Some(bone.span()), &message))
+            })
+        };
+        known(&file.bones)?;
+        file.dialect.iter().try_for_each(|dialect| known(&dialect.bones))?;
+        // A person's dialects are asked first: of two that fit equally well theirs is taken.
+        let dialects = file.dialect.into_iter().map(Dialect::from);
+        self.dialects.splice(0..0, dialects.collect::<Vec<_>>());
+        let own = file.bones.into_iter();
+        self.own.extend(own.map(|(bone, joints)| (bone.into_inner(), joints.list())));
+        Ok(())
+    }
+
+    /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] when no joint is known: the message names them and the way out.
+    pub(super) fn find(&self, skeleton: &Skeleton) -> Result<Found, Error> {
+        let names = Names::of(skeleton);
+        let nothing = Dialect { name: "own".into(), rows: BTreeMap::new() };
+        let mut best = self.joints(&nothing, &names);
+        let mut dialect = &nothing;
+        for other in &self.dialects {
+            let joints = self.joints(other, &names);
+            if score(&joints) > score(&best) {
+                (best, dialect) = (joints, other);
+            }
+        }
+        if score(&best) == (0, 0) {
+            return Err(unknown(skeleton));
+        }
+        let own = self.own.values().flatten();
+        let missing = own.filter(|name| names.find(name).is_none()).cloned().collect();
+        Ok(Found { dialect: dialect.name.clone(), joints: best, missing })
+    }
+
+    fn joints(&self, dialect: &Dialect, names: &Names) -> Vec<Vec<JointId>> {
+        let row = |bone: &str| self.own.get(bone).or_else(|| dialect.rows.get(bone));
+        let bones = self.model.bones.iter().map(|bone| {
+            let row = row(&bone.name).map_or(&[][..], Vec::as_slice);
+            row.iter().filter_map(|name| names.find(name)).collect()
+        });
+        bones.collect()
+    }
+}
+
+/// Bones that are driven, and joints that drive them.
+fn score(joints: &[Vec<JointId>]) -> (usize, usize) {
+    let driven = joints.iter().filter(|joints| !joints.is_empty()).count();
+    (driven, joints.iter().flatten().collect::<HashSet<_>>().len())
+}
+
+fn unknown(skeleton: &Skeleton) -> Error {
+    const SHOWN: usize = 12;
+    let names: Vec<_> = skeleton.joints.iter().map(|joint| &joint.name[..]).collect();
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    let shown = names[..names.len().min(SHOWN)].join(", ");
+    Error::clip(format!(
+        "vmd: no joint has a name that is known to belong to an MMD bone: {shown}{more}. Say which is which in a file of rows such as \"左腕\" = \"LeftArm\" under [bones]"
+    ))
+}
+
+/// The joints of a skeleton by their plain names.
+struct Names(HashMap<String, JointId>);
+
+impl Names {
+    fn of(skeleton: &Skeleton) -> Self {
+        let mut names = HashMap::new();
+        for (id, joint) in skeleton.iter() {
+            names.entry(plain(&joint.name)).or_insert(id);
+        }
+        Self(names)
+    }
+
+    fn find(&self, name: &str) -> Option<JointId> {
+        self.0.get(&plain(name)).copied()
+    }
+}
+
+/// A name as it is compared: see the head of `dialects.toml`.
+fn plain(name: &str) -> String {
+    let name = name.rsplit(':').next().unwrap_or_default();
+    let letters = name.chars().filter(|letter| !" _-.".contains(*letter));
+    let plain: String = letters.flat_map(char::to_lowercase).collect();
+    let stripped = PREFIXES.iter().find_map(|prefix| plain.strip_prefix(prefix));
+    stripped.filter(|rest| !rest.is_empty()).map(str::to_owned).unwrap_or(plain)
+}
+
+/// `line:column: ` of a byte in a text, from 1.
+fn place(text: &str, byte: usize) -> String {
+    let before = &text[..byte.min(text.len())];
+    let line = before.matches('\n').count() + 1;
+    let column = before.len() - before.rfind('\n').map_or(0, |newline| newline + 1) + 1;
+    format!("{line}:{column}: ")
+}
+
+/// The sentence of a setting's error without its name.
+fn said(error: &Error) -> &str {
+    match error {
+        Error::Setting { message, .. } => message,
+        _ => "cannot be used",
+    }
+}
+
+type Rows = BTreeMap<Spanned<String>, Joints>;
+
+/// The file.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct File {
+    dialect: Vec<DialectText>,
+    bones: Rows,
+    extra: BTreeMap<Spanned<String>, Extra>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DialectText {
+    name: String,
+    /// For the reader of the file alone.
+    #[serde(default, rename = "about")]
+    _about: String,
+    #[serde(default)]
+    sides: Option<[String; 2]>,
+    bones: Rows,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Extra {
+    parent: String,
+    joints: Joints,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Joints {
+    One(String),
+    Chain(Vec<String>),
+}
+
+impl Joints {
+    fn list(&self) -> Vec<String> {
+        match self {
+            Self::One(name) => vec![name.clone()],
+            Self::Chain(names) => names.clone(),
+        }
+    }
+}
+
+impl From<DialectText> for Dialect {
+    fn from(text: DialectText) -> Self {
+        let mut rows = BTreeMap::new();
+        for (bone, joints) in text.bones {
+            let (bone, joints) = (bone.into_inner(), joints.list());
+            let (Some(sides), Some(stem)) = (&text.sides, bone.strip_prefix(Side::Left.word()))
+            else {
+                rows.insert(bone, joints);
+                continue;
+            };
+            for (side, word) in Side::BOTH.into_iter().zip(sides) {
+                let joints = joints.iter().map(|joint| joint.replace('@', word)).collect();
+                rows.insert(format!("{}{stem}", side.word()), joints);
+            }
+        }
+        Self { name: text.name, rows }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,152 @@
+//! The bytes of a VMD file: what a motion for MMD holds, and how it is laid out.
+
+use encoding_rs::SHIFT_JIS;
+use serde::Serialize;
+
+use super::bones::LONGEST_NAME;
+use crate::error::Error;
+
+/// The longest name of a model and of an IK bone, in bytes of CP932.
+const LONGEST_MODEL: usize = 20;
+
+/// Linear interpolation on all four channels: (20, 20) and (107, 107) of 127, in the layout that MMD
+/// writes. It is a row of 16 bytes and the same row shifted left by 1, 2 and 3 with zeros moving in;
+/// bytes 2 and 3 of the first row are zero because newer versions keep a switch of the physics there.
+const LINEAR: [u8; 64] = {
+    let mut bytes = [0; 64];
+    let mut at = 0;
+    while at < 64 {
+        let place = at / 16 + at % 16;
+        bytes[at] = match place {
+            0..8 => 20,
+            8..16 => 107,
+            _ => 0,
+        };
+        at += 1;
+    }
+    bytes[2] = 0;
+    bytes[3] = 0;
+    bytes
+};
+
+/// A motion for MMD: what a `.vmd` file says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VmdMotion {
+    /// The name of the model it is for; MMD warns when another model loads it, and loads it.
+    pub model: String,
+    /// Keys of bones, by frame and then by bone.
+    pub keys: Vec<VmdKey>,
+    /// Inverse kinematics (IK) that are switched off on frame 0, by the names of their bones.
+    pub ik_off: Vec<String>,
+}
+
+/// A key of a bone.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VmdKey {
+    /// The bone (ボーン).
+    pub bone: String,
+    /// The frame, from 0.
+    pub frame: u32,
+    /// From its place at rest, in MMD's unit and MMD's left-handed axes.
+    pub translation: [f32; 3],
+    /// Against its parent and its rest, a unit quaternion x, y, z, w in the same axes.
+    pub rotation: [f32; 4],
+}
+
+impl VmdMotion {
+    /// The file: signature, model, bone keys, no morphs, no camera, no light, no self-shadow, and one
+    /// property record which switches IK off where there is any to switch off.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when a name cannot be written in CP932 or is too long: 15 bytes for a bone,
+    /// 20 for the model and for IK.
+    pub fn bytes(&self) -> Result<Vec<u8>, Error> {
+        let mut bytes = Vec::with_capacity(100 + 111 * self.keys.len());
+        bytes.extend(padded::<30>(b"Vocaloid Motion Data 0002"));
+        bytes.extend(padded::<LONGEST_MODEL>(&name(&self.model, LONGEST_MODEL)?));
+        bytes.extend(count(self.keys.len())?);
+        for key in &self.keys {
+            bytes.extend(padded::<LONGEST_NAME>(&name(&key.bone, LONGEST_NAME)?));
+            bytes.extend(key.frame.to_le_bytes());
+            let numbers = key.translation.iter().chain(&key.rotation);
+            numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
+            bytes.extend(LINEAR);
+        }
+        let (morphs, cameras, lights, shadows) = ([0; 4], [0; 4], [0; 4], [0; 4]);
+        [morphs, cameras, lights, shadows].iter().for_each(|none| bytes.extend(none));
+        self.write_properties(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn write_properties(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
+        if self.ik_off.is_empty() {
+            bytes.extend(count(0)?);
+            return Ok(());
+        }
+        bytes.extend(count(1)?);
+        let (frame, visible) = (0u32, 1u8);
+        bytes.extend(frame.to_le_bytes());
+        bytes.push(visible);
+        bytes.extend(count(self.ik_off.len())?);
+        for bone in &self.ik_off {
+            bytes.extend(padded::<LONGEST_MODEL>(&name(bone, LONGEST_MODEL)?));
+            bytes.push(0);
+        }
+        Ok(())
+    }
+}
+
+fn count(count: usize) -> Result<[u8; 4], Error> {
+    let count = u32::try_from(count);
+    count.map(u32::to_le_bytes).map_err(|_| Error::clip("too many keys for a VMD file"))
+}
+
+/// A field of that width with zeros behind.
+fn padded<const WIDTH: usize>(text: &[u8]) -> [u8; WIDTH] {
+    let mut field = [0; WIDTH];
+    field[..text.len()].copy_from_slice(text);
+    field
+}
+
+/// A name in CP932.
+///
+/// # Errors
+/// [`Error::Setting`] when it has a letter that CP932 has not, or more than `longest` bytes.
+pub(super) fn name(text: &str, longest: usize) -> Result<Vec<u8>, Error> {
+    let (bytes, _, has_others) = SHIFT_JIS.encode(text);
+    let wrong = |message| Err(Error::setting("vmd", message));
+    if has_others || text.contains('\0') {
+        return wrong(format!("\"{text}\" has letters that a VMD cannot hold (CP932)"));
+    }
+    if bytes.len() > longest {
+        let found = bytes.len();
+        return wrong(format!("\"{text}\" is {found} bytes in CP932; a VMD holds {longest}"));
+    }
+    Ok(bytes.into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_key_has_the_bytes_that_mmd_writes() {
+        let rows = [
+            [20, 20, 0, 0, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107],
+            [20, 20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0],
+            [20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0],
+            [20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0, 0],
+        ];
+        assert_eq!(LINEAR.to_vec(), rows.concat());
+    }
+
+    #[test]
+    fn names_are_cp932_and_never_cut() {
+        assert_eq!(name("センター", 15).unwrap(), b"\x83Z\x83\x93\x83^\x81[");
+        assert_eq!(name("左足ＩＫ", 15).unwrap(), b"\x8d\xb6\x91\xab\x82h\x82j");
+        let error = name("左つま先ＩＫ親子", 15).unwrap_err().to_string();
+        assert!(error.contains("16 bytes") && error.contains("holds 15"), "{error}");
+        assert_eq!(name("左つま先ＩＫ親", 15).unwrap().len(), 14);
+        assert!(name("🦵", 15).unwrap_err().to_string().contains("CP932"));
+    }
+}

@@ -1,0 +1,259 @@
+//! The stance (基準姿勢): how each joint of the capture is turned when its body stands as the model does
+//! at rest. What a joint turns from there is what the bone of the model has to turn.
+//!
+//! Where the file's own rest is a body that stands upright (a T-pose, arms down), it is the stance,
+//! whichever way it faces. Some programs lay every bone along one axis instead; such a rest says nothing
+//! of how a body stands, and the stance is built: pelvis and chest from where legs, arms and neck hang
+//! on them, the way limbs are turned about themselves from the way elbows and knees bend in the clip.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::bones::{Bone, Part, Side};
+use super::source::Source;
+
+/// Bones this near to an axis lie along it.
+const ALONG: f64 = 0.999;
+
+/// The cosine of 35°: an axis this near to the one the clip shows is the one that was meant.
+const MEANT: f64 = 0.82;
+
+/// How a capture is brought to the model: the world rotation of a bone is `up · Q · right`, where Q is
+/// that of the joint.
+pub(super) struct Stance {
+    /// From the capture's up to +Y.
+    pub(super) up: DQuat,
+    /// From the pelvis's own axes to left, up and forward.
+    pub(super) pelvis: DQuat,
+    /// Of each bone of the model; none when it is not driven.
+    pub(super) right: Vec<Option<DQuat>>,
+}
+
+impl Stance {
+    /// The stance of a capture for a model whose arms hang `arm_angle` radians below the horizontal.
+    pub(super) fn of(source: &Source<'_>, arm_angle: f64) -> Self {
+        let upright = upright_rest(source);
+        let up = upright.map_or(DQuat::IDENTITY, |basis| {
+            // A rest that lies on its back in a Y-up file does not occur; one of a Z-up file does.
+            DQuat::from_rotation_arc(basis.y_axis, DVec3::Y)
+        });
+        let turns = match upright {
+            Some(basis) => {
+                let turn = DQuat::from_mat3(&basis).inverse();
+                vec![Some(turn); source.model().bones.len()]
+            }
+            None => built(source),
+        };
+        // Facing is kept: only what is up is brought to +Y.
+        let mut aligned: Vec<Option<DQuat>> = Vec::new();
+        for (index, bone) in source.model().bones.iter().enumerate() {
+            let carried = bone.parent.and_then(|parent| aligned[parent]).unwrap_or_default();
+            aligned.push(Some(alignment(source, index, bone, turns[index], carried, arm_angle)));
+        }
+        let right = |index: usize| {
+            source.joint(index)?;
+            Some(turns[index]?.inverse() * aligned[index]?)
+        };
+        let pelvis = source.model().find("下半身").and_then(|bone| turns[bone]);
+        let right = (0..turns.len()).map(right).collect();
+        Self { up, pelvis: pelvis.unwrap_or_default(), right }
+    }
+}
+
+/// The rotation from the model's rest to the stance of a bone: limbs are brought to where the capture's
+/// point in the stance, by the shortest way from where their parent brings them.
+fn alignment(
+    source: &Source<'_>,
+    index: usize,
+    bone: &Bone,
+    turn: Option<DQuat>,
+    carried: DQuat,
+    arm_angle: f64,
+) -> DQuat {
+    match (bone.part.rest_direction(arm_angle), turn, source.direction(index)) {
+        (None, ..) if bone.part == Part::Follows => carried,
+        (None, ..) => DQuat::IDENTITY,
+        (Some(rest), Some(turn), Some(own)) => {
+            DQuat::from_rotation_arc((carried * rest).normalize(), (turn * own).normalize())
+                * carried
+        }
+        (Some(_), ..) => carried,
+    }
+}
+
+/// Left, up and forward of the rest as columns, when it is a body that stands.
+fn upright_rest(source: &Source<'_>) -> Option<DMat3> {
+    let left = source.rest_across("足").or_else(|| source.rest_across("腕"))?;
+    let up = source.rest_up()?;
+    let down = |side| source.rest_span(side, "足", "足首").or(source.rest_span(side, "足", "ひざ"));
+    let legs_hang = Side::BOTH.iter().filter_map(|side| down(*side)).all(|leg| leg.dot(up) < -0.7);
+    let arm = |side: Side| source.rest_span(side, "腕", "手首");
+    let crosses = |side: &Side| arm(*side).is_some_and(|arm| side.sign() * arm.dot(left) < -0.3);
+    if !legs_hang || left.dot(up).abs() > 0.3 || Side::BOTH.iter().any(crosses) {
+        return None;
+    }
+    let up = snapped(up);
+    let left = snapped((left - left.dot(up) * up).normalize());
+    Some(DMat3::from_cols(left, up, left.cross(up)))
+}
+
+/// The axis a direction means, when it is near one.
+fn snapped(direction: DVec3) -> DVec3 {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+    axes.into_iter().find(|axis| axis.dot(direction) > 0.9).unwrap_or(direction)
+}
+
+/// The stance of a rest that is no body, built bone by bone.
+fn built(source: &Source<'_>) -> Vec<Option<DQuat>> {
+    let model = source.model();
+    let mut turns: Vec<Option<DQuat>> = vec![None; model.bones.len()];
+    for (index, bone) in model.bones.iter().enumerate() {
+        let parent = bone.parent.and_then(|parent| turns[parent]);
+        turns[index] = match bone.part {
+            Part::Center => None,
+            Part::Follows => parent,
+            Part::Arm(side) | Part::Leg(side) if starts_limb(source, bone) => {
+                limb(source, index, bone.part, side, &turns)
+            }
+            Part::Arm(_) | Part::Leg(_) => {
+                toward(source, index, bone.part.rest_direction(0.0), parent)
+            }
+            Part::Trunk => trunk(source, index, &bone.name, &turns),
+        };
+    }
+    // Collar bones share the axes of the arm that hangs on them.
+    for side in Side::BOTH {
+        if let (Some(collar), Some(arm)) = (model.sided(side, "肩"), model.sided(side, "腕")) {
+            let sideways = Part::Arm(side).rest_direction(0.0);
+            turns[collar] = toward(source, collar, sideways, turns[arm]);
+        }
+    }
+    turns
+}
+
+/// Upper arm and thigh hang on the trunk, forearm and shin on a part of their limb.
+fn starts_limb(source: &Source<'_>, bone: &Bone) -> bool {
+    bone.parent.is_some_and(|parent| source.model().bones[parent].part != bone.part)
+}
+
+/// The turn of a bone that in the stance points to `target`: nearest to the one it goes on from.
+fn toward(
+    source: &Source<'_>,
+    index: usize,
+    target: Option<DVec3>,
+    from: Option<DQuat>,
+) -> Option<DQuat> {
+    let from = from?;
+    match (source.direction(index), target) {
+        (Some(own), Some(target)) => {
+            Some(DQuat::from_rotation_arc((from * own).normalize(), target) * from)
+        }
+        _ => Some(from),
+    }
+}
+
+/// Pelvis and spine.
+fn trunk(source: &Source<'_>, index: usize, name: &str, turns: &[Option<DQuat>]) -> Option<DQuat> {
+    let model = source.model();
+    let turn_of = |name: &str| model.find(name).and_then(|bone| turns[bone]);
+    match name {
+        "下半身" => {
+            let left = source.rest_across("足")?;
+            Some(turn(source.spine_way()?, left, DVec3::Y, DVec3::X))
+        }
+        // The chest knows left from where the shoulders hang on it.
+        "上半身" | "上半身2" | "首" | "頭" => {
+            let chest = chest(source, turns);
+            toward(source, index, Some(DVec3::Y), chest)
+        }
+        _ => {
+            let side = Side::BOTH.into_iter().find(|side| name.starts_with(side.word()))?;
+            match name.strip_prefix(side.word())? {
+                "足首" => foot(source, index, side).or_else(|| turn_of("下半身")),
+                _ => None,
+            }
+        }
+    }
+}
+
+fn chest(source: &Source<'_>, turns: &[Option<DQuat>]) -> Option<DQuat> {
+    let model = source.model();
+    let chest = ["上半身2", "上半身"].into_iter().find_map(|name| {
+        let bone = model.find(name)?;
+        source.joint(bone).map(|_| bone)
+    })?;
+    let pelvis = model.find("下半身").and_then(|bone| turns[bone]);
+    let up = source.direction(chest)?;
+    let across = source.rest_across("肩").or_else(|| source.rest_across("腕"));
+    let left = across.filter(|left| left.cross(up).length() > 0.5).or_else(|| {
+        // Else it is where the pelvis has it, on average.
+        let (joint, from) = (source.joint(chest)?, model.find("下半身")?);
+        let (pelvis, carrier) = (pelvis?, source.joint(from)?);
+        source.mean_local(joint, |world| world[carrier.0] * (pelvis.inverse() * DVec3::X))
+    })?;
+    Some(turn(up, left, DVec3::Y, DVec3::X))
+}
+
+/// Upper arm or thigh: along the limb, and turned so that the joint below bends as a body's does: elbows
+/// bring the hand forward, knees take the foot back.
+fn limb(
+    source: &Source<'_>,
+    index: usize,
+    part: Part,
+    side: Side,
+    turns: &[Option<DQuat>],
+) -> Option<DQuat> {
+    let target = part.rest_direction(0.0)?;
+    let (hinge, below, carrier) = match part {
+        Part::Arm(_) => (-side.sign() * DVec3::Y, "ひじ", "上半身2"),
+        _ => (DVec3::X, "ひざ", "下半身"),
+    };
+    let own = source.direction(index)?;
+    let joint = source.joint(index)?;
+    let bend = || {
+        let below = source.model().sided(side, below)?;
+        let (lower, direction) = (source.joint(below)?, source.direction(below)?);
+        let cross = |world: &[DQuat]| (world[joint.0] * own).cross(world[lower.0] * direction);
+        source.mean_local(joint, cross)
+    };
+    let carried = || {
+        let carrier = source.model().find(carrier)?;
+        let (turn, carrier) = (turns[carrier]?, source.joint(carrier)?);
+        source.mean_local(joint, |world| world[carrier.0] * (turn.inverse() * hinge))
+    };
+    Some(turn(own, bend().or_else(carried)?, target, hinge))
+}
+
+/// The foot: it points ahead, as far down as it mostly does in the clip, and does not lean.
+fn foot(source: &Source<'_>, index: usize, side: Side) -> Option<DQuat> {
+    let own = source.direction(index)?;
+    let joint = source.joint(index)?;
+    let above = source.model().sided(side, "ひざ")?;
+    let (shin, along) = (source.joint(above)?, source.direction(above)?);
+    let cross = |world: &[DQuat]| (world[shin.0] * along).cross(world[joint.0] * own);
+    let hinge = source.mean_local(joint, cross)?;
+    let drop = source.median(|world| (world[joint.0] * own).y.clamp(-1.0, 1.0));
+    let target = DVec3::new(0.0, drop, (1.0 - drop * drop).sqrt());
+    Some(turn(own, hinge, target, DVec3::NEG_X))
+}
+
+/// The rotation that takes `along` to `target`, and `across` as nearly to `beside` as it can.
+fn turn(along: DVec3, across: DVec3, target: DVec3, beside: DVec3) -> DQuat {
+    let own = basis(along, meant(along, across));
+    DQuat::from_mat3(&(basis(target, beside) * own.transpose()))
+}
+
+/// Bones along an axis have their other axes along the body's too: the nearest one is meant.
+fn meant(along: DVec3, across: DVec3) -> DVec3 {
+    if along.abs().max_element() < ALONG {
+        return across;
+    }
+    let across = (across - across.dot(along) * along).normalize_or(across);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+    axes.into_iter().find(|axis| axis.dot(across) > MEANT).unwrap_or(across)
+}
+
+/// Right-handed axes whose first is `along` and whose plane of the first two holds `across`.
+fn basis(along: DVec3, across: DVec3) -> DMat3 {
+    let third = along.cross(across).normalize_or(along.any_orthonormal_vector());
+    DMat3::from_cols(along, third.cross(along), third)
+}

@@ -1,0 +1,6 @@
+//! The motion for MMD, as a file and as a body.
+
+mod body;
+mod file;
+mod reader;
+mod rests;
