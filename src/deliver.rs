@@ -4,6 +4,7 @@
 
 mod cut;
 mod drawings;
+mod figures;
 mod format;
 mod koma;
 mod limited_bvh;
@@ -17,6 +18,7 @@ mod turns;
 
 pub use cut::Cut;
 pub use drawings::{Drawings, Rows};
+pub use figures::FigureSettings;
 pub use format::{FORMATS, Format, Sink};
 pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::limited_bvh;

@@ -10,7 +10,9 @@ use std::path::{Path, PathBuf};
 use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::{Breakdown, Engine};
-use genga::plot::{self, Camera, ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip};
+use genga::plot::{
+    self, Camera, ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip,
+};
 use genga::recipe::Recipe;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -71,7 +73,8 @@ impl Pictures {
         let folder = self.path("images");
         fs::create_dir_all(&folder)?;
         let images = NumberedImages { camera, marks: true, ..NumberedImages::default() };
-        images.draw(clip, sheet, |name, png| -> Result<()> { Ok(fs::write(folder.join(name), png)?) })
+        images
+            .draw(clip, sheet, |name, png| -> Result<()> { Ok(fs::write(folder.join(name), png)?) })
     }
 
     /// The pages of a picture, a file each; in the documentation the first.

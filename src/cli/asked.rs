@@ -32,6 +32,9 @@ impl Asked {
         let formats = Format::find_all(names)
             .map_err(|error| Failure::AskedWrongly(format!("--{option}: {error}")))?;
         let mut made = Settings::default();
+        if let Some(camera) = settings.camera {
+            made.look_from(camera);
+        }
         for (name, value) in &settings.with {
             made.set(name, value).map_err(asked_wrongly("with"))?;
         }

@@ -3,7 +3,11 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use crate::deliver::FigureSettings;
 use crate::error::Error;
+use crate::plot::{ContactSheet, FlipBook, OnionSkin, Strip};
+#[cfg(feature = "cli")]
+use crate::plot::{NumberedImages, Preview};
 
 /// The settings of every format, by its name. A new format's are a field here.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -11,6 +15,22 @@ use crate::error::Error;
 pub struct Settings {
     /// The tables.
     pub csv: CsvSettings,
+    /// All pictures of figures.
+    pub figures: FigureSettings,
+    /// Source above, result below.
+    pub strip: Strip,
+    /// The genga one by one.
+    pub contact: ContactSheet,
+    /// Neighbouring drawings through each other.
+    pub onion: OnionSkin,
+    /// The page that plays the sheet.
+    pub flipbook: FlipBook,
+    /// Source beside result, moving.
+    #[cfg(feature = "cli")]
+    pub preview: Preview,
+    /// A picture a drawing.
+    #[cfg(feature = "cli")]
+    pub images: NumberedImages,
 }
 
 /// How tables are written.
@@ -34,6 +54,14 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
+        self.strip.validate()?;
+        self.contact.validate()?;
+        self.onion.validate()?;
+        #[cfg(feature = "cli")]
+        {
+            self.preview.validate()?;
+            self.images.validate()?;
+        }
         Ok(())
     }
 

@@ -33,12 +33,30 @@ impl Cell<'_> {
         self.drawing.why.pinned.is_some()
     }
 
-    /// What a person called it, or why it is there.
+    /// In a few words: what a person called it, or why it is there.
     pub(super) fn reason(&self) -> String {
-        match self.drawing.why.pinned.as_deref() {
-            Some(name) if !name.is_empty() => name.to_owned(),
-            _ => self.drawing.why.to_string(),
+        let why = &self.drawing.why;
+        let mut reasons = Vec::new();
+        match why.pinned.as_deref() {
+            Some("") => reasons.push("pinned".to_owned()),
+            Some(name) => reasons.push(name.to_owned()),
+            None => {}
         }
+        if why.omitted_before > 0 {
+            reasons.push(format!("中無し {}", why.omitted_before));
+        }
+        if why.rest {
+            reasons.push("rest 止め".to_owned());
+        }
+        match why.voters.as_slice() {
+            [] => {}
+            [one] => reasons.push(one.clone()),
+            [first, others @ ..] => reasons.push(format!("{first} +{}", others.len())),
+        }
+        if let Some(price) = why.price {
+            reasons.push(format!("{price:.1} %"));
+        }
+        reasons.join(" · ")
     }
 }
 

@@ -77,7 +77,7 @@ impl Pixels {
         }
         let ink = inks.of(BodySide::Trunk);
         if let Some((center, radius)) = drawn.head {
-            let width = (0.18 * radius).clamp(0.8, 3.5);
+            let width = (0.24 * radius).clamp(0.8, 4.0);
             self.disc(center, radius + 0.5 * width, ink);
             self.disc(center, radius - 0.5 * width, style::PAPER);
         }

@@ -48,6 +48,8 @@ const BRACKETS: f64 = 34.0;
 const BETWEEN_LINES: f64 = 22.0;
 /// Koma on a line where poses are wide.
 const FEWER: [usize; 4] = [8, 6, 4, 2];
+/// How far apart figures are against the width of the widest: few are that wide, and arms may cross.
+const APART: f64 = 0.8;
 /// How much paper a repeated figure is mixed with.
 const REPEATED: f64 = 0.72;
 
@@ -78,7 +80,7 @@ impl Strip {
         let cells = cells(layer);
         let (stage, in_line, column) = self.stage(clip, &source, &result);
         let lines = koma.div_ceil(in_line);
-        let passed = passed_over(&cells, (0..koma).map(place));
+        let passed = passed_over(&cells, (0..koma).map(place), sheet.clock.frames_in_koma());
         let drawing = Lines {
             stage,
             source,
@@ -117,24 +119,24 @@ impl Strip {
         let room = f64::from(self.width) - 2.0 * style::MARGIN - SIDE;
         let high = f64::from(self.figure_height);
         let wide = size.0 * fitting(size, (room, high));
-        let fits = |koma: &usize| room / *koma as f64 >= wide;
+        let fits = |koma: &usize| room / *koma as f64 >= APART * wide;
         let fewer = FEWER.into_iter().filter(|koma| *koma < self.in_line);
         let in_line = [self.in_line].into_iter().chain(fewer).find(fits).unwrap_or(1);
         let column = room / in_line as f64;
-        let scale = fitting(size, (column, high));
+        let scale = fitting(size, (column / APART, high));
         (Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) }, in_line, column)
     }
 }
 
-/// Which koma of the source nothing stands for: those that lie between two drawings, some between
-/// which naka-nashi left out.
-fn passed_over(cells: &[Cell<'_>], places: impl Iterator<Item = f64>) -> Vec<bool> {
+/// Which koma of the source nothing stands for: those further than half a koma from both of two
+/// drawings between which naka-nashi left some out.
+fn passed_over(cells: &[Cell<'_>], places: impl Iterator<Item = f64>, koma: f64) -> Vec<bool> {
     let place = |cell: &Cell<'_>| cell.drawing.source.place();
     let gap = |pair: &[Cell<'_>]| (place(&pair[0]), place(&pair[1]));
     let omits = |pair: &&[Cell<'_>]| pair[1].drawing.why.omitted_before > 0;
     let gaps: Vec<(f64, f64)> = cells.windows(2).filter(omits).map(gap).collect();
-    // A hair less than a koma's worth, so that a drawing's own instant is not counted.
-    let inside = |place: f64| gaps.iter().any(|(a, b)| place > a + 1e-6 && place < b - 1e-6);
+    let half = 0.5 * koma;
+    let inside = |place: f64| gaps.iter().any(|(a, b)| place > a + half && place < b - half);
     places.map(inside).collect()
 }
 

@@ -170,7 +170,7 @@ impl Svg {
         }
         let ink = inks.of(BodySide::Trunk);
         if let Some((center, radius)) = drawn.head {
-            let width = (0.18 * radius).clamp(0.8, 3.5);
+            let width = (0.24 * radius).clamp(0.8, 4.0);
             self.disc(center, radius, Some(style::PAPER), Some((ink, width)));
         }
         if let Some(dot) = drawn.dot {

@@ -50,7 +50,7 @@ class Stage {
 
   isFar() {
     const box = this.bounds();
-    return box.right - box.left > 3 * (box.high - box.low);
+    return box.right - box.left > 1.8 * (box.high - box.low);
   }
 
   // Puts the box into a picture of a size, below a caption.
@@ -60,7 +60,9 @@ class Stage {
     const scale = Math.min((width - 2 * pad) / (box.right - box.left), (height - top - 2 * pad) / (box.high - box.low || 1));
     this.scale = Math.min(scale, 1e6);
     this.x = width / 2 - 0.5 * (box.left + box.right) * this.scale;
-    this.floor = height - 1.5 * pad;
+    // What room is left over goes above and below.
+    const left = height - top - 2 * pad - (box.high - box.low) * this.scale;
+    this.floor = height - 1.5 * pad - 0.4 * Math.max(0, left);
     this.low = box.low;
   }
 
@@ -123,7 +125,7 @@ class Stage {
     ctx.fillStyle = colors[3];
     ctx.fill();
     ctx.strokeStyle = colors[0];
-    ctx.lineWidth = Math.min(Math.max(0.18 * radius, 0.8), 3.5);
+    ctx.lineWidth = Math.min(Math.max(0.24 * radius, 0.8), 4);
     ctx.stroke();
   }
 

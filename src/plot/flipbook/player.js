@@ -49,17 +49,18 @@ function drawStage(id, pose, skins) {
 
 function sourceSkins() {
   const near = [[-2, "old"], [2, "young"], [-1, "old"], [1, "young"]];
-  return near.filter(([by]) => take.source[state.koma + by]).map(([by, color]) => [take.source[state.koma + by], colors[color]]);
+  const skins = near.map(([step, color]) => [take.source[state.koma + step], colors[color]]);
+  return skins.filter(([pose]) => pose);
 }
 
 function resultSkins() {
   const cell = cellOf[state.koma];
-  const step = (from, by) => {
-    do from += by; while (state.keys && from >= 0 && from < take.cells.length && !isKey(from));
+  const neighbour = (from, step) => {
+    do from += step; while (state.keys && from >= 0 && from < take.cells.length && !isKey(from));
     return take.cells[from];
   };
   const from = state.keys ? keyOf[cell] : cell;
-  const skins = [[step(from, -1), "old"], [step(from, 1), "young"]];
+  const skins = [[neighbour(from, -1), "old"], [neighbour(from, 1), "young"]];
   return skins.filter(([cell]) => cell).map(([cell, color]) => [take.drawings[cell[0]].pose, colors[color]]);
 }
 
@@ -137,9 +138,9 @@ function goTo(koma) {
   draw();
 }
 
-function stepDrawing(by, wanted = () => true) {
-  let cell = cellOf[state.koma] + by;
-  while (cell >= 0 && cell < take.cells.length && !wanted(cell)) cell += by;
+function stepDrawing(step, wanted = () => true) {
+  let cell = cellOf[state.koma] + step;
+  while (cell >= 0 && cell < take.cells.length && !wanted(cell)) cell += step;
   if (cell >= 0 && cell < take.cells.length) goTo(take.cells[cell][1]);
 }
 
@@ -175,14 +176,14 @@ function look(camera, angle = 0) {
   refresh();
 }
 
-function faster(by) {
-  const speeds = [...by_options("speed")];
-  const at = speeds.indexOf(String(state.speed)) + by;
+function faster(step) {
+  const speeds = optionsOf("speed");
+  const at = speeds.indexOf(String(state.speed)) + step;
   if (speeds[at]) state.speed = Number(speeds[at]);
   started = { time: performance.now(), koma: state.koma };
 }
 
-const by_options = (id) => [...by(id).options].map((option) => option.value);
+const optionsOf = (id) => [...by(id).options].map((option) => option.value);
 const next = (list, value) => list[(list.indexOf(value) + 1) % list.length];
 const toggle = (name) => { state[name] = !state[name]; };
 
@@ -200,7 +201,7 @@ const actions = {
   onion: () => toggle("onion"),
   keys: () => toggle("keys"),
   follow: () => stage.goAlong(!stage.follow),
-  shown: () => { state.shown = next(by_options("shown"), state.shown); },
+  shown: () => { state.shown = next(optionsOf("shown"), state.shown); },
   slower: () => faster(-1),
   faster: () => faster(1),
   theme: () => toggle("dark"),

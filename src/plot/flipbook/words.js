@@ -21,11 +21,11 @@ const WORDS = {
   },
   ja: {
     left: "左", right: "右", theme: "明 / 暗", help: "キー ?", language: "English",
-    source: "素材", result: "結果", both: "並べて", koma: "コマ", time: "尺", held: "コマ撮り",
+    source: "素材", result: "結果", both: "並べて", koma: "コマ", time: "秒＋コマ", held: "コマ目",
     frame: "素材フレーム", loop: "ループ", onion: "オニオンスキン", keys: "原画のみ", follow: "追う",
     shown: "表示", camera: "カメラ", speed: "速さ", close: "閉じる", keys_title: "キー操作",
     front: "正面", side: "側面", "three-quarter": "斜め", auto: "自動", turned: "手動",
-    genga: "原画", inbetween: "中割り", end: "端", of: "/", play: "再生", stop: "停止",
+    genga: "原画", inbetween: "中割り", end: "両端", of: "/", play: "再生", stop: "停止",
     "koma-back": "1コマ戻る", "koma-on": "1コマ進む", "drawing-back": "1枚戻る", "drawing-on": "1枚進む",
     scrub: "コマ", column: "シートの列、クリックでそのコマへ", stage: "棒人間、ドラッグで回す",
     facts: (take, genga) => `尺 ${take.length}（${take.koma}コマ）・原画 ${genga}・動画 ${take.drawings.length}枚`,

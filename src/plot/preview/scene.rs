@@ -18,10 +18,10 @@ use crate::time::Clock;
 
 /// Above the figures, and below the floor.
 const TOP: f64 = 44.0;
-const BOTTOM: f64 = 66.0;
+const BOTTOM: f64 = 70.0;
 const PAD: f64 = 12.0;
 /// The bars of the sheet: how high, and how far above the lower edge.
-const BARS: (f64, f64) = (10.0, 34.0);
+const BARS: (f64, f64) = (10.0, 40.0);
 /// How many times wider than a panel a motion has to be for the camera to go along.
 const FAR: f64 = 1.6;
 

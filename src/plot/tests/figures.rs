@@ -50,7 +50,9 @@ const PAGES: [(&str, Draw); 4] = [
     ("contact", |cut, clip, sheet| ContactSheet::default().draw(cut, clip, sheet)),
     ("onion", |cut, clip, sheet| OnionSkin::default().draw(cut, clip, sheet)),
     ("strip", |cut, clip, sheet| Strip::default().draw(cut, clip, sheet)),
-    ("flip-book", |cut, clip, sheet| FlipBook::default().draw(cut, clip, sheet).map(|page| vec![page])),
+    ("flip-book", |cut, clip, sheet| {
+        FlipBook::default().draw(cut, clip, sheet).map(|page| vec![page])
+    }),
 ];
 
 /// The words of pages, one a text.
@@ -63,7 +65,9 @@ fn said(pages: &[String]) -> Vec<String> {
 fn heads(pages: &[String]) -> usize {
     // A head is the one white disc with an edge that is not a number's: those are 1.25 wide.
     let is_head = |line: &&str| {
-        line.starts_with("<circle") && line.contains("fill=\"#ffffff\" stroke=") && !line.contains("stroke-width=\"1.3\"")
+        line.starts_with("<circle")
+            && line.contains("fill=\"#ffffff\" stroke=")
+            && !line.contains("stroke-width=\"1.3\"")
     };
     pages.iter().map(|page| page.lines().filter(is_head).count()).sum()
 }
@@ -130,7 +134,15 @@ fn a_contact_sheet_has_a_card_a_genga_and_inbetweens_if_asked() {
     let pages = ContactSheet::default().draw("cut", &clip, &sheet).unwrap();
     assert_eq!(heads(&pages), 3);
     let words = said(&pages);
-    for text in ["koma 1", "koma 4", "koma 8", "frame 4 · 3 koma", "&lt;hit&gt;", "drawing 3", "0+3"] {
+    for text in [
+        "koma 1",
+        "koma 4",
+        "koma 8",
+        "frame 4 · 3 koma",
+        "&lt;hit&gt; · 中無し 2",
+        "drawing 3",
+        "0+3",
+    ] {
         assert!(words.contains(&text.to_owned()), "{text}: {words:?}");
     }
     assert!(!words.contains(&"koma 2".to_owned()));
@@ -195,7 +207,10 @@ fn numbers_are_those_of_the_key_table() {
     let (_, sheet) = walk();
     let cells = cells(&sheet.layers[0]);
     let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
-    assert_eq!(numbers, [(1, Some(1), 0), (2, None, 1), (3, Some(2), 3), (4, None, 6), (5, Some(3), 7)]);
+    assert_eq!(
+        numbers,
+        [(1, Some(1), 0), (2, None, 1), (3, Some(2), 3), (4, None, 6), (5, Some(3), 7)]
+    );
 }
 
 #[test]
@@ -223,7 +238,10 @@ fn a_flip_book_has_the_sheet_and_every_pose_in_steps_of_the_height() {
     assert_eq!((&take["koma"], &take["length"]), (&8.into(), &"0+8".into()));
     assert_eq!(take["cells"].to_string(), "[[0,0,1],[1,1,2],[2,3,3],[3,6,1],[4,7,1]]");
     assert_eq!(take["source"].as_array().unwrap().len(), 8);
-    assert_eq!((&take["drawings"][2]["genga"], &take["drawings"][1]["genga"]), (&2.into(), &Value::Null));
+    assert_eq!(
+        (&take["drawings"][2]["genga"], &take["drawings"][1]["genga"]),
+        (&2.into(), &Value::Null)
+    );
     // The walker is 170 high from foot to tip; the root of frame 4 has gone 40 along −X and is 90 up.
     let steps = |length: f64| Value::from((length / 170.0 * 1000.0).round() as i64);
     let pose = take["drawings"][2]["pose"].as_array().unwrap();
@@ -259,7 +277,10 @@ fn degenerate_clips_give_pages_without_a_wrong_number() {
 fn the_same_clip_and_sheet_give_the_same_pages() {
     let (clip, sheet) = walk();
     for (name, draw) in PAGES {
-        assert!(draw("cut", &clip, &sheet).unwrap() == draw("cut", &clip, &sheet).unwrap(), "{name}");
+        assert!(
+            draw("cut", &clip, &sheet).unwrap() == draw("cut", &clip, &sheet).unwrap(),
+            "{name}"
+        );
     }
 }
 

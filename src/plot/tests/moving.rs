@@ -20,10 +20,13 @@ fn images(settings: &NumberedImages, clip: &Clip, sheet: &Sheet) -> Vec<(String,
 fn edges(png: &[u8]) -> (usize, usize) {
     let map = Pixmap::decode_png(png).unwrap();
     let width = map.width() as usize;
-    let dark = map.pixels().iter().enumerate().filter(|(_, pixel)| pixel.blue() < 128 && pixel.alpha() > 128);
-    let (left, low) = dark.fold((usize::MAX, 0), |(left, low), (at, _)| {
-        (left.min(at % width), low.max(at / width))
-    });
+    let dark = map
+        .pixels()
+        .iter()
+        .enumerate()
+        .filter(|(_, pixel)| pixel.blue() < 128 && pixel.alpha() > 128);
+    let (left, low) = dark
+        .fold((usize::MAX, 0), |(left, low), (at, _)| (left.min(at % width), low.max(at / width)));
     (left, low)
 }
 
@@ -136,7 +139,8 @@ fn a_preview_shows_the_result_held_while_the_source_goes_on() {
     let (clip, sheet) = walk();
     let played = played(&preview(&Preview::default(), &clip, &sheet).0);
     let figures = |picture: &[u8], half: usize| -> Vec<u8> {
-        let rows = (50..270).map(|row| 4 * (row * 640 + half * 320 + 4)..4 * (row * 640 + half * 320 + 316));
+        let rows = (50..270)
+            .map(|row| 4 * (row * 640 + half * 320 + 4)..4 * (row * 640 + half * 320 + 316));
         rows.flat_map(|row| picture[row].to_vec()).collect()
     };
     let held = sheet.layers[0].koma().collect::<Vec<_>>();
@@ -164,9 +168,11 @@ fn degenerate_clips_move_too() {
     let point = Clip::new(skeleton, rate(24.0), Frame(0), 1, vec![1e7, -3.0, 0.5]).unwrap();
     for clip in [walk, point] {
         let sheet = Sheet::on_ones(clip.clock(24.0), 1);
-        let small = NumberedImages { width: 64, height: 64, marks: true, ..NumberedImages::default() };
+        let small =
+            NumberedImages { width: 64, height: 64, marks: true, ..NumberedImages::default() };
         assert_eq!(images(&small, &clip, &sheet).len(), 1);
-        let (bytes, _) = preview(&Preview { width: 320, height: 200, ..Preview::default() }, &clip, &sheet);
+        let (bytes, _) =
+            preview(&Preview { width: 320, height: 200, ..Preview::default() }, &clip, &sheet);
         assert_eq!(played(&bytes).len(), 1);
     }
 }
@@ -174,7 +180,8 @@ fn degenerate_clips_move_too() {
 #[test]
 fn the_same_clip_and_sheet_give_the_same_pixels() {
     let (clip, sheet) = walk();
-    let settings = NumberedImages { width: 160, height: 90, marks: true, ..NumberedImages::default() };
+    let settings =
+        NumberedImages { width: 160, height: 90, marks: true, ..NumberedImages::default() };
     assert!(images(&settings, &clip, &sheet) == images(&settings, &clip, &sheet));
     let small = Preview { width: 320, height: 200, ..Preview::default() };
     assert!(preview(&small, &clip, &sheet) == preview(&small, &clip, &sheet));
