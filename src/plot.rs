@@ -2,7 +2,7 @@
 //!
 //! A picture is a settings struct with one verb, `draw`. Same input, same bytes: no time stamps and
 //! no order that could change. Text names a list of fonts; the last, `sans-serif`, is always there.
-//! Charts are drawn with a library, figures by [`svg`]; only what is by the hundred goes straight to
+//! Charts are drawn with a library, figures by an SVG writer of our own; only what is by the hundred goes straight to
 //! pixels.
 
 mod axis;

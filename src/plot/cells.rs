@@ -53,7 +53,8 @@ impl Cell<'_> {
             [one] => reasons.push(one.clone()),
             [first, others @ ..] => reasons.push(format!("{first} +{}", others.len())),
         }
-        if let Some(price) = why.price {
+        // No room for both.
+        if let Some(price) = why.price.filter(|_| why.omitted_before == 0) {
             reasons.push(format!("{price:.1} %"));
         }
         reasons.join(" · ")

@@ -137,6 +137,9 @@ impl Svg {
 
     /// A text whose base line goes through the point. Control characters become spaces.
     pub(super) fn text(&mut self, text: &str, (x, base): Point, look: Type) {
+        if text.is_empty() {
+            return;
+        }
         let anchor = match look.align {
             Align::Left => "",
             Align::Center => " text-anchor=\"middle\"",

@@ -65,7 +65,8 @@ fn an_image_a_drawing_is_numbered_as_the_cell_column() {
 #[test]
 fn all_images_have_one_frame_so_that_the_way_gone_is_kept() {
     let (clip, sheet) = walk();
-    let settings = NumberedImages { width: 640, height: 360, ..NumberedImages::default() };
+    let camera = Camera::Side;
+    let settings = NumberedImages { camera, width: 640, height: 360, ..NumberedImages::default() };
     let images = images(&settings, &clip, &sheet);
     let edges: Vec<_> = images.iter().map(|(_, png)| edges(png)).collect();
     // The walker goes 10 a frame on a stage of 180 that fills 90 − 20 % of the height.
