@@ -78,6 +78,21 @@ for (const key of ["o", "t", "1"]) {
   await press(key === "1" ? "4" : key);
   assert.equal(await ink("#result canvas"), plain, `${key} comes back`);
 }
+const box = await (await page.$("#result canvas")).boundingBox();
+await page.mouse.move(box.x + 100, box.y + 100);
+await page.mouse.down();
+await page.mouse.move(box.x + 180, box.y + 100);
+await page.mouse.up();
+assert.notEqual(await ink("#result canvas"), plain, "a figure is turned by hand");
+assert.equal(await page.inputValue("#camera"), "turned");
+await page.selectOption("#camera", "auto");
+assert.equal(await ink("#result canvas"), plain, "and turned back");
+await page.click("#bars", { position: { x: 1, y: 8 } });
+await shows(0, "a click on the bars");
+const column = await (await page.$("#column")).boundingBox();
+await page.click("#column", { position: { x: 40, y: 30 } });
+await shows(Math.min(1, last), `a click on the second row of ${column.height} px`);
+await page.fill("#scrub", String(middle + 1));
 await press("s");
 assert.ok(!(await page.isVisible("#result")) && (await page.isVisible("#source")), "source alone");
 await press("s");
