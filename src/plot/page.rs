@@ -58,5 +58,7 @@ pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let genga = layer.drawings.iter().filter(|drawing| drawing.role != Role::Inbetween).count();
     let drawings = layer.drawings.len();
     let plural = if drawings == 1 { "" } else { "s" };
-    format!("尺 {length} ({koma} koma) · genga and ends 原画 {genga} · {drawings} drawing{plural} 動画")
+    format!(
+        "尺 {length} ({koma} koma) · genga and ends 原画 {genga} · {drawings} drawing{plural} 動画"
+    )
 }

@@ -46,6 +46,7 @@ impl Bounds {
         self.right - self.left
     }
 
+    #[cfg(feature = "cli")]
     pub(super) fn height(&self) -> f64 {
         self.top - self.floor
     }
@@ -66,6 +67,7 @@ pub(super) struct Stage {
 
 impl Stage {
     /// The stage on which a box fills as much of a picture as it can: in the middle, on the floor.
+    #[cfg(feature = "cli")]
     pub(super) fn filling(
         figure: Figure,
         view: View,

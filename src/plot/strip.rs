@@ -201,7 +201,7 @@ impl Lines<'_> {
     fn koma_number(&self, svg: &mut Svg, koma: usize, at: Point) {
         let second = self.koma_rate.round().max(1.0) as usize;
         let look = Type::new(style::SMALL).align(Align::Center);
-        if koma % second == 0 {
+        if koma.is_multiple_of(second) {
             let text = format!("{} · {}", koma + 1, seconds_and_koma(koma, self.koma_rate));
             svg.text(&text, at, look.bold());
         } else {

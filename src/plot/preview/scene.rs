@@ -115,7 +115,8 @@ impl<'a> Scene<'a> {
         let half = (0.25 * self.size.0 - PAD) / stage.scale;
         let (from, to) = ((stage.origin.0 - half) / step, (stage.origin.0 + half) / step);
         // A body without height has no step.
-        if !(to - from < 200.0) {
+        let count = to - from;
+        if count.is_nan() || count > 200.0 {
             return;
         }
         for tick in from.ceil() as i64..=to.floor() as i64 {
