@@ -4,6 +4,7 @@
 
 mod cut;
 mod drawings;
+mod figures;
 mod format;
 mod koma;
 mod limited_bvh;
@@ -20,6 +21,7 @@ mod xsheet;
 
 pub use cut::Cut;
 pub use drawings::{Drawings, Rows};
+pub use figures::FigureSettings;
 pub use format::{FORMATS, Format, Sink};
 pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::{keys_bvh, limited_bvh};

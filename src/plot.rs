@@ -1,27 +1,55 @@
-//! **Show** (見る): pictures of what was measured and decided, as SVG text.
+//! **Show** (見る): pictures of what was measured and decided.
 //!
 //! A picture is a settings struct with one verb, `draw`. Same input, same bytes: no time stamps and
 //! no order that could change. Text names a list of fonts; the last, `sans-serif`, is always there.
+//! Charts are drawn with a library, figures by an SVG writer of our own; only what is by the hundred goes straight to
+//! pixels.
 
 mod axis;
+mod camera;
 mod canvas;
+mod cells;
+mod contact;
+mod figure;
+mod flipbook;
+#[cfg(feature = "cli")]
+mod images;
+mod onion;
+mod page;
+#[cfg(feature = "cli")]
+mod pixels;
+mod points;
 mod pose_row;
+#[cfg(feature = "cli")]
+mod preview;
 #[cfg(feature = "cli")]
 mod raster;
 mod sheet;
 mod speed;
+mod stage;
+mod strip;
 mod study;
 mod style;
+mod svg;
 mod view;
 mod xsheet;
 
 #[cfg(test)]
 mod tests;
 
+pub use camera::Camera;
+pub use contact::ContactSheet;
+pub use flipbook::FlipBook;
+#[cfg(feature = "cli")]
+pub use images::NumberedImages;
+pub use onion::OnionSkin;
 pub use pose_row::PoseRow;
+#[cfg(feature = "cli")]
+pub use preview::Preview;
 #[cfg(feature = "cli")]
 pub use raster::png_from_svg;
 pub use sheet::SheetPlot;
 pub use speed::SpeedPlot;
+pub use strip::Strip;
 pub use study::{StudyCount, StudyPlot, StudyRow};
 pub use xsheet::{HoldLine, InbetweenMark, XSheet};

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 use crate::deliver::FORMATS;
+use crate::plot::Camera;
 use crate::time::{FrameRate, Span};
 use crate::timing::Amount;
 
@@ -116,6 +117,10 @@ pub(super) struct FormatArgs {
     /// A BVH with these rows: the formats bvh and bvh-keys by other words.
     #[arg(long, value_name = "ROWS")]
     pub(super) bvh: Option<BvhRows>,
+    /// From where the pictures of figures are seen: front, side, three-quarter, or auto, from where most of
+    /// the movement is seen.
+    #[arg(long, value_name = "CAMERA")]
+    pub(super) camera: Option<Camera>,
     /// One setting of a format: --with csv.bom=true (may be given again).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
     pub(super) with: Vec<(String, String)>,

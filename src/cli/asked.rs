@@ -32,6 +32,9 @@ impl Asked {
         let names = names.iter().map(String::as_str).chain(bvh).chain(always.iter().copied());
         let formats = Format::find_all(names).map_err(|error| wrongly(option, &error))?;
         let mut settings = Settings::default();
+        if let Some(camera) = args.camera {
+            settings.look_from(camera);
+        }
         for (name, value) in &args.with {
             settings.set(name, value).map_err(|error| wrongly("with", &error))?;
         }

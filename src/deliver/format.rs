@@ -4,7 +4,8 @@ use std::fmt;
 
 use crate::deliver::settings::Settings;
 use crate::deliver::{
-    Cut, Drawings, Rows, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv, sheet_json, xsheet,
+    Cut, Drawings, Rows, figures, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv,
+    sheet_json, xsheet,
 };
 use crate::error::{Error, Warning};
 
@@ -118,6 +119,50 @@ pub const FORMATS: &[Format] = &[
         japanese: "ポーズの図",
         files: &["poses.svg"],
         make: |cut, _, put| put("poses.svg", pictures::poses(cut)?.as_bytes()),
+    },
+    Format {
+        name: "strip",
+        help: "picture: source above, result below, koma by koma",
+        japanese: "素材と結果",
+        files: &["strip.svg"],
+        make: figures::strip,
+    },
+    Format {
+        name: "contact",
+        help: "picture: contact sheet of the genga",
+        japanese: "原画一覧",
+        files: &["contact.svg"],
+        make: figures::contact,
+    },
+    Format {
+        name: "onion",
+        help: "picture: the drawings from each genga to the next through each other",
+        japanese: "オニオンスキン",
+        files: &["onion.svg"],
+        make: figures::onion,
+    },
+    Format {
+        name: "flipbook",
+        help: "a page to play and step through in any browser",
+        japanese: "パラパラ",
+        files: &["flipbook.html"],
+        make: figures::flipbook,
+    },
+    #[cfg(feature = "cli")]
+    Format {
+        name: "preview",
+        help: "source beside result, moving",
+        japanese: "プレビュー",
+        files: &["preview.gif"],
+        make: figures::preview,
+    },
+    #[cfg(feature = "cli")]
+    Format {
+        name: "images",
+        help: "a picture a drawing, numbered as the sheet, to draw over",
+        japanese: "連番画像",
+        files: &["images/A_0001.png"],
+        make: figures::images,
     },
 ];
 

@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use crate::deliver::Vmd;
 use crate::deliver::xdts::Xdts;
+use crate::deliver::{FigureSettings, Vmd};
 use crate::error::Error;
-use crate::plot::XSheet;
+use crate::plot::{ContactSheet, FlipBook, OnionSkin, Strip, XSheet};
+#[cfg(feature = "cli")]
+use crate::plot::{NumberedImages, Preview};
 
 /// The settings of every format, by its name. A new format's are a field here.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -20,6 +22,22 @@ pub struct Settings {
     pub xsheet: XSheet,
     /// The motion for MikuMikuDance.
     pub vmd: Vmd,
+    /// All pictures of figures.
+    pub figures: FigureSettings,
+    /// Source above, result below.
+    pub strip: Strip,
+    /// The genga one by one.
+    pub contact: ContactSheet,
+    /// Neighbouring drawings through each other.
+    pub onion: OnionSkin,
+    /// The page that plays the sheet.
+    pub flipbook: FlipBook,
+    /// Source beside result, moving.
+    #[cfg(feature = "cli")]
+    pub preview: Preview,
+    /// A picture a drawing.
+    #[cfg(feature = "cli")]
+    pub images: NumberedImages,
 }
 
 /// How tables are written.
@@ -43,7 +61,16 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        self.vmd.validate()
+        self.vmd.validate()?;
+        self.strip.validate()?;
+        self.contact.validate()?;
+        self.onion.validate()?;
+        #[cfg(feature = "cli")]
+        {
+            self.preview.validate()?;
+            self.images.validate()?;
+        }
+        Ok(())
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.

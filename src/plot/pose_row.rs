@@ -1,16 +1,18 @@
 //! Poses in a row as stick figures (棒人間).
 
 use glam::DVec3;
-use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{Body, Clip, Joint, Pose, Skeleton};
+use crate::motion::{Clip, Skeleton};
 use crate::plot::axis::number;
+use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::figure::{BodySide, Figure};
+use crate::plot::points::Posing;
 use crate::plot::style;
-use crate::plot::view::{View, extent};
-use crate::sheet::Role;
+use crate::plot::view::View;
+use crate::sheet::{Role, Source};
 
 /// Stick figures (棒人間) of some drawings, side by side, on one floor and of one scale.
 ///
@@ -24,11 +26,13 @@ pub struct PoseRow {
     pub figure_height: u32,
     /// Figures on a line at most, 1 or more; default 12. Wide poses get fewer.
     pub in_line: usize,
+    /// Figures at most, from the first on, 1 or more; default 300. The picture says what is left out.
+    pub most: usize,
 }
 
 impl Default for PoseRow {
     fn default() -> Self {
-        Self { width: 1200, figure_height: 170, in_line: 12 }
+        Self { width: 1200, figure_height: 170, in_line: 12, most: 300 }
     }
 }
 
@@ -39,67 +43,13 @@ const BETWEEN_LINES: f64 = 16.0;
 /// The narrowest picture: its title has to fit.
 const NARROWEST: f64 = 380.0;
 
-/// Which side of the body a joint belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum BodySide {
-    Left,
-    Right,
-    Trunk,
-}
-
-impl BodySide {
-    /// Reads it from the usual names: LeftArm, r_hand, LThumb, Arm.L.
-    pub(super) fn of(name: &str) -> Self {
-        let lower = name.to_lowercase();
-        let mut letters = name.chars();
-        let (first, second) = (letters.next(), letters.next());
-        let begins = second.is_some_and(|second| second.is_uppercase() || "_-. ".contains(second));
-        let marked = |side: char| {
-            let ends = ['_', '.', '-', ' ']
-                .iter()
-                .any(|dash| lower.ends_with([*dash, side].iter().collect::<String>().as_str()));
-            ends || begins && first.is_some_and(|first| first.eq_ignore_ascii_case(&side))
-        };
-        if lower.contains("left") {
-            Self::Left
-        } else if lower.contains("right") {
-            Self::Right
-        } else if marked('l') {
-            Self::Left
-        } else if marked('r') {
-            Self::Right
-        } else {
-            Self::Trunk
-        }
-    }
-
-    fn color(self) -> RGBColor {
-        match self {
-            Self::Left => style::LEFT,
-            Self::Right => style::RIGHT,
-            Self::Trunk => style::INK,
-        }
-    }
-}
-
-/// A line from one point of a pose to another.
-struct Bone {
-    from: usize,
-    to: usize,
-    side: BodySide,
-}
-
-/// What the figures have in common.
-struct Figures {
-    bones: Vec<Bone>,
-    /// The joint of the head and the point that ends it.
-    head: Option<(usize, usize)>,
+/// The figures of a row, on one floor and of one scale.
+struct Row {
+    figure: Figure,
     view: View,
     floor: f64,
     /// px for a unit of the file.
     scale: f64,
-    /// The body's height in units of the file, at rest in the first pose.
-    height: f64,
 }
 
 impl PoseRow {
@@ -109,14 +59,9 @@ impl PoseRow {
     /// [`Error::Setting`] for a size that cannot be drawn or no figure on a line.
     pub fn validate(&self) -> Result<(), Error> {
         style::check_size("width", self.width, 200)?;
-        if !(40..=2000).contains(&self.figure_height) {
-            let message = format!("{} px; it must be between 40 and 2000", self.figure_height);
-            return Err(Error::setting("figure_height", message));
-        }
-        if self.in_line == 0 {
-            return Err(Error::setting("in_line", "0 figures; it must be 1 or more"));
-        }
-        Ok(())
+        style::check_figure(self.figure_height)?;
+        style::check_some("in_line", self.in_line)?;
+        style::check_some("most", self.most)
     }
 
     /// Draws poses of a clip as SVG, each given by its place in the source, its label and its role.
@@ -137,8 +82,9 @@ impl PoseRow {
         if !frames.iter().all(|(place, ..)| place.is_finite()) {
             return Err(style::cannot("a pose's place in the source must be a number"));
         }
-        let poses = points(clip, frames);
-        let mut figures = figures(clip.skeleton(), &poses);
+        let (all, frames) = (frames.len(), &frames[..frames.len().min(self.most)]);
+        let poses = Posing::of(clip).all(frames.iter().map(|frame| Source::At(frame.0)));
+        let mut figures = Row::of(clip.skeleton(), &poses);
         let (widest, tallest) = figures.size(&poses);
         let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;
         figures.scale =
@@ -158,7 +104,7 @@ impl PoseRow {
         let width = width.min(f64::from(self.width).max(NARROWEST));
         let height = HEAD + line * lines as f64 + 10.0;
         paint((width.ceil() as u32, height.ceil() as u32), |canvas| {
-            head(canvas)?;
+            head(canvas, (frames.len(), all))?;
             for (at, row) in frames.chunks(in_line).enumerate() {
                 let floor = HEAD + line * at as f64 + 12.0 + high;
                 let end = style::MARGIN + cell * row.len() as f64;
@@ -174,58 +120,18 @@ impl PoseRow {
     }
 }
 
-/// The points of every pose: the joints, then the tips in the order of their joints.
-fn points(clip: &Clip, frames: &[(f64, String, Role)]) -> Vec<Vec<DVec3>> {
-    let skeleton = clip.skeleton();
-    let mut pose = Pose::rest(skeleton);
-    let mut body = Body::new(skeleton);
-    let mut joints = vec![DVec3::ZERO; skeleton.len()];
-    let mut place = |place: f64| {
-        pose.take_place(clip, place);
-        body.place(&pose, &mut joints);
-        let mut points = joints.clone();
-        for (joint, data) in skeleton.iter() {
-            let tip = |offset: DVec3| joints[joint.0] + body.rotations()[joint.0] * offset;
-            points.extend(data.end_sites.iter().map(|end| tip(end.offset)));
-        }
-        points
-    };
-    frames.iter().map(|frame| place(frame.0)).collect()
-}
-
-fn figures(skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Figures {
-    let mut bones = Vec::new();
-    for (joint, data) in skeleton.iter() {
-        if let Some(parent) = data.parent {
-            bones.push(Bone { from: parent.0, to: joint.0, side: BodySide::of(&data.name) });
-        }
-    }
-    let mut tip = skeleton.len();
-    for (joint, data) in skeleton.iter() {
-        for _ in &data.end_sites {
-            bones.push(Bone { from: joint.0, to: tip, side: BodySide::of(&data.name) });
-            tip += 1;
-        }
-    }
-    let is_head = |joint: &Joint| joint.name.to_lowercase().contains("head");
-    let head = skeleton.joints.iter().position(is_head);
-    let end = |joint: usize| bones.iter().find(|bone| bone.from == joint).map(|bone| bone.to);
-    let head = head.map(|joint| (joint, end(joint).unwrap_or(joint)));
-    let view = View::of(poses);
-    let up = |point: &DVec3| view.see(*point).1;
-    let floor = poses.iter().flatten().map(up).fold(f64::INFINITY, f64::min);
-    let height = extent(&poses[0]).dot(view.up).abs();
-    Figures { bones, head, view, floor, scale: 1.0, height }
-}
-
-/// The title and which colour is which side.
-fn head(canvas: &mut Canvas<'_>) -> Result<(), Error> {
+/// The title, which colour is which side, and how many figures of how many there are.
+fn head(canvas: &mut Canvas<'_>, (shown, all): (usize, usize)) -> Result<(), Error> {
     canvas.text("Poses ポーズ", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
     let mut x = 170.0;
     for (side, word) in [(BodySide::Left, "left 左"), (BodySide::Right, "right 右")] {
         canvas.line((x, 29.0), (x + 20.0, 29.0), side.color(), 4.0)?;
         canvas.text(word, (x + 26.0, 34.0), Type::new(style::WORDS))?;
         x += style::text_width(word, style::WORDS) + 46.0;
+    }
+    if shown < all {
+        let words = format!("the first {shown} of {all}");
+        canvas.text(&words, (x, 34.0), Type::new(style::WORDS).color(style::FAINT))?;
     }
     Ok(())
 }
@@ -247,12 +153,19 @@ fn label(
     canvas.text(&frame, (x, floor + 34.0), look)
 }
 
-impl Figures {
+impl Row {
+    fn of(skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Self {
+        let view = Camera::Auto.view(skeleton, poses);
+        let up = |point: &DVec3| view.see(*point).1;
+        let floor = poses.iter().flatten().map(up).fold(f64::INFINITY, f64::min);
+        Self { figure: Figure::of(skeleton, &poses[0], view.up), view, floor, scale: 1.0 }
+    }
+
     /// The largest width of a figure and the largest height over the floor, in units of the file.
     fn size(&self, poses: &[Vec<DVec3>]) -> (f64, f64) {
-        let radius = self.head_radius(&poses[0]);
+        let radius = self.figure.head_radius(&poses[0]);
         let size = |pose: &Vec<DVec3>| {
-            let (low, high) = self.sides(pose);
+            let (low, high) = self.view.sides(pose);
             let top = pose.iter().map(|point| self.view.see(*point).1 - self.floor);
             (high - low, top.fold(0.0, f64::max))
         };
@@ -263,60 +176,30 @@ impl Figures {
         (wide + radius, high + radius)
     }
 
-    /// The leftmost and the rightmost point of a figure.
-    fn sides(&self, pose: &[DVec3]) -> (f64, f64) {
-        let start = (f64::INFINITY, f64::NEG_INFINITY);
-        pose.iter().fold(start, |(low, high), point| {
-            let x = self.view.see(*point).0;
-            (low.min(x), high.max(x))
-        })
-    }
-
-    fn head_radius(&self, pose: &[DVec3]) -> f64 {
-        let length = self.head.map_or(0.0, |(joint, end)| (pose[end] - pose[joint]).length());
-        (0.55 * length).clamp(0.045 * self.height, 0.085 * self.height)
-    }
-
-    /// One figure, its middle over `x`, its bones from the far to the near.
+    /// One figure, its middle over `x`.
     fn draw(
         &self,
         canvas: &mut Canvas<'_>,
         pose: &[DVec3],
         (x, floor): Point,
     ) -> Result<(), Error> {
-        let (low, high) = self.sides(pose);
+        let (low, high) = self.view.sides(pose);
         let middle = 0.5 * (low + high);
         let at = |point: DVec3| {
             let (right, up, _) = self.view.see(point);
             (x + (right - middle) * self.scale, floor - (up - self.floor) * self.scale)
         };
-        let depth = |bone: &&Bone| self.view.see(pose[bone.from] + pose[bone.to]).2;
-        let mut bones: Vec<&Bone> = self.bones.iter().collect();
-        bones.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
-        for bone in bones {
-            let (from, to) = (pose[bone.from], pose[bone.to]);
-            let width = self.width(bone.side, (to - from).length());
-            canvas.line(at(from), at(to), bone.side.color(), width)?;
-            canvas.disc(at(to), 0.5 * width, bone.side.color())?;
+        let drawn = self.figure.draw(pose, &self.view, self.scale, at);
+        for stroke in drawn.strokes {
+            canvas.line(stroke.from, stroke.to, stroke.side.color(), stroke.width)?;
+            canvas.disc(stroke.to, 0.5 * stroke.width, stroke.side.color())?;
         }
-        if let Some((joint, end)) = self.head {
-            let radius = self.head_radius(pose) * self.scale;
-            canvas.ring(at(0.5 * (pose[joint] + pose[end])), radius, style::INK, 2.0)?;
+        if let Some((center, radius)) = drawn.head {
+            canvas.ring(center, radius, style::INK, 2.0)?;
         }
-        if self.bones.is_empty() {
-            canvas.disc(at(pose[0]), 4.0, style::INK)?;
+        if let Some(dot) = drawn.dot {
+            canvas.disc(dot, 4.0, style::INK)?;
         }
         Ok(())
-    }
-
-    /// px: the trunk is thick, fingers and toes are thin.
-    fn width(&self, side: BodySide, length: f64) -> f64 {
-        let size = (self.scale * self.height / 170.0).clamp(0.4, 3.0);
-        let width = match side {
-            BodySide::Trunk => 5.0,
-            _ if length < 0.035 * self.height => 1.5,
-            _ => 3.25,
-        };
-        (width * size).max(1.0)
     }
 }

@@ -38,6 +38,14 @@ const MOST: f32 = 32_000.0;
 /// [`Error::Setting`] for a scale that is not above 0; [`Error::Picture`] when the text is no SVG or
 /// the picture has no px or more than 32000 on a side.
 pub fn png_from_svg(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
+    pixels_from_svg(svg, scale)?.encode_png().map_err(|error| cannot(error.to_string()))
+}
+
+/// The picture as pixels.
+///
+/// # Errors
+/// Those of [`png_from_svg`].
+pub(super) fn pixels_from_svg(svg: &str, scale: f32) -> Result<Pixmap, Error> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(Error::setting("scale", format!("{scale}; it must be above 0")));
     }
@@ -52,7 +60,7 @@ pub fn png_from_svg(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
     let mut pixels = Pixmap::new(width.round() as u32, height.round() as u32)
         .ok_or_else(|| cannot(format!("{width} × {height} px is no picture")))?;
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| cannot(error.to_string()))
+    Ok(pixels)
 }
 
 /// The system's fonts, read once: it takes a while.

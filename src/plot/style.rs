@@ -113,7 +113,32 @@ pub(super) fn check_size(name: &str, px: u32, least: u32) -> Result<(), Error> {
     }
 }
 
+/// Refuses a height of figures in px that nobody can look at.
+///
+/// # Errors
+/// [`Error::Setting`] outside 40 to 2000 px.
+pub(super) fn check_figure(px: u32) -> Result<(), Error> {
+    if (40..=2000).contains(&px) {
+        return Ok(());
+    }
+    Err(Error::setting("figure_height", format!("{px} px; it must be between 40 and 2000")))
+}
+
+/// Refuses a count of nothing.
+///
+/// # Errors
+/// [`Error::Setting`] for 0.
+pub(super) fn check_some(name: &str, count: usize) -> Result<(), Error> {
+    if count == 0 { Err(Error::setting(name, "0; it must be 1 or more")) } else { Ok(()) }
+}
+
 /// An error about what should be drawn.
 pub(super) fn cannot(message: impl Into<String>) -> Error {
     Error::Picture { message: message.into() }
+}
+
+/// A colour with so much of another in it, 0 to 1.
+pub(super) fn mixed(color: RGBColor, other: RGBColor, share: f64) -> RGBColor {
+    let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
+    RGBColor(mix(color.0, other.0), mix(color.1, other.1), mix(color.2, other.2))
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use nalgebra::DMatrix;
 
 use super::canvas::{Align, Type, paint};
-use super::pose_row::BodySide;
+use super::figure::BodySide;
 use super::sheet::fate::{Fate, fates};
 use super::view::View;
 use super::*;
@@ -13,6 +13,10 @@ use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
 use crate::signal::{Signals, Turn, TurnKind, Unit};
 use crate::time::{Clock, Frame, FrameRate};
+
+mod figures;
+#[cfg(feature = "cli")]
+mod moving;
 
 const GENGA: &str = "#C83210";
 const END: &str = "#30343C";

@@ -24,7 +24,7 @@ impl View {
     pub(super) fn of(poses: &[Vec<DVec3>]) -> Self {
         let first = poses.first().map_or(&[][..], Vec::as_slice);
         let extent = extent(first);
-        let up = if extent.z > CLEARLY * extent.y { DVec3::Z } else { DVec3::Y };
+        let up = up(first);
         // Both cross products turn from `right` over `up` to `near`.
         let (a, b) = if up == DVec3::Z { (DVec3::X, DVec3::Y) } else { (DVec3::Z, DVec3::X) };
         let roots: Vec<DVec3> = poses.iter().filter_map(|pose| pose.first().copied()).collect();
@@ -44,10 +44,30 @@ impl View {
         Self { right, up, near: right.cross(up) }
     }
 
+    /// The view from a level direction.
+    pub(super) fn from(up: DVec3, near: DVec3) -> Self {
+        Self { right: up.cross(near), up, near }
+    }
+
     /// Right, up and near of a point.
     pub(super) fn see(&self, point: DVec3) -> (f64, f64, f64) {
         (point.dot(self.right), point.dot(self.up), point.dot(self.near))
     }
+
+    /// The leftmost and the rightmost of some points.
+    pub(super) fn sides(&self, pose: &[DVec3]) -> (f64, f64) {
+        let start = (f64::INFINITY, f64::NEG_INFINITY);
+        pose.iter().fold(start, |(low, high), point| {
+            let x = self.see(*point).0;
+            (low.min(x), high.max(x))
+        })
+    }
+}
+
+/// Which way is up in a pose: Y, or Z where it is clearly taller along Z.
+pub(super) fn up(pose: &[DVec3]) -> DVec3 {
+    let extent = extent(pose);
+    if extent.z > CLEARLY * extent.y { DVec3::Z } else { DVec3::Y }
 }
 
 /// The size of the box round some points.

@@ -1,0 +1,107 @@
+//! The cells of a sheet as pictures label them: numbers, koma, names.
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::motion::Clip;
+use crate::plot::points::Posing;
+use crate::plot::style;
+use crate::sheet::{Drawing, Layer, Role, Sheet};
+
+/// A drawing on screen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell<'a> {
+    pub(super) drawing: &'a Drawing,
+    /// Its index in the layer.
+    pub(super) index: usize,
+    /// The number of a kept drawing among the kept, from 1, as in the key table.
+    pub(super) genga: Option<usize>,
+    /// The koma it begins on, from 0.
+    pub(super) koma: usize,
+    /// Koma on screen.
+    pub(super) held: usize,
+}
+
+impl Cell<'_> {
+    /// The number in the CELL column, from 1.
+    pub(super) fn number(&self) -> usize {
+        self.index + 1
+    }
+
+    /// Whether a person asked for it.
+    pub(super) fn is_pinned(&self) -> bool {
+        self.drawing.why.pinned.is_some()
+    }
+
+    /// In a few words: what a person called it, or why it is there.
+    pub(super) fn reason(&self) -> String {
+        let why = &self.drawing.why;
+        let mut reasons = Vec::new();
+        match why.pinned.as_deref() {
+            Some("") => reasons.push("pinned".to_owned()),
+            Some(name) => reasons.push(name.to_owned()),
+            None => {}
+        }
+        if why.omitted_before > 0 {
+            reasons.push(format!("中無し {}", why.omitted_before));
+        }
+        if why.rest {
+            reasons.push("rest 止め".to_owned());
+        }
+        match why.voters.as_slice() {
+            [] => {}
+            [one] => reasons.push(one.clone()),
+            [first, others @ ..] => reasons.push(format!("{first} +{}", others.len())),
+        }
+        // No room for both.
+        if let Some(price) = why.price.filter(|_| why.omitted_before == 0) {
+            reasons.push(format!("{price:.1} %"));
+        }
+        reasons.join(" · ")
+    }
+}
+
+/// The exposures of a layer, labelled.
+pub(super) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
+    let mut kept = 0;
+    let cell = |(koma, exposure): (usize, crate::sheet::Exposure)| {
+        let drawing = &layer.drawings[exposure.drawing];
+        kept += usize::from(drawing.role != Role::Inbetween);
+        let genga = drawing.role.is_kept().then_some(kept);
+        Cell { drawing, index: exposure.drawing, genga, koma, held: exposure.koma }
+    };
+    layer.timed().map(cell).collect()
+}
+
+/// The layer that pictures show, the first, after a look at whether it can be shown.
+///
+/// # Errors
+/// [`Error::Picture`] when there is no frame, no joint or no exposure, or an exposure or a place is
+/// none.
+pub(super) fn shown<'a>(clip: &Clip, sheet: &'a Sheet) -> Result<&'a Layer, Error> {
+    if clip.is_empty() || clip.skeleton().is_empty() {
+        return Err(style::cannot("a clip without frames or joints has no pose to draw"));
+    }
+    let layer = sheet.layers.first().filter(|layer| layer.length() > 0);
+    let layer = layer.ok_or_else(|| style::cannot("the sheet shows no drawing"))?;
+    let (name, drawings) = (&layer.name, layer.drawings.len());
+    if let Some(wrong) = layer.exposures.iter().find(|exposure| exposure.drawing >= drawings) {
+        let message = format!("layer {name} shows drawing {} but has {drawings}", wrong.drawing);
+        return Err(style::cannot(message));
+    }
+    if !layer.drawings.iter().all(|drawing| drawing.source.place().is_finite()) {
+        return Err(style::cannot("a drawing's place in the source must be a number"));
+    }
+    Ok(layer)
+}
+
+/// The points of every drawing of a layer.
+pub(super) fn drawn_poses(clip: &Clip, layer: &Layer) -> Vec<Vec<DVec3>> {
+    Posing::of(clip).all(layer.drawings.iter().map(|drawing| drawing.source))
+}
+
+/// A length of time as a sheet has it: seconds + koma.
+pub(super) fn seconds_and_koma(koma: usize, koma_rate: f64) -> String {
+    let second = koma_rate.round().max(1.0) as usize;
+    format!("{}+{}", koma / second, koma % second)
+}

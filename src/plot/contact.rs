@@ -1,0 +1,179 @@
+//! The contact sheet of the genga (原画一覧).
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::Clip;
+use crate::plot::axis::number;
+use crate::plot::camera::Camera;
+use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::cells::{Cell, cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::figure::Figure;
+use crate::plot::page::{self, Head};
+use crate::plot::stage::{Bounds, Stage, fitting, largest};
+use crate::plot::style;
+use crate::plot::svg::{Inks, Svg};
+use crate::sheet::{Role, Sheet};
+
+/// The contact sheet (原画一覧): a card a genga, with its number, koma, frame and why it is there. All
+/// figures are of one scale and stand on one floor.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ContactSheet {
+    /// From where it is seen; default auto.
+    pub camera: Camera,
+    /// Width in px at most, 600 to 20000; default 1280.
+    pub width: u32,
+    /// Height of the tallest figure in px, 40 to 2000; default 130.
+    pub figure_height: u32,
+    /// Cards in a row at most, 1 or more; default 8. Wide poses get fewer.
+    pub in_row: usize,
+    /// Rows on a page, 1 or more; default 6.
+    pub rows: usize,
+    /// Cards of the inbetweens (中割り) too, in fainter line; default no.
+    pub inbetweens: bool,
+}
+
+impl Default for ContactSheet {
+    fn default() -> Self {
+        Self {
+            camera: Camera::Auto,
+            width: 1280,
+            figure_height: 130,
+            in_row: 8,
+            rows: 6,
+            inbetweens: false,
+        }
+    }
+}
+
+const GAP: f64 = 10.0;
+/// Above the figure in a card, and below the floor.
+const TOP: f64 = 32.0;
+const LABELS: f64 = 58.0;
+
+impl ContactSheet {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a size that cannot be drawn, or no card in a row or on a page.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_size("width", self.width, 600)?;
+        style::check_figure(self.figure_height)?;
+        style::check_some("in_row", self.in_row)?;
+        style::check_some("rows", self.rows)
+    }
+
+    /// Draws the genga of a sheet as pages of SVG; `cut` is the name on them.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`ContactSheet::validate`]; [`Error::Picture`] when clip and sheet have
+    /// nothing to show.
+    pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
+        self.validate()?;
+        let layer = shown(clip, sheet)?;
+        let poses = drawn_poses(clip, layer);
+        let mut cards = cells(layer);
+        cards.retain(|cell| self.inbetweens || cell.genga.is_some());
+        if cards.is_empty() {
+            return Err(style::cannot("the sheet has no genga to show"));
+        }
+        let table = self.table(clip, &poses, cards.len());
+        let on_page = table.columns * self.rows;
+        let pages = cards.len().div_ceil(on_page);
+        let page = |(at, cards): (usize, &[Cell<'_>])| {
+            let facts = page::facts(sheet, layer);
+            let title = "Contact sheet 原画一覧";
+            let head = Head { title, cut, facts, page: (at + 1, pages) };
+            table.draw(cards, &poses, sheet.clock.koma_rate, &head)
+        };
+        Ok(cards.chunks(on_page).enumerate().map(page).collect())
+    }
+
+    fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: usize) -> Table {
+        let view = self.camera.view(clip.skeleton(), poses);
+        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
+        let floor = Bounds::of(&figure, &view, poses).floor;
+        let size = largest(&figure, &view, poses, floor);
+        let room = f64::from(self.width) - 2.0 * style::MARGIN;
+        let high = f64::from(self.figure_height);
+        let scale = fitting(size, (room - 16.0, high));
+        let least = (size.0 * scale + 16.0 + GAP).max(110.0);
+        let columns = (((room + GAP) / least).floor().max(1.0) as usize).min(self.in_row);
+        let card = (room + GAP) / columns as f64 - GAP;
+        let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
+        let columns = columns.min(cards);
+        let width =
+            (2.0 * style::MARGIN + (card + GAP) * columns as f64 - GAP).max(page::NARROWEST);
+        Table { stage, columns, card: (card, TOP + high + LABELS), width }
+    }
+}
+
+/// Where the cards of a page are.
+struct Table {
+    stage: Stage,
+    columns: usize,
+    /// Width and height of a card.
+    card: (f64, f64),
+    width: f64,
+}
+
+impl Table {
+    fn draw(
+        &self,
+        cards: &[Cell<'_>],
+        poses: &[Vec<DVec3>],
+        koma_rate: f64,
+        head: &Head<'_>,
+    ) -> String {
+        let rows = cards.len().div_ceil(self.columns);
+        let height = page::HEAD + (self.card.1 + GAP) * rows as f64 - GAP + style::MARGIN;
+        let mut svg = Svg::new((self.width, height));
+        head.draw(&mut svg, self.width);
+        for (at, cell) in cards.iter().enumerate() {
+            let (row, column) = (at / self.columns, at % self.columns);
+            let x = style::MARGIN + (self.card.0 + GAP) * column as f64;
+            let y = page::HEAD + (self.card.1 + GAP) * row as f64;
+            self.draw_card(&mut svg, cell, &poses[cell.index], (x, y), koma_rate);
+        }
+        svg.finish()
+    }
+
+    fn draw_card(
+        &self,
+        svg: &mut Svg,
+        cell: &Cell<'_>,
+        pose: &[DVec3],
+        (x, y): Point,
+        koma_rate: f64,
+    ) {
+        let (width, height) = self.card;
+        let (middle, right) = (x + 0.5 * width, x + width - 10.0);
+        svg.rect((x, y), self.card, None, Some(style::GRID), 6.0);
+        let color = style::of_role(cell.drawing.role);
+        match cell.genga {
+            Some(genga) => svg.badge((x + 18.0, y + 18.0), genga, color, cell.is_pinned()),
+            None => svg.disc((x + 18.0, y + 18.0), 3.0, Some(color), None),
+        }
+        let faint = Type::new(style::SMALL).color(style::FAINT);
+        svg.text(&format!("drawing {}", cell.number()), (x + 32.0, y + 22.0), faint);
+        let time = seconds_and_koma(cell.koma, koma_rate);
+        svg.text(&time, (right, y + 22.0), faint.align(Align::Right));
+        let floor = y + height - LABELS;
+        svg.line((x + 10.0, floor), (right, floor), style::GRID, 1.25);
+        let inks =
+            if cell.drawing.role == Role::Inbetween { Inks::Faded(0.5) } else { Inks::Sides };
+        svg.figure(&self.stage.draw_over(pose, (middle, floor)), inks);
+        let look = Type::new(style::WORDS).color(color).align(Align::Center);
+        let look = if cell.genga.is_some() { look.bold() } else { look };
+        svg.text(&format!("koma {}", cell.koma + 1), (middle, floor + 19.0), look);
+        let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
+        let held = if cell.held == 1 { String::new() } else { format!(" · {} koma", cell.held) };
+        let facts = format!("frame {place}{held}");
+        svg.text(&facts, (middle, floor + 34.0), faint.align(Align::Center));
+        let look = if cell.is_pinned() { faint.color(style::INK) } else { faint };
+        let reason = style::fitted(&cell.reason(), style::SMALL, width - 14.0);
+        svg.text(&reason, (middle, floor + 49.0), look.align(Align::Center));
+    }
+}

@@ -1,0 +1,186 @@
+//! The flip-book (パラパラ): one HTML file that plays the sheet.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::Clip;
+use crate::plot::camera::Camera;
+use crate::plot::cells::{cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::figure::{BodySide, Figure};
+use crate::plot::points::Posing;
+use crate::plot::stage::Bounds;
+use crate::plot::style;
+use crate::plot::svg::escaped;
+use crate::plot::view::View;
+use crate::sheet::{Layer, Sheet, Source};
+
+/// A flip-book (パラパラ): source and result as one HTML file that needs nothing else, to play, to step
+/// through by koma and by drawing, and to look at from every side.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FlipBook {
+    /// From where it is seen first; default auto.
+    pub camera: Camera,
+}
+
+const PAGE: &str = include_str!("flipbook/page.html");
+const LOOK: &str = include_str!("flipbook/look.css");
+const SCRIPTS: [&str; 4] = [
+    include_str!("flipbook/words.js"),
+    include_str!("flipbook/figure.js"),
+    include_str!("flipbook/sheet.js"),
+    include_str!("flipbook/player.js"),
+];
+
+/// Steps in a body's height that places are written to.
+const STEPS: f64 = 1000.0;
+
+/// What the player gets. Koma and drawings count from 0 here.
+#[derive(Serialize)]
+struct Take<'a> {
+    cut: &'a str,
+    column: &'a str,
+    koma_rate: f64,
+    koma: usize,
+    length: String,
+    height: f64,
+    points: usize,
+    /// From, to, side: 0 trunk, 1 left, 2 right.
+    bones: Vec<[usize; 3]>,
+    head: Option<(usize, usize)>,
+    camera: &'a str,
+    /// Of each camera right, up and near.
+    views: Vec<(&'a str, [[f64; 3]; 3])>,
+    /// Drawing, first koma, koma on screen.
+    cells: Vec<[usize; 3]>,
+    drawings: Vec<Shown>,
+    /// A pose a koma: x, y, z of each point, in steps.
+    source: Vec<Vec<i32>>,
+}
+
+#[derive(Serialize)]
+struct Shown {
+    role: &'static str,
+    genga: Option<usize>,
+    /// The place in the source, to a tenth of a frame.
+    frame: f64,
+    pinned: bool,
+    why: String,
+    omitted: usize,
+    pose: Vec<i32>,
+}
+
+impl FlipBook {
+    /// Makes the page; `cut` is its title.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] when clip and sheet have nothing to show.
+    pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+        let layer = shown(clip, sheet)?;
+        let take = self.take(cut, clip, sheet, layer);
+        let take =
+            serde_json::to_string(&take).map_err(|error| style::cannot(error.to_string()))?;
+        // Inside a script no text may end it; in JSON a < can only be part of a text.
+        let take = take.replace('<', "\\u003c");
+        let filled = [
+            ("{{title}}", escaped(cut)),
+            ("{{look}}", LOOK.to_owned()),
+            ("{{take}}", take),
+            ("{{script}}", SCRIPTS.concat()),
+        ];
+        Ok(fill(PAGE, &filled))
+    }
+
+    fn take<'a>(&'a self, cut: &'a str, clip: &Clip, sheet: &Sheet, layer: &'a Layer) -> Take<'a> {
+        let koma = layer.length();
+        let place = |koma| Source::At(sheet.clock.place_from_koma(koma));
+        let source = Posing::of(clip).all((0..koma).map(place));
+        let result = drawn_poses(clip, layer);
+        let views =
+            Camera::ALL.map(|camera| (camera.word(), camera.view(clip.skeleton(), &source)));
+        let auto = views[3].1;
+        let figure = Figure::of(clip.skeleton(), &source[0], auto.up);
+        let steps = Steps::of(&figure, &auto, &source);
+        let cells = cells(layer);
+        let mut genga = vec![None; layer.drawings.len()];
+        cells.iter().for_each(|cell| genga[cell.index] = cell.genga);
+        let drawings = layer.drawings.iter().zip(&result).zip(genga);
+        Take {
+            cut,
+            column: &layer.name,
+            koma_rate: sheet.clock.koma_rate,
+            koma,
+            length: seconds_and_koma(koma, sheet.clock.koma_rate),
+            height: STEPS,
+            points: source[0].len(),
+            bones: figure.bones.iter().map(|bone| [bone.from, bone.to, side(bone.side)]).collect(),
+            head: figure.head,
+            camera: self.camera.word(),
+            views: views.into_iter().map(|(word, view)| (word, axes(&view))).collect(),
+            cells: cells.iter().map(|cell| [cell.index, cell.koma, cell.held]).collect(),
+            drawings: drawings
+                .map(|((drawing, pose), genga)| Shown {
+                    role: drawing.role.word(),
+                    genga,
+                    frame: (drawing.source.place() * 10.0).round() / 10.0,
+                    pinned: drawing.why.pinned.is_some(),
+                    why: drawing.why.to_string(),
+                    omitted: drawing.why.omitted_before,
+                    pose: steps.all(pose),
+                })
+                .collect(),
+            source: source.iter().map(|pose| steps.all(pose)).collect(),
+        }
+    }
+}
+
+/// Places as whole numbers: steps from the first pose's root, on the floor.
+struct Steps {
+    from: DVec3,
+    unit: f64,
+}
+
+impl Steps {
+    fn of(figure: &Figure, view: &View, poses: &[Vec<DVec3>]) -> Self {
+        let floor = Bounds::of(figure, view, poses).floor;
+        let root = poses[0][0];
+        let from = root + view.up * (floor - root.dot(view.up));
+        let unit = if figure.height > 0.0 { figure.height / STEPS } else { 1.0 };
+        Self { from, unit }
+    }
+
+    fn all(&self, pose: &[DVec3]) -> Vec<i32> {
+        let steps = |point: &DVec3| ((*point - self.from) / self.unit).round().to_array();
+        pose.iter().flat_map(steps).map(|step| step as i32).collect()
+    }
+}
+
+fn side(side: BodySide) -> usize {
+    match side {
+        BodySide::Trunk => 0,
+        BodySide::Left => 1,
+        BodySide::Right => 2,
+    }
+}
+
+/// Right, up and near, to what a picture can show.
+fn axes(view: &View) -> [[f64; 3]; 3] {
+    let short = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+    [view.right, view.up, view.near].map(|axis| axis.to_array().map(short))
+}
+
+/// The page with each place filled, left to right: what is filled in is not looked at again.
+fn fill(page: &str, places: &[(&str, String)]) -> String {
+    let mut filled = String::new();
+    let mut rest = page;
+    while let Some(begin) = rest.find("{{") {
+        filled.push_str(&rest[..begin]);
+        rest = &rest[begin..];
+        let place = places.iter().find(|(name, _)| rest.starts_with(name));
+        let (name, text) = place.map_or(("{{", "{{"), |(name, text)| (*name, text.as_str()));
+        filled.push_str(text);
+        rest = &rest[name.len()..];
+    }
+    filled + rest
+}

@@ -1,0 +1,134 @@
+//! Numbered images: a drawing each, to draw over.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::Clip;
+use crate::plot::camera::Camera;
+use crate::plot::cells::{drawn_poses, shown};
+use crate::plot::figure::Figure;
+use crate::plot::pixels::{Digits, Pixels};
+use crate::plot::points::Posing;
+use crate::plot::stage::{Bounds, Stage};
+use crate::plot::style;
+use crate::plot::svg::{Inks, Svg};
+use crate::sheet::Sheet;
+
+/// Numbered images (連番画像): `A_0001.png` and so on, a stick figure a drawing, as a guide to draw over.
+///
+/// The number is the drawing's in the CELL column. All images have one camera, one frame and one scale,
+/// so that drawings fit on each other and a way that is gone is kept.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct NumberedImages {
+    /// From where it is seen; default auto.
+    pub camera: Camera,
+    /// Width in px, 64 to 8192; default 1280.
+    pub width: u32,
+    /// Height in px, 64 to 8192; default 720.
+    pub height: u32,
+    /// Without paper behind the figure; default no.
+    pub transparent: bool,
+    /// Register marks (トンボ) in the corners, the safe area, the floor and the number; default no.
+    pub marks: bool,
+}
+
+impl Default for NumberedImages {
+    fn default() -> Self {
+        Self { camera: Camera::Auto, width: 1280, height: 720, transparent: false, marks: false }
+    }
+}
+
+/// The share of the picture on each side that figures stay out of: the safe area's edge.
+const SAFE: f64 = 0.05;
+
+impl NumberedImages {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a size that cannot be drawn.
+    pub fn validate(&self) -> Result<(), Error> {
+        for (name, px) in [("width", self.width), ("height", self.height)] {
+            if !(64..=8192).contains(&px) {
+                let message = format!("{px} px; it must be between 64 and 8192");
+                return Err(Error::setting(name, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws an image a drawing and gives each with its file name to `take`, one after the other.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`NumberedImages::validate`]; [`Error::Picture`] when clip and sheet have
+    /// nothing to show; what `take` says.
+    pub fn draw<E: From<Error>>(
+        &self,
+        clip: &Clip,
+        sheet: &Sheet,
+        mut take: impl FnMut(&str, Vec<u8>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.validate()?;
+        let layer = shown(clip, sheet)?;
+        let stage = self.stage(clip, sheet)?;
+        let backdrop = Pixels::of(&self.backdrop(&stage))?;
+        let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
+        let mut pixels = backdrop.clone();
+        let mut posing = Posing::of(clip);
+        let name: String = layer.name.chars().map(plain).collect();
+        for (at, drawing) in layer.drawings.iter().enumerate() {
+            pixels.copy(&backdrop);
+            pixels.figure(&stage.draw(&posing.points(drawing.source)), Inks::Sides);
+            if self.marks {
+                let (x, y) = self.inside(0.99 - SAFE);
+                digits.write(&mut pixels, at + 1, (x, y));
+            }
+            take(&format!("{name}_{:04}.png", at + 1), pixels.png()?)?;
+        }
+        Ok(())
+    }
+
+    /// A point as a share of the picture from its upper left corner.
+    fn inside(&self, share: f64) -> (f64, f64) {
+        (share * f64::from(self.width), share * f64::from(self.height))
+    }
+
+    fn stage(&self, clip: &Clip, sheet: &Sheet) -> Result<Stage, Error> {
+        let poses = drawn_poses(clip, shown(clip, sheet)?);
+        let view = self.camera.view(clip.skeleton(), &poses);
+        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
+        let bounds = Bounds::of(&figure, &view, &poses);
+        let (wide, high) = self.inside(1.0 - 4.0 * SAFE);
+        let (width, height) = self.inside(1.0);
+        let floor = (1.0 - 2.0 * SAFE) * height;
+        Ok(Stage::filling(figure, view, &bounds, (0.5 * width, floor), (wide, high)))
+    }
+
+    /// What all images have behind the figure.
+    fn backdrop(&self, stage: &Stage) -> String {
+        let (width, height) = self.inside(1.0);
+        let mut svg =
+            if self.transparent { Svg::clear((width, height)) } else { Svg::new((width, height)) };
+        if !self.marks {
+            return svg.finish();
+        }
+        let (x, y) = self.inside(SAFE);
+        svg.rect((x, y), (width - 2.0 * x, height - 2.0 * y), None, Some(style::GRID), 0.0);
+        svg.line((x, stage.at.1), (width - x, stage.at.1), style::GRID, 1.25);
+        let arm = 0.02 * height;
+        for x in [1.5 * arm, width - 1.5 * arm] {
+            for y in [1.5 * arm, height - 1.5 * arm] {
+                svg.line((x - arm, y), (x + arm, y), style::INK, 1.0);
+                svg.line((x, y - arm), (x, y + arm), style::INK, 1.0);
+                svg.disc((x, y), 0.5 * arm, None, Some((style::INK, 1.0)));
+            }
+        }
+        svg.finish()
+    }
+}
+
+/// A letter as a file name can have it on every system.
+fn plain(letter: char) -> char {
+    let kept = letter.is_alphanumeric() || letter == '-';
+    if kept { letter } else { '_' }
+}

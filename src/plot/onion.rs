@@ -1,0 +1,242 @@
+//! Onion skin (オニオンスキン): neighbouring drawings through each other.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::Clip;
+use crate::plot::camera::Camera;
+use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::cells::{Cell, cells, drawn_poses, shown};
+use crate::plot::figure::Figure;
+use crate::plot::page::{self, Head};
+use crate::plot::stage::{Bounds, Stage, fitting};
+use crate::plot::style;
+use crate::plot::svg::{Inks, Svg};
+use crate::plot::view::View;
+use crate::sheet::Sheet;
+
+/// Onion skin (オニオンスキン): a panel from each genga to the next, all drawings of the way in their
+/// place in the world, older ones fainter, and the arc (軌道) of the joint that goes furthest.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OnionSkin {
+    /// From where it is seen; default auto.
+    pub camera: Camera,
+    /// Width in px, 600 to 20000; default 1280.
+    pub width: u32,
+    /// Height of the tallest panel's figures in px, 40 to 2000; default 220.
+    pub figure_height: u32,
+    /// Rows of panels on a page, 1 or more; default 5.
+    pub rows: usize,
+}
+
+impl Default for OnionSkin {
+    fn default() -> Self {
+        Self { camera: Camera::Auto, width: 1280, figure_height: 220, rows: 5 }
+    }
+}
+
+const GAP: f64 = 10.0;
+const PAD: f64 = 14.0;
+/// Above the figures in a panel, and below the floor.
+const TOP: f64 = 34.0;
+const LABELS: f64 = 28.0;
+const LEAST: f64 = 150.0;
+/// How faint the oldest drawing of a panel is, and the youngest before the key that it leads to.
+const FAINT: (f64, f64) = (0.78, 0.5);
+
+impl OnionSkin {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a size that cannot be drawn, or no row.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_size("width", self.width, 600)?;
+        style::check_figure(self.figure_height)?;
+        style::check_some("rows", self.rows)
+    }
+
+    /// Draws a sheet as pages of SVG; `cut` is the name on them.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`OnionSkin::validate`]; [`Error::Picture`] when clip and sheet have
+    /// nothing to show.
+    pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
+        self.validate()?;
+        let layer = shown(clip, sheet)?;
+        let poses = drawn_poses(clip, layer);
+        let view = self.camera.view(clip.skeleton(), &poses);
+        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
+        let cells = cells(layer);
+        let ways = ways(&cells);
+        let panels: Vec<Panel<'_>> =
+            ways.into_iter().map(|way| Panel::of(way, &figure, &view, &poses)).collect();
+        let floor = Bounds::of(&figure, &view, &poses).floor;
+        let high = panels.iter().fold(0.0, |high: f64, panel| high.max(panel.bounds.top - floor));
+        let wide = panels.iter().fold(0.0, |wide: f64, panel| wide.max(panel.bounds.width()));
+        let room = f64::from(self.width) - 2.0 * style::MARGIN;
+        let scale = fitting((wide, high), (room - 2.0 * PAD, f64::from(self.figure_height)));
+        let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
+        let rows = rows(&panels, scale, room);
+        let joints = clip.skeleton().len();
+        let pages = rows.len().div_ceil(self.rows);
+        let page = |(at, rows): (usize, &[&[Panel<'_>]])| {
+            let facts = page::facts(sheet, layer);
+            let title = "Onion skin オニオンスキン";
+            let head = Head { title, cut, facts, page: (at + 1, pages) };
+            let drawing = Page { stage: &stage, poses: &poses, joints, high: high * scale, room };
+            drawing.draw(rows, &head)
+        };
+        Ok(rows.chunks(self.rows).enumerate().map(page).collect())
+    }
+}
+
+/// The exposures from each kept one to the next, both included; of a sheet with one, that.
+fn ways<'a>(cells: &'a [Cell<'a>]) -> Vec<&'a [Cell<'a>]> {
+    let kept: Vec<usize> = (0..cells.len()).filter(|at| cells[*at].genga.is_some()).collect();
+    let ways: Vec<_> = kept.windows(2).map(|pair| &cells[pair[0]..=pair[1]]).collect();
+    if ways.is_empty() { vec![cells] } else { ways }
+}
+
+/// The way from one genga to the next.
+struct Panel<'a> {
+    way: &'a [Cell<'a>],
+    bounds: Bounds,
+}
+
+impl<'a> Panel<'a> {
+    fn of(way: &'a [Cell<'a>], figure: &Figure, view: &View, poses: &[Vec<DVec3>]) -> Self {
+        let bounds = Bounds::of(figure, view, way.iter().map(|cell| &poses[cell.index]));
+        Self { way, bounds }
+    }
+
+    fn width(&self, scale: f64) -> f64 {
+        (self.bounds.width() * scale + 2.0 * PAD).max(LEAST)
+    }
+}
+
+/// Panels side by side as long as there is room.
+fn rows<'a, 'b>(panels: &'b [Panel<'a>], scale: f64, room: f64) -> Vec<&'b [Panel<'a>]> {
+    let mut rows = Vec::new();
+    let (mut begin, mut used) = (0, 0.0);
+    for (at, panel) in panels.iter().enumerate() {
+        let width = panel.width(scale);
+        if at > begin && used + width > room + 0.5 {
+            rows.push(&panels[begin..at]);
+            (begin, used) = (at, 0.0);
+        }
+        used += width + GAP;
+    }
+    rows.push(&panels[begin..]);
+    rows
+}
+
+/// What the panels of a page have in common.
+struct Page<'a> {
+    stage: &'a Stage,
+    poses: &'a [Vec<DVec3>],
+    joints: usize,
+    /// Height of the tallest panel's figures, in px.
+    high: f64,
+    room: f64,
+}
+
+impl Page<'_> {
+    fn draw(&self, rows: &[&[Panel<'_>]], head: &Head<'_>) -> String {
+        let width = self.room + 2.0 * style::MARGIN;
+        let row = TOP + self.high + LABELS;
+        let height = page::HEAD + (row + GAP) * rows.len() as f64 - GAP + style::MARGIN;
+        let mut svg = Svg::new((width, height));
+        head.draw(&mut svg, width);
+        for (at, panels) in rows.iter().enumerate() {
+            let y = page::HEAD + (row + GAP) * at as f64;
+            let widths: f64 = panels.iter().map(|panel| panel.width(self.stage.scale) + GAP).sum();
+            // A full row ends at the right edge; the last one is left as it is.
+            let spare = (self.room + GAP - widths) / panels.len() as f64;
+            let spare = if spare < 60.0 { spare } else { 0.0 };
+            let mut x = style::MARGIN;
+            for panel in *panels {
+                let wide = panel.width(self.stage.scale) + spare;
+                self.panel(&mut svg, panel, (x, y), (wide, row));
+                x += wide + GAP;
+            }
+        }
+        svg.finish()
+    }
+
+    fn panel(&self, svg: &mut Svg, panel: &Panel<'_>, (x, y): Point, size: (f64, f64)) {
+        let floor = y + TOP + self.high;
+        let middle = 0.5 * (panel.bounds.left + panel.bounds.right);
+        let origin = (middle, self.stage.origin.1);
+        let stage = Stage { origin, at: (x + 0.5 * size.0, floor), ..self.stage.clone() };
+        svg.rect((x, y), size, None, Some(style::GRID), 6.0);
+        svg.line((x + 10.0, floor), (x + size.0 - 10.0, floor), style::GRID, 1.25);
+        let last = panel.way.len() - 1;
+        for (at, cell) in panel.way.iter().enumerate() {
+            let drawn = stage.draw(&self.poses[cell.index]);
+            svg.figure(&drawn, inks(at, last));
+        }
+        self.arc(svg, panel.way, &stage);
+        self.words(svg, panel.way, (x, y), size);
+    }
+
+    /// The path of the joint that goes furthest, with a dot a drawing.
+    fn arc(&self, svg: &mut Svg, way: &[Cell<'_>], stage: &Stage) {
+        let joint = |cell: &Cell<'_>, joint: usize| self.poses[cell.index][joint];
+        let length = |at: usize| -> f64 {
+            way.windows(2).map(|pair| joint(&pair[0], at).distance(joint(&pair[1], at))).sum()
+        };
+        let furthest = (0..self.joints)
+            .map(|at| (at, length(at)))
+            .reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let Some((lead, _)) = furthest.filter(|(_, length)| *length > 0.0) else {
+            return;
+        };
+        let path: Vec<Point> = way.iter().map(|cell| stage.place(joint(cell, lead))).collect();
+        svg.path(&path, style::GENGA_LINE, 1.25);
+        for (cell, point) in way.iter().zip(&path) {
+            let radius = if cell.genga.is_some() { 3.2 } else { 2.0 };
+            svg.disc(*point, radius, Some(style::GENGA), Some((style::PAPER, 0.8)));
+        }
+    }
+
+    /// Which genga, which koma, how many drawings between.
+    fn words(&self, svg: &mut Svg, way: &[Cell<'_>], (x, y): Point, (wide, high): (f64, f64)) {
+        let (Some(from), Some(to)) = (way.first(), way.last()) else {
+            return;
+        };
+        let mut at = x + 18.0;
+        let ends = if way.len() > 1 { vec![from, to] } else { vec![from] };
+        for (place, cell) in ends.into_iter().enumerate() {
+            if place > 0 {
+                svg.line((at - 17.0, y + 19.0), (at - 11.0, y + 19.0), style::FAINT, 1.25);
+            }
+            let color = style::of_role(cell.drawing.role);
+            svg.badge((at, y + 19.0), cell.genga.unwrap_or(cell.number()), color, cell.is_pinned());
+            at += 28.0;
+        }
+        let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
+        let koma = format!("koma {}–{}", from.koma + 1, to.koma + 1);
+        svg.text(&koma, (x + wide - 10.0, y + 23.0), look);
+        let between = match way.len().saturating_sub(2) {
+            0 => "no inbetween 中なし".to_owned(),
+            count => format!("{count} between 中{count}枚"),
+        };
+        let look = Type::new(style::SMALL).color(style::INK).align(Align::Center);
+        svg.text(&between, (x + 0.5 * wide, y + high - 9.0), look);
+    }
+}
+
+/// The key that a panel leads to is in full colours, the way there fades into the past.
+fn inks(at: usize, last: usize) -> Inks {
+    if at == last {
+        return Inks::Sides;
+    }
+    let age = 1.0 - at as f64 / last as f64;
+    if at == 0 {
+        return Inks::One(style::mixed(style::FAINT, style::PAPER, 0.35));
+    }
+    let (old, young) = FAINT;
+    Inks::One(style::mixed(style::FAINT, style::PAPER, young + (old - young) * age))
+}

@@ -1,0 +1,64 @@
+//! What the pages of figures have in common: a title, the length of the cut, a legend.
+
+use crate::plot::canvas::{Align, Type};
+use crate::plot::cells::seconds_and_koma;
+use crate::plot::figure::BodySide;
+use crate::plot::style;
+use crate::plot::svg::Svg;
+use crate::sheet::{Layer, Role, Sheet};
+
+/// Height of the head, in px.
+pub(super) const HEAD: f64 = 72.0;
+/// The narrowest page: its head has to fit.
+pub(super) const NARROWEST: f64 = 560.0;
+
+/// The head of a page.
+pub(super) struct Head<'a> {
+    /// English and Japanese.
+    pub(super) title: &'a str,
+    /// The name of the cut.
+    pub(super) cut: &'a str,
+    /// What is on it, in small.
+    pub(super) facts: String,
+    /// This page and the number of pages, from 1.
+    pub(super) page: (usize, usize),
+}
+
+impl Head<'_> {
+    pub(super) fn draw(&self, svg: &mut Svg, width: f64) {
+        let right = width - style::MARGIN;
+        svg.text(self.title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
+        let mut x = right;
+        for (side, word) in [(BodySide::Right, "right 右"), (BodySide::Left, "left 左")] {
+            let look = Type::new(style::WORDS).align(Align::Right);
+            svg.text(word, (x, 34.0), look);
+            x -= style::text_width(word, style::WORDS) + 10.0;
+            svg.line((x - 16.0, 29.5), (x, 29.5), side.color(), 4.0);
+            x -= 34.0;
+        }
+        let begin = style::MARGIN + style::text_width(self.title, style::TITLE) * 1.06 + 16.0;
+        let cut = style::fitted(self.cut, style::WORDS, x - begin);
+        svg.text(&cut, (begin, 34.0), Type::new(style::WORDS).color(style::FAINT));
+        let (page, pages) = self.page;
+        let mut room = right - style::MARGIN;
+        if pages > 1 {
+            let look = Type::new(style::WORDS).color(style::FAINT).align(Align::Right);
+            svg.text(&format!("page {page} of {pages}"), (right, 56.0), look);
+            room -= 110.0;
+        }
+        let facts = style::fitted(&self.facts, style::WORDS, room);
+        svg.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
+    }
+}
+
+/// The counts of a layer: koma, genga, drawings.
+pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
+    let koma = layer.length();
+    let length = seconds_and_koma(koma, sheet.clock.koma_rate);
+    let genga = layer.drawings.iter().filter(|drawing| drawing.role != Role::Inbetween).count();
+    let drawings = layer.drawings.len();
+    let plural = if drawings == 1 { "" } else { "s" };
+    format!(
+        "尺 {length} ({koma} koma) · genga and ends 原画 {genga} · {drawings} drawing{plural} 動画"
+    )
+}

@@ -1,0 +1,133 @@
+//! Figures straight onto pixels: for pictures by the hundred, without an SVG each.
+
+use plotters::style::RGBColor;
+use resvg::tiny_skia::{
+    FillRule, LineCap, Paint, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8, Rect, Stroke,
+    Transform,
+};
+
+use crate::error::Error;
+use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::figure::{BodySide, Drawn};
+use crate::plot::raster::pixels_from_svg;
+use crate::plot::style;
+use crate::plot::svg::{Inks, Svg};
+
+/// Pixels to draw on.
+#[derive(Clone)]
+pub(super) struct Pixels {
+    map: Pixmap,
+}
+
+impl Pixels {
+    /// What an SVG shows.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] when it is too large.
+    pub(super) fn of(svg: &str) -> Result<Self, Error> {
+        Ok(Self { map: pixels_from_svg(svg, 1.0)? })
+    }
+
+    /// Red, green, blue and how opaque, row after row.
+    pub(super) fn colors(&self) -> &[PremultipliedColorU8] {
+        self.map.pixels()
+    }
+
+    /// # Errors
+    /// [`Error::Picture`] when memory runs out.
+    pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
+        self.map.encode_png().map_err(|error| style::cannot(error.to_string()))
+    }
+
+    /// Takes on what another of the same size shows.
+    pub(super) fn copy(&mut self, other: &Self) {
+        self.map.data_mut().copy_from_slice(other.map.data());
+    }
+
+    pub(super) fn line(&mut self, from: Point, to: Point, color: RGBColor, width: f64) {
+        let mut path = PathBuilder::new();
+        path.move_to(from.0 as f32, from.1 as f32);
+        path.line_to(to.0 as f32, to.1 as f32);
+        let stroke = Stroke { width: width as f32, line_cap: LineCap::Round, ..Stroke::default() };
+        // A path of no length is none: there is nothing to draw then but its round end.
+        match path.finish() {
+            Some(path) if from != to => {
+                self.map.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
+            }
+            _ => self.disc(from, 0.5 * width, color),
+        }
+    }
+
+    pub(super) fn disc(&mut self, (x, y): Point, radius: f64, color: RGBColor) {
+        if let Some(path) = PathBuilder::from_circle(x as f32, y as f32, radius as f32) {
+            let (paint, rule) = (paint(color), FillRule::Winding);
+            self.map.fill_path(&path, &paint, rule, Transform::identity(), None);
+        }
+    }
+
+    pub(super) fn rect(&mut self, (x, y): Point, (width, height): (f64, f64), color: RGBColor) {
+        if let Some(rect) = Rect::from_xywh(x as f32, y as f32, width as f32, height as f32) {
+            self.map.fill_rect(rect, &paint(color), Transform::identity(), None);
+        }
+    }
+
+    pub(super) fn figure(&mut self, drawn: &Drawn, inks: Inks) {
+        for stroke in &drawn.strokes {
+            self.line(stroke.from, stroke.to, inks.of(stroke.side), stroke.width);
+        }
+        let ink = inks.of(BodySide::Trunk);
+        if let Some((center, radius)) = drawn.head {
+            let width = (0.24 * radius).clamp(0.8, 4.0);
+            self.disc(center, radius + 0.5 * width, ink);
+            self.disc(center, radius - 0.5 * width, style::PAPER);
+        }
+        if let Some(dot) = drawn.dot {
+            self.disc(dot, 4.0, ink);
+        }
+    }
+}
+
+fn paint(color: RGBColor) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(color.0, color.1, color.2, 255);
+    paint
+}
+
+/// Numbers for pixels: the ten digits, drawn once with the system's fonts.
+pub(super) struct Digits {
+    digits: Vec<Pixmap>,
+    /// Width of one, in px.
+    wide: f64,
+    /// From the top to the base line, in px.
+    base: f64,
+}
+
+impl Digits {
+    /// Digits of a size and a colour.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] when memory runs out.
+    pub(super) fn new(size: f64, color: RGBColor) -> Result<Self, Error> {
+        let wide = (0.62 * size).ceil();
+        let base = size.ceil();
+        let digit = |digit: u8| {
+            let mut svg = Svg::clear((wide, base + 2.0));
+            let look = Type::new(size).bold().color(color).align(Align::Center);
+            svg.text(&digit.to_string(), (0.5 * wide, base), look);
+            pixels_from_svg(&svg.finish(), 1.0)
+        };
+        Ok(Self { digits: (0..10).map(digit).collect::<Result<_, _>>()?, wide, base })
+    }
+
+    /// Writes a number that ends at a point on its base line.
+    pub(super) fn write(&self, pixels: &mut Pixels, number: usize, (x, base): Point) {
+        let mut x = x.round();
+        for digit in number.to_string().bytes().rev() {
+            x -= self.wide;
+            let at = (x as i32, (base - self.base).round() as i32);
+            let digit = self.digits[usize::from(digit - b'0')].as_ref();
+            let paint = PixmapPaint::default();
+            pixels.map.draw_pixmap(at.0, at.1, digit, &paint, Transform::identity(), None);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Where the joints and the tips of the bones are in a drawing.
+
+use glam::DVec3;
+
+use crate::motion::{Body, Clip, Pose};
+use crate::sheet::Source;
+
+/// Turns sources into poses: the joints in their order, then the tips in the order of their joints.
+pub(super) struct Posing<'a> {
+    clip: &'a Clip,
+    pose: Pose,
+    keys: [Pose; 2],
+    body: Body,
+}
+
+impl<'a> Posing<'a> {
+    /// For a clip of at least one frame.
+    pub(super) fn of(clip: &'a Clip) -> Self {
+        let rest = Pose::rest(clip.skeleton());
+        let keys = [rest.clone(), rest.clone()];
+        Self { clip, pose: rest, keys, body: Body::new(clip.skeleton()) }
+    }
+
+    /// The points of a drawing, in the file's unit.
+    pub(super) fn points(&mut self, source: Source) -> Vec<DVec3> {
+        match source {
+            Source::At(place) => self.pose.take_place(self.clip, place),
+            Source::Between { from, to, share } => {
+                self.keys[0].take_place(self.clip, from);
+                self.keys[1].take_place(self.clip, to);
+                self.pose.take_blend(&self.keys[0], &self.keys[1], share);
+            }
+        }
+        let skeleton = self.clip.skeleton();
+        let mut points = vec![DVec3::ZERO; skeleton.len()];
+        self.body.place(&self.pose, &mut points);
+        for (joint, data) in skeleton.iter() {
+            let (middle, rotation) = (points[joint.0], self.body.rotations()[joint.0]);
+            points.extend(data.end_sites.iter().map(|end| middle + rotation * end.offset));
+        }
+        points
+    }
+
+    /// The points of several drawings.
+    pub(super) fn all(&mut self, sources: impl IntoIterator<Item = Source>) -> Vec<Vec<DVec3>> {
+        sources.into_iter().map(|source| self.points(source)).collect()
+    }
+}
