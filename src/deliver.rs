@@ -5,6 +5,7 @@
 mod cut;
 mod drawings;
 mod format;
+mod glb;
 mod koma;
 mod limited_bvh;
 mod pictures;
@@ -18,6 +19,7 @@ mod turns;
 pub use cut::Cut;
 pub use drawings::{Drawings, Rows};
 pub use format::{FORMATS, Format, Sink};
+pub use glb::{Glb, LengthUnit, Up};
 pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::{keys_bvh, limited_bvh};
 pub use pictures::{bars, poses};
