@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use crate::deliver::Glb;
 use crate::error::Error;
 
 /// The settings of every format, by its name. A new format's are a field here.
@@ -11,6 +12,8 @@ use crate::error::Error;
 pub struct Settings {
     /// The tables.
     pub csv: CsvSettings,
+    /// The stepped motion as GLB.
+    pub glb: Glb,
 }
 
 /// How tables are written.
@@ -34,7 +37,7 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        Ok(())
+        self.glb.validate()
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.
