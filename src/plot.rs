@@ -17,6 +17,7 @@ mod view;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use pose_row::BodySide;
 pub use pose_row::PoseRow;
 #[cfg(feature = "cli")]
 pub use raster::png_from_svg;

@@ -199,16 +199,17 @@ def angles_of(rotation, order, near):
     """rotateX, rotateY, rotateZ in degrees of a quaternion: those nearest to the angles `near`."""
     i, j, k = ("xyz".index(axis) for axis in order)
     sign = 1.0 if (i + 1) % 3 == j else -1.0
-    images = [rotated(rotation, [float(axis == at) for axis in range(3)]) for at in range(3)]
-    entry = lambda row, column: images[column][row]
+    entry = lambda row, column: entry_of(rotation, row, column)
     sine = max(-1.0, min(1.0, -sign * entry(k, i)))
-    if abs(sine) > 1.0 - 1e-12:
-        # Gimbal lock: the last angle stays where it was, the first does all.
-        turn = math.degrees(math.atan2(-sign * entry(j, k), entry(j, j)))
-        found = {i: turn + sign * math.copysign(1.0, sine) * near[k] * sign, j: math.degrees(math.asin(sine)), k: near[k]}
-        return nearest([found], near)
-    first = math.degrees(math.atan2(sign * entry(k, j), entry(k, k)))
     middle = math.degrees(math.asin(sine))
+    if abs(sine) > 1.0 - 1e-12:
+        # Gimbal lock: the last angle stays where it was, and the first does what is left.
+        last = [0.0, 0.0, 0.0]
+        last[k] = -near[k]
+        left = product(quaternion(last, order), rotation)
+        first = math.degrees(math.atan2(-sign * entry_of(left, j, k), entry_of(left, j, j)))
+        return nearest([{i: first, j: middle, k: near[k]}], near)
+    first = math.degrees(math.atan2(sign * entry(k, j), entry(k, k)))
     last = math.degrees(math.atan2(sign * entry(j, i), entry(i, i)))
     other = {i: first + 180.0, j: 180.0 - middle, k: last + 180.0}
     return nearest([{i: first, j: middle, k: last}, other], near)
@@ -217,6 +218,11 @@ def angles_of(rotation, order, near):
 def rotated(rotation, vector):
     x, y, z, w = rotation
     return product(product(rotation, (*vector, 0.0)), (-x, -y, -z, w))[:3]
+
+
+def entry_of(rotation, row, column):
+    """Of its matrix."""
+    return rotated(rotation, [float(column == at) for at in range(3)])[row]
 
 
 def nearest(choices, near):

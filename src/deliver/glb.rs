@@ -3,6 +3,7 @@
 mod animation;
 mod binary;
 mod bones;
+mod mesh;
 #[cfg(test)]
 mod tests;
 
@@ -142,8 +143,8 @@ impl Glb {
             "scene": 0,
         });
         if self.mesh {
-            document["meshes"] = json!([bones.mesh(binary)]);
-            document["materials"] = json!([bones::material()]);
+            document["meshes"] = json!([mesh::mesh(bones, binary)]);
+            document["materials"] = mesh::materials();
             // A skinned mesh must not hang on a joint: it is moved by the joints alone.
             scene.push(nodes.len());
             nodes.push(json!({ "name": "bones", "mesh": 0, "skin": 0 }));

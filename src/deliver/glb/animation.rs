@@ -1,10 +1,11 @@
 //! The poses of a sheet as stepped channels.
 
-use glam::{DQuat, DVec3};
+use glam::DQuat;
 use serde_json::{Value, json};
 
 use super::Space;
 use super::binary::{Binary, Use};
+use super::bones::floats;
 use crate::motion::{Clip, RowWriter, local_rotation, local_translation};
 use crate::sheet::{Layer, Source};
 
@@ -178,8 +179,4 @@ fn continuous(rotations: impl Iterator<Item = [f32; 4]>) -> Vec<[f32; 4]> {
 
 fn quaternion(rotation: DQuat) -> [f32; 4] {
     rotation.normalize().to_array().map(|value| value as f32)
-}
-
-fn floats(vector: DVec3) -> [f32; 3] {
-    vector.as_vec3().to_array()
 }

@@ -1,4 +1,5 @@
-//! The skeleton as glTF has it: nodes, a skin that lists them, and a mesh to see them by.
+//! The skeleton as glTF has it: nodes and a skin that lists them.
+//! The octahedra are in `mesh.rs`.
 
 use std::collections::HashSet;
 
@@ -9,11 +10,6 @@ use super::Space;
 use super::binary::{Binary, Use};
 use crate::error::Error;
 use crate::motion::Skeleton;
-
-/// Where an octahedron is widest, and how wide, as a share of its length.
-const WAIST: f64 = 0.1;
-/// Half the size of the one octahedron of a body without any bone, in metres.
-const LONELY: f64 = 0.05;
 
 /// A joint or the tip of a bone.
 struct Node {
@@ -110,81 +106,24 @@ impl Bones {
         })
     }
 
-    /// An octahedron a bone, each on the joint that turns it. The bone of a joint leads to its child.
-    pub(super) fn mesh(&self, binary: &mut Binary) -> Value {
-        let mut octahedra = self.octahedra();
-        if octahedra.is_empty() {
-            let (half, at) = (0.5 * LONELY * DVec3::Y, self.positions[0]);
-            octahedra.push((0, octahedron(at - half, at + half)));
-        }
-        let corners: Vec<[f32; 3]> =
-            octahedra.iter().flat_map(|(_, corners)| corners.map(floats)).collect();
-        let carriers = octahedra.iter().flat_map(|(joint, corners)| corners.map(|_| *joint));
-        let joints = if self.nodes.len() > 255 {
-            let joints: Vec<[u16; 4]> = carriers.map(|joint| [joint as u16, 0, 0, 0]).collect();
-            binary.add(Use::Vertices, "VEC4", &joints)
-        } else {
-            let joints: Vec<[u8; 4]> = carriers.map(|joint| [joint as u8, 0, 0, 0]).collect();
-            binary.add(Use::Vertices, "VEC4", &joints)
-        };
-        let weights = vec![[1.0f32, 0.0, 0.0, 0.0]; corners.len()];
-        json!({
-            "name": "bones",
-            "primitives": [{
-                "attributes": {
-                    "POSITION": binary.add_bounded(Use::Vertices, "VEC3", &corners),
-                    "JOINTS_0": joints,
-                    "WEIGHTS_0": binary.add(Use::Vertices, "VEC4", &weights),
-                },
-                "indices": triangles(octahedra.len(), binary),
-                "material": 0,
-            }],
+    /// Number of nodes.
+    pub(super) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Where each node stands in the world at rest, in metres.
+    pub(super) fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// The joint, the tip and the name of every bone that has a length: it leads from the joint that
+    /// turns it to the node that it is called by.
+    pub(super) fn bones(&self) -> impl Iterator<Item = (usize, usize, &str)> {
+        self.nodes.iter().enumerate().filter_map(|(tip, node)| {
+            let joint = node.parent.filter(|_| node.offset.length() > 0.0)?;
+            Some((joint, tip, node.name.as_str()))
         })
     }
-
-    /// The joint and the corners of every bone that has a length.
-    fn octahedra(&self) -> Vec<(usize, [DVec3; 6])> {
-        let bone = |(node, data): (usize, &Node)| {
-            let joint = data.parent.filter(|_| data.offset.length() > 0.0)?;
-            Some((joint, octahedron(self.positions[joint], self.positions[node])))
-        };
-        self.nodes.iter().enumerate().filter_map(bone).collect()
-    }
-}
-
-/// What the bones are made of: without it a viewer takes metal, which is black without surroundings.
-pub(super) fn material() -> Value {
-    json!({
-        "name": "bones",
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [0.72, 0.74, 0.78, 1.0],
-            "metallicFactor": 0.0,
-            "roughnessFactor": 0.8,
-        },
-    })
-}
-
-/// The corners of a bone: its joint, four round its waist, its tip.
-fn octahedron(from: DVec3, to: DVec3) -> [DVec3; 6] {
-    let along = to - from;
-    let (a, b) = along.normalize_or(DVec3::Y).any_orthonormal_pair();
-    let (waist, radius) = (from + WAIST * along, WAIST * along.length());
-    let corner = |out: DVec3| waist + radius * out;
-    [from, corner(a), corner(b), corner(-a), corner(-b), to]
-}
-
-/// The triangles of one octahedron, each seen counter-clockwise from outside.
-const FACES: [[u32; 3]; 8] =
-    [[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4], [5, 1, 2], [5, 2, 3], [5, 3, 4], [5, 4, 1]];
-
-fn triangles(octahedra: usize, binary: &mut Binary) -> usize {
-    let corners = (0..octahedra as u32)
-        .flat_map(|octahedron| FACES.as_flattened().iter().map(move |at| [6 * octahedron + at]));
-    if 6 * octahedra <= usize::from(u16::MAX) {
-        let corners: Vec<[u16; 1]> = corners.map(|[corner]| [corner as u16]).collect();
-        return binary.add(Use::Triangles, "SCALAR", &corners);
-    }
-    binary.add(Use::Triangles, "SCALAR", &corners.collect::<Vec<_>>())
 }
 
 /// A name that no other node has: the wish, or the wish with a number.
@@ -194,6 +133,6 @@ fn free_name(taken: &HashSet<String>, wish: &str) -> String {
     names.find(|name| !taken.contains(name)).expect("one of endlessly many names is free")
 }
 
-fn floats(vector: DVec3) -> [f32; 3] {
+pub(super) fn floats(vector: DVec3) -> [f32; 3] {
     vector.as_vec3().to_array().map(|value| value + 0.0)
 }

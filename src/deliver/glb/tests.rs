@@ -303,10 +303,11 @@ fn several_roots_hang_on_one_node() {
 fn the_mesh_has_a_closed_octahedron_a_bone_on_the_joint_that_turns_it() {
     let (clip, sheet) = made("kick", &[]);
     let read = read(&clip, &sheet);
-    let part = &read.json["meshes"][0]["primitives"][0];
-    let corners = read.floats(&part["attributes"]["POSITION"]);
-    let joints = read.floats(&part["attributes"]["JOINTS_0"]);
-    let indices = read.floats(&part["indices"]);
+    let parts = read.json["meshes"][0]["primitives"].as_array().unwrap();
+    assert_eq!(parts.len(), 3, "trunk, left and right");
+    let corners = read.floats(&parts[0]["attributes"]["POSITION"]);
+    let joints = read.floats(&parts[0]["attributes"]["JOINTS_0"]);
+    let indices: Vec<_> = parts.iter().flat_map(|part| read.floats(&part["indices"])).collect();
     let bones = clip.skeleton().len() - 1
         + clip.skeleton().joints.iter().map(|joint| joint.end_sites.len()).sum::<usize>();
     assert_eq!((corners.len(), indices.len()), (6 * bones, 24 * bones));
@@ -315,7 +316,8 @@ fn the_mesh_has_a_closed_octahedron_a_bone_on_the_joint_that_turns_it() {
         DVec3::new(corner[0].into(), corner[1].into(), corner[2].into())
     };
     let rest = read.rest_positions();
-    for (bone, faces) in indices.chunks(24).enumerate() {
+    for faces in indices.chunks(24) {
+        let bone = faces[0][0] as usize / 6;
         let middle =
             0.5 * (corner(&vec![6.0 * bone as f32]) + corner(&vec![6.0 * bone as f32 + 5.0]));
         for face in faces.chunks(3) {
@@ -327,6 +329,10 @@ fn the_mesh_has_a_closed_octahedron_a_bone_on_the_joint_that_turns_it() {
         assert!(joints[6 * bone..6 * bone + 6].iter().all(|joint| joint[0] as usize == carrier));
         assert!(rest[carrier].distance(corner(&vec![6.0 * bone as f32])) < 1e-6);
     }
+    let mut seen: Vec<_> = indices.iter().map(|index| index[0] as usize).collect();
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen.len(), corners.len(), "every corner is part of a face");
     let plain = Glb { mesh: false, ..Glb::default() }.write(&clip, &sheet).unwrap();
     let plain = Read::of(&plain);
     assert!(plain.json["meshes"].is_null() && plain.json["materials"].is_null());
@@ -386,7 +392,8 @@ fn z_up_comes_out_y_up_and_units_come_out_as_metres() {
     }
     let top = upright.iter().map(|point| point.y).fold(0.0, f64::max);
     assert!((1.2..2.2).contains(&top), "{top} m");
-    let scaled = Glb { scale: 2.0, unit: LengthUnit::Cm, ..Glb::default() }.write(&clip, &sheet).unwrap();
+    let scaled =
+        Glb { scale: 2.0, unit: LengthUnit::Cm, ..Glb::default() }.write(&clip, &sheet).unwrap();
     let scaled = Read::of(&scaled).positions(0, 0.5);
     assert!(scaled[5].distance(2.0 * upright[5]) < 1e-6);
     let forced = Glb { up: Up::Y, ..Glb::default() }.write(&laid, &sheet).unwrap();
