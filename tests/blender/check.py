@@ -1,7 +1,9 @@
 """python check.py CLIP.bvh FOLDER: what Blender makes of a run of genga, and what the add-on does in it."""
 
 import json
+import os
 import sys
+import traceback
 from pathlib import Path
 
 import bpy
@@ -149,4 +151,13 @@ def compare(thing, names, wanted, start, scale, what):
     say(f"{what}: all {len(found)} koma stand as in limited.bvh, off by {worst:.1e} of the body at most")
 
 
-main()
+try:
+    main()
+    failed = 0
+except BaseException:
+    traceback.print_exc()
+    failed = 1
+# Blender may never end while an add-on is registered.
+sys.stdout.flush()
+sys.stderr.flush()
+os._exit(failed)
