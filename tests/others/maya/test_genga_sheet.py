@@ -178,7 +178,7 @@ class Rotations(unittest.TestCase):
 
     def test_slerp_takes_the_short_way_at_one_speed(self):
         turn = lambda degrees: genga_sheet.quaternion([degrees, 0.0, 0.0], "xyz")
-        for start, end, share, wanted in [(170, 190, 0.25, 175), (10, -10, 0.5, 0), (0, 90, 0.1, 9), (5, 5, 0.3, 5)]:
+        for start, end, share, wanted in [(-170, 170, 0.25, -175), (10, -10, 0.5, 0), (0, 90, 0.1, 9), (5, 5, 0.3, 5)]:
             found = genga_sheet.slerp(turn(start), turn(end), share)
             self.assertAlmostEqual(abs(sum(a * b for a, b in zip(found, turn(wanted)))), 1.0)
 
