@@ -8,8 +8,10 @@ pub(crate) mod lanes;
 pub(crate) mod rig;
 pub(crate) mod sampler;
 mod skeleton;
+mod stature;
 
 pub use channels::RowWriter;
 pub use clip::Clip;
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
 pub use skeleton::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
+pub use stature::{Stature, Unit};

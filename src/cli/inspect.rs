@@ -8,7 +8,7 @@ use super::source::Source;
 use super::words::Words;
 use super::{io, source};
 use crate::error::Warning;
-use crate::motion::{Axis, Body, Channel, Clip, Joint, Pose};
+use crate::motion::{Axis, Channel, Clip, Joint, Stature, Unit};
 use crate::time::{FrameRate, KOMA_RATE};
 
 /// Levels that are indented; deeper ones would only run off the screen.
@@ -100,20 +100,14 @@ fn size(clip: &Clip) -> String {
     if clip.is_empty() {
         return "unknown, there is no frame".into();
     }
-    let mut pose = Pose::rest(clip.skeleton());
-    pose.take_frame(clip, clip.first());
-    let mut positions = vec![glam::DVec3::ZERO; clip.skeleton().len()];
-    Body::new(clip.skeleton()).place(&pose, &mut positions);
-    let low = positions.iter().copied().reduce(glam::DVec3::min).unwrap_or_default();
-    let high = positions.iter().copied().reduce(glam::DVec3::max).unwrap_or_default();
-    let side = (high - low).max_element();
-    let unit = match side {
-        1.0..=3.0 => "metres, by the size",
-        10.0..=40.0 => "the CMU unit of 5.64 cm, by the size",
-        50.0..=90.0 => "inches, by the size",
-        100.0..=250.0 => "centimetres, by the size",
-        1000.0..=2500.0 => "millimetres, by the size",
-        _ => "an unknown unit",
+    let size = Stature::of(clip).size;
+    let unit = match Unit::of_size(size) {
+        Some(Unit::Metre) => "metres, by the size",
+        Some(Unit::Cmu) => "the CMU unit of 5.64 cm, by the size",
+        Some(Unit::Inch) => "inches, by the size",
+        Some(Unit::Centimetre) => "centimetres, by the size",
+        Some(Unit::Millimetre) => "millimetres, by the size",
+        None => "an unknown unit",
     };
-    format!("{side:.1} in its first frame: {unit}")
+    format!("{size:.1} in its first frame: {unit}")
 }

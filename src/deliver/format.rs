@@ -107,6 +107,13 @@ pub const FORMATS: &[Format] = &[
         },
     },
     Format {
+        name: "glb",
+        help: "the motion stepped, with bones to see and the role of every drawing",
+        japanese: "リミテッドモーション",
+        files: &["limited.glb"],
+        make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
+    },
+    Format {
         name: "bars",
         help: "picture: a bar a drawing over koma, with what was left out",
         japanese: "シートの図",

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::deliver::xdts::Xdts;
-use crate::deliver::{FigureSettings, Vmd};
+use crate::deliver::{FigureSettings, Glb, Vmd};
 use crate::error::Error;
 use crate::plot::{ContactSheet, FlipBook, OnionSkin, Strip, XSheet};
 #[cfg(feature = "cli")]
@@ -38,6 +38,8 @@ pub struct Settings {
     /// A picture a drawing.
     #[cfg(feature = "cli")]
     pub images: NumberedImages,
+    /// The stepped motion as GLB.
+    pub glb: Glb,
 }
 
 /// How tables are written.
@@ -62,6 +64,7 @@ impl Settings {
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         self.vmd.validate()?;
+        self.glb.validate()?;
         self.strip.validate()?;
         self.contact.validate()?;
         self.onion.validate()?;

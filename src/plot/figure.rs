@@ -10,7 +10,7 @@ use crate::plot::view::View;
 
 /// Which side of the body a joint belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum BodySide {
+pub(crate) enum BodySide {
     Left,
     Right,
     Trunk,
@@ -18,7 +18,7 @@ pub(super) enum BodySide {
 
 impl BodySide {
     /// Reads it from the usual names: LeftArm, r_hand, LThumb, Arm.L.
-    pub(super) fn of(name: &str) -> Self {
+    pub(crate) fn of(name: &str) -> Self {
         let lower = name.to_lowercase();
         let mut letters = name.chars();
         let (first, second) = (letters.next(), letters.next());

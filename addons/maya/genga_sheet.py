@@ -1,0 +1,234 @@
+"""Applies a timesheet of genga (sheet.json) to animated nodes in Maya.
+
+Of the motion only the poses on the sheet stay, as keys with stepped tangents on the sheet's koma, 24 a
+second. Inbetweens that are blends of two keys are blended on the shortest arc.
+
+Select the root of the skeleton that plays the take, then run in the script editor (Python):
+
+    import genga_sheet
+    genga_sheet.apply("/path/to/sheet.json")
+
+The keys of the selected nodes and all below them are replaced: undo takes it back in one step.
+
+Checked against a stand-in for maya.cmds, not yet in Maya itself.
+"""
+
+import json
+import math
+
+SCHEMA = "genga-sheet-1"
+TIME_UNITS = {"game": 15, "film": 24, "pal": 25, "ntsc": 30, "show": 48, "palf": 50, "ntscf": 60}
+# By Maya's number of a rotate order: the axes in the order in which they are turned about.
+ROTATE_ORDERS = ("xyz", "yzx", "zxy", "xzy", "yxz", "zyx")
+
+
+def apply(path, nodes=None, first_frame=0.0, start=1, layer=""):
+    """Applies the sheet at `path` to `nodes` and what hangs on them; by default the selection.
+
+    `first_frame` is the Maya frame on which source frame 0 lies, at the scene's rate before the call;
+    `start` the frame that the first koma gets; `layer` the sheet's layer by name, by default its first.
+    Gives the number of drawings.
+    """
+    from maya import cmds
+
+    sheet = read(path, layer)
+    nodes = nodes or cmds.ls(selection=True, long=True)
+    if not nodes:
+        raise RuntimeError("nothing is selected: select the root of the skeleton that plays the take")
+    cmds.undoInfo(openChunk=True, chunkName="genga timesheet")
+    try:
+        step = scene_rate(cmds) / sheet["source_fps"]
+        tracks = [track for node in with_children(cmds, nodes) for track in tracks_of(cmds, node)]
+        if not tracks:
+            raise RuntimeError("neither the nodes nor what hangs on them have keys")
+        keys = sample(tracks, sheet["exposures"], lambda place: first_frame + place * step)
+        cmds.currentUnit(time=unit_name(sheet["fps"]), updateAnimation=False)
+        for track, poses in keys:
+            track.write(cmds, poses, [start + koma for koma, _ in sheet["exposures"]])
+        end = start + sheet["length"] - 1
+        cmds.playbackOptions(minTime=start, animationStartTime=start, maxTime=end, animationEndTime=end)
+    finally:
+        cmds.undoInfo(closeChunk=True)
+    return len(sheet["exposures"])
+
+
+def read(path, layer_name=""):
+    """A layer of a sheet: fps, source_fps, length in koma, and exposures as (first koma, source).
+
+    A source is one place in the take, or (place, place, share) for a blend of two.
+    """
+    with open(path, encoding="utf-8-sig") as file:
+        sheet = json.load(file)
+    if not isinstance(sheet, dict) or sheet.get("schema") != SCHEMA:
+        raise ValueError(f"{path} is no timesheet of genga ({SCHEMA})")
+    layers = {layer["name"]: layer for layer in reversed(sheet["layers"])}
+    if layer_name and layer_name not in layers:
+        raise ValueError(f"no layer {layer_name}; there are {', '.join(layers)}")
+    layer = layers[layer_name] if layer_name else sheet["layers"][0]
+    drawings = {drawing["drawing"]: drawing for drawing in layer["drawings"]}
+    exposures, koma = [], 0
+    for exposure in layer["exposures"]:
+        drawing = drawings[exposure["drawing"]]
+        blend = drawing.get("between")
+        exposures.append((koma, (*blend, drawing["share"]) if blend else drawing["frame"]))
+        koma += exposure["koma"]
+    source_fps = sheet["clip"]["frame_rate"]
+    return {"fps": sheet["fps"], "source_fps": source_fps, "length": koma, "exposures": exposures}
+
+
+def scene_rate(cmds):
+    """Frames a second of the scene."""
+    unit = cmds.currentUnit(query=True, time=True)
+    return TIME_UNITS[unit] if unit in TIME_UNITS else float(unit.replace("fps", ""))
+
+
+def unit_name(fps):
+    """Maya's word for a rate."""
+    named = {rate: name for name, rate in TIME_UNITS.items()}
+    return named.get(fps, f"{fps:g}fps")
+
+
+def with_children(cmds, nodes):
+    """The nodes and all transforms below them, each once."""
+    found = []
+    for node in nodes:
+        below = cmds.listRelatives(node, allDescendents=True, fullPath=True, type="transform")
+        found += [name for name in [node, *(below or [])] if name not in found]
+    return found
+
+
+class Track:
+    """One attribute of a node, or the three of its rotation together."""
+
+    def __init__(self, cmds, node, attributes, order=None):
+        self.names = [f"{node}.{attribute}" for attribute in attributes]
+        self.order = order
+        self.value = lambda time: tuple(cmds.getAttr(name, time=time) for name in self.names)
+
+    def blend(self, before, after, share, near):
+        """Between two values: straight, or on the shortest arc for a rotation."""
+        if before == after:
+            return before
+        if self.order is None:
+            return tuple(a + share * (b - a) for a, b in zip(before, after))
+        ends = [quaternion(angles, self.order) for angles in (before, after)]
+        return angles_of(slerp(*ends, share), self.order, near)
+
+    def write(self, cmds, poses, times):
+        """Keys with stepped tangents in the place of all that there were."""
+        for axis, name in enumerate(self.names):
+            cmds.cutKey(name, clear=True)
+            for pose, time in zip(poses, times):
+                tangents = {"inTangentType": "linear", "outTangentType": "step"}
+                cmds.setKeyframe(name, time=time, value=pose[axis], **tangents)
+
+
+def tracks_of(cmds, node):
+    """What is animated on a node. A rotation with a key on any axis is taken whole."""
+    attributes = cmds.listAttr(node, keyable=True, scalar=True) or []
+    keyed = [name for name in attributes if cmds.keyframe(f"{node}.{name}", query=True, keyframeCount=True)]
+    turns = ["rotateX", "rotateY", "rotateZ"]
+    if any(name in keyed for name in turns):
+        yield Track(cmds, node, turns, ROTATE_ORDERS[cmds.getAttr(f"{node}.rotateOrder")])
+    yield from (Track(cmds, node, [name]) for name in keyed if name not in turns)
+
+
+def sample(tracks, exposures, time_of):
+    """The values of every track at every exposure, taken before anything is changed."""
+    return [(track, sampled(track, exposures, time_of)) for track in tracks]
+
+
+def sampled(track, exposures, time_of):
+    poses = []
+
+    def at(place):
+        before = math.floor(place)
+        value = track.value(time_of(before))
+        if place == before:
+            return value
+        near = poses[-1] if poses else value
+        return track.blend(value, track.value(time_of(before + 1)), place - before, near)
+
+    for _, source in exposures:
+        if isinstance(source, tuple):
+            before, after, share = at(source[0]), at(source[1]), source[2]
+            poses.append(track.blend(before, after, share, poses[-1] if poses else before))
+        else:
+            poses.append(at(source))
+    return poses
+
+
+def product(p, q):
+    """Of two quaternions (x, y, z, w): first q turns, then p."""
+    (a, b, c, d), (x, y, z, w) = p, q
+    return (
+        d * x + a * w + b * z - c * y,
+        d * y - a * z + b * w + c * x,
+        d * z + a * y - b * x + c * w,
+        d * w - a * x - b * y - c * z,
+    )
+
+
+def quaternion(angles, order):
+    """From rotateX, rotateY, rotateZ in degrees."""
+    turned = (0.0, 0.0, 0.0, 1.0)
+    for axis in order:
+        half = math.radians(angles["xyz".index(axis)]) / 2
+        turn = [0.0, 0.0, 0.0, math.cos(half)]
+        turn["xyz".index(axis)] = math.sin(half)
+        turned = product(turn, turned)
+    return turned
+
+
+def slerp(p, q, share):
+    """On the shortest arc from p to q."""
+    dot = sum(a * b for a, b in zip(p, q))
+    if dot < 0.0:
+        dot, q = -dot, tuple(-value for value in q)
+    if dot > 1.0 - 1e-9:
+        weights = (1.0 - share, share)
+    else:
+        angle = math.acos(dot)
+        weights = (math.sin((1.0 - share) * angle), math.sin(share * angle))
+    mixed = [weights[0] * a + weights[1] * b for a, b in zip(p, q)]
+    length = math.sqrt(sum(value * value for value in mixed))
+    return tuple(value / length for value in mixed)
+
+
+def angles_of(rotation, order, near):
+    """rotateX, rotateY, rotateZ in degrees of a quaternion: those nearest to the angles `near`."""
+    i, j, k = ("xyz".index(axis) for axis in order)
+    sign = 1.0 if (i + 1) % 3 == j else -1.0
+    entry = lambda row, column: entry_of(rotation, row, column)
+    sine = max(-1.0, min(1.0, -sign * entry(k, i)))
+    middle = math.degrees(math.asin(sine))
+    if abs(sine) > 1.0 - 1e-12:
+        # Gimbal lock: the last angle stays where it was, and the first does what is left.
+        last = [0.0, 0.0, 0.0]
+        last[k] = -near[k]
+        left = product(quaternion(last, order), rotation)
+        first = math.degrees(math.atan2(-sign * entry_of(left, j, k), entry_of(left, j, j)))
+        return nearest([{i: first, j: middle, k: near[k]}], near)
+    first = math.degrees(math.atan2(sign * entry(k, j), entry(k, k)))
+    last = math.degrees(math.atan2(sign * entry(j, i), entry(i, i)))
+    other = {i: first + 180.0, j: 180.0 - middle, k: last + 180.0}
+    return nearest([{i: first, j: middle, k: last}, other], near)
+
+
+def rotated(rotation, vector):
+    x, y, z, w = rotation
+    return product(product(rotation, (*vector, 0.0)), (-x, -y, -z, w))[:3]
+
+
+def entry_of(rotation, row, column):
+    """Of its matrix."""
+    return rotated(rotation, [float(column == at) for at in range(3)])[row]
+
+
+def nearest(choices, near):
+    """Of triples of angles the nearest, each angle by whole turns."""
+
+    def unwound(choice):
+        return tuple(choice[axis] - 360.0 * round((choice[axis] - near[axis]) / 360.0) for axis in range(3))
+
+    return min(map(unwound, choices), key=lambda angles: sum(abs(a - b) for a, b in zip(angles, near)))

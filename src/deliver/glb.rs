@@ -1,0 +1,203 @@
+//! The limited motion as GLB (glTF 2.0 in one file), every channel stepped.
+
+mod animation;
+mod binary;
+mod bones;
+mod mesh;
+#[cfg(test)]
+mod tests;
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::error::Error;
+use crate::motion::{Axis, Clip, Stature, Unit};
+use crate::sheet::{Layer, Sheet};
+use binary::Binary;
+use bones::Bones;
+
+/// The limited motion as GLB: a skeleton that holds each drawing's pose for as long as the drawing is
+/// exposed (every sampler `STEP`), in metres and +Y up.
+///
+/// It has two animations: `koma` with every drawing, first because players show the first, and `genga`
+/// with the key drawings (原画) alone. The koma, number, role and source place of every drawing stand
+/// in `animations[i].extras`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Glb {
+    /// The clip's unit of length; default `auto`: guessed from the size of the body.
+    pub unit: LengthUnit,
+    /// How many times as large the body becomes, 0.001 to 1000; default 1.
+    pub scale: f64,
+    /// The clip's axis that points up; default `auto`: seen from the poses.
+    pub up: Up,
+    /// Whether each bone has an octahedron to be seen by, default true. Without it most viewers show
+    /// nothing and Blender still makes the armature.
+    pub mesh: bool,
+}
+
+/// A unit of length (単位), or that nobody knows it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs)]
+pub enum LengthUnit {
+    /// The unit that makes a person of the body in its first frame.
+    #[default]
+    Auto,
+    M,
+    Cm,
+    Mm,
+    Inch,
+    /// An inch divided by 0.45, as CMU's motion has it.
+    Cmu,
+}
+
+impl LengthUnit {
+    /// Metres in one of it, for a body of that size.
+    fn metres(self, size: f64) -> f64 {
+        let unit = match self {
+            Self::Auto => Unit::nearest(size),
+            Self::M => Unit::Metre,
+            Self::Cm => Unit::Centimetre,
+            Self::Mm => Unit::Millimetre,
+            Self::Inch => Unit::Inch,
+            Self::Cmu => Unit::Cmu,
+        };
+        unit.metres()
+    }
+}
+
+/// The axis that points up.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Up {
+    /// The one along which the body stands.
+    #[default]
+    Auto,
+    /// As in most motion files.
+    Y,
+    /// As in files that Blender writes.
+    Z,
+}
+
+impl Default for Glb {
+    fn default() -> Self {
+        Self { unit: LengthUnit::Auto, scale: 1.0, up: Up::Auto, mesh: true }
+    }
+}
+
+impl Glb {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a scale out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        if (1e-3..=1e3).contains(&self.scale) {
+            return Ok(());
+        }
+        let message = format!("{}; it must be between 0.001 and 1000", self.scale);
+        Err(Error::setting("glb.scale", message))
+    }
+
+    /// The motion of a sheet's first layer as the bytes of a `.glb`.
+    ///
+    /// Nodes stand in the order of joints and have their names, then follow the End Sites as `NAME_end`.
+    /// A pose is the one that `limited.bvh` has on the same koma.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`Glb::validate`]; [`Error::Clip`] when the sheet has no koma, or the clip
+    /// no joint, too many joints for a skin (65535), or values that are no motion.
+    pub fn write(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<u8>, Error> {
+        self.validate()?;
+        clip.check_size()?;
+        let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
+        let layer =
+            layer.ok_or_else(|| Error::clip("the sheet is empty: there is no koma to write"))?;
+        let space = self.space(clip);
+        let bones = Bones::of(clip.skeleton(), space)?;
+        let mut binary = Binary::default();
+        let mut document = self.scene(&bones, &mut binary);
+        document["animations"] = animations(clip, sheet, layer, space, &mut binary);
+        Ok(binary.into_glb(document))
+    }
+
+    /// From the clip's space into that of glTF.
+    fn space(&self, clip: &Clip) -> Space {
+        let stature = Stature::of(clip);
+        let scale = self.scale * self.unit.metres(stature.size);
+        let is_z_up = match self.up {
+            Up::Auto => stature.up == Axis::Z,
+            up => up == Up::Z,
+        };
+        Space { scale, is_z_up }
+    }
+
+    /// All but the animations: nodes, the skin, and the mesh that hangs on it.
+    fn scene(&self, bones: &Bones, binary: &mut Binary) -> Value {
+        let mut nodes = bones.nodes();
+        let mut scene = vec![bones.root()];
+        let mut document = json!({
+            "asset": { "version": "2.0", "generator": GENERATOR },
+            "skins": [bones.skin(binary)],
+            "scene": 0,
+        });
+        if self.mesh {
+            document["meshes"] = json!([mesh::mesh(bones, binary)]);
+            document["materials"] = mesh::materials();
+            // A skinned mesh must not hang on a joint: it is moved by the joints alone.
+            scene.push(nodes.len());
+            nodes.push(json!({ "name": "bones", "mesh": 0, "skin": 0 }));
+        }
+        document["nodes"] = Value::Array(nodes);
+        document["scenes"] = json!([{ "nodes": scene }]);
+        document
+    }
+}
+
+const GENERATOR: &str = concat!("genga ", env!("CARGO_PKG_VERSION"));
+
+/// Both animations, or the first alone where no drawing is a key.
+fn animations(
+    clip: &Clip,
+    sheet: &Sheet,
+    layer: &Layer,
+    space: Space,
+    binary: &mut Binary,
+) -> Value {
+    let poses = animation::Poses::of(clip, layer, space);
+    let write = |name: &str, shown: &[animation::Shown], binary: &mut Binary| {
+        poses.animation(name, shown, layer, sheet.clock.koma_rate, binary)
+    };
+    let mut animations = vec![write("koma", &animation::all(layer), binary)];
+    let genga = animation::genga(layer);
+    if !genga.is_empty() {
+        animations.push(write("genga", &genga, binary));
+    }
+    Value::Array(animations)
+}
+
+/// How the clip's space becomes that of glTF: metres, +Y up, right-handed as before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Space {
+    /// Metres in one of the clip's units.
+    scale: f64,
+    is_z_up: bool,
+}
+
+impl Space {
+    fn position(self, vector: DVec3) -> DVec3 {
+        self.turned(vector) * self.scale
+    }
+
+    /// A local rotation seen from the turned axes: its axis turns with them, its angle stays.
+    fn rotation(self, rotation: DQuat) -> DQuat {
+        let axis = self.turned(rotation.xyz());
+        DQuat::from_xyzw(axis.x, axis.y, axis.z, rotation.w)
+    }
+
+    /// A quarter turn about X that brings Z up, by exchange alone and so without rounding.
+    fn turned(self, vector: DVec3) -> DVec3 {
+        if self.is_z_up { DVec3::new(vector.x, vector.z, -vector.y) } else { vector }
+    }
+}

@@ -1,0 +1,182 @@
+//! The poses of a sheet as stepped channels.
+
+use glam::DQuat;
+use serde_json::{Value, json};
+
+use super::Space;
+use super::binary::{Binary, Use};
+use super::bones::floats;
+use crate::motion::{Clip, RowWriter, local_rotation, local_translation};
+use crate::sheet::{Layer, Source};
+
+/// A drawing that an animation shows, and from which koma until before which.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shown {
+    drawing: usize,
+    begin: usize,
+    end: usize,
+}
+
+/// Every exposure of a layer.
+pub(super) fn all(layer: &Layer) -> Vec<Shown> {
+    let shown = |(begin, exposure): (usize, crate::sheet::Exposure)| Shown {
+        drawing: exposure.drawing,
+        begin,
+        end: begin + exposure.koma,
+    };
+    layer.timed().filter(|(_, exposure)| exposure.koma > 0).map(shown).collect()
+}
+
+/// The exposures of key drawings and ends alone, each held until the next. What a sheet shows before
+/// its first key is that key.
+pub(super) fn genga(layer: &Layer) -> Vec<Shown> {
+    let is_kept = |shown: &Shown| layer.drawings[shown.drawing].role.is_kept();
+    let mut kept: Vec<Shown> = all(layer).into_iter().filter(is_kept).collect();
+    for at in 0..kept.len() {
+        kept[at].end = kept.get(at + 1).map_or(layer.length(), |next| next.begin);
+    }
+    if let Some(first) = kept.first_mut() {
+        first.begin = 0;
+    }
+    kept
+}
+
+/// One joint's part of a pose, ready to be written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Local {
+    translation: [f32; 3],
+    rotation: [f32; 4],
+}
+
+/// The pose of every drawing of a layer, and which parts of it move.
+pub(super) struct Poses {
+    /// Drawing by drawing, joint by joint.
+    locals: Vec<Local>,
+    joints: usize,
+    /// Joints whose translation leaves the rest pose in any drawing.
+    translated: Vec<usize>,
+    /// The same of rotations.
+    rotated: Vec<usize>,
+}
+
+impl Poses {
+    /// The poses as `limited.bvh` has them.
+    pub(super) fn of(clip: &Clip, layer: &Layer, space: Space) -> Self {
+        let joints = &clip.skeleton().joints;
+        let mut row = vec![0.0; clip.skeleton().channels()];
+        let mut writer = RowWriter::new(clip);
+        let mut locals = Vec::with_capacity(layer.drawings.len() * joints.len());
+        for drawing in &layer.drawings {
+            writer.write(drawing.source, &mut row);
+            locals.extend(joints.iter().map(|joint| Local {
+                translation: floats(space.position(local_translation(joint, &row))),
+                rotation: quaternion(space.rotation(local_rotation(joint, &row))),
+            }));
+        }
+        let any = |joint: usize, leaves: &dyn Fn(&Local) -> bool| {
+            locals[joint..].iter().step_by(joints.len()).any(leaves)
+        };
+        let is_translated = |joint: &usize| {
+            let rest = floats(space.position(joints[*joint].offset));
+            any(*joint, &|local| local.translation != rest)
+        };
+        // Not by the last value: the cosine of a small angle is 1.
+        let is_rotated = |joint: &usize| any(*joint, &|local| local.rotation[..3] != [0.0; 3]);
+        let mut translated: Vec<usize> = (0..joints.len()).filter(is_translated).collect();
+        let rotated: Vec<usize> = (0..joints.len()).filter(is_rotated).collect();
+        if translated.is_empty() && rotated.is_empty() {
+            // glTF has no animation without a channel: a body that stays at rest is held there.
+            translated.push(0);
+        }
+        Self { locals, joints: joints.len(), translated, rotated }
+    }
+
+    /// An animation of some drawings, with a key at the end of the last: without it the last drawing
+    /// would last no time and a player would begin again at once.
+    pub(super) fn animation(
+        &self,
+        name: &str,
+        shown: &[Shown],
+        layer: &Layer,
+        koma_rate: f64,
+        binary: &mut Binary,
+    ) -> Value {
+        let closing = shown.last().into_iter();
+        let times = shown.iter().map(|shown| shown.begin).chain(closing.map(|last| last.end));
+        let times: Vec<[f32; 1]> = times.map(|koma| [(koma as f64 / koma_rate) as f32]).collect();
+        let times = binary.add_bounded(Use::Data, "SCALAR", &times);
+        let mut tracks = Vec::new();
+        for &joint in &self.translated {
+            let values: Vec<_> = self.track(joint, shown).map(|local| local.translation).collect();
+            tracks.push((joint, "translation", binary.add(Use::Data, "VEC3", &values)));
+        }
+        for &joint in &self.rotated {
+            let values = continuous(self.track(joint, shown).map(|local| local.rotation));
+            tracks.push((joint, "rotation", binary.add(Use::Data, "VEC4", &values)));
+        }
+        let sampler = |(_, _, values): &(usize, &str, usize)| json!({ "input": times, "interpolation": "STEP", "output": values });
+        let channel = |(sampler, (node, path, _)): (usize, &(usize, &str, usize))| json!({ "sampler": sampler, "target": { "node": node, "path": path } });
+        json!({
+            "name": name,
+            "channels": tracks.iter().enumerate().map(channel).collect::<Vec<_>>(),
+            "samplers": tracks.iter().map(sampler).collect::<Vec<_>>(),
+            "extras": extras(shown, layer, koma_rate),
+        })
+    }
+
+    /// A joint through some drawings, the last once more.
+    fn track<'a>(&'a self, joint: usize, shown: &'a [Shown]) -> impl Iterator<Item = Local> + 'a {
+        let drawings = shown.iter().chain(shown.last()).map(|shown| shown.drawing);
+        drawings.map(move |drawing| self.locals[drawing * self.joints + joint])
+    }
+}
+
+/// What stands on which koma, in the words of `sheet.json`: koma, drawings and source frames from 0.
+/// `genga_no` alone counts from 1, as it stands in a circle on paper.
+fn extras(shown: &[Shown], layer: &Layer, koma_rate: f64) -> Value {
+    let mut genga = 0;
+    let key = |shown: &Shown| {
+        let drawing = &layer.drawings[shown.drawing];
+        let mut key = json!({
+            "koma": shown.begin,
+            "length": shown.end - shown.begin,
+            "drawing": shown.drawing,
+            "role": drawing.role.word(),
+        });
+        match drawing.source {
+            Source::At(place) => key["frame"] = (place + 0.0).into(),
+            Source::Between { from, to, share } => {
+                key["between"] = json!([from + 0.0, to + 0.0]);
+                key["share"] = (share + 0.0).into();
+            }
+        }
+        if drawing.role.is_kept() {
+            genga += 1;
+            key["genga_no"] = genga.into();
+        }
+        key
+    };
+    json!({
+        "fps": koma_rate,
+        "frame_base": 0,
+        "koma": shown.last().map_or(0, |last| last.end),
+        "layer": layer.name,
+        "keys": shown.iter().map(key).collect::<Vec<_>>(),
+    })
+}
+
+/// Of q and −q, which are one rotation, the one nearer to the key before, so that a curve drawn through
+/// them does not jump.
+fn continuous(rotations: impl Iterator<Item = [f32; 4]>) -> Vec<[f32; 4]> {
+    let mut before = [0.0, 0.0, 0.0, 1.0];
+    let near = |rotation: [f32; 4]| {
+        let dot: f32 = rotation.iter().zip(before).map(|(a, b)| a * b).sum();
+        before = if dot < 0.0 { rotation.map(|value| -value) } else { rotation };
+        before
+    };
+    rotations.map(near).collect()
+}
+
+fn quaternion(rotation: DQuat) -> [f32; 4] {
+    rotation.normalize().to_array().map(|value| value as f32)
+}

@@ -1,0 +1,167 @@
+//! How big a body is (身長), in which unit its file must be, and which way is up.
+
+use glam::DVec3;
+
+use crate::motion::{Axis, Body, Clip, Pose};
+
+/// How much taller than along one axis a body has to be along the other to stand along it.
+const CLEARLY: f64 = 1.25;
+
+/// How a body stands in its file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stature {
+    /// The longest side of the box round all joints in the first frame, in the file's unit; 0 without
+    /// a frame or with one joint.
+    pub size: f64,
+    /// The axis that points up, Y or Z.
+    pub up: Axis,
+}
+
+impl Stature {
+    /// Looks at a clip's first frame, and at the rest pose where the first frame leaves a doubt.
+    ///
+    /// Up is Y as BVH has it by custom. It is Z where the first frame is clearly taller along Z than
+    /// along Y, unless the rest pose stands along Y: somebody who begins on hands and knees.
+    pub fn of(clip: &Clip) -> Self {
+        let mut pose = Pose::rest(clip.skeleton());
+        let rest = extent(clip, &pose);
+        if !clip.is_empty() {
+            pose.take_frame(clip, clip.first());
+        }
+        let first = extent(clip, &pose);
+        let is_clearly_z = first.z > CLEARLY * first.y && rest.y <= CLEARLY * rest.z;
+        let up = if is_clearly_z { Axis::Z } else { Axis::Y };
+        Self { size: if clip.is_empty() { 0.0 } else { first.max_element() }, up }
+    }
+}
+
+/// The size of the box round the joints of a pose.
+fn extent(clip: &Clip, pose: &Pose) -> DVec3 {
+    let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+    Body::new(clip.skeleton()).place(pose, &mut positions);
+    let low = positions.iter().copied().reduce(DVec3::min);
+    let high = positions.iter().copied().reduce(DVec3::max);
+    low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
+}
+
+/// The unit of a file's lengths (単位). BVH does not name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// 1 m.
+    Metre,
+    /// What CMU's motion is in: an inch divided by 0.45, 5.64 cm.
+    Cmu,
+    /// 2.54 cm.
+    Inch,
+    /// 1 cm.
+    Centimetre,
+    /// 1 mm.
+    Millimetre,
+}
+
+/// Sizes of a person in each unit, from small to large.
+const PERSONS: [(Unit, f64, f64); 5] = [
+    (Unit::Metre, 1.0, 3.0),
+    (Unit::Cmu, 10.0, 40.0),
+    (Unit::Inch, 50.0, 90.0),
+    (Unit::Centimetre, 100.0, 250.0),
+    (Unit::Millimetre, 1000.0, 2500.0),
+];
+
+impl Unit {
+    /// The unit in which a body of that size is a person's; none where no unit makes it one.
+    pub fn of_size(size: f64) -> Option<Self> {
+        let is_person = |(_, low, high): &&(Self, f64, f64)| (*low..=*high).contains(&size);
+        PERSONS.iter().find(is_person).map(|person| person.0)
+    }
+
+    /// The unit in which a body of that size is nearest to a person's; centimetres for a body without
+    /// a size.
+    pub fn nearest(size: f64) -> Self {
+        let off = |(_, low, high): &(Self, f64, f64)| (low / size).max(size / high);
+        let nearest = PERSONS.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.filter(|_| size > 0.0).map_or(Self::Centimetre, |person| person.0)
+    }
+
+    /// Metres in one of it.
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Metre => 1.0,
+            Self::Cmu => 0.0254 / 0.45,
+            Self::Inch => 0.0254,
+            Self::Centimetre => 0.01,
+            Self::Millimetre => 0.001,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Channel, Joint, JointId, Skeleton};
+    use crate::time::{Frame, FrameRate};
+
+    /// A straight body along `offset` at rest, turned about X by some degrees in its one frame.
+    fn body(offset: DVec3, degrees: f64) -> Clip {
+        let joint = |parent: Option<usize>, offset, channels: &[Channel]| Joint {
+            name: "joint".into(),
+            parent: parent.map(JointId),
+            offset,
+            channels: channels.to_vec(),
+            first_channel: 0,
+            end_sites: vec![],
+        };
+        let turn = [Channel::Rotation(Axis::X)];
+        let joints = vec![joint(None, DVec3::ZERO, &turn), joint(Some(0), offset, &[])];
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(Skeleton { joints }, rate, Frame(0), 1, vec![degrees]).unwrap()
+    }
+
+    #[test]
+    fn up_is_z_only_where_both_poses_allow_it() {
+        let up = |offset, degrees| Stature::of(&body(offset, degrees)).up;
+        assert_eq!(up(DVec3::Y, 0.0), Axis::Y);
+        assert_eq!(up(DVec3::Z, 0.0), Axis::Z, "as Blender writes it");
+        assert_eq!(up(DVec3::Y, 90.0), Axis::Y, "it begins lying down");
+        assert_eq!(up(DVec3::Z, 90.0), Axis::Y, "a rig whose bones point forward at rest");
+        assert_eq!(up(DVec3::X, 0.0), Axis::Y, "flat: nobody knows");
+    }
+
+    #[test]
+    fn the_size_is_that_of_the_first_frame() {
+        assert_eq!(Stature::of(&body(170.0 * DVec3::Y, 0.0)).size, 170.0);
+        let none = Skeleton { joints: vec![] };
+        let none = Clip::new(none, FrameRate::new(24.0).unwrap(), Frame(0), 0, vec![]).unwrap();
+        assert_eq!(Stature::of(&none).size, 0.0);
+    }
+
+    #[test]
+    fn a_unit_makes_a_person_of_a_body() {
+        for (size, unit) in [
+            (1.7, Unit::Metre),
+            (30.0, Unit::Cmu),
+            (67.0, Unit::Inch),
+            (170.0, Unit::Centimetre),
+            (1700.0, Unit::Millimetre),
+        ] {
+            assert_eq!(Unit::of_size(size), Some(unit));
+            assert!((1.6..1.75).contains(&(size * unit.metres())), "{unit:?}");
+        }
+        assert_eq!(Unit::of_size(5.0), None);
+        assert_eq!(Unit::of_size(f64::NAN), None);
+    }
+
+    #[test]
+    fn a_body_of_no_usual_size_has_the_nearest_unit() {
+        for (size, unit) in [
+            (170.0, Unit::Centimetre),
+            (0.4, Unit::Metre),
+            (4.5, Unit::Metre),
+            (300.0, Unit::Centimetre),
+            (9e9, Unit::Millimetre),
+            (0.0, Unit::Centimetre),
+        ] {
+            assert_eq!(Unit::nearest(size), unit, "{size}");
+        }
+    }
+}

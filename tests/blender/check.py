@@ -1,0 +1,163 @@
+"""python check.py CLIP.bvh FOLDER: what Blender makes of a run of genga, and what the add-on does in it."""
+
+import json
+import os
+import sys
+import traceback
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "addons" / "blender"))
+import genga  # noqa: E402
+from genga import stepping  # noqa: E402
+
+# Of the body's size. Blender works in single precision, and angles of BVH go through it twice.
+CLOSE = 2e-5
+CLIP, FOLDER = Path(sys.argv[1]), Path(sys.argv[2])
+SHEET = json.loads((FOLDER / "sheet.json").read_text(encoding="utf-8"))
+LAYER = SHEET["layers"][0]
+ROLES = {drawing["drawing"]: drawing["role"] for drawing in LAYER["drawings"]}
+SHOWN = [exposure["drawing"] for exposure in LAYER["exposures"] for _ in range(exposure["koma"])]
+BEGINS = [sum(e["koma"] for e in LAYER["exposures"][:at]) for at in range(len(LAYER["exposures"]))]
+KEYS = [koma for koma, e in zip(BEGINS, LAYER["exposures"]) if ROLES[e["drawing"]] != "inbetween"]
+TYPES = {"genga": "EXTREME", "end": "EXTREME", "inbetween": "BREAKDOWN"}
+
+
+def empty():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.context.scene.render.fps = 24
+
+
+def armature():
+    return next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
+
+
+def import_bvh(path, **options):
+    bpy.ops.import_anim.bvh(filepath=str(path), **options)
+    return armature()
+
+
+def places(thing, names, frame):
+    """Where the joints stand in the world at a frame."""
+    bpy.context.scene.frame_set(int(frame // 1), subframe=frame % 1)
+    bones = thing.pose.bones
+    return [thing.matrix_world @ bones[name].head for name in names]
+
+
+def curves(thing):
+    animation = thing.animation_data
+    return stepping.curves(animation.action, getattr(animation, "action_slot", None))
+
+
+def furthest(a, b):
+    return max((p - q).length for p, q in zip(a, b))
+
+
+def say(text):
+    print(f"  {text}")
+
+
+def check_keys(thing, koma, start, what):
+    """Every curve: constant keys on those koma, typed by the role of what stands there."""
+    for curve in curves(thing):
+        points = curve.keyframe_points
+        found = [point.co.x - start for point in points]
+        assert max(abs(a - b) for a, b in zip(found, koma)) < 1e-4, (curve.data_path, found)
+        assert len(found) == len(koma), (curve.data_path, len(found), len(koma))
+        assert {point.interpolation for point in points} == {"CONSTANT"}, curve.data_path
+    say(f"{what}: {len(curves(thing))} curves, constant keys on {len(koma)} koma")
+
+
+def check_types(thing, start):
+    for curve in curves(thing):
+        for point in curve.keyframe_points:
+            koma = round(point.co.x - start)
+            wanted = TYPES[ROLES[SHOWN[koma]]] if koma < len(SHOWN) else "KEYFRAME"
+            assert point.type == wanted, (curve.data_path, koma, point.type)
+
+
+def main():
+    print(f"{FOLDER.name} in Blender {bpy.app.version_string}")
+    koma = range(len(SHOWN))
+
+    empty()
+    limited = import_bvh(FOLDER / "limited.bvh")
+    names = [bone.name for bone in limited.data.bones]
+    wanted = [places(limited, names, 1 + at) for at in koma]
+    for at in koma[1:]:
+        if SHOWN[at] == SHOWN[at - 1]:
+            assert wanted[at] == wanted[at - 1], f"koma {at} holds"
+    assert bpy.context.scene.render.fps == 24
+    held = sum(a == b for a, b in zip(SHOWN, SHOWN[1:]))
+    say(f"limited.bvh: {len(SHOWN)} koma, {held} held ones identical to the koma before")
+
+    empty()
+    bpy.ops.import_scene.gltf(filepath=str(FOLDER / "limited.glb"))
+    glb = armature()
+    assert glb.animation_data.action.name.startswith("koma"), glb.animation_data.action.name
+    check_keys(glb, [*BEGINS, len(SHOWN)], 0, "limited.glb")
+    compare(glb, names, wanted, 0, None, "limited.glb")
+
+    empty()
+    genga.register()
+    source = import_bvh(CLIP)
+    bpy.context.view_layer.objects.active = source
+    take = source.animation_data.action
+    before = [[tuple(point.co) for point in curve.keyframe_points] for curve in curves(source)]
+    assert bpy.ops.genga.apply_sheet(filepath=str(FOLDER / "sheet.json")) == {"FINISHED"}
+    check_keys(source, BEGINS, 1, "add-on, sheet.json")
+    check_types(source, 1)
+    compare(source, names, wanted, 1, 1.0, "add-on, sheet.json")
+    assert source.animation_data.action is not take
+    after = [[tuple(point.co) for point in curve.keyframe_points] for curve in stepping.curves(take)]
+    assert before == after, "the take itself stays"
+    scene = bpy.context.scene
+    assert (scene.frame_start, scene.frame_end, scene.render.fps) == (1, len(SHOWN), 24)
+
+    empty()
+    scene = bpy.context.scene
+    scene.render.fps = 30
+    assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb")) == {"FINISHED"}
+    imported = armature()
+    check_keys(imported, [*BEGINS, len(SHOWN)], 1, "add-on, limited.glb")
+    check_types(imported, 1)
+    compare(imported, names, wanted, 1, None, "add-on, limited.glb")
+    assert (scene.frame_start, scene.frame_end, scene.render.fps) == (1, len(SHOWN), 24)
+    others = [action for action in bpy.data.actions if action.name.startswith("genga")]
+    for curve in stepping.curves(others[0]):
+        found = [round(point.co.x, 3) for point in curve.keyframe_points]
+        assert found == [koma + 1 for koma in [*KEYS, len(SHOWN)]], found
+        assert {point.type for point in list(curve.keyframe_points)[:-1]} == {"EXTREME"}
+    say(f"add-on, limited.glb: animation genga, {len(KEYS)} extremes")
+    genga.unregister()
+
+
+def compare(thing, names, wanted, start, scale, what):
+    """Each koma against limited.bvh, on the frame and just before the next one.
+
+    Without a scale it is that of the first pose, which is checked on all the others.
+    """
+    found = [places(thing, names, start + at) for at in range(len(SHOWN))]
+    if scale is None:
+        spread = lambda pose: sum((point - pose[0]).length for point in pose)
+        scale = spread(found[0]) / spread(wanted[0])
+    size = max((p - q).length for p in wanted[0] for q in wanted[0])
+    worst = 0.0
+    for at, pose in enumerate(found):
+        worst = max(worst, furthest([point / scale for point in pose], wanted[at]) / size)
+        assert worst < CLOSE, (what, at, worst)
+        assert places(thing, names, start + at + 0.9) == pose, (what, at, "moves before the next koma")
+    say(f"{what}: all {len(found)} koma stand as in limited.bvh, off by {worst:.1e} of the body at most")
+
+
+try:
+    main()
+    failed = 0
+except BaseException:
+    traceback.print_exc()
+    failed = 1
+# Blender may never end while an add-on is registered.
+sys.stdout.flush()
+sys.stderr.flush()
+os._exit(failed)
