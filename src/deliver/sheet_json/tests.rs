@@ -100,7 +100,8 @@ fn a_blend_is_written_as_two_frames_and_a_share() {
 
 #[test]
 fn a_sheet_that_no_reader_would_take_is_not_written() {
-    let spoilt: [(&str, fn(&mut SheetFile)); 8] = [
+    type Spoil = fn(&mut SheetFile);
+    let spoilt: [(&str, Spoil); 8] = [
         ("koma 0 shows frame 5, but", |file| file.sheet.clock.first.0 = 5),
         ("it is made for 50 frames a second, the clip has 60", |file| file.clip.frame_rate = 60.0),
         ("fps is 0; ", |file| file.sheet.clock.koma_rate = 0.0),
