@@ -143,8 +143,9 @@ impl Glb {
             "scene": 0,
         });
         if self.mesh {
-            document["meshes"] = json!([mesh::mesh(bones, binary)]);
-            document["materials"] = mesh::materials();
+            let (mesh, materials) = mesh::mesh(bones, binary);
+            document["meshes"] = json!([mesh]);
+            document["materials"] = materials.into();
             // A skinned mesh must not hang on a joint: it is moved by the joints alone.
             scene.push(nodes.len());
             nodes.push(json!({ "name": "bones", "mesh": 0, "skin": 0 }));

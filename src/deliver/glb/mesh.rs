@@ -31,23 +31,21 @@ struct Octahedron {
     corners: [DVec3; 6],
 }
 
-/// What the bones are made of. Without it a viewer takes metal, which is black without surroundings.
-pub(super) fn materials() -> Value {
-    let material = |(_, name, [red, green, blue]): (BodySide, &str, [f64; 3])| {
-        json!({
-            "name": name,
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [red, green, blue, 1.0],
-                "metallicFactor": 0.0,
-                "roughnessFactor": 0.8,
-            },
-        })
-    };
-    PARTS.map(material).to_vec().into()
+/// What a part is made of. Without it a viewer takes metal, which is black without surroundings.
+fn material(name: &str, [red, green, blue]: [f64; 3]) -> Value {
+    json!({
+        "name": name,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [red, green, blue, 1.0],
+            "metallicFactor": 0.0,
+            "roughnessFactor": 0.8,
+        },
+    })
 }
 
-/// One mesh of all bones, each on the joint that turns it; a primitive a side of the body.
-pub(super) fn mesh(bones: &Bones, binary: &mut Binary) -> Value {
+/// One mesh of all bones, each on the joint that turns it, a primitive for each side of the body that
+/// has bones; and their materials.
+pub(super) fn mesh(bones: &Bones, binary: &mut Binary) -> (Value, Vec<Value>) {
     let octahedra = octahedra(bones);
     let corners = |octahedron: &Octahedron| octahedron.corners.map(floats);
     let corners: Vec<[f32; 3]> = octahedra.iter().flat_map(corners).collect();
@@ -65,18 +63,21 @@ pub(super) fn mesh(bones: &Bones, binary: &mut Binary) -> Value {
         "JOINTS_0": joints,
         "WEIGHTS_0": binary.add(Use::Vertices, "VEC4", &weights),
     });
-    let mut primitives = Vec::new();
-    for (material, (side, ..)) in PARTS.into_iter().enumerate() {
+    let (mut primitives, mut materials) = (Vec::new(), Vec::new());
+    for (side, name, color) in PARTS {
         let of_side = octahedra.iter().enumerate().filter(|(_, bone)| bone.side == side);
         let of_side: Vec<u32> = of_side.map(|(number, _)| number as u32).collect();
         if !of_side.is_empty() {
             let indices = triangles(&of_side, corners.len(), binary);
-            primitives.push(
-                json!({ "attributes": attributes, "indices": indices, "material": material }),
-            );
+            primitives.push(json!({
+                "attributes": attributes,
+                "indices": indices,
+                "material": materials.len(),
+            }));
+            materials.push(material(name, color));
         }
     }
-    json!({ "name": "bones", "primitives": primitives })
+    (json!({ "name": "bones", "primitives": primitives }), materials)
 }
 
 /// Every bone that has a length, or one upright octahedron where none has.
