@@ -1,7 +1,7 @@
 //! Reads a BVH file.
 
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{Read as _, Seek};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -63,6 +63,10 @@ impl Options {
             return read;
         }
         let mut bytes = Vec::new();
+        // Where reading at a place moves the cursor, as on Windows.
+        if file::length(&file).is_some() {
+            file.rewind().map_err(failed)?;
+        }
         file.read_to_end(&mut bytes).map_err(failed)?;
         self.read(&bytes)
     }
