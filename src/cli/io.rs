@@ -1,5 +1,5 @@
 //! Files and streams: `-` is stdin or stdout, and a file is written beside its place and then renamed,
-//! so that nobody ever finds half of one.
+//! so that nobody ever finds half of one. What is no file, a pipe or a device, is written into.
 
 use std::fs;
 use std::io::{self, Read, Write};
@@ -31,7 +31,23 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_stream(path) {
         return to_stdout(bytes);
     }
+    if is_device(path) {
+        return fs::write(path, bytes).map_err(|source| failed(path, source));
+    }
+    let path = &behind_link(path);
     take_place(written_beside(path, bytes)?, path)
+}
+
+/// Whether a path is a device or a pipe, which takes what is written and must not be replaced by a file.
+fn is_device(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir())
+}
+
+/// The file that a link leads to, so that the link stays; the path itself when it is none.
+fn behind_link(path: &Path) -> PathBuf {
+    let is_link = fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink());
+    let target = is_link.then(|| fs::canonicalize(path).ok()).flatten();
+    target.unwrap_or_else(|| path.to_owned())
 }
 
 /// Files for a folder, each written beside its place as soon as it is made, so that none waits in
@@ -58,7 +74,7 @@ impl<'a> Bundle<'a> {
 
     /// Writes a file beside its place. Its name may have folders in it, with `/`.
     pub(super) fn add(&mut self, name: &str, text: impl AsRef<[u8]>) -> Result<(), Error> {
-        let path = self.folder.join(name);
+        let path = behind_link(&self.folder.join(name));
         if let Some(folder) = path.parent() {
             self.make(folder)?;
         }

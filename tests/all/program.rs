@@ -752,6 +752,32 @@ fn an_unknown_format_or_setting_lists_the_known_ones() {
     assert!(place.files(".").is_empty(), "nothing was written");
 }
 
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_written_into_and_links_stay() {
+    let place = Place::new();
+    let expected = place.done("keys data/kick.bvh").into_bytes();
+    fs::write(place.path("real.csv"), "before").unwrap();
+    std::os::unix::fs::symlink(place.path("real.csv"), place.path("link.csv")).unwrap();
+    place.done("keys data/kick.bvh --out link.csv");
+    assert_eq!(fs::read(place.path("real.csv")).unwrap(), expected);
+    assert!(fs::symlink_metadata(place.path("link.csv")).unwrap().is_symlink());
+    fs::create_dir(place.path("run")).unwrap();
+    std::os::unix::fs::symlink(place.path("real.csv"), place.path("run/keys.csv")).unwrap();
+    fs::write(place.path("real.csv"), "before").unwrap();
+    place.done("run data/kick.bvh --out run");
+    assert_eq!(fs::read(place.path("real.csv")).unwrap(), expected);
+    let pipe = place.path("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read(pipe).unwrap()
+    });
+    place.done("keys data/kick.bvh --out pipe");
+    assert!(!fs::metadata(&pipe).unwrap().is_file(), "the pipe was replaced");
+    assert_eq!(reader.join().unwrap(), expected);
+}
+
 #[test]
 fn the_key_poses_are_a_bvh_by_either_name() {
     let place = Place::new();
