@@ -25,12 +25,12 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
 /// [`Error::Picture`] when it cannot be drawn.
 pub fn poses(cut: &Cut<'_>) -> Result<String, Error> {
     let layer = cut.sheet.layers.first().ok_or_else(|| Error::clip("the sheet has no layer"))?;
+    let numbers = layer.genga_numbers();
     let kept = layer.timed().filter_map(|(koma, exposure)| {
         let drawing = &layer.drawings[exposure.drawing];
-        let label = move |number: usize| format!("{number} · koma {}", koma + 1);
-        drawing.role.is_kept().then_some((drawing.source.place(), label, drawing.role))
+        let label = format!("{} · koma {}", numbers[exposure.drawing]?, koma + 1);
+        Some((drawing.source.place(), label, drawing.role))
     });
-    let poses: Vec<_> =
-        kept.enumerate().map(|(at, (place, label, role))| (place, label(at + 1), role)).collect();
+    let poses: Vec<_> = kept.collect();
     PoseRow::default().draw(cut.clip, &poses)
 }

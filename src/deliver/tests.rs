@@ -1,5 +1,7 @@
 //! Every deliverable of one small clip, whole: read the snapshots as an animator would.
 
+mod numbers;
+
 use super::*;
 use crate::edits::{Edits, Pin};
 use crate::motion::{Clip, bvh};

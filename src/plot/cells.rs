@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::points::Posing;
 use crate::plot::style;
-use crate::sheet::{Drawing, Layer, Role, Sheet};
+use crate::sheet::{Drawing, Exposure, Layer, Sheet};
 
 /// A drawing on screen.
 #[derive(Debug, Clone, Copy)]
@@ -63,12 +63,11 @@ impl Cell<'_> {
 
 /// The exposures of a layer, labelled.
 pub(super) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
-    let mut kept = 0;
-    let cell = |(koma, exposure): (usize, crate::sheet::Exposure)| {
-        let drawing = &layer.drawings[exposure.drawing];
-        kept += usize::from(drawing.role != Role::Inbetween);
-        let genga = drawing.role.is_kept().then_some(kept);
-        Cell { drawing, index: exposure.drawing, genga, koma, held: exposure.koma }
+    let numbers = layer.genga_numbers();
+    let cell = |(koma, exposure): (usize, Exposure)| {
+        let index = exposure.drawing;
+        let drawing = &layer.drawings[index];
+        Cell { drawing, index, genga: numbers[index], koma, held: exposure.koma }
     };
     layer.timed().map(cell).collect()
 }

@@ -103,9 +103,7 @@ impl FlipBook {
         let figure = Figure::of(clip.skeleton(), &source[0], auto.up);
         let steps = Steps::of(&figure, &auto, &source);
         let cells = cells(layer);
-        let mut genga = vec![None; layer.drawings.len()];
-        cells.iter().for_each(|cell| genga[cell.index] = cell.genga);
-        let drawings = layer.drawings.iter().zip(&result).zip(genga);
+        let drawings = layer.drawings.iter().zip(&result).zip(layer.genga_numbers());
         Take {
             cut,
             column: &layer.name,

@@ -134,7 +134,7 @@ impl Poses {
 /// What stands on which koma, in the words of `sheet.json`: koma, drawings and source frames from 0.
 /// `genga_no` alone counts from 1, as it stands in a circle on paper.
 fn extras(shown: &[Shown], layer: &Layer, koma_rate: f64) -> Value {
-    let mut genga = 0;
+    let genga = layer.genga_numbers();
     let key = |shown: &Shown| {
         let drawing = &layer.drawings[shown.drawing];
         let mut key = json!({
@@ -150,9 +150,8 @@ fn extras(shown: &[Shown], layer: &Layer, koma_rate: f64) -> Value {
                 key["share"] = (share + 0.0).into();
             }
         }
-        if drawing.role.is_kept() {
-            genga += 1;
-            key["genga_no"] = genga.into();
+        if let Some(number) = genga[shown.drawing] {
+            key["genga_no"] = number.into();
         }
         key
     };

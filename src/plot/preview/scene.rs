@@ -39,8 +39,6 @@ pub(super) struct Scene<'a> {
     small: Digits,
     genga: Digits,
     plain: Digits,
-    /// The number of each kept drawing among the kept.
-    numbers: Vec<Option<usize>>,
     size: (f64, f64),
     koma: usize,
 }
@@ -59,8 +57,6 @@ impl<'a> Scene<'a> {
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
         let cells = cells(layer);
-        let mut numbers = vec![None; layer.drawings.len()];
-        cells.iter().for_each(|cell| numbers[cell.index] = cell.genga);
         let backdrop = Pixels::of(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
             posing: Posing::of(clip),
@@ -73,7 +69,6 @@ impl<'a> Scene<'a> {
             small: Digits::new(style::WORDS, style::INK)?,
             genga: Digits::new(style::TITLE, style::GENGA)?,
             plain: Digits::new(style::TITLE, style::INBETWEEN)?,
-            numbers,
             size,
             koma,
         })
@@ -89,7 +84,8 @@ impl<'a> Scene<'a> {
             self.figure(panel, &pose);
         }
         let (width, height) = self.size;
-        let digits = if self.numbers[drawing].is_some() { &self.genga } else { &self.plain };
+        let is_kept = self.layer.drawings[drawing].role.is_kept();
+        let digits = if is_kept { &self.genga } else { &self.plain };
         digits.write(&mut self.pixels, drawing + 1, (width - PAD, 28.0));
         self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, height - 10.0));
         let bar = bar_width(self.size, self.koma);

@@ -5,7 +5,7 @@ use crate::plot::axis::number;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::sheet::fate::Fate;
 use crate::plot::style;
-use crate::sheet::{Layer, Role};
+use crate::sheet::{Drawing, Exposure, Layer, Role};
 
 pub(super) const LEFT: f64 = 52.0;
 const SECONDS: f64 = 18.0;
@@ -50,19 +50,13 @@ pub(super) struct Paper<'a> {
 /// The numbers of the kept drawings, genga and ends as one series as in the key table, in as many
 /// lanes as keep them apart; those that even so find no room have none.
 pub(super) fn badges(layer: &Layer, in_line: usize, slot: f64) -> Vec<Badge> {
-    let role = |drawing: usize| layer.drawings[drawing].role;
-    let mut badges: Vec<_> = layer
-        .timed()
-        .filter(|(_, shown)| role(shown.drawing).is_kept())
-        .enumerate()
-        .map(|(at, (koma, shown))| Badge {
-            koma,
-            role: role(shown.drawing),
-            number: at + 1,
-            pinned: layer.drawings[shown.drawing].why.pinned.is_some(),
-            lane: None,
-        })
-        .collect();
+    let numbers = layer.genga_numbers();
+    let badge = |(koma, shown): (usize, Exposure)| {
+        let Drawing { role, why, .. } = &layer.drawings[shown.drawing];
+        let number = numbers[shown.drawing]?;
+        Some(Badge { koma, role: *role, number, pinned: why.pinned.is_some(), lane: None })
+    };
+    let mut badges: Vec<_> = layer.timed().filter_map(badge).collect();
     // A gap at every line's end: numbers of different lines are no neighbours.
     let gap = 4.0 * style::BADGE;
     let place = |koma: usize| koma as f64 * slot + (koma / in_line) as f64 * gap;

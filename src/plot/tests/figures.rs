@@ -214,6 +214,27 @@ fn numbers_are_those_of_the_key_table() {
 }
 
 #[test]
+fn an_edited_sheet_keeps_the_numbers_of_its_drawings() {
+    let (clip, mut sheet) = walk();
+    let shown = [(4, 2), (0, 1), (4, 3), (1, 1)];
+    let exposures = shown.map(|(drawing, koma)| Exposure { drawing, koma }).to_vec();
+    sheet.layers[0].exposures = exposures;
+    let cells = cells(&sheet.layers[0]);
+    let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
+    assert_eq!(numbers, [(5, Some(3), 0), (1, Some(1), 2), (5, Some(3), 3), (2, None, 6)]);
+    let take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());
+    let genga = take["drawings"].as_array().unwrap().iter().map(|drawing| &drawing["genga"]);
+    assert_eq!(
+        genga.map(Value::as_u64).collect::<Vec<_>>(),
+        [Some(1), None, Some(2), None, Some(3)]
+    );
+    for (name, draw) in PAGES {
+        let pages = draw("cut", &clip, &sheet).unwrap();
+        assert!(!said(&pages).contains(&"2".to_owned()) || name == "strip", "{name}");
+    }
+}
+
+#[test]
 fn a_blend_is_posed_as_a_blend_and_tips_follow_the_joints() {
     let (clip, _) = walk();
     let mut posing = Posing::of(&clip);
