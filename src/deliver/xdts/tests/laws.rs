@@ -7,27 +7,49 @@ use super::writing::holds;
 use crate::deliver::xdts::read;
 use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
 
-/// A layer as the program makes it: every drawing once, the first and the last an end.
-fn any_layer() -> impl Strategy<Value = Layer> {
-    let drawing = (prop::bool::weighted(0.3), 1..8usize);
-    (prop::collection::vec(drawing, 1..30), "[A-FS][0-9]?|腕|").prop_map(|(shown, name)| {
-        let last = shown.len() - 1;
+/// Drawings of which the first and the last are ends.
+fn any_drawings() -> impl Strategy<Value = Vec<Drawing>> {
+    prop::collection::vec(prop::bool::weighted(0.3), 1..30).prop_map(|genga| {
+        let last = genga.len() - 1;
         let role = |at: usize, genga: bool| match at {
             at if at == 0 || at == last => Role::End,
             _ if genga => Role::Genga,
             _ => Role::Inbetween,
         };
-        let drawing = |(at, &(genga, _)): (usize, &(bool, usize))| Drawing {
+        let drawing = |(at, genga)| Drawing {
             source: Source::At(at as f64),
             role: role(at, genga),
             why: Why::default(),
         };
-        let exposure = |(drawing, &(_, koma)): (usize, &(bool, usize))| Exposure { drawing, koma };
-        Layer {
-            name,
-            drawings: shown.iter().enumerate().map(drawing).collect(),
-            exposures: shown.iter().enumerate().map(exposure).collect(),
-        }
+        genga.into_iter().enumerate().map(drawing).collect()
+    })
+}
+
+/// Koma of each exposure, and which drawing of how many where that is not the next.
+#[derive(Debug, Clone)]
+enum Shown {
+    InOrder(Vec<usize>),
+    Edited(Vec<(prop::sample::Index, usize)>),
+}
+
+/// A layer as the program makes it, every drawing once and in order, or as a person may leave it:
+/// drawings shown again, moved or left out.
+fn any_layer() -> impl Strategy<Value = Layer> {
+    let edits = prop::collection::vec((any::<prop::sample::Index>(), 1..8usize), 1..40);
+    let lengths = prop::collection::vec(1..8usize, 30);
+    let shown = prop_oneof![lengths.prop_map(Shown::InOrder), edits.prop_map(Shown::Edited)];
+    (any_drawings(), shown, "[A-FS][0-9]?|腕|").prop_map(|(drawings, shown, name)| {
+        let count = drawings.len();
+        let exposures = match shown {
+            Shown::InOrder(lengths) => {
+                lengths.into_iter().take(count).enumerate().collect::<Vec<_>>()
+            }
+            Shown::Edited(edited) => {
+                edited.into_iter().map(|(at, koma)| (at.index(count), koma)).collect()
+            }
+        };
+        let exposure = |(drawing, koma)| Exposure { drawing, koma };
+        Layer { name, drawings, exposures: exposures.into_iter().map(exposure).collect() }
     })
 }
 
