@@ -196,9 +196,21 @@ impl Layer {
             .flat_map(|exposure| std::iter::repeat_n(exposure.drawing, exposure.koma))
     }
 
-    /// Drawings of a role.
+    /// The drawings that are on screen at all, in their order: a person may have left others.
+    pub fn shown(&self) -> impl Iterator<Item = &Drawing> {
+        let mut is_shown = vec![false; self.drawings.len()];
+        for exposure in &self.exposures {
+            if let Some(is_shown) = is_shown.get_mut(exposure.drawing) {
+                *is_shown = true;
+            }
+        }
+        let drawings = self.drawings.iter().zip(is_shown);
+        drawings.filter_map(|(drawing, is_shown)| is_shown.then_some(drawing))
+    }
+
+    /// Drawings of a role that are on screen.
     pub fn count(&self, role: Role) -> usize {
-        self.drawings.iter().filter(|drawing| drawing.role == role).count()
+        self.shown().filter(|drawing| drawing.role == role).count()
     }
 
     /// The number of each drawing among the kept ones, genga and ends as one series from 1; none for
@@ -264,6 +276,16 @@ mod tests {
         assert_eq!((layer.count(Role::End), layer.count(Role::Inbetween)), (2, 1));
         assert_eq!(Sheet::on_ones(clock(), 0).length(), 0);
         assert_eq!(Sheet::on_ones(clock(), 1).layers[0].count(Role::End), 1);
+    }
+
+    #[test]
+    fn a_drawing_that_is_on_screen_counts_once_and_another_not_at_all() {
+        let mut layer = Sheet::on_ones(clock(), 4).layers.remove(0);
+        let shown = [3, 0, 3, 2, 0, 9].map(|drawing| Exposure { drawing, koma: 2 });
+        layer.exposures = shown.to_vec();
+        let places: Vec<_> = layer.shown().map(|drawing| drawing.source.place()).collect();
+        assert_eq!(places, [0.0, 10.0, 15.0]);
+        assert_eq!((layer.count(Role::End), layer.count(Role::Inbetween)), (2, 1));
     }
 
     #[test]

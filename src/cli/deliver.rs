@@ -38,7 +38,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     bundle.finish()?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));
-        let drawings = counted(layer.drawings.len(), "drawing");
+        let drawings = counted(layer.shown().count(), "drawing");
         words.say(format_args!(
             "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
         ));

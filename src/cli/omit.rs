@@ -51,7 +51,7 @@ fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &Report, seconds: 
     words.say(format_args!("length      尺         {koma} → {} koma", layer.length()));
     words.say(format_args!("left out    中無し     {} of {} by naka-nashi", naka.done, naka.asked));
     words.say(format_args!("held        コマ撮り   {} of {} by koma-dori", dori.done, dori.asked));
-    let (drawings, longest) = (counted(layer.drawings.len(), "drawing"), layer.longest_hold());
+    let (drawings, longest) = (counted(layer.shown().count(), "drawing"), layer.longest_hold());
     words.say(format_args!("sheet       シート     {drawings}, longest hold {longest} koma"));
     words.say(format_args!(
         "time                   {:.3} ms for positions and both stages",

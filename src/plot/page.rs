@@ -5,7 +5,7 @@ use crate::plot::cells::seconds_and_koma;
 use crate::plot::figure::BodySide;
 use crate::plot::style;
 use crate::plot::svg::Svg;
-use crate::sheet::{Layer, Role, Sheet};
+use crate::sheet::{Layer, Sheet};
 
 /// Height of the head, in px.
 pub(super) const HEAD: f64 = 72.0;
@@ -55,8 +55,8 @@ impl Head<'_> {
 pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let koma = layer.length();
     let length = seconds_and_koma(koma, sheet.clock.koma_rate);
-    let genga = layer.drawings.iter().filter(|drawing| drawing.role != Role::Inbetween).count();
-    let drawings = layer.drawings.len();
+    let genga = layer.shown().filter(|drawing| drawing.role.is_kept()).count();
+    let drawings = layer.shown().count();
     let plural = if drawings == 1 { "" } else { "s" };
     format!(
         "尺 {length} ({koma} koma) · genga and ends 原画 {genga} · {drawings} drawing{plural} 動画"

@@ -144,7 +144,7 @@ pub(super) fn check(sheet: &Sheet) -> Result<(), Error> {
 
 /// One sentence of numbers about a layer.
 fn counts(layer: &Layer, koma_rate: f64) -> String {
-    let (koma, drawings) = (layer.length(), layer.exposures.len());
+    let (koma, drawings) = (layer.length(), layer.shown().count());
     let seconds = koma as f64 / koma_rate;
     let a_second = if koma == 0 { 0.0 } else { drawings as f64 / seconds };
     format!(

@@ -29,6 +29,10 @@ fn edited(clip: &Clip) -> Sheet {
     Sheet { clock: clip.clock(24.0), layers: vec![layer] }
 }
 
+fn cut<'a>(clip: &'a Clip, sheet: &'a Sheet) -> Cut<'a> {
+    Cut { name: "wave", clip_file: "wave.bvh", clip, sheet, spaced: None, made_with: None }
+}
+
 /// The first text file of a format.
 fn file(cut: &Cut<'_>, format: &str) -> String {
     let mut files = Vec::new();
@@ -53,18 +57,24 @@ fn json(text: &str, begin: &str) -> Value {
 }
 
 #[test]
+fn drawings_that_are_never_shown_are_counted_nowhere() {
+    let clip = wave();
+    let sheet = edited(&clip);
+    for (format, words) in [
+        ("bars", ["A:  36 koma (1.5 s)  ·  5 drawings  ·  4 genga"].as_slice()),
+        ("xsheet", &["原画 genga 4 (0 ends", "動画 drawings 5, inbetweens 中割り 1 "]),
+        ("contact", &["genga and ends 原画 4 · 5 drawings 動画"]),
+    ] {
+        let file = file(&cut(&clip, &sheet), format);
+        words.iter().for_each(|words| assert!(file.contains(words), "{format}: {words}"));
+    }
+}
+
+#[test]
 fn a_genga_has_one_number_in_every_format() {
     let clip = wave();
     let sheet = edited(&clip);
-    let cut = Cut {
-        name: "wave",
-        clip_file: "wave.bvh",
-        clip: &clip,
-        sheet: &sheet,
-        spaced: None,
-        made_with: None,
-    };
-    let file = |format: &str| file(&cut, format);
+    let file = |format: &str| file(&cut(&clip, &sheet), format);
     let number = |value: &Value| value.as_u64().map(|number| number as usize);
 
     let keys = file("csv");

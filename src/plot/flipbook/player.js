@@ -107,7 +107,8 @@ function label() {
     if (name === "play") button.textContent = state.playing ? "❚❚" : "▶";
   }
   by("language").textContent = word("language");
-  by("facts").textContent = word("facts")(take, take.drawings.filter((drawing) => drawing.genga).length);
+  const shown = [...new Set(take.cells.map(([drawing]) => take.drawings[drawing]))];
+  by("facts").textContent = word("facts")(take, shown.filter((drawing) => drawing.genga).length, shown.length);
   by("scrub").setAttribute("aria-label", word("scrub"));
   by("column").setAttribute("aria-label", word("column"));
   for (const id of ["source", "result"]) {

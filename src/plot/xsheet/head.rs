@@ -84,15 +84,11 @@ fn counts(leaves: &[Leaf<'_>], sheet: &Sheet) -> Vec<String> {
 }
 
 fn genga(leaf: &Leaf<'_>) -> usize {
-    leaf.genga.iter().flatten().count()
+    leaf.layer.shown().filter(|drawing| drawing.role.is_kept()).count()
 }
 
-/// Drawings that are on screen.
 fn drawings(leaf: &Leaf<'_>) -> usize {
-    let mut shown: Vec<_> = leaf.layer.exposures.iter().map(|shown| shown.drawing).collect();
-    shown.sort_unstable();
-    shown.dedup();
-    shown.len()
+    leaf.layer.shown().count()
 }
 
 fn count(leaf: &Leaf<'_>) -> String {
