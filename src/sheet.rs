@@ -6,7 +6,12 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::Error;
 use crate::time::Clock;
+
+/// Koma of a layer at most, half a day of film: a longer hold is a slip of the hand, and would fill the
+/// memory.
+const MOST_KOMA: usize = 1_000_000;
 
 /// A timesheet: for each layer, drawings and how long each stays on screen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -174,7 +179,31 @@ impl fmt::Display for Why {
     }
 }
 
+impl Exposure {
+    /// The koma of a layer after this, if it may stand for so long.
+    pub(crate) fn after(self, before: usize) -> Result<usize, String> {
+        let koma = self.koma;
+        if koma == 0 {
+            return Err("an exposure of 0 koma is not seen: 1 at the least, or leave it out".into());
+        }
+        let after = before.checked_add(koma).filter(|after| *after <= MOST_KOMA);
+        after.ok_or_else(|| format!("{koma} koma here: a layer has {MOST_KOMA} koma at the most"))
+    }
+}
+
 impl Layer {
+    fn check(&self) -> Result<(), Error> {
+        let (name, drawings) = (&self.name, self.drawings.len());
+        if let Some(wrong) = self.exposures.iter().find(|shown| shown.drawing >= drawings) {
+            let drawing = wrong.drawing;
+            let message = format!("layer {name} shows drawing {drawing} but has {drawings}");
+            return Err(Error::sheet(message));
+        }
+        let length = self.exposures.iter().try_fold(0, |before, shown| shown.after(before));
+        length.map_err(|message| Error::sheet(format!("layer {name}: {message}")))?;
+        Ok(())
+    }
+
     /// Koma of the layer: the sum of its exposures.
     pub fn length(&self) -> usize {
         self.exposures.iter().map(|exposure| exposure.koma).sum()
@@ -235,6 +264,25 @@ impl Layer {
 }
 
 impl Sheet {
+    /// Checks that every exposure shows a drawing that its layer has, for a koma at least, and that no
+    /// layer has more than a million koma.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] naming the first layer of which that is not so.
+    pub fn check(&self) -> Result<(), Error> {
+        self.layers.iter().try_for_each(Layer::check)
+    }
+
+    /// The first layer, of which one body's motion and its pictures are made.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] as [`Sheet::check`], and when there is no such layer or it has no koma.
+    pub fn first_layer(&self) -> Result<&Layer, Error> {
+        self.check()?;
+        let layer = self.layers.first().filter(|layer| !layer.exposures.is_empty());
+        layer.ok_or_else(|| Error::sheet("the sheet is empty: its first layer has no koma"))
+    }
+
     /// Koma of the sheet: that of its longest layer.
     pub fn length(&self) -> usize {
         self.layers.iter().map(Layer::length).max().unwrap_or(0)

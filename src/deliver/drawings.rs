@@ -54,8 +54,9 @@ impl Drawings {
     /// the path of the `lead_joint`: the joint that travels furthest between the two.
     ///
     /// # Errors
-    /// Only when memory runs out.
+    /// [`Error::Sheet`] as [`Sheet::check`].
     pub fn write(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+        sheet.check()?;
         let mut rows = Vec::new();
         for layer in &sheet.layers {
             let gauge = gauge(clip, layer);

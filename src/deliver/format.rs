@@ -207,13 +207,14 @@ impl Format {
     /// Makes the files of this format and hands them on, one at a time.
     ///
     /// # Errors
-    /// What the format cannot be made of, what is wrong with a setting, and what `put` says.
+    /// [`Error::Sheet`] as [`Sheet::check`](crate::sheet::Sheet::check); what the format cannot be made of, what is wrong with a setting, and what `put` says.
     pub fn write(
         &self,
         cut: &Cut<'_>,
         settings: &Settings,
         put: &mut Sink<'_>,
     ) -> Result<(), Error> {
+        cut.sheet.check()?;
         (self.make)(cut, settings, put)
     }
 

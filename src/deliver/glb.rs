@@ -106,14 +106,13 @@ impl Glb {
     /// A pose is the one that `limited.bvh` has on the same koma.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`Glb::validate`]; [`Error::Clip`] when the sheet has no koma, or the clip
-    /// no joint, too many joints for a skin (65535), or values that are no motion.
+    /// [`Error::Setting`] as [`Glb::validate`]; [`Error::Sheet`] as [`Sheet::first_layer`];
+    /// [`Error::Clip`] when the clip has no joint, too many joints for a skin (65535), or values that are
+    /// no motion.
     pub fn write(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<u8>, Error> {
         self.validate()?;
         clip.check_size()?;
-        let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
-        let layer =
-            layer.ok_or_else(|| Error::clip("the sheet is empty: there is no koma to write"))?;
+        let layer = sheet.first_layer()?;
         let space = self.space(clip);
         let bones = Bones::of(clip.skeleton(), space)?;
         let mut binary = Binary::default();

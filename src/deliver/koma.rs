@@ -8,8 +8,9 @@ use crate::sheet::Sheet;
 /// `source_frame` from 0 as in the file and fractional where the pose was sampled between frames.
 ///
 /// # Errors
-/// Only when memory runs out.
+/// [`Error::Sheet`] as [`Sheet::check`].
 pub fn sheet_csv(sheet: &Sheet) -> Result<String, Error> {
+    sheet.check()?;
     let rows = sheet.layers.iter().flat_map(|layer| {
         layer.koma().enumerate().map(|(koma, index)| {
             let drawing = &layer.drawings[index];
@@ -30,8 +31,9 @@ pub fn sheet_csv(sheet: &Sheet) -> Result<String, Error> {
 /// from 1; of several layers the first.
 ///
 /// # Errors
-/// Only when memory runs out.
+/// [`Error::Sheet`] as [`Sheet::check`].
 pub fn remap_csv(sheet: &Sheet) -> Result<String, Error> {
+    sheet.check()?;
     let rows = sheet.layers.iter().take(1).flat_map(|layer| {
         layer.koma().enumerate().map(|(koma, index)| {
             let place = layer.drawings[index].source.place();

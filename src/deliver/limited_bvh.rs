@@ -2,16 +2,16 @@
 
 use crate::error::Error;
 use crate::motion::{Clip, RowWriter, bvh};
-use crate::sheet::{Layer, Sheet, Source};
+use crate::sheet::{Sheet, Source};
 use crate::time::FrameRate;
 
 /// The motion of a sheet's first layer as a BVH at the sheet's rate, 24 fps: one row a koma. A drawing
 /// that is a source frame is written as the numbers it was read from; holds repeat their row.
 ///
 /// # Errors
-/// [`Error::Clip`] when the sheet has no koma.
+/// [`Error::Sheet`] as [`Sheet::first_layer`].
 pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
-    let layer = first_layer(sheet, "there is no koma to write")?;
+    let layer = sheet.first_layer()?;
     let shown = layer.exposures.iter();
     let rows = shown.map(|shown| (layer.drawings[shown.drawing].source, shown.koma));
     written(clip, sheet, rows)
@@ -21,20 +21,15 @@ pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
 /// their order. Its rate is that of the sheet and means nothing.
 ///
 /// # Errors
-/// [`Error::Clip`] when the sheet has no genga and no end.
+/// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Clip`] when it has no genga and no end.
 pub fn keys_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
-    let layer = first_layer(sheet, "there is no pose to write")?;
+    let layer = sheet.first_layer()?;
     let kept = layer.drawings.iter().filter(|drawing| drawing.role.is_kept());
     let rows: Vec<_> = kept.map(|drawing| (drawing.source, 1)).collect();
     if rows.is_empty() {
         return Err(Error::clip("the sheet has neither genga nor ends: there is no pose to write"));
     }
     written(clip, sheet, rows)
-}
-
-fn first_layer<'a>(sheet: &'a Sheet, so: &str) -> Result<&'a Layer, Error> {
-    let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
-    layer.ok_or_else(|| Error::clip(format!("the sheet is empty: {so}")))
 }
 
 /// Rows at the sheet's rate, each pose as many times as is asked for.

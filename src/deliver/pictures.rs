@@ -22,9 +22,9 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
 /// The kept drawings of the first layer as poses in a row (SVG).
 ///
 /// # Errors
-/// [`Error::Picture`] when it cannot be drawn.
+/// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] when it cannot be drawn.
 pub fn poses(cut: &Cut<'_>) -> Result<String, Error> {
-    let layer = cut.sheet.layers.first().ok_or_else(|| Error::clip("the sheet has no layer"))?;
+    let layer = cut.sheet.first_layer()?;
     let numbers = layer.genga_numbers();
     let kept = layer.timed().filter_map(|(koma, exposure)| {
         let drawing = &layer.drawings[exposure.drawing];

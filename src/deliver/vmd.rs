@@ -128,14 +128,15 @@ impl Vmd {
     /// MMD has no steps: where a drawing stays, its pose is written again on the frame before the next.
     ///
     /// # Errors
-    /// [`Error::Clip`] when the sheet has no koma, or no joint is known to the map; [`Error::Setting`]
-    /// when a setting is out of its range, or two koma would fall on one frame.
+    /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Clip`] when the clip has no frame, or no
+    /// joint is known to the map; [`Error::Setting`] when a setting is out of its range, or two koma would
+    /// fall on one frame.
     pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
         self.validate()?;
-        let layer = sheet.layers.first().filter(|layer| !layer.exposures.is_empty());
-        let layer = layer.filter(|_| !clip.is_empty());
-        let layer =
-            layer.ok_or_else(|| Error::clip("the sheet is empty: there is no koma to write"))?;
+        let layer = sheet.first_layer()?;
+        if clip.is_empty() {
+            return Err(Error::clip("the clip has no frame: there is no pose to write"));
+        }
         let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
         let map = self.map();
         let found = map.find(clip.skeleton())?;

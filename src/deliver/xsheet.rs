@@ -31,7 +31,7 @@ svg { display: block; width: 100%; height: auto }
 /// The X-sheet of a cut.
 ///
 /// # Errors
-/// [`Error::Picture`] when the sheet shows a drawing that it does not have.
+/// [`Error::Sheet`] as [`Sheet::check`].
 pub fn xsheet(
     settings: &XSheet,
     cut: &str,

@@ -75,19 +75,13 @@ pub(super) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
 /// The layer that pictures show, the first, after a look at whether it can be shown.
 ///
 /// # Errors
-/// [`Error::Picture`] when there is no frame, no joint or no exposure, or an exposure or a place is
-/// none.
+/// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] when there is no frame or no joint, or
+/// a place is none.
 pub(super) fn shown<'a>(clip: &Clip, sheet: &'a Sheet) -> Result<&'a Layer, Error> {
     if clip.is_empty() || clip.skeleton().is_empty() {
         return Err(style::cannot("a clip without frames or joints has no pose to draw"));
     }
-    let layer = sheet.layers.first().filter(|layer| layer.length() > 0);
-    let layer = layer.ok_or_else(|| style::cannot("the sheet shows no drawing"))?;
-    let (name, drawings) = (&layer.name, layer.drawings.len());
-    if let Some(wrong) = layer.exposures.iter().find(|exposure| exposure.drawing >= drawings) {
-        let message = format!("layer {name} shows drawing {} but has {drawings}", wrong.drawing);
-        return Err(style::cannot(message));
-    }
+    let layer = sheet.first_layer()?;
     if !layer.drawings.iter().all(|drawing| drawing.source.place().is_finite()) {
         return Err(style::cannot("a drawing's place in the source must be a number"));
     }

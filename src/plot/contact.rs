@@ -68,7 +68,7 @@ impl ContactSheet {
     /// Draws the genga of a sheet as pages of SVG; `cut` is the name on them.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`ContactSheet::validate`]; [`Error::Picture`] when clip and sheet have
+    /// [`Error::Setting`] as [`ContactSheet::validate`]; [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have
     /// nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;

@@ -75,7 +75,7 @@ impl FlipBook {
     /// Makes the page; `cut` is its title.
     ///
     /// # Errors
-    /// [`Error::Picture`] when clip and sheet have nothing to show.
+    /// [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         let layer = shown(clip, sheet)?;
         let take = self.take(cut, clip, sheet, layer);

@@ -60,7 +60,7 @@ impl NumberedImages {
     /// Draws an image a drawing and gives each with its file name to `take`, one after the other.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`NumberedImages::validate`]; [`Error::Picture`] when clip and sheet have
+    /// [`Error::Setting`] as [`NumberedImages::validate`]; [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have
     /// nothing to show; what `take` says.
     pub fn draw<E: From<Error>>(
         &self,

@@ -66,7 +66,7 @@ impl Preview {
     /// `cut` is the name on it.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`Preview::validate`]; [`Error::Picture`] when clip and sheet have nothing
+    /// [`Error::Setting`] as [`Preview::validate`]; [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing
     /// to show, or `file` cannot be written.
     pub fn draw(
         &self,

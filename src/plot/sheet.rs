@@ -52,8 +52,7 @@ impl SheetPlot {
     /// `ssd` has a value a koma (how far the body moved into it) and is drawn as its square root.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`SheetPlot::validate`]; [`Error::Picture`] when a sheet shows a
-    /// drawing that it does not have.
+    /// [`Error::Setting`] as [`SheetPlot::validate`]; [`Error::Sheet`] as [`Sheet::check`].
     pub fn draw(
         &self,
         sheet: &Sheet,
@@ -61,8 +60,8 @@ impl SheetPlot {
         ssd: Option<&[f64]>,
     ) -> Result<String, Error> {
         self.validate()?;
-        check(sheet)?;
-        spaced.map_or(Ok(()), check)?;
+        sheet.check()?;
+        spaced.map_or(Ok(()), Sheet::check)?;
         let paper = self.paper(sheet, spaced, ssd);
         let words = HEAD + COUNTS * sheet.layers.len() as f64;
         let lines = paper.koma.div_ceil(paper.in_line).max(1);
@@ -127,19 +126,6 @@ impl SheetPlot {
         }
         if self.width >= 760 { legend(canvas, f64::from(self.width), spaced) } else { Ok(()) }
     }
-}
-
-/// Refuses a sheet that shows a drawing it does not have.
-pub(super) fn check(sheet: &Sheet) -> Result<(), Error> {
-    for layer in &sheet.layers {
-        let drawings = layer.drawings.len();
-        if let Some(wrong) = layer.exposures.iter().find(|shown| shown.drawing >= drawings) {
-            let (name, drawing) = (&layer.name, wrong.drawing);
-            let message = format!("layer {name} shows drawing {drawing} but has {drawings}");
-            return Err(style::cannot(message));
-        }
-    }
-    Ok(())
 }
 
 /// One sentence of numbers about a layer.

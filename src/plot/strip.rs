@@ -68,7 +68,7 @@ impl Strip {
     /// Draws a sheet against its source as pages of SVG; `cut` is the name on them.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`Strip::validate`]; [`Error::Picture`] when clip and sheet have nothing
+    /// [`Error::Setting`] as [`Strip::validate`]; [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing
     /// to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;

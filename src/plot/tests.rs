@@ -308,7 +308,7 @@ fn degenerate_sheets_give_a_picture_or_an_error() {
     let mut wrong = sheet();
     wrong.layers[0].exposures[0].drawing = 5;
     let message = plot.draw(&wrong, None, None).unwrap_err().to_string();
-    assert_eq!(message, "picture: layer A shows drawing 5 but has 5");
+    assert_eq!(message, "layer A shows drawing 5 but has 5");
     assert!(plot.draw(&sheet(), Some(&wrong), None).is_err());
 }
 

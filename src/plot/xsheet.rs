@@ -14,7 +14,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::Clip;
-use crate::plot::sheet::check;
 use crate::plot::xsheet::page::{Leaf, Page};
 use crate::sheet::Sheet;
 use crate::timing::Gauge;
@@ -92,9 +91,9 @@ impl XSheet {
     /// the first eight, then of the next, then the gauges. An empty sheet has one page.
     ///
     /// # Errors
-    /// [`Error::Picture`] when the sheet shows a drawing that it does not have.
+    /// [`Error::Sheet`] as [`Sheet::check`].
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
-        check(sheet)?;
+        sheet.check()?;
         let gauges: Vec<_> = sheet.layers.iter().map(|layer| Gauge::of(clip, layer)).collect();
         let leaves: Vec<Leaf<'_>> = sheet
             .layers

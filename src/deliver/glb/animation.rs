@@ -24,7 +24,7 @@ pub(super) fn all(layer: &Layer) -> Vec<Shown> {
         begin,
         end: begin + exposure.koma,
     };
-    layer.timed().filter(|(_, exposure)| exposure.koma > 0).map(shown).collect()
+    layer.timed().map(shown).collect()
 }
 
 /// The exposures of key drawings and ends alone, each held until the next. What a sheet shows before

@@ -3,11 +3,7 @@
 use super::{MadeOf, SheetFile};
 use crate::error::Error;
 use crate::recipe::KOMA_RATES;
-use crate::sheet::{Exposure, Source, Why};
-
-/// Koma of a layer at most, half a day of film: a longer hold is a slip of the hand, and would fill the
-/// memory.
-const MOST_KOMA: usize = 1_000_000;
+use crate::sheet::{Source, Why};
 
 impl SheetFile {
     /// Checks all of it.
@@ -34,19 +30,8 @@ impl SheetFile {
                     return Err(named("a strength or price is no number".into()));
                 }
             }
-            let drawings = layer.drawings.len();
-            let there = |exposure: &Exposure| exposure.drawing < drawings;
-            if let Some(wrong) = layer.exposures.iter().find(|exposure| !there(exposure)) {
-                let wrong = wrong.drawing;
-                return Err(named(format!("an exposure shows drawing {wrong} of {drawings}")));
-            }
-            layer
-                .exposures
-                .iter()
-                .try_fold(0, |before, exposure| koma(before, exposure.koma))
-                .map_err(named)?;
         }
-        Ok(())
+        self.sheet.check()
     }
 }
 
@@ -56,15 +41,6 @@ pub(super) fn koma_rate(rate: f64) -> Result<(), String> {
     let wrong =
         || format!("fps is {rate}; a sheet has {least} to {most} koma a second, 24 is usual");
     KOMA_RATES.contains(&rate).then_some(()).ok_or_else(wrong)
-}
-
-/// The koma of a layer after an exposure, if it may stand for so long.
-pub(super) fn koma(before: usize, koma: usize) -> Result<usize, String> {
-    if koma == 0 {
-        return Err("an exposure of 0 koma is not seen: 1 at the least, or leave it out".into());
-    }
-    let after = before.checked_add(koma).filter(|after| *after <= MOST_KOMA);
-    after.ok_or_else(|| format!("{koma} koma here: a layer has {MOST_KOMA} koma at the most"))
 }
 
 /// Whether a pose can be taken from the clip.

@@ -129,14 +129,15 @@ fn layer(text: Text<'_>, raw: &RawValue, clip: &MadeOf) -> Result<Layer, Error> 
     let mut length = 0;
     let mut exposures = Vec::with_capacity(written.exposures.len());
     for raw in written.exposures {
-        let Exposure { drawing, koma } = text.value(raw)?;
-        let Some(&drawing) = numbers.get(&drawing) else {
-            let (name, count) = (&written.name, drawings.len());
-            let message = format!("layer {name} has {count} drawings, none of them is {drawing}");
+        let shown: Exposure = text.value(raw)?;
+        let Some(&drawing) = numbers.get(&shown.drawing) else {
+            let (name, count, number) = (&written.name, drawings.len(), shown.drawing);
+            let message = format!("layer {name} has {count} drawings, none of them is {number}");
             return Err(text.error(raw, message));
         };
-        length = check::koma(length, koma).map_err(|message| text.error(raw, message))?;
-        exposures.push(Exposure { drawing, koma });
+        let exposure = Exposure { drawing, ..shown };
+        length = exposure.after(length).map_err(|message| text.error(raw, message))?;
+        exposures.push(exposure);
     }
     Ok(Layer { name: written.name, drawings, exposures })
 }

@@ -111,7 +111,7 @@ fn a_sheet_that_no_reader_would_take_is_not_written() {
         ("layer A: frame 104.5 is not in the clip, which has frames 4 to 104", |file| {
             file.sheet.layers[0].drawings[0].source = Source::At(104.5);
         }),
-        ("layer A: an exposure shows drawing 17 of 17", |file| {
+        ("layer A shows drawing 17 but has 17", |file| {
             file.sheet.layers[0].exposures[0].drawing = 17;
         }),
         ("layer A: an exposure of 0 koma", |file| file.sheet.layers[0].exposures[0].koma = 0),

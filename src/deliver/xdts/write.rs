@@ -39,19 +39,12 @@ impl Xdts {
     /// go into the header, which has room for no more; the whole name is that of the time table.
     ///
     /// # Errors
-    /// [`Error::Sheet`] for a sheet without a koma, or one that shows a drawing it does not have.
+    /// [`Error::Sheet`] for a sheet without a koma, and as [`Sheet::check`].
     pub fn write(&self, sheet: &Sheet, cut: &str) -> Result<XdtsPair, Error> {
         if sheet.length() == 0 {
             return Err(Error::sheet("the sheet has no koma, and a time table needs one"));
         }
-        for layer in &sheet.layers {
-            let drawings = layer.drawings.len();
-            if let Some(wrong) = layer.exposures.iter().find(|shown| shown.drawing >= drawings) {
-                let (name, drawing) = (&layer.name, wrong.drawing);
-                let message = format!("layer {name} shows drawing {drawing} but has {drawings}");
-                return Err(Error::sheet(message));
-            }
-        }
+        sheet.check()?;
         Ok(XdtsPair {
             genga: text(&self.file(sheet, cut, Kind::Genga))?,
             douga: text(&self.file(sheet, cut, Kind::Douga))?,
@@ -83,7 +76,7 @@ impl Xdts {
         let genga = layer.genga_numbers();
         let mut entries = Vec::new();
         let mut before = None;
-        for (koma, shown) in layer.timed().filter(|(_, shown)| shown.koma > 0) {
+        for (koma, shown) in layer.timed() {
             // A drawing that goes on is no change.
             if before.replace(shown.drawing) == Some(shown.drawing) {
                 continue;

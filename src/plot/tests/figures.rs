@@ -117,8 +117,8 @@ fn clip_and_sheet_must_have_something_to_show() {
     for (name, draw) in PAGES {
         for (clip, sheet, says) in [
             (&walker(0), &sheet, "without frames or joints"),
-            (&clip, &empty, "no drawing"),
-            (&clip, &Sheet::on_ones(sheet.clock, 0), "no drawing"),
+            (&clip, &empty, "no koma"),
+            (&clip, &Sheet::on_ones(sheet.clock, 0), "no koma"),
             (&clip, &wrong, "layer A shows drawing 5 but has 5"),
             (&clip, &nowhere, "must be a number"),
         ] {
