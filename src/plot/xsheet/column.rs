@@ -64,7 +64,7 @@ fn column(
 ) -> Result<(), Error> {
     let x = place.middle();
     let one_for_all = leaf.layer.exposures.len() == 1 && leaf.layer.length() > 3;
-    for (begin, shown) in leaf.layer.timed() {
+    for (begin, shown) in leaf.on(half) {
         let end = begin + shown.koma;
         if page.settings.hold_line.draws(shown.koma) {
             let (from, to) = ((begin + 1).max(half.begin), end.min(half.end()));
@@ -136,9 +136,8 @@ fn carried_over(
     place: Place,
     number: &dyn Fn(usize) -> Option<usize>,
 ) -> Result<(), Error> {
-    let over =
-        |(begin, shown): &(usize, Exposure)| *begin < half.begin && begin + shown.koma > half.begin;
-    let Some((_, shown)) = leaf.layer.timed().find(over) else { return Ok(()) };
+    let before = leaf.on(half).next().filter(|(begin, _)| *begin < half.begin);
+    let Some((_, shown)) = before else { return Ok(()) };
     let center = (place.middle(), half.y(half.begin) + 0.5 * ROW);
     let text = number(shown.drawing).map_or("(・)".into(), |number| format!("({number})"));
     blank_out(canvas, center, style::text_width(&text, 9.0))?;
@@ -153,8 +152,7 @@ fn mark_end(
     half: Half,
     place: Place,
 ) -> Result<(), Error> {
-    let last = leaf.layer.timed().filter(|(_, shown)| Some(shown.drawing) == leaf.highest).last();
-    let Some((begin, _)) = last.filter(|(begin, _)| half.shows(*begin)) else { return Ok(()) };
+    let Some(begin) = leaf.end.filter(|begin| half.shows(*begin)) else { return Ok(()) };
     let center = (place.middle(), half.y(begin) + 1.5 * ROW);
     blank_out(canvas, center, style::text_width("END", 8.5))?;
     let look = Type::new(8.5).bold().align(Align::Center);

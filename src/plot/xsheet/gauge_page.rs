@@ -65,7 +65,7 @@ fn entry(
     (left, top): (f64, f64),
 ) -> Result<(), Error> {
     let layer = leaf.layer;
-    let koma = |exposure: usize| layer.timed().nth(exposure).map_or(0, |(koma, _)| koma + 1);
+    let koma = |exposure: usize| leaf.begins[exposure] + 1;
     let last = gauge.first + gauge.shares.len() - 1;
     let base = top + 0.5 * HIGH;
     canvas.line((left, top), (left + WIDE - 8.0, top), style::GRID, 1.0)?;

@@ -21,17 +21,11 @@ pub(super) fn draw(
     half: Half,
     at: usize,
 ) -> Result<(), Error> {
-    let begins: Vec<usize> = leaf.layer.timed().map(|(begin, _)| begin).collect();
     let lane = STRIP / page.leaves.len() as f64;
     let alone = page.leaves.len() == 1;
     let left = half.left + NUMBERS + lane * at as f64;
     let x = left + if alone { 12.0 } else { 0.5 * lane };
-    for gauge in leaf.gauges {
-        let from = begins[gauge.first];
-        let to = begins[gauge.first + gauge.shares.len() - 1];
-        if to <= half.begin || from >= half.end() {
-            continue;
-        }
+    for (gauge, from, to) in leaf.gauges_on(half) {
         let span = Span { half, x, from, to };
         span.line(canvas, gauge)?;
         if alone {

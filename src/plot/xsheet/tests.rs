@@ -169,6 +169,42 @@ fn a_layer_that_ends_early_is_crossed_and_one_drawing_says_hold() {
 }
 
 #[test]
+fn a_half_has_the_exposures_and_gauges_that_a_look_at_all_finds() {
+    let letters = ['e', 'i', 'g', 'i', 'i', 'g', 'i', 'e'];
+    for seed in 0..40 {
+        let shown: Vec<_> =
+            (0..60).map(|at| (letters[(at * 5 + seed) % 8], 1 + at * (seed + 3) % 11)).collect();
+        let mut layer = layer("A", &shown);
+        layer.exposures.swap(seed, 59 - seed / 2);
+        let koma = layer.timed().map(|(begin, _)| begin).collect::<Vec<_>>();
+        let gauges: Vec<_> = (0..59 / 4)
+            .map(|at| Gauge {
+                first: 4 * at,
+                joint: crate::motion::JointId(0),
+                shares: vec![0.5; 5],
+            })
+            .collect();
+        let leaf = Leaf::new(&layer, &gauges);
+        let highest = layer.exposures.iter().map(|shown| shown.drawing).max();
+        let end = layer.timed().filter(|(_, shown)| Some(shown.drawing) == highest).last();
+        assert_eq!(leaf.end, end.map(|(begin, _)| begin));
+        for begin in (0..layer.length() + 200).step_by(17) {
+            let half = page::Half { left: 0.0, begin };
+            let here = |from: usize, to: usize| from < half.end() && to > begin;
+            let all = layer.timed().filter(|(from, shown)| here(*from, from + shown.koma));
+            assert_eq!(
+                leaf.on(half).collect::<Vec<_>>(),
+                all.collect::<Vec<_>>(),
+                "{seed}, {begin}"
+            );
+            let all = gauges.iter().map(|gauge| (gauge, koma[gauge.first], koma[gauge.first + 4]));
+            let all: Vec<_> = all.filter(|(_, from, to)| here(*from, *to)).collect();
+            assert_eq!(leaf.gauges_on(half).collect::<Vec<_>>(), all, "{seed}, {begin}");
+        }
+    }
+}
+
+#[test]
 fn a_sheet_that_shows_what_it_has_not_is_refused() {
     let mut lying = layer("A", &CUT);
     lying.exposures[0].drawing = 7;
