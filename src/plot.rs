@@ -53,4 +53,5 @@ pub use sheet::SheetPlot;
 pub use speed::SpeedPlot;
 pub use strip::Strip;
 pub use study::{StudyCount, StudyPlot, StudyRow};
+pub(crate) use svg::escaped;
 pub use xsheet::{HoldLine, InbetweenMark, XSheet};

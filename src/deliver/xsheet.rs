@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::motion::Clip;
-use crate::plot::XSheet;
+use crate::plot::{XSheet, escaped};
 use crate::sheet::Sheet;
 
 /// The files of an X-sheet.
@@ -49,10 +49,6 @@ pub fn xsheet(
         escaped(cut)
     );
     Ok(XSheetFiles { html, pages })
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

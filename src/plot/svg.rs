@@ -206,7 +206,7 @@ pub(super) fn hex(color: RGBColor) -> String {
 }
 
 /// Text as XML and HTML have it.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

@@ -3,6 +3,7 @@
 
 use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::cells::seconds_and_koma;
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
 use crate::plot::xsheet::grid::{FRAME, WIDTH, bottom};
@@ -27,7 +28,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, page: &Page<'_>) -> Result<(), Error
 /// The boxes along the upper edge.
 pub(super) fn boxes(canvas: &mut Canvas<'_>, page: &Page<'_>, sheet: &str) -> Result<(), Error> {
     let settings = page.settings;
-    let time = time(page.sheet.length(), page.second());
+    let time = seconds_and_koma(page.sheet.length(), page.sheet.clock.koma_rate);
     let boxes = [
         (222.0, "作品 title", settings.title.as_str(), 15.0),
         (66.0, "話数 episode", &settings.episode, 15.0),
@@ -56,11 +57,6 @@ pub(super) fn boxes(canvas: &mut Canvas<'_>, page: &Page<'_>, sheet: &str) -> Re
         canvas.line((WIDTH.0, y), (left, y), FRAME, 1.8)?;
     }
     Ok(())
-}
-
-/// Seconds and koma, `6+12`.
-pub(super) fn time(koma: usize, second: usize) -> String {
-    format!("{}+{}", koma / second, koma % second)
 }
 
 /// What there is to draw: a line a layer, or of many layers their names alone.
