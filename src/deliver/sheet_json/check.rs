@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::recipe::KOMA_RATES;
 use crate::sheet::{Exposure, Source, Why};
 
-/// Koma of a layer at most, half a day of film: a longer hold is a slip of the hand, and would fill the
-/// memory.
+/// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and
+/// would fill the memory.
 const MOST_KOMA: usize = 1_000_000;
 
 impl SheetFile {
@@ -25,6 +25,7 @@ impl SheetFile {
             return Err(Error::sheet(message));
         }
         koma_rate(clock.koma_rate).map_err(Error::sheet)?;
+        let mut length = 0;
         for layer in &self.sheet.layers {
             let named = |message: String| Error::sheet(format!("layer {}: {message}", layer.name));
             for drawing in &layer.drawings {
@@ -40,10 +41,10 @@ impl SheetFile {
                 let wrong = wrong.drawing;
                 return Err(named(format!("an exposure shows drawing {wrong} of {drawings}")));
             }
-            layer
+            length = layer
                 .exposures
                 .iter()
-                .try_fold(0, |before, exposure| koma(before, exposure.koma))
+                .try_fold(length, |before, exposure| koma(before, exposure.koma))
                 .map_err(named)?;
         }
         Ok(())
@@ -58,13 +59,15 @@ pub(super) fn koma_rate(rate: f64) -> Result<(), String> {
     KOMA_RATES.contains(&rate).then_some(()).ok_or_else(wrong)
 }
 
-/// The koma of a layer after an exposure, if it may stand for so long.
+/// The koma of the layers up to an exposure with it, if it may stand for so long.
 pub(super) fn koma(before: usize, koma: usize) -> Result<usize, String> {
     if koma == 0 {
         return Err("an exposure of 0 koma is not seen: 1 at the least, or leave it out".into());
     }
     let after = before.checked_add(koma).filter(|after| *after <= MOST_KOMA);
-    after.ok_or_else(|| format!("{koma} koma here: a layer has {MOST_KOMA} koma at the most"))
+    after.ok_or_else(|| {
+        format!("{koma} koma here: the layers of a sheet have {MOST_KOMA} at the most")
+    })
 }
 
 /// Whether a pose can be taken from the clip.
