@@ -14,6 +14,7 @@ mod pins;
 mod recipe;
 mod run;
 mod source;
+mod stale;
 mod study;
 mod words;
 

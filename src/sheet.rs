@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::time::Clock;
 
-/// Koma of a layer at most, half a day of film: a longer hold is a slip of the hand, and would fill the
+/// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and would fill the
 /// memory.
 const MOST_KOMA: usize = 1_000_000;
 
@@ -180,28 +180,30 @@ impl fmt::Display for Why {
 }
 
 impl Exposure {
-    /// The koma of a layer after this, if it may stand for so long.
+    /// The koma of the layers up to this with it, if it may stand for so long.
     pub(crate) fn after(self, before: usize) -> Result<usize, String> {
         let koma = self.koma;
         if koma == 0 {
             return Err("an exposure of 0 koma is not seen: 1 at the least, or leave it out".into());
         }
         let after = before.checked_add(koma).filter(|after| *after <= MOST_KOMA);
-        after.ok_or_else(|| format!("{koma} koma here: a layer has {MOST_KOMA} koma at the most"))
+        after.ok_or_else(|| {
+            format!("{koma} koma here: the layers of a sheet have {MOST_KOMA} at the most")
+        })
     }
 }
 
 impl Layer {
-    fn check(&self) -> Result<(), Error> {
+    /// Checks it, of which the layers before have so many koma. Gives those with it.
+    fn check(&self, before: usize) -> Result<usize, Error> {
         let (name, drawings) = (&self.name, self.drawings.len());
         if let Some(wrong) = self.exposures.iter().find(|shown| shown.drawing >= drawings) {
             let drawing = wrong.drawing;
             let message = format!("layer {name} shows drawing {drawing} but has {drawings}");
             return Err(Error::sheet(message));
         }
-        let length = self.exposures.iter().try_fold(0, |before, shown| shown.after(before));
-        length.map_err(|message| Error::sheet(format!("layer {name}: {message}")))?;
-        Ok(())
+        let after = self.exposures.iter().try_fold(before, |before, shown| shown.after(before));
+        after.map_err(|message| Error::sheet(format!("layer {name}: {message}")))
     }
 
     /// Koma of the layer: the sum of its exposures.
@@ -270,7 +272,7 @@ impl Sheet {
     /// # Errors
     /// [`Error::Sheet`] naming the first layer of which that is not so.
     pub fn check(&self) -> Result<(), Error> {
-        self.layers.iter().try_for_each(Layer::check)
+        self.layers.iter().try_fold(0, |before, layer| layer.check(before)).map(drop)
     }
 
     /// The first layer, of which one body's motion and its pictures are made.

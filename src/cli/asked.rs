@@ -4,16 +4,29 @@ use std::path::Path;
 
 use super::args::{BvhRows, FormatArgs};
 use super::failure::Failure;
-use super::io;
-use crate::deliver::{BoneMap, Cut, Format, Settings};
+use super::{io, stale};
+use crate::deliver::{BoneMap, Cut, Format, Settings, sheet_json};
 use crate::error::{Error, Warning};
 
 /// More files of one format than this are named by the first and the last.
 const MOST_NAMES: usize = 3;
 
+/// The sheet, which a person may have edited.
+const SHEET: &str = "sheet.json";
+
+/// What was written.
+pub(super) struct Written {
+    /// The files, for a person to read.
+    pub(super) files: Vec<String>,
+    /// Numbered files of a longer sheet that stand beside them.
+    pub(super) stale: Option<String>,
+}
+
 /// Formats and their settings.
 pub(super) struct Asked {
     formats: Vec<&'static Format>,
+    /// Those that are not only among `all`.
+    named: Vec<&'static str>,
     settings: Settings,
 }
 
@@ -30,7 +43,13 @@ impl Asked {
             BvhRows::Keys => "bvh-keys",
         });
         let names = names.iter().map(String::as_str).chain(bvh).chain(always.iter().copied());
-        let formats = Format::find_all(names).map_err(|error| wrongly(option, &error))?;
+        let names: Vec<&str> = names.collect();
+        let found = |names: &[&str]| {
+            Format::find_all(names.iter().copied()).map_err(|error| wrongly(option, &error))
+        };
+        let formats = found(&names)?;
+        let by_name: Vec<&str> = names.into_iter().filter(|name| name.trim() != "all").collect();
+        let named = found(&by_name)?.iter().map(|format| format.name).collect();
         let mut settings = Settings::default();
         if let Some(camera) = args.camera {
             settings.look_from(camera);
@@ -39,44 +58,106 @@ impl Asked {
             settings.set(name, value).map_err(|error| wrongly("with", &error))?;
         }
         settings.vmd.bones = args.bones.as_deref().map(bones).transpose()?;
-        Ok(Self { formats, settings })
+        Ok(Self { formats, named, settings })
     }
 
-    /// Refuses to write where the motion is read from.
-    pub(super) fn spare(&self, source: &Path, folder: &Path) -> Result<(), Failure> {
+    /// Refuses to write where `what` is read from.
+    pub(super) fn spare(
+        &self,
+        what: &str,
+        source: &Path,
+        folder: &Path,
+        cut: &str,
+    ) -> Result<(), Failure> {
         let mut files = self.formats.iter().flat_map(|format| format.files);
-        files.try_for_each(|file| io::spare(source, &folder.join(file)))
+        files
+            .try_for_each(|file| io::spare_the(what, source, &folder.join(Cut::file_of(cut, file))))
     }
 
-    /// Writes every file, one made after the other, and gives their names for a person to read.
+    /// Refuses to write over a sheet that is not as it was made: a person's work is in it.
+    pub(super) fn spare_edited(&self, folder: &Path) -> Result<(), Failure> {
+        let path = folder.join(SHEET);
+        if !self.writes("json") || !path.is_file() {
+            return Ok(());
+        }
+        let sheet = io::read(&path).map(|bytes| sheet_json::read(&bytes));
+        if matches!(sheet, Ok(Ok(sheet)) if sheet.is_as_made()) {
+            return Ok(());
+        }
+        Err(Failure::AskedWrongly(format!(
+            "{}: this sheet is not as a run wrote it, and would be lost; genga deliver takes it as it is: \
+             move it, or write elsewhere with --out",
+            path.display()
+        )))
+    }
+
+    /// Leaves the sheet that is read as it is: `all` goes without it.
+    ///
+    /// Where it is asked for by name, that is refused.
+    pub(super) fn leave_sheet(&mut self, sheet: &Path, folder: &Path) -> Result<(), Failure> {
+        let target = folder.join(SHEET);
+        if !self.is_named("json") && io::is_same(sheet, &target) {
+            self.formats.retain(|format| format.name != "json");
+        }
+        if self.writes("json") { io::spare_the("sheet", sheet, &target) } else { Ok(()) }
+    }
+
+    fn writes(&self, name: &str) -> bool {
+        self.formats.iter().any(|format| format.name == name)
+    }
+
+    fn is_named(&self, name: &str) -> bool {
+        self.named.contains(&name)
+    }
+
+    /// Writes every file, one made after the other.
     pub(super) fn write(
         &self,
         cut: &Cut<'_>,
         bundle: &mut io::Bundle<'_>,
-    ) -> Result<Vec<String>, Failure> {
-        let mut all = Vec::new();
+    ) -> Result<Written, Failure> {
+        let (mut files, mut left) = (Vec::new(), Vec::new());
         for format in &self.formats {
             let mut names = Vec::new();
             format.write(cut, &self.settings, &mut |name, bytes| {
                 names.push(name.to_owned());
                 bundle.add(name, bytes)
             })?;
-            if names.len() > MOST_NAMES {
-                names.drain(1..names.len() - 1);
-                names.insert(1, "…".into());
+            if format.is_numbered() {
+                left.extend(shortened(stale::stale(bundle.folder(), &names)));
             }
-            all.extend(names);
+            files.extend(shortened(names));
         }
-        Ok(all)
+        let stale = format!("of an earlier sheet, not of this one: {}", left.join(" "));
+        Ok(Written { files, stale: (!left.is_empty()).then_some(stale) })
     }
-    /// What a person should know of the files.
-    pub(super) fn notes(&self, cut: &Cut<'_>) -> Result<Vec<Warning>, Failure> {
+
+    /// Leaves out what cannot be made of the cut and is asked for only by `all`, and gives what a person
+    /// should know of the files.
+    pub(super) fn settle(&mut self, cut: &Cut<'_>) -> Result<Vec<Warning>, Failure> {
         let mut notes = Vec::new();
-        for format in &self.formats {
-            notes.extend(format.notes(cut, &self.settings)?);
+        for format in std::mem::take(&mut self.formats) {
+            match format.notes(cut, &self.settings) {
+                Ok(of_format) => notes.extend(of_format),
+                Err(error) if !self.is_named(format.name) => {
+                    let message = format!("all goes without {}: {error}", format.name);
+                    notes.push(Warning::new("W_LEFT_OUT_OF_ALL", message));
+                    continue;
+                }
+                Err(error) => return Err(error.into()),
+            }
+            self.formats.push(format);
         }
         Ok(notes)
     }
+}
+
+/// Many names as the first and the last.
+fn shortened(mut names: Vec<String>) -> Vec<String> {
+    if names.len() > MOST_NAMES {
+        names.splice(1..names.len() - 1, ["…".into()]);
+    }
+    names
 }
 
 /// A person's table of bones.

@@ -11,18 +11,24 @@ use crate::deliver::{Cut, sheet_json};
 use crate::sheet::Role;
 
 pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
-    let asked = Asked::new("to", &args.to, &[], &args.formats)?;
+    let mut asked = Asked::new("to", &args.to, &[], &args.formats)?;
     if io::is_stream(&args.sheet) && io::is_stream(&args.clip) {
         let message = "sheet and clip cannot both come from stdin".into();
         return Err(Failure::AskedWrongly(message));
     }
     let folder = folder(args)?;
-    asked.spare(&args.clip, &folder)?;
+    asked.leave_sheet(&args.sheet, &folder)?;
+    asked.spare_edited(&folder)?;
     let of_sheet = |error| Failure::of_file(&io::named(&args.sheet), error);
     let file = sheet_json::read(&io::read(&args.sheet)?).map_err(of_sheet)?;
+    let bones = args.formats.bones.as_deref().map(|path| ("table of bones", path));
+    let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
+    for (what, path) in sources {
+        asked.spare(what, path, &folder, &file.cut)?;
+    }
     let read = source::whole(&args.clip, &args.reading)?;
     let (clip, notes) = file.fit(read.clip).map_err(of_sheet)?;
-    clip.check_size()?;
+    clip.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
     read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
     let cut = Cut {
         name: &file.cut,
@@ -32,9 +38,9 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         spaced: None,
         made_with: file.made_with.as_ref(),
     };
+    asked.settle(&cut)?.iter().for_each(|note| words.say(note));
     let mut bundle = io::Bundle::begin(&folder)?;
-    let files = asked.write(&cut, &mut bundle)?;
-    asked.notes(&cut)?.iter().for_each(|note| words.say(note));
+    let written = asked.write(&cut, &mut bundle)?;
     bundle.finish()?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));
@@ -43,7 +49,8 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
             "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
         ));
     }
-    words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
+    written.stale.iter().for_each(|stale| words.say(stale));
+    words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
     Ok(())
 }
 

@@ -72,6 +72,11 @@ impl<'a> Bundle<'a> {
         Ok(bundle)
     }
 
+    /// The folder.
+    pub(super) fn folder(&self) -> &Path {
+        self.folder
+    }
+
     /// Writes a file beside its place. Its name may have folders in it, with `/`.
     pub(super) fn add(&mut self, name: &str, text: impl AsRef<[u8]>) -> Result<(), Error> {
         let path = behind_link(&self.folder.join(name));
@@ -157,14 +162,23 @@ pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
 
 /// Refuses to write where the motion is read from: it is somebody's only take.
 pub(super) fn spare(source: &Path, target: &Path) -> Result<(), Failure> {
-    let same = |a: &Path, b: &Path| fs::canonicalize(a).ok().zip(fs::canonicalize(b).ok());
-    match same(source, target) {
-        Some((source, target)) if source == target => Err(Failure::AskedWrongly(format!(
-            "{}: this is the motion itself; write beside it",
-            target.display()
-        ))),
-        _ => Ok(()),
+    spare_the("motion", source, target)
+}
+
+/// Refuses to write where something is read from.
+pub(super) fn spare_the(what: &str, source: &Path, target: &Path) -> Result<(), Failure> {
+    if !is_same(source, target) {
+        return Ok(());
     }
+    let target = target.display();
+    let message = format!("{target}: this is the {what} itself; write elsewhere, as with --out");
+    Err(Failure::AskedWrongly(message))
+}
+
+/// Whether two paths are one file that is there.
+pub(super) fn is_same(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| fs::canonicalize(path).ok();
+    !is_stream(a) && real(a).is_some_and(|a| real(b) == Some(a))
 }
 
 /// The name a clip is called by: its file name without the ending.

@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::io;
 use super::words::counted;
 use crate::deliver::xdts::{self, Column, Exchange, Mark, Numbered};
+use crate::deliver::{Cut, Format};
 use crate::edits::Edits;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
@@ -33,19 +34,25 @@ pub(super) fn marked(
     let clock = sheet.clock;
     let pins = xdts::pins(column, numbered, sheet, frames)
         .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;
+    let mut pinned = 0;
     for pin in pins {
         let koma = |frame: usize| clock.koma_from_place(frame as f64);
         let taken = |other: &crate::edits::Pin| koma(other.frame.0) == koma(pin.frame.0);
         if !edits.pins.iter().any(taken) {
             edits.pins.push(pin);
+            pinned += 1;
         }
     }
     let mut notes = vec![format!(
         "pinned from {}: {} of column {}",
         name.display(),
-        counted(count, "key"),
+        counted(pinned, "key"),
         column.name
     )];
+    if pinned < count {
+        let others = counted(count - pinned, "other");
+        notes.push(format!("{others} marked there gave way to pins on the same koma"));
+    }
     let has_marks = column.cells.iter().any(|cell| cell.circled || cell.mark == Mark::Inbetween);
     if numbered == Numbered::Keys && !has_marks {
         notes.push("it has no inbetween marks, so every number on it is a key".into());
@@ -65,10 +72,8 @@ pub(super) fn spare(
     else {
         return Ok(());
     };
-    let real = |path: &Path| std::fs::canonicalize(path).ok();
-    let written = ["genga", "douga"].map(|kind| folder.join(format!("{cut}_{kind}.xdts")));
-    let over = written.iter().any(|path| real(path).is_some() && real(path) == real(marked));
-    if over {
+    let files = Format::find("xdts")?.files;
+    if files.iter().any(|file| io::is_same(marked, &folder.join(Cut::file_of(cut, file)))) {
         return Err(Failure::AskedWrongly(format!(
             "{}: --deliver xdts would write over the sheet you marked; save it under another name, or \
              write elsewhere with --out",

@@ -1,9 +1,9 @@
 //! `genga run`: the whole chain, into a folder.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::args::RunArgs;
-use super::asked::Asked;
+use super::asked::{Asked, Written};
 use super::failure::Failure;
 use super::words::{Words, counted};
 use super::{io, pictures, pins, source};
@@ -13,17 +13,20 @@ use crate::pipeline::Engine;
 
 /// What a run writes whether or not it is asked for: formats, and files of its own.
 const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
-const OWN: [&str; 3] = ["speed.svg", "recipe.toml", "report.json"];
+const OWN: [&str; 3] = ["speed.svg", RECIPE, "report.json"];
+const RECIPE: &str = "recipe.toml";
+
+/// A recipe that is used in its place is somebody's text, with comments that the settings do not hold. A
+/// run after an edit is how a recipe is tuned, so it is kept and not refused; the sheet has the settings.
+const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is; sheet.json has every \
+                    setting and pin of this run";
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let (recipe, mut edits) = source::corrected(&args.corrections)?;
-    let asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
+    let mut asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
     let name = io::stem(&args.clip.clip);
     let folder = folder(args, &name)?;
-    let own = OWN.map(str::to_owned);
-    asked.spare(&args.clip.clip, &folder)?;
-    pins::spare(&args.corrections, &args.deliver, &folder, &name)?;
-    own.iter().try_for_each(|file| io::spare(&args.clip.clip, &folder.join(file)))?;
+    spare(args, &asked, &folder, &name)?;
     let working = words.working();
     working.on("reading the motion");
     let source = source::clip(&args.clip)?;
@@ -40,22 +43,53 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         clip: breakdown.clip,
         sheet: breakdown.sheet,
         spaced: Some(breakdown.spaced),
-        made_with: Some(&MadeWith::of(&recipe, &edits)),
+        made_with: Some(&MadeWith::of(&recipe, &edits, breakdown.sheet)),
     };
-    report.notes.extend(asked.notes(&cut)?.iter().map(ToString::to_string));
+    report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));
+    let settings = recipe.write(&edits);
+    let keeps_recipe = is_other_recipe(args, &folder.join(RECIPE), &settings);
+    if keeps_recipe {
+        report.notes.push(KEPT.into());
+    }
     let mut bundle = io::Bundle::begin(&folder)?;
-    let mut files = asked.write(&cut, &mut bundle)?;
+    let Written { mut files, stale } = asked.write(&cut, &mut bundle)?;
     bundle.add("speed.svg", pictures::speed(&breakdown)?)?;
-    bundle.add("recipe.toml", recipe.write(&edits))?;
+    if !keeps_recipe {
+        bundle.add(RECIPE, settings)?;
+    }
     bundle.add("report.json", json(&report)?)?;
     bundle.finish()?;
     drop(working);
     summary(words, &name, &report);
     let shortfalls = breakdown.omission.shortfalls();
     shortfalls.for_each(|reason| words.say(format_args!("note        {reason}")));
-    files.extend(own);
+    stale.iter().for_each(|stale| words.say(format_args!("note        {stale}")));
+    files.extend(OWN.map(str::to_owned));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     Ok(())
+}
+
+/// Refuses to write over what is read, and over a sheet that was edited.
+fn spare(args: &RunArgs, asked: &Asked, folder: &Path, cut: &str) -> Result<(), Failure> {
+    let corrections = &args.corrections;
+    let (recipe, bones) = (corrections.settings.recipe.as_deref(), args.formats.bones.as_deref());
+    let others = [recipe.map(|path| ("recipe", path)), bones.map(|path| ("table of bones", path))];
+    for (what, path) in
+        [("motion", &*args.clip.clip)].into_iter().chain(others.into_iter().flatten())
+    {
+        asked.spare(what, path, folder, cut)?;
+        let own = OWN.iter().filter(|file| (what, **file) != ("recipe", RECIPE));
+        own.into_iter().try_for_each(|file| io::spare_the(what, path, &folder.join(file)))?;
+    }
+    pins::spare(corrections, &args.deliver, folder, cut)?;
+    asked.spare_edited(folder)
+}
+
+/// Whether a file is the recipe that was given, and says something else or otherwise.
+fn is_other_recipe(args: &RunArgs, file: &Path, settings: &str) -> bool {
+    let given = args.corrections.settings.recipe.as_deref();
+    let is_given = given.is_some_and(|given| io::is_same(given, file));
+    is_given && io::read(file).is_ok_and(|bytes| bytes != settings.as_bytes())
 }
 
 fn json(report: &Report) -> Result<String, Failure> {

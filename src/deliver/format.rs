@@ -8,6 +8,7 @@ use crate::deliver::{
     sheet_json, xsheet,
 };
 use crate::error::{Error, Warning};
+use crate::sheet::{Layer, Sheet};
 
 /// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), Error> + 'a;
@@ -204,6 +205,12 @@ impl Format {
         Ok(FORMATS.iter().filter(is_asked).collect())
     }
 
+    /// Whether it writes as many files as a sheet has drawings or pages, by their numbers.
+    pub fn is_numbered(&self) -> bool {
+        let by_pages = ["strip", "contact", "onion"].contains(&self.name);
+        by_pages || self.files.iter().any(|file| file.contains("0001"))
+    }
+
     /// Makes the files of this format and hands them on, one at a time.
     ///
     /// # Errors
@@ -224,10 +231,22 @@ impl Format {
     /// Those of [`Format::write`].
     pub fn notes(&self, cut: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
         match self.name {
-            "vmd" => settings.vmd.notes(cut.clip),
+            "vmd" => settings.vmd.notes(cut.clip, cut.sheet),
+            "strip" => Ok(shortened(self.name, settings.strip.most, cut.sheet)),
+            "flipbook" => Ok(shortened(self.name, settings.flipbook.most, cut.sheet)),
+            #[cfg(feature = "cli")]
+            "preview" => Ok(shortened(self.name, settings.preview.most, cut.sheet)),
             _ => Ok(Vec::new()),
         }
     }
+}
+
+/// That a picture shows only the beginning of a long sheet.
+fn shortened(name: &str, most: usize, sheet: &Sheet) -> Vec<Warning> {
+    let koma = sheet.layers.first().map_or(0, Layer::length);
+    let message =
+        format!("{name} shows the first {most} of {koma} koma; {name}.most says how many");
+    if koma > most { vec![Warning::new("W_SHORTENED", message)] } else { vec![] }
 }
 
 impl fmt::Debug for Format {

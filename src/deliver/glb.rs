@@ -40,14 +40,17 @@ pub struct Glb {
 /// A unit of length (単位), or that nobody knows it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)]
 pub enum LengthUnit {
     /// The unit that makes a person of the body in its first frame.
     #[default]
     Auto,
+    /// Metres.
     M,
+    /// Centimetres.
     Cm,
+    /// Millimetres.
     Mm,
+    /// Inches.
     Inch,
     /// An inch divided by 0.45, as CMU's motion has it.
     Cmu,

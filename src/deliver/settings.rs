@@ -65,13 +65,14 @@ impl Settings {
     pub fn validate(&self) -> Result<(), Error> {
         self.vmd.validate()?;
         self.glb.validate()?;
-        self.strip.validate()?;
-        self.contact.validate()?;
-        self.onion.validate()?;
+        in_section("strip", self.strip.validate())?;
+        in_section("contact", self.contact.validate())?;
+        in_section("onion", self.onion.validate())?;
+        in_section("flipbook", self.flipbook.validate())?;
         #[cfg(feature = "cli")]
         {
-            self.preview.validate()?;
-            self.images.validate()?;
+            in_section("preview", self.preview.validate())?;
+            in_section("images", self.images.validate())?;
         }
         Ok(())
     }
@@ -121,6 +122,14 @@ impl Settings {
     }
 }
 
+/// What is wrong with a picture's setting, by its name here: a picture knows only its own.
+fn in_section(section: &str, checked: Result<(), Error>) -> Result<(), Error> {
+    checked.map_err(|error| match error {
+        Error::Setting { name, message } => Error::setting(format!("{section}.{name}"), message),
+        other => other,
+    })
+}
+
 /// The value that a word means where such a value stands.
 fn like(before: &Value, text: &str) -> Value {
     let value = match before {
@@ -156,5 +165,31 @@ mod tests {
         let error = settings.set("csv.bom", "yes").unwrap_err().to_string();
         assert!(error.starts_with("csv.bom: cannot be \"yes\": "), "{error}");
         assert_eq!(settings, Settings::default(), "nothing was changed");
+    }
+
+    #[test]
+    fn a_number_out_of_its_range_is_refused_by_its_whole_name() {
+        let mut settings = Settings::default();
+        let huge = "2305843009213693952";
+        for name in settings.names() {
+            for value in ["0", huge] {
+                if let Err(error) = settings.set(&name, value) {
+                    assert!(error.to_string().starts_with(&format!("{name}: ")), "{error}");
+                }
+            }
+        }
+        let counts = [
+            "strip.rows",
+            "strip.in_line",
+            "strip.most",
+            "contact.rows",
+            "contact.in_row",
+            "onion.rows",
+            "flipbook.most",
+            "preview.most",
+        ];
+        for name in counts {
+            assert!(settings.set(name, huge).is_err(), "{name}");
+        }
     }
 }

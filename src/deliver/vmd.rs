@@ -145,20 +145,19 @@ impl Vmd {
         let mut retarget = Retarget::new(clip, &map.model, &source, &stance, self.leg);
         let (model, _) = cut(&self.model)?;
         let report = report(clip.skeleton(), &map.model, &found, retarget.scale);
-        let notes = self.notes(clip)?;
+        let notes = self.notes(clip, sheet)?;
         let keys = keys(layer, &frames, &mut retarget)?;
         let ik_off = ik_off(&map.model, &found);
         Ok(VmdMade { motion: VmdMotion { model, keys, ik_off }, report, notes })
     }
-}
 
-impl Vmd {
-    /// What a person should know of the motion of a clip: the notes of [`Vmd::make`].
+    /// What a person should know of the motion of a sheet: the notes of [`Vmd::make`].
     ///
     /// # Errors
     /// [`Error::Clip`] when no joint is known to the map; [`Error::Setting`] when the model's name cannot
-    /// be written.
-    pub fn notes(&self, clip: &Clip) -> Result<Vec<Warning>, Error> {
+    /// be written, or two koma would fall on one frame.
+    pub fn notes(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<Warning>, Error> {
+        Frames::new(self.fps, sheet.clock.koma_rate)?;
         let map = self.map();
         let found = map.find(clip.skeleton())?;
         let report = report(clip.skeleton(), &map.model, &found, 1.0);

@@ -1,5 +1,7 @@
 //! The cells of a sheet as pictures label them: numbers, koma, names.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use crate::error::Error;
@@ -86,6 +88,21 @@ pub(super) fn shown<'a>(clip: &Clip, sheet: &'a Sheet) -> Result<&'a Layer, Erro
         return Err(style::cannot("a drawing's place in the source must be a number"));
     }
     Ok(layer)
+}
+
+/// The beginning of a layer: its first koma, `most` of them, and the drawings up to the last that is seen
+/// there. Their numbers stay.
+pub(super) fn beginning(layer: &Layer, most: usize) -> Cow<'_, Layer> {
+    if layer.length() <= most {
+        return Cow::Borrowed(layer);
+    }
+    let on_screen = layer.timed().take_while(|(koma, _)| *koma < most);
+    let exposures: Vec<Exposure> = on_screen
+        .map(|(koma, exposure)| Exposure { koma: exposure.koma.min(most - koma), ..exposure })
+        .collect();
+    let drawings = exposures.iter().map(|exposure| exposure.drawing + 1).max().unwrap_or(0);
+    let drawings = layer.drawings[..drawings].to_vec();
+    Cow::Owned(Layer { name: layer.name.clone(), drawings, exposures })
 }
 
 /// The points of every drawing of a layer.

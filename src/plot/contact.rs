@@ -27,9 +27,9 @@ pub struct ContactSheet {
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 130.
     pub figure_height: u32,
-    /// Cards in a row at most, 1 or more; default 8. Wide poses get fewer.
+    /// Cards in a row at most, 1 to 1000; default 8. Wide poses get fewer.
     pub in_row: usize,
-    /// Rows on a page, 1 or more; default 6.
+    /// Rows on a page, 1 to 1000; default 6.
     pub rows: usize,
     /// Cards of the inbetweens (中割り) too, in fainter line; default no.
     pub inbetweens: bool,
@@ -61,8 +61,8 @@ impl ContactSheet {
     pub fn validate(&self) -> Result<(), Error> {
         style::check_size("width", self.width, 600)?;
         style::check_figure(self.figure_height)?;
-        style::check_some("in_row", self.in_row)?;
-        style::check_some("rows", self.rows)
+        style::check_count("in_row", self.in_row, style::MOST)?;
+        style::check_count("rows", self.rows, style::MOST)
     }
 
     /// Draws the genga of a sheet as pages of SVG; `cut` is the name on them.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::camera::Camera;
-use crate::plot::cells::{cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::cells::{beginning, cells, drawn_poses, seconds_and_koma, shown};
 use crate::plot::figure::{BodySide, Figure};
 use crate::plot::points::Posing;
 use crate::plot::stage::Bounds;
@@ -17,11 +17,19 @@ use crate::sheet::{Layer, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one HTML file that needs nothing else, to play, to step
 /// through by koma and by drawing, and to look at from every side.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlipBook {
     /// From where it is seen first; default auto.
     pub camera: Camera,
+    /// Koma at most, from the first on, 1 to 100000; default 7200, five minutes.
+    pub most: usize,
+}
+
+impl Default for FlipBook {
+    fn default() -> Self {
+        Self { camera: Camera::Auto, most: 7200 }
+    }
 }
 
 const PAGE: &str = include_str!("flipbook/page.html");
@@ -72,13 +80,23 @@ struct Shown {
 }
 
 impl FlipBook {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for no koma or too many.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_count("most", self.most, style::MOST_KOMA)
+    }
+
     /// Makes the page; `cut` is its title.
     ///
     /// # Errors
-    /// [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing to show.
+    /// [`Error::Setting`] as [`FlipBook::validate`]; [`Error::Sheet`] or [`Error::Picture`] when clip and
+    /// sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
-        let layer = shown(clip, sheet)?;
-        let take = self.take(cut, clip, sheet, layer);
+        self.validate()?;
+        let layer = beginning(shown(clip, sheet)?, self.most);
+        let take = self.take(cut, clip, sheet, &layer);
         let take =
             serde_json::to_string(&take).map_err(|error| style::cannot(error.to_string()))?;
         // Inside a script no text may end it; in JSON a < can only be part of a text.

@@ -27,7 +27,7 @@ pub struct OnionSkin {
     pub width: u32,
     /// Height of the tallest panel's figures in px, 40 to 2000; default 220.
     pub figure_height: u32,
-    /// Rows of panels on a page, 1 or more; default 5.
+    /// Rows of panels on a page, 1 to 1000; default 5.
     pub rows: usize,
 }
 
@@ -54,7 +54,7 @@ impl OnionSkin {
     pub fn validate(&self) -> Result<(), Error> {
         style::check_size("width", self.width, 600)?;
         style::check_figure(self.figure_height)?;
-        style::check_some("rows", self.rows)
+        style::check_count("rows", self.rows, style::MOST)
     }
 
     /// Draws a sheet as pages of SVG; `cut` is the name on them.

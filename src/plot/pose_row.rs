@@ -24,9 +24,9 @@ pub struct PoseRow {
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 170.
     pub figure_height: u32,
-    /// Figures on a line at most, 1 or more; default 12. Wide poses get fewer.
+    /// Figures on a line at most, 1 to 1000; default 12. Wide poses get fewer.
     pub in_line: usize,
-    /// Figures at most, from the first on, 1 or more; default 300. The picture says what is left out.
+    /// Figures at most, from the first on, 1 to 1000; default 300. The picture says what is left out.
     pub most: usize,
 }
 
@@ -60,8 +60,8 @@ impl PoseRow {
     pub fn validate(&self) -> Result<(), Error> {
         style::check_size("width", self.width, 200)?;
         style::check_figure(self.figure_height)?;
-        style::check_some("in_line", self.in_line)?;
-        style::check_some("most", self.most)
+        style::check_count("in_line", self.in_line, style::MOST)?;
+        style::check_count("most", self.most, style::MOST)
     }
 
     /// Draws poses of a clip as SVG, each given by its place in the source, its label and its role.

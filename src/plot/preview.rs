@@ -34,9 +34,12 @@ pub struct Preview {
     pub width: u32,
     /// Height in px, 200 to 1080; default 340.
     pub height: u32,
-    /// Koma at most, from the first on, 1 or more; default 480, 20 seconds.
+    /// Koma at most, from the first on, 1 to 10000; default 480, 20 seconds.
     pub most: usize,
 }
+
+/// Koma at most: a picture of each waits in memory.
+const MOST_KOMA: usize = 10_000;
 
 impl Default for Preview {
     fn default() -> Self {
@@ -59,7 +62,7 @@ impl Preview {
                 return Err(Error::setting(name, message));
             }
         }
-        style::check_some("most", self.most)
+        style::check_count("most", self.most, MOST_KOMA)
     }
 
     /// Draws a sheet beside its source, one picture after the other, and gives how many koma it shows;

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
-use crate::plot::cells::{Cell, cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::cells::{Cell, beginning, cells, drawn_poses, seconds_and_koma, shown};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::points::Posing;
@@ -27,15 +27,24 @@ pub struct Strip {
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 120.
     pub figure_height: u32,
-    /// Koma on a line at most, 1 or more; default 12, half a second. Wide poses get 8 or 6.
+    /// Koma on a line at most, 1 to 1000; default 12, half a second. Wide poses get 8 or 6.
     pub in_line: usize,
-    /// Lines on a page, 1 or more; default 6.
+    /// Lines on a page, 1 to 1000; default 6.
     pub rows: usize,
+    /// Koma at most, from the first on, 1 to 100000; default 1440, a minute.
+    pub most: usize,
 }
 
 impl Default for Strip {
     fn default() -> Self {
-        Self { camera: Camera::Auto, width: 1280, figure_height: 120, in_line: 12, rows: 6 }
+        Self {
+            camera: Camera::Auto,
+            width: 1280,
+            figure_height: 120,
+            in_line: 12,
+            rows: 6,
+            most: 1440,
+        }
     }
 }
 
@@ -61,8 +70,9 @@ impl Strip {
     pub fn validate(&self) -> Result<(), Error> {
         style::check_size("width", self.width, 600)?;
         style::check_figure(self.figure_height)?;
-        style::check_some("in_line", self.in_line)?;
-        style::check_some("rows", self.rows)
+        style::check_count("in_line", self.in_line, style::MOST)?;
+        style::check_count("rows", self.rows, style::MOST)?;
+        style::check_count("most", self.most, style::MOST_KOMA)
     }
 
     /// Draws a sheet against its source as pages of SVG; `cut` is the name on them.
@@ -72,7 +82,8 @@ impl Strip {
     /// to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
-        let layer = shown(clip, sheet)?;
+        let whole = shown(clip, sheet)?;
+        let layer = &*beginning(whole, self.most);
         let result = drawn_poses(clip, layer);
         let place = |koma| sheet.clock.place_from_koma(koma);
         let koma = layer.length();
@@ -94,7 +105,7 @@ impl Strip {
         };
         let pages = lines.div_ceil(self.rows);
         let page = |at: usize| {
-            let facts = page::facts(sheet, layer);
+            let facts = page::facts(sheet, whole);
             let title = "Source and result 素材と結果";
             let head = Head { title, cut, facts, page: (at + 1, pages) };
             let lines = at * self.rows..((at + 1) * self.rows).min(lines);

@@ -124,12 +124,21 @@ pub(super) fn check_figure(px: u32) -> Result<(), Error> {
     Err(Error::setting("figure_height", format!("{px} px; it must be between 40 and 2000")))
 }
 
-/// Refuses a count of nothing.
+/// The most of anything that stands in a row or on a page.
+pub(super) const MOST: usize = 1000;
+
+/// The most koma of a picture that stands in memory as a whole.
+pub(super) const MOST_KOMA: usize = 100_000;
+
+/// Refuses a count of nothing, or of more than is ever looked at.
 ///
 /// # Errors
-/// [`Error::Setting`] for 0.
-pub(super) fn check_some(name: &str, count: usize) -> Result<(), Error> {
-    if count == 0 { Err(Error::setting(name, "0; it must be 1 or more")) } else { Ok(()) }
+/// [`Error::Setting`] outside 1 to `most`.
+pub(super) fn check_count(name: &str, count: usize, most: usize) -> Result<(), Error> {
+    if (1..=most).contains(&count) {
+        return Ok(());
+    }
+    Err(Error::setting(name, format!("{count}; it must be between 1 and {most}")))
 }
 
 /// An error about what should be drawn.

@@ -736,6 +736,134 @@ fn a_sheet_edited_by_hand_is_delivered_as_it_is() {
     assert!(fs::read(place.path("sheet.json")).unwrap() == sheet);
 }
 
+/// Writes a sheet again with its first hold of 4 koma as 7.
+fn edit(sheet: &Path) -> Vec<u8> {
+    let text = read(sheet);
+    assert!(text.contains("\"koma\": 4"));
+    fs::write(sheet, text.replacen("\"koma\": 4", "\"koma\": 7", 1)).unwrap();
+    fs::read(sheet).unwrap()
+}
+
+#[test]
+fn nothing_is_written_over_a_sheet_that_was_edited() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    place.done("run data/kick.bvh --out a --set spacing.on=3");
+    place.done("run data/kick.bvh --out a");
+    fs::copy(place.path("a/sheet.json"), place.path("whole.json")).unwrap();
+    fs::create_dir(place.path("b")).unwrap();
+    fs::copy(place.path("a/sheet.json"), place.path("b/sheet.json")).unwrap();
+    let edited = edit(&place.path("a/sheet.json"));
+    let before = place.files("a");
+    for args in [
+        "run data/kick.bvh --out a",
+        "run none.bvh --out a",
+        "deliver whole.json data/kick.bvh --out a --to json",
+        "deliver whole.json data/kick.bvh --out a --to all",
+    ] {
+        let said = place.refused(2, args);
+        assert!(
+            said.starts_with("genga: a/sheet.json: this sheet is not as a run wrote it"),
+            "{said}"
+        );
+        assert!(said.contains("--out") && said.matches('\n').count() == 1, "{said}");
+        assert!(place.files("a") == before, "{args}");
+    }
+    // What was edited stays so where it is delivered; one that is as it was made gives way to it.
+    place.done("deliver a/sheet.json data/kick.bvh --out b --to json");
+    assert!(fs::read(place.path("b/sheet.json")).unwrap() == edited);
+    place.refused(2, "run data/kick.bvh --out b");
+    fs::write(place.path("b/sheet.json"), "{").unwrap();
+    place.refused(2, "run data/kick.bvh --out b");
+}
+
+#[test]
+fn a_sheet_is_not_delivered_onto_itself() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    let edited = edit(&place.path("a/sheet.json"));
+    for to in ["json", "all,json", "csv --out ./a/../a --to json"] {
+        let said = place.refused(2, &format!("deliver a/sheet.json data/kick.bvh --to {to}"));
+        assert!(said.contains("sheet.json: this is the sheet itself; write elsewhere"), "{said}");
+    }
+    let said = text(&place.genga("deliver a/sheet.json data/kick.bvh --to all").stderr);
+    assert!(said.contains("files       a: keys.csv "), "{said}");
+    assert!(fs::read(place.path("a/sheet.json")).unwrap() == edited);
+}
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let place = Place::new();
+    fs::create_dir(place.path("o")).unwrap();
+    fs::write(place.path("o/kick-bones.csv"), "").unwrap();
+    fs::write(place.path("o/recipe.toml"), "").unwrap();
+    for (args, what) in [
+        ("--deliver vmd --bones o/kick-bones.csv", "table of bones"),
+        ("--bones o/recipe.toml", "table of bones"),
+        ("--deliver vmd --recipe o/kick-bones.csv", "recipe"),
+    ] {
+        let said = place.refused(2, &format!("run data/kick.bvh --out o {args}"));
+        assert!(said.contains(&format!("this is the {what} itself")), "{said}");
+        assert_eq!(place.files("o").len(), 2);
+    }
+    // A recipe that is tuned in its place keeps its comments.
+    fs::write(place.path("o/recipe.toml"), "[spacing]\non = 3 # mine\n").unwrap();
+    let said = text(&place.genga("run data/kick.bvh --out o --recipe o/recipe.toml").stderr);
+    assert!(said.contains("recipe.toml is the recipe that was given"), "{said}");
+    assert!(read(&place.path("o/report.json")).contains("recipe.toml is the recipe"));
+    assert_eq!(read(&place.path("o/recipe.toml")), "[spacing]\non = 3 # mine\n");
+    place.done("run data/kick.bvh --out p --recipe o/recipe.toml");
+    let said = text(&place.genga("run data/kick.bvh --out p --recipe p/recipe.toml").stderr);
+    assert!(!said.contains("recipe.toml is"), "{said}");
+}
+
+#[test]
+fn all_goes_without_what_cannot_be_made_and_says_so() {
+    let place = Place::new();
+    let mut bvh = read(&here("data/kick.bvh"));
+    let names: Vec<String> = bvh
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("JOINT ").or(line.strip_prefix("ROOT ")))
+        .map(str::to_owned)
+        .collect();
+    for (at, name) in names.iter().enumerate() {
+        for word in ["JOINT", "ROOT"] {
+            bvh = bvh.replace(&format!("{word} {name}\n"), &format!("{word} q{at}\n"));
+        }
+    }
+    fs::write(place.path("k.bvh"), bvh).unwrap();
+    let unknown = "all goes without vmd: vmd: no joint has a name that is known";
+    let fast = "all goes without vmd: vmd.fps: 48 koma a second do not go into 30 frames";
+    for (args, note) in [("k.bvh", unknown), ("data/kick.bvh --set rate=48", fast)] {
+        let said = text(&place.genga(&format!("run {args} --deliver all --out o")).stderr);
+        assert!(said.contains(note), "{said}");
+        assert!(read(&place.path("o/report.json")).contains(note));
+        assert!(!place.files("o").keys().any(|name| name.ends_with(".vmd")));
+        let clip = args.split(' ').next().unwrap();
+        let output = place.genga(&format!("deliver o/sheet.json {clip} --to all --out p"));
+        assert!(text(&output.stderr).contains(note) && output.status.success());
+        let output = place.genga(&format!("deliver o/sheet.json {clip} --to all,vmd --out q"));
+        assert!(!output.status.success() && !place.path("q").exists());
+    }
+}
+
+#[test]
+fn pictures_of_a_long_sheet_show_its_beginning_and_say_so() {
+    let place = Place::new();
+    let most = "--with strip.most=24 --with flipbook.most=10 --with strip.rows=1";
+    let said = text(
+        &place.genga(&format!("run data/kick.bvh --deliver strip,flipbook {most} --out o")).stderr,
+    );
+    assert!(said.contains("strip shows the first 24 of 92 koma"), "{said}");
+    assert!(said.contains("flipbook shows the first 10 of 92 koma"), "{said}");
+    assert!(place.path("o/strip-2.svg").exists() && !place.path("o/strip-5.svg").exists());
+    assert!(read(&place.path("o/flipbook.html")).contains("\"koma\":10,"));
+    // Pages of an earlier sheet stay and are named.
+    let less = "run data/kick.bvh --deliver strip --with strip.most=8 --out o";
+    let said = text(&place.genga(less).stderr);
+    assert!(said.contains("of an earlier sheet, not of this one: strip-2.svg"), "{said}");
+}
+
 #[test]
 fn an_unknown_format_or_setting_lists_the_known_ones() {
     let place = Place::new();

@@ -1,6 +1,8 @@
-//! Short digests by which a sheet knows its clip again. They tell mistakes, not forgeries.
+//! Short digests by which a sheet knows its clip and itself again. They tell mistakes, not forgeries.
 
+use super::layer::LayerLines;
 use crate::motion::{Axis, Channel, Clip, Skeleton};
+use crate::sheet::Layer;
 
 /// FNV-1a of 64 bits over 64-bit words.
 struct Digest(u64);
@@ -46,6 +48,16 @@ pub(super) fn skeleton(skeleton: &Skeleton) -> String {
 pub(super) fn motion(clip: &Clip) -> String {
     let mut digest = Digest::new();
     clip.rows().flatten().for_each(|value| digest.number(*value));
+    digest.text()
+}
+
+/// Names, drawings and exposures, as they are written.
+pub(super) fn layers(layers: &[Layer]) -> String {
+    let mut digest = Digest::new();
+    for layer in layers {
+        let text = serde_json::to_string(&LayerLines::of(layer)).expect("a layer is plain data");
+        text.bytes().for_each(|byte| digest.word(u64::from(byte)));
+    }
     digest.text()
 }
 

@@ -4,27 +4,34 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::digest;
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::recipe::{KNOBS, Recipe};
+use crate::sheet::{Sheet, is_default};
 
 /// Recipe and corrections of a sheet, for the record: a setting that is no longer known does no harm.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "{\"recipe\", \"edits\"}")]
+#[serde(deny_unknown_fields, expecting = "{\"recipe\", \"edits\", \"layers\"}")]
 pub struct MadeWith {
     /// The settings by their names, as words, since JSON has no infinity and a recipe may.
     pub recipe: BTreeMap<String, String>,
     /// The corrections.
     #[serde(default)]
     pub edits: Edits,
+    /// A digest of the layers that they made, by which a sheet that was edited since is known; empty
+    /// where nobody took it.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub layers: String,
 }
 
 impl MadeWith {
-    /// The record of a run.
-    pub fn of(recipe: &Recipe, edits: &Edits) -> Self {
+    /// The record of a run and the sheet that it made.
+    pub fn of(recipe: &Recipe, edits: &Edits, sheet: &Sheet) -> Self {
         let word = |name| recipe.get(name).expect("every knob has a value");
         let settings = KNOBS.iter().map(|knob| (knob.name.to_owned(), word(knob.name)));
-        Self { recipe: settings.collect(), edits: edits.clone() }
+        let layers = digest::layers(&sheet.layers);
+        Self { recipe: settings.collect(), edits: edits.clone(), layers }
     }
 
     /// The recipe again; what is not named has its default.

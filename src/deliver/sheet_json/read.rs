@@ -75,7 +75,8 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let koma_rate = text.value(written.fps)?;
     check::koma_rate(koma_rate).map_err(|message| text.error(written.fps, message))?;
     let clock = Clock { first: Frame(clip.first_frame), frame_rate, koma_rate };
-    let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip));
+    let mut length = 0;
+    let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip, &mut length));
     let layers = layers.collect::<Result<_, _>>()?;
     let made_with: Option<MadeWith> = written.made_with.map(|raw| text.value(raw)).transpose()?;
     let file = SheetFile {
@@ -110,7 +111,13 @@ fn check_version(text: Text<'_>) -> Result<(), Error> {
     }
 }
 
-fn layer(text: Text<'_>, raw: &RawValue, clip: &MadeOf) -> Result<Layer, Error> {
+/// A layer; `length` is the koma of those before it, and then of it too.
+fn layer(
+    text: Text<'_>,
+    raw: &RawValue,
+    clip: &MadeOf,
+    length: &mut usize,
+) -> Result<Layer, Error> {
     let written: WrittenLayer<'_> = text.value(raw)?;
     let mut numbers = HashMap::new();
     let mut drawings = Vec::with_capacity(written.drawings.len());
@@ -126,7 +133,6 @@ fn layer(text: Text<'_>, raw: &RawValue, clip: &MadeOf) -> Result<Layer, Error> 
         check::source(drawing.source, clip).map_err(|message| text.error(raw, message))?;
         drawings.push(drawing);
     }
-    let mut length = 0;
     let mut exposures = Vec::with_capacity(written.exposures.len());
     for raw in written.exposures {
         let shown: Exposure = text.value(raw)?;
@@ -136,7 +142,7 @@ fn layer(text: Text<'_>, raw: &RawValue, clip: &MadeOf) -> Result<Layer, Error> 
             return Err(text.error(raw, message));
         };
         let exposure = Exposure { drawing, ..shown };
-        length = exposure.after(length).map_err(|message| text.error(raw, message))?;
+        *length = exposure.after(*length).map_err(|message| text.error(raw, message))?;
         exposures.push(exposure);
     }
     Ok(Layer { name: written.name, drawings, exposures })

@@ -21,7 +21,7 @@ fn file() -> SheetFile {
         clip: breakdown.clip,
         sheet: breakdown.sheet,
         spaced: None,
-        made_with: Some(&MadeWith::of(&recipe, &edits)),
+        made_with: Some(&MadeWith::of(&recipe, &edits, breakdown.sheet)),
     };
     SheetFile::of(&cut)
 }
@@ -60,11 +60,31 @@ fn the_recipe_that_made_it_makes_it_again() {
     assert_eq!(made.edits, edits());
     let mut endless = recipe();
     endless.set("keys.per_second", "inf").unwrap();
-    assert_eq!(MadeWith::of(&endless, &edits()).recipe().unwrap(), endless);
+    assert_eq!(MadeWith::of(&endless, &edits(), &file().sheet).recipe().unwrap(), endless);
     // A record of settings that are gone is a record.
     let text = text().replace("\"keys.rest\"", "\"keys.of_old\"");
     let made = read(text.as_bytes()).unwrap().made_with.unwrap();
     assert!(made.recipe().unwrap_err().to_string().starts_with("keys.of_old: "));
+}
+
+#[test]
+fn an_edited_sheet_is_known_and_stays_known_when_it_is_written_again() {
+    assert!(read(text().as_bytes()).unwrap().is_as_made());
+    // The numbers of drawings are names, and blanks are blanks.
+    let same = text().replace("{\"drawing\": 2, ", "{\"drawing\": 900, ").replace("\": ", "\":");
+    assert!(read(same.as_bytes()).unwrap().is_as_made());
+    for (line, edited) in [
+        ("\"koma\": 4", "\"koma\": 5"),
+        ("\"role\": \"genga\"", "\"role\": \"inbetween\""),
+        ("\"frame\": 23", "\"frame\": 24"),
+        ("\"name\": \"A\"", "\"name\": \"B\""),
+        ("    \"layers\": \"", "    \"layers\": \"0"),
+    ] {
+        assert!(text().contains(line), "{line}");
+        let file = read(text().replacen(line, edited, 1).as_bytes()).unwrap();
+        assert!(!file.is_as_made(), "{edited}");
+        assert!(!read(file.write().unwrap().as_bytes()).unwrap().is_as_made(), "{edited}");
+    }
 }
 
 #[test]
@@ -82,9 +102,10 @@ fn a_person_may_write_it_otherwise() {
     assert_eq!(read(again.as_bytes()).unwrap().sheet.layers[0].exposures[2].drawing, 5);
     // What nobody has to say.
     let (head, tail) = text.split_once("  \"made_with\"").unwrap();
-    let (_, tail) = tail.split_once("  \"layers\"").unwrap();
+    let (_, tail) = tail.split_once("\n  \"layers\"").unwrap();
     let bare = format!("{head}  \"layers\"{tail}").replace("  \"genga\": \"0.1.0\",\n", "");
     let read = read(bare.as_bytes()).unwrap();
+    assert!(!read.is_as_made(), "nobody knows");
     assert_eq!((read.made_with, read.genga.as_str()), (None, ""));
 }
 

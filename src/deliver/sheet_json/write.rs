@@ -5,7 +5,7 @@ use serde_json::Serializer;
 
 use super::layer::LayerLines;
 use super::lines::Lines;
-use super::{MadeOf, MadeWith, SCHEMA, SheetFile};
+use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::deliver::Cut;
 use crate::error::Error;
 
@@ -41,6 +41,13 @@ impl SheetFile {
             made_with: cut.made_with.cloned(),
             sheet: cut.sheet.clone(),
         }
+    }
+
+    /// Whether the layers are those that were made. A sheet that does not say how it was made may be a
+    /// person's work, and is not.
+    pub fn is_as_made(&self) -> bool {
+        let made = self.made_with.as_ref();
+        made.is_some_and(|made| made.layers == digest::layers(&self.sheet.layers))
     }
 
     /// The file: tidy, and the same bytes for the same sheet.

@@ -66,8 +66,9 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
         .prop_map(|(frame, name, weight)| Pin { frame: Frame(frame as usize), name, weight });
     let forbidden =
         prop::collection::vec(any::<u32>().prop_map(|frame| Frame(frame as usize)), 0..3);
-    (recipe, prop::collection::vec(pin, 0..3), forbidden)
-        .prop_map(|(recipe, pins, forbidden)| MadeWith { recipe, edits: Edits { pins, forbidden } })
+    (recipe, prop::collection::vec(pin, 0..3), forbidden).prop_map(|(recipe, pins, forbidden)| {
+        MadeWith { recipe, layers: "7".repeat(pins.len()), edits: Edits { pins, forbidden } }
+    })
 }
 
 fn sheet_file() -> impl Strategy<Value = SheetFile> {

@@ -24,7 +24,11 @@ fn what_is_wrong_with_a_line_is_said_with_its_place() {
     for (line, wrong, words) in [
         (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 17 drawings, none of them is 40"),
         (shown, "{\"drawing\": 5, \"koma\": 0}", "an exposure of 0 koma is not seen"),
-        (shown, "{\"drawing\": 5, \"koma\": 99999999}", "99999999 koma here: a layer has 1000000"),
+        (
+            shown,
+            "{\"drawing\": 5, \"koma\": 99999999}",
+            "99999999 koma here: the layers of a sheet have 1000000",
+        ),
         (
             drawn,
             "{\"drawing\": 1, \"role\": \"inbetween\", \"frame\": 21}",
@@ -59,6 +63,21 @@ fn what_is_wrong_with_a_line_is_said_with_its_place() {
         let error = told(line, wrong);
         assert!(error.starts_with(&(place(line) + words)), "{wrong}: {error}");
     }
+}
+
+#[test]
+fn many_layers_are_no_way_round_the_longest_sheet() {
+    let text = text().replacen("\"koma\": 4", "\"koma\": 600000", 1);
+    assert!(read(text.as_bytes()).is_ok());
+    let (head, layers) = text.split_once("  \"layers\": [").unwrap();
+    let layer = layers.trim_end().strip_suffix("]\n}").unwrap();
+    let error = read(format!("{head}  \"layers\": [{layer}, {layer}]\n}}").as_bytes()).unwrap_err();
+    assert!(error.to_string().contains("600000 koma here: the layers of a sheet"), "{error}");
+    let mut file = file();
+    file.sheet.layers[0].exposures[0].koma = 600_000;
+    let layer = file.sheet.layers[0].clone();
+    file.sheet.layers.push(layer);
+    assert!(file.write().unwrap_err().to_string().contains("600000 koma here"));
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn every_clip_speaks_a_dialect_and_what_is_left_out_is_told() {
             expected.iter().find(|(begin, ..)| name.starts_with(begin)).unwrap();
         assert_eq!(made.report.dialect, *dialect, "{name}");
         assert_eq!(made.report.bones.len(), *bones, "{name}: {:?}", made.report);
-        assert_eq!(made.notes, Vmd::default().notes(&clip).unwrap(), "{name}");
+        assert_eq!(made.notes, Vmd::default().notes(&clip, &sheet).unwrap(), "{name}");
         let told = made.notes.iter().find(|note| note.code == "W_VMD_LEFT_OUT");
         assert_eq!(told.is_some(), !made.report.left_out.is_empty(), "{name}");
         for joint in &made.report.left_out {
