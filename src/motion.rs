@@ -7,11 +7,13 @@ mod kinematics;
 pub(crate) mod lanes;
 pub(crate) mod rig;
 pub(crate) mod sampler;
+mod side;
 mod skeleton;
 mod stature;
 
 pub use channels::RowWriter;
 pub use clip::Clip;
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
+pub(crate) use side::{BodySide, plain_name};
 pub use skeleton::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
 pub use stature::{Stature, Unit};

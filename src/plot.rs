@@ -39,7 +39,6 @@ mod tests;
 
 pub use camera::Camera;
 pub use contact::ContactSheet;
-pub(crate) use figure::BodySide;
 pub use flipbook::FlipBook;
 #[cfg(feature = "cli")]
 pub use images::NumberedImages;

@@ -18,6 +18,8 @@ import math
 
 SCHEMA = "genga-sheet-1"
 TIME_UNITS = {"game": 15, "film": 24, "pal": 25, "ntsc": 30, "show": 48, "palf": 50, "ntscf": 60}
+# Units that a scene may have and a sheet never asks for, in units a second.
+OTHER_UNITS = {"hour": 1 / 3600, "min": 1 / 60, "sec": 1, "millisec": 1000}
 # By Maya's number of a rotate order: the axes in the order in which they are turned about.
 ROTATE_ORDERS = ("xyz", "yzx", "zxy", "xzy", "yxz", "zyx")
 
@@ -64,6 +66,8 @@ def read(path, layer_name=""):
     layers = {layer["name"]: layer for layer in reversed(sheet["layers"])}
     if layer_name and layer_name not in layers:
         raise ValueError(f"no layer {layer_name}; there are {', '.join(layers)}")
+    if not layers:
+        raise ValueError("the sheet has no layer")
     layer = layers[layer_name] if layer_name else sheet["layers"][0]
     drawings = {drawing["drawing"]: drawing for drawing in layer["drawings"]}
     exposures, koma = [], 0
@@ -72,6 +76,8 @@ def read(path, layer_name=""):
         blend = drawing.get("between")
         exposures.append((koma, (*blend, drawing["share"]) if blend else drawing["frame"]))
         koma += exposure["koma"]
+    if not exposures:
+        raise ValueError(f"layer {layer['name']} shows no drawing")
     source_fps = sheet["clip"]["frame_rate"]
     return {"fps": sheet["fps"], "source_fps": source_fps, "length": koma, "exposures": exposures}
 
@@ -79,7 +85,15 @@ def read(path, layer_name=""):
 def scene_rate(cmds):
     """Frames a second of the scene."""
     unit = cmds.currentUnit(query=True, time=True)
-    return TIME_UNITS[unit] if unit in TIME_UNITS else float(unit.replace("fps", ""))
+    known = {**TIME_UNITS, **OTHER_UNITS}
+    if unit in known:
+        return known[unit]
+    # "120fps", "23.976fps", and "29.97df" with dropped frame numbers.
+    number = unit.replace("fps", "").replace("df", "")
+    try:
+        return float(number)
+    except ValueError:
+        raise RuntimeError(f"the scene's time unit is {unit}, whose frames a second are not known") from None
 
 
 def unit_name(fps):

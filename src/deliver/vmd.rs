@@ -269,7 +269,7 @@ fn cut(name: &str) -> Result<(String, Option<Warning>), Error> {
 }
 
 fn no_legs() -> Warning {
-    let message = "no legs to measure: lengths are taken as centimetres, 8 to an MMD unit";
+    let message = "no legs to measure: the unit is guessed by the body's size, 8 cm to an MMD unit";
     Warning::new("W_VMD_NO_LEGS", message)
 }
 

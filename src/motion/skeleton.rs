@@ -15,6 +15,17 @@ pub enum Axis {
     Z,
 }
 
+impl Axis {
+    /// One along it.
+    pub(crate) fn unit(self) -> DVec3 {
+        match self {
+            Self::X => DVec3::X,
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+        }
+    }
+}
+
 /// What one column of the motion table drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {

@@ -7,9 +7,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::Skeleton;
-use crate::plot::figure::BodySide;
-use crate::plot::view::{View, extent, up};
+use crate::motion::{BodySide, Clip, Skeleton, Stature};
+use crate::plot::view::{View, extent};
 
 /// From where a picture looks (カメラ): level, without perspective, standing still.
 ///
@@ -44,18 +43,18 @@ impl Camera {
         }
     }
 
-    /// The view of some poses of a skeleton, each the positions of its joints and then of its tips.
-    pub(super) fn view(self, skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> View {
+    /// The view of some poses of a clip, each the positions of its joints and then of its tips.
+    pub(super) fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
         let first = poses.first().map_or(&[][..], Vec::as_slice);
-        let up = up(first);
-        let front = facing(skeleton, first, up);
+        let up = Stature::of(clip).up.unit();
+        let front = facing(clip.skeleton(), first, up);
         // Seen from the body's own right, a body that faces away from us looks to the right.
         let side = front.cross(up);
         match self {
             Self::Front => View::from(up, front),
             Self::Side => View::from(up, side),
             Self::ThreeQuarter => View::from(up, (front + side).normalize()),
-            Self::Auto => View::of(poses),
+            Self::Auto => View::of(up, poses),
         }
     }
 }
@@ -97,39 +96,51 @@ impl FromStr for Camera {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::motion::{Joint, JointId};
+    use glam::DQuat;
 
-    /// Hips with two legs, the left one `left` away, and a head `up` above them.
-    fn body(left: DVec3, up: DVec3) -> (Skeleton, Vec<Vec<DVec3>>) {
-        let joint = |name: &str, parent: Option<usize>| Joint {
-            name: name.into(),
-            parent: parent.map(JointId),
-            offset: DVec3::ZERO,
-            channels: vec![],
+    use super::*;
+    use crate::motion::{Axis, Channel, Joint, JointId};
+    use crate::time::{Frame, FrameRate};
+
+    const NAMES: [&str; 6] = ["Hips", "LHipJoint", "LeftUpLeg", "RHipJoint", "RightUpLeg", "Head"];
+    const BIPED: [&str; 6] =
+        ["Bip01", "Bip01 Pelvis", "Bip01 L Thigh", "Bip01 Spine", "Bip01 R Thigh", "Bip01 Head"];
+    const NAMELESS: [&str; 6] = ["bone"; 6];
+
+    /// Hips with two legs, the left one `left` away, and a head `up` above them, turned about X by some
+    /// degrees in its one frame.
+    fn body(names: [&str; 6], left: DVec3, up: DVec3, degrees: f64) -> (Clip, Vec<Vec<DVec3>>) {
+        let pose = [DVec3::ZERO, DVec3::ZERO, left, DVec3::ZERO, -left, up];
+        let joint = |at: usize| Joint {
+            name: names[at].into(),
+            parent: (at > 0).then_some(JointId(0)),
+            offset: pose[at],
+            channels: if at > 0 { vec![] } else { vec![Channel::Rotation(Axis::X)] },
             first_channel: 0,
             end_sites: vec![],
         };
-        let names = ["Hips", "LHipJoint", "LeftUpLeg", "RHipJoint", "RightUpLeg", "Head"];
-        let joints = names.iter().enumerate().map(|(at, name)| joint(name, (at > 0).then_some(0)));
-        let pose = vec![DVec3::ZERO, DVec3::ZERO, left, DVec3::ZERO, -left, up];
-        (Skeleton { joints: joints.collect() }, vec![pose])
+        let joints = (0..names.len()).map(joint).collect();
+        let rate = FrameRate::new(24.0).unwrap();
+        let clip = Clip::new(Skeleton { joints }, rate, Frame(0), 1, vec![degrees]).unwrap();
+        let turn = DQuat::from_rotation_x(degrees.to_radians());
+        (clip, vec![pose.map(|point| turn * point).to_vec()])
     }
 
     #[test]
     fn the_face_looks_at_us_in_front_and_to_the_right_from_the_side() {
-        for (left, up, faces) in [
-            (DVec3::X, 9.0 * DVec3::Y, DVec3::Z),
-            (DVec3::NEG_Z, 9.0 * DVec3::Y, DVec3::X),
-            (DVec3::X, 9.0 * DVec3::Z, DVec3::NEG_Y),
+        for (names, left, up, faces) in [
+            (NAMES, DVec3::X, 9.0 * DVec3::Y, DVec3::Z),
+            (NAMES, DVec3::NEG_Z, 9.0 * DVec3::Y, DVec3::X),
+            (NAMES, DVec3::X, 9.0 * DVec3::Z, DVec3::NEG_Y),
+            (BIPED, DVec3::NEG_Z, 9.0 * DVec3::Y, DVec3::X),
         ] {
-            let (skeleton, poses) = body(left, up);
-            let front = Camera::Front.view(&skeleton, &poses);
+            let (clip, poses) = body(names, left, up, 0.0);
+            let front = Camera::Front.view(&clip, &poses);
             assert!(front.near.abs_diff_eq(faces, 1e-12), "{front:?}");
             assert!(front.right.abs_diff_eq(left, 1e-12), "its left is to the right: {front:?}");
-            let side = Camera::Side.view(&skeleton, &poses);
+            let side = Camera::Side.view(&clip, &poses);
             assert!(side.right.abs_diff_eq(faces, 1e-12), "{side:?}");
-            let between = Camera::ThreeQuarter.view(&skeleton, &poses);
+            let between = Camera::ThreeQuarter.view(&clip, &poses);
             assert!((between.near.dot(faces) - 0.5f64.sqrt()).abs() < 1e-12, "{between:?}");
             for view in [front, side, between] {
                 assert!(view.near.abs_diff_eq(view.right.cross(view.up), 1e-12), "{view:?}");
@@ -139,10 +150,17 @@ mod tests {
 
     #[test]
     fn a_rig_without_sides_faces_as_files_usually_do() {
-        let (mut skeleton, poses) = body(DVec3::X, DVec3::Y);
-        skeleton.joints.iter_mut().for_each(|joint| joint.name = "bone".into());
-        assert_eq!(Camera::Front.view(&skeleton, &poses).near, DVec3::Z);
-        assert_eq!(Camera::Front.view(&skeleton, &[]).near, DVec3::Z, "no pose at all");
+        let (clip, poses) = body(NAMELESS, DVec3::X, DVec3::Y, 0.0);
+        assert_eq!(Camera::Front.view(&clip, &poses).near, DVec3::Z);
+        assert_eq!(Camera::Front.view(&clip, &[]).near, DVec3::Z, "no pose at all");
+    }
+
+    #[test]
+    fn up_is_that_of_the_body_also_where_it_begins_on_hands_and_knees() {
+        let (clip, poses) = body(NAMES, DVec3::X, 9.0 * DVec3::Y, 90.0);
+        for camera in Camera::ALL {
+            assert_eq!(camera.view(&clip, &poses).up, DVec3::Y, "{camera}");
+        }
     }
 
     #[test]

@@ -92,7 +92,7 @@ impl ContactSheet {
     }
 
     fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: usize) -> Table {
-        let view = self.camera.view(clip.skeleton(), poses);
+        let view = self.camera.view(clip, poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let floor = Bounds::of(&figure, &view, poses).floor;
         let size = largest(&figure, &view, poses, floor);

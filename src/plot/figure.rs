@@ -3,45 +3,12 @@
 use glam::DVec3;
 use plotters::style::RGBColor;
 
-use crate::motion::{Joint, Skeleton};
+use crate::motion::{BodySide, Joint, Skeleton};
 use crate::plot::canvas::Point;
 use crate::plot::style;
 use crate::plot::view::View;
 
-/// Which side of the body a joint belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum BodySide {
-    Left,
-    Right,
-    Trunk,
-}
-
 impl BodySide {
-    /// Reads it from the usual names: LeftArm, r_hand, LThumb, Arm.L.
-    pub(crate) fn of(name: &str) -> Self {
-        let lower = name.to_lowercase();
-        let mut letters = name.chars();
-        let (first, second) = (letters.next(), letters.next());
-        let begins = second.is_some_and(|second| second.is_uppercase() || "_-. ".contains(second));
-        let marked = |side: char| {
-            let ends = ['_', '.', '-', ' ']
-                .iter()
-                .any(|dash| lower.ends_with([*dash, side].iter().collect::<String>().as_str()));
-            ends || begins && first.is_some_and(|first| first.eq_ignore_ascii_case(&side))
-        };
-        if lower.contains("left") {
-            Self::Left
-        } else if lower.contains("right") {
-            Self::Right
-        } else if marked('l') {
-            Self::Left
-        } else if marked('r') {
-            Self::Right
-        } else {
-            Self::Trunk
-        }
-    }
-
     pub(super) fn color(self) -> RGBColor {
         match self {
             Self::Left => style::LEFT,

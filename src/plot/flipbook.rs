@@ -4,10 +4,10 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::Clip;
+use crate::motion::{BodySide, Clip};
 use crate::plot::camera::Camera;
 use crate::plot::cells::{beginning, cells, drawn_poses, seconds_and_koma, shown};
-use crate::plot::figure::{BodySide, Figure};
+use crate::plot::figure::Figure;
 use crate::plot::points::Posing;
 use crate::plot::stage::Bounds;
 use crate::plot::style;
@@ -115,8 +115,7 @@ impl FlipBook {
         let place = |koma| Source::At(sheet.clock.place_from_koma(koma));
         let source = Posing::of(clip).all((0..koma).map(place));
         let result = drawn_poses(clip, layer);
-        let views =
-            Camera::ALL.map(|camera| (camera.word(), camera.view(clip.skeleton(), &source)));
+        let views = Camera::ALL.map(|camera| (camera.word(), camera.view(clip, &source)));
         let auto = views[3].1;
         let figure = Figure::of(clip.skeleton(), &source[0], auto.up);
         let steps = Steps::of(&figure, &auto, &source);

@@ -95,7 +95,7 @@ impl NumberedImages {
 
     fn stage(&self, clip: &Clip, sheet: &Sheet) -> Result<Stage, Error> {
         let poses = drawn_poses(clip, shown(clip, sheet)?);
-        let view = self.camera.view(clip.skeleton(), &poses);
+        let view = self.camera.view(clip, &poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let bounds = Bounds::of(&figure, &view, &poses);
         let (wide, high) = self.inside(1.0 - 4.0 * SAFE);

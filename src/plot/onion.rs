@@ -66,7 +66,7 @@ impl OnionSkin {
         self.validate()?;
         let layer = shown(clip, sheet)?;
         let poses = drawn_poses(clip, layer);
-        let view = self.camera.view(clip.skeleton(), &poses);
+        let view = self.camera.view(clip, &poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let cells = cells(layer);
         let ways = ways(&cells);

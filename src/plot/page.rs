@@ -1,8 +1,8 @@
 //! What the pages of figures have in common: a title, the length of the cut, a legend.
 
+use crate::motion::BodySide;
 use crate::plot::canvas::{Align, Type};
 use crate::plot::cells::seconds_and_koma;
-use crate::plot::figure::BodySide;
 use crate::plot::style;
 use crate::plot::svg::Svg;
 use crate::sheet::{Layer, Sheet};

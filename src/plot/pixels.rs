@@ -7,8 +7,9 @@ use resvg::tiny_skia::{
 };
 
 use crate::error::Error;
+use crate::motion::BodySide;
 use crate::plot::canvas::{Align, Point, Type};
-use crate::plot::figure::{BodySide, Drawn};
+use crate::plot::figure::Drawn;
 use crate::plot::raster::pixels_from_svg;
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};

@@ -4,11 +4,11 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{Clip, Skeleton};
+use crate::motion::{BodySide, Clip};
 use crate::plot::axis::number;
 use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
-use crate::plot::figure::{BodySide, Figure};
+use crate::plot::figure::Figure;
 use crate::plot::points::Posing;
 use crate::plot::style;
 use crate::plot::view::View;
@@ -84,7 +84,7 @@ impl PoseRow {
         }
         let (all, frames) = (frames.len(), &frames[..frames.len().min(self.most)]);
         let poses = Posing::of(clip).all(frames.iter().map(|frame| Source::At(frame.0)));
-        let mut figures = Row::of(clip.skeleton(), &poses);
+        let mut figures = Row::of(clip, &poses);
         let (widest, tallest) = figures.size(&poses);
         let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;
         figures.scale =
@@ -154,11 +154,12 @@ fn label(
 }
 
 impl Row {
-    fn of(skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Self {
-        let view = Camera::Auto.view(skeleton, poses);
+    fn of(clip: &Clip, poses: &[Vec<DVec3>]) -> Self {
+        let view = Camera::Auto.view(clip, poses);
         let up = |point: &DVec3| view.see(*point).1;
         let floor = poses.iter().flatten().map(up).fold(f64::INFINITY, f64::min);
-        Self { figure: Figure::of(skeleton, &poses[0], view.up), view, floor, scale: 1.0 }
+        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
+        Self { figure, view, floor, scale: 1.0 }
     }
 
     /// The largest width of a figure and the largest height over the floor, in units of the file.

@@ -121,7 +121,7 @@ impl Strip {
         source: &[Vec<DVec3>],
         result: &[Vec<DVec3>],
     ) -> (Stage, usize, f64) {
-        let view = self.camera.view(clip.skeleton(), source);
+        let view = self.camera.view(clip, source);
         let figure = Figure::of(clip.skeleton(), &source[0], view.up);
         let floor = Bounds::of(&figure, &view, source.iter().chain(result)).floor;
         let (a, b) =

@@ -5,8 +5,9 @@ use std::fmt::Write;
 
 use plotters::style::RGBColor;
 
+use crate::motion::BodySide;
 use crate::plot::canvas::{Align, Point, Type};
-use crate::plot::figure::{BodySide, Drawn};
+use crate::plot::figure::Drawn;
 use crate::plot::style;
 
 /// A picture as it grows. Coordinates are px from the upper left corner, written to a tenth.

@@ -1,4 +1,4 @@
-//! The view that shows most of a motion: which way is up, and from which side to look.
+//! The view that shows most of a motion: from which side to look.
 
 use glam::DVec3;
 
@@ -10,28 +10,23 @@ pub(super) struct View {
     pub(super) near: DVec3,
 }
 
-/// How much taller than along Y a pose has to be along Z for Z to be up.
-const CLEARLY: f64 = 1.25;
 /// The share of the body's height that a way has to reach to be walked rather than swayed.
 const WALKED: f64 = 0.5;
 
 impl View {
     /// The side view of some poses, each the positions of the same points, the root first.
     ///
-    /// Up is Y, or Z where the first pose is clearly taller along Z. To the right lies the horizontal
-    /// direction of the largest movement: of the root where it goes somewhere, otherwise of the joints
-    /// about their means. A walk goes from left to right.
-    pub(super) fn of(poses: &[Vec<DVec3>]) -> Self {
+    /// To the right lies the horizontal direction of the largest movement: of the root where it goes
+    /// somewhere, otherwise of the joints about their means. A walk goes from left to right.
+    pub(super) fn of(up: DVec3, poses: &[Vec<DVec3>]) -> Self {
         let first = poses.first().map_or(&[][..], Vec::as_slice);
-        let extent = extent(first);
-        let up = up(first);
         // Both cross products turn from `right` over `up` to `near`.
         let (a, b) = if up == DVec3::Z { (DVec3::X, DVec3::Y) } else { (DVec3::Z, DVec3::X) };
         let roots: Vec<DVec3> = poses.iter().filter_map(|pose| pose.first().copied()).collect();
         let flat = |point: &DVec3| (point.dot(a), point.dot(b));
         let ways =
             [roots.iter().map(flat).collect(), about_means(poses, flat), about_mean(first, flat)];
-        let height = extent.dot(up);
+        let height = extent(first).dot(up);
         let least = [WALKED * height, 1e-9 * height, 0.0];
         let way = ways.iter().zip(least).find(|(way, least)| spread(way) > *least);
         let angle = way.map_or(0.0, |(way, _)| principal_angle(way));
@@ -62,12 +57,6 @@ impl View {
             (low.min(x), high.max(x))
         })
     }
-}
-
-/// Which way is up in a pose: Y, or Z where it is clearly taller along Z.
-pub(super) fn up(pose: &[DVec3]) -> DVec3 {
-    let extent = extent(pose);
-    if extent.z > CLEARLY * extent.y { DVec3::Z } else { DVec3::Y }
 }
 
 /// The size of the box round some points.

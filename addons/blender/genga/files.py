@@ -66,6 +66,20 @@ class Sheet:
         return cls(float(sheet["fps"]), float(sheet["clip"]["frame_rate"]), exposures, koma)
 
 
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def is_ours(extras):
+    """Whether the extras of an animation have all that the add-on looks at."""
+    if not isinstance(extras, dict) or not isinstance(extras.get("keys"), list):
+        return False
+    has_rate = is_number(extras.get("fps")) and extras["fps"] > 0
+    has_length = is_number(extras.get("koma")) and extras["koma"] >= 1
+    is_key = lambda key: isinstance(key, dict) and is_number(key.get("koma")) and isinstance(key.get("role"), str)
+    return has_rate and has_length and all(map(is_key, extras["keys"]))
+
+
 def glb_animations(path):
     """Name → extras of every animation that genga wrote into a GLB."""
     try:
@@ -74,11 +88,11 @@ def glb_animations(path):
             if (magic, kind) != (b"glTF", b"JSON"):
                 raise NotAFile(f"{path} is no GLB")
             document = json.loads(file.read(length))
-    except (ValueError, struct.error) as error:
+        animations = document.get("animations", [])
+        extras = {animation.get("name", ""): animation.get("extras") for animation in animations}
+    except (ValueError, AttributeError, TypeError, struct.error) as error:
         raise NotAFile(f"{path} is no GLB: {error}") from error
-    animations = document.get("animations", [])
-    extras = {animation.get("name", ""): animation.get("extras") for animation in animations}
-    ours = {name: extra for name, extra in extras.items() if extra and "keys" in extra}
+    ours = {name: extra for name, extra in extras.items() if is_ours(extra)}
     if not ours:
         raise NotAFile(f"{path} has no animation with genga's roles")
     return ours

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::binary::{Binary, Use};
 use super::bones::{Bones, floats};
-use crate::plot::BodySide;
+use crate::motion::BodySide;
 
 /// Where an octahedron is widest, and how wide, as a share of its length.
 const WAIST: f64 = 0.1;

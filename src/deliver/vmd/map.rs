@@ -9,13 +9,10 @@ use toml::Spanned;
 use super::bones::{LONGEST_NAME, Model, Side};
 use super::record;
 use crate::error::Error;
-use crate::motion::{JointId, Skeleton};
+use crate::motion::{JointId, Skeleton, plain_name};
 
 /// The table that comes with the program.
 const DIALECTS: &str = include_str!("dialects.toml");
-
-/// What programs put before the names of all their joints, as [`plain`] leaves it.
-const PREFIXES: [&str; 4] = ["mixamorig", "bip001", "bip01", "character1"];
 
 /// The table of bones (ボーン対応表): how programs name the joints of each MMD bone, and a person's own
 /// rows over that.
@@ -159,23 +156,14 @@ impl Names {
     fn of(skeleton: &Skeleton) -> Self {
         let mut names = HashMap::new();
         for (id, joint) in skeleton.iter() {
-            names.entry(plain(&joint.name)).or_insert(id);
+            names.entry(plain_name(&joint.name)).or_insert(id);
         }
         Self(names)
     }
 
     fn find(&self, name: &str) -> Option<JointId> {
-        self.0.get(&plain(name)).copied()
+        self.0.get(&plain_name(name)).copied()
     }
-}
-
-/// A name as it is compared: see the head of `dialects.toml`.
-fn plain(name: &str) -> String {
-    let name = name.rsplit(':').next().unwrap_or_default();
-    let letters = name.chars().filter(|letter| !" _-.".contains(*letter));
-    let plain: String = letters.flat_map(char::to_lowercase).collect();
-    let stripped = PREFIXES.iter().find_map(|prefix| plain.strip_prefix(prefix));
-    stripped.filter(|rest| !rest.is_empty()).map(str::to_owned).unwrap_or(plain)
 }
 
 /// `line:column: ` of a byte in a text, from 1.

@@ -7,11 +7,13 @@ use glam::{DQuat, DVec3};
 use super::bones::{Model, Part};
 use super::source::Source;
 use super::stance::Stance;
-use crate::motion::{Body, Clip, JointId, Pose, RowWriter, local_rotation, local_translation};
+use crate::motion::{
+    Body, Clip, JointId, Pose, RowWriter, Stature, Unit, local_rotation, local_translation,
+};
 use crate::sheet;
 
-/// MMD units in a centimetre by custom, for a clip without legs to measure.
-const UNITS_IN_CENTIMETRE: f64 = 0.125;
+/// MMD units in a metre by custom, for a clip without legs to measure.
+const UNITS_IN_METRE: f64 = 12.5;
 
 /// The model's bone for a joint of the capture.
 struct Driven {
@@ -74,7 +76,7 @@ impl<'a> Retarget<'a> {
             waist: source.waist(),
             center: center.map(|bone| (bone, standing(source, stance))),
             up: stance.up,
-            scale: source.leg().map_or(UNITS_IN_CENTIMETRE, |own| leg / own),
+            scale: source.leg().map_or_else(|| without_legs(clip), |own| leg / own),
         }
     }
 
@@ -128,6 +130,11 @@ impl<'a> Retarget<'a> {
         }
         DQuat::IDENTITY
     }
+}
+
+/// MMD units in the unit that makes a body most nearly a person's.
+fn without_legs(clip: &Clip) -> f64 {
+    UNITS_IN_METRE * Unit::nearest(Stature::of(clip).size).metres()
 }
 
 /// Where the waist is when the body stands straight on the ground, over the origin.

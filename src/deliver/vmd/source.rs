@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::bones::{Model, Side};
 use super::map::{BoneMap, Found};
-use crate::motion::{Body, Clip, JointId, Pose, local_translation};
+use crate::motion::{Body, Clip, JointId, Pose, Stature, local_translation};
 use crate::time::Frame;
 
 /// Frames that are looked at; of longer clips every second, third … one.
@@ -38,6 +38,11 @@ impl<'a> Source<'a> {
             rest.push(if joint.parent.is_some() { parent + from_parent } else { DVec3::ZERO });
         }
         Self { clip, map, found, rest, looks: looks(clip) }
+    }
+
+    /// Up in the file, for a rest that does not show it.
+    pub(super) fn up(&self) -> DVec3 {
+        Stature::of(self.clip).up.unit()
     }
 
     pub(super) fn model(&self) -> &Model {

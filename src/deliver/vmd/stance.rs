@@ -32,16 +32,15 @@ impl Stance {
     /// The stance of a capture for a model whose arms hang `arm_angle` radians below the horizontal.
     pub(super) fn of(source: &Source<'_>, arm_angle: f64) -> Self {
         let upright = upright_rest(source);
-        let up = upright.map_or(DQuat::IDENTITY, |basis| {
-            // A rest that lies on its back in a Y-up file does not occur; one of a Z-up file does.
-            DQuat::from_rotation_arc(basis.y_axis, DVec3::Y)
-        });
+        // A rest that lies on its back in a Y-up file does not occur; one of a Z-up file does.
+        let file_up = upright.map_or_else(|| source.up(), |basis| basis.y_axis);
+        let up = DQuat::from_rotation_arc(file_up, DVec3::Y);
         let turns = match upright {
             Some(basis) => {
                 let turn = DQuat::from_mat3(&basis).inverse();
                 vec![Some(turn); source.model().bones.len()]
             }
-            None => built(source),
+            None => built(source, file_up),
         };
         // Facing is kept: only what is up is brought to +Y.
         let mut aligned: Vec<Option<DQuat>> = Vec::new();
@@ -103,7 +102,7 @@ fn snapped(direction: DVec3) -> DVec3 {
 }
 
 /// The stance of a rest that is no body, built bone by bone.
-fn built(source: &Source<'_>) -> Vec<Option<DQuat>> {
+fn built(source: &Source<'_>, up: DVec3) -> Vec<Option<DQuat>> {
     let model = source.model();
     let mut turns: Vec<Option<DQuat>> = vec![None; model.bones.len()];
     for (index, bone) in model.bones.iter().enumerate() {
@@ -117,7 +116,7 @@ fn built(source: &Source<'_>) -> Vec<Option<DQuat>> {
             Part::Arm(_) | Part::Leg(_) => {
                 toward(source, index, bone.part.rest_direction(0.0), parent)
             }
-            Part::Trunk => trunk(source, index, &bone.name, &turns),
+            Part::Trunk => trunk(source, index, &bone.name, &turns, up),
         };
     }
     // Collar bones share the axes of the arm that hangs on them.
@@ -152,7 +151,13 @@ fn toward(
 }
 
 /// Pelvis and spine.
-fn trunk(source: &Source<'_>, index: usize, name: &str, turns: &[Option<DQuat>]) -> Option<DQuat> {
+fn trunk(
+    source: &Source<'_>,
+    index: usize,
+    name: &str,
+    turns: &[Option<DQuat>],
+    up: DVec3,
+) -> Option<DQuat> {
     let model = source.model();
     let turn_of = |name: &str| model.find(name).and_then(|bone| turns[bone]);
     match name {
@@ -168,7 +173,7 @@ fn trunk(source: &Source<'_>, index: usize, name: &str, turns: &[Option<DQuat>])
         _ => {
             let side = Side::BOTH.into_iter().find(|side| name.starts_with(side.word()))?;
             match name.strip_prefix(side.word())? {
-                "足首" => foot(source, index, side).or_else(|| turn_of("下半身")),
+                "足首" => foot(source, index, side, up).or_else(|| turn_of("下半身")),
                 _ => None,
             }
         }
@@ -224,14 +229,14 @@ fn limb(
 }
 
 /// The foot: it points ahead, as far down as it mostly does in the clip, and does not lean.
-fn foot(source: &Source<'_>, index: usize, side: Side) -> Option<DQuat> {
+fn foot(source: &Source<'_>, index: usize, side: Side, up: DVec3) -> Option<DQuat> {
     let own = source.direction(index)?;
     let joint = source.joint(index)?;
     let above = source.model().sided(side, "ひざ")?;
     let (shin, along) = (source.joint(above)?, source.direction(above)?);
     let cross = |world: &[DQuat]| (world[shin.0] * along).cross(world[joint.0] * own);
     let hinge = source.mean_local(joint, cross)?;
-    let drop = source.median(|world| (world[joint.0] * own).y.clamp(-1.0, 1.0));
+    let drop = source.median(|world| up.dot(world[joint.0] * own).clamp(-1.0, 1.0));
     let target = DVec3::new(0.0, drop, (1.0 - drop * drop).sqrt());
     Some(turn(own, hinge, target, DVec3::NEG_X))
 }

@@ -126,7 +126,7 @@ impl<'a> Scene<'a> {
 /// The stage of one panel, its middle yet to be set, and whether the camera goes along.
 fn stage(preview: &Preview, clip: &Clip, layer: &Layer, size: (f64, f64)) -> (Stage, bool) {
     let poses = drawn_poses(clip, layer);
-    let view = preview.camera.view(clip.skeleton(), &poses);
+    let view = preview.camera.view(clip, &poses);
     let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
     let bounds = Bounds::of(&figure, &view, &poses);
     let room = (0.5 * size.0 - 2.0 * PAD, size.1 - TOP - BOTTOM);

@@ -334,3 +334,20 @@ fn small_pages_look_as_they_did() {
     let strip = Strip { width: 600, figure_height: 60, ..Strip::default() };
     insta::assert_snapshot!("strip", strip.draw("cut", &clip, &sheet).unwrap()[0]);
 }
+
+#[test]
+fn the_data_of_a_flip_book_are_as_they_were() {
+    let (clip, sheet) = walk();
+    let mut take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());
+    let fields = take.as_object_mut().unwrap();
+    // Poses are long and say little.
+    fields.remove("source");
+    let drawings = fields.remove("drawings").unwrap();
+    let mut lines: Vec<String> =
+        fields.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+    for mut drawing in drawings.as_array().unwrap().clone() {
+        drawing.as_object_mut().unwrap().remove("pose");
+        lines.push(format!("drawing: {drawing}"));
+    }
+    insta::assert_snapshot!("flipbook", lines.join("\n"));
+}

@@ -1,5 +1,6 @@
 """The Maya script against a stand-in for maya.cmds."""
 
+import copy
 import json
 import math
 import random
@@ -119,8 +120,25 @@ class Applied(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no layer C; there are"):
             self.apply(layer="C")
 
+    def test_every_unit_of_time_has_a_rate(self):
+        for unit, rate in [
+            ("film", 24), ("120fps", 120), ("23.976fps", 23.976), ("29.97df", 29.97), ("sec", 1), ("min", 1 / 60),
+            ("hour", 1 / 3600), ("millisec", 1000),
+        ]:
+            self.cmds.unit = unit
+            self.assertAlmostEqual(genga_sheet.scene_rate(self.cmds), rate, msg=unit)
+        self.cmds.unit = "fortnight"
+        with self.assertRaisesRegex(RuntimeError, "time unit is fortnight"):
+            self.apply()
+
     def test_what_is_wrong_is_said_and_nothing_is_changed(self):
         before = dict(self.cmds.keys)
+        empty = copy.deepcopy(SHEET)
+        empty["layers"][0]["exposures"] = []
+        with self.assertRaisesRegex(ValueError, "layer A shows no drawing"):
+            self.apply(empty)
+        with self.assertRaisesRegex(ValueError, "no layer"):
+            self.apply({**SHEET, "layers": []})
         with self.assertRaisesRegex(ValueError, "no timesheet of genga"):
             self.apply({"schema": "other"})
         self.cmds.selected = []

@@ -24,6 +24,8 @@ def spoilt(sheet):
     yield but("koma from 1", lambda s: s.update(frame_base=1))
     yield but("no clip", lambda s: s.pop("clip"))
     yield but("half a frame to begin with", lambda s: s["clip"].update(first_frame=0.5))
+    yield but("a setting that is no word", lambda s: s["made_with"]["recipe"].update(rate=24))
+    yield but("no frame at all", lambda s: layer(s)["drawings"][0].update(frame=None))
     yield but("no koma", lambda s: layer(s)["exposures"][0].update(koma=0))
     yield but("half a koma", lambda s: layer(s)["exposures"][0].update(koma=1.5))
     yield but("a nameless drawing", lambda s: layer(s)["drawings"][0].pop("drawing"))

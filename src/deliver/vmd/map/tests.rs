@@ -77,9 +77,9 @@ fn names_are_compared_without_prefix_case_and_blanks() {
         ("Character1_Hips", "Hips"),
         ("UpperArm_L", "upperarm_l"),
     ] {
-        assert_eq!(plain(name), plain(same), "{name}");
+        assert_eq!(plain_name(name), plain_name(same), "{name}");
     }
-    assert_ne!(plain("Bip01"), "", "a root of nothing but its prefix keeps its name");
+    assert_ne!(plain_name("Bip01"), "", "a root of nothing but its prefix keeps its name");
 }
 
 #[test]

@@ -160,3 +160,11 @@ fn settings_out_of_range_and_empty_sheets_are_refused() {
     }
     assert!(make(Vmd::default(), 0).unwrap_err().to_string().contains("no koma"));
 }
+
+#[test]
+fn the_table_of_bones_of_a_sample_is_as_it_was() {
+    let clip = kick();
+    let sheet = Sheet::on_ones(clip.clock(KOMA_RATE), 1);
+    let made = Vmd::default().make(&clip, &sheet).unwrap();
+    insta::assert_snapshot!("bones", made.report.csv().unwrap());
+}

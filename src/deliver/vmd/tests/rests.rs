@@ -148,6 +148,38 @@ fn a_rest_with_every_bone_along_one_axis_gives_the_same_body() {
 }
 
 #[test]
+fn bones_along_one_axis_in_a_file_with_z_up_give_the_same_body() {
+    let clip = kick();
+    let z_up = DQuat::from_rotation_x(90f64.to_radians());
+    let y = rerigged(&clip, along_x, DQuat::IDENTITY);
+    let z = rerigged(&clip, along_x, z_up);
+    for bone in ["下半身", "頭", "左腕", "右ひじ", "左足", "右足首"] {
+        assert!(apart(&y, &z, bone) < 0.1, "{bone}: {}", apart(&y, &z, bone));
+    }
+}
+
+/// A body of which no leg is known, in a unit of which a metre has so many.
+fn legless(in_a_metre: f64) -> Clip {
+    let clip = standing(DVec3::ZERO);
+    let mut skeleton = clip.skeleton().clone();
+    for joint in &mut skeleton.joints {
+        joint.offset *= 0.01 * in_a_metre;
+        joint.name = joint.name.replace("Leg", "Limb");
+    }
+    Clip::new(skeleton, clip.rate(), Frame(0), 1, clip.row(Frame(0)).to_vec()).unwrap()
+}
+
+#[test]
+fn without_legs_the_unit_is_guessed_by_the_size() {
+    for in_a_metre in [1.0, 100.0, 1000.0] {
+        let clip = legless(in_a_metre);
+        let made = Vmd::default().make(&clip, &Sheet::on_ones(clip.clock(KOMA_RATE), 1)).unwrap();
+        assert!(made.notes.iter().any(|note| note.code == "W_VMD_NO_LEGS"));
+        assert!((made.report.scale * in_a_metre - 12.5).abs() < 1e-9, "{in_a_metre}");
+    }
+}
+
+#[test]
 fn a_rest_that_faces_elsewhere_or_stands_on_z_gives_the_same_body() {
     let clip = kick();
     let half_round = DQuat::from_rotation_y(180f64.to_radians());

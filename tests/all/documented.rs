@@ -1,0 +1,32 @@
+//! What can be asked for is in the docs.
+
+use std::fs;
+
+use genga::deliver::{FORMATS, Settings};
+
+use crate::clips::here;
+
+#[test]
+fn every_format_is_in_the_table_of_formats_with_its_files() {
+    let docs = fs::read_to_string(here("docs/formats.md")).unwrap();
+    let (_, table) = docs.split_once("## Formats by name").unwrap();
+    let (table, _) = table.split_once("\n## ").unwrap();
+    for format in FORMATS {
+        let begin = format!("| `{}` |", format.name);
+        let row = table.lines().find(|line| line.starts_with(&begin));
+        let row = row.unwrap_or_else(|| panic!("{} has no row", format.name));
+        for file in format.files {
+            assert!(row.contains(&format!("`{file}`")), "{} lacks {file}", format.name);
+        }
+    }
+}
+
+#[test]
+fn every_setting_of_a_format_is_named_in_the_docs() {
+    let page = |name: &str| fs::read_to_string(here("docs").join(name)).unwrap();
+    let docs = page("formats.md") + &page("pictures.md");
+    let names = Settings::default().names();
+    let missing: Vec<_> =
+        names.iter().filter(|name| !docs.contains(&format!("`{name}`"))).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
