@@ -20,10 +20,10 @@ mod vmd;
 pub mod xdts;
 mod xsheet;
 
-pub use cut::Cut;
+pub use cut::{Cut, Sink};
 pub use drawings::{Drawings, Rows};
 pub use figures::FigureSettings;
-pub use format::{FORMATS, Format, Sink};
+pub use format::{FORMATS, Format};
 pub use glb::{Glb, LengthUnit, Up};
 pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::{keys_bvh, limited_bvh};

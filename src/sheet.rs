@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::time::Clock;
 
-/// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and would fill the
-/// memory.
+/// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and
+/// would fill the memory.
 const MOST_KOMA: usize = 1_000_000;
 
 /// A timesheet: for each layer, drawings and how long each stays on screen.

@@ -31,6 +31,15 @@ pub(super) fn marked(
     }
     let frames = (engine.clip().first(), engine.clip().last());
     let sheet = engine.run(recipe, edits)?.sheet;
+    if file.length != sheet.length() {
+        return Err(Failure::AskedWrongly(format!(
+            "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
+             the timing edited, or is another part (--trim) meant?",
+            name.display(),
+            file.length,
+            sheet.length()
+        )));
+    }
     let clock = sheet.clock;
     let pins = xdts::pins(column, numbered, sheet, frames)
         .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;

@@ -1,8 +1,12 @@
-//! What is handed over: a clip, its sheet and what they are called.
+//! What is handed over, a clip, its sheet and what they are called; and to whom.
 
 use crate::deliver::sheet_json::MadeWith;
+use crate::error::Error;
 use crate::motion::Clip;
 use crate::sheet::Sheet;
+
+/// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
+pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), Error> + 'a;
 
 /// A cut (カット): everything that a format may be made of.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::deliver::format::Sink;
-use crate::deliver::{Cut, Settings};
+use crate::deliver::{Cut, Settings, Sink};
 use crate::error::Error;
 use crate::plot::Camera;
 

@@ -4,14 +4,11 @@ use std::fmt;
 
 use crate::deliver::settings::Settings;
 use crate::deliver::{
-    Cut, Drawings, Rows, figures, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv,
+    Cut, Drawings, Rows, Sink, figures, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv,
     sheet_json, xsheet,
 };
 use crate::error::{Error, Warning};
 use crate::sheet::{Layer, Sheet};
-
-/// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
-pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), Error> + 'a;
 
 /// A form in which a sheet is handed over (納品形式).
 #[derive(Clone, Copy)]

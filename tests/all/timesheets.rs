@@ -102,7 +102,7 @@ fn what_is_no_timesheet_or_not_of_this_clip_is_refused_in_words() {
     assert!(said.contains("kick.bvh:1:1: expected \"exchangeDigitalTimeSheet"), "{said}");
     let genga = ["keys", &kick, "--pin-from", "out/kick_genga.xdts"];
     let said = refused(place, &[&genga[..], &["--trim", "0..40"]].concat());
-    assert!(said.contains("the same --trim?"), "{said}");
+    assert!(said.contains("it has 92 koma and the sheet of this clip 40"), "{said}");
     let said = refused(place, &[&genga[..], &["--pin-column", "B"]].concat());
     assert!(said.contains("there is no column B; there are A"), "{said}");
     let said = refused(place, &["keys", &kick, "--pin-from", "none.xdts"]);
