@@ -5,7 +5,10 @@ mod column;
 mod gauge_page;
 mod gauge_strip;
 mod grid;
+mod half;
 mod head;
+mod layout;
+mod leaf;
 mod page;
 #[cfg(test)]
 mod tests;
@@ -14,7 +17,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::Clip;
-use crate::plot::xsheet::page::{Leaf, Page};
+use crate::plot::xsheet::layout::Page;
+use crate::plot::xsheet::leaf::Leaf;
 use crate::sheet::Sheet;
 use crate::timing::Gauge;
 
@@ -103,7 +107,7 @@ impl XSheet {
             .collect();
         let mut pages = Vec::new();
         for page in Page::all(self, cut, sheet, &leaves) {
-            pages.push(page.draw()?);
+            pages.push(page::draw(&page)?);
         }
         if self.gauges {
             pages.extend(gauge_page::draw(self, cut, clip, sheet, &leaves)?);

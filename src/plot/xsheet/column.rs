@@ -4,7 +4,9 @@ use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
-use crate::plot::xsheet::page::{Half, Leaf, Page, Place, ROW};
+use crate::plot::xsheet::half::{Half, Place, ROW};
+use crate::plot::xsheet::layout::Page;
+use crate::plot::xsheet::leaf::Leaf;
 use crate::sheet::Exposure;
 
 /// The ACTION column (原画): keys by number, a mark an inbetween.

@@ -8,7 +8,8 @@ use crate::plot::xsheet::XSheet;
 use crate::plot::xsheet::column::key;
 use crate::plot::xsheet::grid::{FRAME, WIDTH};
 use crate::plot::xsheet::head::boxes;
-use crate::plot::xsheet::page::{Leaf, Page, SIZE};
+use crate::plot::xsheet::layout::{Page, SIZE};
+use crate::plot::xsheet::leaf::Leaf;
 use crate::sheet::Sheet;
 use crate::timing::{Gauge, fraction};
 

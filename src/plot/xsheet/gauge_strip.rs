@@ -4,7 +4,9 @@ use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::style;
 use crate::plot::xsheet::gauge_page::written;
-use crate::plot::xsheet::page::{Half, Leaf, NUMBERS, Page, ROW, STRIP};
+use crate::plot::xsheet::half::{Half, ROW};
+use crate::plot::xsheet::layout::{NUMBERS, Page, STRIP};
+use crate::plot::xsheet::leaf::Leaf;
 use crate::timing::{Gauge, Packing};
 
 /// Half the length of a tick, and of one at a key.

@@ -5,7 +5,8 @@ use plotters::style::RGBColor;
 use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::style;
-use crate::plot::xsheet::page::{Half, MARGIN, NUMBERS, Page, ROW, ROWS, TOP};
+use crate::plot::xsheet::half::{Half, ROW, ROWS, TOP};
+use crate::plot::xsheet::layout::{MARGIN, NUMBERS, Page};
 
 /// Lines between koma.
 const THIN: RGBColor = RGBColor(206, 216, 211);

@@ -7,7 +7,8 @@ use crate::plot::cells::seconds_and_koma;
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
 use crate::plot::xsheet::grid::{FRAME, WIDTH, bottom};
-use crate::plot::xsheet::page::{Leaf, Page};
+use crate::plot::xsheet::layout::Page;
+use crate::plot::xsheet::leaf::Leaf;
 use crate::sheet::{Role, Sheet};
 
 const TOP: f64 = 8.0;

@@ -189,7 +189,7 @@ fn a_half_has_the_exposures_and_gauges_that_a_look_at_all_finds() {
         let end = layer.timed().filter(|(_, shown)| Some(shown.drawing) == highest).last();
         assert_eq!(leaf.end, end.map(|(begin, _)| begin));
         for begin in (0..layer.length() + 200).step_by(17) {
-            let half = page::Half { left: 0.0, begin };
+            let half = half::Half { left: 0.0, begin };
             let here = |from: usize, to: usize| from < half.end() && to > begin;
             let all = layer.timed().filter(|(from, shown)| here(*from, from + shown.koma));
             assert_eq!(
