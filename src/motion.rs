@@ -3,6 +3,7 @@
 pub mod bvh;
 mod channels;
 mod clip;
+mod drawn;
 mod kinematics;
 pub(crate) mod lanes;
 pub(crate) mod rig;
@@ -13,6 +14,7 @@ mod stature;
 
 pub use channels::RowWriter;
 pub use clip::Clip;
+pub(crate) use drawn::DrawnPose;
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
 pub(crate) use side::{BodySide, plain_name};
 pub use skeleton::{Axis, Channel, EndSite, Joint, JointId, Skeleton};

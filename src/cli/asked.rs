@@ -102,7 +102,8 @@ impl Asked {
         if self.writes("json") { io::spare_the("sheet", sheet, &target) } else { Ok(()) }
     }
 
-    fn writes(&self, name: &str) -> bool {
+    /// Whether a format of that name is among them.
+    pub(super) fn writes(&self, name: &str) -> bool {
         self.formats.iter().any(|format| format.name == name)
     }
 
@@ -123,7 +124,7 @@ impl Asked {
                 names.push(name.to_owned());
                 bundle.add(name, bytes)
             })?;
-            if format.is_numbered() {
+            if format.is_numbered {
                 left.extend(shortened(stale::stale(bundle.folder(), &names)));
             }
             files.extend(shortened(names));

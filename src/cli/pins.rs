@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::args::Corrections;
+use super::asked::Asked;
 use super::failure::Failure;
 use super::io;
 use super::words::counted;
@@ -72,13 +73,11 @@ pub(super) fn marked(
 /// Refuses to write over the marked sheet: a person's work is in it.
 pub(super) fn spare(
     args: &Corrections,
-    deliver: &[String],
+    asked: &Asked,
     folder: &Path,
     cut: &str,
 ) -> Result<(), Failure> {
-    let (Some(marked), true) =
-        (&args.pin_from, deliver.iter().any(|name| matches!(name.trim(), "xdts" | "all")))
-    else {
+    let Some(marked) = args.pin_from.as_ref().filter(|_| asked.writes("xdts")) else {
         return Ok(());
     };
     let files = Format::find("xdts")?.files;

@@ -81,7 +81,7 @@ fn spare(args: &RunArgs, asked: &Asked, folder: &Path, cut: &str) -> Result<(), 
         let own = OWN.iter().filter(|file| (what, **file) != ("recipe", RECIPE));
         own.into_iter().try_for_each(|file| io::spare_the(what, path, &folder.join(file)))?;
     }
-    pins::spare(corrections, &args.deliver, folder, cut)?;
+    pins::spare(corrections, asked, folder, cut)?;
     asked.spare_edited(folder)
 }
 

@@ -22,9 +22,24 @@ pub struct Format {
     /// The files that it writes: `CUT` stands for the name of the cut, `0001` for the number of a
     /// drawing or a page.
     pub files: &'static [&'static str],
+    /// Whether it writes as many files as a sheet has drawings or pages, by their numbers.
+    pub is_numbered: bool,
     /// Makes the files and hands them on, one at a time.
     make: fn(&Cut<'_>, &Settings, &mut Sink<'_>) -> Result<(), Error>,
+    /// What a person should know of the files.
+    notes: fn(&Cut<'_>, &Settings) -> Result<Vec<Warning>, Error>,
 }
+
+/// What most rows have in common: files of fixed names, of which there is nothing to say.
+const PLAIN: Format = Format {
+    name: "",
+    help: "",
+    japanese: "",
+    files: &[],
+    is_numbered: false,
+    make: |_, _, _| Ok(()),
+    notes: |_, _| Ok(Vec::new()),
+};
 
 /// Every format, in the order in which they are listed and written.
 pub const FORMATS: &[Format] = &[
@@ -34,6 +49,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "タイムシート",
         files: &["sheet.json"],
         make: |cut, _, put| put("sheet.json", sheet_json::write(cut)?.as_bytes()),
+        ..PLAIN
     },
     Format {
         name: "csv",
@@ -47,6 +63,7 @@ pub const FORMATS: &[Format] = &[
             put("drawings.csv", &csv.encode(table(Rows::All)?))?;
             put("sheet.csv", &csv.encode(sheet_csv(cut.sheet)?))
         },
+        ..PLAIN
     },
     Format {
         name: "remap",
@@ -54,6 +71,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "タイムリマップ",
         files: &["remap.csv"],
         make: |cut, settings, put| put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?)),
+        ..PLAIN
     },
     Format {
         name: "bvh",
@@ -61,6 +79,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "リミテッドモーション",
         files: &["limited.bvh"],
         make: |cut, _, put| put("limited.bvh", limited_bvh(cut.clip, cut.sheet)?.as_bytes()),
+        ..PLAIN
     },
     Format {
         name: "bvh-keys",
@@ -68,6 +87,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "ポーズ集",
         files: &["keys.bvh"],
         make: |cut, _, put| put("keys.bvh", keys_bvh(cut.clip, cut.sheet)?.as_bytes()),
+        ..PLAIN
     },
     Format {
         name: "xdts",
@@ -79,12 +99,14 @@ pub const FORMATS: &[Format] = &[
             put(&cut.file("CUT_genga.xdts"), made.genga.as_bytes())?;
             put(&cut.file("CUT_douga.xdts"), made.douga.as_bytes())
         },
+        ..PLAIN
     },
     Format {
         name: "xsheet",
         help: "the timesheet on paper, to print on A4 or B4: HTML, and a page each as SVG",
         japanese: "タイムシート用紙",
         files: &["CUT_xsheet.html", "xsheet/0001.svg"],
+        is_numbered: true,
         make: |cut, settings, put| {
             let made = xsheet(&settings.xsheet, cut.name, cut.clip, cut.sheet)?;
             put(&cut.file("CUT_xsheet.html"), made.html.as_bytes())?;
@@ -92,6 +114,7 @@ pub const FORMATS: &[Format] = &[
                 put(&format!("xsheet/{:04}.svg", at + 1), page.as_bytes())
             })
         },
+        ..PLAIN
     },
     Format {
         name: "vmd",
@@ -103,6 +126,8 @@ pub const FORMATS: &[Format] = &[
             put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
             put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))
         },
+        notes: |cut, settings| settings.vmd.notes(cut.clip, cut.sheet),
+        ..PLAIN
     },
     Format {
         name: "glb",
@@ -110,6 +135,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "リミテッドモーション",
         files: &["limited.glb"],
         make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
+        ..PLAIN
     },
     Format {
         name: "bars",
@@ -117,6 +143,7 @@ pub const FORMATS: &[Format] = &[
         japanese: "シートの図",
         files: &["sheet.svg"],
         make: |cut, _, put| put("sheet.svg", pictures::bars(cut)?.as_bytes()),
+        ..PLAIN
     },
     Format {
         name: "poses",
@@ -124,27 +151,34 @@ pub const FORMATS: &[Format] = &[
         japanese: "ポーズの図",
         files: &["poses.svg"],
         make: |cut, _, put| put("poses.svg", pictures::poses(cut)?.as_bytes()),
+        ..PLAIN
     },
     Format {
         name: "strip",
         help: "picture: source above, result below, koma by koma",
         japanese: "素材と結果",
         files: &["strip.svg"],
+        is_numbered: true,
         make: figures::strip,
+        notes: |cut, settings| Ok(shortened("strip", settings.strip.most, cut.sheet)),
     },
     Format {
         name: "contact",
         help: "picture: contact sheet of the genga",
         japanese: "原画一覧",
         files: &["contact.svg"],
+        is_numbered: true,
         make: figures::contact,
+        ..PLAIN
     },
     Format {
         name: "onion",
         help: "picture: the drawings from each genga to the next through each other",
         japanese: "オニオンスキン",
         files: &["onion.svg"],
+        is_numbered: true,
         make: figures::onion,
+        ..PLAIN
     },
     Format {
         name: "flipbook",
@@ -152,6 +186,8 @@ pub const FORMATS: &[Format] = &[
         japanese: "パラパラ",
         files: &["flipbook.html"],
         make: figures::flipbook,
+        notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, cut.sheet)),
+        ..PLAIN
     },
     #[cfg(feature = "cli")]
     Format {
@@ -160,6 +196,8 @@ pub const FORMATS: &[Format] = &[
         japanese: "プレビュー",
         files: &["preview.gif"],
         make: figures::preview,
+        notes: |cut, settings| Ok(shortened("preview", settings.preview.most, cut.sheet)),
+        ..PLAIN
     },
     #[cfg(feature = "cli")]
     Format {
@@ -167,7 +205,9 @@ pub const FORMATS: &[Format] = &[
         help: "a picture a drawing, numbered as the sheet, to draw over",
         japanese: "連番画像",
         files: &["images/A_0001.png"],
+        is_numbered: true,
         make: figures::images,
+        ..PLAIN
     },
 ];
 
@@ -202,16 +242,11 @@ impl Format {
         Ok(FORMATS.iter().filter(is_asked).collect())
     }
 
-    /// Whether it writes as many files as a sheet has drawings or pages, by their numbers.
-    pub fn is_numbered(&self) -> bool {
-        let by_pages = ["strip", "contact", "onion"].contains(&self.name);
-        by_pages || self.files.iter().any(|file| file.contains("0001"))
-    }
-
     /// Makes the files of this format and hands them on, one at a time.
     ///
     /// # Errors
-    /// [`Error::Sheet`] as [`Sheet::check`](crate::sheet::Sheet::check); what the format cannot be made of, what is wrong with a setting, and what `put` says.
+    /// [`Error::Sheet`] as [`Sheet::check`]; what the format cannot be made of, what is wrong with a
+    /// setting, and what `put` says.
     pub fn write(
         &self,
         cut: &Cut<'_>,
@@ -227,14 +262,7 @@ impl Format {
     /// # Errors
     /// Those of [`Format::write`].
     pub fn notes(&self, cut: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
-        match self.name {
-            "vmd" => settings.vmd.notes(cut.clip, cut.sheet),
-            "strip" => Ok(shortened(self.name, settings.strip.most, cut.sheet)),
-            "flipbook" => Ok(shortened(self.name, settings.flipbook.most, cut.sheet)),
-            #[cfg(feature = "cli")]
-            "preview" => Ok(shortened(self.name, settings.preview.most, cut.sheet)),
-            _ => Ok(Vec::new()),
-        }
+        (self.notes)(cut, settings)
     }
 }
 

@@ -2,31 +2,27 @@
 
 use glam::{DMat3, DQuat};
 
-use crate::motion::{Axis, Channel, Clip, Joint, Pose};
+use crate::motion::{Axis, Channel, Clip, DrawnPose, Joint};
 use crate::sheet::Source;
 use crate::time::Frame;
 
 /// Writes drawings as rows of channel values, with its buffers.
 #[derive(Debug, Clone)]
 pub struct RowWriter<'a> {
-    clip: &'a Clip,
-    pose: Pose,
-    from: Pose,
-    to: Pose,
+    drawn: DrawnPose<'a>,
 }
 
 impl<'a> RowWriter<'a> {
     /// A writer for drawings of that clip.
     pub fn new(clip: &'a Clip) -> Self {
-        let rest = Pose::rest(clip.skeleton());
-        Self { clip, pose: rest.clone(), from: rest.clone(), to: rest }
+        Self { drawn: DrawnPose::of(clip) }
     }
 
     /// Writes a drawing into `row`, as wide as the skeleton has channels. A source frame comes out as
     /// the numbers it was read from. An instant between frames is slerped, and its angles are the ones
     /// nearest to those of the frame before, so that they run on past ±180° as the file's do.
     pub fn write(&mut self, source: Source, row: &mut [f64]) {
-        let clip = self.clip;
+        let clip = self.drawn.clip();
         let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
         let place = source.place().clamp(first, last);
         let before = clip.row(Frame(place.floor() as usize));
@@ -35,14 +31,7 @@ impl<'a> RowWriter<'a> {
             return;
         }
         let after = clip.row(Frame((place.floor() as usize + 1).min(clip.last().0)));
-        match source {
-            Source::At(_) => self.pose.take_place(clip, place),
-            Source::Between { from, to, share } => {
-                self.from.take_place(clip, from);
-                self.to.take_place(clip, to);
-                self.pose.take_blend(&self.from, &self.to, share);
-            }
-        }
+        self.drawn.take(source);
         for (index, joint) in clip.skeleton().joints.iter().enumerate() {
             let columns = joint.first_channel..joint.first_channel + joint.channels.len();
             let (before, after) = (&before[columns.clone()], &after[columns.clone()]);
@@ -64,10 +53,10 @@ impl<'a> RowWriter<'a> {
         row: &mut [f64],
     ) {
         let [before, after] = rows;
-        let translation = self.pose.translations[index];
-        let angles = rotation_axes(joint).map(|axes| {
-            angles_from_rotation(self.pose.rotations[index], axes, &near(joint, before))
-        });
+        let pose = self.drawn.pose();
+        let translation = pose.translations[index];
+        let angles = rotation_axes(joint)
+            .map(|axes| angles_from_rotation(pose.rotations[index], axes, &near(joint, before)));
         let mut rotations = 0..3;
         for (at, channel) in joint.channels.iter().enumerate() {
             row[at] = match (channel, &angles) {

@@ -2,38 +2,27 @@
 
 use glam::DVec3;
 
-use crate::motion::{Body, Clip, Pose};
+use crate::motion::{Body, Clip, DrawnPose};
 use crate::sheet::Source;
 
 /// Turns sources into poses: the joints in their order, then the tips in the order of their joints.
 pub(super) struct Posing<'a> {
-    clip: &'a Clip,
-    pose: Pose,
-    keys: [Pose; 2],
+    drawn: DrawnPose<'a>,
     body: Body,
 }
 
 impl<'a> Posing<'a> {
     /// For a clip of at least one frame.
     pub(super) fn of(clip: &'a Clip) -> Self {
-        let rest = Pose::rest(clip.skeleton());
-        let keys = [rest.clone(), rest.clone()];
-        Self { clip, pose: rest, keys, body: Body::new(clip.skeleton()) }
+        Self { drawn: DrawnPose::of(clip), body: Body::new(clip.skeleton()) }
     }
 
     /// The points of a drawing, in the file's unit.
     pub(super) fn points(&mut self, source: Source) -> Vec<DVec3> {
-        match source {
-            Source::At(place) => self.pose.take_place(self.clip, place),
-            Source::Between { from, to, share } => {
-                self.keys[0].take_place(self.clip, from);
-                self.keys[1].take_place(self.clip, to);
-                self.pose.take_blend(&self.keys[0], &self.keys[1], share);
-            }
-        }
-        let skeleton = self.clip.skeleton();
+        self.drawn.take(source);
+        let skeleton = self.drawn.clip().skeleton();
         let mut points = vec![DVec3::ZERO; skeleton.len()];
-        self.body.place(&self.pose, &mut points);
+        self.body.place(self.drawn.pose(), &mut points);
         for (joint, data) in skeleton.iter() {
             let (middle, rotation) = (points[joint.0], self.body.rotations()[joint.0]);
             points.extend(data.end_sites.iter().map(|end| middle + rotation * end.offset));
