@@ -1,10 +1,10 @@
 //! How much is drawn: the rates of every clip, and the three merges side by side.
 
 use crate::Outcome;
-use crate::clips::{MERGES, Take};
-use crate::events::{self, Event};
-use crate::rigs;
+use crate::evidence::events::{self, Event};
+use crate::evidence::rigs;
 use crate::table::{Table, number, percent, spread};
+use crate::takes::{MERGES, Take};
 
 /// A row a clip with the defaults, and the spread below.
 pub(crate) fn table(takes: &[Take]) -> String {

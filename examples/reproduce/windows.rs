@@ -6,8 +6,8 @@ use genga::time::{Frame, KOMA_RATE};
 use genga::timing::{Amount, Omission, Stills};
 
 use crate::Outcome;
-use crate::clips::{Take, named};
 use crate::table::{Table, number};
+use crate::takes::{Take, named};
 
 /// A window: the paper's action, the clip that stands for it, koma, N_io, N_hf.
 const WINDOWS: [(&str, &str, usize, usize, usize); 3] = [

@@ -3,8 +3,8 @@
 use genga::motion::bvh;
 
 use crate::Outcome;
-use crate::clips::{Run, Take, kept};
 use crate::table::Table;
+use crate::takes::{Run, Take, kept};
 
 /// A row a clip; every count must be 0.
 pub(crate) fn table(takes: &[Take]) -> Outcome<String> {

@@ -7,8 +7,8 @@ use std::path::Path;
 use genga::time::Clock;
 
 use crate::Outcome;
-use crate::clips::{Run, Shown, Take, kept, named};
 use crate::table::{Table, percent, signed};
+use crate::takes::{Run, Shown, Take, kept, named};
 
 /// How far a genga may stand from an event, in koma.
 const NEAR: usize = 1;

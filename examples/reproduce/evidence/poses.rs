@@ -3,7 +3,7 @@
 use genga::plot::PoseRow;
 
 use crate::Outcome;
-use crate::clips::{Take, kept, named};
+use crate::takes::{Take, kept, named};
 
 /// Pictures by name, and the clips they are of.
 pub(crate) const PICTURES: [(&str, &str); 3] = [

@@ -1,8 +1,8 @@
 //! The same take in two rigs: an animator sees one motion, so the keys should be the same.
 
 use crate::Outcome;
-use crate::clips::{MERGES, Take, named};
 use crate::table::{Table, number};
+use crate::takes::{MERGES, Take, named};
 
 const RIGS: [&str; 2] = ["cmu-05_11-dance-pirouette", "threejs-pirouette"];
 

@@ -1,0 +1,33 @@
+//! `docs/evidence.md`: how good the keys of the defaults are on real clips.
+
+mod events;
+mod laws;
+mod poses;
+mod rates;
+mod rigs;
+
+use crate::part::Part;
+use crate::takes::Take;
+use crate::{Outcome, root, windows};
+
+/// The whole page.
+pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
+    let events = events::read(&root().join("docs/evidence/events.csv"))?;
+    let mut part = Part::default();
+    for (name, text) in [
+        ("rates", rates::table(takes)),
+        ("merges", rates::merges(takes, &events)?),
+        ("hits", events::summary(takes, &events)?),
+        ("events", events::lists(takes, &events)?),
+        ("rests", events::rests(takes, &events)?),
+        ("rigs", rigs::table(takes)?),
+        ("windows", windows::table(takes)?),
+        ("genga-lost", laws::table(takes)?),
+    ] {
+        part.text(name, text);
+    }
+    for (name, clip) in poses::PICTURES {
+        part.picture(&format!("{name}-poses"), poses::draw(takes, clip)?);
+    }
+    Ok(part)
+}

@@ -1,0 +1,137 @@
+//! Makes the tables, pictures and numbers of two pages: `docs/reproduction.md`, both papers beside
+//! what this program gives, and `docs/evidence.md`, how good its keys are on real clips.
+//!
+//! `cargo run --release --example reproduce` writes them, with `-- --check` it writes nothing and
+//! proves that what is there is what it would write: the same bytes on every run, but for the tables
+//! of times.
+
+#![allow(clippy::print_stdout, reason = "a program that reports to a person")]
+
+mod evidence;
+mod kitamura;
+mod kuroda_tokoi;
+mod page;
+mod part;
+mod samples;
+mod table;
+mod takes;
+mod windows;
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use crate::part::Part;
+use crate::takes::Take;
+
+/// Whatever goes wrong is told to a person and ends the program.
+pub(crate) type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// Makes a part of a page from the samples of `data/`.
+type FromSamples = fn() -> Outcome<Part>;
+
+/// Makes a part of a page from the real clips; it stays as it stands where they are not.
+type FromTakes = fn(&[Take]) -> Outcome<Part>;
+
+/// A page of `docs`, with a folder of its name for its pictures.
+struct Page {
+    name: &'static str,
+    from_samples: &'static [FromSamples],
+    from_takes: &'static [FromTakes],
+    /// Whether each number of the prose has to be a made one.
+    is_bound: bool,
+}
+
+const PAGES: [Page; 2] = [
+    Page {
+        name: "reproduction",
+        from_samples: &[kuroda_tokoi::from_samples, kitamura::from_samples],
+        from_takes: &[kuroda_tokoi::from_takes, kitamura::from_takes],
+        is_bound: true,
+    },
+    Page {
+        name: "evidence",
+        from_samples: &[],
+        from_takes: &[evidence::from_takes],
+        is_bound: false,
+    },
+];
+
+fn main() -> ExitCode {
+    let check = std::env::args().nth(1).is_some_and(|word| word == "--check");
+    match run(check) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            println!("reproduce: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Writes what differs, or only says so. Whether all is well.
+fn run(check: bool) -> Outcome<bool> {
+    let takes = takes::all()?;
+    if takes.is_empty() {
+        println!("../shared/data/bvh is not there: what is made from real clips stays as it is");
+    }
+    let mut is_well = true;
+    for page in &PAGES {
+        for (path, text) in page.files(&takes, !check)? {
+            let name = path.strip_prefix(root()).unwrap_or(&path).display();
+            if fs::read_to_string(&path).is_ok_and(|found| found == text) {
+                println!("{name}: as made");
+            } else if check {
+                println!("{name}: differs from what this program makes");
+                is_well = false;
+            } else {
+                fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+                println!("{name}: written");
+            }
+        }
+    }
+    Ok(is_well)
+}
+
+impl Page {
+    /// The page and its pictures, each with its text.
+    fn files(&self, takes: &[Take], times: bool) -> Outcome<Vec<(PathBuf, String)>> {
+        let docs = root().join("docs");
+        let part = self.made(takes)?;
+        let path = docs.join(format!("{}.md", self.name));
+        let text =
+            fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let text = page::filled(&text, &part, times)?;
+        if !takes.is_empty() {
+            page::all_is_made(&text, &part)?;
+        }
+        if let (true, [first, rest @ ..]) = (self.is_bound, &*page::loose_numbers(&text)) {
+            let more = rest.len();
+            let message = format!("\"{first}\" and {more} more numbers of the prose are by hand");
+            return Err(format!("{}: {message}", path.display()).into());
+        }
+        let folder = docs.join(self.name);
+        fs::create_dir_all(&folder)?;
+        let pictures = part.pictures.into_iter().map(|(name, svg)| (folder.join(name), svg));
+        Ok([(path, text)].into_iter().chain(pictures).collect())
+    }
+
+    fn made(&self, takes: &[Take]) -> Outcome<Part> {
+        let mut part = Part::default();
+        for make in self.from_samples {
+            part.join(make()?);
+        }
+        if !takes.is_empty() {
+            for make in self.from_takes {
+                part.join(make(takes)?);
+            }
+        }
+        Ok(part)
+    }
+}
+
+/// The project's folder.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
