@@ -7,6 +7,7 @@
 
 #![allow(clippy::print_stdout, reason = "a program that reports to a person")]
 
+mod chain;
 mod evidence;
 mod kitamura;
 mod kuroda_tokoi;
@@ -47,7 +48,7 @@ const PAGES: [Page; 2] = [
     Page {
         name: "reproduction",
         from_samples: &[kuroda_tokoi::from_samples, kitamura::from_samples],
-        from_takes: &[kuroda_tokoi::from_takes, kitamura::from_takes],
+        from_takes: &[kuroda_tokoi::from_takes, kitamura::from_takes, chain::from_takes],
         is_bound: true,
     },
     Page {
