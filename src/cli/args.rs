@@ -217,6 +217,9 @@ pub(super) struct OmitArgs {
     /// The timesheet, a CSV file.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) sheet: Option<PathBuf>,
+    /// The movement into each koma before and after, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) plot: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -3,31 +3,34 @@
 use super::args::OmitArgs;
 use super::failure::Failure;
 use super::words::{Words, counted};
-use super::{io, source};
+use super::{io, pictures, source};
 use crate::deliver;
 use crate::sheet::Sheet;
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Omitted, Order, Report, Stills};
 
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
-    for target in args.sheet.iter().chain([&args.out]) {
+    for target in args.sheet.iter().chain(&args.plot).chain([&args.out]) {
         io::spare(&args.clip.clip, target)?;
     }
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let clip = source.clip;
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
-    let mut sheet = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
+    let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
     let started = std::time::Instant::now();
     let Omitted { layer, report } = {
-        let stills = Stills::of(&clip, &sheet.layers[0]);
-        omission(args).apply(&sheet.layers[0], &stills, 1)?
+        let stills = Stills::of(&clip, &ones.layers[0]);
+        omission(args).apply(&ones.layers[0], &stills, 1)?
     };
     let took = started.elapsed();
-    sheet.layers[0] = layer;
+    let sheet = Sheet { clock: ones.clock, layers: vec![layer] };
     let motion = deliver::limited_bvh(&clip, &sheet)?;
     if let Some(path) = &args.sheet {
         io::write(path, deliver::sheet_csv(&sheet)?.as_bytes())?;
+    }
+    if let Some(path) = &args.plot {
+        pictures::write_omission(path, &clip, (&ones, &sheet))?;
     }
     io::write(&args.out, motion.as_bytes())?;
     summary(words, koma, &sheet, &report, took.as_secs_f64());

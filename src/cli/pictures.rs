@@ -4,9 +4,10 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::io;
-use crate::motion::JointId;
+use crate::motion::{Clip, JointId};
 use crate::pipeline::Breakdown;
-use crate::plot::{self, SpeedPlot, StudyPlot};
+use crate::plot::{self, SpeedPlot, SsdPlot, StudyPlot};
+use crate::sheet::Sheet;
 use crate::study::StudyRow;
 use crate::time::{Frame, FrameRate};
 
@@ -54,6 +55,15 @@ pub(super) fn write_study(
         })
         .collect();
     write(path, &StudyPlot { paper, ..StudyPlot::default() }.draw(&rows)?)
+}
+
+/// The movement into each koma before and after omission, an SVG or a PNG by the name as well.
+pub(super) fn write_omission(
+    path: &Path,
+    clip: &Clip,
+    (before, after): (&Sheet, &Sheet),
+) -> Result<(), Failure> {
+    write(path, &SsdPlot::default().draw(clip, before, after)?)
 }
 
 fn write(path: &Path, svg: &str) -> Result<(), Failure> {

@@ -16,6 +16,7 @@ use crate::time::{Clock, Frame, FrameRate};
 mod figures;
 #[cfg(feature = "cli")]
 mod moving;
+mod ssd;
 
 const GENGA: &str = "#C83210";
 const END: &str = "#30343C";

@@ -173,12 +173,13 @@ fn the_same_input_gives_the_same_bytes() {
         for again in ["a", "b"] {
             place.done(&format!("run data/{name}.bvh --out {again} --set keys.merge=sum"));
             let omit = format!("omit data/{name}.bvh --out {again}/o.bvh --sheet {again}/o.csv");
+            let omit = format!("{omit} --plot {again}/o.svg");
             place.done(&omit);
             let study = format!("study data/{name}.bvh --out {again}/s.csv --plot {again}/s.svg");
             place.done(&study);
         }
         let (a, b) = (place.files("a"), place.files("b"));
-        assert_eq!(a.len(), FILES.len() + 4);
+        assert_eq!(a.len(), FILES.len() + 5);
         for (file, bytes) in a {
             assert!(b[&file] == bytes, "{name}: {file} came out different");
         }
@@ -687,6 +688,7 @@ fn nothing_is_written_over_the_motion_itself() {
         "study k.bvh --plot k.bvh",
         "omit k.bvh -o k.bvh",
         "omit k.bvh -o l.bvh --sheet k.bvh",
+        "omit k.bvh -o l.bvh --plot k.bvh",
         "run out/limited.bvh -o out",
     ] {
         let output = place.genga(args);
