@@ -11,6 +11,7 @@ mod chain;
 mod evidence;
 mod kitamura;
 mod kuroda_tokoi;
+mod ones;
 mod page;
 mod part;
 mod samples;
