@@ -4,6 +4,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use genga::timing::Stills;
+
 use crate::kitamura::letter::Frames;
 use crate::ones::{Ones, counts};
 use crate::part::Part;
@@ -124,8 +126,7 @@ fn times_of(action: &Action, ones: &Ones) -> [String; 6] {
     let layer = &ones.sheet.layers[0];
     let letter = milliseconds(|| to_the_letter(ones, action, true));
     let stages = milliseconds(|| settings.apply(layer, &ones.stills, 1));
-    let all =
-        milliseconds(|| settings.apply(layer, &genga::timing::Stills::of(&ones.clip, layer), 1));
+    let all = milliseconds(|| settings.apply(layer, &Stills::of(&ones.clip, layer), 1));
     [
         action.name.into(),
         action.milliseconds.to_string(),
