@@ -64,7 +64,7 @@ fn longest_run(mut koma: Vec<usize>) -> usize {
 }
 
 /// So many koma round the fastest step of a clip, as far as it has them.
-fn window(clip: &Clip, koma: usize) -> Outcome<Clip> {
+pub(crate) fn window(clip: &Clip, koma: usize) -> Outcome<Clip> {
     let clock = clip.clock(KOMA_RATE);
     let all = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     if all < koma {

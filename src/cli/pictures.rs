@@ -1,12 +1,12 @@
-//! The pictures of what was measured, of a run and of a study.
+//! The pictures of what was measured, of a run and of a study, and of a skeleton.
 
 use std::path::Path;
 
 use super::failure::Failure;
 use super::io;
-use crate::motion::JointId;
+use crate::motion::{Clip, JointId};
 use crate::pipeline::Breakdown;
-use crate::plot::{self, SpeedPlot, StudyPlot};
+use crate::plot::{self, SkeletonPlot, SpeedPlot, StudyPlot};
 use crate::study::StudyRow;
 use crate::time::{Frame, FrameRate};
 
@@ -54,6 +54,11 @@ pub(super) fn write_study(
         })
         .collect();
     write(path, &StudyPlot { paper, ..StudyPlot::default() }.draw(&rows)?)
+}
+
+/// The skeleton: its rest pose and its hierarchy.
+pub(super) fn write_skeleton(path: &Path, name: &str, clip: &Clip) -> Result<(), Failure> {
+    write(path, &SkeletonPlot::default().draw(name, clip)?)
 }
 
 fn write(path: &Path, svg: &str) -> Result<(), Failure> {
