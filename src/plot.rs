@@ -12,6 +12,7 @@ mod cells;
 mod contact;
 mod figure;
 mod flipbook;
+mod hierarchy;
 #[cfg(feature = "cli")]
 mod images;
 mod onion;
@@ -25,6 +26,7 @@ mod preview;
 #[cfg(feature = "cli")]
 mod raster;
 mod sheet;
+mod spacing;
 mod speed;
 mod ssd;
 mod stage;
@@ -41,6 +43,7 @@ mod tests;
 pub use camera::Camera;
 pub use contact::ContactSheet;
 pub use flipbook::FlipBook;
+pub use hierarchy::SkeletonPlot;
 #[cfg(feature = "cli")]
 pub use images::NumberedImages;
 pub use onion::OnionSkin;
@@ -50,7 +53,8 @@ pub use preview::Preview;
 #[cfg(feature = "cli")]
 pub use raster::png_from_svg;
 pub use sheet::SheetPlot;
-pub use speed::SpeedPlot;
+pub use spacing::SpacingPlot;
+pub use speed::{SpeedCurves, SpeedPlot};
 pub use ssd::SsdPlot;
 pub use strip::Strip;
 pub use study::{StudyCount, StudyPlot, StudyRow};

@@ -1,6 +1,13 @@
 //! The first paper: Kuroda and Tokoi 2011, from the capture to weighted inbetweens.
 
+mod ball;
+mod compared;
+mod fit;
+mod readings;
 mod table_1;
+mod walk;
+mod walls;
+mod wrist;
 
 use crate::Outcome;
 use crate::part::Part;
@@ -9,11 +16,19 @@ use crate::takes::Take;
 /// What the samples show.
 pub(crate) fn from_samples() -> Outcome<Part> {
     let mut part = Part::default();
+    wrist::add(&mut part)?;
+    ball::add(&mut part)?;
     table_1::add(&mut part)?;
+    compared::add_sample(&mut part)?;
+    walls::add_sample(&mut part)?;
     Ok(part)
 }
 
 /// What the real clips show.
-pub(crate) fn from_takes(_takes: &[Take]) -> Outcome<Part> {
-    Ok(Part::default())
+pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
+    let mut part = Part::default();
+    walk::add(&mut part, takes)?;
+    compared::add_takes(&mut part, takes)?;
+    walls::add_takes(&mut part, takes)?;
+    Ok(part)
 }

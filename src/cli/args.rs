@@ -263,6 +263,9 @@ pub(super) struct InspectArgs {
     /// Only the warnings, on stdout: one a line, its code, line:column (- for the whole clip), sentence.
     #[arg(long)]
     pub(super) warnings: bool,
+    /// Draw the skeleton too: its rest pose and its hierarchy, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg", conflicts_with = "warnings")]
+    pub(super) plot: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -6,7 +6,7 @@ use super::args::InspectArgs;
 use super::failure::Failure;
 use super::source::Source;
 use super::words::Words;
-use super::{io, source};
+use super::{io, pictures, source};
 use crate::error::Warning;
 use crate::motion::{Axis, Channel, Clip, Joint, Stature, Unit};
 use crate::time::{FrameRate, KOMA_RATE};
@@ -15,12 +15,19 @@ use crate::time::{FrameRate, KOMA_RATE};
 const DEEPEST: usize = 32;
 
 pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
+    if let Some(target) = &args.plot {
+        io::spare(&args.clip.clip, target)?;
+    }
     let source = source::clip(&args.clip)?;
     if args.warnings {
         return io::to_stdout(listed(&source.notes).as_bytes());
     }
     source.notes.iter().for_each(|note| words.say(note));
-    io::to_stdout(page(&io::stem(&args.clip.clip), &source).as_bytes())
+    let name = io::stem(&args.clip.clip);
+    if let Some(path) = &args.plot {
+        pictures::write_skeleton(path, &name, &source.clip)?;
+    }
+    io::to_stdout(page(&name, &source).as_bytes())
 }
 
 /// Warnings for a script: code, place, sentence.

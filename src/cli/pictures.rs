@@ -1,4 +1,4 @@
-//! The pictures of what was measured, of a run and of a study.
+//! The pictures of what was measured, of a run and of a study, and of a skeleton.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::io;
 use crate::motion::{Clip, JointId};
 use crate::pipeline::Breakdown;
-use crate::plot::{self, SpeedPlot, SsdPlot, StudyPlot};
+use crate::plot::{self, SkeletonPlot, SpeedPlot, SsdPlot, StudyPlot};
 use crate::sheet::Sheet;
 use crate::study::StudyRow;
 use crate::time::{Frame, FrameRate};
@@ -64,6 +64,11 @@ pub(super) fn write_omission(
     (before, after): (&Sheet, &Sheet),
 ) -> Result<(), Failure> {
     write(path, &SsdPlot::default().draw(clip, before, after)?)
+}
+
+/// The skeleton: its rest pose and its hierarchy.
+pub(super) fn write_skeleton(path: &Path, name: &str, clip: &Clip) -> Result<(), Failure> {
+    write(path, &SkeletonPlot::default().draw(name, clip)?)
 }
 
 fn write(path: &Path, svg: &str) -> Result<(), Failure> {

@@ -1,5 +1,8 @@
 //! The speed of joints over time (速度のグラフ), with their keys and walls [KT11 Figs. 3, 4, 6].
 
+mod curve;
+mod legend;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -10,7 +13,9 @@ use crate::plot::style;
 use crate::signal::{Signals, Turn, TurnKind};
 use crate::time::Frame;
 
-/// Speeds (速度): a panel a joint over one time axis, as measured and after the low pass.
+pub use curve::SpeedCurves;
+
+/// Speeds (速度): a panel a joint over one time axis.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SpeedPlot {
@@ -20,11 +25,13 @@ pub struct SpeedPlot {
     pub height: u32,
     /// Panels at most, 1 or more; default 4. More panels are lower ones.
     pub joints: usize,
+    /// Which curves are shown; default both, as measured and after the low pass.
+    pub curves: SpeedCurves,
 }
 
 impl Default for SpeedPlot {
     fn default() -> Self {
-        Self { width: 1200, height: 900, joints: 4 }
+        Self { width: 1200, height: 900, joints: 4, curves: SpeedCurves::Both }
     }
 }
 
@@ -44,6 +51,7 @@ struct Shared<'a> {
     keys: Vec<f64>,
     speed: &'a Signals,
     filtered: &'a Signals,
+    curves: SpeedCurves,
 }
 
 impl Shared<'_> {
@@ -82,8 +90,8 @@ impl SpeedPlot {
     /// `names` and `turns` have one entry a joint of `speed` and `filtered`; `keys` are the layer's
     /// genga; `order` names the joints to show, the most important first. Values are written in the
     /// unit for people (°/s). Where a px holds several frames, their least and greatest are drawn.
-    /// The filtered curve is always whole; spikes of the raw one beyond 1.6 times its range are cut at
-    /// the panel's edge, and the panel says how far they go.
+    /// The filtered curve is always whole; beside it spikes of the raw one beyond 1.6 times its range
+    /// are cut at the panel's edge, and the panel says how far they go.
     ///
     /// # Errors
     /// [`Error::Setting`] as [`SpeedPlot::validate`]; [`Error::Picture`] when the tables do not
@@ -111,7 +119,9 @@ impl SpeedPlot {
         let top = TOP + 2.0 * style::BADGE * used;
         let bottom = height - BOTTOM;
         let step = (bottom - top + GAP) / shown.len() as f64;
-        let shared = Shared { time, keys, speed, filtered };
+        let shared = Shared { time, keys, speed, filtered, curves: self.curves };
+        let turns_shown: Vec<&Turn> = shown.iter().flat_map(|joint| &turns[joint.0]).collect();
+        let legend = legend::of(self.curves, &turns_shown, !shared.keys.is_empty());
         let panels = shown.iter().enumerate().map(|(row, &joint)| Panel {
             name: names[joint.0],
             joint,
@@ -120,7 +130,7 @@ impl SpeedPlot {
             bottom: top + step * (row + 1) as f64 - GAP,
         });
         paint((self.width, self.height), |canvas| {
-            head(canvas, width)?;
+            legend::head(canvas, width, &legend)?;
             time_axis(canvas, &shared, (top, bottom))?;
             for panel in panels {
                 panel.draw(canvas, &shared)?;
@@ -161,27 +171,6 @@ fn check(
         }
         None => Ok(()),
     }
-}
-
-/// The title and, on its right, what the strokes mean.
-fn head(canvas: &mut Canvas<'_>, width: f64) -> Result<(), Error> {
-    canvas.text("Speed 速度", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
-    let words = ["raw", "filtered", "key 原画", "wall 壁", "genga of the layer ①"];
-    let widths = words.map(|word| style::text_width(word, style::WORDS) + 48.0);
-    let mut x = width - style::MARGIN - widths.iter().sum::<f64>() + 16.0;
-    for (at, (word, wide)) in words.into_iter().zip(widths).enumerate() {
-        let (middle, y) = (x + 12.0, 29.0);
-        match at {
-            0 => canvas.line((x, y), (x + 24.0, y), style::RAW, 1.5)?,
-            1 => canvas.line((x, y), (x + 24.0, y), style::FILTERED, 1.75)?,
-            2 => canvas.disc((middle, y), 4.5, style::GENGA)?,
-            3 => canvas.triangle((middle, y), 5.5, style::WALL)?,
-            _ => canvas.line((middle, y - 9.0), (middle, y + 9.0), style::GENGA_LINE, 1.25)?,
-        }
-        canvas.text(word, (x + 30.0, 34.0), Type::new(style::WORDS))?;
-        x += wide;
-    }
-    Ok(())
 }
 
 /// Source frames on the upper line under the panels, seconds on the lower.
@@ -233,11 +222,22 @@ impl Panel<'_> {
         let unit = shared.speed.unit;
         let raw = shared.speed.joint(self.joint);
         let filtered = shared.filtered.joint(self.joint);
+        let kept = curve::kept(raw, self.turns, shared.speed.first);
         let people = unit.for_people();
         let (whole, most) = (range_with_zero(filtered), range_with_zero(raw));
+        let (least, greatest) = match shared.curves {
+            SpeedCurves::Both => {
+                (most.0.max(OVER * whole.0).min(whole.0), most.1.min(OVER * whole.1).max(whole.1))
+            }
+            SpeedCurves::Measured => most,
+            SpeedCurves::Filtered => whole,
+            SpeedCurves::Kept => {
+                let values = kept.iter().map(|corner| corner.1);
+                values.fold(whole, |(low, high), value| (low.min(value), high.max(value)))
+            }
+        };
         // A little air, so that no peak touches the name or the edge.
-        let low = most.0.max(OVER * whole.0).min(whole.0) * people * 1.04;
-        let high = most.1.min(OVER * whole.1).max(whole.1) * people * 1.08;
+        let (low, high) = (least * people * 1.04, greatest * people * 1.08);
         let values = Scale::new((low, high), (self.bottom, self.top));
         self.value_axis(canvas, shared, &values)?;
         for &x in &shared.keys {
@@ -247,21 +247,34 @@ impl Panel<'_> {
             let y = values.at(value * people).clamp(self.top, self.bottom);
             (shared.time.at((shared.speed.first.0 + at) as f64), y)
         };
-        for (curve, color, width) in [(raw, style::RAW, 1.0), (filtered, style::FILTERED, 1.75)] {
-            for run in runs(curve, place) {
+        let faint = (raw, style::RAW, 1.0);
+        let firm = (filtered, style::FILTERED, 1.75);
+        let curves = match shared.curves {
+            SpeedCurves::Both => vec![faint, firm],
+            SpeedCurves::Measured => vec![(raw, style::FAINT, 1.25)],
+            SpeedCurves::Filtered | SpeedCurves::Kept => vec![firm],
+        };
+        for (curve, color, width) in curves {
+            for run in curve::runs(curve, place) {
                 canvas.path(&run, color, width)?;
             }
         }
+        if shared.curves == SpeedCurves::Kept {
+            let corners: Vec<Point> = kept.iter().map(|(row, value)| place(*row, *value)).collect();
+            canvas.path(&corners, style::GENGA, curve::KEPT)?;
+        }
         let right = shared.right();
         let radius = (0.36 * (right - LEFT) / self.turns.len() as f64).clamp(2.0, 4.0);
+        let marked = if shared.curves == SpeedCurves::Measured { raw } else { filtered };
         for turn in self.turns {
             let at = turn.frame.0.checked_sub(shared.speed.first.0);
-            let Some((at, &value)) = at.and_then(|at| Some((at, filtered.get(at)?))) else {
+            let Some((at, &value)) = at.and_then(|at| Some((at, marked.get(at)?))) else {
                 continue;
             };
             mark(canvas, place(at, value), radius, turn.kind)?;
         }
-        if most.1 * people > high || most.0 * people < low {
+        let is_cut = most.1 * people > high || most.0 * people < low;
+        if shared.curves == SpeedCurves::Both && is_cut {
             let beyond = if most.1 * people > high { most.1 } else { most.0 };
             let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
             let text = format!("raw goes to {}", number((beyond * people).round()));
@@ -316,47 +329,4 @@ fn mark(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, kind: TurnKind) -> 
             canvas.triangle((x, y), radius + 1.0, style::WALL)
         }
     }
-}
-
-/// The curve as lines of points, broken where a value is not finite. Where a px holds several
-/// frames, it gets the first, least and greatest of them, in their order.
-fn runs(curve: &[f64], place: impl Fn(usize, f64) -> Point) -> Vec<Vec<Point>> {
-    let mut runs = Vec::new();
-    let mut at = 0;
-    for run in curve.split(|value| !value.is_finite()) {
-        if !run.is_empty() {
-            let kept = thinned(run, |frame| place(at + frame, 0.0).0);
-            runs.push(kept.into_iter().map(|frame| place(at + frame, run[frame])).collect());
-        }
-        at += run.len() + 1;
-    }
-    runs
-}
-
-/// The frames of a curve that can be seen when px are as wide as they are.
-fn thinned(curve: &[f64], px: impl Fn(usize) -> f64) -> Vec<usize> {
-    let mut kept = Vec::new();
-    let mut begin = 0;
-    while begin < curve.len() {
-        let column = px(begin).floor();
-        let length =
-            (begin..curve.len()).take_while(|frame| px(*frame).floor() == column).count().max(1);
-        let end = begin + length;
-        let by_value = |a: &usize, b: &usize| curve[*a].total_cmp(&curve[*b]);
-        let least = (begin..end).min_by(by_value).unwrap_or(begin);
-        let greatest = (begin..end).max_by(by_value).unwrap_or(begin);
-        let mut of_column = [begin, least, greatest];
-        of_column.sort_unstable();
-        for frame in of_column {
-            if kept.last() != Some(&frame) {
-                kept.push(frame);
-            }
-        }
-        begin = end;
-    }
-    let last = curve.len().saturating_sub(1);
-    if kept.last().is_some_and(|kept| *kept != last) {
-        kept.push(last);
-    }
-    kept
 }

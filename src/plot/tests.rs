@@ -14,6 +14,7 @@ use crate::signal::{Signals, Turn, TurnKind, Unit};
 use crate::time::{Clock, Frame, FrameRate};
 
 mod figures;
+mod method;
 #[cfg(feature = "cli")]
 mod moving;
 mod ssd;
@@ -180,6 +181,78 @@ fn a_spike_of_the_raw_speed_does_not_flatten_the_filtered_one() {
     assert!(words(&svg).contains(&"80") && !words(&svg).contains(&"1000"), "{:?}", words(&svg));
     let svg = plot.draw(&["a"], &filtered, &raw, &[vec![]], &[], &[JointId(0)]).unwrap();
     assert!(!words(&svg).iter().any(|word| word.contains("raw goes")), "the filtered is whole");
+}
+
+/// A panel of 101 frames from number 10 on, raw 1 rad/s more than filtered, with keys at two frames.
+fn draw_curves(curves: SpeedCurves) -> String {
+    let raw = signals(101, 1, |frame, _| 2.0 + frame as f64 * 0.1);
+    let filtered = signals(101, 1, |frame, _| 1.0 + frame as f64 * 0.1);
+    let turns = [vec![turn(30, TurnKind::Key), turn(60, TurnKind::Key)]];
+    let plot = SpeedPlot { curves, ..SpeedPlot::default() };
+    plot.draw(&["a"], &raw, &filtered, &turns, &[], &[JointId(0)]).unwrap()
+}
+
+/// The corners of the one line of a colour, in px.
+fn corners(svg: &str, color: &str) -> Vec<(f64, f64)> {
+    let [line] = tags(svg, "polyline", &format!("stroke=\"{color}\""))[..] else { panic!("{svg}") };
+    let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+    let px = |unit: &str| unit.parse::<f64>().unwrap() / 8.0;
+    let point = |pair: &str| pair.split_once(',').map(|(x, y)| (px(x), px(y))).unwrap();
+    points.split_whitespace().map(point).collect()
+}
+
+#[test]
+fn a_speed_plot_shows_the_curves_it_is_asked_for_and_says_which() {
+    use SpeedCurves::{Both, Filtered, Kept, Measured};
+    for (curves, lines, legend) in [
+        (Both, 2, vec!["raw", "filtered", "key 原画"]),
+        (Measured, 1, vec!["as measured", "key 原画"]),
+        (Filtered, 1, vec!["filtered", "key 原画"]),
+        (Kept, 2, vec!["filtered", "keys alone 原画のみ", "key 原画"]),
+    ] {
+        let svg = draw_curves(curves);
+        assert_eq!(tags(&svg, "polyline", "").len(), lines, "{curves:?}");
+        let words = words(&svg);
+        assert_eq!(words[1..=legend.len()], legend, "{curves:?}");
+        assert!(!words.contains(&"wall 壁") && !words.contains(&"genga of the layer ①"));
+    }
+    // A key stands on the curve that is shown.
+    let svg = draw_curves(Measured);
+    let curve = corners(&svg, "#686E76");
+    let keys = tags(&svg, "circle", &format!("fill=\"{GENGA}\""));
+    let at = |name: &str| -> f64 {
+        keys[1]
+            .split(&format!("{name}=\""))
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    let point = curve.iter().find(|point| (point.0 - at("cx") / 8.0).abs() < 0.1).unwrap();
+    assert!((point.1 - at("cy") / 8.0).abs() < 0.2, "{point:?}");
+}
+
+#[test]
+fn with_the_keys_alone_the_speed_stays_up_to_the_next_key_and_turns_at_right_angles() {
+    let svg = draw_curves(SpeedCurves::Kept);
+    let steps = corners(&svg, GENGA);
+    // Frame 10 of the file is at 64 px, 110 at 1176: a step at frame 30 and at 60, then on to the end.
+    let x = |frame: f64| 64.0 + (frame - 10.0) * 11.12;
+    let expected = [10.0, 30.0, 30.0, 60.0, 60.0, 110.0].map(x);
+    for (corner, x) in steps.iter().zip(expected) {
+        assert!((corner.0 - x).abs() < 0.1, "{steps:?}");
+    }
+    assert_eq!(steps.len(), expected.len());
+    for (from, to) in [(0, 1), (2, 3), (4, 5)] {
+        assert_eq!(steps[from].1, steps[to].1, "level: {steps:?}");
+    }
+    // The raw speed is 1 rad/s above the filtered one, which rises by so much in 10 frames.
+    let filtered = corners(&svg, "#2C3038");
+    let at = |frame: f64| filtered.iter().find(|point| (point.0 - x(frame)).abs() < 0.1).unwrap().1;
+    assert!((steps[2].1 - at(40.0)).abs() < 0.2 && (steps[4].1 - at(70.0)).abs() < 0.2);
 }
 
 #[test]

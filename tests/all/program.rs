@@ -300,6 +300,21 @@ fn inspect_names_what_is_in_a_clip() {
 }
 
 #[test]
+fn inspect_draws_the_skeleton_and_never_over_the_clip() {
+    let place = Place::new();
+    let page = place.done("inspect data/kick.bvh --plot skeleton.svg");
+    assert_eq!(page, place.done("inspect data/kick.bvh"));
+    let picture = read(&place.path("skeleton.svg"));
+    let clip = sample("kick.bvh");
+    for joint in &clip.skeleton().joints {
+        assert!(picture.contains(&format!(">{}</text>", joint.name)), "{}", joint.name);
+    }
+    fs::copy(here("data/kick.bvh"), place.path("k.bvh")).unwrap();
+    place.refused(2, "inspect k.bvh --plot k.bvh");
+    place.refused(2, "inspect k.bvh --plot s.svg --warnings");
+}
+
+#[test]
 fn inspect_says_what_rate_the_file_writes_when_it_is_another() {
     let place = Place::new();
     let rate = |args: &str| {

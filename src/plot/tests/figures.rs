@@ -56,7 +56,7 @@ const PAGES: [(&str, Draw); 4] = [
 ];
 
 /// The words of pages, one a text.
-fn said(pages: &[String]) -> Vec<String> {
+pub(super) fn said(pages: &[String]) -> Vec<String> {
     let lines = pages.iter().flat_map(|page| page.lines());
     let text = |line: &str| Some(line.strip_suffix("</text>")?.rsplit_once('>')?.1.to_owned());
     lines.filter_map(text).collect()

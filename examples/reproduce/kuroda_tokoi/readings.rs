@@ -1,0 +1,200 @@
+//! The ways to read the paper that its words leave open, and what each counts on a clip.
+
+use genga::motion::Clip;
+use genga::signal::{
+    FilterKind, LowPass, Measure, Reading, Side, Signals, Spectrum, Speed, Steady, Turn, TurnFinder,
+};
+use genga::study;
+use genga::time::Span;
+
+use super::table_1::PAPER;
+use crate::Outcome;
+
+/// Frames a second of the paper's capture, in whose frames its widths are told: at another rate they
+/// are as long in seconds.
+const RATE: f64 = 100.0;
+
+/// How wide the window of a filter range W is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Width {
+    /// W frames.
+    Whole,
+    /// W frames on each side: 2W + 1.
+    EachSide,
+}
+
+/// One way to read the paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Way {
+    pub(super) measure: Measure,
+    pub(super) kind: FilterKind,
+    pub(super) width: Width,
+    /// The dead band in ° a frame², at the paper's rate.
+    pub(super) band: f64,
+    pub(super) side: Side,
+}
+
+/// The way of `genga study`.
+pub(super) const STUDY: Way = Way {
+    measure: Measure::Rotation,
+    kind: FilterKind::Box,
+    width: Width::Whole,
+    band: 0.03,
+    side: Side::After,
+};
+
+/// Every way, those with one filter side by side.
+pub(super) fn all() -> Vec<Way> {
+    let mut all = vec![STUDY];
+    all = each(all, [Measure::Rotation, Measure::Angle], |way, measure| Way { measure, ..way });
+    let kinds = [FilterKind::Box, FilterKind::Gaussian, FilterKind::Ideal, FilterKind::Butterworth];
+    all = each(all, kinds, |way, kind| Way { kind, ..way });
+    all = each(all, [Width::Whole, Width::EachSide], |way, width| Way { width, ..way });
+    all = each(all, [0.0, 0.01, 0.03, 0.05, 0.1], |way, band| Way { band, ..way });
+    each(all, [Side::After, Side::Both, Side::Rising], |way, side| Way { side, ..way })
+}
+
+/// Each of the ways with each of the choices.
+fn each<T: Copy, const N: usize>(
+    ways: Vec<Way>,
+    choices: [T; N],
+    with: impl Fn(Way, T) -> Way,
+) -> Vec<Way> {
+    ways.iter().flat_map(|way| choices.map(|choice| with(*way, choice))).collect()
+}
+
+/// The six counts of the table, in the order of [`PAPER`].
+pub(super) type Six = [usize; PAPER.len()];
+
+/// What one way counts on a clip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Counts {
+    /// Distinct frames over all joints.
+    pub(super) union: Six,
+    /// The sum over the joints.
+    pub(super) total: Six,
+}
+
+/// What each of the ways counts on a clip.
+pub(super) fn count(clip: &Clip, ways: &[Way]) -> Outcome<Vec<Counts>> {
+    let mut counts = Vec::with_capacity(ways.len());
+    for of_measure in ways.chunk_by(|a, b| a.measure == b.measure) {
+        let measure = of_measure[0].measure;
+        let spectrum = Spectrum::from(Speed { measure }.measure(clip)?);
+        for of_filter in of_measure.chunk_by(|a, b| (a.kind, a.width) == (b.kind, b.width)) {
+            let filtered = FRAMES.map(|frames| of_filter[0].filter(frames).apply(&spectrum));
+            counts.extend(of_filter.iter().map(|way| way.counts(&filtered)));
+        }
+    }
+    Ok(counts)
+}
+
+/// The table's filter ranges, and its persistences of each.
+const FRAMES: [f64; 3] = [10.0, 20.0, 30.0];
+const PERSISTENCES: [f64; 2] = [5.0, 10.0];
+
+impl Way {
+    /// In what it is not the study's way.
+    pub(super) fn words(&self) -> String {
+        let mut words = Vec::new();
+        if self.measure != STUDY.measure {
+            words.push("signed change of the angle".into());
+        }
+        let kind = match self.kind {
+            FilterKind::Box => "box",
+            FilterKind::Gaussian => "Gaussian",
+            FilterKind::Ideal => "ideal",
+            FilterKind::Butterworth => "Butterworth",
+        };
+        match self.width {
+            Width::Whole if self.kind == STUDY.kind => {}
+            Width::Whole => words.push(kind.into()),
+            Width::EachSide => words.push(format!("{kind} of 2W + 1")),
+        }
+        if self.band != STUDY.band {
+            words.push(match self.band {
+                0.0 => "no band".into(),
+                band => format!("band {band}"),
+            });
+        }
+        match self.side {
+            Side::After => {}
+            Side::Both => words.push("M on both sides".into()),
+            Side::Rising => words.push("M rising".into()),
+        }
+        if words.is_empty() { "the words of §3.3".into() } else { words.join(", ") }
+    }
+
+    /// The filter of a range W.
+    pub(super) fn filter(&self, range: f64) -> LowPass {
+        let frames = match self.width {
+            Width::Whole => range,
+            Width::EachSide => 2.0 * range + 1.0,
+        };
+        LowPass { kind: self.kind, width: Span::Seconds(frames / RATE) }
+    }
+
+    /// What finds the turns, at a persistence M.
+    pub(super) fn finder(&self, persistence: f64) -> TurnFinder {
+        TurnFinder {
+            reading: Reading::Literal,
+            steady: Steady::Acceleration(self.band * RATE * RATE),
+            persistence: Span::Seconds(persistence / RATE),
+            side: self.side,
+        }
+    }
+
+    fn counts(&self, filtered: &[Signals; 3]) -> Counts {
+        let mut counts = Counts { union: Six::default(), total: Six::default() };
+        for (at, signals) in filtered.iter().enumerate() {
+            let candidates = self.finder(0.0).candidates(signals, 0.0);
+            for (of, frames) in PERSISTENCES.into_iter().enumerate() {
+                let least = self.finder(frames).persistence_frames(signals);
+                let turns = confirmed(&candidates, least);
+                let cell = at * PERSISTENCES.len() + of;
+                counts.union[cell] = study::union(&turns);
+                counts.total[cell] = study::total(&turns);
+            }
+        }
+        counts
+    }
+}
+
+/// The turns that stay confirmed for so many frames.
+fn confirmed(candidates: &[Vec<Turn>], least: usize) -> Vec<Vec<Turn>> {
+    let of_joint = |turns: &Vec<Turn>| {
+        turns.iter().copied().filter(|turn| turn.confirmed_for >= least).collect()
+    };
+    candidates.iter().map(of_joint).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples;
+
+    #[test]
+    fn the_way_of_the_study_counts_as_the_study_does() {
+        let clip = samples::clip("kuroda-pitch").unwrap();
+        let ways = all();
+        let at = ways.iter().position(|way| *way == STUDY).unwrap();
+        let counts = count(&clip, &ways).unwrap();
+        assert_eq!(counts.len(), ways.len());
+        let mut engine = genga::pipeline::Engine::new(clip).unwrap();
+        let frames = |frames: &[f64]| frames.iter().copied().map(Span::Frames).collect::<Vec<_>>();
+        let recipe = study::table_1_recipe();
+        let rows =
+            study::sweep(&mut engine, &recipe, &frames(&FRAMES), &frames(&PERSISTENCES)).unwrap();
+        assert_eq!(counts[at].union.to_vec(), rows.iter().map(|row| row.union).collect::<Vec<_>>());
+        assert_eq!(counts[at].total.to_vec(), rows.iter().map(|row| row.total).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn every_way_is_there_once() {
+        let ways = all();
+        assert_eq!(ways.len(), 2 * 4 * 2 * 5 * 3);
+        for (at, way) in ways.iter().enumerate() {
+            assert!(!ways[..at].contains(way), "{way:?}");
+        }
+    }
+}

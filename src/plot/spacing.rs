@@ -1,0 +1,296 @@
+//! The spacing of one interval (詰め) [KT11 Figs. 7 to 10]: where inbetweens would stand evenly, where
+//! they are taken from, and how far that is on the way.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::{Clip, JointId};
+use crate::plot::axis::{Scale, number, range_with_zero};
+use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::cells::{cells, shown};
+use crate::plot::style;
+use crate::sheet::Sheet;
+use crate::signal::Signals;
+use crate::time::Frame;
+use crate::timing::Gauge;
+
+/// The spacing (詰め) from one genga to the next, a row a sheet, so that two ways to space can be told
+/// apart.
+///
+/// A row has two lines. On that of the source stands each inbetween at the place it is taken from, with
+/// an arrow from its even place (均等割り). On that of the way stands each drawing where the joint that
+/// travels furthest is on its path: near ones are slow.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SpacingPlot {
+    /// Width in px, 400 to 20000; default 760.
+    pub width: u32,
+    /// The number of the genga or end that the interval begins with, 1 or more; default 1.
+    pub genga: usize,
+}
+
+impl Default for SpacingPlot {
+    fn default() -> Self {
+        Self { width: 760, genga: 1 }
+    }
+}
+
+const LEFT: f64 = 108.0;
+const RIGHT: f64 = 44.0;
+const TOP: f64 = 58.0;
+/// Height of the speeds, of the frames below them, and of a row with its two lines.
+const SPEEDS: f64 = 130.0;
+const AXIS: f64 = 34.0;
+const ROW: f64 = 112.0;
+/// The lines of a row below its top.
+const NAME: f64 = 18.0;
+const SOURCE: f64 = 46.0;
+const WAY: f64 = 84.0;
+const BALL: f64 = 9.0;
+
+/// A drawing of the interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stand {
+    /// Where in the source it is taken from, a fractional frame.
+    place: f64,
+    /// The place of an even spacing.
+    even: f64,
+    /// How far it is on the way, 0 to 1; none where nothing moves.
+    way: Option<f64>,
+}
+
+/// One spacing of the interval, its two genga at the ends.
+struct Row<'a> {
+    name: &'a str,
+    stands: Vec<Stand>,
+}
+
+impl SpacingPlot {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a width that cannot be drawn or a genga 0.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_size("width", self.width, 400)?;
+        if self.genga == 0 {
+            return Err(Error::setting("genga", "genga and ends are numbered from 1"));
+        }
+        Ok(())
+    }
+
+    /// Draws the interval as SVG, a row a sheet of the clip under its name; above them, where it is
+    /// given, the speed of a joint, with the walls (壁) of the layer.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`SpacingPlot::validate`] and where a sheet has no interval of that number;
+    /// [`Error::Sheet`] or [`Error::Picture`] when there is no sheet, or clip, sheet and speed have
+    /// nothing to show.
+    pub fn draw(
+        &self,
+        clip: &Clip,
+        sheets: &[(&str, &Sheet)],
+        speed: Option<(&Signals, JointId)>,
+        walls: &[Frame],
+    ) -> Result<String, Error> {
+        self.validate()?;
+        let rows = sheets.iter().map(|(name, sheet)| self.row(clip, name, sheet));
+        let rows = rows.collect::<Result<Vec<_>, Error>>()?;
+        if rows.is_empty() {
+            return Err(style::cannot("no sheet, no spacing to draw"));
+        }
+        if let Some((speed, joint)) = speed
+            && (speed.frames() == 0 || joint.0 >= speed.joints())
+        {
+            return Err(style::cannot("there is no such joint or no frame in the speeds"));
+        }
+        let right = f64::from(self.width) - RIGHT;
+        let places = rows.iter().flat_map(|row| row.stands.iter().map(|stand| stand.place));
+        let range = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
+            (low.min(place), high.max(place))
+        });
+        let time = Scale::new(range, (LEFT, right));
+        let inside = |wall: &&Frame| (range.0..=range.1).contains(&(wall.0 as f64));
+        let walls: Vec<f64> = walls.iter().filter(inside).map(|wall| wall.0 as f64).collect();
+        let begin = TOP + if speed.is_some() { SPEEDS + AXIS } else { 0.0 };
+        let height = begin + ROW * rows.len() as f64 + 10.0;
+        paint((self.width, height as u32), |canvas| {
+            head(canvas, right, !walls.is_empty())?;
+            if let Some((speed, joint)) = speed {
+                speeds(canvas, speed, joint, range, right, &walls)?;
+            }
+            for (at, row) in rows.iter().enumerate() {
+                let top = begin + ROW * at as f64;
+                for wall in &walls {
+                    let (x, y) = (time.at(*wall), top + SOURCE);
+                    canvas.line((x, y - 17.0), (x, y + 17.0), style::WALL, 1.0)?;
+                }
+                row.draw(canvas, &time, (top, right))?;
+            }
+            Ok(())
+        })
+    }
+
+    fn row<'a>(&self, clip: &Clip, name: &'a str, sheet: &Sheet) -> Result<Row<'a>, Error> {
+        let layer = shown(clip, sheet)?;
+        let cells = cells(layer);
+        let kept: Vec<usize> = (0..cells.len()).filter(|at| cells[*at].genga.is_some()).collect();
+        let Some(&[from, to]) = kept.windows(2).nth(self.genga - 1) else {
+            let message = format!(
+                "{} begins no interval: the sheet has {} genga and ends",
+                self.genga,
+                kept.len()
+            );
+            return Err(Error::setting("genga", message));
+        };
+        let gauge = Gauge::of(clip, layer).into_iter().find(|gauge| gauge.first == from);
+        let place = |at: usize| cells[at].drawing.source.place();
+        let (begin, koma) = (cells[from].koma, (cells[to].koma - cells[from].koma) as f64);
+        let stand = |at: usize| Stand {
+            place: place(at),
+            even: place(from) + (cells[at].koma - begin) as f64 / koma * (place(to) - place(from)),
+            way: gauge.as_ref().map(|gauge| gauge.shares[at - from]),
+        };
+        Ok(Row { name, stands: (from..=to).map(stand).collect() })
+    }
+}
+
+/// The title and, on its right, what the marks mean.
+fn head(canvas: &mut Canvas<'_>, right: f64, has_wall: bool) -> Result<(), Error> {
+    canvas.text("Spacing 詰め", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
+    let words = ["genga 原画", "inbetween 中割り", "even place 均等割り", "wall 壁"];
+    let words = &words[..if has_wall { 4 } else { 3 }];
+    let wide = |word: &&str| style::text_width(word, style::WORDS) + 36.0;
+    let mut x = right + 20.0 - words.iter().map(wide).sum::<f64>();
+    for (at, word) in words.iter().enumerate() {
+        let middle = (x + 6.0, 29.0);
+        match at {
+            0 => canvas.disc(middle, 6.0, style::GENGA)?,
+            1 => canvas.disc(middle, 6.0, style::INBETWEEN)?,
+            2 => canvas.ring(middle, 4.0, style::INBETWEEN, 1.25)?,
+            _ => canvas.triangle(middle, 5.5, style::WALL)?,
+        }
+        canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS))?;
+        x += wide(word);
+    }
+    Ok(())
+}
+
+/// The joint's speed over the interval, its walls on it, and the frames below.
+fn speeds(
+    canvas: &mut Canvas<'_>,
+    speed: &Signals,
+    joint: JointId,
+    (from, to): (f64, f64),
+    right: f64,
+    walls: &[f64],
+) -> Result<(), Error> {
+    let (people, first) = (speed.unit.for_people(), speed.first.0 as f64);
+    let bottom = TOP + SPEEDS;
+    let time = Scale::new((from, to), (LEFT, right));
+    let curve: Vec<(f64, f64)> = speed
+        .joint(joint)
+        .iter()
+        .enumerate()
+        .map(|(row, value)| (first + row as f64, value * people))
+        .filter(|(frame, value)| (from..=to).contains(frame) && value.is_finite())
+        .collect();
+    let (low, high) = range_with_zero(&curve.iter().map(|point| point.1).collect::<Vec<_>>());
+    let values = Scale::new((1.08 * low, 1.08 * high), (bottom, TOP));
+    let look = Type::new(style::SMALL).align(Align::Right);
+    for value in values.ticks(34.0) {
+        let y = values.at(value);
+        canvas.line((LEFT, y), (right, y), style::GRID, 1.0)?;
+        canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look)?;
+    }
+    let words = format!("speed 速度 ({})", speed.unit.symbol());
+    canvas.text(&words, (LEFT + 6.0, TOP + 14.0), Type::new(style::SMALL).bold())?;
+    for frame in time.ticks(64.0) {
+        let x = time.at(frame);
+        canvas.line((x, bottom), (x, bottom + 5.0), style::FAINT, 1.0)?;
+        canvas.text(&number(frame), (x, bottom + 18.0), look.align(Align::Center))?;
+    }
+    canvas.text("frame", (LEFT - 18.0, bottom + 18.0), look)?;
+    let at = |point: &(f64, f64)| (time.at(point.0), values.at(point.1));
+    canvas.path(&curve.iter().map(at).collect::<Vec<Point>>(), style::FILTERED, 1.75)?;
+    for wall in walls {
+        let x = time.at(*wall);
+        canvas.line((x, TOP), (x, bottom), style::WALL, 1.0)?;
+        if let Some(point) = curve.iter().find(|point| point.0 >= *wall) {
+            canvas.triangle(at(point), 6.0, style::WALL)?;
+        }
+    }
+    Ok(())
+}
+
+impl Row<'_> {
+    fn draw(
+        &self,
+        canvas: &mut Canvas<'_>,
+        time: &Scale,
+        (top, right): (f64, f64),
+    ) -> Result<(), Error> {
+        let words = style::fitted(self.name, style::WORDS, right - style::MARGIN);
+        canvas.text(&words, (style::MARGIN, top + NAME), Type::new(style::WORDS).bold())?;
+        let look = Type::new(style::SMALL).color(style::FAINT);
+        for (word, y) in [("source 素材", top + SOURCE), ("way 移動", top + WAY)] {
+            canvas.text(word, (style::MARGIN, y + 4.0), look)?;
+            canvas.line((LEFT, y), (right, y), style::RAW, 1.0)?;
+        }
+        let last = self.stands.len() - 1;
+        for (at, stand) in self.stands.iter().enumerate().filter(|(at, _)| *at > 0 && *at < last) {
+            let y = top + SOURCE;
+            let (even, x) = (time.at(stand.even), time.at(stand.place));
+            canvas.ring((even, y), 4.0, style::INBETWEEN, 1.25)?;
+            arrow(canvas, (even, x), y)?;
+            ball(canvas, (x, y), at, style::INBETWEEN)?;
+        }
+        let way = Scale::new((0.0, 1.0), (LEFT, right));
+        for (at, stand) in self.stands.iter().enumerate() {
+            let is_genga = at == 0 || at == last;
+            let color = if is_genga { style::GENGA } else { style::INBETWEEN };
+            if is_genga {
+                ball(canvas, (time.at(stand.place), top + SOURCE), at, color)?;
+            }
+            if let Some(share) = stand.way {
+                ball(canvas, (way.at(share), top + WAY), at, color)?;
+            }
+        }
+        for (at, letter) in [(0, "A"), (last, "B")] {
+            let look = Type::new(style::SMALL).bold().color(style::PAPER).align(Align::Center);
+            let x = time.at(self.stands[at].place);
+            canvas.text(letter, (x, top + SOURCE + 4.0), look)?;
+            if let Some(share) = self.stands[at].way {
+                canvas.text(letter, (way.at(share), top + WAY + 4.0), look)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A drawing: inbetweens have their number, from 1.
+fn ball(
+    canvas: &mut Canvas<'_>,
+    (x, y): Point,
+    number: usize,
+    color: plotters::style::RGBColor,
+) -> Result<(), Error> {
+    canvas.disc((x, y), BALL + 1.0, style::PAPER)?;
+    canvas.disc((x, y), BALL, color)?;
+    if color == style::GENGA {
+        return Ok(());
+    }
+    let look = Type::new(style::SMALL).bold().align(Align::Center);
+    canvas.text(&number.to_string(), (x, y + 4.0), look)
+}
+
+/// From an even place to the edge of the ball that was drawn away from it, where there is room for one.
+fn arrow(canvas: &mut Canvas<'_>, (from, to): (f64, f64), y: f64) -> Result<(), Error> {
+    let way = (to - from).signum();
+    let (begin, end) = (from + 5.0 * way, to - (BALL + 2.0) * way);
+    if (end - begin) * way < 6.0 {
+        return Ok(());
+    }
+    canvas.line((begin, y), (end, y), style::FAINT, 1.25)?;
+    let back = end - 6.0 * way;
+    canvas.area(&[(end, y), (back, y - 3.5), (back, y + 3.5)], style::FAINT)
+}
