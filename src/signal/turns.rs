@@ -129,6 +129,15 @@ impl TurnFinder {
         turns
     }
 
+    /// Those of [`candidates`](Self::candidates) that M confirms: what [`find`](Self::find) gives,
+    /// without a new search.
+    pub fn confirmed(&self, candidates: &[Vec<Turn>], filtered: &Signals) -> Vec<Vec<Turn>> {
+        let persistence = self.persistence_frames(filtered);
+        let is_confirmed = |turn: &&Turn| turn.confirmed_for >= persistence;
+        let of_joint = |turns: &Vec<Turn>| turns.iter().filter(is_confirmed).copied().collect();
+        candidates.iter().map(of_joint).collect()
+    }
+
     /// Every turn, whatever M: `find` keeps those with `confirmed_for` of at least
     /// [`persistence_frames`](Self::persistence_frames), so that another M needs no new search.
     pub fn candidates(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
