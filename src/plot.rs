@@ -12,6 +12,7 @@ mod cells;
 mod contact;
 mod figure;
 mod flipbook;
+mod heat;
 #[cfg(feature = "cli")]
 mod images;
 mod onion;
@@ -40,6 +41,7 @@ mod tests;
 pub use camera::Camera;
 pub use contact::ContactSheet;
 pub use flipbook::FlipBook;
+pub use heat::HeatMap;
 #[cfg(feature = "cli")]
 pub use images::NumberedImages;
 pub use onion::OnionSkin;
@@ -51,6 +53,6 @@ pub use raster::png_from_svg;
 pub use sheet::SheetPlot;
 pub use speed::SpeedPlot;
 pub use strip::Strip;
-pub use study::{StudyCount, StudyPlot, StudyRow};
+pub use study::StudyPlot;
 pub(crate) use svg::escaped;
 pub use xsheet::{HoldLine, InbetweenMark, XSheet};
