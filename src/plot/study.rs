@@ -163,13 +163,14 @@ impl Places {
 
 /// What an axis is called: its name, its unit, its Japanese name.
 pub(super) fn name(axis: &Axis, unit: &str) -> String {
-    let unit = match (unit, axis.knob().unit) {
+    // What stands behind a comma says more than a picture needs.
+    let own = axis.knob().unit.split(',').next().unwrap_or_default();
+    let unit = match (unit, own) {
         ("s", _) => " (seconds)".to_owned(),
         ("%", _) => " (%)".to_owned(),
         (_, "source frames or seconds") if axis.scale().is_some() => " (source frames)".to_owned(),
-        (_, "" | "drawings, or none" | "a whole number") => String::new(),
-        (_, long) if long.len() > 32 => String::new(),
-        (_, unit) => format!(" ({unit})"),
+        (_, "" | "a whole number") => String::new(),
+        (_, own) => format!(" ({own})"),
     };
     format!("{}{unit}  {}", axis.name(), axis.knob().japanese)
 }
@@ -269,7 +270,7 @@ impl Chart {
     }
 
     /// The values of the second setting beside the ends of their lines, moved apart where they would
-    /// lie on each other, and fewer where there is no room for all.
+    /// lie on each other; of many lines, whose colours are in order, a few.
     fn names(
         &self,
         canvas: &mut Canvas<'_>,
@@ -277,9 +278,8 @@ impl Chart {
         mut ends: Vec<(Point, usize, RGBColor)>,
     ) -> Result<(), Error> {
         const LINE: f64 = 17.0;
-        let room = ((self.height - BOTTOM - TOP) / LINE).max(1.0);
-        let every = (ends.len() as f64 / room).ceil() as usize;
-        ends.retain(|(_, y, _)| y.is_multiple_of(every));
+        let (last, every) = (ends.len() - 1, ends.len().div_ceil(COLORS.len()));
+        ends.retain(|(_, y, _)| every == 1 || *y == last || (y % every == 0 && y + every <= last));
         ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
         let mut above = f64::NEG_INFINITY;
         let mut bases: Vec<f64> = Vec::new();
@@ -288,7 +288,7 @@ impl Chart {
             bases.push(above);
         }
         // What would hang over the axis is pushed up again.
-        let mut below = self.height - BOTTOM + 5.0 + LINE;
+        let mut below = self.height - BOTTOM - 3.0 + LINE;
         for base in bases.iter_mut().rev() {
             *base = base.min(below - LINE);
             below = *base;

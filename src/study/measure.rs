@@ -156,7 +156,7 @@ pub(super) fn median(sorted: &[f64]) -> Option<f64> {
 
 impl fmt::Display for Measure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.pad(self.name())
     }
 }
 

@@ -124,8 +124,10 @@ fn a_sweep_gives_what_an_engine_of_its_own_gives_each_cell() {
     ] {
         let study = study(x, y, measures);
         let counted = AtomicUsize::new(0);
-        let grid =
-            study.run(clip.clone(), || drop(counted.fetch_add(1, Ordering::Relaxed))).unwrap();
+        let count = || {
+            counted.fetch_add(1, Ordering::Relaxed);
+        };
+        let grid = study.run(clip.clone(), count).unwrap();
         assert_eq!(grid.cells, slow(&study, &clip), "{x} {y:?}");
         assert_eq!(counted.into_inner(), study.len());
         assert_eq!(grid.cell(1, grid.rows() - 1), &grid.cells[2 * grid.rows() - 1]);
