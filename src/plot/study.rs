@@ -95,9 +95,9 @@ impl StudyPlot {
                     canvas.path(&chart.line(&at, values, y, grid.rows()), faded, 1.0)?;
                 }
             }
-            for (mark, line) in &paper {
+            for Mark { at, line } in &paper {
                 let color = line.map_or(style::FAINT, |y| colors(grid.rows())[y]);
-                canvas.ring((chart.x.at(mark.0), chart.y.at(mark.1)), 5.5, color, 1.75)?;
+                canvas.ring((chart.x.at(at.0), chart.y.at(at.1)), 5.5, color, 1.75)?;
             }
             let mut ends = Vec::new();
             for (y, color) in colors(grid.rows()).into_iter().enumerate() {
@@ -123,8 +123,16 @@ pub(super) fn shown(grids: &[Grid], show: Measure) -> Result<Vec<f64>, Error> {
     medians(grids, show).ok_or_else(|| style::cannot(format!("{show} was not counted")))
 }
 
+/// A count of the paper.
+struct Mark {
+    /// Filter width and keys.
+    at: (f64, f64),
+    /// The line of its persistence, where there is one.
+    line: Option<usize>,
+}
+
 /// The paper's marks with the line that each belongs to, where the axes are its own.
-fn papers_marks(grid: &Grid) -> Result<Vec<((f64, f64), Option<usize>)>, Error> {
+fn papers_marks(grid: &Grid) -> Result<Vec<Mark>, Error> {
     let frames = |axis: &Axis, name| {
         let (numbers, unit) = axis.scale()?;
         (axis.name() == name && unit.is_empty()).then_some(numbers)
@@ -137,7 +145,8 @@ fn papers_marks(grid: &Grid) -> Result<Vec<((f64, f64), Option<usize>)>, Error> 
         ));
     };
     let line = |persistence: f64| persistences.iter().position(|own| *own == persistence);
-    Ok(PAPER.iter().map(|row| ((row.0, row.2), line(row.1))).collect())
+    let mark = |row: &(f64, f64, f64)| Mark { at: (row.0, row.2), line: line(row.1) };
+    Ok(PAPER.iter().map(mark).collect())
 }
 
 /// Where the values of an axis stand: on their scale, or one after the other.
@@ -197,11 +206,11 @@ impl Chart {
         plot: &StudyPlot,
         at: &Places,
         values: impl Iterator<Item = &'a f64>,
-        paper: &[((f64, f64), Option<usize>)],
+        paper: &[Mark],
     ) -> Self {
         let (width, height) = (f64::from(plot.width), f64::from(plot.height));
-        let numbers = at.numbers.iter().copied().chain(paper.iter().map(|mark| mark.0.0));
-        let values: Vec<f64> = values.copied().chain(paper.iter().map(|mark| mark.0.1)).collect();
+        let numbers = at.numbers.iter().copied().chain(paper.iter().map(|mark| mark.at.0));
+        let values: Vec<f64> = values.copied().chain(paper.iter().map(|mark| mark.at.1)).collect();
         let (_, most) = range_with_zero(&values);
         Self {
             x: Scale::new(padded(numbers), (LEFT, width - RIGHT)),

@@ -121,12 +121,7 @@ impl TurnFinder {
     /// `delay` is [`LowPass::delay`](crate::signal::LowPass::delay) of the filter the signals went
     /// through, in frames; the `event` reading undoes it.
     pub fn find(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
-        let persistence = self.persistence_frames(filtered);
-        let mut turns = self.candidates(filtered, delay);
-        for joint in &mut turns {
-            joint.retain(|turn| turn.confirmed_for >= persistence);
-        }
-        turns
+        self.confirmed(&self.candidates(filtered, delay), filtered)
     }
 
     /// Those of [`candidates`](Self::candidates) that M confirms: what [`find`](Self::find) gives,

@@ -113,6 +113,8 @@ fn ends(numbers: impl Iterator<Item = usize>) -> (usize, usize) {
 
 #[cfg(test)]
 mod tests {
+    use std::slice::from_ref;
+
     use super::*;
     use crate::study::tests::grid_of_keys;
 
@@ -122,7 +124,7 @@ mod tests {
     const NONE: &[usize] = &[];
 
     fn largest(grid: &Grid, koma: f64) -> Option<(usize, Vec<usize>)> {
-        let plateau = Plateau::largest(std::slice::from_ref(grid), koma)?;
+        let plateau = Plateau::largest(from_ref(grid), koma)?;
         Some((plateau.seed, plateau.cells))
     }
 
@@ -133,7 +135,7 @@ mod tests {
         assert_eq!(largest(&grid, 0.0), Some((3, vec![3, 4, 6])), "5 7 8 are as many, and later");
         let grid = grid_of_keys(3, 3, &[A, A, B, B, B, B, A, A, A]);
         assert_eq!(largest(&grid, 0.0), Some((2, vec![2, 3, 4, 5])));
-        let plateau = Plateau::largest(&[grid.clone()], 0.0).unwrap();
+        let plateau = Plateau::largest(from_ref(&grid), 0.0).unwrap();
         assert_eq!(plateau.keys, 2);
         assert!(plateau.holds(5) && !plateau.holds(6));
         assert_eq!(
@@ -145,10 +147,10 @@ mod tests {
     #[test]
     fn a_row_and_a_whole_grid_are_named_by_their_ends() {
         let grid = grid_of_keys(4, 1, &[B, A, A, A]);
-        let plateau = Plateau::largest(&[grid.clone()], 0.0).unwrap();
+        let plateau = Plateau::largest(from_ref(&grid), 0.0).unwrap();
         assert_eq!(plateau.words(&grid), "filter.width 2 to 4: 3 of 4 cells");
         let grid = grid_of_keys(1, 2, &[A, A]);
-        let plateau = Plateau::largest(&[grid.clone()], 0.0).unwrap();
+        let plateau = Plateau::largest(from_ref(&grid), 0.0).unwrap();
         assert_eq!(plateau.words(&grid), "filter.width 1, turns.persistence 1 to 2: 2 of 2 cells");
     }
 

@@ -83,9 +83,10 @@ fn several_clips_are_thin_lines_behind_their_median() {
 #[test]
 fn words_stand_on_an_axis_one_after_the_other() {
     let kinds = grid("filter.kind=box,ideal,gaussian", None, &[3.0, 5.0, 4.0]);
-    for svg in
-        [StudyPlot::default().draw(&[kinds.clone()]), HeatMap::default().draw(&[kinds], None)]
-    {
+    for svg in [
+        StudyPlot::default().draw(std::slice::from_ref(&kinds)),
+        HeatMap::default().draw(std::slice::from_ref(&kinds), None),
+    ] {
         let svg = svg.unwrap();
         for kind in ["box", "ideal", "gaussian"] {
             assert!(words(&svg).contains(&kind), "{kind}");
