@@ -13,6 +13,7 @@ mod pictures;
 mod report;
 mod settings;
 pub mod sheet_json;
+mod study;
 #[cfg(test)]
 pub(crate) mod tests;
 mod turns;
@@ -30,6 +31,7 @@ pub use limited_bvh::{keys_bvh, limited_bvh};
 pub use pictures::{bars, poses};
 pub use report::Report;
 pub use settings::{CsvSettings, Settings};
+pub use study::study_csv;
 pub use turns::turns_csv;
 pub use vmd::{BoneMap, Vmd, VmdKey, VmdMade, VmdMotion, VmdReport};
 pub use xsheet::{XSheetFiles, xsheet};

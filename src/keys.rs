@@ -6,6 +6,7 @@
 
 mod choose;
 mod correct;
+mod matching;
 mod merge;
 mod peaks;
 mod points;
@@ -20,6 +21,7 @@ use crate::motion::JointId;
 use crate::time::Frame;
 
 pub use choose::{Choose, Merge, Rank};
+pub use matching::Matching;
 pub use merge::JointTurns;
 pub use reference::Reference;
 pub use voters::weights;

@@ -1,5 +1,7 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
+use std::sync::Arc;
+
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{self, Candidates, JointTurns, LayerKeys, Reference};
@@ -7,22 +9,24 @@ use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::Sheet;
 use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
-use crate::time::{Clock, Frame};
+use crate::time::{Clock, Frame, Span};
 use crate::timing::{Omitted, Report, Spaced, Stills};
 
 #[cfg(test)]
 mod tests;
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
-/// starts again at the first stage whose input changed.
-#[derive(Debug)]
+/// starts again at the first stage whose input changed. A clone shares what was made so far.
+#[derive(Debug, Clone)]
 pub struct Engine {
-    clip: Clip,
-    weights: Vec<f64>,
+    clip: Arc<Clip>,
+    weights: Arc<[f64]>,
     /// The speeds, and what filters make of them first.
     speed: Stage<crate::signal::Speed, Spectrum>,
     filtered: Stage<LowPass, Signals>,
-    turns: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
+    /// The turns whatever the persistence, and those that it confirms.
+    turning: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
+    turns: Stage<Span, Vec<Vec<Turn>>>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<f64, Reference>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
@@ -66,17 +70,19 @@ impl Engine {
     ///
     /// # Errors
     /// [`Error::Clip`] when the clip has no frame or no joint, or values that are no motion.
-    pub fn new(clip: Clip) -> Result<Self, Error> {
+    pub fn new(clip: impl Into<Arc<Clip>>) -> Result<Self, Error> {
+        let clip = clip.into();
         if clip.is_empty() || clip.skeleton().is_empty() {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
         clip.check_size()?;
-        let weights = keys::weights(&clip);
+        let weights = keys::weights(&clip).into();
         Ok(Self {
             clip,
             weights,
             speed: Stage::default(),
             filtered: Stage::default(),
+            turning: Stage::default(),
             turns: Stage::default(),
             candidates: Stage::default(),
             reference: Stage::default(),
@@ -111,6 +117,7 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         let clock = self.run(recipe, edits)?.clock;
+        self.turning.forget();
         self.reference.forget();
         self.stills.forget();
         Ok(self.breakdown(clock))
@@ -131,6 +138,16 @@ impl Engine {
             sheet,
             omission: &self.omitted.output().report,
         }
+    }
+
+    /// Runs the chain up to every joint's turns.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn find_turns(&mut self, recipe: &Recipe) -> Result<&[Vec<Turn>], Error> {
+        recipe.validate()?;
+        self.measure(recipe)?;
+        Ok(self.turns.output())
     }
 
     /// Runs the chain up to the keys: every joint's turns, and the keys of the layer.
@@ -156,7 +173,7 @@ impl Engine {
 
     /// Speeds, smoothed, and where they turn.
     fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
-        let clip = &self.clip;
+        let clip = &*self.clip;
         let measure = || recipe.speed.measure(clip).map(Spectrum::from);
         let made = self.speed.refresh(Made::CLIP, &recipe.speed, measure)?;
         let spectrum = self.speed.output();
@@ -164,13 +181,19 @@ impl Engine {
             self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;
         let filtered = self.filtered.output();
         let delay = recipe.filter.delay(clip.rate());
-        let settings = (recipe.turns.clone(), recipe.filter.clone());
-        self.turns.refresh(made, &settings, || Ok(recipe.turns.find(filtered, delay)))
+        // A candidate knows for how long it is confirmed: another persistence needs no new search.
+        let persistence = recipe.turns.persistence;
+        let search = TurnFinder { persistence: Span::Frames(0.0), ..recipe.turns.clone() };
+        let settings = (search, recipe.filter.clone());
+        let made = self.turning.renew(made, &settings, || recipe.turns.candidates(filtered, delay));
+        let candidates = self.turning.output();
+        let confirm = || recipe.turns.confirmed(candidates, filtered);
+        Ok(self.turns.renew(made, &persistence, confirm))
     }
 
     /// The keys and walls of the layer.
     fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, turns_made: Made) -> Made {
-        let clip = &self.clip;
+        let clip = &*self.clip;
         let joints = JointTurns {
             filtered: self.filtered.output(),
             turns: self.turns.output(),
@@ -200,7 +223,7 @@ impl Engine {
 
     /// The sheet, before and after omission.
     fn time(&mut self, recipe: &Recipe, clock: Clock, keys_made: Made) -> Result<(), Error> {
-        let clip = &self.clip;
+        let clip = &*self.clip;
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let keys = self.keys.output();
         let made = self.spaced.renew(keys_made, &(recipe.spacing.clone(), recipe.rate), || {
@@ -251,8 +274,14 @@ impl Made {
 /// A stage's last output with the input and the settings that made it.
 #[derive(Debug)]
 struct Stage<Settings, Output> {
-    last: Option<(Made, Settings, Output)>,
+    last: Option<Arc<(Made, Settings, Output)>>,
     made: Made,
+}
+
+impl<Settings, Output> Clone for Stage<Settings, Output> {
+    fn clone(&self) -> Self {
+        Self { last: self.last.clone(), made: self.made }
+    }
 }
 
 impl<Settings, Output> Default for Stage<Settings, Output> {
@@ -270,11 +299,11 @@ impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
         make: impl FnOnce() -> Result<Output, Error>,
     ) -> Result<Made, Error> {
         let is_fresh =
-            |(from, with, _): &(Made, Settings, Output)| *from == input && with == settings;
-        if !self.last.as_ref().is_some_and(is_fresh) {
+            self.last.as_deref().is_some_and(|(from, with, _)| *from == input && with == settings);
+        if !is_fresh {
             // Forgotten first: should `make` fail, a later run must not take the old output for the new.
             self.last = None;
-            self.last = Some((input, settings.clone(), make()?));
+            self.last = Some(Arc::new((input, settings.clone(), make()?)));
             self.made = Made(self.made.0 + 1);
         }
         Ok(self.made)

@@ -12,6 +12,7 @@ mod cells;
 mod contact;
 mod figure;
 mod flipbook;
+mod heat;
 mod hierarchy;
 #[cfg(feature = "cli")]
 mod images;
@@ -43,6 +44,7 @@ mod tests;
 pub use camera::Camera;
 pub use contact::ContactSheet;
 pub use flipbook::FlipBook;
+pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;
 #[cfg(feature = "cli")]
 pub use images::NumberedImages;
@@ -57,6 +59,6 @@ pub use spacing::SpacingPlot;
 pub use speed::{SpeedCurves, SpeedPlot};
 pub use ssd::SsdPlot;
 pub use strip::Strip;
-pub use study::{StudyCount, StudyPlot, StudyRow};
+pub use study::StudyPlot;
 pub(crate) use svg::escaped;
 pub use xsheet::{HoldLine, InbetweenMark, XSheet};

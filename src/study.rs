@@ -1,26 +1,32 @@
-//! Sweeps over recipes: how many keys a filter width and a persistence leave [KT11 Table 1].
+//! **Study** (調べる): one or two settings varied over a clip, and what is found in each cell; for
+//! `union` that is Table 1 of the first paper [KT11].
+//!
+//! An [`Axis`] is a setting with its values, a [`Study`] runs the chain for every pair of them, and a
+//! [`Grid`] holds what was counted.
 
-use crate::edits::Edits;
-use crate::error::Error;
-use crate::pipeline::Engine;
+mod axis;
+mod grid;
+mod measure;
+mod noise;
+mod plateau;
+mod range;
+mod steadiness;
+mod sweep;
+
+#[cfg(test)]
+mod tests;
+
 use crate::recipe::Recipe;
 use crate::signal::{Reading, Steady, Turn, TurnKind};
-use crate::time::{Frame, Span};
+use crate::time::Frame;
 
-/// One cell of the sweep.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StudyRow {
-    /// Filter width.
-    pub filter_width: Span,
-    /// Persistence.
-    pub persistence: Span,
-    /// Distinct frames that are a key of any joint: what the paper counts.
-    pub union: usize,
-    /// Keys summed over the joints.
-    pub total: usize,
-    /// Keys of the layer.
-    pub layer_keys: usize,
-}
+pub use axis::{Axis, Setting};
+pub use grid::{Cell, Grid, medians};
+pub use measure::Measure;
+pub use noise::Noise;
+pub use plateau::Plateau;
+pub use steadiness::{Steadiness, steadiness};
+pub use sweep::Study;
 
 /// The recipe of a Table 1 study: the paper to the letter, with the dead band of 0.03 °/frame² at
 /// 100 fps (300 °/s²) that its counts imply.
@@ -33,36 +39,6 @@ pub fn table_1_recipe() -> Recipe {
     recipe
 }
 
-/// A row for each filter width and persistence, persistence fastest. The forward transform of the
-/// speeds is made once, each filter width once.
-///
-/// # Errors
-/// Those of [`Engine::run`].
-pub fn sweep(
-    engine: &mut Engine,
-    recipe: &Recipe,
-    filter_widths: &[Span],
-    persistences: &[Span],
-) -> Result<Vec<StudyRow>, Error> {
-    let mut recipe = recipe.clone();
-    let mut rows = Vec::with_capacity(filter_widths.len() * persistences.len());
-    for &filter_width in filter_widths {
-        recipe.filter.width = filter_width;
-        for &persistence in persistences {
-            recipe.turns.persistence = persistence;
-            let (turns, keys) = engine.find_keys(&recipe, &Edits::default())?;
-            rows.push(StudyRow {
-                filter_width,
-                persistence,
-                union: union(turns),
-                total: total(turns),
-                layer_keys: keys.keys.len(),
-            });
-        }
-    }
-    Ok(rows)
-}
-
 /// Keys summed over the joints.
 pub fn total(turns: &[Vec<Turn>]) -> usize {
     keys(turns).count()
@@ -70,10 +46,16 @@ pub fn total(turns: &[Vec<Turn>]) -> usize {
 
 /// Distinct frames that are a key of any joint.
 pub fn union(turns: &[Vec<Turn>]) -> usize {
-    let mut frames: Vec<Frame> = keys(turns).map(|turn| turn.frame).collect();
-    frames.sort_unstable();
-    frames.dedup();
-    frames.len()
+    let first = keys(turns).map(|turn| turn.frame).min().unwrap_or(Frame(0)).0;
+    let mut is_key = Vec::new();
+    for turn in keys(turns) {
+        let row = turn.frame.0 - first;
+        if row >= is_key.len() {
+            is_key.resize(row + 1, false);
+        }
+        is_key[row] = true;
+    }
+    is_key.into_iter().filter(|is_key| *is_key).count()
 }
 
 fn keys(turns: &[Vec<Turn>]) -> impl Iterator<Item = &Turn> {

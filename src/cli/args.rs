@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 use crate::deliver::FORMATS;
+use crate::error::Error;
 use crate::plot::Camera;
-use crate::time::{FrameRate, Span};
+use crate::study::{Axis, Measure};
+use crate::time::FrameRate;
 use crate::timing::Amount;
 
 /// Motion capture to Japanese limited animation.
@@ -36,7 +38,7 @@ pub(super) enum Command {
     Keys(KeysArgs),
     /// Naka-nashi and koma-dori alone, on the clip at 24 drawings a second.
     Omit(OmitArgs),
-    /// How many keys each filter width and persistence leaves (the first paper's Table 1).
+    /// What is found when one or two settings vary: the first paper's Table 1, or any knob.
     Study(StudyArgs),
     /// What is in a clip: joints, rate, length, size, an inserted T-pose, warnings.
     Inspect(InspectArgs),
@@ -57,6 +59,13 @@ pub(super) struct ClipArgs {
     /// The motion, a BVH file; - is stdin.
     #[arg(value_name = "CLIP.bvh")]
     pub(super) clip: PathBuf,
+    #[command(flatten)]
+    pub(super) part: Part,
+}
+
+/// Which part of a clip, and how it is read.
+#[derive(Debug, ClapArgs)]
+pub(super) struct Part {
     /// Keep a T-pose that was put in front of the motion.
     #[arg(long)]
     pub(super) keep_lead_in: bool,
@@ -223,26 +232,55 @@ pub(super) struct OmitArgs {
 }
 
 #[derive(Debug, ClapArgs)]
+#[command(after_help = study_help())]
 pub(super) struct StudyArgs {
+    /// The motions, BVH files; - is stdin.
+    #[arg(value_name = "CLIP.bvh", required = true)]
+    pub(super) clips: Vec<PathBuf>,
     #[command(flatten)]
-    pub(super) clip: ClipArgs,
+    pub(super) part: Part,
     #[command(flatten)]
     pub(super) settings: Settings,
-    /// Filter widths, source frames or seconds.
-    #[arg(long, value_name = "W,…", value_delimiter = ',', default_value = "10,20,30")]
-    pub(super) filter_width: Vec<Span>,
-    /// Persistences, source frames or seconds.
-    #[arg(long, value_name = "M,…", value_delimiter = ',', default_value = "5,10")]
-    pub(super) persistence: Vec<Span>,
+    /// The setting that is varied and its values [default: filter.width=10,20,30].
+    #[arg(long, value_name = "KNOB=VALUES")]
+    pub(super) x: Option<Axis>,
+    /// Another setting, varied for each value of the first [default: turns.persistence=5,10, and none
+    /// with --x].
+    #[arg(long, value_name = "KNOB=VALUES")]
+    pub(super) y: Option<Axis>,
+    /// Short for --x filter.width=VALUES, source frames or seconds.
+    #[arg(long, value_name = "VALUES", value_parser = filter_width, conflicts_with = "x")]
+    pub(super) filter_width: Option<Axis>,
+    /// Short for --y turns.persistence=VALUES, source frames or seconds.
+    #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
+    pub(super) persistence: Option<Axis>,
     /// The filter.
     #[arg(long, value_name = "KIND")]
     pub(super) filter: Option<Filter>,
+    /// What is counted [default: union,total,layer_keys; all of the sheet too when a setting of the
+    /// sheet is varied].
+    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',')]
+    pub(super) measure: Vec<Measure>,
+    /// Compare the layer's keys of each cell with those of the cells beside it: columns kept (share of
+    /// keys), mean_move and largest_move (source frames). Says in which region the keys do not change,
+    /// and draws its edge on the map.
+    #[arg(long)]
+    pub(super) stability: bool,
+    /// How far a key may be moved and still be the same, in koma of the sheet.
+    #[arg(long, value_name = "KOMA", default_value_t = 1.0, requires = "stability", value_parser = tolerance)]
+    pub(super) tolerance: f64,
     /// The table, a CSV file; - is stdout.
     #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
     pub(super) out: PathBuf,
-    /// The table as curves, an SVG or PNG file.
+    /// A measure as curves over the first setting, an SVG or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,
+    /// A measure as a map of both settings, its value in each cell, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) heat: Option<PathBuf>,
+    /// The measure that is drawn [default: the first that is counted; layer_keys with --stability].
+    #[arg(long, value_name = "MEASURE")]
+    pub(super) show: Option<Measure>,
     /// Draw the paper's own six counts beside, of a clip that is not public.
     #[arg(long, requires = "plot")]
     pub(super) paper: bool,
@@ -282,6 +320,38 @@ fn formats_help() -> String {
         format!("\n  {name:<12}{help} ({japanese}): {}", format.files.join(" "))
     });
     format!("Formats:{}", lines.collect::<String>())
+}
+
+/// How axes are written, what can be counted, and three studies to begin with.
+fn study_help() -> String {
+    let measures = Measure::ALL.map(|measure| {
+        let (english, japanese) = measure.words();
+        format!("\n  {measure:<21}{english} ({japanese})")
+    });
+    format!(
+        "Axes:\n  KNOB is any setting of `genga recipe`, or noise (degrees of Gaussian noise on every rotation) \
+         or\n  noise.seed. VALUES is a list, in which FROM..TO:STEP is a range: both ends are in it when \
+         the step\n  lands on them. Units stay: 0.1s..0.5s:0.05s. Without --x and --y the recipe is that of \
+         the first\n  paper\u{2019}s Table 1 (`genga recipe --study`), with them it is that of `genga run`.\n\n\
+         Measures:{}\n\n\
+         Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
+         genga study a.bvh b.bvh --x keys.per_second=2..6:0.5 --plot curves.svg\n  \
+         genga study a.bvh --x noise=0..1:0.1 --y filter.width=0.05s..0.2s:0.05s --stability",
+        measures.concat()
+    )
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let koma = text.parse().ok().filter(|koma: &f64| koma.is_finite() && *koma >= 0.0);
+    koma.ok_or_else(|| "expected koma, 0 or more, as in 1 or 0.5".into())
+}
+
+fn filter_width(values: &str) -> Result<Axis, Error> {
+    Axis::new("filter.width", values)
+}
+
+fn persistence(values: &str) -> Result<Axis, Error> {
+    Axis::new("turns.persistence", values)
 }
 
 /// A half-open range of source frames.

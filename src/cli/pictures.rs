@@ -6,10 +6,9 @@ use super::failure::Failure;
 use super::io;
 use crate::motion::{Clip, JointId};
 use crate::pipeline::Breakdown;
-use crate::plot::{self, SkeletonPlot, SpeedPlot, SsdPlot, StudyPlot};
+use crate::plot::{self, SkeletonPlot, SpeedPlot, SsdPlot};
 use crate::sheet::Sheet;
-use crate::study::StudyRow;
-use crate::time::{Frame, FrameRate};
+use crate::time::Frame;
 
 /// Speeds before and after the filter with keys and walls, of the joints that move most.
 pub(super) fn speed(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
@@ -37,26 +36,6 @@ fn movers_first(breakdown: &Breakdown<'_>) -> Vec<JointId> {
     joints
 }
 
-/// The study as curves, an SVG or, for a name that ends in `.png`, a PNG.
-pub(super) fn write_study(
-    path: &Path,
-    rows: &[StudyRow],
-    rate: FrameRate,
-    paper: bool,
-) -> Result<(), Failure> {
-    let rows: Vec<plot::StudyRow> = rows
-        .iter()
-        .map(|row| plot::StudyRow {
-            filter_width: row.filter_width.frames(rate),
-            persistence: row.persistence.frames(rate),
-            union: row.union,
-            total: row.total,
-            layer_keys: row.layer_keys,
-        })
-        .collect();
-    write(path, &StudyPlot { paper, ..StudyPlot::default() }.draw(&rows)?)
-}
-
 /// The movement into each koma before and after omission, an SVG or a PNG by the name as well.
 pub(super) fn write_omission(
     path: &Path,
@@ -71,13 +50,24 @@ pub(super) fn write_skeleton(path: &Path, name: &str, clip: &Clip) -> Result<(),
     write(path, &SkeletonPlot::default().draw(name, clip)?)
 }
 
-fn write(path: &Path, svg: &str) -> Result<(), Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    match ending.as_deref() {
-        Some("png") => io::write(path, &plot::png_from_svg(svg, 2.0)?),
-        Some("svg") | None => io::write(path, svg.as_bytes()),
-        Some(other) => {
-            Err(Failure::AskedWrongly(format!("--plot: a picture is .svg or .png, not .{other}")))
-        }
+/// Refuses a picture that could not be written, before any work.
+pub(super) fn check_name(option: &str, path: &Path) -> Result<(), Failure> {
+    match ending(path).as_deref() {
+        Some("png" | "svg") | None => Ok(()),
+        Some(other) => Err(Failure::AskedWrongly(format!(
+            "--{option}: a picture is .svg or .png, not .{other}"
+        ))),
     }
+}
+
+/// A picture as an SVG or, for a name that ends in `.png`, a PNG.
+pub(super) fn write(path: &Path, svg: &str) -> Result<(), Failure> {
+    match ending(path).as_deref() {
+        Some("png") => io::write(path, &plot::png_from_svg(svg, 2.0)?),
+        _ => io::write(path, svg.as_bytes()),
+    }
+}
+
+fn ending(path: &Path) -> Option<String> {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase())
 }

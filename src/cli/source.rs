@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::args::{ClipArgs, Corrections, Reading, Settings};
+use super::args::{ClipArgs, Corrections, Part, Reading, Settings};
 use super::failure::Failure;
 use super::io;
 use crate::edits::{Edits, Pin};
@@ -23,9 +23,14 @@ pub(super) struct Source {
 ///
 /// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
 pub(super) fn clip(args: &ClipArgs) -> Result<Source, Failure> {
-    let failed = |error| Failure::of_file(&io::named(&args.clip), error);
+    part(&args.clip, &args.part)
+}
+
+/// [`clip`] of any of several files.
+pub(super) fn part(path: &Path, args: &Part) -> Result<Source, Failure> {
+    let failed = |error| Failure::of_file(&io::named(path), error);
     let bvh::Read { mut clip, warnings: mut notes, written_frame_time } =
-        whole(&args.clip, &args.reading)?;
+        whole(path, &args.reading)?;
     let begin = args.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
     if !args.keep_lead_in {
         let (motion, note) = bvh::lead_in::strip(clip);

@@ -1,38 +1,182 @@
-//! `genga study`: how many keys each filter width and persistence leaves.
+//! `genga study`: what is found when one or two settings vary.
+
+use std::path::Path;
+
+use rayon::prelude::*;
 
 use super::args::{Filter, StudyArgs};
 use super::failure::Failure;
-use super::words::Words;
+use super::words::{Words, counted};
 use super::{io, pictures, source};
-use crate::pipeline::Engine;
+use crate::deliver;
+use crate::motion::Clip;
+use crate::plot::{HeatMap, StudyPlot};
+use crate::recipe::Recipe;
 use crate::signal::FilterKind;
-use crate::study::{self, StudyRow};
+use crate::study::{self, Axis, Grid, Measure, Plateau, Study};
+
+/// Sections of the recipe that change the sheet and not the keys.
+const OF_THE_SHEET: [&str; 2] = ["spacing", "omission"];
 
 pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
-    for target in args.plot.iter().chain([&args.out]) {
-        io::spare(&args.clip.clip, target)?;
+    let targets = || args.plot.iter().chain(&args.heat).chain([&args.out]);
+    for clip in &args.clips {
+        targets().try_for_each(|target| io::spare(clip, target))?;
     }
-    let (mut recipe, _) = source::recipe(&args.settings, study::table_1_recipe())?;
-    let listed = [("filter.width", "--filter-width"), ("turns.persistence", "--persistence")];
-    for (name, list) in listed {
-        if args.settings.set.iter().any(|(set, _)| set == name) {
-            return Err(Failure::AskedWrongly(format!(
-                "--set {name}: a study takes it from {list}"
-            )));
+    args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
+    args.heat.iter().try_for_each(|path| pictures::check_name("heat", path))?;
+    let study = asked(args)?;
+    let clips = read(args, words)?;
+    let grids = swept(&study, clips, words)?;
+    let names = names(args);
+    let tolerance = args.stability.then_some(args.tolerance);
+    let table = deliver::study_csv(&names, &grids, tolerance)?;
+    let show = args.show.unwrap_or_else(|| usually_shown(&study));
+    if let Some(path) = &args.plot {
+        let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
+        pictures::write(path, &plot.draw(&grids)?)?;
+    }
+    if let Some(path) = &args.heat {
+        // The same keys, and nearly the same.
+        let edges = tolerance.map(|koma| [0.0, koma].map(|koma| Plateau::largest(&grids, koma)));
+        pictures::write(path, &HeatMap { show }.draw(&grids, edges.as_ref())?)?;
+    }
+    io::write(&args.out, table.as_bytes())?;
+    if let Some(koma) = tolerance {
+        say_plateaus(words, &names, &grids, koma);
+    }
+    Ok(())
+}
+
+/// Where the keys do not change, of each clip and of all together.
+fn say_plateaus(words: &Words, names: &[String], grids: &[Grid], koma: f64) {
+    words.say("plateau  変わらない範囲");
+    let each = names.iter().map(String::as_str).zip(grids.chunks(1));
+    let all = (grids.len() > 1).then_some(("all clips", grids));
+    for (name, grids) in each.chain(all) {
+        for koma in [0.0, koma] {
+            words.say(format_args!("{name}: {}", plateau(grids, koma)));
         }
     }
+}
+
+fn plateau(grids: &[Grid], koma: f64) -> String {
+    let same = if koma == 0.0 {
+        "the very same keys".to_owned()
+    } else {
+        format!("the same keys within {koma} koma")
+    };
+    let Some(plateau) = Plateau::largest(grids, koma) else {
+        return format!("{same} in no two cells side by side");
+    };
+    let own = match grids[0].own {
+        None => "the recipe\u{2019}s own settings lie outside the study",
+        Some(own) if plateau.holds(own) => "the recipe\u{2019}s own settings stand on it",
+        Some(_) => "the recipe\u{2019}s own settings stand beside it",
+    };
+    let (place, keys) = (plateau.words(&grids[0]), counted(plateau.keys, "key"));
+    format!("{same} at {place}, {keys}; {own}")
+}
+
+fn asked(args: &StudyArgs) -> Result<Study, Failure> {
+    let is_table_1 = args.x.is_none() && args.y.is_none();
+    let base = if is_table_1 { study::table_1_recipe() } else { Recipe::default() };
+    let (mut recipe, _) = source::recipe(&args.settings, base)?;
     if let Some(filter) = args.filter {
         recipe.filter.kind = kind(filter);
     }
-    let source = source::clip(&args.clip)?;
-    source.notes.iter().for_each(|note| words.say(note));
-    let mut engine = Engine::new(source.clip)?;
-    let rows = study::sweep(&mut engine, &recipe, &args.filter_width, &args.persistence)?;
-    let table = table(&rows);
-    if let Some(path) = &args.plot {
-        pictures::write_study(path, &rows, engine.clip().rate(), args.paper)?;
+    let (x, y) = axes(args)?;
+    for axis in [Some(&x), y.as_ref()].into_iter().flatten() {
+        not_set_too(args, axis)?;
     }
-    io::write(&args.out, table.as_bytes())
+    let mut measures =
+        if args.measure.is_empty() { usual(&x, y.as_ref()) } else { args.measure.clone() };
+    let shown_too = args.show.filter(|show| !measures.contains(show));
+    measures.extend(shown_too);
+    if args.stability && x.len() * y.as_ref().map_or(1, Axis::len) < 2 {
+        let message =
+            "--stability: compares cells, and there is one alone; give an axis more values";
+        return Err(Failure::AskedWrongly(message.into()));
+    }
+    let study = Study { recipe, x, y, measures, keep_keys: args.stability };
+    study.validate()?;
+    Ok(study)
+}
+
+/// What is varied: Table 1 of the paper, unless it is said.
+fn axes(args: &StudyArgs) -> Result<(Axis, Option<Axis>), Failure> {
+    let x = match args.x.as_ref().or(args.filter_width.as_ref()) {
+        Some(x) => x.clone(),
+        None => Axis::new("filter.width", "10,20,30")?,
+    };
+    let y = match args.y.as_ref().or(args.persistence.as_ref()) {
+        None if args.x.is_none() => Some(Axis::new("turns.persistence", "5,10")?),
+        y => y.cloned(),
+    };
+    Ok((x, y))
+}
+
+/// Refuses a setting that is on an axis and given a value, too.
+fn not_set_too(args: &StudyArgs, axis: &Axis) -> Result<(), Failure> {
+    let name = axis.name();
+    if args.settings.set.iter().any(|(set, _)| set == name) {
+        return Err(Failure::AskedWrongly(format!("--set {name}: a study varies it already")));
+    }
+    if name == "filter.kind" && args.filter.is_some() {
+        return Err(Failure::AskedWrongly("--filter: a study varies it already".into()));
+    }
+    Ok(())
+}
+
+/// What is counted unless it is said.
+fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
+    let of_the_sheet =
+        |axis: &Axis| axis.knob().path().0.is_some_and(|section| OF_THE_SHEET.contains(&section));
+    if of_the_sheet(x) || y.is_some_and(of_the_sheet) {
+        return Measure::ALL.to_vec();
+    }
+    vec![Measure::Union, Measure::Total, Measure::LayerKeys]
+}
+
+/// What is drawn unless it is said: what is compared, where it was counted.
+fn usually_shown(study: &Study) -> Measure {
+    let is_compared = study.keep_keys && study.measures.contains(&Measure::LayerKeys);
+    if is_compared { Measure::LayerKeys } else { study.measures[0] }
+}
+
+/// Every clip, before any work on one begins.
+fn read(args: &StudyArgs, words: &Words) -> Result<Vec<Clip>, Failure> {
+    let several = args.clips.len() > 1;
+    let read = |path: &Path| {
+        let source = source::part(path, &args.part)?;
+        for note in &source.notes {
+            if several {
+                words.say(format_args!("{}: {note}", path.display()));
+            } else {
+                words.say(note);
+            }
+        }
+        Ok(source.clip)
+    };
+    args.clips.iter().map(|path| read(path)).collect()
+}
+
+fn swept(study: &Study, clips: Vec<Clip>, words: &Words) -> Result<Vec<Grid>, Failure> {
+    let counter = words.counting(study.len() * clips.len(), "cells");
+    let grids: Vec<_> =
+        clips.into_par_iter().map(|clip| study.run(clip, || counter.count())).collect();
+    // The first of what went wrong, whichever thread was first.
+    Ok(grids.into_iter().collect::<Result<_, _>>()?)
+}
+
+/// What the clips are called: as short as tells them apart.
+fn names(args: &StudyArgs) -> Vec<String> {
+    let stems: Vec<String> = args.clips.iter().map(|clip| io::stem(clip)).collect();
+    let is_one = |stem: &String| stems.iter().filter(|other| *other == stem).count() == 1;
+    if stems.iter().all(is_one) {
+        return stems;
+    }
+    args.clips.iter().map(|clip| clip.display().to_string()).collect()
 }
 
 fn kind(filter: Filter) -> FilterKind {
@@ -42,13 +186,4 @@ fn kind(filter: Filter) -> FilterKind {
         Filter::Ideal => FilterKind::Ideal,
         Filter::Butterworth => FilterKind::Butterworth,
     }
-}
-
-fn table(rows: &[StudyRow]) -> String {
-    let mut table = String::from("filter_width,persistence,union,total,layer_keys\n");
-    for row in rows {
-        let StudyRow { filter_width, persistence, union, total, layer_keys } = row;
-        table.push_str(&format!("{filter_width},{persistence},{union},{total},{layer_keys}\n"));
-    }
-    table
 }

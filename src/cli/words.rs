@@ -31,8 +31,7 @@ impl Words {
 
     /// A sign of life for work that may take long, on a terminal alone. It goes when dropped.
     pub(super) fn working(&self) -> Working {
-        let shown = !self.quiet && stderr().is_terminal();
-        Working(shown.then(|| {
+        Working(self.is_watched().then(|| {
             let bar = ProgressBar::new_spinner();
             if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
                 bar.set_style(style);
@@ -40,6 +39,43 @@ impl Words {
             bar.enable_steady_tick(Duration::from_millis(120));
             bar
         }))
+    }
+
+    /// The same for work of which it is known how much there is.
+    pub(super) fn counting(&self, count: usize, what: &str) -> Counter {
+        Counter(self.is_watched().then(|| {
+            let bar = ProgressBar::new(count as u64);
+            let look =
+                format!("{{wide_bar}} {{pos}} of {{len}} {what} ({{elapsed}}, {{eta}} left)");
+            if let Ok(style) = ProgressStyle::with_template(&look) {
+                bar.set_style(style);
+            }
+            bar.enable_steady_tick(Duration::from_millis(120));
+            bar
+        }))
+    }
+
+    fn is_watched(&self) -> bool {
+        !self.quiet && stderr().is_terminal()
+    }
+}
+
+/// A bar of what is done of what there is to do; several threads may count.
+pub(super) struct Counter(Option<ProgressBar>);
+
+impl Counter {
+    pub(super) fn count(&self) {
+        if let Some(bar) = &self.0 {
+            bar.inc(1);
+        }
+    }
+}
+
+impl Drop for Counter {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! How many keys the two numbers of the key search leave [KT11 Table 1].
+//! What a study counted, as curves [KT11 Table 1].
 
 use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
@@ -7,55 +7,11 @@ use crate::error::Error;
 use crate::plot::axis::{Scale, number, range_with_zero};
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
 use crate::plot::style;
+use crate::study::{Axis, Grid, Measure, medians};
 
-/// One run of the key search (原画の数).
-#[derive(Debug, Clone, PartialEq)]
-pub struct StudyRow {
-    /// Width of the low pass in source frames.
-    pub filter_width: f64,
-    /// Frames that have to confirm a turn.
-    pub persistence: f64,
-    /// Distinct frames that are a key of any joint.
-    pub union: usize,
-    /// Keys of all joints together.
-    pub total: usize,
-    /// Keys of the layer.
-    pub layer_keys: usize,
-}
-
-/// Which of the three counts of a [`StudyRow`] is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum StudyCount {
-    /// Distinct frames over all joints, what Table 1 counts.
-    #[default]
-    Union,
-    /// The sum over the joints.
-    Total,
-    /// Keys of the layer.
-    LayerKeys,
-}
-
-impl StudyCount {
-    fn of(self, row: &StudyRow) -> f64 {
-        let count = match self {
-            Self::Union => row.union,
-            Self::Total => row.total,
-            Self::LayerKeys => row.layer_keys,
-        };
-        count as f64
-    }
-
-    fn words(self) -> &'static str {
-        match self {
-            Self::Union => "frames with a key of any joint",
-            Self::Total => "keys of all joints",
-            Self::LayerKeys => "keys of the layer",
-        }
-    }
-}
-
-/// Keys against the filter width (フィルタ適用範囲と原画の数), a line a persistence.
+/// A measure against the first setting of a study (設定と原画の数), a line a value of the second.
+///
+/// Of several clips the line is their median, and each clip a thin line behind it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StudyPlot {
@@ -63,8 +19,8 @@ pub struct StudyPlot {
     pub width: u32,
     /// Height in px, 300 to 20000; default 560.
     pub height: u32,
-    /// Which count is drawn; default the union, what the paper counts.
-    pub count: StudyCount,
+    /// Which measure is drawn; default the union, what the paper counts.
+    pub show: Measure,
     /// Whether the six values of the paper stand beside as hollow marks; default no. They are of
     /// another clip.
     pub paper: bool,
@@ -72,7 +28,7 @@ pub struct StudyPlot {
 
 impl Default for StudyPlot {
     fn default() -> Self {
-        Self { width: 900, height: 560, count: StudyCount::Union, paper: false }
+        Self { width: 900, height: 560, show: Measure::Union, paper: false }
     }
 }
 
@@ -86,7 +42,7 @@ const PAPER: [(f64, f64, f64); 6] = [
     (30.0, 10.0, 52.0),
 ];
 
-/// One line's colour, after the other; persistences beyond them begin again.
+/// The lines' colours as long as there is one for each.
 const COLORS: [RGBColor; 6] = [
     style::GENGA,
     style::WALL,
@@ -98,8 +54,8 @@ const COLORS: [RGBColor; 6] = [
 
 const LEFT: f64 = 72.0;
 const RIGHT: f64 = 92.0;
-const TOP: f64 = 72.0;
-const BOTTOM: f64 = 58.0;
+const TOP: f64 = 84.0;
+const BOTTOM: f64 = 62.0;
 
 impl StudyPlot {
     /// Checks the settings.
@@ -111,132 +67,263 @@ impl StudyPlot {
         style::check_size("height", self.height, 300)
     }
 
-    /// Draws the study as SVG.
+    /// Draws the study of one clip, or of several, as SVG. All grids are of one study.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`StudyPlot::validate`]; [`Error::Picture`] when there is no row or a
-    /// width or persistence is not finite.
-    pub fn draw(&self, rows: &[StudyRow]) -> Result<String, Error> {
+    /// [`Error::Setting`] as [`StudyPlot::validate`]; [`Error::Picture`] when there is no clip or the
+    /// measure was not counted, and where the paper's marks are asked for and the axes are not the
+    /// paper's.
+    pub fn draw(&self, grids: &[Grid]) -> Result<String, Error> {
         self.validate()?;
-        if rows.is_empty() {
-            return Err(style::cannot("a study without rows has nothing to draw"));
-        }
-        if !rows.iter().all(|row| row.filter_width.is_finite() && row.persistence.is_finite()) {
-            return Err(style::cannot("filter widths and persistences must be finite"));
-        }
-        let (width, height) = (f64::from(self.width), f64::from(self.height));
-        let paper: &[_] = if self.paper { &PAPER } else { &[] };
-        let widths = rows.iter().map(|row| row.filter_width).chain(paper.iter().map(|row| row.0));
-        let counts: Vec<_> = rows
-            .iter()
-            .map(|row| self.count.of(row))
-            .chain(paper.iter().map(|row| row.2))
-            .collect();
-        let x = Scale::new(padded(widths), (LEFT, width - RIGHT));
-        let (_, most) = range_with_zero(&counts);
-        let y = Scale::new((0.0, 1.08 * most), (height - BOTTOM, TOP));
+        let Some(grid) = grids.first() else {
+            return Err(style::cannot("a study without a clip has nothing to draw"));
+        };
+        let paper = if self.paper { papers_marks(grid)? } else { vec![] };
+        let medians = shown(grids, self.show)?;
+        let clips: Vec<Vec<f64>> = match grids {
+            [_] => vec![],
+            several => several.iter().filter_map(|grid| grid.values(self.show)).collect(),
+        };
+        let at = Places::of(&grid.x);
+        let chart = Chart::new(self, &at, medians.iter().chain(clips.iter().flatten()), &paper);
         paint((self.width, self.height), |canvas| {
-            self.axes(canvas, &x, &y)?;
-            for (at, persistence) in persistences(rows, paper).into_iter().enumerate() {
-                let color = COLORS[at % COLORS.len()];
-                let mut ours: Vec<Point> = rows
-                    .iter()
-                    .filter(|row| row.persistence == persistence)
-                    .map(|row| (x.at(row.filter_width), y.at(self.count.of(row))))
-                    .collect();
-                ours.sort_by(|a, b| a.0.total_cmp(&b.0));
-                for row in paper.iter().filter(|row| row.1 == persistence) {
-                    canvas.ring((x.at(row.0), y.at(row.2)), 5.5, color, 1.75)?;
+            chart.axes(canvas, &at)?;
+            chart.words(canvas, self.show, grids)?;
+            for (y, color) in colors(grid.rows()).into_iter().enumerate() {
+                for values in &clips {
+                    let faded = style::mixed(color, style::PAPER, 0.65);
+                    canvas.path(&chart.line(&at, values, y, grid.rows()), faded, 1.0)?;
                 }
-                curve(canvas, &ours, color)?;
             }
-            self.names(canvas, rows, (&x, &y))
+            for Mark { at, line } in &paper {
+                let color = line.map_or(style::FAINT, |y| colors(grid.rows())[y]);
+                canvas.ring((chart.x.at(at.0), chart.y.at(at.1)), 5.5, color, 1.75)?;
+            }
+            let mut ends = Vec::new();
+            for (y, color) in colors(grid.rows()).into_iter().enumerate() {
+                let line = chart.line(&at, &medians, y, grid.rows());
+                canvas.path(&line, color, 2.0)?;
+                let radius = if at.numbers.len() > 30 { 2.5 } else { 4.0 };
+                line.iter().try_for_each(|point| canvas.disc(*point, radius, color))?;
+                ends.extend(line.last().map(|end| (*end, y, color)));
+            }
+            if self.paper {
+                chart.legend_of_paper(canvas)?;
+            }
+            match &grid.y {
+                Some(y) => chart.names(canvas, y, ends),
+                None => Ok(()),
+            }
         })
     }
+}
 
-    fn axes(&self, canvas: &mut Canvas<'_>, x: &Scale, y: &Scale) -> Result<(), Error> {
-        let (width, height) = (f64::from(self.width), f64::from(self.height));
-        let (right, bottom) = (width - RIGHT, height - BOTTOM);
-        let title = Type::new(style::TITLE).bold();
-        canvas.text("Keys and the filter 原画の数とフィルタ", (style::MARGIN, 34.0), title)?;
-        let words = Type::new(style::WORDS);
-        canvas.text(self.count.words(), (style::MARGIN, 56.0), words.color(style::FAINT))?;
+/// The median over the clips of the measure that is drawn.
+pub(super) fn shown(grids: &[Grid], show: Measure) -> Result<Vec<f64>, Error> {
+    medians(grids, show).ok_or_else(|| style::cannot(format!("{show} was not counted")))
+}
+
+/// A count of the paper.
+struct Mark {
+    /// Filter width and keys.
+    at: (f64, f64),
+    /// The line of its persistence, where there is one.
+    line: Option<usize>,
+}
+
+/// The paper's marks with the line that each belongs to, where the axes are its own.
+fn papers_marks(grid: &Grid) -> Result<Vec<Mark>, Error> {
+    let frames = |axis: &Axis, name| {
+        let (numbers, unit) = axis.scale()?;
+        (axis.name() == name && unit.is_empty()).then_some(numbers)
+    };
+    let widths = frames(&grid.x, "filter.width");
+    let persistences = grid.y.as_ref().and_then(|y| frames(y, "turns.persistence"));
+    let (Some(_), Some(persistences)) = (widths, persistences) else {
+        return Err(style::cannot(
+            "the paper's counts stand beside filter.width and turns.persistence in frames alone",
+        ));
+    };
+    let line = |persistence: f64| persistences.iter().position(|own| *own == persistence);
+    let mark = |row: &(f64, f64, f64)| Mark { at: (row.0, row.2), line: line(row.1) };
+    Ok(PAPER.iter().map(mark).collect())
+}
+
+/// Where the values of an axis stand: on their scale, or one after the other.
+struct Places {
+    numbers: Vec<f64>,
+    /// What is written at each, where they are words.
+    words: Option<Vec<String>>,
+    name: String,
+}
+
+impl Places {
+    fn of(axis: &Axis) -> Self {
+        let (numbers, words, unit) = match axis.scale() {
+            Some((numbers, unit)) => (numbers, None, unit),
+            None => {
+                let numbers = (0..axis.len()).map(|at| at as f64).collect();
+                (numbers, Some(axis.values().to_vec()), "")
+            }
+        };
+        Self { numbers, words, name: name(axis, unit) }
+    }
+}
+
+/// What an axis is called: its name, its unit, its Japanese name.
+pub(super) fn name(axis: &Axis, unit: &str) -> String {
+    // What stands behind a comma says more than a picture needs.
+    let own = axis.knob().unit.split(',').next().unwrap_or_default();
+    let unit = match (unit, own) {
+        ("s", _) => " (seconds)".to_owned(),
+        ("%", _) => " (%)".to_owned(),
+        (_, "source frames or seconds") if axis.scale().is_some() => " (source frames)".to_owned(),
+        (_, "" | "a whole number") => String::new(),
+        (_, own) => format!(" ({own})"),
+    };
+    format!("{}{unit}  {}", axis.name(), axis.knob().japanese)
+}
+
+/// A colour a line: apart as long as there are enough, else from blue to vermilion.
+fn colors(lines: usize) -> Vec<RGBColor> {
+    let share = |line: usize| line as f64 / (lines - 1) as f64;
+    if lines <= COLORS.len() {
+        return COLORS[..lines].to_vec();
+    }
+    (0..lines).map(|line| style::mixed(style::WALL, style::GENGA, share(line))).collect()
+}
+
+/// The scales, and the size of the paper.
+struct Chart {
+    x: Scale,
+    y: Scale,
+    width: f64,
+    height: f64,
+}
+
+impl Chart {
+    fn new<'a>(
+        plot: &StudyPlot,
+        at: &Places,
+        values: impl Iterator<Item = &'a f64>,
+        paper: &[Mark],
+    ) -> Self {
+        let (width, height) = (f64::from(plot.width), f64::from(plot.height));
+        let numbers = at.numbers.iter().copied().chain(paper.iter().map(|mark| mark.at.0));
+        let values: Vec<f64> = values.copied().chain(paper.iter().map(|mark| mark.at.1)).collect();
+        let (_, most) = range_with_zero(&values);
+        Self {
+            x: Scale::new(padded(numbers), (LEFT, width - RIGHT)),
+            y: Scale::new((0.0, 1.08 * most), (height - BOTTOM, TOP)),
+            width,
+            height,
+        }
+    }
+
+    /// The points of a line, from left to right; the value of `y` runs fastest.
+    fn line(&self, at: &Places, values: &[f64], y: usize, rows: usize) -> Vec<Point> {
+        let of_line = values.iter().skip(y).step_by(rows);
+        let mut points: Vec<Point> = at
+            .numbers
+            .iter()
+            .zip(of_line)
+            .map(|(number, value)| (self.x.at(*number), self.y.at(*value)))
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points
+    }
+
+    fn axes(&self, canvas: &mut Canvas<'_>, at: &Places) -> Result<(), Error> {
+        let (right, bottom) = (self.width - RIGHT, self.height - BOTTOM);
         let look = Type::new(style::SMALL);
-        for value in y.ticks(44.0) {
-            let at = y.at(value);
+        for value in self.y.ticks(44.0) {
+            let at = self.y.at(value);
             canvas.line((LEFT, at), (right, at), style::GRID, 1.0)?;
             let look = look.align(Align::Right);
             canvas.text(&number(value), (LEFT - 8.0, at + 4.0), look)?;
         }
         canvas.line((LEFT, bottom), (right, bottom), style::FAINT, 1.0)?;
-        for value in x.ticks(70.0) {
-            let at = x.at(value);
+        let ticks: Vec<(f64, String)> = match &at.words {
+            Some(words) => at.numbers.iter().copied().zip(words.iter().cloned()).collect(),
+            None => self.x.ticks(70.0).into_iter().map(|tick| (tick, number(tick))).collect(),
+        };
+        for (value, word) in ticks {
+            let at = self.x.at(value);
             canvas.line((at, bottom), (at, bottom + 5.0), style::FAINT, 1.0)?;
-            canvas.text(&number(value), (at, bottom + 19.0), look.align(Align::Center))?;
+            canvas.text(&word, (at, bottom + 19.0), look.align(Align::Center))?;
         }
         let middle = 0.5 * (LEFT + right);
-        let name = "filter width W (source frames) フィルタ適用範囲";
-        canvas.text(name, (middle, bottom + 42.0), words.align(Align::Center))?;
-        if !self.paper {
-            return Ok(());
-        }
-        canvas.ring((right - 150.0, 51.0), 5.5, style::INK, 1.75)?;
-        canvas.text("Kuroda & Tokoi, Table 1", (right - 138.0, 56.0), words)
+        let look = Type::new(style::WORDS).align(Align::Center);
+        canvas.text(&at.name, (middle, bottom + 44.0), look)
     }
 
-    /// The persistences beside the ends of their lines, moved apart where they would lie on each
-    /// other.
+    /// The title and what the lines are.
+    fn words(&self, canvas: &mut Canvas<'_>, show: Measure, grids: &[Grid]) -> Result<(), Error> {
+        title(canvas, show)?;
+        let faint = Type::new(style::WORDS).color(style::FAINT);
+        let of_clips = match grids.len() {
+            1 => String::new(),
+            clips => format!("median of {clips} clips, each of them a thin line"),
+        };
+        canvas.text(&of_clips, (style::MARGIN, 58.0), faint)?;
+        let Some(y) = &grids[0].y else { return Ok(()) };
+        let unit = y.scale().map_or("", |(_, unit)| unit);
+        let place = (self.width - style::MARGIN, 58.0);
+        canvas.text(&name(y, unit), place, faint.align(Align::Right))
+    }
+
+    fn legend_of_paper(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+        let right = self.width - style::MARGIN;
+        canvas.ring((right - 158.0, 29.0), 5.5, style::INK, 1.75)?;
+        canvas.text("Kuroda & Tokoi, Table 1", (right - 146.0, 34.0), Type::new(style::WORDS))
+    }
+
+    /// The values of the second setting beside the ends of their lines, moved apart where they would
+    /// lie on each other; of many lines, whose colours are in order, a few.
     fn names(
         &self,
         canvas: &mut Canvas<'_>,
-        rows: &[StudyRow],
-        (x, y): (&Scale, &Scale),
+        y: &Axis,
+        mut ends: Vec<(Point, usize, RGBColor)>,
     ) -> Result<(), Error> {
-        let last = |persistence: f64| {
-            let of_line = rows.iter().filter(|row| row.persistence == persistence);
-            of_line.max_by(|a, b| a.filter_width.total_cmp(&b.filter_width))
-        };
-        let paper: &[_] = if self.paper { &PAPER } else { &[] };
-        let mut ends: Vec<(f64, f64, f64, RGBColor)> = persistences(rows, paper)
-            .into_iter()
-            .enumerate()
-            .filter_map(|(at, persistence)| {
-                let row = last(persistence)?;
-                let place = (x.at(row.filter_width), y.at(self.count.of(row)));
-                Some((place.1, place.0, persistence, COLORS[at % COLORS.len()]))
-            })
-            .collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        const LINE: f64 = 17.0;
+        let (last, every) = (ends.len() - 1, ends.len().div_ceil(COLORS.len()));
+        ends.retain(|(_, y, _)| every == 1 || *y == last || (y % every == 0 && y + every <= last));
+        ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
         let mut above = f64::NEG_INFINITY;
-        for (at, x, persistence, color) in ends {
-            let base = (at + 5.0).max(above + 17.0);
-            above = base;
+        let mut bases: Vec<f64> = Vec::new();
+        for (end, ..) in &ends {
+            above = (end.1 + 5.0).max(above + LINE);
+            bases.push(above);
+        }
+        // What would hang over the axis is pushed up again.
+        let mut below = self.height - BOTTOM - 3.0 + LINE;
+        for base in bases.iter_mut().rev() {
+            *base = base.min(below - LINE);
+            below = *base;
+        }
+        for ((end, y_at, color), base) in ends.into_iter().zip(bases) {
             let look = Type::new(style::WORDS).bold().color(color);
-            canvas.text(&format!("M = {}", number(persistence)), (x + 12.0, base), look)?;
+            canvas.text(&y.values()[y_at], (end.0 + 12.0, base), look)?;
         }
         Ok(())
     }
 }
 
-/// The persistences there are, from the least.
-fn persistences(rows: &[StudyRow], paper: &[(f64, f64, f64)]) -> Vec<f64> {
-    let mut all: Vec<f64> =
-        rows.iter().map(|row| row.persistence).chain(paper.iter().map(|row| row.1)).collect();
-    all.sort_by(f64::total_cmp);
-    all.dedup();
-    all
+/// What is drawn, in both languages.
+pub(super) fn title(canvas: &mut Canvas<'_>, show: Measure) -> Result<(), Error> {
+    let (english, japanese) = show.words();
+    let mut letters = english.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string());
+    let title = format!("{}{}  {japanese}", first.unwrap_or_default(), letters.as_str());
+    canvas.text(&title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold())
 }
 
-/// The range of the widths with some air at both ends.
-fn padded(widths: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = widths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), width| {
-        (low.min(width), high.max(width))
+/// The range of some numbers with some air at both ends.
+fn padded(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), number| {
+        (low.min(number), high.max(number))
     });
     let air = if high > low { 0.05 * (high - low) } else { 1.0 };
     (low - air, high + air)
-}
-
-fn curve(canvas: &mut Canvas<'_>, points: &[Point], color: RGBColor) -> Result<(), Error> {
-    canvas.path(points, color, 2.0)?;
-    points.iter().try_for_each(|point| canvas.disc(*point, 4.0, color))
 }

@@ -18,6 +18,7 @@ mod method;
 #[cfg(feature = "cli")]
 mod moving;
 mod ssd;
+mod study;
 
 const GENGA: &str = "#C83210";
 const END: &str = "#30343C";
@@ -389,61 +390,6 @@ fn degenerate_sheets_give_a_picture_or_an_error() {
 fn a_small_sheet_looks_as_it_did() {
     let plot = SheetPlot { width: 400, koma_in_line: 6 };
     insta::assert_snapshot!(plot.draw(&sheet(), None, Some(&[1.0, 4.0])).unwrap());
-}
-
-// Study.
-
-fn rows() -> Vec<StudyRow> {
-    let row = |filter_width, persistence, union| StudyRow {
-        filter_width,
-        persistence,
-        union,
-        total: 10 * union,
-        layer_keys: union / 2,
-    };
-    vec![row(10.0, 5.0, 90), row(20.0, 5.0, 70), row(10.0, 10.0, 60), row(20.0, 10.0, 40)]
-}
-
-#[test]
-fn a_study_plot_refuses_settings_that_cannot_be() {
-    for (plot, name) in [
-        (StudyPlot { width: 0, ..StudyPlot::default() }, "width"),
-        (StudyPlot { height: 50_000, ..StudyPlot::default() }, "height"),
-    ] {
-        has_setting_error(plot.validate(), name);
-        has_setting_error(plot.draw(&rows()), name);
-    }
-    assert!(StudyPlot::default().draw(&[]).is_err());
-    let mut wrong = rows();
-    wrong[0].filter_width = f64::NAN;
-    assert!(StudyPlot::default().draw(&wrong).is_err());
-}
-
-#[test]
-fn a_study_has_a_line_a_persistence_and_the_papers_marks_beside() {
-    let plot = StudyPlot { paper: true, ..StudyPlot::default() };
-    let svg = plot.draw(&rows()).unwrap();
-    assert_eq!(tags(&svg, "polyline", "").len(), 2);
-    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 6 + 1, "six values and the legend");
-    assert!(words(&svg).contains(&"M = 5") && words(&svg).contains(&"M = 10"));
-    let svg = StudyPlot::default().draw(&rows()).unwrap();
-    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 0);
-}
-
-#[test]
-fn a_study_draws_the_count_it_is_asked_for() {
-    let draw = |count| StudyPlot { count, ..StudyPlot::default() }.draw(&rows()).unwrap();
-    assert!(words(&draw(StudyCount::Total)).contains(&"800"));
-    assert!(!words(&draw(StudyCount::Union)).contains(&"800"));
-    assert!(words(&draw(StudyCount::LayerKeys)).contains(&"keys of the layer"));
-    let zero = StudyRow { filter_width: 0.0, persistence: 0.0, union: 0, total: 0, layer_keys: 0 };
-    assert!(StudyPlot::default().draw(&[zero]).is_ok());
-}
-
-#[test]
-fn a_small_study_looks_as_it_did() {
-    let plot = StudyPlot { width: 400, height: 300, ..StudyPlot::default() };
-    insta::assert_snapshot!(plot.draw(&rows()).unwrap());
 }
 
 // Poses.

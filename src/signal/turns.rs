@@ -121,12 +121,16 @@ impl TurnFinder {
     /// `delay` is [`LowPass::delay`](crate::signal::LowPass::delay) of the filter the signals went
     /// through, in frames; the `event` reading undoes it.
     pub fn find(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
+        self.confirmed(&self.candidates(filtered, delay), filtered)
+    }
+
+    /// Those of [`candidates`](Self::candidates) that M confirms: what [`find`](Self::find) gives,
+    /// without a new search.
+    pub fn confirmed(&self, candidates: &[Vec<Turn>], filtered: &Signals) -> Vec<Vec<Turn>> {
         let persistence = self.persistence_frames(filtered);
-        let mut turns = self.candidates(filtered, delay);
-        for joint in &mut turns {
-            joint.retain(|turn| turn.confirmed_for >= persistence);
-        }
-        turns
+        let is_confirmed = |turn: &&Turn| turn.confirmed_for >= persistence;
+        let of_joint = |turns: &Vec<Turn>| turns.iter().filter(is_confirmed).copied().collect();
+        candidates.iter().map(of_joint).collect()
     }
 
     /// Every turn, whatever M: `find` keeps those with `confirmed_for` of at least

@@ -16,5 +16,7 @@ mod real_clips; // the default recipe on every real clip
 mod rerig; // the same motion in another rig gives the same sheet
 mod rooms; // who may import whom
 #[cfg(feature = "cli")]
+mod studies; // one or two settings varied, as tables and pictures
+#[cfg(feature = "cli")]
 mod timesheets; // sheets for programs and for paper, and keys marked on them
 mod tiny_clips; // the smallest clips with any recipe never panic

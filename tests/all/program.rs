@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 use crate::clips::{here, sample};
 
-const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
+pub(crate) const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
 
 /// What a run writes, and how each file begins.
 const FILES: [(&str, &str); 11] = [
@@ -38,14 +38,14 @@ const SUBCOMMANDS: [&str; 9] =
     ["run", "deliver", "keys", "omit", "study", "inspect", "recipe", "completions", "man"];
 
 /// A folder of its own for each test; the program runs in it.
-struct Place(TempDir);
+pub(crate) struct Place(TempDir);
 
 impl Place {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
     }
 
-    fn path(&self, name: &str) -> std::path::PathBuf {
+    pub(crate) fn path(&self, name: &str) -> std::path::PathBuf {
         self.0.path().join(name)
     }
 
@@ -55,7 +55,7 @@ impl Place {
         command
     }
 
-    fn genga(&self, args: &str) -> Output {
+    pub(crate) fn genga(&self, args: &str) -> Output {
         self.command(&words(args)).output().unwrap()
     }
 
@@ -69,14 +69,14 @@ impl Place {
     }
 
     /// Runs it, sees it succeed, and gives stdout.
-    fn done(&self, args: &str) -> String {
+    pub(crate) fn done(&self, args: &str) -> String {
         let output = self.genga(args);
         assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
         text(&output.stdout)
     }
 
     /// Runs it, sees it fail with this code and nothing on stdout, and gives the one line it says.
-    fn refused(&self, code: i32, args: &str) -> String {
+    pub(crate) fn refused(&self, code: i32, args: &str) -> String {
         let output = self.genga(args);
         let said = text(&output.stderr);
         assert_eq!(output.status.code(), Some(code), "genga {args}: {said}");
@@ -103,12 +103,12 @@ fn words(args: &str) -> Vec<String> {
     args.split_whitespace().map(word).collect()
 }
 
-fn text(bytes: &[u8]) -> String {
+pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// A column of a CSV table.
-fn column(table: &str, name: &str) -> Vec<String> {
+pub(crate) fn column(table: &str, name: &str) -> Vec<String> {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let at = reader.headers().unwrap().iter().position(|header| header == name).unwrap();
     reader.records().map(|record| record.unwrap()[at].to_owned()).collect()
@@ -257,28 +257,6 @@ fn the_flags_of_omit_do_something_each() {
     }
     assert_eq!(sheet("--koma-dori 33% --max-hold 4"), sheet("--koma-dori 0.33"));
     assert_eq!(column(&sheet("--let-length-change"), "koma").len(), 112);
-}
-
-#[test]
-fn a_study_has_a_row_a_cell_and_persistence_runs_fastest() {
-    let place = Place::new();
-    for name in SAMPLES {
-        let table = place.done(&format!("study data/{name}.bvh"));
-        assert!(table.starts_with("filter_width,persistence,union,total,layer_keys\n"), "{table}");
-        assert_eq!(column(&table, "filter_width"), ["10", "10", "20", "20", "30", "30"]);
-        assert_eq!(column(&table, "persistence"), ["5", "10", "5", "10", "5", "10"]);
-        let number = |name| -> Vec<usize> {
-            column(&table, name).iter().map(|cell| cell.parse().unwrap()).collect()
-        };
-        assert!(number("total").iter().zip(number("union")).all(|(total, union)| *total >= union));
-        assert!(number("union").chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
-    }
-    let table =
-        place.done("study data/kick.bvh --filter-width 0.2s,7 --persistence 3 --filter ideal");
-    assert_eq!(column(&table, "filter_width"), ["0.2s", "7"]);
-    place.done("study data/kick.bvh --out s.csv --plot s.png -q");
-    assert!(fs::read(place.path("s.png")).unwrap().starts_with(b"\x89PNG"));
-    assert_eq!(read(&place.path("s.csv")), place.done("study data/kick.bvh"));
 }
 
 #[test]

@@ -1,0 +1,226 @@
+//! Which keys of one list are those of another: pairs that lie near each other, each key in one pair
+//! at the most.
+
+use std::cmp::Reverse;
+
+use crate::time::Frame;
+
+/// Two lists of keys laid on each other (照合).
+///
+/// Of all ways to pair keys that are no further apart than a tolerance, it is one with the most pairs
+/// and among those with the least way between them. The counts that precision, recall and F1 are made
+/// of are its `pairs`, `lost` and `gained`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Matching {
+    /// Pairs, by frame: a key of the first list and that of the second.
+    pub pairs: Vec<(Frame, Frame)>,
+    /// Keys of the first list alone, by frame.
+    pub lost: Vec<Frame>,
+    /// Keys of the second list alone, by frame.
+    pub gained: Vec<Frame>,
+}
+
+impl Matching {
+    /// Matches two lists, both sorted by frame, within a tolerance in frames, that included.
+    ///
+    /// Two pairs that cross may be uncrossed: both stay within the tolerance and the way between them
+    /// grows no longer. So only matchings in order have to be looked at, by dynamic programming; and a
+    /// gap wider than the tolerance cuts the work in two.
+    pub fn between(before: &[Frame], after: &[Frame], tolerance: f64) -> Self {
+        debug_assert!(before.is_sorted() && after.is_sorted());
+        let mut matching = Self::default();
+        let (mut before, mut after) = (before, after);
+        while !before.is_empty() || !after.is_empty() {
+            let (these, those) = first_cluster(before, after, tolerance);
+            matching.add(&before[..these], &after[..those], tolerance);
+            (before, after) = (&before[these..], &after[those..]);
+        }
+        matching
+    }
+
+    /// How many keys both lists have together.
+    pub fn len(&self) -> usize {
+        2 * self.pairs.len() + self.lost.len() + self.gained.len()
+    }
+
+    /// Whether there is no key in either list.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Whether every key of each list has its own in the other.
+    pub fn is_whole(&self) -> bool {
+        self.lost.is_empty() && self.gained.is_empty()
+    }
+
+    /// The share of keys of both lists that are in a pair, 0 to 1 (F1); 1 of two empty lists.
+    pub fn kept(&self) -> f64 {
+        if self.is_empty() { 1.0 } else { (2 * self.pairs.len()) as f64 / self.len() as f64 }
+    }
+
+    /// How far each pair's keys are apart, in frames.
+    pub fn moves(&self) -> impl Iterator<Item = usize> + '_ {
+        self.pairs.iter().map(|(before, after)| before.0.abs_diff(after.0))
+    }
+
+    /// How far a key moves in the mean, in frames; none without a pair.
+    pub fn mean_move(&self) -> Option<f64> {
+        let sum: usize = self.moves().sum();
+        (!self.pairs.is_empty()).then(|| sum as f64 / self.pairs.len() as f64)
+    }
+
+    /// How far a key moves at the most, in frames; none without a pair.
+    pub fn largest_move(&self) -> Option<usize> {
+        self.moves().max()
+    }
+
+    /// Adds the best matching of two short lists.
+    fn add(&mut self, before: &[Frame], after: &[Frame], tolerance: f64) {
+        let wide = after.len() + 1;
+        // The best of all keys from a pair of places on: pairs, and the way between them.
+        let mut best = vec![(0usize, Reverse(0usize)); (before.len() + 1) * wide];
+        let pair = |i: usize, j: usize, best: &[(usize, Reverse<usize>)]| {
+            let way = before[i].0.abs_diff(after[j].0);
+            let (pairs, Reverse(ways)) = best[(i + 1) * wide + j + 1];
+            (way as f64 <= tolerance).then_some((pairs + 1, Reverse(ways + way)))
+        };
+        for i in (0..before.len()).rev() {
+            for j in (0..after.len()).rev() {
+                let alone = best[(i + 1) * wide + j].max(best[i * wide + j + 1]);
+                best[i * wide + j] = pair(i, j, &best).map_or(alone, |paired| paired.max(alone));
+            }
+        }
+        let (mut i, mut j) = (0, 0);
+        while i < before.len() && j < after.len() {
+            let now = best[i * wide + j];
+            if pair(i, j, &best) == Some(now) {
+                self.pairs.push((before[i], after[j]));
+                (i, j) = (i + 1, j + 1);
+            } else if best[(i + 1) * wide + j] == now {
+                self.lost.push(before[i]);
+                i += 1;
+            } else {
+                self.gained.push(after[j]);
+                j += 1;
+            }
+        }
+        self.lost.extend(&before[i..]);
+        self.gained.extend(&after[j..]);
+    }
+}
+
+/// How many keys of each list come before the first gap that no pair can bridge; at least one in all.
+fn first_cluster(before: &[Frame], after: &[Frame], tolerance: f64) -> (usize, usize) {
+    let (mut i, mut j) = (0, 0);
+    let mut last: Option<Frame> = None;
+    loop {
+        let next = match (before.get(i), after.get(j)) {
+            (Some(these), Some(those)) => *these.min(those),
+            (Some(frame), None) | (None, Some(frame)) => *frame,
+            (None, None) => return (i, j),
+        };
+        if last.is_some_and(|last| (next.0 - last.0) as f64 > tolerance) {
+            return (i, j);
+        }
+        if before.get(i) == Some(&next) {
+            i += 1;
+        } else {
+            j += 1;
+        }
+        last = Some(next);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn frames(numbers: &[usize]) -> Vec<Frame> {
+        numbers.iter().copied().map(Frame).collect()
+    }
+
+    fn matching(before: &[usize], after: &[usize], tolerance: f64) -> Matching {
+        Matching::between(&frames(before), &frames(after), tolerance)
+    }
+
+    /// The most pairs and the least way, by trying every partner for every key, in any order.
+    fn by_force(before: &[Frame], after: &[Frame], tolerance: f64) -> (usize, Reverse<usize>) {
+        let Some((first, rest)) = before.split_first() else { return (0, Reverse(0)) };
+        let mut best = by_force(rest, after, tolerance);
+        for (at, partner) in after.iter().enumerate() {
+            let way = first.0.abs_diff(partner.0);
+            if way as f64 <= tolerance {
+                let others = [&after[..at], &after[at + 1..]].concat();
+                let (pairs, Reverse(ways)) = by_force(rest, &others, tolerance);
+                best = best.max((pairs + 1, Reverse(ways + way)));
+            }
+        }
+        best
+    }
+
+    #[test]
+    fn keys_that_moved_are_paired_and_the_others_named() {
+        let found = matching(&[10, 50, 90], &[12, 88, 130], 5.0);
+        assert_eq!(found.pairs, [(Frame(10), Frame(12)), (Frame(90), Frame(88))]);
+        assert_eq!((&found.lost[..], &found.gained[..]), (&[Frame(50)][..], &[Frame(130)][..]));
+        assert_eq!((found.mean_move(), found.largest_move()), (Some(2.0), Some(2)));
+        assert_eq!(found.kept(), 4.0 / 6.0);
+        assert!(!found.is_whole());
+    }
+
+    #[test]
+    fn the_tolerance_is_included_and_may_be_a_part_of_a_frame() {
+        assert_eq!(matching(&[10], &[15], 5.0).pairs.len(), 1);
+        assert_eq!(matching(&[10], &[15], 4.99).pairs.len(), 0);
+        assert!(matching(&[7, 9], &[7, 9], 0.0).is_whole());
+    }
+
+    #[test]
+    fn more_pairs_come_before_nearer_ones() {
+        // 12 is nearest to 13, but then 10 would have nobody.
+        assert_eq!(
+            matching(&[10, 13], &[12, 17], 4.0).pairs,
+            [(Frame(10), Frame(12)), (Frame(13), Frame(17))]
+        );
+        // A chain in which every key must take the next one.
+        assert_eq!(matching(&[0, 5, 10, 15], &[5, 10, 15, 20], 5.0).pairs.len(), 4);
+    }
+
+    #[test]
+    fn empty_lists_are_the_same() {
+        let nothing = matching(&[], &[], 5.0);
+        assert!(nothing.is_empty() && nothing.is_whole());
+        assert_eq!(
+            (nothing.kept(), nothing.mean_move(), nothing.largest_move()),
+            (1.0, None, None)
+        );
+        assert_eq!(matching(&[3], &[], 5.0).kept(), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn no_other_matching_is_better(
+            mut before in prop::collection::vec(0usize..40, 0..7),
+            mut after in prop::collection::vec(0usize..40, 0..7),
+            tolerance in prop_oneof![Just(0.0), 0.0..12.0, Just(100.0)],
+        ) {
+            before.sort_unstable();
+            after.sort_unstable();
+            let (before, after) = (frames(&before), frames(&after));
+            let found = Matching::between(&before, &after, tolerance);
+            let way = found.moves().sum();
+            prop_assert_eq!((found.pairs.len(), Reverse(way)), by_force(&before, &after, tolerance));
+            prop_assert!(found.moves().all(|way| way as f64 <= tolerance));
+            let mut again: Vec<Frame> = found.pairs.iter().map(|pair| pair.0).collect();
+            again.extend(&found.lost);
+            again.sort_unstable();
+            prop_assert_eq!(again, before);
+            let mut again: Vec<Frame> = found.pairs.iter().map(|pair| pair.1).collect();
+            again.extend(&found.gained);
+            again.sort_unstable();
+            prop_assert_eq!(again, after);
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! What a study counted, as a map of both settings.
+
+use plotters::style::RGBColor;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::plot::axis::number;
+use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::study::{name, shown, title};
+use crate::plot::style;
+use crate::study::{Axis, Grid, Measure, Plateau};
+
+/// A measure in each cell of a study (設定の地図): the darker the more, with its value written in it
+/// where there is room. The first setting runs to the right, the second upwards; of several clips it is
+/// the median.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct HeatMap {
+    /// Which measure is drawn; default the union, what the paper counts.
+    pub show: Measure,
+}
+
+/// Px that all columns, or all rows, have together, unless a cell would be too large or too small.
+const COLUMNS: f64 = 800.0;
+const ROWS: f64 = 480.0;
+
+/// Px of a cell: the least and the largest width and height.
+const CELL: [(f64, f64); 2] = [(7.0, 72.0), (7.0, 34.0)];
+
+const TOP: f64 = 84.0;
+const BOTTOM: f64 = 62.0;
+/// Px from the cells down to the legend of what is marked.
+const LEGEND: f64 = 72.0;
+
+/// Few, half of the most, the most.
+const FEW: RGBColor = RGBColor(242, 246, 249);
+const HALF: RGBColor = RGBColor(112, 170, 212);
+const MOST: RGBColor = RGBColor(8, 48, 92);
+
+impl HeatMap {
+    /// Draws the study of one clip, or the median of several, as SVG. All grids are of one study.
+    /// `plateaus` are edged: the one in which keys are the very same, and the one in which they are
+    /// nearly so; then the cell of the recipe's own settings is marked, too.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] when there is no clip, the measure was not counted, or the picture would be
+    /// too large.
+    pub fn draw(
+        &self,
+        grids: &[Grid],
+        plateaus: Option<&[Option<Plateau>; 2]>,
+    ) -> Result<String, Error> {
+        let Some(grid) = grids.first() else {
+            return Err(style::cannot("a study without a clip has nothing to draw"));
+        };
+        let values = shown(grids, self.show)?;
+        let map = Map::of(grid, &values);
+        let (width, height) = map.size();
+        let height =
+            height + if plateaus.is_some() { LEGEND - BOTTOM + style::MARGIN } else { 0.0 };
+        if width.max(height) > 20_000.0 {
+            return Err(style::cannot(format!(
+                "{} × {} cells are too many to look at; take larger steps",
+                map.columns, map.rows
+            )));
+        }
+        paint((width as u32, height as u32), |canvas| {
+            title(canvas, self.show)?;
+            let of_clips = format!("median of {} clips", grids.len());
+            let faint = Type::new(style::WORDS).color(style::FAINT);
+            if grids.len() > 1 {
+                canvas.text(&of_clips, (style::MARGIN, 58.0), faint)?;
+            }
+            map.bar(canvas)?;
+            map.cells(canvas, &values)?;
+            if let Some(plateaus) = plateaus {
+                map.edges(canvas, grid, plateaus)?;
+            }
+            map.axes(canvas, grid)
+        })
+    }
+}
+
+/// Where the cells stand.
+struct Map {
+    columns: usize,
+    rows: usize,
+    left: f64,
+    /// Px of a cell.
+    cell: (f64, f64),
+    low: f64,
+    high: f64,
+    /// Size of the numbers in the cells, where there is room for any.
+    type_size: Option<f64>,
+}
+
+impl Map {
+    fn of(grid: &Grid, values: &[f64]) -> Self {
+        let (columns, rows) = (grid.x.len(), grid.rows());
+        let px = |all: f64, count: usize, (least, most): (f64, f64)| {
+            (all / count as f64).floor().clamp(least, most)
+        };
+        let cell = (px(COLUMNS, columns, CELL[0]), px(ROWS, rows, CELL[1]));
+        let finite = || values.iter().copied().filter(|value| value.is_finite());
+        let widest = values.iter().map(|value| style::text_width(&written(*value), 1.0));
+        let widest = widest.fold(0.57, f64::max);
+        let fits = ((cell.0 - 4.0) / widest).min(0.62 * cell.1).min(style::WORDS);
+        let labels = grid.y.iter().flat_map(Axis::values);
+        let label = labels.map(|value| style::text_width(value, style::SMALL)).fold(0.0, f64::max);
+        Self {
+            columns,
+            rows,
+            left: style::MARGIN + label + if grid.y.is_some() { 30.0 } else { 0.0 },
+            cell,
+            low: finite().fold(f64::INFINITY, f64::min),
+            high: finite().fold(f64::NEG_INFINITY, f64::max),
+            type_size: (fits >= 7.0).then_some(fits),
+        }
+    }
+
+    fn right(&self) -> f64 {
+        self.left + self.columns as f64 * self.cell.0
+    }
+
+    fn bottom(&self) -> f64 {
+        TOP + self.rows as f64 * self.cell.1
+    }
+
+    fn size(&self) -> (f64, f64) {
+        ((self.right() + style::MARGIN).max(560.0), self.bottom() + BOTTOM)
+    }
+
+    /// The upper left corner of a cell; the first row is the lowest.
+    fn corner(&self, x: usize, y: usize) -> Point {
+        (self.left + x as f64 * self.cell.0, self.bottom() - (y + 1) as f64 * self.cell.1)
+    }
+
+    /// 0 for the least, 1 for the most.
+    fn share(&self, value: f64) -> f64 {
+        if self.high > self.low { (value - self.low) / (self.high - self.low) } else { 0.0 }
+    }
+
+    fn cells(&self, canvas: &mut Canvas<'_>, values: &[f64]) -> Result<(), Error> {
+        // A hair of paper between cells that are large enough to show it.
+        let hair = if self.cell.0.min(self.cell.1) >= 14.0 { 0.5 } else { 0.0 };
+        for (at, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+            let (left, top) = self.corner(at / self.rows, at % self.rows);
+            let (right, bottom) = (left + self.cell.0, top + self.cell.1);
+            let share = self.share(*value);
+            canvas.rect((left + hair, top + hair), (right - hair, bottom - hair), color(share))?;
+            if let Some(size) = self.type_size {
+                let ink = if share > 0.55 { style::PAPER } else { style::INK };
+                let look = Type::new(size).color(ink).align(Align::Center);
+                let base = 0.5 * (top + bottom) + 0.36 * size;
+                canvas.text(&written(*value), (0.5 * (left + right), base), look)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn axes(&self, canvas: &mut Canvas<'_>, grid: &Grid) -> Result<(), Error> {
+        let look = Type::new(style::SMALL);
+        let widest = grid.x.values().iter().map(|value| style::text_width(value, style::SMALL));
+        let every = every(widest.fold(0.0, f64::max) + 8.0, self.cell.0);
+        for (x, value) in grid.x.values().iter().enumerate().step_by(every) {
+            let middle = self.left + (x as f64 + 0.5) * self.cell.0;
+            canvas.text(value, (middle, self.bottom() + 17.0), look.align(Align::Center))?;
+        }
+        let words = Type::new(style::WORDS);
+        let unit = |axis: &Axis| axis.scale().map_or(String::new(), |(_, unit)| unit.to_owned());
+        let middle = (0.5 * (self.left + self.right())).max(0.5 * self.size().0.min(560.0));
+        let place = (middle, self.bottom() + 42.0);
+        canvas.text(&name(&grid.x, &unit(&grid.x)), place, words.align(Align::Center))?;
+        let Some(axis) = &grid.y else { return Ok(()) };
+        for (y, value) in axis.values().iter().enumerate().step_by(self::every(14.0, self.cell.1)) {
+            let middle = self.bottom() - (y as f64 + 0.5) * self.cell.1;
+            canvas.text(value, (self.left - 8.0, middle + 4.0), look.align(Align::Right))?;
+        }
+        canvas.text(&name(axis, &unit(axis)), (style::MARGIN, TOP - 10.0), words)
+    }
+
+    /// The edges of plateaus and the recipe's own cell, and below the map what they are.
+    fn edges(
+        &self,
+        canvas: &mut Canvas<'_>,
+        grid: &Grid,
+        plateaus: &[Option<Plateau>; 2],
+    ) -> Result<(), Error> {
+        let base = self.bottom() + LEGEND;
+        let mut left = style::MARGIN;
+        let looks = [(style::GENGA, 2.0), (style::RIGHT, 4.0)];
+        let words = ["same keys 原画が同じ", "nearly the same ほぼ同じ"];
+        // The wider edge lies under the other.
+        for ((plateau, (color, width)), words) in plateaus.iter().zip(looks).zip(words).rev() {
+            let Some(plateau) = plateau else { continue };
+            for (from, to) in self.edge_of(grid, plateau) {
+                canvas.line(from, to, color, width)?;
+            }
+            canvas.line((left, base - 4.0), (left + 18.0, base - 4.0), color, width)?;
+            left = self.legend(canvas, left, base, words)?;
+        }
+        let Some(own) = grid.own else { return Ok(()) };
+        let (x, y) = self.corner(own / self.rows, own % self.rows);
+        let radius = (0.2 * self.cell.0.min(self.cell.1)).clamp(2.0, 4.5);
+        let place = (x + self.cell.0 - radius - 2.0, y + radius + 2.0);
+        for place in [place, (left + 9.0, base - 4.0)] {
+            canvas.disc(place, radius + 1.0, style::PAPER)?;
+            canvas.disc(place, radius, style::GENGA)?;
+        }
+        self.legend(canvas, left, base, "the recipe 現在のレシピ").map(drop)
+    }
+
+    /// Words of the legend behind a mark; where the next mark begins.
+    fn legend(
+        &self,
+        canvas: &mut Canvas<'_>,
+        left: f64,
+        base: f64,
+        words: &str,
+    ) -> Result<f64, Error> {
+        canvas.text(words, (left + 25.0, base), Type::new(style::SMALL))?;
+        Ok(left + 25.0 + style::text_width(words, style::SMALL) + 22.0)
+    }
+
+    /// The sides of cells behind which the plateau ends.
+    fn edge_of(&self, grid: &Grid, plateau: &Plateau) -> Vec<(Point, Point)> {
+        let mut edge = Vec::new();
+        for at in &plateau.cells {
+            let (x, y) = (at / self.rows, at % self.rows);
+            let (left, top) = self.corner(x, y);
+            let (right, bottom) = (left + self.cell.0, top + self.cell.1);
+            let holds = |beside: Option<usize>| beside.is_some_and(|at| plateau.holds(at));
+            let beside = |x: Option<usize>, y: Option<usize>| {
+                let (x, y) = (x?, y?);
+                (x < grid.x.len() && y < self.rows).then_some(x * self.rows + y)
+            };
+            for (other, from, to) in [
+                (beside(x.checked_sub(1), Some(y)), (left, top), (left, bottom)),
+                (beside(Some(x + 1), Some(y)), (right, top), (right, bottom)),
+                (beside(Some(x), Some(y + 1)), (left, top), (right, top)),
+                (beside(Some(x), y.checked_sub(1)), (left, bottom), (right, bottom)),
+            ] {
+                if !holds(other) {
+                    edge.push((from, to));
+                }
+            }
+        }
+        edge
+    }
+
+    /// What the colours mean, at the upper right.
+    fn bar(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+        const STEPS: usize = 24;
+        let (width, right) = (96.0, self.size().0 - style::MARGIN);
+        let look = Type::new(style::SMALL);
+        let most = written(self.high);
+        let right = right - style::text_width(&most, style::SMALL) - 6.0;
+        for step in 0..STEPS {
+            let left = right - width + width * step as f64 / STEPS as f64;
+            let share = step as f64 / (STEPS - 1) as f64;
+            canvas.rect((left, 50.0), (left + width / STEPS as f64, 60.0), color(share))?;
+        }
+        canvas.text(&most, (right + 6.0, 59.0), look)?;
+        let least = written(self.low);
+        canvas.text(&least, (right - width - 6.0, 59.0), look.align(Align::Right))
+    }
+}
+
+fn color(share: f64) -> RGBColor {
+    if share < 0.5 {
+        style::mixed(FEW, HALF, 2.0 * share)
+    } else {
+        style::mixed(HALF, MOST, 2.0 * share - 1.0)
+    }
+}
+
+/// A value with no more digits than can be taken in at a glance.
+fn written(value: f64) -> String {
+    match value.abs() {
+        size if size >= 1e5 => format!("{value:.1e}"),
+        size if size >= 100.0 => number(value.round()),
+        size if size >= 1.0 => number((value * 10.0).round() / 10.0),
+        _ => number((value * 100.0).round() / 100.0),
+    }
+}
+
+/// Every how many labels of a size have room.
+fn every(label: f64, cell: f64) -> usize {
+    (label / cell).ceil().max(1.0) as usize
+}

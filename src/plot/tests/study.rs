@@ -1,0 +1,166 @@
+//! Curves and maps of studies.
+
+use super::*;
+use crate::study::{Cell, Grid, Measure, Plateau};
+
+/// A grid of the union and the total, ten times as large.
+fn grid(x: &str, y: Option<&str>, union: &[f64]) -> Grid {
+    let cell = |union: &f64| Cell { values: vec![*union, 10.0 * union], keys: None };
+    let grid = Grid {
+        x: x.parse().unwrap(),
+        y: y.map(|y| y.parse().unwrap()),
+        measures: vec![Measure::Union, Measure::Total],
+        frames_in_koma: 5.0,
+        own: None,
+        cells: union.iter().map(cell).collect(),
+    };
+    assert_eq!(grid.cells.len(), grid.x.len() * grid.rows());
+    grid
+}
+
+fn small() -> Grid {
+    grid("filter.width=10,20", Some("turns.persistence=5,10"), &[90.0, 60.0, 70.0, 40.0])
+}
+
+#[test]
+fn a_study_plot_refuses_what_cannot_be() {
+    for (plot, name) in [
+        (StudyPlot { width: 0, ..StudyPlot::default() }, "width"),
+        (StudyPlot { height: 50_000, ..StudyPlot::default() }, "height"),
+    ] {
+        has_setting_error(plot.validate(), name);
+        has_setting_error(plot.draw(&[small()]), name);
+    }
+    let says = |plot: StudyPlot, grids: &[Grid], says: &str| {
+        let said = plot.draw(grids).unwrap_err().to_string();
+        assert!(said.contains(says), "{said}");
+    };
+    says(StudyPlot::default(), &[], "without a clip");
+    says(
+        StudyPlot { show: Measure::LayerKeys, ..StudyPlot::default() },
+        &[small()],
+        "layer_keys was not",
+    );
+    let paper = StudyPlot { paper: true, ..StudyPlot::default() };
+    for x in ["filter.width=0.1s,0.2s", "turns.steady=10,20"] {
+        let other = grid(x, Some("turns.persistence=5,10"), &[1.0; 4]);
+        says(paper.clone(), &[other], "in frames alone");
+    }
+}
+
+#[test]
+fn a_study_has_a_line_a_value_and_the_papers_marks_beside() {
+    let plot = StudyPlot { paper: true, ..StudyPlot::default() };
+    let svg = plot.draw(&[small()]).unwrap();
+    assert_eq!(tags(&svg, "polyline", "").len(), 2);
+    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 6 + 1, "six values and the legend");
+    assert!(words(&svg).contains(&"filter.width (source frames)  フィルタの適用範囲"));
+    let svg = StudyPlot::default().draw(&[small()]).unwrap();
+    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 0);
+}
+
+#[test]
+fn a_study_draws_the_measure_it_is_asked_for() {
+    let draw = |show| StudyPlot { show, ..StudyPlot::default() }.draw(&[small()]).unwrap();
+    assert!(words(&draw(Measure::Total)).contains(&"800"));
+    assert!(words(&draw(Measure::Total)).contains(&"Keys of all joints  全関節の原画の合計"));
+    assert!(!words(&draw(Measure::Union)).contains(&"800"));
+    let zero = grid("filter.width=0", None, &[0.0]);
+    assert!(StudyPlot::default().draw(&[zero]).is_ok());
+}
+
+#[test]
+fn several_clips_are_thin_lines_behind_their_median() {
+    let clip = |value: f64| grid("filter.width=10,20,30", None, &[value, value + 1.0, value]);
+    let svg = StudyPlot::default().draw(&[clip(1.0), clip(9.0), clip(5.0)]).unwrap();
+    assert_eq!(tags(&svg, "polyline", "").len(), 3 + 1);
+    let heat = HeatMap::default().draw(&[clip(1.0), clip(9.0), clip(5.0)], None).unwrap();
+    let words = words(&heat);
+    assert_eq!(words.iter().filter(|word| **word == "5").count(), 2 + 1, "two cells and the scale");
+    assert!(words.contains(&"median of 3 clips"));
+}
+
+#[test]
+fn words_stand_on_an_axis_one_after_the_other() {
+    let kinds = grid("filter.kind=box,ideal,gaussian", None, &[3.0, 5.0, 4.0]);
+    for svg in [
+        StudyPlot::default().draw(std::slice::from_ref(&kinds)),
+        HeatMap::default().draw(std::slice::from_ref(&kinds), None),
+    ] {
+        let svg = svg.unwrap();
+        for kind in ["box", "ideal", "gaussian"] {
+            assert!(words(&svg).contains(&kind), "{kind}");
+        }
+    }
+}
+
+#[test]
+fn of_many_lines_a_few_are_named() {
+    let many = grid("filter.width=1,2", Some("turns.persistence=1..100:1"), &[7.0; 200]);
+    let svg = StudyPlot::default().draw(&[many]).unwrap();
+    assert_eq!(tags(&svg, "polyline", "").len(), 100);
+    let named = ["1", "18", "35", "52", "69", "100"];
+    let is_named = |y: &String| words(&svg).contains(&y.as_str());
+    let found: Vec<String> = (10..=100).map(|y| y.to_string()).filter(is_named).collect();
+    assert_eq!(found, named[1..]);
+}
+
+#[test]
+fn a_map_has_a_number_in_each_cell_that_has_room() {
+    let svg = HeatMap::default().draw(&[small()], None).unwrap();
+    for value in ["90", "60", "70", "40"] {
+        assert!(words(&svg).contains(&value), "{value}");
+    }
+    // The first setting runs to the right, the second upwards.
+    let place = |word: &str| {
+        let tag = svg.lines().zip(svg.lines().skip(1)).find(|(_, text)| *text == word).unwrap().0;
+        let number = |name: &str| -> f64 {
+            tag.split_once(&format!("{name}=\""))
+                .unwrap()
+                .1
+                .split('"')
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap()
+        };
+        (number(" x"), number(" y"))
+    };
+    assert!(place("70").0 > place("60").0, "width 20 stands right of 10");
+    assert!(place("60").1 < place("70").1, "persistence 10 stands above 5");
+    let values: Vec<f64> = (0..10_000).map(f64::from).collect();
+    let fine = grid("filter.width=1..100:1", Some("turns.persistence=1..100:1"), &values);
+    let svg = HeatMap::default().draw(&[fine], None).unwrap();
+    assert!(words(&svg).len() < 120, "no room for numbers");
+    let wide = grid("filter.width=1..5000:1", None, &[1.0; 5000]);
+    assert!(
+        HeatMap::default().draw(&[wide], None).unwrap_err().to_string().contains("larger steps")
+    );
+    assert!(HeatMap::default().draw(&[], None).is_err());
+    assert!(HeatMap { show: Measure::LayerKeys }.draw(&[small()], None).is_err());
+}
+
+#[test]
+fn a_small_study_looks_as_it_did() {
+    let plot = StudyPlot { width: 400, height: 300, ..StudyPlot::default() };
+    insta::assert_snapshot!(plot.draw(&[small()]).unwrap());
+}
+
+#[test]
+fn a_plateau_is_edged_where_it_ends_and_the_recipes_cell_is_marked() {
+    let mut grid = small();
+    grid.own = Some(3);
+    // Columns 0 1 | 2 3 from left to right, each from below: three cells in the form of an L.
+    let plateau = Plateau { seed: 0, cells: vec![0, 1, 2], keys: 7 };
+    let svg = HeatMap::default().draw(&[grid], Some(&[Some(plateau), None])).unwrap();
+    let edge = tags(&svg, "line", &format!("stroke=\"{GENGA}\""));
+    assert_eq!(edge.len(), 8 + 1, "its eight outer sides and the legend");
+    assert_eq!(tags(&svg, "circle", GENGA).len(), 2, "the cell and the legend");
+    assert!(words(&svg).contains(&"same keys 原画が同じ"));
+    assert!(!words(&svg).contains(&"nearly the same ほぼ同じ"));
+}
+
+#[test]
+fn a_small_map_looks_as_it_did() {
+    insta::assert_snapshot!(HeatMap::default().draw(&[small()], None).unwrap());
+}

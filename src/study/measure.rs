@@ -1,0 +1,213 @@
+//! What of a cell is counted, and how far the chain has to run for it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::keys::LayerKeys;
+use crate::motion::Clip;
+use crate::sheet::{Layer, Role};
+use crate::signal::Turn;
+use crate::study::{total, union};
+use crate::timing::Stills;
+
+/// What is counted in a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Distinct frames that are a key of any joint: what the paper counts.
+    #[default]
+    Union,
+    /// Keys summed over the joints.
+    Total,
+    /// Keys of the layer, after price and limit.
+    LayerKeys,
+    /// Drawings on the sheet.
+    Drawings,
+    /// Drawings a second.
+    DrawingsPerSecond,
+    /// Genga a second.
+    GengaPerSecond,
+    /// Koma of the longest exposure.
+    LongestHold,
+    /// Koma that repeat the drawing before them.
+    HeldKoma,
+    /// The largest SSD from one drawing on screen to the next: how far the worst step jumps.
+    PeakSsd,
+    /// The median SSD from one drawing on screen to the next: how far a usual step goes.
+    MedianSsd,
+}
+
+/// How far the chain has to run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Reach {
+    Turns,
+    Keys,
+    Sheet,
+}
+
+/// What was found in a cell; what nothing asks for is not there.
+pub(super) struct Found<'a> {
+    pub(super) clip: &'a Clip,
+    pub(super) turns: &'a [Vec<Turn>],
+    pub(super) keys: Option<&'a LayerKeys>,
+    /// The layer, and koma a second.
+    pub(super) layer: Option<(&'a Layer, f64)>,
+}
+
+impl Measure {
+    /// Every measure, in the order of the chain.
+    pub const ALL: [Self; 10] = [
+        Self::Union,
+        Self::Total,
+        Self::LayerKeys,
+        Self::Drawings,
+        Self::DrawingsPerSecond,
+        Self::GengaPerSecond,
+        Self::LongestHold,
+        Self::HeldKoma,
+        Self::PeakSsd,
+        Self::MedianSsd,
+    ];
+
+    /// Its name, that of its column.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Union => "union",
+            Self::Total => "total",
+            Self::LayerKeys => "layer_keys",
+            Self::Drawings => "drawings",
+            Self::DrawingsPerSecond => "drawings_per_second",
+            Self::GengaPerSecond => "genga_per_second",
+            Self::LongestHold => "longest_hold",
+            Self::HeldKoma => "held_koma",
+            Self::PeakSsd => "peak_ssd",
+            Self::MedianSsd => "median_ssd",
+        }
+    }
+
+    /// What it is, for a person, in English and Japanese.
+    pub fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Union => ("frames with a key of any joint", "いずれかの関節の原画があるフレーム"),
+            Self::Total => ("keys of all joints", "全関節の原画の合計"),
+            Self::LayerKeys => ("keys of the layer", "セルの原画"),
+            Self::Drawings => ("drawings on the sheet", "動画枚数"),
+            Self::DrawingsPerSecond => ("drawings a second", "毎秒の枚数"),
+            Self::GengaPerSecond => ("genga a second", "毎秒の原画数"),
+            Self::LongestHold => ("longest hold, koma", "最長の止め（コマ）"),
+            Self::HeldKoma => ("held koma", "止めのコマ数"),
+            Self::PeakSsd => ("largest SSD between drawings", "SSD の最大値"),
+            Self::MedianSsd => ("median SSD between drawings", "SSD の中央値"),
+        }
+    }
+
+    pub(super) fn reach(self) -> Reach {
+        match self {
+            Self::Union | Self::Total => Reach::Turns,
+            Self::LayerKeys => Reach::Keys,
+            _ => Reach::Sheet,
+        }
+    }
+
+    /// Its value; NaN where the chain did not run so far.
+    pub(super) fn of(self, found: &Found<'_>) -> f64 {
+        match self {
+            Self::Union => union(found.turns) as f64,
+            Self::Total => total(found.turns) as f64,
+            Self::LayerKeys => found.keys.map_or(f64::NAN, |keys| keys.keys.len() as f64),
+            _ => found.layer.map_or(f64::NAN, |layer| self.of_layer(found.clip, layer)),
+        }
+    }
+
+    fn of_layer(self, clip: &Clip, (layer, koma_rate): (&Layer, f64)) -> f64 {
+        let per_second = |count: usize| count as f64 * koma_rate / layer.length() as f64;
+        match self {
+            Self::Drawings => layer.shown().count() as f64,
+            Self::DrawingsPerSecond => per_second(layer.shown().count()),
+            Self::GengaPerSecond => per_second(layer.count(Role::Genga)),
+            Self::LongestHold => layer.longest_hold() as f64,
+            Self::HeldKoma => layer.held_koma() as f64,
+            Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),
+            Self::MedianSsd => median(&steps(clip, layer)).unwrap_or(0.0),
+            Self::Union | Self::Total | Self::LayerKeys => f64::NAN,
+        }
+    }
+}
+
+/// The SSD of each drawing on screen to the one before, from the least.
+fn steps(clip: &Clip, layer: &Layer) -> Vec<f64> {
+    let stills = Stills::of(clip, layer);
+    let pairs = layer.exposures.windows(2);
+    let mut steps: Vec<f64> =
+        pairs.map(|pair| stills.ssd(pair[0].drawing, pair[1].drawing)).collect();
+    steps.sort_by(f64::total_cmp);
+    steps
+}
+
+/// The middle of sorted values, the mean of both middles for an even number; none of none.
+pub(super) fn median(sorted: &[f64]) -> Option<f64> {
+    let middle = sorted.len() / 2;
+    let upper = *sorted.get(middle)?;
+    Some(if sorted.len().is_multiple_of(2) { 0.5 * (sorted[middle - 1] + upper) } else { upper })
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Measure {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let named = |measure: &Self| measure.name() == text.trim();
+        Self::ALL.into_iter().find(named).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name).join(", ");
+            Error::setting("measure", format!("expected one of {names}, found \"{text}\""))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::Sheet;
+    use crate::study::tests::swinging;
+
+    #[test]
+    fn a_measure_is_called_what_its_file_calls_it() {
+        for measure in Measure::ALL {
+            assert_eq!(measure.name().parse::<Measure>().unwrap(), measure);
+            let json = serde_json::to_string(&measure).unwrap();
+            assert_eq!(json, format!("\"{measure}\""));
+        }
+        let said = "keys".parse::<Measure>().unwrap_err().to_string();
+        assert!(said.contains("union, total, layer_keys"), "{said}");
+    }
+
+    #[test]
+    fn ssd_is_from_what_is_on_screen_to_the_next_that_is() {
+        let clip = swinging(40);
+        let mut layer = Sheet::on_ones(clip.clock(24.0), 5).layers.remove(0);
+        let stills = Stills::of(&clip, &layer);
+        let of = |measure: Measure, layer: &Layer| measure.of_layer(&clip, (layer, 24.0));
+        let mut steps: Vec<f64> = (0..4).map(|at| stills.ssd(at, at + 1)).collect();
+        steps.sort_by(f64::total_cmp);
+        assert_eq!(of(Measure::PeakSsd, &layer), steps[3]);
+        assert_eq!(of(Measure::MedianSsd, &layer), 0.5 * (steps[1] + steps[2]));
+        layer.exposures.remove(1);
+        layer.exposures[0].koma = 2;
+        assert_eq!(of(Measure::DrawingsPerSecond, &layer), 4.0 * 24.0 / 5.0);
+        assert_eq!(of(Measure::HeldKoma, &layer), 1.0);
+        let mut steps = [stills.ssd(0, 2), stills.ssd(2, 3), stills.ssd(3, 4)];
+        steps.sort_by(f64::total_cmp);
+        assert_eq!(of(Measure::PeakSsd, &layer), steps[2]);
+        assert_eq!(of(Measure::MedianSsd, &layer), steps[1]);
+        layer.exposures.truncate(1);
+        assert_eq!(of(Measure::PeakSsd, &layer), 0.0, "one drawing jumps nowhere");
+    }
+}

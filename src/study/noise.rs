@@ -1,0 +1,143 @@
+//! Noise on the rotations of a clip: what a capture might as well have been.
+
+use crate::error::Error;
+use crate::motion::{Channel, Clip};
+use crate::recipe::{Kind, Knob};
+
+/// How strong the noise is; no knob of a recipe, but an axis of a study.
+pub(super) const NOISE: Knob = Knob {
+    name: "noise",
+    japanese: "ノイズ",
+    kind: Kind::Number { min: 0.0, max: 10.0, whole: false, optional: false },
+    unit: "degrees",
+    help: "Gaussian noise on every rotation channel of the clip, as a standard deviation.",
+};
+
+/// Which noise of that strength.
+pub(super) const SEED: Knob = Knob {
+    name: "noise.seed",
+    japanese: "ノイズの種",
+    kind: Kind::Number { min: 0.0, max: 1e9, whole: true, optional: false },
+    unit: "a whole number",
+    help: "Another number is another noise of the same strength.",
+};
+
+/// Noise (ノイズ) that a study adds to every rotation channel of a clip, frame by frame and each
+/// channel by itself.
+///
+/// It is always the same for the same seed, frame number and channel, and twice the degrees are twice
+/// the same noise: what changes from one strength to the next is the strength alone.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Noise {
+    /// Standard deviation in degrees, 0 to 180; default 0, no noise.
+    pub degrees: f64,
+    /// Which noise; default 0.
+    pub seed: u64,
+}
+
+impl Noise {
+    /// Checks the strength.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] named `noise` outside 0 to 180 degrees.
+    pub fn validate(&self) -> Result<(), Error> {
+        if (0.0..=180.0).contains(&self.degrees) {
+            return Ok(());
+        }
+        Err(Error::setting(NOISE.name, format!("{} is not 0 to 180 degrees", self.degrees)))
+    }
+
+    /// The clip with the noise on it.
+    pub fn on(&self, clip: &Clip) -> Clip {
+        let skeleton = clip.skeleton();
+        let mut is_rotation = vec![false; skeleton.channels()];
+        for joint in &skeleton.joints {
+            for (at, channel) in joint.channels.iter().enumerate() {
+                is_rotation[joint.first_channel + at] = matches!(channel, Channel::Rotation(_));
+            }
+        }
+        let mut values = Vec::with_capacity(clip.len() * skeleton.channels());
+        for (row, channels) in clip.rows().enumerate() {
+            let frame = mixed(mixed(self.seed) ^ (clip.first().0 + row) as u64);
+            for (channel, (value, is_rotation)) in channels.iter().zip(&is_rotation).enumerate() {
+                let noise =
+                    if *is_rotation { self.degrees * normal(frame ^ channel as u64) } else { 0.0 };
+                values.push(value + noise);
+            }
+        }
+        Clip::of_finite(skeleton.clone(), clip.rate(), clip.first(), clip.len(), values)
+    }
+}
+
+/// A nearly normal number of mean 0 and deviation 1: twelve even ones added. Unlike a logarithm and a
+/// cosine that is the same to the last bit on every machine; nothing lies beyond 6.
+fn normal(at: u64) -> f64 {
+    let word = |of: u64| mixed(at.wrapping_mul(3).wrapping_add(of));
+    let quarters = |word: u64| (0..4).map(|part| (word >> (16 * part)) & 0xffff).sum::<u64>();
+    let sum: u64 = (0..3).map(|of| quarters(word(of))).sum();
+    // Each of the twelve is a middle of one of 65536 equal parts of 0 to 1.
+    (sum as f64 + 6.0) / 65536.0 - 6.0
+}
+
+/// A number that looks drawn by lot for each number (the finaliser of SplitMix64).
+fn mixed(number: u64) -> u64 {
+    let mut mixed = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::tests::swinging;
+    use crate::time::Frame;
+
+    fn differences(noise: Noise, clip: &Clip) -> Vec<f64> {
+        let noisy = noise.on(clip);
+        assert_eq!(
+            (noisy.first(), noisy.len(), noisy.rate()),
+            (clip.first(), clip.len(), clip.rate())
+        );
+        let rows = noisy.rows().zip(clip.rows());
+        rows.flat_map(|(noisy, clean)| {
+            noisy.iter().zip(clean).map(|(a, b)| a - b).collect::<Vec<_>>()
+        })
+        .collect()
+    }
+
+    #[test]
+    fn noise_has_the_deviation_it_is_asked_for_on_rotations_alone() {
+        let clip = swinging(2000);
+        let channels = clip.skeleton().channels();
+        let noise = differences(Noise { degrees: 2.0, seed: 0 }, &clip);
+        let (positions, rotations): (Vec<_>, Vec<_>) =
+            noise.into_iter().enumerate().partition(|(at, _)| at % channels < 3);
+        assert!(positions.iter().all(|(_, noise)| *noise == 0.0), "the root's way is left alone");
+        let count = rotations.len() as f64;
+        let mean = rotations.iter().map(|(_, noise)| noise).sum::<f64>() / count;
+        let deviation =
+            (rotations.iter().map(|(_, noise)| noise * noise).sum::<f64>() / count).sqrt();
+        // Some 18000 numbers: four standard errors.
+        assert!(mean.abs() < 4.0 * 2.0 / count.sqrt(), "{mean}");
+        assert!((deviation - 2.0).abs() < 4.0 * 2.0 / (2.0 * count).sqrt(), "{deviation}");
+        let within = rotations.iter().filter(|(_, noise)| noise.abs() < 2.0).count() as f64 / count;
+        assert!((within - 0.683).abs() < 0.02, "{within} within one deviation");
+    }
+
+    #[test]
+    fn a_frame_has_its_noise_whatever_the_trim_and_twice_is_twice() {
+        let clip = swinging(60);
+        let noise = Noise { degrees: 1.0, seed: 7 };
+        let trimmed = clip.clone().trimmed(Frame(10), Frame(20)).unwrap();
+        assert_eq!(noise.on(&trimmed).row(Frame(12)), noise.on(&clip).row(Frame(12)));
+        let [once, twice] =
+            [1.0, 2.0].map(|degrees| differences(Noise { degrees, ..noise }, &clip));
+        assert!(once.iter().zip(&twice).all(|(once, twice)| (2.0 * once - twice).abs() < 1e-9));
+        assert_ne!(once, differences(Noise { seed: 8, ..noise }, &clip));
+        assert_eq!(Noise::default().on(&clip), clip);
+        for degrees in [-1.0, 181.0, f64::NAN] {
+            assert!(Noise { degrees, seed: 0 }.validate().is_err());
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The cells of a study, each measured once, on every core.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::motion::Clip;
+use crate::pipeline::Engine;
+use crate::recipe::{KNOBS, Recipe};
+use crate::study::axis::{Axis, Setting};
+use crate::study::grid::{Cell, Grid};
+use crate::study::measure::{Found, Measure, Reach};
+use crate::study::noise::Noise;
+use crate::time::FrameRate;
+
+/// Pieces of work for each thread: fewer would leave some waiting for the last, and each begins with
+/// stages that the piece before it has made, too.
+const PIECES: usize = 4;
+
+/// The most cells of a study.
+const MOST: usize = 1_000_000;
+
+/// Sections of the recipe, and what stands before them, in the order in which the chain uses them.
+const CHAIN: [&str; 8] =
+    ["noise", "speed", "filter", "turns", "rate", "keys", "spacing", "omission"];
+
+/// A study (調査): a recipe with one or two of its settings varied, and what is counted in each cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Every setting that is on no axis.
+    pub recipe: Recipe,
+    /// The setting that is varied.
+    pub x: Axis,
+    /// Another one, varied for each value of the first.
+    pub y: Option<Axis>,
+    /// What is counted. The chain runs no further than this asks: `union` and `total` need neither
+    /// merge nor prices, which take most of the time.
+    pub measures: Vec<Measure>,
+    /// Whether each cell keeps its layer keys, to be compared with others.
+    pub keep_keys: bool,
+}
+
+impl Study {
+    /// Checks the recipe, every value in its place in it, and that there is something to count.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the knob.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.recipe.validate()?;
+        if self.measures.is_empty() {
+            return Err(Error::setting("measure", "there is nothing to count; name a measure"));
+        }
+        if let Some(y) = self.y.as_ref().filter(|y| y.name() == self.x.name()) {
+            return Err(Error::setting(y.name(), "is on both axes; vary another setting"));
+        }
+        if self.len() > MOST {
+            let message = format!("{} cells are too many; {MOST} at the most", self.len());
+            return Err(Error::setting(self.x.name(), message));
+        }
+        for axis in [Some(&self.x), self.y.as_ref()].into_iter().flatten() {
+            axis.values().iter().try_for_each(|value| self.base().set(axis.name(), value))?;
+        }
+        Ok(())
+    }
+
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.x.len() * self.y.as_ref().map_or(1, Axis::len)
+    }
+
+    /// Whether there is no cell; no study is so.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Measures every cell; `done` is called after each, from several threads.
+    ///
+    /// # Errors
+    /// Those of [`Study::validate`] and of [`Engine::run`].
+    pub fn run(&self, clip: impl Into<Arc<Clip>>, done: impl Fn() + Sync) -> Result<Grid, Error> {
+        self.validate()?;
+        let order = self.chain_order();
+        // The first cell makes what all have in common; each thread begins with a clone of that.
+        let mut bench = Bench::new(clip.into())?;
+        self.measured(&mut bench, order[0])?;
+        let piece = order.len().div_ceil(PIECES * rayon::current_num_threads());
+        let measured: Vec<(usize, Result<Cell, Error>)> = order
+            .into_par_iter()
+            .with_min_len(piece)
+            .map_init(
+                || bench.clone(),
+                |bench, at| {
+                    let cell = self.measured(bench, at);
+                    done();
+                    (at, cell)
+                },
+            )
+            .collect();
+        let mut cells = vec![None; self.len()];
+        for (at, cell) in measured {
+            cells[at] = Some(cell?);
+        }
+        Ok(Grid {
+            x: self.x.clone(),
+            y: self.y.clone(),
+            measures: self.measures.clone(),
+            own: self.own_cell(bench.clean.rate()),
+            frames_in_koma: bench.clean.clock(self.recipe.rate).frames_in_koma(),
+            cells: cells.into_iter().flatten().collect(),
+        })
+    }
+
+    fn base(&self) -> Setting {
+        Setting { recipe: self.recipe.clone(), noise: Noise::default() }
+    }
+
+    /// The cells in the order in which the least has to be made again: what the chain uses first
+    /// changes last.
+    fn chain_order(&self) -> Vec<usize> {
+        let rows = self.y.as_ref().map_or(1, Axis::len);
+        let columns = self.x.len();
+        match &self.y {
+            Some(y) if place(y.name()) < place(self.x.name()) => {
+                (0..rows).flat_map(|y| (0..columns).map(move |x| x * rows + y)).collect()
+            }
+            _ => (0..rows * columns).collect(),
+        }
+    }
+
+    fn setting(&self, at: usize) -> Result<Setting, Error> {
+        let rows = self.y.as_ref().map_or(1, Axis::len);
+        let mut setting = self.base();
+        setting.set(self.x.name(), &self.x.values()[at / rows])?;
+        if let Some(y) = &self.y {
+            setting.set(y.name(), &y.values()[at % rows])?;
+        }
+        Ok(setting)
+    }
+
+    fn measured(&self, bench: &mut Bench, at: usize) -> Result<Cell, Error> {
+        let setting = self.setting(at)?;
+        let found = bench.found(&setting, self.reach())?;
+        let values = self.measures.iter().map(|measure| measure.of(&found)).collect();
+        let frames =
+            |keys: &crate::keys::LayerKeys| keys.keys.iter().map(|key| key.frame).collect();
+        Ok(Cell { values, keys: found.keys.filter(|_| self.keep_keys).map(frames) })
+    }
+
+    /// The cell nearest to the recipe's own settings.
+    fn own_cell(&self, rate: FrameRate) -> Option<usize> {
+        let base = self.base();
+        let place = |axis: &Axis| axis.nearest_at(&base.get(axis.name()).ok()?, rate);
+        let y = self.y.as_ref().map_or(Some(0), place)?;
+        Some(place(&self.x)? * self.y.as_ref().map_or(1, Axis::len) + y)
+    }
+
+    /// How far the chain has to run.
+    fn reach(&self) -> Reach {
+        let asked = self.measures.iter().map(|measure| measure.reach());
+        let keys = self.keep_keys.then_some(Reach::Keys);
+        asked.chain(keys).max().unwrap_or(Reach::Turns)
+    }
+}
+
+/// Where the chain uses a setting.
+fn place(name: &str) -> (usize, usize) {
+    let section = name.split('.').next().unwrap_or_default();
+    let section = CHAIN.iter().position(|own| *own == section).unwrap_or(CHAIN.len());
+    (section, KNOBS.iter().position(|knob| knob.name == name).unwrap_or(0))
+}
+
+/// An engine and the noise on its clip.
+#[derive(Clone)]
+struct Bench {
+    clean: Arc<Clip>,
+    noise: Noise,
+    engine: Engine,
+}
+
+impl Bench {
+    fn new(clip: Arc<Clip>) -> Result<Self, Error> {
+        let engine = Engine::new(Arc::clone(&clip))?;
+        Ok(Self { clean: clip, noise: Noise::default(), engine })
+    }
+
+    /// Runs the chain so far.
+    fn found(&mut self, setting: &Setting, reach: Reach) -> Result<Found<'_>, Error> {
+        if setting.noise != self.noise {
+            self.engine = Engine::new(setting.noise.on(&self.clean))?;
+            self.noise = setting.noise;
+        }
+        let (recipe, edits) = (&setting.recipe, Edits::default());
+        let clip = &*self.clean;
+        Ok(match reach {
+            Reach::Turns => {
+                let turns = self.engine.find_turns(recipe)?;
+                Found { clip, turns, keys: None, layer: None }
+            }
+            Reach::Keys => {
+                let (turns, keys) = self.engine.find_keys(recipe, &edits)?;
+                Found { clip, turns, keys: Some(keys), layer: None }
+            }
+            Reach::Sheet => {
+                let run = self.engine.run(recipe, &edits)?;
+                let layer = Some((&run.sheet.layers[0], run.clock.koma_rate));
+                Found { clip: run.clip, turns: run.turns, keys: Some(run.keys), layer }
+            }
+        })
+    }
+}

@@ -1,0 +1,173 @@
+//! `genga study`, as a person or a script uses it.
+
+use std::fs;
+
+use crate::program::{Place, SAMPLES, column, text};
+
+fn numbers(table: &str, name: &str) -> Vec<f64> {
+    column(table, name).iter().map(|cell| cell.parse().unwrap()).collect()
+}
+
+#[test]
+fn table_1_has_a_row_a_cell_and_persistence_runs_fastest() {
+    let place = Place::new();
+    for name in SAMPLES {
+        let table = place.done(&format!("study data/{name}.bvh"));
+        let header = "clip,filter.width,turns.persistence,union,total,layer_keys\n";
+        assert!(table.starts_with(header), "{table}");
+        assert_eq!(column(&table, "clip"), [name; 6]);
+        assert_eq!(column(&table, "filter.width"), ["10", "10", "20", "20", "30", "30"]);
+        assert_eq!(column(&table, "turns.persistence"), ["5", "10", "5", "10", "5", "10"]);
+        let (total, union) = (numbers(&table, "total"), numbers(&table, "union"));
+        assert!(total.iter().zip(&union).all(|(total, union)| total >= union));
+        assert!(union.chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
+    }
+    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.png -q");
+    for picture in ["s.png", "h.png"] {
+        assert!(fs::read(place.path(picture)).unwrap().starts_with(b"\x89PNG"));
+    }
+    let written = fs::read_to_string(place.path("s.csv")).unwrap();
+    assert_eq!(written, place.done("study data/kick.bvh"));
+}
+
+#[test]
+fn the_short_options_take_lists_and_ranges() {
+    let place = Place::new();
+    let table =
+        place.done("study data/kick.bvh --filter-width 0.2s,7 --persistence 3 --filter ideal");
+    assert_eq!(column(&table, "filter.width"), ["0.2s", "7"]);
+    let short = place.done("study data/kick.bvh --filter-width 4..8:2 --persistence 2..3:1");
+    assert_eq!(column(&short, "filter.width"), ["4", "4", "6", "6", "8", "8"]);
+    // The long ones start from the recipe of a run, so that is given too.
+    fs::write(place.path("table-1.toml"), place.done("recipe --study")).unwrap();
+    let long = "study data/kick.bvh --recipe table-1.toml --x filter.width=4,6,8 --y turns.persistence=2,3";
+    assert_eq!(place.done(long), short);
+}
+
+#[test]
+fn any_setting_is_an_axis_and_what_it_changes_is_counted() {
+    let place = Place::new();
+    let header = |args: &str| -> String {
+        place.done(&format!("study data/kick.bvh {args}")).lines().next().unwrap().into()
+    };
+    assert_eq!(header("--x keys.per_second=2,4"), "clip,keys.per_second,union,total,layer_keys");
+    let of_the_sheet =
+        "drawings,drawings_per_second,genga_per_second,longest_hold,held_koma,peak_ssd,median_ssd";
+    assert_eq!(
+        header("--x omission.koma_dori=0,1/3 --y noise=0,1"),
+        format!("clip,omission.koma_dori,noise,union,total,layer_keys,{of_the_sheet}")
+    );
+    assert_eq!(
+        header("--measure total,held_koma --show union"),
+        "clip,filter.width,turns.persistence,total,held_koma,union"
+    );
+    // A cell is what a run with those settings says.
+    let table = place.done("study data/kick.bvh --x spacing.on=2,3 --measure drawings,held_koma");
+    for (at, on) in ["2", "3"].into_iter().enumerate() {
+        place.done(&format!("run data/kick.bvh --set spacing.on={on} --out run{on}"));
+        let report = fs::read_to_string(place.path(&format!("run{on}/report.json"))).unwrap();
+        for name in ["drawings", "held_koma"] {
+            let value = &column(&table, name)[at];
+            assert!(report.contains(&format!("\"{name}\": {value},")), "{name} {value}");
+        }
+    }
+}
+
+#[test]
+fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
+    let place = Place::new();
+    let axes = "--x filter.width=0.1s..0.2s:0.05s --measure union";
+    let table =
+        place.done(&format!("study data/kick.bvh data/pitch.bvh {axes} --plot p.svg --heat h.svg"));
+    assert_eq!(column(&table, "clip"), ["kick", "kick", "kick", "pitch", "pitch", "pitch"]);
+    let alone = ["kick", "pitch"]
+        .map(|clip| numbers(&place.done(&format!("study data/{clip}.bvh {axes}")), "union"));
+    assert_eq!(numbers(&table, "union"), alone.concat());
+    let heat = fs::read_to_string(place.path("h.svg")).unwrap();
+    assert!(heat.contains("median of 2 clips"));
+    fs::create_dir(place.path("other")).unwrap();
+    fs::copy(crate::clips::here("data/kick.bvh"), place.path("kick.bvh")).unwrap();
+    fs::copy(place.path("kick.bvh"), place.path("other/kick.bvh")).unwrap();
+    let table = place.done("study kick.bvh other/kick.bvh --x filter.width=3 --measure union");
+    assert_eq!(column(&table, "clip"), ["kick.bvh", "other/kick.bvh"]);
+    // A clip that cannot be read is named, and nothing is begun.
+    let said = place.refused(1, "study kick.bvh none.bvh -o s.csv");
+    assert!(said.starts_with("genga: none.bvh: "), "{said}");
+    assert!(!place.path("s.csv").exists());
+}
+
+#[test]
+fn stability_compares_cells_and_names_the_plateau() {
+    let place = Place::new();
+    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure layer_keys";
+    let output = place.genga(&format!("{args} --stability --heat h.svg"));
+    let (table, said) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(table.starts_with(
+        "clip,filter.width,turns.persistence,layer_keys,kept,mean_move,largest_move\n"
+    ));
+    assert!(numbers(&table, "kept").iter().all(|kept| (0.0..=1.0).contains(kept)));
+    // A koma is a frame in this clip: no key that moved further is the same.
+    assert!(numbers(&table, "largest_move").iter().all(|frames| *frames <= 1.0));
+    let lines: Vec<&str> = said.lines().collect();
+    assert_eq!(lines.len(), 3, "{said}");
+    assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
+    assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
+    assert!(said.contains("the recipe\u{2019}s own settings stand "), "{said}");
+    let heat = fs::read_to_string(place.path("h.svg")).unwrap();
+    assert!(heat.contains("same keys 原画が同じ") && heat.contains("the recipe 現在のレシピ"));
+    // Without it nothing is said, and the keys are the same.
+    let plain = place.genga(args);
+    assert_eq!(text(&plain.stderr), "");
+    assert_eq!(numbers(&text(&plain.stdout), "layer_keys"), numbers(&table, "layer_keys"));
+    // The region that is named has one number of keys.
+    let (columns, rows) =
+        lines[1].split_once("filter.width ").unwrap().1.split_once(", turns.persistence ").unwrap();
+    let ends = |text: &str| -> (f64, f64) {
+        let text = text.split(':').next().unwrap();
+        let (low, high) = text.split_once(" to ").unwrap_or((text, text));
+        (low.parse().unwrap(), high.parse().unwrap())
+    };
+    let ((left, right), (low, high)) = (ends(columns), ends(rows));
+    let count: f64 =
+        lines[1].split(", ").find_map(|part| part.split_once(" key")?.0.parse().ok()).unwrap();
+    let cells =
+        numbers(&table, "filter.width").into_iter().zip(numbers(&table, "turns.persistence"));
+    let held: Vec<f64> = cells
+        .zip(numbers(&table, "layer_keys"))
+        .filter(|((x, y), keys)| {
+            (left..=right).contains(x) && (low..=high).contains(y) && *keys == count
+        })
+        .map(|(_, keys)| keys)
+        .collect();
+    let said_cells: usize =
+        lines[1].split(": ").nth(2).unwrap().split(" of ").next().unwrap().parse().unwrap();
+    assert!(held.len() >= said_cells && said_cells > 1, "{said}");
+}
+
+#[test]
+fn what_is_asked_wrongly_is_said_before_any_work() {
+    let place = Place::new();
+    for (args, says) in [
+        ("--x filter.width=10..20", "has no step"),
+        ("--x filter.widht=10", "did you mean filter.width"),
+        ("--x filter.width=3 --y filter.width=4", "is on both axes"),
+        ("--x filter.width=3 --filter-width 4", "cannot be used with"),
+        ("--x filter.width=3 --set filter.width=4", "a study varies it already"),
+        ("--x filter.kind=box --filter ideal", "a study varies it already"),
+        ("--persistence 5,5", "stands twice"),
+        ("--measure keys", "one of union, total, layer_keys"),
+        ("--x noise=-1", "0 to 180"),
+        ("--x filter.width=3 --stability", "there is one alone"),
+        ("--tolerance 2", "--stability"),
+        ("--stability --tolerance=-1", "expected koma"),
+        ("--plot s.jpg", "--plot: a picture is .svg or .png"),
+        ("--heat s.pdf", "--heat: a picture is .svg or .png"),
+    ] {
+        let said = place.refused(2, &format!("study data/kick.bvh -o s.csv {args}"));
+        assert!(said.contains(says), "{args}: {said}");
+        assert!(!place.path("s.csv").exists(), "{args}");
+    }
+    let output = place.genga("study data/kick.bvh --x spacing.on=2,3 --plot s.svg --paper");
+    assert!(text(&output.stderr).contains("in frames alone"), "{output:?}");
+}
