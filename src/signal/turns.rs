@@ -10,6 +10,7 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::lanes::wide;
 use crate::signal::Signals;
 use crate::time::{Frame, Span};
 
@@ -121,23 +122,29 @@ impl TurnFinder {
     /// `delay` is [`LowPass::delay`](crate::signal::LowPass::delay) of the filter the signals went
     /// through, in frames; the `event` reading undoes it.
     pub fn find(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
-        let persistence = self.persistence_frames(filtered);
-        let mut turns = self.candidates(filtered, delay);
-        for joint in &mut turns {
-            joint.retain(|turn| turn.confirmed_for >= persistence);
-        }
-        turns
+        self.confirmed(filtered, delay, self.persistence_frames(filtered))
     }
 
     /// Every turn, whatever M: `find` keeps those with `confirmed_for` of at least
     /// [`persistence_frames`](Self::persistence_frames), so that another M needs no new search.
     pub fn candidates(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
+        self.confirmed(filtered, delay, 0)
+    }
+
+    fn confirmed(&self, filtered: &Signals, delay: f64, at_least: usize) -> Vec<Vec<Turn>> {
         let frames = filtered.frames();
         if frames < 3 {
             return vec![vec![]; filtered.joints()];
         }
-        let mut scan = Scan::new(self, filtered, delay);
-        filtered.values.as_slice().chunks_exact(frames).map(|speeds| scan.turns(speeds)).collect()
+        let mut scan = Scan::new(self, filtered, delay, at_least);
+        let joints = filtered.values.as_slice().chunks_exact(frames);
+        let turns = |speeds| {
+            wide(
+                #[inline(always)]
+                || scan.turns(speeds),
+            )
+        };
+        joints.map(turns).collect()
     }
 
     /// M in whole frames; in the `event` reading no more than the clip has, as frames beyond the clip
@@ -175,6 +182,8 @@ struct Scan<'a> {
     delay: usize,
     first: Frame,
     frames: usize,
+    /// Turns confirmed for less are left out.
+    at_least: usize,
     /// Of each step, from its row to the next: slowing, steady, speeding.
     signs: Vec<Ordering>,
     persistence: Persistence,
@@ -182,7 +191,7 @@ struct Scan<'a> {
 }
 
 impl<'a> Scan<'a> {
-    fn new(finder: &'a TurnFinder, filtered: &Signals, delay: f64) -> Self {
+    fn new(finder: &'a TurnFinder, filtered: &Signals, delay: f64, at_least: usize) -> Self {
         let frames = filtered.frames();
         Self {
             finder,
@@ -192,12 +201,14 @@ impl<'a> Scan<'a> {
             delay: (delay.round().max(0.0) as usize).min(frames),
             first: filtered.first,
             frames,
+            at_least,
             signs: Vec::with_capacity(frames),
             persistence: Persistence::new(),
             sizes: Vec::with_capacity(frames),
         }
     }
 
+    #[inline(always)]
     fn turns(&mut self, speeds: &[f64]) -> Vec<Turn> {
         self.read_signs(speeds);
         let mut turns = vec![];
@@ -211,11 +222,13 @@ impl<'a> Scan<'a> {
                 literal::turns(self, &mut turns);
             }
         }
+        turns.retain(|turn| turn.confirmed_for >= self.at_least);
         turns.sort_unstable_by_key(|turn| (turn.frame, turn.kind, usize::MAX - turn.confirmed_for));
         turns.dedup_by_key(|turn| (turn.frame, turn.kind));
         turns
     }
 
+    #[inline(always)]
     fn read_signs(&mut self, speeds: &[f64]) {
         let band = self.finder.steady.step(speeds, self.fps, self.for_people, &mut self.sizes);
         let band = if band > self.floor { band } else { self.floor };
