@@ -48,6 +48,7 @@ impl Points {
     }
 
     /// Places poses in the world and writes where each of their points stands, in the file's unit.
+    #[inline(always)]
     pub(super) fn place(&self, rig: &Rig, pose: &mut LanePose, positions: &mut [LaneVec]) {
         pose.place(rig);
         positions[..self.joints].copy_from_slice(&pose.translations);
@@ -55,6 +56,7 @@ impl Points {
     }
 
     /// Writes where the tips stand behind where the joints do, whose world rotations these are.
+    #[inline(always)]
     pub(super) fn place_tips(&self, rotations: &[LaneQuat], positions: &mut [LaneVec]) {
         let (joints, tips) = positions.split_at_mut(self.joints);
         for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
@@ -63,6 +65,7 @@ impl Points {
     }
 
     /// The squared distance of two poses, a weighted mean over the points.
+    #[inline(always)]
     pub(super) fn apart(&self, a: &[LaneVec], b: &[LaneVec]) -> Lanes {
         let mut sum = Lanes::ZERO;
         for ((a, b), weight) in a.iter().zip(b).zip(&self.weights) {

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::keys::points::Points;
 use crate::motion::Clip;
-use crate::motion::lanes::{LANES, LaneVec, Lanes};
+use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
 use crate::time::{Clock, Frame};
@@ -36,12 +36,19 @@ impl Reference {
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
         let mut sides = Vec::with_capacity(koma + LANES);
-        for (block, row) in positions.chunks_exact_mut(points.len().max(1)).enumerate() {
-            let place = |lane: usize| clock.place_from_koma((LANES * block + lane).min(koma - 1));
-            pose.take_places(clip, &rig, array::from_fn(place));
-            points.place(&rig, &mut pose, row);
-            sides.extend(longest_sides(row).0);
-        }
+        let blocks = positions.chunks_exact_mut(points.len().max(1)).enumerate();
+        wide(
+            #[inline(always)]
+            || {
+                for (block, row) in blocks {
+                    let place =
+                        |lane: usize| clock.place_from_koma((LANES * block + lane).min(koma - 1));
+                    pose.take_places(clip, &rig, array::from_fn(place));
+                    points.place(&rig, &mut pose, row);
+                    sides.extend(longest_sides(row).0);
+                }
+            },
+        );
         sides.truncate(koma);
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
@@ -110,6 +117,7 @@ impl Reference {
 }
 
 /// The longest side of the box round some points, of each lane by itself.
+#[inline(always)]
 fn longest_sides(points: &[LaneVec]) -> Lanes {
     let (low, high) = corners(points);
     let sides = high - low;
@@ -125,6 +133,7 @@ fn whole_side(points: &[LaneVec]) -> f64 {
     (high - low).max_element()
 }
 
+#[inline(always)]
 fn corners(points: &[LaneVec]) -> (LaneVec, LaneVec) {
     let Some((first, others)) = points.split_first() else { return Default::default() };
     others.iter().fold((*first, *first), |(low, high), point| {

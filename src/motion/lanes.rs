@@ -6,16 +6,19 @@
 mod euler;
 mod quat;
 mod trig;
+mod wide;
 
 use std::array;
 use std::ops::{Add, Mul, Sub};
 
 pub(crate) use euler::ThreeAxes;
 pub(crate) use quat::{Arc, LaneQuat, LaneVec};
+#[cfg(test)]
+pub(crate) use wide::narrow::narrow;
+pub(crate) use wide::wide;
 
-/// Numbers side by side: one register of the oldest 64-bit processors. More would not fit into the
-/// registers with four numbers a quaternion, and was slower.
-pub(crate) const LANES: usize = 2;
+/// Numbers side by side: one register of most processors, two of the oldest.
+pub(crate) const LANES: usize = 4;
 
 /// A number a lane.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -101,6 +101,7 @@ impl Rig {
 
     /// Turns local poses into world ones in place: rotations into world rotations, translations into
     /// positions.
+    #[inline(always)]
     pub(crate) fn place(&self, rotations: &mut [LaneQuat], translations: &mut [LaneVec]) {
         for (joint, RigJoint { parent, .. }) in self.joints.iter().enumerate() {
             if let Some(parent) = *parent {

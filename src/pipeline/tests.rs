@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::edits::Pin;
 use crate::motion::bvh;
+use crate::motion::lanes::narrow;
 use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
 
@@ -233,6 +234,13 @@ fn any_recipe() -> impl Strategy<Value = Recipe> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn registers_of_any_width_give_the_same_bits(recipe in any_recipe()) {
+        let clip = pitch();
+        let bits = || format!("{:?}", fresh(&clip, &recipe, &Edits::default()));
+        prop_assert_eq!(narrow(bits), bits());
+    }
 
     #[test]
     fn a_pin_stands_on_its_koma_whatever_the_recipe(recipe in any_recipe(), frame in 20usize..120) {

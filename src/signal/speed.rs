@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::lanes::{LANES, Lanes};
+use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::rig::Rig;
 use crate::motion::{Body, Clip, Pose, local_rotation};
 use crate::signal::{Signals, Unit};
@@ -80,8 +80,16 @@ fn still(clip: &Clip) -> DMatrix<f64> {
     DMatrix::zeros(clip.len(), clip.skeleton().len())
 }
 
-/// Several frames at once, joint by joint: the quaternions live no longer than their step.
 fn rotation(clip: &Clip) -> DMatrix<f64> {
+    wide(
+        #[inline(always)]
+        || angular(clip),
+    )
+}
+
+/// Several frames at once, joint by joint: the quaternions live no longer than their step.
+#[inline(always)]
+fn angular(clip: &Clip) -> DMatrix<f64> {
     let mut values = still(clip);
     let (rig, frames) = (Rig::of(clip.skeleton()), clip.len());
     let rows: Vec<&[f64]> = clip.rows().collect();

@@ -10,6 +10,7 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::lanes::wide;
 use crate::signal::Signals;
 use crate::time::{Frame, Span};
 
@@ -141,7 +142,14 @@ impl TurnFinder {
             return vec![vec![]; filtered.joints()];
         }
         let mut scan = Scan::new(self, filtered, delay);
-        filtered.values.as_slice().chunks_exact(frames).map(|speeds| scan.turns(speeds)).collect()
+        let joints = filtered.values.as_slice().chunks_exact(frames);
+        let turns = |speeds| {
+            wide(
+                #[inline(always)]
+                || scan.turns(speeds),
+            )
+        };
+        joints.map(turns).collect()
     }
 
     /// M in whole frames; in the `event` reading no more than the clip has, as frames beyond the clip
@@ -202,6 +210,7 @@ impl<'a> Scan<'a> {
         }
     }
 
+    #[inline(always)]
     fn turns(&mut self, speeds: &[f64]) -> Vec<Turn> {
         self.read_signs(speeds);
         let mut turns = vec![];
@@ -220,6 +229,7 @@ impl<'a> Scan<'a> {
         turns
     }
 
+    #[inline(always)]
     fn read_signs(&mut self, speeds: &[f64]) {
         let band = self.finder.steady.step(speeds, self.fps, self.for_people, &mut self.sizes);
         let band = if band > self.floor { band } else { self.floor };

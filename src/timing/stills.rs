@@ -5,7 +5,7 @@ use std::array;
 use glam::DVec3;
 
 use crate::motion::Clip;
-use crate::motion::lanes::{LANES, LaneVec, Lanes};
+use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
 use crate::sheet::{Layer, Source};
@@ -40,9 +40,13 @@ impl Stills {
         let mut sampler = Sampler::new(clip);
         for drawings in layer.drawings.chunks(LANES) {
             let last = drawings.len() - 1;
-            let placed = sampler.place(array::from_fn(|lane| drawings[lane.min(last)].source));
+            let sources = array::from_fn(|lane| drawings[lane.min(last)].source);
+            wide(
+                #[inline(always)]
+                || sampler.place(sources),
+            );
             for lane in 0..drawings.len() {
-                stills.add(placed.iter().map(|position| position.lane(lane)));
+                stills.add(sampler.pose.translations.iter().map(|position| position.lane(lane)));
             }
         }
         stills
@@ -128,7 +132,8 @@ impl<'a> Sampler<'a> {
         Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
     }
 
-    fn place(&mut self, sources: [Source; LANES]) -> &[LaneVec] {
+    #[inline(always)]
+    fn place(&mut self, sources: [Source; LANES]) {
         let Self { clip, rig, pose, from, to } = self;
         if sources.iter().all(|source| matches!(source, Source::At(_))) {
             pose.take_places(clip, rig, sources.map(Source::place));
@@ -143,7 +148,6 @@ impl<'a> Sampler<'a> {
             pose.take_blends(from, to, Lanes(blends.map(|blend| blend.2)));
         }
         pose.place(rig);
-        &pose.translations
     }
 }
 

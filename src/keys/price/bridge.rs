@@ -6,7 +6,7 @@ use crate::keys::Reference;
 use crate::keys::price::Entry;
 use crate::keys::price::stances::Stances;
 use crate::motion::Clip;
-use crate::motion::lanes::{Arc, LANES, LaneQuat, LaneVec, Lanes};
+use crate::motion::lanes::{Arc, LANES, LaneQuat, LaneVec, Lanes, wide};
 use crate::motion::rig::Rig;
 
 /// The error of slerping between two entries, with its buffers.
@@ -63,8 +63,14 @@ impl<'a> Bridge<'a> {
             return (0.0, true);
         }
         let near = self.near(at, &piers);
-        self.aim(&piers);
-        (self.error_in(near, &piers), piers.blocks().len() == 1)
+        let error = wide(
+            #[inline(always)]
+            || {
+                self.aim(&piers);
+                self.error_in(near, &piers)
+            },
+        );
+        (error, piers.blocks().len() == 1)
     }
 
     /// The position error of the worst koma between two entries, root mean square over the body's
@@ -75,9 +81,17 @@ impl<'a> Bridge<'a> {
             return least;
         }
         let near = self.near(at, &piers);
-        self.aim(&piers);
-        let blocks = piers.blocks().filter(|block| *block != near);
-        blocks.fold(least, |worst, block| worst.max(self.error_in(block, &piers)))
+        wide(
+            #[inline(always)]
+            || {
+                self.aim(&piers);
+                let mut worst = least;
+                for block in piers.blocks().filter(|block| *block != near) {
+                    worst = worst.max(self.error_in(block, &piers));
+                }
+                worst
+            },
+        )
     }
 
     fn piers(&self, from: usize, to: usize) -> Piers {
@@ -95,6 +109,7 @@ impl<'a> Bridge<'a> {
     }
 
     /// Finds the way of each joint from one end to the other.
+    #[inline(always)]
     fn aim(&mut self, piers: &Piers) {
         let ends = self.stances.rotations(piers.from).iter();
         let ends = ends.zip(self.stances.rotations(piers.to));
@@ -104,6 +119,7 @@ impl<'a> Bridge<'a> {
     }
 
     /// The error at the worst koma of a block.
+    #[inline(always)]
     fn error_in(&mut self, block: usize, piers: &Piers) -> f64 {
         let koma = &piers.koma;
         // Lanes outside the bridge show the nearest koma inside it: they change no maximum.
@@ -123,6 +139,7 @@ impl<'a> Bridge<'a> {
     }
 
     /// Puts the joints that have a position of their own some shares of the way along.
+    #[inline(always)]
     fn move_joints(&mut self, piers: &Piers, shares: Lanes) {
         let ends = self.stances.translations(piers.from).iter();
         let ends = ends.zip(self.stances.translations(piers.to));
@@ -134,6 +151,7 @@ impl<'a> Bridge<'a> {
 
     /// Turns every joint some shares of the way along and places it in the world, both at once: what
     /// is local is never written down.
+    #[inline(always)]
     fn turn_joints(&mut self, from: usize, shares: Lanes) {
         let starts = self.stances.rotations(from);
         let groups = self.arcs.iter().zip(starts).zip(self.translations.chunks(LANES));
@@ -163,6 +181,8 @@ fn along(arc: &Arc, start: &LaneQuat, lane: usize, shares: Lanes) -> LaneQuat {
     if degrees == 0.0 {
         return start;
     }
-    let (sin, cos) = (Lanes::splat(degrees) * shares).half_sin_cos();
-    start.scaled(cos) + LaneQuat::splat(arc.across.lane(lane)).scaled(sin)
+    let Arc { middle, across, .. } = arc;
+    let middle = LaneQuat::splat(middle.lane(lane));
+    let across = LaneQuat::splat(across.lane(lane));
+    Arc { middle, across, degrees: Lanes::splat(degrees) }.along(shares)
 }

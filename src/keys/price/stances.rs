@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::keys::price::Entry;
 use crate::motion::Clip;
-use crate::motion::lanes::{LANES, LaneQuat};
+use crate::motion::lanes::{LANES, LaneQuat, wide};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
 
@@ -31,7 +31,10 @@ impl Stances {
         let into = rotations.chunks_mut((LANES * groups).max(1));
         for (entries, rotations) in entries.chunks(LANES).zip(into) {
             let entry = |lane: usize| entries[lane.min(entries.len() - 1)];
-            pose.take_rows(rig, &array::from_fn(|lane| clip.row(entry(lane).frame)));
+            wide(
+                #[inline(always)]
+                || pose.take_rows(rig, &array::from_fn(|lane| clip.row(entry(lane).frame))),
+            );
             for (lane, groups) in rotations.chunks_exact_mut(groups).enumerate() {
                 for (joint, rotation) in pose.rotations.iter().enumerate() {
                     groups[joint / LANES].set_lane(joint % LANES, rotation.lane(lane));

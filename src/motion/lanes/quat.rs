@@ -142,32 +142,25 @@ impl LaneQuat {
         Self { v: LaneVec { x, y, z }, w }
     }
 
-    /// The rotation from this one to `to`; between equals exactly none.
-    #[inline(always)]
-    pub(crate) fn way_to(self, to: Self) -> Self {
-        Self {
-            v: to.v * self.w - self.v * to.w - self.v.cross(to.v),
-            w: self.v.dot(to.v) + self.w * to.w,
-        }
-    }
-
-    /// The same rotation written so that it is at most half a turn.
-    #[inline(always)]
-    pub(crate) fn short(self) -> Self {
-        let sign = self.w.map(|w| 1f64.copysign(w));
-        Self { v: self.v * sign, w: self.w * sign }
-    }
-
     /// The angle of the rotation between two in radians, 0 to π, the same for q and −q.
     ///
-    /// By Kahan: on the sphere of unit quaternions the nearer of ±`to` is half that angle away, and the
-    /// tangent of half of a half is |a − b| / |a + b|, exact for tiny angles and for large ones.
+    /// On the sphere of unit quaternions the nearer of ±`to` is half that angle away. A step from frame
+    /// to frame is short, and half of its chord is the sine of half of that.
     #[inline(always)]
     pub(crate) fn angle_to(self, to: Self) -> Lanes {
-        let (difference, sum) = ((to - self).squared(), (to + self).squared());
-        let least = difference.min(sum);
-        let tangent = least.with(difference.max(sum), |least, most| least / most).sqrt();
-        tangent.atan() * Lanes::splat(4.0)
+        let chord = (to - self).squared();
+        let short = chord.short_arc();
+        if chord.all_short() { short } else { self.far_angle_to(to, chord, short) }
+    }
+
+    /// By Kahan: the tangent of half of a half is |a − b| / |a + b|, exact for tiny angles and for large
+    /// ones.
+    #[inline(always)]
+    fn far_angle_to(self, to: Self, chord: Lanes, short: Lanes) -> Lanes {
+        let sum = (to + self).squared();
+        let (least, most) = (chord.min(sum), chord.max(sum));
+        let tangent = least.with(most, |least, most| least / most).sqrt();
+        (tangent.atan() * Lanes::splat(4.0)).where_long(chord, short)
     }
 
     #[inline(always)]
@@ -178,9 +171,13 @@ impl LaneQuat {
     /// `share` of the short way to `to` (slerp); between equals there is no way.
     #[inline(always)]
     pub(crate) fn slerp(self, to: Self, share: Lanes) -> Self {
-        let Arc { across, degrees } = Arc::between(self, to);
-        let (sin, cos) = (degrees * share).half_sin_cos();
-        self.scaled(cos) + across.scaled(sin)
+        let arc = Arc::between(self, to);
+        let moved = arc.along(share);
+        let stays = arc.degrees * share;
+        let pick = |moved: Lanes, here: Lanes| {
+            Lanes::from_fn(|lane| if stays.0[lane] == 0.0 { here.0[lane] } else { moved.0[lane] })
+        };
+        Self { v: moved.v.with(self.v, pick), w: pick(moved.w, self.w) }
     }
 
     #[inline(always)]
@@ -232,9 +229,11 @@ impl Mul for LaneQuat {
     }
 }
 
-/// The short way from one rotation to another: `from · cos + across · sin` of half the angle gone.
+/// The short way from one rotation to another, seen from its middle: there both ends are at most a
+/// quarter turn away, and their sum and their difference say all.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Arc {
+    pub(crate) middle: LaneQuat,
     /// A quarter turn of the four-dimensional circle further on; 0 where there is no way to go.
     pub(crate) across: LaneQuat,
     /// The whole way in degrees, 0 to 180.
@@ -244,14 +243,27 @@ pub(crate) struct Arc {
 impl Arc {
     #[inline(always)]
     pub(crate) fn between(from: LaneQuat, to: LaneQuat) -> Self {
-        let way = from.way_to(to).short();
-        let sin = way.v.dot(way.v).sqrt();
-        let per_sin = sin.map(|sin| if sin > 0.0 { 1.0 / sin } else { 0.0 });
-        let axis = LaneQuat { v: way.v * per_sin, w: Lanes::ZERO };
+        // The nearer of ±`to`.
+        let cos = from.v.dot(to.v) + from.w * to.w;
+        let to = to.scaled(cos.map(|cos| 1f64.copysign(cos)));
+        let (sum, difference) = (from + to, to - from);
+        let (run, rise) = (sum.squared().sqrt(), difference.squared().sqrt());
+        let per_run = run.map(|run| 1.0 / run);
+        let per_rise = rise.map(|rise| if rise > 0.0 { 1.0 / rise } else { 0.0 });
         // The tangent of a quarter of the angle: flat up to 94°, where that of the half ends at 47°.
-        let quarter = sin.with(way.w + Lanes::ONE, |sin, run| sin / run).atan();
-        let degrees = quarter * Lanes::splat(720.0 / std::f64::consts::PI);
-        Self { across: from * axis, degrees }
+        let quarter = (rise * per_run).atan();
+        Self {
+            middle: sum.scaled(per_run),
+            across: difference.scaled(per_rise),
+            degrees: quarter * Lanes::splat(720.0 / std::f64::consts::PI),
+        }
+    }
+
+    /// The rotations some shares of the way along.
+    #[inline(always)]
+    pub(crate) fn along(&self, share: Lanes) -> LaneQuat {
+        let (sin, cos) = (self.degrees * (share - Lanes::splat(0.5))).near_half_sin_cos();
+        self.middle.scaled(cos) + self.across.scaled(sin)
     }
 }
 
@@ -283,7 +295,6 @@ mod tests {
             let (wide_a, wide_b) = (LaneQuat::splat(a), LaneQuat::splat(b));
             let near = |found: LaneQuat, expected: DQuat| found.lane(lane).abs_diff_eq(expected, 1e-14);
             prop_assert!(near(wide_a * wide_b, a * b));
-            prop_assert!(near(wide_a.way_to(wide_b), a.conjugate() * b));
             let rotated = wide_a.rotate(LaneVec::splat(vec)).lane(lane);
             prop_assert!(rotated.abs_diff_eq(a * vec, 1e-13));
             let half = Lanes::splat(degrees).half_sin_cos();
@@ -328,8 +339,25 @@ mod tests {
     fn a_tiny_angle_between_two_keeps_its_digits() {
         for angle in [1e-3, 1e-6, 1e-9, 1e-12, 1e-100] {
             let to = DQuat::from_xyzw(0.0, f64::sin(0.5 * angle), 0.0, f64::cos(0.5 * angle));
-            let found = LaneQuat::default().angle_to(LaneQuat::splat(-to)).0[0];
-            assert!((found - angle).abs() <= 4.0 * f64::EPSILON * angle, "{found} {angle}");
+            for to in [to, -to] {
+                let found = LaneQuat::default().angle_to(LaneQuat::splat(to)).0[0];
+                assert!((found - angle).abs() <= 4.0 * f64::EPSILON * angle, "{found} {angle}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_angle_of_a_lane_is_the_same_whatever_the_others_turn_by() {
+        let turned = |degrees: f64| DQuat::from_rotation_y(degrees.to_radians());
+        for degrees in (1..1800).map(|tenths| 0.1 * f64::from(tenths)) {
+            let alone = LaneQuat::default().angle_to(LaneQuat::splat(turned(degrees)));
+            let near = 4.0 * f64::EPSILON * degrees.to_radians();
+            assert!((alone.0[0] - degrees.to_radians()).abs() <= near, "{degrees}");
+            for other in [1e-3, 19.0, 90.0, 170.0] {
+                let mut among = LaneQuat::splat(turned(other));
+                among.set_lane(1, turned(degrees));
+                assert_eq!(LaneQuat::default().angle_to(among).0[1], alone.0[1], "{degrees}");
+            }
         }
     }
 
@@ -346,7 +374,7 @@ mod tests {
         let (mut from, mut to) = (LaneQuat::default(), LaneQuat::default());
         from.set_lane(1, DQuat::from_rotation_x(0.5));
         to.set_lane(1, -DQuat::from_rotation_x(1.5));
-        let found = from.slerp(to, Lanes([0.5, 0.5]));
+        let found = from.slerp(to, Lanes::splat(0.5));
         assert_eq!(found.lane(0), DQuat::IDENTITY);
         assert!(found.lane(1).abs_diff_eq(DQuat::from_rotation_x(1.0), 1e-15));
         let shifted = to.shifted(DQuat::from_rotation_z(1.0));

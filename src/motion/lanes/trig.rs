@@ -41,6 +41,20 @@ const ARC_TANGENT_ODD: [f64; 5] = [
     -3.65315727442169155270e-02,
 ];
 
+/// The arc sine of half a chord, twice, over the chord: powers of the chord squared after the first, 1.
+/// Further ones are below 2⁻⁵⁵ where chords are short.
+const SHORT_ARC: [f64; 6] = [
+    1.0 / 24.0,
+    3.0 / 640.0,
+    5.0 / 7168.0,
+    35.0 / 294_912.0,
+    63.0 / 2_883_584.0,
+    231.0 / 54_525_952.0,
+];
+
+/// The largest chord, squared, of which that holds: a rotation by 20°.
+const SHORT: f64 = 0.03;
+
 /// The largest ratio that the polynomial takes.
 const STEEP: f64 = 7.0 / 16.0;
 
@@ -96,13 +110,34 @@ impl Lanes {
     /// The arc tangent of ratios of at least 0, to within two units in the last place.
     #[inline(always)]
     pub(crate) fn atan(self) -> Self {
-        if self.all_flat() { self.flat_atan() } else { self.steep_atan() }
+        let flat = self.flat_atan();
+        if self.all_flat() { flat } else { self.steep_atan(flat) }
     }
 
     // Ratios are steep where half of a half angle passes 23°: rare.
     #[cold]
-    fn steep_atan(self) -> Self {
-        self.map(f64::atan)
+    fn steep_atan(self, flat: Self) -> Self {
+        self.with(flat, |ratio, flat| if ratio <= STEEP { flat } else { ratio.atan() })
+    }
+
+    /// The angle of a rotation in radians from its chord between unit quaternions, which is given
+    /// squared and is short.
+    #[inline(always)]
+    pub(super) fn short_arc(self) -> Self {
+        let chord = self.sqrt() * Self::splat(2.0);
+        chord + chord * self * horner(&SHORT_ARC, self)
+    }
+
+    /// Whether all are chords, squared, that are short.
+    #[inline(always)]
+    pub(super) fn all_short(self) -> bool {
+        self.0.iter().fold(true, |short, chord| short & (*chord <= SHORT))
+    }
+
+    /// These numbers, but `short` where the chord is.
+    #[inline(always)]
+    pub(super) fn where_long(self, chord: Self, short: Self) -> Self {
+        Self::from_fn(|lane| if chord.0[lane] <= SHORT { short.0[lane] } else { self.0[lane] })
     }
 
     #[inline(always)]
@@ -156,7 +191,8 @@ mod tests {
     }
 
     fn lane(degrees: f64, lane: usize) -> (f64, f64) {
-        let mut lanes = [1e9, 33.0];
+        let mut lanes = [33.0; LANES];
+        lanes[0] = 1e9;
         lanes[lane] = degrees;
         let (sin, cos) = Lanes(lanes).half_sin_cos();
         (sin.0[lane], cos.0[lane])
@@ -185,7 +221,11 @@ mod tests {
             assert!(angle.all_near());
             assert_eq!(angle.near_half_sin_cos(), angle.half_sin_cos(), "{degrees}");
         }
-        assert!(!Lanes([0.0, -90.0]).all_near() && !Lanes([f64::NAN, 0.0]).all_near());
+        for (lane, far) in [(LANES - 1, -90.0), (0, f64::NAN)] {
+            let mut lanes = [0.0; LANES];
+            lanes[lane] = far;
+            assert!(!Lanes(lanes).all_near());
+        }
     }
 
     #[test]
@@ -217,11 +257,12 @@ mod tests {
 
         #[test]
         fn arc_tangents_are_those_of_the_standard_library(
-            ratios in prop::array::uniform2(prop_oneof![0.0..2.0, 0.0..1e-6, 0.0..0.5, Just(0.0), Just(STEEP)]),
+            ratios in prop::array::uniform(prop_oneof![0.0..2.0, 0.0..1e-6, 0.0..0.5, Just(0.0), Just(STEEP)]),
         ) {
             for (ratio, found) in ratios.into_iter().zip(Lanes(ratios).atan().0) {
                 let expected = ratio.atan();
                 prop_assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected, "{found}");
+                prop_assert_eq!(found, Lanes::splat(ratio).atan().0[0], "whatever the others are");
             }
         }
     }

@@ -17,6 +17,7 @@ pub(super) const PARTS: usize = 8;
 pub(super) type Rows<'a> = [&'a [f64]; BLOCK];
 
 /// The first rows of many; a last block that is not full repeats its last row.
+#[inline(always)]
 pub(super) fn block<'a>(rows: &[&'a [f64]]) -> Rows<'a> {
     array::from_fn(|at| rows[at.min(rows.len() - 1)])
 }
@@ -52,6 +53,7 @@ impl<'a> JointSteps<'a> {
     }
 
     /// The angle of the step into each frame of the next block, in radians.
+    #[inline(always)]
     pub(super) fn steps(&mut self, rows: &Rows<'_>, steps: &mut [Lanes; PARTS]) {
         let mut rotations = [LaneQuat::default(); PARTS];
         self.reading.rotations(rows, &mut rotations);
@@ -64,6 +66,7 @@ impl<'a> JointSteps<'a> {
 
 impl Reading<'_> {
     // Loops over buffers: closures over whole arrays are not inlined.
+    #[inline(always)]
     fn rotations(&self, rows: &Rows<'_>, rotations: &mut [LaneQuat; PARTS]) {
         match *self {
             Self::ThreeAxes(axes, columns) => {

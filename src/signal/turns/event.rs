@@ -13,6 +13,7 @@ use crate::time::KOMA_RATE;
 const SHORT: f64 = 2.0 / KOMA_RATE;
 
 /// The turns of every valley (keys) and hill (walls), with the filter's delay undone.
+#[inline(always)]
 pub(super) fn turns(scan: &Scan, speeds: &[f64], turns: &mut Vec<Turn>) {
     let (mut begin, mut entry) = (0, None);
     for (step, &sign) in scan.signs.iter().enumerate().filter(|(_, sign)| sign.is_ne()) {
@@ -34,6 +35,7 @@ struct Run {
 
 impl Run {
     /// By the steps into the run and out of it; without one it touches the clip's edge there.
+    #[inline(always)]
     fn read(
         self,
         entry: Option<Ordering>,
@@ -54,6 +56,7 @@ impl Run {
         }
     }
 
+    #[inline(always)]
     fn between(self, scan: &Scan, kind: TurnKind, speeds: &[f64], turns: &mut Vec<Turn>) {
         if (self.end - self.begin) as f64 / scan.fps < SHORT {
             let (first, last) = self.extreme(kind, speeds, scan.floor);
@@ -67,6 +70,7 @@ impl Run {
 
     /// The end of the movement before the run: the filter found it late, and its speed is that of the
     /// step into the frame. None on the clip's last frame.
+    #[inline(always)]
     fn finish(self, scan: &Scan, kind: TurnKind) -> Option<Turn> {
         let moved = self.begin.saturating_sub(scan.delay + 1);
         let inside = self.begin < scan.frames - 1;
@@ -75,6 +79,7 @@ impl Run {
 
     /// The start of the movement after the run, which the filter found early. None on the clip's first
     /// frame.
+    #[inline(always)]
     fn start(self, scan: &Scan, kind: TurnKind) -> Option<Turn> {
         let moved = self.end + scan.delay;
         (self.end > 0).then(|| scan.turn(moved, kind, after(scan, kind, self.end)))
@@ -100,12 +105,14 @@ impl Run {
 }
 
 /// Confirmed by the frames after: as far as the clip reaches is for good.
+#[inline(always)]
 fn after(scan: &Scan, kind: TurnKind, row: usize) -> usize {
     let frames = scan.persistence.after(kind, row);
     if frames == scan.frames - 1 - row { scan.frames } else { frames }
 }
 
 /// Confirmed by the frames before: as far as the clip reaches is for good.
+#[inline(always)]
 fn before(scan: &Scan, kind: TurnKind, row: usize) -> usize {
     let frames = scan.persistence.before(kind, row);
     if frames == row { scan.frames } else { frames }

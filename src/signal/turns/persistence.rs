@@ -29,6 +29,7 @@ impl Persistence {
     }
 
     /// Takes on another joint. With `rising` each frame after must be faster than the one before it.
+    #[inline(always)]
     pub(super) fn read(&mut self, speeds: &[f64], floor: f64, side: Side) {
         (self.floor, self.side) = (floor, side);
         self.valleys.read(speeds.iter().copied());
@@ -41,6 +42,7 @@ impl Persistence {
     }
 
     /// How many frames after a row in a row confirm it as such a turn.
+    #[inline(always)]
     pub(super) fn after(&self, kind: TurnKind, row: usize) -> usize {
         match self.side {
             Side::Rising => self.rising[kind as usize][row],
@@ -49,6 +51,7 @@ impl Persistence {
     }
 
     /// How many frames before a row in a row confirm it as such a turn.
+    #[inline(always)]
     pub(super) fn before(&self, kind: TurnKind, row: usize) -> usize {
         self.minima(kind).higher_before(row, self.floor)
     }
@@ -72,6 +75,7 @@ struct Minima {
 }
 
 impl Minima {
+    #[inline(always)]
     fn read(&mut self, values: impl Iterator<Item = f64>) {
         if self.lines.is_empty() {
             self.lines.push(Vec::new());
@@ -98,6 +102,7 @@ impl Minima {
     }
 
     /// The number of rows after one up to the first that is not higher by more than `floor`.
+    #[inline(always)]
     fn higher_after(&self, row: usize, floor: f64) -> usize {
         let bottom = self.lines[0][row];
         let (mut level, mut at) = (0, row + 1);
@@ -122,6 +127,7 @@ impl Minima {
     }
 
     /// The number of rows before one down to the first that is not higher by more than `floor`.
+    #[inline(always)]
     fn higher_before(&self, row: usize, floor: f64) -> usize {
         let bottom = self.lines[0][row];
         let (mut level, mut past) = (0, row);
@@ -160,6 +166,7 @@ fn lows(values: &[f64; SPAN], bottom: f64, floor: f64) -> u32 {
 }
 
 /// The least of some values, four side by side: one after the other each would wait for the last.
+#[inline(always)]
 fn least(values: &[f64; SPAN]) -> f64 {
     let lesser = |a: f64, b: f64| if b < a { b } else { a };
     let mut low = [f64::INFINITY; 4];
