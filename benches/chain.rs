@@ -12,7 +12,7 @@ use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::signal::Spectrum;
-use genga::timing::Stills;
+use genga::timing::{Pace, Stills};
 
 #[path = "common/body.rs"]
 mod body;
@@ -99,11 +99,11 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let keys = recipe.keys.choose(clip, &reference, &candidates, &joints, &Edits::default());
     watch.lap("rests, prices");
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-    let spaced = recipe.spacing.place(&keys, clip.skeleton(), clock, koma);
+    let spaced = recipe.spacing.place(&keys, clip.skeleton(), clock, koma, &Pace::default());
     watch.lap("spacing");
     let stills = Stills::of(clip, &spaced.layer);
     watch.lap("stills");
-    let omitted = recipe.omission.apply(&spaced.layer, &stills, recipe.spacing.on);
+    let omitted = recipe.omission.apply(&spaced.layer, &stills, recipe.spacing.on.most);
     watch.lap("omission");
     drop(omitted);
     let mut engine = Engine::new(clip.clone()).expect("a clip with motion");

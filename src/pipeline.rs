@@ -10,7 +10,7 @@ use crate::recipe::Recipe;
 use crate::sheet::Sheet;
 use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
-use crate::timing::{Omitted, Report, Spaced, Stills};
+use crate::timing::{Omitted, Pace, Report, Spaced, Stills};
 
 #[cfg(test)]
 mod tests;
@@ -226,13 +226,16 @@ impl Engine {
         let clip = &*self.clip;
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let keys = self.keys.output();
+        let reference = self.reference.output();
         let made = self.spaced.renew(keys_made, &(recipe.spacing.clone(), recipe.rate), || {
-            recipe.spacing.place(keys, clip.skeleton(), clock, koma)
+            let spacing = &recipe.spacing;
+            let pace = if spacing.on.is_fixed() { Pace::default() } else { Pace::of(reference) };
+            spacing.place(keys, clip.skeleton(), clock, koma, &pace)
         });
         let layer = &self.spaced.output().layer;
         let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
         let stills = self.stills.output();
-        let on = recipe.spacing.on;
+        let on = recipe.spacing.on.most;
         let settings = (recipe.omission, on);
         let made =
             self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))?;

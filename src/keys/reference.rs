@@ -58,7 +58,7 @@ impl Reference {
     }
 
     /// Where its koma stand.
-    pub(super) fn clock(&self) -> Clock {
+    pub(crate) fn clock(&self) -> Clock {
         self.clock
     }
 
@@ -85,7 +85,7 @@ impl Reference {
 
     /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
     /// square over its points.
-    pub(super) fn speeds(&self) -> Vec<f64> {
+    pub(crate) fn speeds(&self) -> Vec<f64> {
         if self.koma == 0 || self.points.len() == 0 || self.height <= 0.0 {
             return Vec::new();
         }

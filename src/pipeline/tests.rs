@@ -8,6 +8,7 @@ use crate::motion::bvh;
 use crate::motion::lanes::narrow;
 use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
+use crate::timing::On;
 
 /// The made pitch, its hundred frames round the throw: 24 frames a second, 23 joints.
 fn pitch() -> Clip {
@@ -30,6 +31,7 @@ fn values(knob: &Knob) -> Vec<String> {
         }
         Kind::Span => vec!["1".into(), "0.25s".into(), "500".into()],
         Kind::Amount => vec!["0".into(), "7".into(), "60%".into()],
+        Kind::On => vec!["1".into(), "3".into(), "1-3".into()],
         Kind::Band => vec!["0".into(), "900".into(), "20%".into()],
         Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
         Kind::Flag => vec!["true".into(), "false".into()],
@@ -159,7 +161,7 @@ fn a_recipe_or_correction_that_is_refused_changes_nothing_afterwards() {
         |recipe| recipe.rate = f64::NAN,
         |recipe| recipe.filter.width = crate::time::Span::Frames(-1.0),
         |recipe| recipe.keys.min_price = -1.0,
-        |recipe| recipe.spacing.on = 0,
+        |recipe| recipe.spacing.on = On::every(0),
         |recipe| recipe.spacing.weight = 1.0,
         |recipe| recipe.omission.max_hold = 0,
     ];

@@ -35,6 +35,8 @@ pub enum Kind {
     Span,
     /// A count (`4`) or a share (`4%`, `1/3`).
     Amount,
+    /// Koma a drawing (`2`), or the fewest and the most (`1-3`).
+    On,
     /// A number, or a share of the joint's own 95th percentile (`5%`).
     Band,
     /// One of these words.
@@ -167,9 +169,18 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "spacing.on",
         japanese: "何コマ打ち",
-        kind: whole(1.0, 6.0),
-        unit: "koma",
-        help: "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes.",
+        kind: Kind::On,
+        unit: "koma, or the fewest and the most (\"1-3\")",
+        help: "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes. 1-3 chooses for each \
+               interval: fast on ones, slow on threes (打ち分け).",
+    },
+    Knob {
+        name: "spacing.step",
+        japanese: "一枚で動く量",
+        kind: number(0.1, 50.0),
+        unit: "% of body height",
+        help: "Where spacing.on is a range: how far the body may go from one drawing to the next. More \
+               puts more of the motion on threes.",
     },
     Knob {
         name: "spacing.inbetweens",
@@ -283,7 +294,7 @@ impl Knob {
             Kind::Choice(words) => words.join(" | "),
             Kind::Flag => "true | false".into(),
             Kind::Number { min, .. } => format!("{} (from {min})", self.unit),
-            Kind::Span | Kind::Amount | Kind::Band => self.unit.into(),
+            Kind::Span | Kind::Amount | Kind::On | Kind::Band => self.unit.into(),
         }
     }
 

@@ -8,6 +8,7 @@ use crate::keys::{Key, LayerKeys, Origin, Wall};
 use crate::motion::Skeleton;
 use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
 use crate::time::Clock;
+use crate::timing::on::{On, Pace};
 
 /// What an inbetween shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -20,7 +21,7 @@ pub enum InbetweenSource {
     Blend,
 }
 
-/// Koma between two drawings, and drawings between two keys, beyond which nobody spaces.
+/// Drawings between two keys beyond which nobody spaces.
 const MOST: usize = 1000;
 
 /// Puts inbetweens (中割り) between keys.
@@ -28,8 +29,12 @@ const MOST: usize = 1000;
 #[serde(default, deny_unknown_fields)]
 pub struct Spacing {
     /// A drawing every so many koma, 1 or more. Default 2, on twos (2コマ打ち). Raised, fast arcs turn
-    /// into straight jumps.
-    pub on: usize,
+    /// into straight jumps. A range, `1-3`, chooses for each interval by `step`.
+    pub on: On,
+    /// Where `on` is a range: how far the body may go from one drawing to the next, in % of its height
+    /// (root mean square over its bones, in the mean over the interval); above 0, default 8. Raised,
+    /// more of the motion is on threes.
+    pub step: f64,
     /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
     /// them takes as many as fit.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,7 +52,8 @@ pub struct Spacing {
 impl Default for Spacing {
     fn default() -> Self {
         Self {
-            on: 2,
+            on: On::every(2),
+            step: 8.0,
             inbetweens: None,
             weight: 0.3,
             max_shift: 2.0,
@@ -80,8 +86,12 @@ impl Spacing {
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if !(1..=MOST).contains(&self.on) {
-            return Err(Error::setting("spacing.on", "must be 1 (ones) to 1000 koma"));
+        if !self.on.is_spacing() {
+            let message = "must be 1 (ones) to 1000 koma, or the fewest and the most, as 1-3";
+            return Err(Error::setting("spacing.on", message));
+        }
+        if !(self.step > 0.0 && self.step.is_finite()) {
+            return Err(Error::setting("spacing.step", "must be above 0, in % of body height"));
         }
         if self.inbetweens.is_some_and(|count| count > MOST) {
             return Err(Error::setting("spacing.inbetweens", "must be 1000 at the most, or none"));
@@ -98,13 +108,15 @@ impl Spacing {
     /// Places the keys of a layer and the inbetweens between them on a sheet of `koma` koma.
     ///
     /// The first and the last koma always show an `end`; a key that falls on one gives way to it and
-    /// hands over its voters. Of two keys on one koma the dearer stays.
+    /// hands over its voters. Of two keys on one koma the dearer stays. The pace is asked for where
+    /// `on` is a range.
     pub fn place(
         &self,
         layer: &LayerKeys,
         skeleton: &Skeleton,
         clock: Clock,
         koma: usize,
+        pace: &Pace,
     ) -> Spaced {
         let stations = stations(&layer.keys, clock, koma);
         let mut drawings = Vec::with_capacity(koma);
@@ -115,7 +127,7 @@ impl Spacing {
             begins.push(station.koma);
             let Some(next) = stations.get(at + 1) else { continue };
             let interval = Interval::new(self, station, next, &layer.walls, clock);
-            let koma = self.koma_between(station.koma, next.koma);
+            let koma = self.koma_between(station.koma, next.koma, pace);
             let asked = self.inbetweens.unwrap_or(koma.len());
             did_not_fit += asked - koma.len();
             for koma in koma {
@@ -134,10 +146,13 @@ impl Spacing {
     }
 
     /// The koma on which inbetweens stand between two koma.
-    fn koma_between(&self, from: usize, to: usize) -> Vec<usize> {
+    fn koma_between(&self, from: usize, to: usize, pace: &Pace) -> Vec<usize> {
         let distance = to - from;
         match self.inbetweens {
-            None => (from + self.on..to).step_by(self.on).collect(),
+            None => {
+                let on = self.on.within(from, to, pace, self.step);
+                (from + on..to).step_by(on).collect()
+            }
             Some(asked) => {
                 let count = asked.min(distance - 1);
                 let koma = |at: usize| (at * distance) as f64 / (count + 1) as f64;

@@ -64,6 +64,7 @@ fn any_setting() -> impl Strategy<Value = (String, String)> {
                 .map(String::from)
                 .to_vec(),
             Kind::Amount => ["0", "1", "5", "1000", "4%", "100%", "1/3"].map(String::from).to_vec(),
+            Kind::On => ["0", "1", "3", "1000", "1-3", "3-1", "1-1000"].map(String::from).to_vec(),
             Kind::Band => ["0", "1", "100", "1e9", "5%", "100%"].map(String::from).to_vec(),
             Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
             Kind::Flag => vec!["true".into(), "false".into()],
@@ -168,7 +169,7 @@ fn one_two_and_three_frames_are_one_two_and_three_drawings() {
         let clip = clip(3, frames, 24.0, |at| at as f64);
         let mut engine = Engine::new(clip).unwrap();
         let mut recipe = Recipe::default();
-        recipe.spacing.on = 1;
+        recipe.spacing.on = genga::timing::On::every(1);
         recipe.set("omission.koma_dori", "0").unwrap();
         let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
         assert_eq!(breakdown.sheet.layers[0].drawings.len(), frames);

@@ -28,7 +28,7 @@ fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
 }
 
 fn place(spacing: &Spacing, layer: &LayerKeys, fps: f64, koma: usize) -> Layer {
-    spacing.place(layer, &Skeleton::default(), clock(fps), koma).layer
+    spacing.place(layer, &Skeleton::default(), clock(fps), koma, &Pace::default()).layer
 }
 
 fn places(layer: &Layer) -> Vec<f64> {
@@ -43,7 +43,13 @@ fn begins(layer: &Layer) -> Vec<usize> {
 fn every_knob_out_of_range_is_named() {
     let wrong = |spacing: Spacing| spacing.validate().unwrap_err().to_string();
     for on in [0, 1001, usize::MAX] {
+        let on = On::every(on);
         assert!(wrong(Spacing { on, ..Spacing::default() }).starts_with("spacing.on"));
+    }
+    let backwards = On { least: 3, most: 1 };
+    assert!(wrong(Spacing { on: backwards, ..Spacing::default() }).starts_with("spacing.on"));
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(wrong(Spacing { step, ..Spacing::default() }).starts_with("spacing.step"));
     }
     let inbetweens = Some(usize::MAX);
     assert!(wrong(Spacing { inbetweens, ..Spacing::default() }).starts_with("spacing.inbetweens"));
@@ -60,7 +66,7 @@ fn every_knob_out_of_range_is_named() {
 
 #[test]
 fn even_spacing_on_threes_has_a_short_last_exposure() {
-    let spacing = Spacing { on: 3, weight: 0.0, ..Spacing::default() };
+    let spacing = Spacing { on: On::every(3), weight: 0.0, ..Spacing::default() };
     let layer = place(&spacing, &layer(&[8], &[]), 24.0, 12);
     assert_eq!(begins(&layer), [0, 3, 6, 8, 11]);
     assert_eq!(places(&layer), [0.0, 3.0, 6.0, 8.0, 11.0]);
@@ -101,7 +107,7 @@ fn a_key_has_a_weight_of_its_own() {
 
 #[test]
 fn a_place_moves_no_further_than_allowed() {
-    let spacing = Spacing { on: 1, weight: 0.9, max_shift: 2.0, ..Spacing::default() };
+    let spacing = Spacing { on: On::every(1), weight: 0.9, max_shift: 2.0, ..Spacing::default() };
     let layer = place(&spacing, &layer(&[], &[]), 120.0, 41);
     for (koma, place) in places(&layer).iter().enumerate() {
         assert!((place - 5.0 * koma as f64).abs() <= 10.0 + 1e-9);
@@ -111,7 +117,8 @@ fn a_place_moves_no_further_than_allowed() {
 #[test]
 fn what_does_not_fit_is_reported() {
     let spacing = Spacing { inbetweens: Some(4), ..Spacing::default() };
-    let spaced = spacing.place(&layer(&[3], &[]), &Skeleton::default(), clock(24.0), 9);
+    let spaced =
+        spacing.place(&layer(&[3], &[]), &Skeleton::default(), clock(24.0), 9, &Pace::default());
     assert_eq!(spaced.did_not_fit, 2);
     assert_eq!(begins(&spaced.layer), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
 }
@@ -155,6 +162,18 @@ fn a_pin_on_an_end_is_what_the_end_shows() {
 }
 
 #[test]
+fn a_fast_interval_is_on_ones_and_a_slow_one_on_threes() {
+    let spacing = Spacing { on: On { least: 1, most: 3 }, ..Spacing::default() };
+    let steps = [[12.0; 8], [1.0; 8], [5.0; 8]].concat();
+    let pace = Pace::of_steps(steps.into_iter());
+    let layer = layer(&[8, 16], &[]);
+    let layer = spacing.place(&layer, &Skeleton::default(), clock(24.0), 25, &pace).layer;
+    let ones = [0, 1, 2, 3, 4, 5, 6, 7];
+    assert_eq!(begins(&layer)[..8], ones);
+    assert_eq!(begins(&layer)[8..], [8, 11, 14, 16, 17, 18, 19, 20, 21, 22, 23, 24]);
+}
+
+#[test]
 fn short_sheets_are_ends_alone() {
     for koma in 0..3 {
         let layer = place(&Spacing::default(), &layer(&[], &[]), 24.0, koma);
@@ -173,7 +192,7 @@ proptest! {
         weight in 0.0f64..0.99,
         max_shift in 0.0f64..4.0,
     ) {
-        let spacing = Spacing { on, weight, max_shift, ..Spacing::default() };
+        let spacing = Spacing { on: On::every(on), weight, max_shift, ..Spacing::default() };
         let keys: Vec<_> = keys.into_iter().collect();
         let walls: Vec<_> = walls.into_iter().collect();
         let koma = FrameRate::new(fps).unwrap().koma_from_frames(300, 24.0);

@@ -1,0 +1,162 @@
+//! How many koma a drawing stays between two keys (何コマ打ち): the same everywhere, or chosen for each
+//! interval by its motion (打ち分け).
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use crate::keys::Reference;
+
+/// Koma between two drawings beyond which nobody spaces.
+const MOST: usize = 1000;
+
+/// A drawing every so many koma: `2` is on twos everywhere, `1-3` on ones to threes (1〜3コマ打ち), as the
+/// motion of each interval asks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "OnText", into = "OnText")]
+pub struct On {
+    /// The fewest koma, where the body is fast; 1 to 1000.
+    pub least: usize,
+    /// The most, where it is slow; `least` to 1000.
+    pub most: usize,
+}
+
+impl On {
+    /// The same everywhere.
+    pub fn every(koma: usize) -> Self {
+        Self { least: koma, most: koma }
+    }
+
+    /// Whether it is the same everywhere.
+    pub fn is_fixed(self) -> bool {
+        self.least == self.most
+    }
+
+    /// Whether it can be.
+    pub fn is_spacing(self) -> bool {
+        1 <= self.least && self.least <= self.most && self.most <= MOST
+    }
+
+    /// For an interval from one koma to another: the most koma for which the body goes no further than
+    /// `step`, in % of its height, from drawing to drawing in the mean.
+    pub(super) fn within(self, from: usize, to: usize, pace: &Pace, step: f64) -> usize {
+        if self.is_fixed() {
+            return self.least;
+        }
+        let koma = step / pace.mean(from, to);
+        // Of a body that does not move this is infinite, which the bound below takes.
+        (koma.floor() as usize).clamp(self.least, self.most)
+    }
+}
+
+/// How far a body has gone by each koma.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Pace {
+    /// In % of its height, from 0 on the first koma.
+    way: Vec<f64>,
+}
+
+impl Pace {
+    /// The pace of the source, koma after koma.
+    pub fn of(reference: &Reference) -> Self {
+        let rate = reference.clock().koma_rate;
+        Self::of_steps(reference.speeds().into_iter().map(|speed| speed / rate))
+    }
+
+    /// The pace of a body that goes so far into each koma from the second on, in % of its height.
+    pub(super) fn of_steps(steps: impl Iterator<Item = f64>) -> Self {
+        let mut way = 0.0;
+        let ways = steps.map(|step| {
+            way += step;
+            way
+        });
+        Self { way: std::iter::once(0.0).chain(ways).collect() }
+    }
+
+    /// How far it goes a koma between two koma, in the mean.
+    fn mean(&self, from: usize, to: usize) -> f64 {
+        let way = |koma: usize| self.way.get(koma).or(self.way.last()).copied().unwrap_or(0.0);
+        (way(to) - way(from)) / (to - from) as f64
+    }
+}
+
+impl fmt::Display for On {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { least, most } = self;
+        if self.is_fixed() { write!(f, "{least}") } else { write!(f, "{least}-{most}") }
+    }
+}
+
+impl FromStr for On {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let koma = |text: &str| text.trim().parse::<usize>().ok();
+        let on = match text.split_once('-') {
+            None => koma(text).map(Self::every),
+            Some((least, most)) => {
+                koma(least).zip(koma(most)).map(|(least, most)| Self { least, most })
+            }
+        };
+        on.filter(|on| on.is_spacing()).ok_or_else(|| {
+            format!("expected koma (2), or the fewest and the most (1-3), found \"{text}\"")
+        })
+    }
+}
+
+/// What a recipe file may write: `2` or `"1-3"`.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum OnText {
+    Every(usize),
+    Text(String),
+}
+
+impl TryFrom<OnText> for On {
+    type Error = String;
+
+    fn try_from(text: OnText) -> Result<Self, String> {
+        match text {
+            OnText::Every(koma) => koma.to_string().parse(),
+            OnText::Text(text) => text.parse(),
+        }
+    }
+}
+
+impl From<On> for OnText {
+    fn from(on: On) -> Self {
+        if on.is_fixed() { Self::Every(on.least) } else { Self::Text(on.to_string()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_reads_back_as_written_and_refuses_what_cannot_be() {
+        for text in ["1", "2", "1000", "1-3", "2-4"] {
+            assert_eq!(text.parse::<On>().unwrap().to_string(), text);
+        }
+        assert_eq!(" 1 - 3 ".parse(), Ok(On { least: 1, most: 3 }));
+        for wrong in
+            ["", "0", "-1", "3-1", "0-3", "1-1001", "1.5", "two", "1-", "99999999999999999999"]
+        {
+            assert!(wrong.parse::<On>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_faster_the_body_the_fewer_koma() {
+        // 1 % a koma, then 4, then 20, then none.
+        let steps = [[1.0; 4], [4.0; 4], [20.0; 4], [0.0; 4]].concat();
+        let pace = Pace::of_steps(steps.into_iter());
+        let on = On { least: 1, most: 3 };
+        let within = |from, to| on.within(from, to, &pace, 8.0);
+        assert_eq!([within(0, 4), within(4, 8), within(8, 12), within(12, 16)], [3, 2, 1, 3]);
+        assert_eq!(On::every(2).within(8, 12, &pace, 8.0), 2, "fixed is fixed");
+        assert_eq!(on.within(0, 1, &Pace::default(), 8.0), 3, "nothing moves");
+        assert_eq!(on.within(14, 40, &pace, 8.0), 3, "behind the end nothing moves");
+    }
+}
