@@ -179,7 +179,7 @@ fn a_study_that_cannot_be_is_refused() {
     let [x, y] = many;
     says(Study { x, y: Some(y), ..good.clone() }, "4000000 cells are too many");
     let mut wrong = good.clone();
-    wrong.recipe.spacing.on = 0;
+    wrong.recipe.spacing.on = crate::timing::On::every(0);
     says(wrong, "spacing.on");
     let empty = swinging(9).trimmed(Frame(3), Frame(4)).unwrap();
     assert_eq!(good.run(empty, || ()).unwrap().cells[0].values, [0.0, 0.0], "one frame has no key");

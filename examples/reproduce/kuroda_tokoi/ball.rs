@@ -9,7 +9,7 @@ use genga::plot::SpacingPlot;
 use genga::sheet::Sheet;
 use genga::signal::{LowPass, Measure, Signals, Spectrum, Speed, TurnFinder, TurnKind};
 use genga::time::{Frame, KOMA_RATE, Span};
-use genga::timing::Spacing;
+use genga::timing::{Pace, Spacing};
 
 use crate::Outcome;
 use crate::part::Part;
@@ -96,7 +96,7 @@ fn sheet(clip: &Clip, weight: f64, walls: &[Frame]) -> Sheet {
     let walls = walls.iter().map(|frame| Wall { frame: *frame, strength: 1.0 }).collect();
     let keys = LayerKeys { keys: Vec::new(), walls, over_limit: 0 };
     let clock = clip.clock(KOMA_RATE);
-    let spaced = spacing.place(&keys, clip.skeleton(), clock, KOMA);
+    let spaced = spacing.place(&keys, clip.skeleton(), clock, KOMA, &Pace::default());
     Sheet { clock, layers: vec![spaced.layer] }
 }
 

@@ -2,7 +2,7 @@
 
 use genga::motion::Clip;
 use genga::signal::{
-    FilterKind, LowPass, Measure, Reading, Side, Signals, Spectrum, Speed, Steady, Turn, TurnFinder,
+    FilterKind, LowPass, Measure, Reading, Side, Signals, Spectrum, Speed, Steady, TurnFinder,
 };
 use genga::study;
 use genga::time::Span;
@@ -149,8 +149,7 @@ impl Way {
         for (at, signals) in filtered.iter().enumerate() {
             let candidates = self.finder(0.0).candidates(signals, 0.0);
             for (of, frames) in PERSISTENCES.into_iter().enumerate() {
-                let least = self.finder(frames).persistence_frames(signals);
-                let turns = confirmed(&candidates, least);
+                let turns = self.finder(frames).confirmed(&candidates, signals);
                 let cell = at * PERSISTENCES.len() + of;
                 counts.union[cell] = study::union(&turns);
                 counts.total[cell] = study::total(&turns);
@@ -158,14 +157,6 @@ impl Way {
         }
         counts
     }
-}
-
-/// The turns that stay confirmed for so many frames.
-fn confirmed(candidates: &[Vec<Turn>], least: usize) -> Vec<Vec<Turn>> {
-    let of_joint = |turns: &Vec<Turn>| {
-        turns.iter().copied().filter(|turn| turn.confirmed_for >= least).collect()
-    };
-    candidates.iter().map(of_joint).collect()
 }
 
 #[cfg(test)]
@@ -180,13 +171,11 @@ mod tests {
         let at = ways.iter().position(|way| *way == STUDY).unwrap();
         let counts = count(&clip, &ways).unwrap();
         assert_eq!(counts.len(), ways.len());
-        let mut engine = genga::pipeline::Engine::new(clip).unwrap();
-        let frames = |frames: &[f64]| frames.iter().copied().map(Span::Frames).collect::<Vec<_>>();
-        let recipe = study::table_1_recipe();
-        let rows =
-            study::sweep(&mut engine, &recipe, &frames(&FRAMES), &frames(&PERSISTENCES)).unwrap();
-        assert_eq!(counts[at].union.to_vec(), rows.iter().map(|row| row.union).collect::<Vec<_>>());
-        assert_eq!(counts[at].total.to_vec(), rows.iter().map(|row| row.total).collect::<Vec<_>>());
+        let grid = super::super::table_1::study().unwrap().run(clip, || ()).unwrap();
+        for (cell, counted) in grid.cells.iter().enumerate() {
+            let counts = [counts[at].union[cell], counts[at].total[cell]];
+            assert_eq!(counts.map(|count| count as f64), counted.values[..2], "cell {cell}");
+        }
     }
 
     #[test]

@@ -12,14 +12,7 @@ pub(super) const PAPER: [(usize, usize, usize); 6] =
 
 /// The table, and what the prose says of it.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
-    let study = Study {
-        recipe: study::table_1_recipe(),
-        x: Axis::new("filter.width", "10,20,30")?,
-        y: Some(Axis::new("turns.persistence", "5,10")?),
-        measures: vec![Measure::Union, Measure::Total, Measure::LayerKeys],
-        keep_keys: false,
-    };
-    let grid = study.run(samples::clip("kuroda-pitch")?, || ())?;
+    let grid = study()?.run(samples::clip("kuroda-pitch")?, || ())?;
     part.table("table-1-keys", table(&grid));
     let levels =
         grid.cells.iter().zip(PAPER).map(|(cell, (.., keys))| cell.values[0] / keys as f64);
@@ -28,6 +21,17 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     part.number("kt.level.least", number(least, 1));
     part.number("kt.level.most", number(most, 1));
     Ok(())
+}
+
+/// The six cells of the paper.
+pub(super) fn study() -> Outcome<Study> {
+    Ok(Study {
+        recipe: study::table_1_recipe(),
+        x: Axis::new("filter.width", "10,20,30")?,
+        y: Some(Axis::new("turns.persistence", "5,10")?),
+        measures: vec![Measure::Union, Measure::Total, Measure::LayerKeys],
+        keep_keys: false,
+    })
 }
 
 fn table(grid: &Grid) -> Table {

@@ -7,6 +7,7 @@ use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::{Layer, Role};
 use genga::signal::Signals;
+use genga::timing::{Pace, Spacing};
 
 use crate::Outcome;
 use crate::part::Part;
@@ -59,8 +60,8 @@ fn told(clip: Clip) -> Outcome<Told> {
     let speed = Sum { filtered: breakdown.filtered, weights: &weights };
     let koma = breakdown.spaced.length();
     let layer = |keys: &LayerKeys, weight| {
-        let spacing = genga::timing::Spacing { weight, ..recipe.spacing.clone() };
-        spacing.place(keys, &skeleton, breakdown.clock, koma).layer
+        let spacing = Spacing { weight, ..recipe.spacing.clone() };
+        spacing.place(keys, &skeleton, breakdown.clock, koma, &Pace::default()).layer
     };
     let without = LayerKeys { walls: Vec::new(), ..breakdown.keys.clone() };
     let even = layer(&without, 0.0);
