@@ -173,6 +173,7 @@ impl LaneQuat {
     pub(crate) fn slerp(self, to: Self, share: Lanes) -> Self {
         let arc = Arc::between(self, to);
         let moved = arc.along(share);
+        // Where nothing is gone, not even a digit: from the middle, rounding would show.
         let stays = arc.degrees * share;
         let pick = |moved: Lanes, here: Lanes| {
             Lanes::from_fn(|lane| if stays.0[lane] == 0.0 { here.0[lane] } else { moved.0[lane] })
