@@ -73,7 +73,7 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
         ">the letter, both stages",
         ">genga, both stages",
         ">genga with positions",
-        ">letter / genga",
+        if cfg!(debug_assertions) { ">letter / genga (dev build)" } else { ">letter / genga" },
     ]);
     let mut idle = Vec::new();
     for action in ACTIONS {
