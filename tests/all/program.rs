@@ -287,9 +287,11 @@ fn inspect_draws_the_skeleton_and_never_over_the_clip() {
     for joint in &clip.skeleton().joints {
         assert!(picture.contains(&format!(">{}</text>", joint.name)), "{}", joint.name);
     }
-    fs::copy(here("data/kick.bvh"), place.path("k.bvh")).unwrap();
-    place.refused(2, "inspect k.bvh --plot k.bvh");
-    place.refused(2, "inspect k.bvh --plot s.svg --warnings");
+    // A name that a picture may have.
+    fs::copy(here("data/kick.bvh"), place.path("k.svg")).unwrap();
+    place.refused(2, "inspect k.svg --plot k.svg");
+    assert_eq!(read(&place.path("k.svg")), fs::read_to_string(here("data/kick.bvh")).unwrap());
+    place.refused(2, "inspect k.svg --plot s.svg --warnings");
 }
 
 #[test]
