@@ -170,7 +170,7 @@ pub const KNOBS: &[Knob] = &[
         name: "spacing.on",
         japanese: "何コマ打ち",
         kind: Kind::On,
-        unit: "koma, or the fewest and the most (\"1-3\")",
+        unit: "koma, 1 (ones) or more, or the fewest and the most (\"1-3\")",
         help: "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes. 1-3 chooses for each \
                interval: fast on ones, slow on threes (打ち分け).",
     },
