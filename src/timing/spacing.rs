@@ -32,8 +32,8 @@ pub struct Spacing {
     /// into straight jumps. A range, `1-3`, chooses for each interval by `step`.
     pub on: On,
     /// Where `on` is a range: how far the body may go from one drawing to the next, in % of its height
-    /// (root mean square over its bones, in the mean over the interval); above 0, default 8. Raised,
-    /// more of the motion is on threes.
+    /// (root mean square over its bones, in the mean over the interval); above 0, default 9, which gives
+    /// about as many drawings as twos do. Raised, more of the motion is on threes.
     pub step: f64,
     /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
     /// them takes as many as fit.
@@ -53,7 +53,7 @@ impl Default for Spacing {
     fn default() -> Self {
         Self {
             on: On::every(2),
-            step: 8.0,
+            step: 9.0,
             inbetweens: None,
             weight: 0.3,
             max_shift: 2.0,
