@@ -15,6 +15,7 @@ mod ones;
 mod page;
 mod part;
 mod samples;
+mod steady;
 mod table;
 mod takes;
 mod windows;
@@ -48,8 +49,13 @@ struct Page {
 const PAGES: [Page; 2] = [
     Page {
         name: "reproduction",
-        from_samples: &[kuroda_tokoi::from_samples, kitamura::from_samples],
-        from_takes: &[kuroda_tokoi::from_takes, kitamura::from_takes, chain::from_takes],
+        from_samples: &[kuroda_tokoi::from_samples, kitamura::from_samples, steady::from_samples],
+        from_takes: &[
+            kuroda_tokoi::from_takes,
+            kitamura::from_takes,
+            chain::from_takes,
+            steady::from_takes,
+        ],
         is_bound: true,
     },
     Page {

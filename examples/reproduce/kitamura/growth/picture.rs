@@ -8,6 +8,9 @@ use crate::kitamura::growth::knee::{knee, last_within};
 use crate::kitamura::growth::{Effect, Growth, KOMA_DORI, NAKA_NASHI, middle};
 use crate::table::number;
 
+/// The fonts of the library's pictures.
+const FONTS: &str = "Noto Sans CJK JP, Hiragino Sans, Yu Gothic, sans-serif";
+
 const CLIP: RGBColor = RGBColor(184, 190, 197);
 const MIDDLE: RGBColor = RGBColor(34, 37, 43);
 const PAPER: RGBColor = RGBColor(200, 50, 16);
@@ -67,8 +70,8 @@ pub(super) fn draw(clips: &[Growth]) -> Outcome<String> {
 
 impl Panel {
     fn draw(&self, area: &Area<'_>, clips: &[Growth]) -> Outcome<()> {
-        let words = |size: i32| ("sans-serif", size).into_font().color(&MIDDLE);
-        area.draw(&Text::new(self.title, (18, 14), ("sans-serif", 20).into_font().color(&MIDDLE)))?;
+        let words = |size: i32| (FONTS, size).into_font().color(&MIDDLE);
+        area.draw(&Text::new(self.title, (18, 14), (FONTS, 20).into_font().color(&MIDDLE)))?;
         area.draw(&Text::new(self.legend, (200, 18), words(14)))?;
         let mut chart = ChartBuilder::on(area)
             .margin(14)

@@ -1,0 +1,111 @@
+//! How steady keys are: what a little more or less of a setting, or a little noise, does to them.
+
+use std::slice::from_ref;
+
+use genga::keys::Matching;
+use genga::plot::HeatMap;
+use genga::recipe::Recipe;
+use genga::study::{self, Axis, Grid, Measure, Plateau, Study};
+
+use crate::part::Part;
+use crate::table::{Table, number, percent, spread};
+use crate::takes::Take;
+use crate::{Outcome, samples};
+
+/// A setting, its own value in the default recipe first, then others.
+const CHANGES: [(&str, &[&str]); 3] = [
+    ("filter.width", &["0.1s", "0.09s", "0.11s", "0.08s", "0.12s"]),
+    ("turns.persistence", &["0.1s", "0.09s", "0.11s", "0.08s", "0.12s"]),
+    ("noise", &["0", "0.05", "0.1", "0.2", "0.5"]),
+];
+
+/// Where plateaus are looked for, round the default recipe.
+const ROUND: &str = "0.06s..0.14s:0.01s";
+
+/// The map of Table 1.
+pub(crate) fn from_samples() -> Outcome<Part> {
+    let study = Study {
+        recipe: study::table_1_recipe(),
+        x: Axis::new("filter.width", "4..40:2")?,
+        y: Some(Axis::new("turns.persistence", "1..12:1")?),
+        measures: vec![Measure::Union],
+        keep_keys: true,
+    };
+    let grid = study.run(samples::clip("kuroda-pitch")?, || ())?;
+    let plateaus = [0.0, 1.0].map(|koma| Plateau::largest(from_ref(&grid), koma));
+    let mut part = Part::default();
+    part.picture("table-1-map", HeatMap { show: Measure::Union }.draw(&[grid], Some(&plateaus))?);
+    Ok(part)
+}
+
+/// The tables.
+pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
+    let mut part = Part::default();
+    let mut table =
+        Table::new(&["changed", ">to", ">keys kept, median", ">least", ">most", ">moved, koma"]);
+    for (name, values) in CHANGES {
+        let grids = grids(takes, Axis::new(name, &values.join(","))?, None)?;
+        for (cell, value) in values.iter().enumerate().skip(1) {
+            let matchings: Vec<Matching> = grids.iter().map(|grid| moved(grid, 0, cell)).collect();
+            let kept = spread(matchings.iter().map(Matching::kept));
+            let moves = grids.iter().zip(&matchings);
+            let moves = moves.filter_map(|(grid, matching)| {
+                matching.mean_move().map(|frames| frames / grid.frames_in_koma)
+            });
+            part.number(&format!("steady.{name}.{value}"), number(100.0 * kept[1], 0));
+            let [least, median, most] = kept.map(percent);
+            let moved = number(spread(moves)[1], 2);
+            table.row(&[format!("`{name}`"), (*value).into(), median, least, most, moved]);
+        }
+    }
+    part.table("steady", table);
+    plateaus(takes, &mut part)?;
+    Ok(part)
+}
+
+/// Where the keys of each clip do not change.
+fn plateaus(takes: &[Take], part: &mut Part) -> Outcome<()> {
+    let [x, y] = ["filter.width", "turns.persistence"].map(|name| Axis::new(name, ROUND));
+    let mut table = Table::new(&[
+        "clip",
+        ">cells with the very same keys",
+        ">the same within a koma",
+        "where",
+        "the recipe stands on it",
+    ]);
+    let grids = grids(takes, x?, Some(y?))?;
+    let (mut on, cells) = (0, grids[0].cells.len());
+    for (take, grid) in takes.iter().zip(&grids) {
+        let [same, near] = [0.0, 1.0].map(|koma| Plateau::largest(from_ref(grid), koma));
+        let count = |plateau: &Option<Plateau>| {
+            plateau.as_ref().map_or(0, |plateau| plateau.cells.len()).to_string()
+        };
+        let is_own = near.as_ref().zip(grid.own).is_some_and(|(near, own)| near.holds(own));
+        on += usize::from(is_own);
+        table.row(&[
+            take.name.clone(),
+            count(&same),
+            count(&near),
+            near.as_ref().map_or("–".into(), |near| near.words(grid)),
+            if is_own { "yes" } else { "no" }.into(),
+        ]);
+    }
+    part.table("plateaus", table);
+    part.number("steady.cells", cells);
+    part.number("steady.clips", takes.len());
+    part.number("steady.on", on);
+    Ok(())
+}
+
+/// The default recipe with settings varied, on every clip.
+fn grids(takes: &[Take], x: Axis, y: Option<Axis>) -> Outcome<Vec<Grid>> {
+    let (recipe, measures) = (Recipe::default(), vec![Measure::LayerKeys]);
+    let study = Study { recipe, x, y, measures, keep_keys: true };
+    takes.iter().map(|take| Ok(study.run(take.clip.clone(), || ())?)).collect()
+}
+
+/// The keys of two cells laid on each other, within a koma.
+fn moved(grid: &Grid, before: usize, after: usize) -> Matching {
+    let keys = |cell: usize| grid.cells[cell].keys.as_deref().unwrap_or_default();
+    Matching::between(keys(before), keys(after), grid.frames_in_koma)
+}
