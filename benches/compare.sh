@@ -35,6 +35,10 @@ cargo bench --locked --quiet --bench cores -- "$long"
 printf '\n## The chain\n\n'
 cargo bench --locked --quiet --bench chain
 
+printf '\n## A study\n\n```text\n'
+cargo bench --locked --quiet --bench study
+printf '```\n'
+
 printf '\n## A long take\n\n'
 cargo build --locked --quiet --release
 /usr/bin/time -v target/release/genga --quiet run "$long" --out "$work/out" 2>"$work/time"
