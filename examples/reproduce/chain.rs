@@ -41,6 +41,9 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     let mut part = Part::default();
     part.table("chain", medians(&looks));
     part.table("chain-clips", clips(takes, &looks));
+    let larger = looks.iter().filter(|[.., second, _, chain]| chain.peak > second.peak).count();
+    part.number("chain.larger", larger);
+    part.number("chain.clips", looks.len());
     for (at, way) in ["ones", "first", "second", "few", "both"].into_iter().enumerate() {
         let figures = |of: fn(&Look) -> f64| spread(looks.iter().map(|looks| of(&looks[at])));
         let mut tell = |name: &str, figures: [f64; 3], places| {

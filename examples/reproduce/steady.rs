@@ -6,6 +6,7 @@ use genga::keys::Matching;
 use genga::plot::HeatMap;
 use genga::recipe::Recipe;
 use genga::study::{self, Axis, Grid, Measure, Plateau, Study};
+use genga::time::Frame;
 
 use crate::part::Part;
 use crate::table::{Table, number, percent, spread};
@@ -28,34 +29,43 @@ pub(crate) fn from_samples() -> Outcome<Part> {
         recipe: study::table_1_recipe(),
         x: Axis::new("filter.width", "4..40:2")?,
         y: Some(Axis::new("turns.persistence", "1..12:1")?),
-        measures: vec![Measure::Union],
+        measures: vec![Measure::Union, Measure::LayerKeys],
         keep_keys: true,
     };
     let grid = study.run(samples::clip("kuroda-pitch")?, || ())?;
     let plateaus = [0.0, 1.0].map(|koma| Plateau::largest(from_ref(&grid), koma));
     let mut part = Part::default();
-    part.picture("table-1-map", HeatMap { show: Measure::Union }.draw(&[grid], Some(&plateaus))?);
+    part.picture(
+        "table-1-map",
+        HeatMap { show: Measure::LayerKeys }.draw(&[grid], Some(&plateaus))?,
+    );
     Ok(part)
 }
 
 /// The tables.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     let mut part = Part::default();
-    let mut table =
-        Table::new(&["changed", ">to", ">keys kept, median", ">least", ">most", ">moved, koma"]);
+    let mut table = Table::new(&[
+        "changed",
+        ">to",
+        ">kept within a koma, median",
+        ">least",
+        ">most",
+        ">by chance",
+        ">kept within three koma",
+    ]);
     for (name, values) in CHANGES {
         let grids = grids(takes, Axis::new(name, &values.join(","))?, None)?;
         for (cell, value) in values.iter().enumerate().skip(1) {
-            let matchings: Vec<Matching> = grids.iter().map(|grid| moved(grid, 0, cell)).collect();
-            let kept = spread(matchings.iter().map(Matching::kept));
-            let moves = grids.iter().zip(&matchings);
-            let moves = moves.filter_map(|(grid, matching)| {
-                matching.mean_move().map(|frames| frames / grid.frames_in_koma)
-            });
-            part.number(&format!("steady.{name}.{value}"), number(100.0 * kept[1], 0));
-            let [least, median, most] = kept.map(percent);
-            let moved = number(spread(moves)[1], 2);
-            table.row(&[format!("`{name}`"), (*value).into(), median, least, most, moved]);
+            let kept = |koma: f64| spread(grids.iter().map(|grid| kept(grid, cell, koma)));
+            let chance = spread(grids.iter().map(|grid| chance(grid, cell)))[1];
+            let ([least, median, most], wide) = (kept(1.0), kept(3.0)[1]);
+            for (word, share) in [("near", median), ("wide", wide), ("chance", chance)] {
+                part.number(&format!("steady.{name}.{value}.{word}"), number(100.0 * share, 0));
+            }
+            let [median, least, most] = [median, least, most].map(percent);
+            let (chance, wide) = (percent(chance), percent(wide));
+            table.row(&[format!("`{name}`"), (*value).into(), median, least, most, chance, wide]);
         }
     }
     part.table("steady", table);
@@ -104,8 +114,29 @@ fn grids(takes: &[Take], x: Axis, y: Option<Axis>) -> Outcome<Vec<Grid>> {
     takes.iter().map(|take| Ok(study.run(take.clip.clone(), || ())?)).collect()
 }
 
-/// The keys of two cells laid on each other, within a koma.
-fn moved(grid: &Grid, before: usize, after: usize) -> Matching {
-    let keys = |cell: usize| grid.cells[cell].keys.as_deref().unwrap_or_default();
-    Matching::between(keys(before), keys(after), grid.frames_in_koma)
+/// The share of the recipe's own keys, which are those of the first cell, that another cell has too.
+fn kept(grid: &Grid, cell: usize, koma: f64) -> f64 {
+    Matching::between(keys(grid, 0), keys(grid, cell), koma * grid.frames_in_koma).kept()
+}
+
+/// What keys as many and as far apart would share within a koma that have nothing to do with each
+/// other: the mean with the second list turned round by every whole number of koma.
+fn chance(grid: &Grid, cell: usize) -> f64 {
+    let (own, other) = (keys(grid, 0), keys(grid, cell));
+    let past = own.iter().chain(other).map(|frame| frame.0).max().unwrap_or(0) + 1;
+    let turned = |by: usize| {
+        let mut turned: Vec<Frame> =
+            other.iter().map(|frame| Frame((frame.0 + by) % past)).collect();
+        turned.sort_unstable();
+        Matching::between(own, &turned, grid.frames_in_koma).kept()
+    };
+    let steps: Vec<usize> = (1..)
+        .map(|koma| (f64::from(koma) * grid.frames_in_koma).round() as usize)
+        .take_while(|by| *by < past)
+        .collect();
+    steps.iter().map(|by| turned(*by)).sum::<f64>() / steps.len() as f64
+}
+
+fn keys(grid: &Grid, cell: usize) -> &[Frame] {
+    grid.cells[cell].keys.as_deref().unwrap_or_default()
 }

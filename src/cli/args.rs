@@ -241,17 +241,20 @@ pub(super) struct StudyArgs {
     pub(super) part: Part,
     #[command(flatten)]
     pub(super) settings: Settings,
-    /// The setting that is varied and its values [default: filter.width=10,20,30].
+    /// The setting that is varied and its values, in the recipe of `genga run` [default:
+    /// filter.width=10,20,30 in the recipe of Table 1].
     #[arg(long, value_name = "KNOB=VALUES")]
     pub(super) x: Option<Axis>,
     /// Another setting, varied for each value of the first [default: turns.persistence=5,10, and none
     /// with --x].
     #[arg(long, value_name = "KNOB=VALUES")]
     pub(super) y: Option<Axis>,
-    /// Short for --x filter.width=VALUES, source frames or seconds.
+    /// Filter widths of a Table 1 study, source frames or seconds: --x filter.width=VALUES, but in the
+    /// recipe of Table 1.
     #[arg(long, value_name = "VALUES", value_parser = filter_width, conflicts_with = "x")]
     pub(super) filter_width: Option<Axis>,
-    /// Short for --y turns.persistence=VALUES, source frames or seconds.
+    /// Persistences of a Table 1 study, source frames or seconds: --y turns.persistence=VALUES, but in
+    /// the recipe of Table 1 unless --x is given.
     #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
     pub(super) persistence: Option<Axis>,
     /// The filter.

@@ -17,6 +17,7 @@ const DEEPEST: usize = 32;
 pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     if let Some(target) = &args.plot {
         io::spare(&args.clip.clip, target)?;
+        pictures::check_name("plot", target)?;
     }
     let source = source::clip(&args.clip)?;
     if args.warnings {

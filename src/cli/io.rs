@@ -175,6 +175,19 @@ pub(super) fn spare_the(what: &str, source: &Path, target: &Path) -> Result<(), 
     Err(Failure::AskedWrongly(message))
 }
 
+/// Refuses to write two things to one place: only the last would be left.
+pub(super) fn distinct<'a>(targets: impl Iterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+    let targets: Vec<&PathBuf> = targets.collect();
+    for (at, target) in targets.iter().enumerate() {
+        if targets[..at].iter().any(|other| other == target || is_same(other, target)) {
+            let target = target.display();
+            let message = format!("{target}: two outputs are to go there; name another for one");
+            return Err(Failure::AskedWrongly(message));
+        }
+    }
+    Ok(())
+}
+
 /// Whether two paths are one file that is there.
 pub(super) fn is_same(a: &Path, b: &Path) -> bool {
     let real = |path: &Path| fs::canonicalize(path).ok();

@@ -13,6 +13,8 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     for target in args.sheet.iter().chain(&args.plot).chain([&args.out]) {
         io::spare(&args.clip.clip, target)?;
     }
+    args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
+    io::distinct(args.sheet.iter().chain(&args.plot).chain([&args.out]))?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let clip = source.clip;

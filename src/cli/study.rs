@@ -23,6 +23,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     for clip in &args.clips {
         targets().try_for_each(|target| io::spare(clip, target))?;
     }
+    io::distinct(targets())?;
     args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
     args.heat.iter().try_for_each(|path| pictures::check_name("heat", path))?;
     let study = asked(args)?;
@@ -31,6 +32,8 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let names = names(args);
     let tolerance = args.stability.then_some(args.tolerance);
     let table = deliver::study_csv(&names, &grids, tolerance)?;
+    // First, so that a picture that cannot be drawn loses nothing.
+    io::write(&args.out, table.as_bytes())?;
     let show = args.show.unwrap_or_else(|| usually_shown(&study));
     if let Some(path) = &args.plot {
         let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
@@ -41,7 +44,6 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         let edges = tolerance.map(|koma| [0.0, koma].map(|koma| Plateau::largest(&grids, koma)));
         pictures::write(path, &HeatMap { show }.draw(&grids, edges.as_ref())?)?;
     }
-    io::write(&args.out, table.as_bytes())?;
     if let Some(koma) = tolerance {
         say_plateaus(words, &names, &grids, koma);
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::plot::axis::number;
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
-use crate::plot::study::{name, shown, title};
+use crate::plot::study::{headline, name, shown, title};
 use crate::plot::style;
 use crate::study::{Axis, Grid, Measure, Plateau};
 
@@ -54,7 +54,7 @@ impl HeatMap {
             return Err(style::cannot("a study without a clip has nothing to draw"));
         };
         let values = shown(grids, self.show)?;
-        let map = Map::of(grid, &values);
+        let map = Map::of(grid, &values, self.show);
         let (width, height) = map.size();
         let height =
             height + if plateaus.is_some() { LEGEND - BOTTOM + style::MARGIN } else { 0.0 };
@@ -86,6 +86,8 @@ struct Map {
     columns: usize,
     rows: usize,
     left: f64,
+    /// Px that the words above and below the cells need.
+    words: f64,
     /// Px of a cell.
     cell: (f64, f64),
     low: f64,
@@ -95,7 +97,7 @@ struct Map {
 }
 
 impl Map {
-    fn of(grid: &Grid, values: &[f64]) -> Self {
+    fn of(grid: &Grid, values: &[f64], show: Measure) -> Self {
         let (columns, rows) = (grid.x.len(), grid.rows());
         let px = |all: f64, count: usize, (least, most): (f64, f64)| {
             (all / count as f64).floor().clamp(least, most)
@@ -107,9 +109,13 @@ impl Map {
         let fits = ((cell.0 - 4.0) / widest).min(0.62 * cell.1).min(style::WORDS);
         let labels = grid.y.iter().flat_map(Axis::values);
         let label = labels.map(|value| style::text_width(value, style::SMALL)).fold(0.0, f64::max);
+        let title = style::text_width(&headline(show), 1.1 * style::TITLE);
+        let axes = [Some(&grid.x), grid.y.as_ref()].into_iter().flatten();
+        let words = axes.map(|axis| style::text_width(&name(axis, unit(axis)), style::WORDS));
         Self {
             columns,
             rows,
+            words: words.fold(title, f64::max),
             left: style::MARGIN + label + if grid.y.is_some() { 30.0 } else { 0.0 },
             cell,
             low: finite().fold(f64::INFINITY, f64::min),
@@ -127,7 +133,8 @@ impl Map {
     }
 
     fn size(&self) -> (f64, f64) {
-        ((self.right() + style::MARGIN).max(560.0), self.bottom() + BOTTOM)
+        let width = self.right().max(style::MARGIN + self.words) + style::MARGIN;
+        (width.max(560.0), self.bottom() + BOTTOM)
     }
 
     /// The upper left corner of a cell; the first row is the lowest.
@@ -167,16 +174,15 @@ impl Map {
             canvas.text(value, (middle, self.bottom() + 17.0), look.align(Align::Center))?;
         }
         let words = Type::new(style::WORDS);
-        let unit = |axis: &Axis| axis.scale().map_or(String::new(), |(_, unit)| unit.to_owned());
         let middle = (0.5 * (self.left + self.right())).max(0.5 * self.size().0.min(560.0));
         let place = (middle, self.bottom() + 42.0);
-        canvas.text(&name(&grid.x, &unit(&grid.x)), place, words.align(Align::Center))?;
+        canvas.text(&name(&grid.x, unit(&grid.x)), place, words.align(Align::Center))?;
         let Some(axis) = &grid.y else { return Ok(()) };
         for (y, value) in axis.values().iter().enumerate().step_by(self::every(14.0, self.cell.1)) {
             let middle = self.bottom() - (y as f64 + 0.5) * self.cell.1;
             canvas.text(value, (self.left - 8.0, middle + 4.0), look.align(Align::Right))?;
         }
-        canvas.text(&name(axis, &unit(axis)), (style::MARGIN, TOP - 10.0), words)
+        canvas.text(&name(axis, unit(axis)), (style::MARGIN, TOP - 10.0), words)
     }
 
     /// The edges of plateaus and the recipe's own cell, and below the map what they are.
@@ -189,7 +195,7 @@ impl Map {
         let base = self.bottom() + LEGEND;
         let mut left = style::MARGIN;
         let looks = [(style::GENGA, 2.0), (style::RIGHT, 4.0)];
-        let words = ["same keys 原画が同じ", "nearly the same ほぼ同じ"];
+        let words = ["same keys of the layer 原画が同じ", "nearly the same ほぼ同じ"];
         // The wider edge lies under the other.
         for ((plateau, (color, width)), words) in plateaus.iter().zip(looks).zip(words).rev() {
             let Some(plateau) = plateau else { continue };
@@ -264,6 +270,11 @@ impl Map {
         let least = written(self.low);
         canvas.text(&least, (right - width - 6.0, 59.0), look.align(Align::Right))
     }
+}
+
+/// What an axis counts in; of words nothing.
+fn unit(axis: &Axis) -> &str {
+    axis.scale().map_or("", |(_, unit)| unit)
 }
 
 fn color(share: f64) -> RGBColor {

@@ -312,11 +312,15 @@ impl Chart {
 
 /// What is drawn, in both languages.
 pub(super) fn title(canvas: &mut Canvas<'_>, show: Measure) -> Result<(), Error> {
+    canvas.text(&headline(show), (style::MARGIN, 34.0), Type::new(style::TITLE).bold())
+}
+
+/// The measure in both languages.
+pub(super) fn headline(show: Measure) -> String {
     let (english, japanese) = show.words();
     let mut letters = english.chars();
     let first = letters.next().map(|letter| letter.to_uppercase().to_string());
-    let title = format!("{}{}  {japanese}", first.unwrap_or_default(), letters.as_str());
-    canvas.text(&title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold())
+    format!("{}{}  {japanese}", first.unwrap_or_default(), letters.as_str())
 }
 
 /// The range of some numbers with some air at both ends.

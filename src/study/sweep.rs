@@ -55,6 +55,12 @@ impl Study {
         if let Some(y) = self.y.as_ref().filter(|y| y.name() == self.x.name()) {
             return Err(Error::setting(y.name(), "is on both axes; vary another setting"));
         }
+        let mut names = [Some(&self.x), self.y.as_ref()].into_iter().flatten().map(Axis::name);
+        if self.keep_keys && names.any(|name| name == "rate") {
+            let message =
+                "keys of sheets at other rates are not compared: their koma differ in length";
+            return Err(Error::setting("rate", message));
+        }
         if self.len() > MOST {
             let message = format!("{} cells are too many; {MOST} at the most", self.len());
             return Err(Error::setting(self.x.name(), message));

@@ -175,6 +175,9 @@ fn a_study_that_cannot_be_is_refused() {
     };
     says(Study { measures: vec![], ..good.clone() }, "measure: there is nothing to count");
     says(Study { y: Some(axis("filter.width=3")), ..good.clone() }, "is on both axes");
+    let rates = Some(axis("rate=12,24"));
+    assert!(Study { y: rates.clone(), ..good.clone() }.validate().is_ok());
+    says(Study { y: rates, keep_keys: true, ..good.clone() }, "other rates are not compared");
     let many = [axis("filter.width=1..2000:1"), axis("turns.persistence=1..2000:1")];
     let [x, y] = many;
     says(Study { x, y: Some(y), ..good.clone() }, "4000000 cells are too many");

@@ -167,7 +167,7 @@ fn knees(clips: &[Growth]) -> Table {
     }
     let [naka, koma] =
         [middle(clips, |clip| &clip.naka_nashi), middle(clips, |clip| &clip.koma_dori)];
-    row(&mut table, "middle of all", &naka, &koma, String::new());
+    row(&mut table, "of the middle curve", &naka, &koma, String::new());
     table
 }
 
@@ -178,8 +178,12 @@ fn numbers(part: &mut Part, clips: &[Growth]) {
             part.number(&format!("km.growth.{name}.{word}"), number(value, 0));
         }
     };
-    let knee_of = |clip: &Growth| knee(&steps(&clip.naka_nashi[..=NAKA_NASHI[0]])) as f64;
-    spread_of("knee", clips.iter().map(knee_of).collect());
+    let [near, far] = NAKA_NASHI.map(|most| {
+        let knee_of = |clip: &Growth| knee(&steps(&clip.naka_nashi[..=most])) as f64;
+        clips.iter().map(knee_of).collect::<Vec<_>>()
+    });
+    spread_of("knee", near);
+    spread_of("knee.far", far);
     let within = |clip: &Growth| last_within(&steps(&clip.koma_dori)) as f64;
     spread_of("within", clips.iter().map(within).collect());
     let held = |clip: &Growth| 100.0 * clip.koma_dori[KOMA_DORI].held as f64 / clip.koma as f64;

@@ -120,6 +120,7 @@ pub(super) fn add(part: &mut Part, windows: &[Window<'_>]) -> Outcome<()> {
     part.number("km.order.clips", windows.len());
     let same = orders.iter().filter(|orders| orders.leaves_out_the_same()).count();
     part.number("km.order.same", same);
+    part.number("km.order.not-same", windows.len() - same);
     let furthest = orders.iter().flat_map(|orders| apart(&orders.paper, &orders.other)).max();
     part.number("km.order.furthest", furthest.unwrap_or(0));
     let mut shares = |name: &str, of: fn(&Orders) -> usize| {

@@ -9,7 +9,7 @@ use genga::timing::Stills;
 use crate::kitamura::letter::Frames;
 use crate::ones::{Ones, counts};
 use crate::part::Part;
-use crate::table::{Table, number};
+use crate::table::{Table, number, spread};
 use crate::{Outcome, samples};
 
 /// A row of the paper.
@@ -73,7 +73,7 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
         ">the letter, both stages",
         ">genga, both stages",
         ">genga with positions",
-        if cfg!(debug_assertions) { ">letter / genga (dev build)" } else { ">letter / genga" },
+        ">letter / genga",
     ]);
     let mut idle = Vec::new();
     for action in ACTIONS {
@@ -109,6 +109,11 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     part.measured("table-1-times", times);
     part.number("km.letter.pitch", idle[0]);
     part.number("km.pitch.holds", ACTIONS[0].koma_dori);
+    part.number("km.paper.pitch.ms", ACTIONS[0].milliseconds);
+    let held = ACTIONS.map(|action| 100.0 * action.koma_dori as f64 / action.koma as f64);
+    let [least, _, most] = spread(held);
+    part.number("km.paper.held.least", number(least, 0));
+    part.number("km.paper.held.most", number(most, 0));
     Ok(())
 }
 
