@@ -52,20 +52,17 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
         ">least",
         ">most",
         ">by chance",
-        ">kept within three koma",
     ]);
     for (name, values) in CHANGES {
         let grids = grids(takes, Axis::new(name, &values.join(","))?, None)?;
         for (cell, value) in values.iter().enumerate().skip(1) {
-            let kept = |koma: f64| spread(grids.iter().map(|grid| kept(grid, cell, koma)));
+            let [least, median, most] = spread(grids.iter().map(|grid| kept(grid, cell)));
             let chance = spread(grids.iter().map(|grid| chance(grid, cell)))[1];
-            let ([least, median, most], wide) = (kept(1.0), kept(3.0)[1]);
-            for (word, share) in [("near", median), ("wide", wide), ("chance", chance)] {
+            for (word, share) in [("kept", median), ("chance", chance)] {
                 part.number(&format!("steady.{name}.{value}.{word}"), number(100.0 * share, 0));
             }
-            let [median, least, most] = [median, least, most].map(percent);
-            let (chance, wide) = (percent(chance), percent(wide));
-            table.row(&[format!("`{name}`"), (*value).into(), median, least, most, chance, wide]);
+            let [median, least, most, chance] = [median, least, most, chance].map(percent);
+            table.row(&[format!("`{name}`"), (*value).into(), median, least, most, chance]);
         }
     }
     part.table("steady", table);
@@ -114,9 +111,9 @@ fn grids(takes: &[Take], x: Axis, y: Option<Axis>) -> Outcome<Vec<Grid>> {
     takes.iter().map(|take| Ok(study.run(take.clip.clone(), || ())?)).collect()
 }
 
-/// The share of the recipe's own keys, which are those of the first cell, that another cell has too.
-fn kept(grid: &Grid, cell: usize, koma: f64) -> f64 {
-    Matching::between(keys(grid, 0), keys(grid, cell), koma * grid.frames_in_koma).kept()
+/// The share of keys within a koma of the recipe's own, which are those of the first cell.
+fn kept(grid: &Grid, cell: usize) -> f64 {
+    Matching::between(keys(grid, 0), keys(grid, cell), grid.frames_in_koma).kept()
 }
 
 /// What keys as many and as far apart would share within a koma that have nothing to do with each
