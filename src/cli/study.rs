@@ -1,6 +1,7 @@
 //! `genga study`: what is found when one or two settings vary.
 
 use std::path::Path;
+use std::slice::from_ref;
 
 use rayon::prelude::*;
 
@@ -27,6 +28,9 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
     args.heat.iter().try_for_each(|path| pictures::check_name("heat", path))?;
     let study = asked(args)?;
+    let show = args.show.unwrap_or_else(|| usually_shown(&study));
+    let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
+    plot.fits(&study.x, study.y.as_ref())?;
     let clips = read(args, words)?;
     let grids = swept(&study, clips, words)?;
     let names = names(args);
@@ -34,49 +38,66 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let table = deliver::study_csv(&names, &grids, tolerance)?;
     // First, so that a picture that cannot be drawn loses nothing.
     io::write(&args.out, table.as_bytes())?;
-    let show = args.show.unwrap_or_else(|| usually_shown(&study));
+    let plateaus = tolerance.map(|koma| Plateaus::of(&grids, koma));
     if let Some(path) = &args.plot {
-        let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
         pictures::write(path, &plot.draw(&grids)?)?;
     }
     if let Some(path) = &args.heat {
-        // The same keys, and nearly the same.
-        let edges = tolerance.map(|koma| [0.0, koma].map(|koma| Plateau::largest(&grids, koma)));
-        pictures::write(path, &HeatMap { show }.draw(&grids, edges.as_ref())?)?;
+        let edges = plateaus.as_ref().map(|plateaus| &plateaus.found);
+        pictures::write(path, &HeatMap { show }.draw(&grids, edges)?)?;
     }
-    if let Some(koma) = tolerance {
-        say_plateaus(words, &names, &grids, koma);
+    if let Some(plateaus) = plateaus {
+        say_plateaus(words, &names, &grids, &plateaus);
     }
     Ok(())
 }
 
-/// Where the keys do not change, of each clip and of all together.
-fn say_plateaus(words: &Words, names: &[String], grids: &[Grid], koma: f64) {
-    words.say("plateau  変わらない範囲");
-    let each = names.iter().map(String::as_str).zip(grids.chunks(1));
-    let all = (grids.len() > 1).then_some(("all clips", grids));
-    for (name, grids) in each.chain(all) {
-        for koma in [0.0, koma] {
-            words.say(format_args!("{name}: {}", plateau(grids, koma)));
+/// Where the keys of some clips are the very same, and where they are nearly so.
+struct Plateaus {
+    koma: [f64; 2],
+    found: [Option<Plateau>; 2],
+}
+
+impl Plateaus {
+    fn of(grids: &[Grid], koma: f64) -> Self {
+        let koma = [0.0, koma];
+        Self { koma, found: koma.map(|koma| Plateau::largest(grids, koma)) }
+    }
+
+    fn say(&self, words: &Words, name: &str, grid: &Grid) {
+        for (koma, plateau) in self.koma.iter().zip(&self.found) {
+            words.say(format_args!("{name}: {}", sentence(grid, *koma, plateau.as_ref())));
         }
     }
 }
 
-fn plateau(grids: &[Grid], koma: f64) -> String {
+/// Where the keys do not change, of each clip and of all together.
+fn say_plateaus(words: &Words, names: &[String], grids: &[Grid], of_all: &Plateaus) {
+    words.say("plateau  変わらない範囲");
+    if let ([name], [grid]) = (names, grids) {
+        return of_all.say(words, name, grid);
+    }
+    for (name, grid) in names.iter().zip(grids) {
+        Plateaus::of(from_ref(grid), of_all.koma[1]).say(words, name, grid);
+    }
+    of_all.say(words, "all clips", &grids[0]);
+}
+
+fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
     let same = if koma == 0.0 {
         "the very same keys".to_owned()
     } else {
         format!("the same keys within {koma} koma")
     };
-    let Some(plateau) = Plateau::largest(grids, koma) else {
+    let Some(plateau) = plateau else {
         return format!("{same} in no two cells side by side");
     };
-    let own = match grids[0].own {
+    let own = match grid.own {
         None => "the recipe\u{2019}s own settings lie outside the study",
         Some(own) if plateau.holds(own) => "the recipe\u{2019}s own settings stand on it",
         Some(_) => "the recipe\u{2019}s own settings stand beside it",
     };
-    let (place, keys) = (plateau.words(&grids[0]), counted(plateau.keys, "key"));
+    let (place, keys) = (plateau.words(grid), counted(plateau.keys, "key"));
     format!("{same} at {place}, {keys}; {own}")
 }
 

@@ -67,12 +67,21 @@ impl StudyPlot {
         style::check_size("height", self.height, 300)
     }
 
+    /// Checks the settings and that they go with those that a study varies: known before it is run.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`StudyPlot::validate`], and named `paper` where the paper's marks are
+    /// asked for and the axes are not the paper's.
+    pub fn fits(&self, x: &Axis, y: Option<&Axis>) -> Result<(), Error> {
+        self.validate()?;
+        if self.paper { papers_persistences(x, y).map(drop) } else { Ok(()) }
+    }
+
     /// Draws the study of one clip, or of several, as SVG. All grids are of one study.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`StudyPlot::validate`]; [`Error::Picture`] when there is no clip or the
-    /// measure was not counted, and where the paper's marks are asked for and the axes are not the
-    /// paper's.
+    /// [`Error::Setting`] as [`StudyPlot::fits`]; [`Error::Picture`] when there is no clip or the
+    /// measure was not counted.
     pub fn draw(&self, grids: &[Grid]) -> Result<String, Error> {
         self.validate()?;
         let Some(grid) = grids.first() else {
@@ -133,20 +142,25 @@ struct Mark {
 
 /// The paper's marks with the line that each belongs to, where the axes are its own.
 fn papers_marks(grid: &Grid) -> Result<Vec<Mark>, Error> {
+    let persistences = papers_persistences(&grid.x, grid.y.as_ref())?;
+    let line = |persistence: f64| persistences.iter().position(|own| *own == persistence);
+    let mark = |row: &(f64, f64, f64)| Mark { at: (row.0, row.2), line: line(row.1) };
+    Ok(PAPER.iter().map(mark).collect())
+}
+
+/// The values of the second axis, where both are the paper's.
+fn papers_persistences(x: &Axis, y: Option<&Axis>) -> Result<Vec<f64>, Error> {
     let frames = |axis: &Axis, name| {
         let (numbers, unit) = axis.scale()?;
         (axis.name() == name && unit.is_empty()).then_some(numbers)
     };
-    let widths = frames(&grid.x, "filter.width");
-    let persistences = grid.y.as_ref().and_then(|y| frames(y, "turns.persistence"));
-    let (Some(_), Some(persistences)) = (widths, persistences) else {
-        return Err(style::cannot(
-            "the paper's counts stand beside filter.width and turns.persistence in frames alone",
-        ));
-    };
-    let line = |persistence: f64| persistences.iter().position(|own| *own == persistence);
-    let mark = |row: &(f64, f64, f64)| Mark { at: (row.0, row.2), line: line(row.1) };
-    Ok(PAPER.iter().map(mark).collect())
+    let widths = frames(x, "filter.width");
+    let persistences = y.and_then(|y| frames(y, "turns.persistence"));
+    widths.and(persistences).ok_or_else(|| {
+        let message =
+            "the paper's counts stand beside filter.width and turns.persistence in frames alone";
+        Error::setting("paper", message)
+    })
 }
 
 /// Where the values of an axis stand: on their scale, or one after the other.
