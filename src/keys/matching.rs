@@ -168,6 +168,8 @@ mod tests {
         assert_eq!((found.mean_move(), found.largest_move()), (Some(2.0), Some(2)));
         assert_eq!(found.kept(), 4.0 / 6.0);
         assert!(!found.is_whole());
+        assert!(!matching(&[10], &[10, 50], 5.0).is_whole(), "one alone in the second list");
+        assert!(!matching(&[10, 50], &[10], 5.0).is_whole(), "one alone in the first list");
     }
 
     #[test]

@@ -152,6 +152,47 @@ fn keys_alone_do_not_make_the_sheet_old() {
 }
 
 #[test]
+fn another_persistence_needs_no_new_search() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let mut recipe = Recipe::default();
+    let few = engine.find_turns(&recipe).unwrap().concat().len();
+    let searched = engine.turning.made;
+    recipe.set("turns.persistence", "1").unwrap();
+    assert!(engine.find_turns(&recipe).unwrap().concat().len() > few);
+    assert!(engine.turning.made == searched, "the same candidates");
+    recipe.set("turns.steady", "50").unwrap();
+    engine.find_turns(&recipe).unwrap();
+    assert!(engine.turning.made != searched);
+}
+
+#[test]
+fn turns_are_what_the_finder_finds_in_the_filtered_speeds() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let mut recipe = Recipe::default();
+    for persistence in ["0.1s", "1", "30"] {
+        recipe.set("turns.persistence", persistence).unwrap();
+        let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
+        let delay = recipe.filter.delay(breakdown.clip.rate());
+        assert!(delay >= 1.0, "or it could be left out");
+        let found = recipe.turns.find(breakdown.filtered, delay);
+        assert_eq!(breakdown.turns, found, "{persistence}");
+    }
+}
+
+#[test]
+fn ones_to_threes_give_about_as_many_drawings_as_twos() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let mut drawings = |on: &str| {
+        let mut recipe = Recipe::default();
+        recipe.set("spacing.on", on).unwrap();
+        let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
+        breakdown.spaced.layers[0].drawings.len() as f64
+    };
+    let share = drawings("1-3") / drawings("2");
+    assert!((0.75..1.25).contains(&share), "{share} of the drawings on twos");
+}
+
+#[test]
 fn a_recipe_or_correction_that_is_refused_changes_nothing_afterwards() {
     let clip = pitch();
     let mut engine = Engine::new(clip.clone()).unwrap();

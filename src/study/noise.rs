@@ -135,6 +135,10 @@ mod tests {
             [1.0, 2.0].map(|degrees| differences(Noise { degrees, ..noise }, &clip));
         assert!(once.iter().zip(&twice).all(|(once, twice)| (2.0 * once - twice).abs() < 1e-9));
         assert_ne!(once, differences(Noise { seed: 8, ..noise }, &clip));
+        let mut row = once[3..12].to_vec();
+        row.sort_by(f64::total_cmp);
+        row.dedup();
+        assert_eq!(row.len(), 9, "each channel has its own");
         assert_eq!(Noise::default().on(&clip), clip);
         for degrees in [-1.0, 181.0, f64::NAN] {
             assert!(Noise { degrees, seed: 0 }.validate().is_err());

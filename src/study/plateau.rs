@@ -188,5 +188,13 @@ mod tests {
         let other = grid_of_keys(4, 1, &[B, C, C, C]);
         let plateau = Plateau::largest(&[one, other], 0.0).unwrap();
         assert_eq!((plateau.seed, plateau.cells, plateau.keys), (1, vec![1, 2], 4));
+        // A koma is five frames of the one clip and two of the other.
+        let d: &[usize] = &[10, 53];
+        let mut grids = [grid_of_keys(2, 1, &[A, d]), grid_of_keys(2, 1, &[A, A])];
+        assert!(Plateau::largest(&grids, 1.0).is_some());
+        grids[0].frames_in_koma = 2.0;
+        assert_eq!(Plateau::largest(&grids, 1.0), None);
+        grids.reverse();
+        assert_eq!(Plateau::largest(&grids, 1.0), None);
     }
 }

@@ -108,7 +108,7 @@ mod tests {
     fn units_are_kept_and_lists_and_ranges_mix() {
         assert_eq!(values("0.1s..0.2s:0.05s").unwrap(), ["0.1s", "0.15s", "0.2s"]);
         assert_eq!(values("0%..4%:2%").unwrap(), ["0%", "2%", "4%"]);
-        assert_eq!(values("3, 10..20:10 ,1/3,inf").unwrap(), ["3", "10", "20", "1/3", "inf"]);
+        assert_eq!(values("3, 10..20:10 , 1/3 ,inf").unwrap(), ["3", "10", "20", "1/3", "inf"]);
         assert_eq!(values("box,gaussian").unwrap(), ["box", "gaussian"]);
     }
 

@@ -124,7 +124,7 @@ impl Study {
 
     /// The cells in the order in which the least has to be made again: what the chain uses first
     /// changes last.
-    fn chain_order(&self) -> Vec<usize> {
+    pub(super) fn chain_order(&self) -> Vec<usize> {
         let rows = self.y.as_ref().map_or(1, Axis::len);
         let columns = self.x.len();
         match &self.y {

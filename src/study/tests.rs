@@ -9,7 +9,9 @@ use super::*;
 use crate::edits::Edits;
 use crate::motion::{Axis as Direction, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::pipeline::Engine;
+use crate::sheet::Role;
 use crate::time::FrameRate;
+use crate::timing::Stills;
 
 /// A walking root and two joints of an arm, swinging at rates of their own, at 120 frames a second.
 pub(super) fn swinging(frames: usize) -> Clip {
@@ -86,16 +88,31 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             let mut union: Vec<Frame> = keys(run.turns).map(|turn| turn.frame).collect();
             union.sort();
             union.dedup();
+            let seconds = layer.length() as f64 / run.clock.koma_rate;
+            let genga = layer.drawings.iter().filter(|drawing| drawing.role == Role::Genga).count();
+            let stills = Stills::of(run.clip, layer);
+            let steps = layer.exposures.windows(2);
+            let mut steps: Vec<f64> =
+                steps.map(|pair| stills.ssd(pair[0].drawing, pair[1].drawing)).collect();
+            steps.sort_by(f64::total_cmp);
+            let middle = steps.len() / 2;
             let value = |measure: &Measure| match measure {
-                Measure::Union => union.len(),
-                Measure::Total => keys(run.turns).count(),
-                Measure::LayerKeys => frames.len(),
-                Measure::Drawings => layer.drawings.len(),
-                Measure::HeldKoma => layer.length() - layer.exposures.len(),
-                other => panic!("{other}"),
+                Measure::Union => union.len() as f64,
+                Measure::Total => keys(run.turns).count() as f64,
+                Measure::LayerKeys => frames.len() as f64,
+                Measure::Drawings => layer.drawings.len() as f64,
+                Measure::DrawingsPerSecond => layer.drawings.len() as f64 / seconds,
+                Measure::GengaPerSecond => genga as f64 / seconds,
+                Measure::LongestHold => {
+                    layer.exposures.iter().map(|exposure| exposure.koma).max().unwrap() as f64
+                }
+                Measure::HeldKoma => (layer.length() - layer.exposures.len()) as f64,
+                Measure::PeakSsd => steps[steps.len() - 1],
+                Measure::MedianSsd if steps.len() % 2 == 1 => steps[middle],
+                Measure::MedianSsd => 0.5 * (steps[middle - 1] + steps[middle]),
             };
             cells.push(Cell {
-                values: study.measures.iter().map(|measure| value(measure) as f64).collect(),
+                values: study.measures.iter().map(value).collect(),
                 keys: study.keep_keys.then_some(frames),
             });
         }
@@ -105,22 +122,29 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
 
 const COUNTS: [Measure; 2] = [Measure::Union, Measure::Total];
 const KEYS: [Measure; 3] = [Measure::Union, Measure::Total, Measure::LayerKeys];
-const ALL: [Measure; 5] =
-    [Measure::LayerKeys, Measure::Drawings, Measure::HeldKoma, Measure::Union, Measure::Total];
+
+/// Cells are the same when their counts are, to the last digits of a division.
+fn are_the_same(cells: &[Cell], others: &[Cell]) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-12 * b.abs();
+    let same =
+        |(a, b): (&Cell, &Cell)| a.keys == b.keys && a.values.iter().zip(&b.values).all(near);
+    cells.len() == others.len() && cells.iter().zip(others).all(same)
+}
 
 #[test]
 fn a_sweep_gives_what_an_engine_of_its_own_gives_each_cell() {
     let clip = swinging(400);
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     for (x, y, measures) in [
         ("filter.width=1..25:4", Some("turns.persistence=1..19:3"), &COUNTS[..]),
         ("turns.persistence=1..19:3", Some("filter.width=1..25:4"), &KEYS),
         ("filter.kind=ideal,box,gaussian", Some("filter.width=0.05s..0.2s:0.05s"), &KEYS),
         ("turns.steady=0,50,5%", Some("turns.reading=event,literal"), &KEYS),
         ("noise=0..1:0.5", Some("noise.seed=0..1:1"), &KEYS),
-        ("filter.width=5..25:10", Some("noise=0,0.3"), &ALL),
-        ("rate=12,24", Some("omission.koma_dori=0,1/3"), &ALL),
-        ("spacing.on=1..3:1", Some("keys.merge=union,vote,sum"), &ALL),
-        ("keys.min_price=0..5:1", None, &ALL),
+        ("filter.width=5..25:10", Some("noise=0,0.3"), &Measure::ALL),
+        ("rate=12,24", Some("omission.koma_dori=0,1/3"), &Measure::ALL),
+        ("spacing.on=1..3:1", Some("keys.merge=union,vote,sum"), &Measure::ALL),
+        ("keys.min_price=0..5:1", None, &Measure::ALL),
     ] {
         let study = study(x, y, measures);
         let counted = AtomicUsize::new(0);
@@ -128,8 +152,13 @@ fn a_sweep_gives_what_an_engine_of_its_own_gives_each_cell() {
             counted.fetch_add(1, Ordering::Relaxed);
         };
         let grid = study.run(clip.clone(), count).unwrap();
-        assert_eq!(grid.cells, slow(&study, &clip), "{x} {y:?}");
+        let slow = slow(&study, &clip);
+        assert!(are_the_same(&grid.cells, &slow), "{x} {y:?}: {:?} {slow:?}", grid.cells);
+        // Many cores take a cell or two each. One alone goes from cell to cell with what it has.
+        let again = alone.install(|| study.run(clip.clone(), || ())).unwrap();
+        assert_eq!(again, grid, "{x} {y:?}");
         assert_eq!(counted.into_inner(), study.len());
+        assert_eq!(grid.frames_in_koma, 5.0, "120 frames a second, 24 koma");
         assert_eq!(grid.cell(1, grid.rows() - 1), &grid.cells[2 * grid.rows() - 1]);
     }
 }
@@ -189,9 +218,20 @@ fn a_study_that_cannot_be_is_refused() {
 }
 
 #[test]
+fn what_the_chain_uses_first_changes_last() {
+    let order = |x: &str, y: &str| study(x, Some(y), &COUNTS).chain_order();
+    let (width, persistence) = ("filter.width=1..2:1", "turns.persistence=1..3:1");
+    assert_eq!(order(width, persistence), [0, 1, 2, 3, 4, 5]);
+    assert_eq!(order(persistence, width), [0, 2, 4, 1, 3, 5], "all of a width, then the next");
+    assert_eq!(order("filter.width=1..2:1", "noise=0..2:1"), [0, 3, 1, 4, 2, 5]);
+}
+
+#[test]
 fn what_nobody_asks_for_is_not_made() {
     let grid = study("filter.width=10", None, &COUNTS).run(swinging(50), || ()).unwrap();
     assert_eq!(grid.cells[0].keys, None);
+    let counted = Study { keep_keys: false, ..study("filter.width=10", None, &KEYS) };
+    assert_eq!(counted.run(swinging(50), || ()).unwrap().cells[0].keys, None, "counted, not kept");
     let keys = Study { keep_keys: true, ..study("filter.width=10", None, &COUNTS) };
     assert!(keys.run(swinging(50), || ()).unwrap().cells[0].keys.is_some());
 }

@@ -41,9 +41,6 @@ impl On {
     /// For an interval from one koma to another: the most koma for which the body goes no further than
     /// `step`, in % of its height, from drawing to drawing in the mean.
     pub(super) fn within(self, from: usize, to: usize, pace: &Pace, step: f64) -> usize {
-        if self.is_fixed() {
-            return self.least;
-        }
         let koma = step / pace.mean(from, to);
         // Of a body that does not move this is infinite, which the bound below takes.
         (koma.floor() as usize).clamp(self.least, self.most)
@@ -140,6 +137,10 @@ mod tests {
             assert_eq!(text.parse::<On>().unwrap().to_string(), text);
         }
         assert_eq!(" 1 - 3 ".parse(), Ok(On { least: 1, most: 3 }));
+        for (on, written) in [(On::every(2), "2"), (On { least: 1, most: 3 }, "\"1-3\"")] {
+            assert_eq!(serde_json::to_string(&on).unwrap(), written);
+            assert_eq!(serde_json::from_str::<On>(written).unwrap(), on);
+        }
         for wrong in
             ["", "0", "-1", "3-1", "0-3", "1-1001", "1.5", "two", "1-", "99999999999999999999"]
         {
@@ -153,8 +154,10 @@ mod tests {
         let steps = [[1.0; 4], [4.0; 4], [20.0; 4], [0.0; 4]].concat();
         let pace = Pace::of_steps(steps.into_iter());
         let on = On { least: 1, most: 3 };
-        let within = |from, to| on.within(from, to, &pace, 8.0);
+        // 11 are 2.75 steps of 4: the step is no further than asked.
+        let within = |from, to| on.within(from, to, &pace, 11.0);
         assert_eq!([within(0, 4), within(4, 8), within(8, 12), within(12, 16)], [3, 2, 1, 3]);
+        assert_eq!(on.within(4, 8, &pace, 8.0), 2, "exactly as far as asked");
         assert_eq!(On::every(2).within(8, 12, &pace, 8.0), 2, "fixed is fixed");
         assert_eq!(on.within(0, 1, &Pace::default(), 8.0), 3, "nothing moves");
         assert_eq!(on.within(14, 40, &pace, 8.0), 3, "behind the end nothing moves");

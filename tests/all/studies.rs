@@ -99,12 +99,12 @@ fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
 #[test]
 fn stability_compares_cells_and_names_the_plateau() {
     let place = Place::new();
-    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure layer_keys";
+    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,layer_keys";
     let output = place.genga(&format!("{args} --stability --heat h.svg"));
     let (table, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(table.starts_with(
-        "clip,filter.width,turns.persistence,layer_keys,kept,mean_move,largest_move\n"
+        "clip,filter.width,turns.persistence,union,layer_keys,kept,mean_move,largest_move\n"
     ));
     assert!(numbers(&table, "kept").iter().all(|kept| (0.0..=1.0).contains(kept)));
     // A koma is a frame in this clip: no key that moved further is the same.
@@ -113,9 +113,29 @@ fn stability_compares_cells_and_names_the_plateau() {
     assert_eq!(lines.len(), 3, "{said}");
     assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
-    assert!(said.contains("the recipe\u{2019}s own settings stand "), "{said}");
+    // The recipe's own 0.1 s are 2.4 frames here, so the cell of 2 and 2.
+    assert!(
+        lines[1].contains("filter.width 3, ") && lines[1].ends_with("stand beside it"),
+        "{said}"
+    );
+    assert!(
+        lines[2].contains("filter.width 1 to 4, ") && lines[2].ends_with("stand on it"),
+        "{said}"
+    );
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();
-    assert!(heat.contains("same keys 原画が同じ") && heat.contains("the recipe 現在のレシピ"));
+    for words in ["same keys 原画が同じ", "nearly the same ほぼ同じ", "the recipe 現在のレシピ"]
+    {
+        assert!(heat.contains(words), "{words}");
+    }
+    // What is compared is drawn.
+    assert!(heat.contains("Keys of the layer"));
+    // A move in the mean is no longer than the longest.
+    let moves = numbers(&table, "mean_move").into_iter().zip(numbers(&table, "largest_move"));
+    assert!(moves.clone().all(|(mean, most)| mean <= most && (mean > 0.0) == (most > 0.0)));
+    assert!(numbers(&table, "kept").iter().any(|kept| *kept < 1.0));
+    // No way at all is allowed, so no key has gone any.
+    let exact = place.done(&format!("{args} --stability --tolerance 0 -q"));
+    assert!(numbers(&exact, "largest_move").iter().all(|frames| *frames == 0.0));
     // Without it nothing is said, and the keys are the same.
     let plain = place.genga(args);
     assert_eq!(text(&plain.stderr), "");
@@ -146,6 +166,24 @@ fn stability_compares_cells_and_names_the_plateau() {
 }
 
 #[test]
+fn plateaus_are_named_of_each_clip_and_of_all() {
+    let place = Place::new();
+    let clips = "data/kick.bvh data/pitch.bvh";
+    let axis = "--x keys.per_second=2,2.01,2.02,2.03 --measure layer_keys --stability";
+    let said = text(&place.genga(&format!("study {clips} {axis}")).stderr);
+    let begins: Vec<&str> =
+        said.lines().skip(1).map(|line| line.split(':').next().unwrap()).collect();
+    assert_eq!(begins, ["kick", "kick", "pitch", "pitch", "all clips", "all clips"], "{said}");
+    // That of a clip is what it is alone; that of all has the keys of both.
+    let alone = text(&place.genga(&format!("study data/pitch.bvh {axis}")).stderr);
+    let lines = |said: &str, from: usize| -> Vec<String> {
+        said.lines().skip(from).take(2).map(str::to_owned).collect()
+    };
+    assert_eq!(lines(&said, 3), lines(&alone, 1));
+    assert!(lines(&said, 5).iter().all(|line| line.contains("keys.per_second ")), "{said}");
+}
+
+#[test]
 fn what_is_asked_wrongly_is_said_before_any_work() {
     let place = Place::new();
     for (args, says) in [
@@ -158,16 +196,17 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         ("--persistence 5,5", "stands twice"),
         ("--measure keys", "one of union, total, layer_keys"),
         ("--x noise=-1", "0 to 180"),
+        ("--x turns.steady=10 --plot s.svg --paper", "in frames alone"),
         ("--x filter.width=3 --stability", "there is one alone"),
         ("--tolerance 2", "--stability"),
         ("--stability --tolerance=-1", "expected koma"),
+        ("--x spacing.on=2,3 --plot s.svg --paper", "in frames alone"),
         ("--plot s.jpg", "--plot: a picture is .svg or .png"),
         ("--heat s.pdf", "--heat: a picture is .svg or .png"),
     ] {
-        let said = place.refused(2, &format!("study data/kick.bvh -o s.csv {args}"));
+        // A clip that is not there would be what is said, were it looked at first.
+        let said = place.refused(2, &format!("study none.bvh -o s.csv {args}"));
         assert!(said.contains(says), "{args}: {said}");
         assert!(!place.path("s.csv").exists(), "{args}");
     }
-    let output = place.genga("study data/kick.bvh --x spacing.on=2,3 --plot s.svg --paper");
-    assert!(text(&output.stderr).contains("in frames alone"), "{output:?}");
 }

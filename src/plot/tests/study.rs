@@ -18,6 +18,11 @@ fn grid(x: &str, y: Option<&str>, union: &[f64]) -> Grid {
     grid
 }
 
+fn number_of(tag: &str, name: &str) -> f64 {
+    let value = tag.split_once(&format!(" {name}=\"")).unwrap().1;
+    value.split('"').next().unwrap().parse().unwrap()
+}
+
 fn small() -> Grid {
     grid("filter.width=10,20", Some("turns.persistence=5,10"), &[90.0, 60.0, 70.0, 40.0])
 }
@@ -44,8 +49,12 @@ fn a_study_plot_refuses_what_cannot_be() {
     let paper = StudyPlot { paper: true, ..StudyPlot::default() };
     for x in ["filter.width=0.1s,0.2s", "turns.steady=10,20"] {
         let other = grid(x, Some("turns.persistence=5,10"), &[1.0; 4]);
-        says(paper.clone(), &[other], "in frames alone");
+        has_setting_error(paper.draw(std::slice::from_ref(&other)), "paper");
+        has_setting_error(paper.fits(&other.x, other.y.as_ref()), "paper");
+        assert!(StudyPlot::default().fits(&other.x, other.y.as_ref()).is_ok());
     }
+    has_setting_error(paper.fits(&small().x, None), "paper");
+    assert!(paper.fits(&small().x, small().y.as_ref()).is_ok());
 }
 
 #[test]
@@ -57,6 +66,32 @@ fn a_study_has_a_line_a_value_and_the_papers_marks_beside() {
     assert!(words(&svg).contains(&"filter.width (source frames)  フィルタの適用範囲"));
     let svg = StudyPlot::default().draw(&[small()]).unwrap();
     assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 0);
+}
+
+#[test]
+fn a_mark_of_the_paper_stands_where_the_same_count_would() {
+    // Widths of no order, as a list may be written.
+    let table_1 = [64.0, 52.0, 99.0, 75.0, 80.0, 71.0];
+    let grid = grid("filter.width=30,10,20", Some("turns.persistence=5,10"), &table_1);
+    let svg = StudyPlot { paper: true, ..StudyPlot::default() }.draw(&[grid]).unwrap();
+    let place = |tag: &str| ["cx", "cy"].map(|name| number_of(tag, name));
+    let (rings, discs): (Vec<&str>, Vec<&str>) =
+        tags(&svg, "circle", "").into_iter().partition(|tag| tag.contains("fill=\"none\""));
+    // The ring of the legend has no disc.
+    let color = |tag: &str, name: &str| tag.split(name).nth(1).unwrap()[..8].to_owned();
+    let is_on_a_disc = |ring: &&&str| {
+        discs.iter().any(|disc| {
+            let way = place(ring).iter().zip(place(disc)).map(|(a, b)| (a - b).abs()).sum::<f64>();
+            way < 3.0 && color(ring, "stroke=") == color(disc, "fill=")
+        })
+    };
+    assert_eq!(rings.len(), 6 + 1);
+    assert_eq!(rings.iter().filter(is_on_a_disc).count(), 6);
+    for line in tags(&svg, "polyline", "") {
+        let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+        let x = |point: &str| point.split(',').next().unwrap().parse::<f64>().unwrap();
+        assert!(points.split_whitespace().map(x).is_sorted(), "a line runs to the right: {line}");
+    }
 }
 
 #[test]
@@ -114,17 +149,7 @@ fn a_map_has_a_number_in_each_cell_that_has_room() {
     // The first setting runs to the right, the second upwards.
     let place = |word: &str| {
         let tag = svg.lines().zip(svg.lines().skip(1)).find(|(_, text)| *text == word).unwrap().0;
-        let number = |name: &str| -> f64 {
-            tag.split_once(&format!("{name}=\""))
-                .unwrap()
-                .1
-                .split('"')
-                .next()
-                .unwrap()
-                .parse()
-                .unwrap()
-        };
-        (number(" x"), number(" y"))
+        (number_of(tag, "x"), number_of(tag, "y"))
     };
     assert!(place("70").0 > place("60").0, "width 20 stands right of 10");
     assert!(place("60").1 < place("70").1, "persistence 10 stands above 5");
@@ -155,7 +180,15 @@ fn a_plateau_is_edged_where_it_ends_and_the_recipes_cell_is_marked() {
     let svg = HeatMap::default().draw(&[grid], Some(&[Some(plateau), None])).unwrap();
     let edge = tags(&svg, "line", &format!("stroke=\"{GENGA}\""));
     assert_eq!(edge.len(), 8 + 1, "its eight outer sides and the legend");
-    assert_eq!(tags(&svg, "circle", GENGA).len(), 2, "the cell and the legend");
+    let marks = tags(&svg, "circle", GENGA);
+    assert_eq!(marks.len(), 2, "the cell and the legend");
+    // In the upper right cell, so right of and above the middle of the four.
+    let is_cell = |tag: &&str| number_of(tag, "height") > 200.0 && number_of(tag, "width") < 1000.0;
+    let middle = ["x", "y"].map(|name| {
+        let cells = tags(&svg, "rect", "").into_iter().filter(is_cell);
+        cells.map(|tag| number_of(tag, name)).fold(f64::NEG_INFINITY, f64::max)
+    });
+    assert!(number_of(marks[0], "cx") > middle[0] && number_of(marks[0], "cy") < middle[1]);
     assert!(words(&svg).contains(&"same keys 原画が同じ"));
     assert!(!words(&svg).contains(&"nearly the same ほぼ同じ"));
 }
