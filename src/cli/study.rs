@@ -30,13 +30,15 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let study = asked(args)?;
     let show = args.show.unwrap_or_else(|| usually_shown(&study));
     let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
+    // What cannot be drawn is refused before the work.
     plot.fits(&study.x, study.y.as_ref())?;
+    if args.heat.is_some() {
+        HeatMap::fits(&study.x, study.y.as_ref())?;
+    }
     let clips = read(args, words)?;
     let grids = swept(&study, clips, words)?;
     let names = names(args);
     let tolerance = args.stability.then_some(args.tolerance);
-    // First, so that a picture that cannot be drawn loses nothing.
-    io::write(&args.out, deliver::study_csv(&names, &grids, tolerance)?.as_bytes())?;
     let plateaus = tolerance.map(|koma| Plateaus::of(&grids, koma));
     if let Some(path) = &args.plot {
         pictures::write(path, &plot.draw(&grids)?)?;
@@ -45,6 +47,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         let edges = plateaus.as_ref().map(|plateaus| &plateaus.found);
         pictures::write(path, &HeatMap { show }.draw(&grids, edges)?)?;
     }
+    io::write(&args.out, deliver::study_csv(&names, &grids, tolerance)?.as_bytes())?;
     if let Some(plateaus) = plateaus {
         say_plateaus(words, &names, &grids, &plateaus);
     }

@@ -27,6 +27,9 @@ const ROWS: f64 = 480.0;
 /// Px of a cell: the least and the largest width and height.
 const CELL: [(f64, f64); 2] = [(7.0, 72.0), (7.0, 34.0)];
 
+/// Cells in a row or a column: more could not be looked at.
+const MOST_CELLS: usize = 1000;
+
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 62.0;
 /// Px from the cells down to the legend of what is marked.
@@ -38,6 +41,21 @@ const HALF: RGBColor = RGBColor(112, 170, 212);
 const MOST: RGBColor = RGBColor(8, 48, 92);
 
 impl HeatMap {
+    /// Whether a study of these settings can be drawn: to be asked before the work.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] when the picture would be too large.
+    pub fn fits(x: &Axis, y: Option<&Axis>) -> Result<(), Error> {
+        let (columns, rows) = (x.len(), y.map_or(1, Axis::len));
+        if columns.max(rows) > MOST_CELLS {
+            return Err(style::cannot(format!(
+                "{columns} × {rows} cells are too many to look at, {MOST_CELLS} in a row at the most; \
+                 take larger steps"
+            )));
+        }
+        Ok(())
+    }
+
     /// Draws the study of one clip, or the median of several, as SVG. All grids are of one study.
     /// `plateaus` are edged: the one in which keys are the very same, and the one in which they are
     /// nearly so; then the cell of the recipe's own settings is marked, too.
@@ -53,17 +71,12 @@ impl HeatMap {
         let Some(grid) = grids.first() else {
             return Err(style::cannot("a study without a clip has nothing to draw"));
         };
+        Self::fits(&grid.x, grid.y.as_ref())?;
         let values = shown(grids, self.show)?;
         let map = Map::of(grid, &values, self.show);
         let (width, height) = map.size();
         let height =
             height + if plateaus.is_some() { LEGEND - BOTTOM + style::MARGIN } else { 0.0 };
-        if width.max(height) > 20_000.0 {
-            return Err(style::cannot(format!(
-                "{} × {} cells are too many to look at; take larger steps",
-                map.columns, map.rows
-            )));
-        }
         paint((width as u32, height as u32), |canvas| {
             title(canvas, self.show)?;
             let of_clips = format!("median of {} clips", grids.len());

@@ -123,7 +123,8 @@ fn stability_compares_cells_and_names_the_plateau() {
         "{said}"
     );
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();
-    for words in ["same keys 原画が同じ", "nearly the same ほぼ同じ", "the recipe 現在のレシピ"]
+    for words in
+        ["same keys of the layer 原画が同じ", "nearly the same ほぼ同じ", "the recipe 現在のレシピ"]
     {
         assert!(heat.contains(words), "{words}");
     }

@@ -189,11 +189,21 @@ fn a_plateau_is_edged_where_it_ends_and_the_recipes_cell_is_marked() {
         cells.map(|tag| number_of(tag, name)).fold(f64::NEG_INFINITY, f64::max)
     });
     assert!(number_of(marks[0], "cx") > middle[0] && number_of(marks[0], "cy") < middle[1]);
-    assert!(words(&svg).contains(&"same keys 原画が同じ"));
+    assert!(words(&svg).contains(&"same keys of the layer 原画が同じ"));
     assert!(!words(&svg).contains(&"nearly the same ほぼ同じ"));
 }
 
 #[test]
 fn a_small_map_looks_as_it_did() {
     insta::assert_snapshot!(HeatMap::default().draw(&[small()], None).unwrap());
+}
+
+#[test]
+fn a_map_that_nobody_could_look_at_is_refused_before_the_work() {
+    let axis = |text: &str| text.parse::<Axis>().unwrap();
+    let (width, many) = (axis("filter.width=1..9:1"), axis("turns.persistence=1..1001:1"));
+    assert!(HeatMap::fits(&width, None).is_ok());
+    for said in [HeatMap::fits(&width, Some(&many)), HeatMap::fits(&many, None)] {
+        assert!(said.unwrap_err().to_string().contains("take larger steps"));
+    }
 }
