@@ -200,7 +200,7 @@ fn a_small_map_looks_as_it_did() {
 
 #[test]
 fn a_map_that_nobody_could_look_at_is_refused_before_the_work() {
-    let axis = |text: &str| text.parse::<Axis>().unwrap();
+    let axis = |text: &str| text.parse::<crate::study::Axis>().unwrap();
     let (width, many) = (axis("filter.width=1..9:1"), axis("turns.persistence=1..1001:1"));
     assert!(HeatMap::fits(&width, None).is_ok());
     for said in [HeatMap::fits(&width, Some(&many)), HeatMap::fits(&many, None)] {
