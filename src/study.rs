@@ -1,5 +1,5 @@
 //! **Study** (調べる): one or two settings varied over a clip, and what is found in each cell; for
-//! `union` that is Table 1 of the first paper [KT11].
+//! `union` that is the study of the first paper [KT11 Table 1].
 //!
 //! An [`Axis`] is a setting with its values, a [`Study`] runs the chain for every pair of them, and a
 //! [`Grid`] holds what was counted.
