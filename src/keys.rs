@@ -11,6 +11,7 @@ mod merge;
 mod peaks;
 mod points;
 mod price;
+mod ranking;
 mod reference;
 mod rest;
 mod sum;
@@ -23,6 +24,7 @@ use crate::time::Frame;
 pub use choose::{Choose, Merge, Rank};
 pub use matching::Matching;
 pub use merge::JointTurns;
+pub use ranking::{Ranked, Ranking};
 pub use reference::Reference;
 pub use voters::weights;
 

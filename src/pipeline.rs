@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{self, Candidates, JointTurns, LayerKeys, Reference};
+use crate::keys::{self, Candidates, JointTurns, LayerKeys, Ranking, Reference};
 use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::Sheet;
@@ -163,12 +163,28 @@ impl Engine {
         Ok((self.turns.output(), self.keys.output()))
     }
 
+    /// Runs the chain up to the candidates and ranks all that could be keys.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn rank(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Ranking, Error> {
+        let turns = self.check_and_measure(recipe, edits)?;
+        self.merge(recipe, turns);
+        let (reference, candidates) = (self.reference.output(), self.candidates.output());
+        Ok(recipe.keys.ranking(&self.clip, reference, candidates, &self.joints(recipe), edits))
+    }
+
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
+        let turns = self.check_and_measure(recipe, edits)?;
+        let candidates = self.merge(recipe, turns);
+        Ok(self.choose(recipe, edits, candidates))
+    }
+
+    fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
         one_pin_a_koma(edits, self.clip.clock(recipe.rate))?;
-        let turns = self.measure(recipe)?;
-        Ok(self.choose(recipe, edits, self.clip.clock(recipe.rate), turns))
+        self.measure(recipe)
     }
 
     /// Speeds, smoothed, and where they turn.
@@ -191,17 +207,20 @@ impl Engine {
         Ok(self.turns.renew(made, &persistence, confirm))
     }
 
-    /// The keys and walls of the layer.
-    fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, turns_made: Made) -> Made {
-        let clip = &*self.clip;
-        let joints = JointTurns {
+    /// What is known of the joints once their turns are found.
+    fn joints<'a>(&'a self, recipe: &'a Recipe) -> JointTurns<'a> {
+        JointTurns {
             filtered: self.filtered.output(),
             turns: self.turns.output(),
             finder: &recipe.turns,
-            delay: recipe.filter.delay(clip.rate()),
+            delay: recipe.filter.delay(self.clip.rate()),
             weights: &self.weights,
-            apart: clock.frames_in_koma(),
-        };
+            apart: self.clip.clock(recipe.rate).frames_in_koma(),
+        }
+    }
+
+    /// The candidates for keys, and what they are judged against.
+    fn merge(&mut self, recipe: &Recipe, turns_made: Made) -> Made {
         // What is asked of the ranked list does not change the candidates.
         let merging = keys::Choose {
             rank: keys::Rank::Price,
@@ -211,14 +230,26 @@ impl Engine {
             ..recipe.keys.clone()
         };
         let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let made = self.candidates.renew(turns_made, &settings, || recipe.keys.candidates(&joints));
-        let candidates = self.candidates.output();
-        self.reference.renew(Made::CLIP, &recipe.rate, || Reference::of(clip, clock));
-        let reference = self.reference.output();
+        let mut candidates = std::mem::take(&mut self.candidates);
+        let make = || recipe.keys.candidates(&self.joints(recipe));
+        let made = candidates.renew(turns_made, &settings, make);
+        self.candidates = candidates;
+        let clip = &*self.clip;
+        self.reference
+            .renew(Made::CLIP, &recipe.rate, || Reference::of(clip, clip.clock(recipe.rate)));
+        made
+    }
+
+    /// The keys and walls of the layer.
+    fn choose(&mut self, recipe: &Recipe, edits: &Edits, candidates_made: Made) -> Made {
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
-        self.keys.renew(made, &settings, || {
-            recipe.keys.choose(clip, reference, candidates, &joints, edits)
-        })
+        let mut keys = std::mem::take(&mut self.keys);
+        let made = keys.renew(candidates_made, &settings, || {
+            let (reference, candidates) = (self.reference.output(), self.candidates.output());
+            recipe.keys.choose(&self.clip, reference, candidates, &self.joints(recipe), edits)
+        });
+        self.keys = keys;
+        made
     }
 
     /// The sheet, before and after omission.

@@ -120,6 +120,19 @@ pub(super) struct Corrections {
     pub(super) pin_column: Option<String>,
 }
 
+/// What the sheet is to be, instead of the settings that make it so.
+#[derive(Debug, ClapArgs)]
+pub(super) struct TargetArgs {
+    /// So many genga on the sheet, pins and ends of rests with them, the clip's two ends without; over
+    /// keys.min_price and keys.per_second.
+    #[arg(long, value_name = "N")]
+    pub(super) keys: Option<usize>,
+    /// So many drawings a second: found with koma-dori, then spacing.on, naka-nashi and the number of keys
+    /// where that is not asked for.
+    #[arg(long, value_name = "X")]
+    pub(super) drawings_per_second: Option<f64>,
+}
+
 /// What both commands that write formats take.
 #[derive(Debug, ClapArgs)]
 pub(super) struct FormatArgs {
@@ -153,6 +166,8 @@ pub(super) struct RunArgs {
     pub(super) clip: ClipArgs,
     #[command(flatten)]
     pub(super) corrections: Corrections,
+    #[command(flatten)]
+    pub(super) targets: TargetArgs,
     /// Formats to write besides: --deliver remap,bvh, or all.
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
     pub(super) deliver: Vec<String>,
@@ -190,8 +205,10 @@ pub(super) struct KeysArgs {
     pub(super) clip: ClipArgs,
     #[command(flatten)]
     pub(super) corrections: Corrections,
+    #[command(flatten)]
+    pub(super) targets: TargetArgs,
     /// Every joint's keys and walls instead of the body's keys.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "TargetArgs")]
     pub(super) per_joint: bool,
     /// The table, a CSV file; - is stdout.
     #[arg(long, short, value_name = "FILE.csv", default_value = "-")]

@@ -113,8 +113,7 @@ impl Choose {
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> LayerKeys {
-        let rests = rest::rest_ends(reference, self.rest);
-        let mut keys = corrected(candidates, &rests, edits, clip, joints.apart);
+        let mut keys = self.eligible(clip, reference, candidates, joints.apart, edits);
         let over_limit = match self.rank {
             Rank::Price => self.keep_the_dear(clip, reference, &mut keys),
             Rank::Strength => self.keep_the_strong(reference.seconds(), &mut keys),
@@ -126,13 +125,22 @@ impl Choose {
         LayerKeys { keys, walls: candidates.walls.clone(), over_limit }
     }
 
+    /// All that may become keys: candidates, the ends of rests, and what a person wants.
+    pub(super) fn eligible(
+        &self,
+        clip: &Clip,
+        reference: &Reference,
+        candidates: &Candidates,
+        apart: f64,
+        edits: &Edits,
+    ) -> Vec<Key> {
+        let rests = rest::rest_ends(reference, self.rest);
+        corrected(candidates, &rests, edits, clip, apart)
+    }
+
     /// Leaves the keys that are worth a drawing, with their prices. Says how many more would be.
     fn keep_the_dear(&self, clip: &Clip, reference: &Reference, keys: &mut Vec<Key>) -> usize {
-        let end = |frame| Entry { frame, stays: true };
-        let entries: Vec<Entry> = std::iter::once(end(clip.first()))
-            .chain(keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) }))
-            .chain(std::iter::once(end(clip.last())))
-            .collect();
+        let entries = entries(clip, keys);
         let most = self.most_keys(reference.seconds());
         let worthwhile = price::worthwhile(clip, reference, &entries, self.min_price, most);
         let mut prices = worthwhile.prices[1..].iter();
@@ -148,8 +156,7 @@ impl Choose {
     fn keep_the_strong(&self, seconds: f64, keys: &mut Vec<Key>) -> usize {
         let before = keys.len();
         let staying = keys.iter().filter(|key| !is_found(key)).count();
-        let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
-        keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
+        strongest_first(keys);
         keys.truncate(self.most_keys(seconds).saturating_add(staying));
         keys.sort_by_key(|key| key.frame);
         before - keys.len()
@@ -161,6 +168,21 @@ impl Choose {
     }
 }
 
-fn is_found(key: &Key) -> bool {
+/// Keys by frame with the clip's ends about them, to be priced.
+pub(super) fn entries(clip: &Clip, keys: &[Key]) -> Vec<Entry> {
+    let end = |frame| Entry { frame, stays: true };
+    let keys = keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) });
+    let ends = [clip.first(), clip.last()].map(end);
+    std::iter::once(ends[0]).chain(keys).chain(std::iter::once(ends[1])).collect()
+}
+
+/// Those that stay first, then the others, of equals the earlier.
+pub(super) fn strongest_first(keys: &mut [Key]) {
+    let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
+    keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
+}
+
+/// Whether it may go.
+pub(super) fn is_found(key: &Key) -> bool {
     key.origin == Origin::Found
 }

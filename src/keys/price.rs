@@ -66,6 +66,20 @@ pub(super) fn worthwhile(
     Worthwhile { prices: (0..entries.len()).map(&mut kept).collect(), over_limit }
 }
 
+/// The order in which entries go, the cheapest first, each with its price when its turn came.
+pub(super) fn going<'a>(
+    clip: &'a Clip,
+    reference: &'a Reference,
+    entries: &'a [Entry],
+) -> impl Iterator<Item = (usize, f64)> + use<'a> {
+    let mut list = RankedList::new(clip, reference, entries);
+    std::iter::from_fn(move || {
+        let (price, entry) = list.cheapest()?;
+        list.remove(entry);
+        Some((entry, price))
+    })
+}
+
 /// Keys in a doubly linked list with the price of each, cheapest first.
 ///
 /// A key is first listed with the least that it may cost, and priced in full when it comes up as the
