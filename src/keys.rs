@@ -57,6 +57,18 @@ pub enum Origin {
     Rest,
     /// Set by a person; it survives everything.
     Pinned,
+    /// Found elsewhere and put here by a person; it survives everything.
+    Moved {
+        /// The source frame near which it was found.
+        from: Frame,
+    },
+}
+
+impl Origin {
+    /// Whether a person wants it just where it is.
+    pub fn is_set(self) -> bool {
+        matches!(self, Self::Pinned | Self::Moved { .. })
+    }
 }
 
 /// A wall (壁フレーム) of a layer: where it stops accelerating between two keys.

@@ -280,7 +280,8 @@ impl Engine {
 
 /// A koma shows one drawing: of two pins on it one would be lost, and pins survive everything.
 fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
-    let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).collect();
+    let moved = edits.moves.iter().map(|moved| moved.to);
+    let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();
     frames.sort_unstable();
     frames.dedup();
     let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);

@@ -244,7 +244,7 @@ fn located(text: &str, error: &toml::de::Error) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edits::Pin;
+    use crate::edits::{Move, Pin};
     use crate::time::Frame;
 
     #[test]
@@ -284,7 +284,12 @@ mod tests {
             assert_ne!(recipe, before, "{name} is not its default");
         }
         let pin = Pin { weight: Some(0.5), ..Pin::parse("150:top").unwrap() };
-        let edits = Edits { pins: vec![pin], forbidden: vec![Frame(7)] };
+        let edits = Edits {
+            pins: vec![pin],
+            forbidden: vec!["7".parse().unwrap(), "20..30".parse().unwrap()],
+            moves: vec![Move::parse("41:42:hit@0.2").unwrap()],
+            only_pins: true,
+        };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");
         let default = Recipe::default().write(&Edits::default());

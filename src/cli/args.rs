@@ -109,13 +109,24 @@ pub(super) struct Settings {
 pub(super) struct Corrections {
     #[command(flatten)]
     pub(super) settings: Settings,
-    /// Frames that are keys whatever is found, with a name if you like: --pin 12,150:wrist-top
-    #[arg(long, value_name = "FRAME[:NAME],…", value_delimiter = ',')]
+    /// Frames that are keys whatever is found, with a name and a spacing weight of their own if you like:
+    /// --pin 12,150:wrist-top,180@0.5,200:hit@0
+    #[arg(long, value_name = "FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
     pub(super) pin: Vec<String>,
-    /// Keys marked on a timesheet of this clip, an XDTS file: its numbers, or those circled as keys.
-    #[arg(long, value_name = "FILE.xdts")]
+    /// Frames near which no key may be found, and ranges without their last frame: --forbid 12,120..140
+    #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
+    pub(super) forbid: Vec<String>,
+    /// Keys that are found near one frame and drawn at another instead: --move 41:42,80:84:hit@0.2
+    #[arg(long = "move", value_name = "FROM:TO[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    pub(super) moves: Vec<String>,
+    /// Keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
+    /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
+    #[arg(long, value_name = "FILE")]
     pub(super) pin_from: Option<PathBuf>,
-    /// The column of that timesheet [default: the only one, or A].
+    /// No keys but those that are pinned or moved, and the clip's ends.
+    #[arg(long)]
+    pub(super) only_pins: bool,
+    /// The column of that file [default: the only one, or A].
     #[arg(long, value_name = "NAME", requires = "pin_from")]
     pub(super) pin_column: Option<String>,
 }

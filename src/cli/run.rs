@@ -36,7 +36,9 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let short = targets::meet(&args.targets, &mut engine, &mut recipe, &edits, words)?;
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
-    let notes = source.notes.iter().map(ToString::to_string).chain(marked).chain(short);
+    let unmoved = pins::unmoved(&edits, &breakdown);
+    let notes = source.notes.iter().map(ToString::to_string);
+    let notes = notes.chain(marked).chain(short).chain(unmoved);
     let mut report = Report::of(&breakdown, notes.collect());
     let cut = Cut {
         name: &name,

@@ -68,8 +68,19 @@ impl Goal {
         Ok((found.recipe, Outcome { target, reached: drawings as f64 / seconds, shortfall }))
     }
 
-    /// Koma-dori first; then the spacing, and the koma-dori for it; then naka-nashi, or keys.
+    /// The settings nearest to the recipe; a fixed number of inbetweens gives way where no number does.
     fn search(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
+        let found = self.descend(search, recipe)?;
+        if found.excess.abs() <= NEAR || recipe.spacing.inbetweens.is_none() {
+            return Ok(found);
+        }
+        let mut free = recipe.clone();
+        free.spacing.inbetweens = None;
+        Ok(found.or(self.descend(search, &free)?))
+    }
+
+    /// Koma-dori first; then the spacing, and the koma-dori for it; then naka-nashi, or keys.
+    fn descend(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
         let held = search.hold(recipe)?;
         if held.is_exact() {
             return Ok(held);

@@ -60,7 +60,7 @@ impl Place {
     }
 
     /// Runs it with bytes on stdin.
-    fn fed(&self, args: &str, bytes: &[u8]) -> Output {
+    pub(crate) fn fed(&self, args: &str, bytes: &[u8]) -> Output {
         let mut command = self.command(&words(args));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
