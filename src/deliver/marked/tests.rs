@@ -6,7 +6,10 @@ use crate::motion::bvh;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
-fn table(text: &str) -> Result<Vec<(usize, Option<String>, Option<f64>)>, String> {
+/// Frame, name and weight.
+type Row = (usize, Option<String>, Option<f64>);
+
+fn table(text: &str) -> Result<Vec<Row>, String> {
     let (pins, _) = pins_from_table(text.as_bytes(), None).map_err(|error| error.to_string())?;
     Ok(pins.into_iter().map(|pin| (pin.frame.0, pin.name, pin.weight)).collect())
 }
