@@ -4,6 +4,7 @@
 //! key), which gives candidates; a price says what each of them saves; [`Choose`] keeps those that are
 //! worth a drawing.
 
+mod bridge;
 mod choose;
 mod correct;
 mod matching;
@@ -12,6 +13,7 @@ mod peaks;
 mod points;
 mod price;
 mod ranking;
+mod reconstruction;
 mod reference;
 mod rest;
 mod sum;
@@ -25,6 +27,7 @@ pub use choose::{Choose, Merge, Rank};
 pub use matching::Matching;
 pub use merge::JointTurns;
 pub use ranking::{Ranked, Ranking};
+pub use reconstruction::Reconstruction;
 pub use reference::Reference;
 pub use voters::weights;
 

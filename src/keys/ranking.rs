@@ -56,9 +56,8 @@ impl Choose {
 fn by_price(clip: &Clip, reference: &Reference, keys: &[Key]) -> Vec<Ranked> {
     let entries = entries(clip, keys);
     let ranked = |(entry, worth): (usize, f64)| Ranked { frame: entries[entry].frame, worth };
-    let mut found: Vec<Ranked> = price::going(clip, reference, &entries).map(ranked).collect();
-    found.reverse();
-    found
+    let going = price::going(clip, reference, &entries);
+    going.into_iter().rev().map(ranked).collect()
 }
 
 impl Ranking {
