@@ -19,6 +19,7 @@ mod rest;
 mod sum;
 mod vote;
 mod voters;
+mod weights;
 
 use crate::motion::JointId;
 use crate::time::Frame;
@@ -30,6 +31,7 @@ pub use ranking::{Ranked, Ranking};
 pub use reconstruction::Reconstruction;
 pub use reference::Reference;
 pub use voters::weights;
+pub use weights::JointWeights;
 
 /// A key (原画) of a layer.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{self, Candidates, JointTurns, LayerKeys, Ranking, Reference};
+use crate::keys::{
+    self, Candidates, JointTurns, JointWeights, LayerKeys, Ranking, Reconstruction, Reference,
+};
 use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::Sheet;
@@ -20,15 +22,16 @@ mod tests;
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
-    weights: Arc<[f64]>,
     /// The speeds, and what filters make of them first.
     speed: Stage<crate::signal::Speed, Spectrum>,
     filtered: Stage<LowPass, Signals>,
     /// The turns whatever the persistence, and those that it confirms.
     turning: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
     turns: Stage<Span, Vec<Vec<Turn>>>,
+    /// How much each joint counts, and the turns of those that do.
+    voices: Stage<JointWeights, Voices>,
     candidates: Stage<CandidateSettings, Candidates>,
-    reference: Stage<f64, Reference>,
+    reference: Stage<(f64, JointWeights), Reference>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
@@ -76,14 +79,13 @@ impl Engine {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
         clip.check_size()?;
-        let weights = keys::weights(&clip).into();
         Ok(Self {
             clip,
-            weights,
             speed: Stage::default(),
             filtered: Stage::default(),
             turning: Stage::default(),
             turns: Stage::default(),
+            voices: Stage::default(),
             candidates: Stage::default(),
             reference: Stage::default(),
             keys: Stage::default(),
@@ -174,6 +176,36 @@ impl Engine {
         Ok(recipe.keys.ranking(&self.clip, reference, candidates, &self.joints(recipe), edits))
     }
 
+    /// The fewest of the found keys, best first, with which the body is nowhere further off than `most`:
+    /// see [`Ranking::fewest_within`].
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn fewest_within(
+        &mut self,
+        most: f64,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<(Ranking, Option<usize>), Error> {
+        let ranking = self.rank(recipe, edits)?;
+        let fewest = ranking.fewest_within(most, &self.clip, self.reference.output());
+        Ok((ranking, fewest))
+    }
+
+    /// How far off the body is when nothing but the keys of a recipe is left.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn reconstruction(
+        &mut self,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<Reconstruction, Error> {
+        self.find(recipe, edits)?;
+        let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
+        Ok(Reconstruction::of(&self.clip, self.reference.output(), &keys))
+    }
+
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         let turns = self.check_and_measure(recipe, edits)?;
         let candidates = self.merge(recipe, turns);
@@ -184,7 +216,12 @@ impl Engine {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
         one_pin_a_koma(edits, self.clip.clock(recipe.rate))?;
-        self.measure(recipe)
+        let weights = &recipe.keys.weights;
+        // What is wrong with them is said before the work.
+        let own = weights.of(self.clip.skeleton())?;
+        let turns = self.measure(recipe)?;
+        let (clip, found) = (&*self.clip, self.turns.output());
+        Ok(self.voices.renew(turns, weights, || Voices::of(clip, own, found)))
     }
 
     /// Speeds, smoothed, and where they turn.
@@ -211,10 +248,10 @@ impl Engine {
     fn joints<'a>(&'a self, recipe: &'a Recipe) -> JointTurns<'a> {
         JointTurns {
             filtered: self.filtered.output(),
-            turns: self.turns.output(),
+            turns: self.voices.output().turns.as_deref().unwrap_or(self.turns.output()),
             finder: &recipe.turns,
             delay: recipe.filter.delay(self.clip.rate()),
-            weights: &self.weights,
+            weights: &self.voices.output().weights,
             apart: self.clip.clock(recipe.rate).frames_in_koma(),
         }
     }
@@ -235,8 +272,11 @@ impl Engine {
         let made = candidates.renew(turns_made, &settings, make);
         self.candidates = candidates;
         let clip = &*self.clip;
-        self.reference
-            .renew(Made::CLIP, &recipe.rate, || Reference::of(clip, clip.clock(recipe.rate)));
+        let settings = (recipe.rate, recipe.keys.weights.clone());
+        let own = &self.voices.output().own;
+        self.reference.renew(Made::CLIP, &settings, || {
+            Reference::weighted(clip, clip.clock(recipe.rate), own)
+        });
         made
     }
 
@@ -275,6 +315,30 @@ impl Engine {
             [layer, omitted].map(|layer| Sheet { clock, layers: vec![layer.clone()] })
         });
         Ok(())
+    }
+}
+
+/// How much each joint counts when keys are chosen.
+#[derive(Debug)]
+struct Voices {
+    /// What a person says of each joint, 1 where they say nothing.
+    own: Vec<f64>,
+    /// The same times what hangs on it: the weight of its vote.
+    weights: Vec<f64>,
+    /// The turns without those of joints that have no say; none where all have.
+    turns: Option<Vec<Vec<Turn>>>,
+}
+
+impl Voices {
+    fn of(clip: &Clip, own: Vec<f64>, turns: &[Vec<Turn>]) -> Self {
+        let weights = keys::weights(clip);
+        let weights = weights.iter().zip(&own).map(|(by_bones, own)| by_bones * own).collect();
+        let heard = |(turns, own): (&Vec<Turn>, &f64)| {
+            if *own > 0.0 { turns.clone() } else { Vec::new() }
+        };
+        let some_are_mute = own.contains(&0.0);
+        let turns = some_are_mute.then(|| turns.iter().zip(&own).map(heard).collect());
+        Self { own, weights, turns }
     }
 }
 

@@ -5,6 +5,7 @@
 //! again without any target.
 
 mod drawings;
+mod error;
 mod genga;
 mod ladder;
 
@@ -24,6 +25,9 @@ pub enum Target {
     Keys(usize),
     /// Drawings on the sheet over its seconds: above 0, and at most a drawing a koma.
     DrawingsPerSecond(f64),
+    /// The fewest keys with which the body, slerped from key to key, is nowhere further off than so many %
+    /// of its height, above 0: at the worst koma, root mean square over its points.
+    MaxError(f64),
 }
 
 /// Settings that come as near to some targets as they can.
@@ -64,10 +68,13 @@ pub fn meet(
     let mut met = Met { recipe: recipe.clone(), outcomes: Vec::new() };
     let mut keys_are_free = true;
     for target in targets {
-        if let Target::Keys(count) = *target {
-            keys_are_free = false;
-            met.settle(genga::meet(engine, &met.recipe, edits, count)?);
-        }
+        let settled = match *target {
+            Target::Keys(count) => genga::meet(engine, &met.recipe, edits, count)?,
+            Target::MaxError(most) => error::meet(engine, &met.recipe, edits, most)?,
+            Target::DrawingsPerSecond(_) => continue,
+        };
+        keys_are_free = false;
+        met.settle(settled);
     }
     for target in targets {
         if let Target::DrawingsPerSecond(rate) = *target {
@@ -90,8 +97,18 @@ fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
                     format!("must be above 0 and at most {most}, a drawing a koma; 8 is usual");
                 return Err(Error::setting(target.name(), message));
             }
+            Target::MaxError(most) if !(most > 0.0 && most.is_finite()) => {
+                let message = "must be above 0, in % of body height, such as 5%";
+                return Err(Error::setting(target.name(), message));
+            }
             _ => {}
         }
+    }
+    let names: Vec<_> = targets.iter().map(Target::name).collect();
+    if names.contains(&"keys") && names.contains(&"max-error") {
+        let message = "cannot be asked for together with --keys, as each says how many keys there are; ask for \
+                       one of them";
+        return Err(Error::setting("max-error", message));
     }
     Ok(())
 }
@@ -109,6 +126,7 @@ impl Target {
         match self {
             Self::Keys(_) => "keys",
             Self::DrawingsPerSecond(_) => "drawings-per-second",
+            Self::MaxError(_) => "max-error",
         }
     }
 }
@@ -124,6 +142,10 @@ impl fmt::Display for Outcome {
             Target::DrawingsPerSecond(rate) => {
                 write!(f, "{rate} drawings a second were asked for, and there are {reached:.2}")?;
             }
+            Target::MaxError(most) => write!(
+                f,
+                "the body was to be {most} % of its height off at the most, and it is {reached:.2} %"
+            )?,
         }
         match &self.shortfall {
             None => Ok(()),

@@ -138,6 +138,10 @@ pub(super) struct TargetArgs {
     /// keys.min_price and keys.per_second.
     #[arg(long, value_name = "N")]
     pub(super) keys: Option<usize>,
+    /// The fewest keys with which the body, slerped from key to key, is nowhere further off than that share
+    /// of its height: 5%; over keys.min_price and keys.per_second.
+    #[arg(long, value_name = "P%", value_parser = percent, conflicts_with = "keys")]
+    pub(super) max_error: Option<f64>,
     /// So many drawings a second: found with koma-dori, then spacing.on, naka-nashi and the number of keys
     /// where that is not asked for.
     #[arg(long, value_name = "X")]
@@ -387,6 +391,11 @@ fn persistence(values: &str) -> Result<Axis, Error> {
 
 /// A half-open range of source frames.
 pub(super) type Frames = std::ops::Range<usize>;
+
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('%').trim_end();
+    number.parse().map_err(|_| format!("expected a share of body height (5%), found \"{text}\""))
+}
 
 fn frames(text: &str) -> Result<Frames, String> {
     let number = |text: &str, open: usize| match text.trim() {

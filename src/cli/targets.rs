@@ -1,4 +1,4 @@
-//! `--keys` and `--drawings-per-second`: settings by what is wanted of the sheet.
+//! `--keys`, `--max-error` and `--drawings-per-second`: settings by what is wanted of the sheet.
 
 use super::args::TargetArgs;
 use super::failure::Failure;
@@ -24,7 +24,7 @@ pub(super) fn meet(
     }
     let met = target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
         // A target's own mistake, by its option; one of the recipe by its setting.
-        Error::Setting { name, message } if KNOBS.iter().all(|knob| knob.name != name) => {
+        Error::Setting { name, message } if targets.iter().any(|target| target.name() == name) => {
             Failure::AskedWrongly(format!("--{name}: {message}"))
         }
         other => other.into(),
@@ -41,7 +41,8 @@ pub(super) fn meet(
 fn targets(args: &TargetArgs) -> Vec<Target> {
     let keys = args.keys.map(Target::Keys);
     let drawings = args.drawings_per_second.map(Target::DrawingsPerSecond);
-    keys.into_iter().chain(drawings).collect()
+    let error = args.max_error.map(Target::MaxError);
+    keys.into_iter().chain(error).chain(drawings).collect()
 }
 
 /// The settings that are no longer what they were, as `--set` takes them.

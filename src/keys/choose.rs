@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::keys::correct::corrected;
 use crate::keys::price::{self, Entry};
 use crate::keys::voters::voters;
-use crate::keys::{Candidates, JointTurns, Key, LayerKeys, Origin, Reference, rest};
+use crate::keys::{Candidates, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest};
 use crate::motion::Clip;
 use crate::time::Span;
 
@@ -60,6 +60,10 @@ pub struct Choose {
     /// Found keys a second at the most, the best first; pins and the ends of rests come on top. Above
     /// 0, default 4.5, `inf` for no limit. Lowered, fast passages lose their keys first.
     pub per_second: f64,
+    /// How much joints count beside what they weigh by their bones: in the votes, in the price and the
+    /// pace of the body, and in its rests. Default: all the same. With 0 a joint's turns are no candidates.
+    #[serde(skip_serializing_if = "JointWeights::is_empty")]
+    pub weights: JointWeights,
 }
 
 impl Default for Choose {
@@ -72,6 +76,7 @@ impl Default for Choose {
             rest: 12.0,
             min_strength: 0.0,
             per_second: 4.5,
+            weights: JointWeights::default(),
         }
     }
 }
@@ -101,7 +106,7 @@ impl Choose {
         if self.per_second.is_nan() || self.per_second <= 0.0 {
             return Err(Error::setting("keys.per_second", "must be above 0, or inf for no limit"));
         }
-        Ok(())
+        self.weights.validate()
     }
 
     /// The keys that are worth a drawing, with who voted for them; a person's pins among them.

@@ -1,6 +1,9 @@
 //! All that could be keys in one nested list: the first n of it are the keys when n may stay.
 
+use std::collections::BTreeSet;
+
 use crate::edits::Edits;
+use crate::keys::bridge::Bridge;
 use crate::keys::choose::{entries, is_found, strongest_first};
 use crate::keys::price;
 use crate::keys::{Candidates, Choose, JointTurns, Key, Rank, Reference};
@@ -87,10 +90,71 @@ impl Ranking {
         settings
     }
 
+    /// The fewest found keys with which the body is nowhere further off than `most`, in % of its height,
+    /// when it is slerped from key to key and between them and the clip's ends; none when it is with all.
+    ///
+    /// A key more may well put the body further off somewhere. So keys are added one by one, and the first
+    /// number that will do is the answer: no smaller one does.
+    pub fn fewest_within(&self, most: f64, clip: &Clip, reference: &Reference) -> Option<usize> {
+        let ends = [clip.first(), clip.last()];
+        let found = self.found.iter().map(|key| key.frame);
+        let all: BTreeSet<Frame> =
+            ends.into_iter().chain(self.staying.iter().copied()).chain(found.clone()).collect();
+        let frames: Vec<Frame> = all.into_iter().collect();
+        let mut rebuilt = Rebuilt {
+            bridge: Bridge::new(clip, reference, &frames),
+            reference,
+            frames: &frames,
+            kept: BTreeSet::from([0, frames.len() - 1]),
+            errors: vec![0.0; reference.koma()],
+        };
+        rebuilt.slerp(0, frames.len() - 1);
+        self.staying.iter().for_each(|frame| rebuilt.add(*frame));
+        let mut found = found;
+        (0..=self.found.len()).find(|count| {
+            if *count > 0 {
+                found.next().into_iter().for_each(|frame| rebuilt.add(frame));
+            }
+            rebuilt.errors.iter().all(|error| *error <= most)
+        })
+    }
+
     /// A limit that lets through exactly so many.
     fn per_second(&self, count: usize) -> f64 {
         let allowed = |limit: f64| (limit * self.seconds).floor() == count as f64;
         shortest((count as f64 + 0.5) / self.seconds, |limit| limit > 0.0 && allowed(limit))
+    }
+}
+
+/// The body made again from some keys, to which others are added.
+struct Rebuilt<'a> {
+    bridge: Bridge<'a>,
+    reference: &'a Reference,
+    /// All that can be keys, and the clip's ends.
+    frames: &'a [Frame],
+    /// Those that are, by their place in the list.
+    kept: BTreeSet<usize>,
+    /// How far off the body is at each koma, in % of its height.
+    errors: Vec<f64>,
+}
+
+impl Rebuilt<'_> {
+    fn add(&mut self, frame: Frame) {
+        let at = self.frames.partition_point(|other| *other < frame);
+        if !self.kept.insert(at) {
+            return;
+        }
+        let before = self.kept.range(..at).next_back().copied().unwrap_or(at);
+        let after = self.kept.range(at + 1..).next().copied().unwrap_or(at);
+        // A koma on the key itself lies in neither half.
+        self.errors[self.reference.koma_between(self.frames[before], self.frames[after])].fill(0.0);
+        self.slerp(before, at);
+        self.slerp(at, after);
+    }
+
+    fn slerp(&mut self, from: usize, to: usize) {
+        let errors = &mut self.errors;
+        self.bridge.errors(from, to, |koma, error| errors[koma] = error);
     }
 }
 

@@ -31,7 +31,13 @@ impl Reference {
     /// It is taken from the motion and not from the rest pose because rest poses are a matter of the
     /// rig: arms out, arms down, or all bones along one axis.
     pub fn of(clip: &Clip, clock: Clock) -> Self {
-        let points = Points::of(clip.skeleton());
+        Self::weighted(clip, clock, &vec![1.0; clip.skeleton().len()])
+    }
+
+    /// The same where joints do not all count as much as their bones say: `own` has a factor for each, 0 or
+    /// more and one of them above. It does not change the height.
+    pub fn weighted(clip: &Clip, clock: Clock, own: &[f64]) -> Self {
+        let points = Points::of(clip.skeleton(), own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));

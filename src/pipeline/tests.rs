@@ -283,6 +283,50 @@ fn nothing_is_moved_where_nothing_was_found() {
     assert_eq!(run(&mut engine, &recipe, &edits(from + 5)), before);
 }
 
+#[test]
+fn what_all_joints_weigh_is_nothing_and_what_one_weighs_is_something() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let mut keys = |merge: &str, weights: &[(&str, &str)]| {
+        let mut recipe = Recipe::default();
+        recipe.set("keys.merge", merge).unwrap();
+        for (joint, weight) in weights {
+            recipe.set(&format!("keys.weights.{joint}"), weight).unwrap();
+        }
+        engine.run(&recipe, &Edits::default()).unwrap().keys.clone()
+    };
+    for merge in ["union", "vote", "sum"] {
+        let plain = keys(merge, &[]);
+        assert_eq!(keys(merge, &[("*", "2")]), plain, "{merge}");
+        assert_ne!(keys(merge, &[("*Foot", "8")]), plain, "{merge}");
+        assert_ne!(keys(merge, &[("*Foot", "0")]), plain, "{merge}");
+    }
+}
+
+#[test]
+fn a_joint_without_a_say_is_nobody_s_reason() {
+    let clip = pitch();
+    let feet = |name: &str| name.contains("Foot") || name.contains("Toe");
+    let mute = |joint: &crate::motion::JointId| !feet(&clip.skeleton().joints[joint.0].name);
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let mut recipe = Recipe::default();
+    for (joint, weight) in [("*", "0"), ("*Foot*", "1"), ("*Toe*", "1")] {
+        recipe.set(&format!("keys.weights.{joint}"), weight).unwrap();
+    }
+    let made = engine.run(&recipe, &Edits::default()).unwrap();
+    assert!(made.keys.keys.len() > 3, "{:?}", made.keys);
+    for key in made.keys.keys.iter().filter(|key| key.origin == keys::Origin::Found) {
+        assert!(!key.voters.is_empty() && !key.voters.iter().any(mute), "{key:?}");
+    }
+    // What every joint does is still known.
+    let (turns, _) = engine.find_keys(&recipe, &Edits::default()).unwrap();
+    assert!(turns.iter().filter(|turns| !turns.is_empty()).count() > 8);
+    let error = recipe.set("keys.weights.*Foot*", "none").and_then(|()| {
+        recipe.set("keys.weights.*Toe*", "0")?;
+        engine.run(&recipe, &Edits::default()).map(drop)
+    });
+    assert!(error.unwrap_err().to_string().contains("every joint has 0"));
+}
+
 /// A recipe with some knobs turned to anything.
 fn any_recipe() -> impl Strategy<Value = Recipe> {
     let turn = (prop::sample::select(KNOBS), any::<prop::sample::Index>());

@@ -104,6 +104,12 @@ fn what_can_never_be_met_is_refused() {
         let said = error(&[Target::DrawingsPerSecond(rate)]);
         assert!(said.starts_with("drawings-per-second: must be above 0 and at most 24"), "{said}");
     }
+    for most in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let said = error(&[Target::MaxError(most)]);
+        assert!(said.starts_with("max-error: must be above 0, in % of body height"), "{said}");
+    }
+    let said = error(&[Target::Keys(3), Target::MaxError(4.0)]);
+    assert!(said.starts_with("max-error: cannot be asked for together with --keys"), "{said}");
     let said = error(&[Target::Keys(3), Target::Keys(4)]);
     assert_eq!(said, "keys: is asked for twice");
 }
@@ -118,6 +124,44 @@ fn the_smallest_clips_have_targets_too() {
             let met = meet(&mut engine, &Recipe::default(), &Edits::default(), &[target]).unwrap();
             assert_eq!(met.outcomes.len(), 1);
         }
+    }
+}
+
+/// Found keys of a recipe, and how far off the body is at the worst koma.
+fn rebuilt(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> (usize, f64) {
+    let keys = &engine.run(recipe, edits).unwrap().keys.keys;
+    let found = keys.iter().filter(|key| key.origin == crate::keys::Origin::Found).count();
+    (found, engine.reconstruction(recipe, edits).unwrap().worst())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn a_largest_error_takes_the_fewest_keys_of_the_list(
+        name in prop::sample::select(&["kick", "pitch"][..]),
+        most in prop_oneof![0.3..4.0, 4.0..40.0],
+        pin in prop::option::of(5..80usize),
+    ) {
+        let mut engine = engine(name);
+        let pins = pin.map(|frame| Pin::parse(&frame.to_string()).unwrap());
+        let edits = Edits { pins: pins.into_iter().collect(), ..Edits::default() };
+        let recipe = Recipe::default();
+        let met = meet(&mut engine, &recipe, &edits, &[Target::MaxError(most)]).unwrap();
+        let outcome = &met.outcomes[0];
+        let (found, worst) = rebuilt(&mut engine, &met.recipe, &edits);
+        prop_assert_eq!(outcome.reached, worst);
+        prop_assert_eq!(outcome.shortfall.is_none(), worst <= most, "{}", outcome);
+        let ranking = engine.rank(&recipe, &edits).unwrap();
+        for fewer in 0..found {
+            let fewer = Recipe { keys: ranking.keeping(fewer, &recipe.keys), ..recipe.clone() };
+            prop_assert!(rebuilt(&mut engine, &fewer, &edits).1 > most);
+        }
+        if worst > most {
+            prop_assert_eq!(found, ranking.found.len());
+        }
+        let again = meet(&mut engine, &met.recipe, &edits, &[Target::MaxError(most)]).unwrap();
+        prop_assert_eq!(again.recipe, met.recipe);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Targets on every real clip: met exactly, or within one drawing.
 
 use genga::edits::Edits;
-use genga::keys::Choose;
+use genga::keys::{Choose, Origin};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::Role;
@@ -62,6 +62,31 @@ fn drawings_are_within_one_of_those_asked_for() {
             assert!(far <= 1.0, "{name}: {drawings} of {wanted:.1} at {rate} a second");
             assert!(far <= 0.5 || rate < 4.0, "{name}: {drawings} of {wanted:.1}");
             assert_eq!(met.outcomes[0].shortfall, None, "{name}");
+        }
+    });
+}
+
+#[test]
+fn the_body_is_nowhere_further_off_than_asked_for() {
+    each(|name, engine| {
+        let (recipe, edits) = (Recipe::default(), Edits::default());
+        let ranking = engine.rank(&recipe, &edits).unwrap();
+        for most in [20.0, 10.0, 5.0, 2.0] {
+            let met = met(engine, &[Target::MaxError(most)]);
+            let worst = engine.reconstruction(&met.recipe, &edits).unwrap().worst();
+            let found = engine.run(&met.recipe, &edits).unwrap().keys.keys.iter();
+            let found = found.filter(|key| key.origin == Origin::Found).count();
+            if met.outcomes[0].shortfall.is_some() {
+                assert!(worst > most && found == ranking.found.len(), "{name}: {worst} of {most}");
+                continue;
+            }
+            assert!(worst <= most, "{name}: {worst} of {most}");
+            if let Some(fewer) = found.checked_sub(1) {
+                let keys = ranking.keeping(fewer, &recipe.keys);
+                let fewer = Recipe { keys, ..recipe.clone() };
+                let worst = engine.reconstruction(&fewer, &edits).unwrap().worst();
+                assert!(worst > most, "{name}: {worst} of {most} with a key less");
+            }
         }
     });
 }

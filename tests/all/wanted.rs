@@ -32,7 +32,12 @@ fn as_many_genga_and_drawings_as_asked_for() {
 #[test]
 fn the_recipe_of_a_target_gives_the_same_bytes_without_it() {
     let place = Place::new();
-    for targets in ["--keys 24", "--drawings-per-second 10.5", "--keys 7 --drawings-per-second 4"] {
+    for targets in [
+        "--keys 24",
+        "--max-error 8%",
+        "--drawings-per-second 10.5",
+        "--keys 7 --drawings-per-second 4",
+    ] {
         place.done(&format!("run data/tennis.bvh --out a {targets}"));
         place.done("run data/tennis.bvh --out b --recipe a/recipe.toml");
         let (a, b) = (place.files("a"), place.files("b"));
@@ -41,6 +46,19 @@ fn the_recipe_of_a_target_gives_the_same_bytes_without_it() {
             assert!(b[&file] == bytes, "{targets}: {file} came out different");
         }
     }
+}
+
+#[test]
+fn a_smaller_error_takes_more_keys() {
+    let place = Place::new();
+    let keys = |error: &str| genga(&place.done(&format!("keys data/kick.bvh --max-error {error}")));
+    let counts = ["40%", "12%", "6", "4%"].map(keys);
+    assert!(counts.is_sorted_by(|a, b| a < b), "{counts:?}");
+    let said = text(&place.genga("keys data/kick.bvh --max-error 0.1%").stderr);
+    assert!(
+        said.contains("the body was to be 0.1 % of its height off at the most, and it is "),
+        "{said}"
+    );
 }
 
 #[test]
@@ -65,6 +83,12 @@ fn a_target_that_can_never_be_met_is_refused_before_the_work() {
         ),
         ("run data/kick.bvh --drawings-per-second 0", "--drawings-per-second: must be above 0"),
         ("run data/kick.bvh --drawings-per-second nan", "--drawings-per-second: must be above 0"),
+        ("keys data/kick.bvh --max-error 0", "--max-error: must be above 0"),
+        (
+            "keys data/kick.bvh --max-error much",
+            "expected a share of body height (5%), found \"much\"",
+        ),
+        ("keys data/kick.bvh --max-error 5% --keys 9", "--max-error"),
         ("keys data/kick.bvh --keys=-1", "--keys"),
         ("keys data/kick.bvh --keys many", "--keys"),
         ("keys data/kick.bvh --keys 3 --keys 4", "--keys"),
@@ -264,6 +288,55 @@ fn wrong_corrections_are_refused_with_the_way_out() {
         ),
     ] {
         let said = place.refused(code, &format!("keys data/kick.bvh {args}"));
+        assert!(said.contains(wanted), "{args}: {said}");
+    }
+}
+
+#[test]
+fn joints_count_as_much_as_a_person_says() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out plain");
+    place.done("run data/kick.bvh --out a --set keys.weights.*Hand*=6 --set keys.weights.Hips=0");
+    let table =
+        |folder: &str| fs::read_to_string(place.path(&format!("{folder}/keys.csv"))).unwrap();
+    assert_ne!(frames(&table("a")), frames(&table("plain")));
+    assert!(table("plain").contains("Hips") && !table("a").contains("Hips"), "{}", table("a"));
+    let recipe = fs::read_to_string(place.path("a/recipe.toml")).unwrap();
+    assert!(
+        recipe.contains("\n[keys.weights]\n\"*Hand*\" = 6.0\nHips = 0.0\n\n[spacing]\n"),
+        "{recipe}"
+    );
+    place.done("run data/kick.bvh --out b --recipe a/recipe.toml");
+    assert!(place.files("a") == place.files("b"));
+    // The sheet says what it was made with.
+    let sheet = fs::read_to_string(place.path("a/sheet.json")).unwrap();
+    assert!(sheet.contains("\"keys.weights.*Hand*\": \"6\""), "{sheet}");
+    place.done("run data/kick.bvh --out c --recipe a/recipe.toml --set keys.weights.*Hand*=none --set keys.weights.Hips=1");
+    assert_eq!(table("c"), table("plain"));
+}
+
+#[test]
+fn wrong_joint_weights_are_refused_with_the_nearest_name() {
+    let place = Place::new();
+    fs::write(place.path("r.toml"), "[keys.weights]\nLeftHnad = 2\n").unwrap();
+    fs::write(place.path("w.toml"), "[keys.weights]\nLeftHand = \"much\"\n").unwrap();
+    for (args, wanted) in [
+        (
+            "--recipe r.toml",
+            "keys.weights.LeftHnad: the clip has no such joint; did you mean LeftHand?",
+        ),
+        ("--recipe r.toml --keys 5", "genga: keys.weights.LeftHnad: the clip has no such joint"),
+        ("--recipe w.toml", "w.toml:2:12: invalid type: string"),
+        (
+            "--set keys.weights.*Tail*=2",
+            "keys.weights.*Tail*: the clip has no such joint; did you mean ",
+        ),
+        ("--set keys.weights.Hips=-1", "keys.weights.Hips: expected a number, 0 (no say) or more"),
+        ("--set keys.weights.Hips=much", "found \"much\""),
+        ("--set keys.weights.*=0", "keys.weights: every joint has 0: leave one that has a say"),
+        ("--set keys.weights=2", "did you mean"),
+    ] {
+        let said = place.refused(2, &format!("keys data/kick.bvh {args}"));
         assert!(said.contains(wanted), "{args}: {said}");
     }
 }
