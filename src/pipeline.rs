@@ -186,7 +186,7 @@ impl Engine {
         most: f64,
         recipe: &Recipe,
         edits: &Edits,
-    ) -> Result<(Ranking, Option<usize>), Error> {
+    ) -> Result<(Ranking, usize), Error> {
         let ranking = self.rank(recipe, edits)?;
         let fewest = ranking.fewest_within(most, &self.clip, self.reference.output());
         Ok((ranking, fewest))

@@ -91,32 +91,31 @@ impl Ranking {
     }
 
     /// The fewest found keys with which the body is nowhere further off than `most`, in % of its height,
-    /// when it is slerped from key to key and between them and the clip's ends; none when it is with all.
+    /// when it is slerped from key to key and between them and the clip's ends; where no number of them
+    /// will do, the fewest with which it is least off.
     ///
     /// A key more may well put the body further off somewhere. So keys are added one by one, and the first
     /// number that will do is the answer: no smaller one does.
-    pub fn fewest_within(&self, most: f64, clip: &Clip, reference: &Reference) -> Option<usize> {
+    pub fn fewest_within(&self, most: f64, clip: &Clip, reference: &Reference) -> usize {
         let ends = [clip.first(), clip.last()];
         let found = self.found.iter().map(|key| key.frame);
         let all: BTreeSet<Frame> =
             ends.into_iter().chain(self.staying.iter().copied()).chain(found.clone()).collect();
         let frames: Vec<Frame> = all.into_iter().collect();
-        let mut rebuilt = Rebuilt {
-            bridge: Bridge::new(clip, reference, &frames),
-            reference,
-            frames: &frames,
-            kept: BTreeSet::from([0, frames.len() - 1]),
-            errors: vec![0.0; reference.koma()],
-        };
-        rebuilt.slerp(0, frames.len() - 1);
+        let mut rebuilt = Rebuilt::between_ends(clip, reference, &frames);
         self.staying.iter().for_each(|frame| rebuilt.add(*frame));
-        let mut found = found;
-        (0..=self.found.len()).find(|count| {
-            if *count > 0 {
-                found.next().into_iter().for_each(|frame| rebuilt.add(frame));
+        let mut best = (0, rebuilt.worst());
+        for (before, frame) in found.enumerate() {
+            if best.1 <= most {
+                break;
             }
-            rebuilt.errors.iter().all(|error| *error <= most)
-        })
+            rebuilt.add(frame);
+            let worst = rebuilt.worst();
+            if worst < best.1 {
+                best = (before + 1, worst);
+            }
+        }
+        best.0
     }
 
     /// A limit that lets through exactly so many.
@@ -138,7 +137,25 @@ struct Rebuilt<'a> {
     errors: Vec<f64>,
 }
 
-impl Rebuilt<'_> {
+impl<'a> Rebuilt<'a> {
+    /// From the first of some frames to the last and nothing between.
+    fn between_ends(clip: &Clip, reference: &'a Reference, frames: &'a [Frame]) -> Self {
+        let last = frames.len() - 1;
+        let mut rebuilt = Self {
+            bridge: Bridge::new(clip, reference, frames),
+            reference,
+            frames,
+            kept: BTreeSet::from([0, last]),
+            errors: vec![0.0; reference.koma()],
+        };
+        rebuilt.slerp(0, last);
+        rebuilt
+    }
+
+    fn worst(&self) -> f64 {
+        self.errors.iter().copied().fold(0.0, f64::max)
+    }
+
     fn add(&mut self, frame: Frame) {
         let at = self.frames.partition_point(|other| *other < frame);
         if !self.kept.insert(at) {

@@ -88,11 +88,12 @@ impl Goal {
         if held.excess < 0.0 {
             return search.more(held);
         }
-        let mut best = search.climb(held, sparser_to_fours)?;
-        if best.excess > EXACT && self.keys_are_free {
-            best = search.with_fewer_keys(best)?;
+        let slow = search.climb(held, sparser_to_fours)?;
+        match slow.excess > EXACT {
+            true if self.keys_are_free => search.fewer(slow),
+            true => search.climb(slow, sparser),
+            false => Ok(slow),
         }
-        if best.excess > EXACT { search.climb(best, sparser) } else { Ok(best) }
     }
 }
 
@@ -179,24 +180,42 @@ impl Search<'_> {
         Ok(dense.or(whole))
     }
 
-    /// The most keys with which there are few enough drawings.
+    /// Fewer drawings than there are with all keys on fours: fewer keys, on the first rung on which there
+    /// are few enough drawings without any found key. A hold has its bound, so on a denser one there are
+    /// too many whatever keys go.
+    fn fewer(&mut self, from: Found) -> Result<Found, Error> {
+        let ranking = self.engine.rank(&from.recipe, self.edits)?;
+        let keys = &self.engine.run(&from.recipe, self.edits)?.keys.keys;
+        let found = keys.iter().filter(|key| key.origin == Origin::Found).count();
+        let mut best = from.clone();
+        let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);
+        for spacing in rungs {
+            let with = |count| {
+                let keys = ranking.keeping(count, &from.recipe.keys);
+                Recipe { keys, spacing: spacing.clone(), ..from.recipe.clone() }
+            };
+            let fewest = self.hold(&with(0))?;
+            let is_enough = fewest.excess <= EXACT;
+            best = best.or(fewest);
+            if is_enough {
+                return self.with_most_keys(best, found + 1, with);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The most keys with which there are few enough drawings, fewer than `too_many`.
     ///
     /// Fewer keys are not always fewer drawings, since inbetweens come where a key was. So the bisection is
     /// a search and no proof: what it gives was looked at, that no more keys would do is not certain.
-    fn with_fewer_keys(&mut self, from: Found) -> Result<Found, Error> {
-        let ranking = self.engine.rank(&from.recipe, self.edits)?;
-        let keys = &self.engine.run(&from.recipe, self.edits)?.keys.keys;
-        let mut too_many = keys.iter().filter(|key| key.origin == Origin::Found).count();
-        let base = from.recipe.clone();
-        let with = |count| {
-            let keys = ranking.keeping(count, &base.keys);
-            Recipe { keys, ..base.clone() }
-        };
-        let fewest = self.hold(&with(0))?;
-        let is_enough = fewest.excess <= EXACT;
-        let mut best = from.or(fewest);
+    fn with_most_keys(
+        &mut self,
+        mut best: Found,
+        mut too_many: usize,
+        with: impl Fn(usize) -> Recipe,
+    ) -> Result<Found, Error> {
         let mut few_enough = 0;
-        while is_enough && few_enough + 1 < too_many {
+        while few_enough + 1 < too_many {
             let count = usize::midpoint(few_enough, too_many);
             let found = self.hold(&with(count))?;
             if found.excess <= EXACT {

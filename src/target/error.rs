@@ -8,27 +8,28 @@ use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
 /// Settings with the fewest keys that put the body nowhere further off than `most`, in % of its height;
-/// with all keys when no number of them will do.
+/// where no number of keys will do, with the fewest that put it least off.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
     edits: &Edits,
     most: f64,
 ) -> Result<(Recipe, Outcome), Error> {
-    let (ranking, fewest) = engine.fewest_within(most, recipe, edits)?;
-    let count = fewest.unwrap_or(ranking.found.len());
+    let (ranking, count) = engine.fewest_within(most, recipe, edits)?;
     let (_, now) = engine.find_keys(recipe, edits)?;
     let found = now.keys.iter().filter(|key| key.origin == Origin::Found).count();
     let mut recipe = recipe.clone();
     if found != count {
         recipe.keys = ranking.keeping(count, &recipe.keys);
     }
-    let reached = engine.reconstruction(&recipe, edits)?.worst();
+    let rebuilt = engine.reconstruction(&recipe, edits)?;
+    let reached = rebuilt.worst();
     let shortfall = (reached > most).then(|| {
-        let keys = ranking.staying.len() + count;
+        let koma = rebuilt.errors.iter().position(|error| *error == reached).unwrap_or(0);
+        let frame = engine.clip().clock(recipe.rate).place_from_koma(koma).round();
         format!(
-            "all {keys} keys are there, and between two of them the body goes another way than a slerp; pin a \
-             frame where it is furthest off"
+            "more keys of those that joints turn at do not help where it is furthest off, near frame {frame}; \
+             a pin there does"
         )
     });
     Ok((recipe, Outcome { target: Target::MaxError(most), reached, shortfall }))

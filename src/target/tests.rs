@@ -155,10 +155,13 @@ proptest! {
         let ranking = engine.rank(&recipe, &edits).unwrap();
         for fewer in 0..found {
             let fewer = Recipe { keys: ranking.keeping(fewer, &recipe.keys), ..recipe.clone() };
-            prop_assert!(rebuilt(&mut engine, &fewer, &edits).1 > most);
+            prop_assert!(rebuilt(&mut engine, &fewer, &edits).1 > worst.max(most));
         }
         if worst > most {
-            prop_assert_eq!(found, ranking.found.len());
+            for more in found..=ranking.found.len() {
+                let more = Recipe { keys: ranking.keeping(more, &recipe.keys), ..recipe.clone() };
+                prop_assert!(rebuilt(&mut engine, &more, &edits).1 >= worst);
+            }
         }
         let again = meet(&mut engine, &met.recipe, &edits, &[Target::MaxError(most)]).unwrap();
         prop_assert_eq!(again.recipe, met.recipe);
