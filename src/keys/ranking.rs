@@ -92,7 +92,7 @@ impl Ranking {
 
     /// The fewest found keys with which the body is nowhere further off than `most`, in % of its height,
     /// when it is slerped from key to key and between them and the clip's ends; where no number of them
-    /// will do, the fewest with which it is least off.
+    /// will do, the fewest with which it is so on the fewest koma.
     ///
     /// A key more may well put the body further off somewhere. So keys are added one by one, and the first
     /// number that will do is the answer: no smaller one does.
@@ -104,18 +104,15 @@ impl Ranking {
         let frames: Vec<Frame> = all.into_iter().collect();
         let mut rebuilt = Rebuilt::between_ends(clip, reference, &frames);
         self.staying.iter().for_each(|frame| rebuilt.add(*frame));
-        let mut best = (0, rebuilt.worst());
+        let mut fewest = (rebuilt.koma_beyond(most), 0);
         for (before, frame) in found.enumerate() {
-            if best.1 <= most {
+            if fewest.0 == 0 {
                 break;
             }
             rebuilt.add(frame);
-            let worst = rebuilt.worst();
-            if worst < best.1 {
-                best = (before + 1, worst);
-            }
+            fewest = fewest.min((rebuilt.koma_beyond(most), before + 1));
         }
-        best.0
+        fewest.1
     }
 
     /// A limit that lets through exactly so many.
@@ -152,8 +149,8 @@ impl<'a> Rebuilt<'a> {
         rebuilt
     }
 
-    fn worst(&self) -> f64 {
-        self.errors.iter().copied().fold(0.0, f64::max)
+    fn koma_beyond(&self, most: f64) -> usize {
+        self.errors.iter().filter(|error| **error > most).count()
     }
 
     fn add(&mut self, frame: Frame) {

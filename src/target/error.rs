@@ -8,7 +8,7 @@ use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
 /// Settings with the fewest keys that put the body nowhere further off than `most`, in % of its height;
-/// where no number of keys will do, with the fewest that put it least off.
+/// where no number of keys will do, with the fewest that put it further off on the fewest koma.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -27,9 +27,11 @@ pub(super) fn meet(
     let shortfall = (reached > most).then(|| {
         let koma = rebuilt.errors.iter().position(|error| *error == reached).unwrap_or(0);
         let frame = engine.clip().clock(recipe.rate).place_from_koma(koma).round();
+        let beyond = rebuilt.errors.iter().filter(|error| **error > most).count();
+        let all = rebuilt.errors.len();
         format!(
-            "more keys of those that joints turn at do not help where it is furthest off, near frame {frame}; \
-             a pin there does"
+            "on {beyond} of {all} koma no more keys of those that joints turn at help; it is furthest off near \
+             frame {frame}, where a pin does"
         )
     });
     Ok((recipe, Outcome { target: Target::MaxError(most), reached, shortfall }))
