@@ -262,6 +262,9 @@ fn two_pins_on_one_koma_are_refused_and_never_lost() {
     recipe.rate = 12.0;
     let error = engine.run(&recipe, &pins(&[62, 40, 61])).unwrap_err().to_string();
     assert_eq!(error, "edits: pinned frames 61 and 62 fall on one koma, 22: pin one of them");
+    let moved = Edits { moves: vec![Move::parse("30:61").unwrap()], ..pins(&[62]) };
+    let error = engine.run(&recipe, &moved).unwrap_err().to_string();
+    assert!(error.contains("frames 61 and 62 fall on one koma"), "{error}");
     let breakdown = engine.run(&recipe, &pins(&[60, 61])).unwrap();
     let pinned = |drawing: &&crate::sheet::Drawing| drawing.why.pinned.is_some();
     assert_eq!(breakdown.sheet.layers[0].drawings.iter().filter(pinned).count(), 2);
