@@ -94,6 +94,28 @@ fn drawings_never_cost_keys_that_were_asked_for() {
 }
 
 #[test]
+fn a_fixed_number_of_inbetweens_gives_way_where_no_number_will_do() {
+    let mut engine = engine("kuroda-pitch");
+    let mut recipe = Recipe::default();
+    recipe.spacing.on = On::every(1);
+    recipe.spacing.inbetweens = Some(0);
+    recipe.omission.keep_length = false;
+    let target = [Target::DrawingsPerSecond(5.25)];
+    let met = meet(&mut engine, &recipe, &Edits::default(), &target).unwrap();
+    assert_eq!(met.recipe.spacing.inbetweens, None);
+    assert_eq!(met.outcomes[0].shortfall, None);
+}
+
+#[test]
+fn every_koma_has_a_drawing_when_as_many_are_asked_for() {
+    let mut engine = engine("kick");
+    let target = [Target::DrawingsPerSecond(24.0)];
+    let met = meet(&mut engine, &Recipe::default(), &Edits::default(), &target).unwrap();
+    assert_eq!(figures(&mut engine, &met.recipe, &Edits::default()).1, 92);
+    assert_eq!(met.recipe.get("omission.naka_nashi").unwrap(), "0");
+}
+
+#[test]
 fn what_can_never_be_met_is_refused() {
     let mut engine = engine("kick");
     let mut error = |targets: &[Target]| {
@@ -201,6 +223,9 @@ proptest! {
             let inbetweens = drawings - figures(&mut engine, &met.recipe, &edits).0 - 2;
             prop_assert_eq!(inbetweens, 0, "{}", outcome);
         }
+        // What could not be held is not asked for either.
+        let held = &engine.run(&met.recipe, &edits).unwrap().omission.koma_dori;
+        prop_assert!(met.recipe.omission.koma_dori == recipe.omission.koma_dori || held.asked == held.done);
         // The recipe alone says it all, and is not changed for what it gives.
         let again = meet(&mut engine, &met.recipe, &edits, &targets).unwrap();
         prop_assert!(again.recipe == met.recipe || excess.abs() > 0.5, "{}", outcome);
