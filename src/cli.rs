@@ -16,6 +16,7 @@ mod run;
 mod source;
 mod stale;
 mod study;
+mod targets;
 mod words;
 
 use std::process::ExitCode;

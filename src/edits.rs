@@ -1,9 +1,16 @@
 //! A person's corrections. They are anchored to source frames, so that a recompute keeps them.
 
+mod forbidden;
+mod marks;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::sheet::is_default;
 use crate::time::Frame;
+
+pub use forbidden::Forbidden;
+pub use marks::{Move, Pin};
 
 /// What a person wants in spite of what was found.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -11,95 +18,122 @@ use crate::time::Frame;
 pub struct Edits {
     /// Frames that are keys whatever is found.
     pub pins: Vec<Pin>,
-    /// Frames near which no key may be found: one nearer than a koma goes.
-    pub forbidden: Vec<Frame>,
-}
-
-/// A key set by a person. It survives everything.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Pin {
-    /// The source frame, numbered as in the file.
-    pub frame: Frame,
-    /// A name for the drawing, such as `left-wrist-top`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Its own spacing weight, 0 ≤ w < 1; the recipe's where none is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub weight: Option<f64>,
+    /// Frames near which no key may be found: one nearer than a koma goes, the end of a rest too. Pins
+    /// and moved keys stay.
+    pub forbidden: Vec<Forbidden>,
+    /// Keys that are found near one frame and drawn at another instead.
+    #[serde(skip_serializing_if = "is_default")]
+    pub moves: Vec<Move>,
+    /// Whether pins and moved keys are the only keys; default no.
+    #[serde(skip_serializing_if = "is_default")]
+    pub only_pins: bool,
 }
 
 impl Edits {
     /// Whether there is nothing to correct.
     pub fn is_empty(&self) -> bool {
-        self.pins.is_empty() && self.forbidden.is_empty()
+        *self == Self::default()
     }
 
     /// Checks the corrections against the frames of a clip.
     ///
     /// # Errors
-    /// [`Error::Edits`] when a pin lies outside `first..=last`, is forbidden at the same time, or
-    /// has a weight that is not in [0, 1).
+    /// [`Error::Edits`] when a frame lies outside `first..=last` (of forbidden ones all), is pinned and
+    /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
+    /// not in [0, 1); and when pins are to be the only keys and there are none.
     pub fn validate(&self, first: Frame, last: Frame) -> Result<(), Error> {
-        for pin in &self.pins {
-            let frame = pin.frame;
-            let wrong = if frame < first || frame > last {
-                format!(
-                    "pinned frame {frame} is not in the clip, which has frames {first} to {last}"
-                )
-            } else if self.forbidden.contains(&frame) {
-                format!("frame {frame} is pinned and forbidden at once")
-            } else if pin.weight.is_some_and(|weight| !(0.0..1.0).contains(&weight)) {
-                format!("the weight of pinned frame {frame} must be at least 0 and below 1")
-            } else {
-                continue;
-            };
-            return Err(Error::Edits { message: wrong });
+        let clip = Frames { first, last };
+        self.pins.iter().try_for_each(|pin| self.check_pin(pin, clip))?;
+        self.forbidden.iter().try_for_each(|forbidden| check_forbidden(*forbidden, clip))?;
+        for (at, moved) in self.moves.iter().enumerate() {
+            self.check_move(moved, &self.moves[..at], clip)?;
+        }
+        if self.only_pins && self.pins.is_empty() && self.moves.is_empty() {
+            return wrong("pins are to be the only keys, and there is no pin: pin a frame");
         }
         Ok(())
     }
+
+    fn check_pin(&self, pin: &Pin, clip: Frames) -> Result<(), Error> {
+        let frame = pin.frame;
+        if !clip.has(frame) {
+            wrong(format!("pinned frame {frame} is not in the clip, which has frames {clip}"))
+        } else if self.forbids(frame) {
+            wrong(format!("frame {frame} is pinned and forbidden at once"))
+        } else {
+            check_weight("pinned", pin)
+        }
+    }
+
+    fn check_move(&self, moved: &Move, before: &[Move], clip: Frames) -> Result<(), Error> {
+        let Move { from, to, .. } = *moved;
+        if let Some(outside) = [from, to].into_iter().find(|frame| !clip.has(*frame)) {
+            wrong(format!(
+                "frame {outside} of the move {from}:{to} is not in the clip, which has frames {clip}"
+            ))
+        } else if from == to {
+            wrong(format!("the key at frame {from} is moved to where it is; to keep it, pin it"))
+        } else if before.iter().any(|other| other.from == from) {
+            wrong(format!("the key at frame {from} is moved twice: move it once"))
+        } else if self.pins.iter().any(|pin| pin.frame == from) {
+            wrong(format!("frame {from} is pinned and moved at once: pin {to} instead"))
+        } else if self.forbids(to) {
+            wrong(format!("frame {to} is forbidden, and a key is moved there"))
+        } else {
+            check_weight("moved-to", &moved.pin())
+        }
+    }
+
+    /// Whether just this frame is named as forbidden. In a range a pin is the exception.
+    fn forbids(&self, frame: Frame) -> bool {
+        self.forbidden.contains(&Forbidden::one(frame))
+    }
 }
 
-impl Pin {
-    /// A pin from `150` or `150:left-wrist-top`.
-    ///
-    /// # Errors
-    /// [`Error::Edits`] when the part before the colon is not a frame number.
-    pub fn parse(text: &str) -> Result<Self, Error> {
-        let (frame, name) = text.split_once(':').map_or((text, None), |(f, n)| (f, Some(n)));
-        let frame = frame.trim().parse().map(Frame).map_err(|_| Error::Edits {
-            message: format!("expected a frame number or frame:name, found \"{text}\""),
-        })?;
-        let name = name.map(str::trim).filter(|name| !name.is_empty()).map(String::from);
-        Ok(Self { frame, name, weight: None })
+fn check_forbidden(forbidden: Forbidden, clip: Frames) -> Result<(), Error> {
+    let Forbidden { from, past } = forbidden;
+    if from >= past {
+        return wrong(format!("the forbidden range {forbidden} has no frame in it"));
+    }
+    if from > clip.last || past <= clip.first {
+        let be = if forbidden.is_one() { "frame" } else { "range" };
+        return wrong(format!(
+            "forbidden {be} {forbidden} is not in the clip, which has frames {clip}"
+        ));
+    }
+    Ok(())
+}
+
+fn check_weight(what: &str, pin: &Pin) -> Result<(), Error> {
+    let frame = pin.frame;
+    match pin.weight.is_some_and(|weight| !(0.0..1.0).contains(&weight)) {
+        false => Ok(()),
+        true => wrong(format!("the weight of {what} frame {frame} must be at least 0 and below 1")),
+    }
+}
+
+fn wrong(message: impl Into<String>) -> Result<(), Error> {
+    Err(Error::Edits { message: message.into() })
+}
+
+/// The frames of a clip, the last with them.
+#[derive(Debug, Clone, Copy)]
+struct Frames {
+    first: Frame,
+    last: Frame,
+}
+
+impl Frames {
+    fn has(self, frame: Frame) -> bool {
+        (self.first..=self.last).contains(&frame)
+    }
+}
+
+impl std::fmt::Display for Frames {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} to {}", self.first, self.last)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pin_must_lie_in_the_clip_and_not_be_forbidden() {
-        let edits = |text: &str, forbidden: &[usize], weight| Edits {
-            pins: vec![Pin { weight, ..Pin::parse(text).unwrap() }],
-            forbidden: forbidden.iter().copied().map(Frame).collect(),
-        };
-        let check = |edits: Edits| edits.validate(Frame(5), Frame(9)).is_ok();
-        assert!(check(edits("5", &[], None)) && check(edits("9", &[8], Some(0.0))));
-        assert!(!check(edits("4", &[], None)));
-        assert!(!check(edits("10", &[], None)));
-        assert!(!check(edits("7", &[7], None)));
-        assert!(!check(edits("7", &[], Some(1.0))));
-        assert!(!check(edits("7", &[], Some(-0.1))));
-    }
-
-    #[test]
-    fn a_pin_is_written_as_frame_and_name() {
-        let pin = Pin::parse("150: left-wrist-top").unwrap();
-        assert_eq!((pin.frame, pin.name.as_deref()), (Frame(150), Some("left-wrist-top")));
-        assert_eq!(Pin::parse("12").unwrap().name, None);
-        assert_eq!(Pin::parse("12: ").unwrap().name, None, "an empty name is none");
-        assert!(Pin::parse("twelve").is_err());
-    }
-}
+mod tests;

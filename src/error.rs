@@ -94,6 +94,25 @@ impl Error {
     }
 }
 
+/// The name nearest to one that is not there, to offer it.
+pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    names.min_by_key(|other| distance(other, name))
+}
+
+/// Letters to change, add or drop between two names.
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.bytes().enumerate() {
+            let change = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
 fn located(place: Option<(usize, usize)>) -> String {
     place.map_or_else(String::new, |(line, column)| format!("{line}:{column}: "))
 }

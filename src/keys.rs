@@ -4,6 +4,7 @@
 //! key), which gives candidates; a price says what each of them saves; [`Choose`] keeps those that are
 //! worth a drawing.
 
+mod bridge;
 mod choose;
 mod correct;
 mod matching;
@@ -11,11 +12,14 @@ mod merge;
 mod peaks;
 mod points;
 mod price;
+mod ranking;
+mod reconstruction;
 mod reference;
 mod rest;
 mod sum;
 mod vote;
 mod voters;
+mod weights;
 
 use crate::motion::JointId;
 use crate::time::Frame;
@@ -23,8 +27,11 @@ use crate::time::Frame;
 pub use choose::{Choose, Merge, Rank};
 pub use matching::Matching;
 pub use merge::JointTurns;
+pub use ranking::{Ranked, Ranking};
+pub use reconstruction::Reconstruction;
 pub use reference::Reference;
 pub use voters::weights;
+pub use weights::JointWeights;
 
 /// A key (原画) of a layer.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +62,18 @@ pub enum Origin {
     Rest,
     /// Set by a person; it survives everything.
     Pinned,
+    /// Found elsewhere and put here by a person; it survives everything.
+    Moved {
+        /// The source frame near which it was found.
+        from: Frame,
+    },
+}
+
+impl Origin {
+    /// Whether a person wants it just where it is.
+    pub fn is_set(self) -> bool {
+        matches!(self, Self::Pinned | Self::Moved { .. })
+    }
 }
 
 /// A wall (壁フレーム) of a layer: where it stops accelerating between two keys.

@@ -23,7 +23,7 @@
 //!
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
-//! result. `cli` is the program; it uses this library and nothing else.
+//! result. [`study`] varies settings, [`target`] finds those that give what is wanted. `cli` is the program; it uses this library and nothing else.
 //!
 //! # Example
 //!
@@ -79,6 +79,7 @@ pub mod recipe;
 pub mod sheet;
 pub mod signal;
 pub mod study;
+pub mod target;
 pub mod time;
 pub mod timing;
 

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{self, Candidates, JointTurns, LayerKeys, Reference};
+use crate::keys::{
+    self, Candidates, JointTurns, JointWeights, LayerKeys, Ranking, Reconstruction, Reference,
+};
 use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::Sheet;
@@ -20,15 +22,16 @@ mod tests;
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
-    weights: Arc<[f64]>,
     /// The speeds, and what filters make of them first.
     speed: Stage<crate::signal::Speed, Spectrum>,
     filtered: Stage<LowPass, Signals>,
     /// The turns whatever the persistence, and those that it confirms.
     turning: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
     turns: Stage<Span, Vec<Vec<Turn>>>,
+    /// How much each joint counts, and the turns of those that do.
+    voices: Stage<JointWeights, Voices>,
     candidates: Stage<CandidateSettings, Candidates>,
-    reference: Stage<f64, Reference>,
+    reference: Stage<(f64, JointWeights), Reference>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
@@ -76,14 +79,13 @@ impl Engine {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
         clip.check_size()?;
-        let weights = keys::weights(&clip).into();
         Ok(Self {
             clip,
-            weights,
             speed: Stage::default(),
             filtered: Stage::default(),
             turning: Stage::default(),
             turns: Stage::default(),
+            voices: Stage::default(),
             candidates: Stage::default(),
             reference: Stage::default(),
             keys: Stage::default(),
@@ -163,12 +165,63 @@ impl Engine {
         Ok((self.turns.output(), self.keys.output()))
     }
 
+    /// Runs the chain up to the candidates and ranks all that could be keys.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn rank(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Ranking, Error> {
+        let turns = self.check_and_measure(recipe, edits)?;
+        self.merge(recipe, turns);
+        let (reference, candidates) = (self.reference.output(), self.candidates.output());
+        Ok(recipe.keys.ranking(&self.clip, reference, candidates, &self.joints(recipe), edits))
+    }
+
+    /// The fewest of the found keys, best first, with which the body is nowhere further off than `most`:
+    /// see [`Ranking::fewest_within`].
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn fewest_within(
+        &mut self,
+        most: f64,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<(Ranking, usize), Error> {
+        let ranking = self.rank(recipe, edits)?;
+        let fewest = ranking.fewest_within(most, &self.clip, self.reference.output());
+        Ok((ranking, fewest))
+    }
+
+    /// How far off the body is when nothing but the keys of a recipe is left.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn reconstruction(
+        &mut self,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<Reconstruction, Error> {
+        self.find(recipe, edits)?;
+        let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
+        Ok(Reconstruction::of(&self.clip, self.reference.output(), &keys))
+    }
+
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
+        let turns = self.check_and_measure(recipe, edits)?;
+        let candidates = self.merge(recipe, turns);
+        Ok(self.choose(recipe, edits, candidates))
+    }
+
+    fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
         one_pin_a_koma(edits, self.clip.clock(recipe.rate))?;
+        let weights = &recipe.keys.weights;
+        // What is wrong with them is said before the work.
+        let own = weights.of(self.clip.skeleton())?;
         let turns = self.measure(recipe)?;
-        Ok(self.choose(recipe, edits, self.clip.clock(recipe.rate), turns))
+        let (clip, found) = (&*self.clip, self.turns.output());
+        Ok(self.voices.renew(turns, weights, || Voices::of(clip, own, found)))
     }
 
     /// Speeds, smoothed, and where they turn.
@@ -191,17 +244,20 @@ impl Engine {
         Ok(self.turns.renew(made, &persistence, confirm))
     }
 
-    /// The keys and walls of the layer.
-    fn choose(&mut self, recipe: &Recipe, edits: &Edits, clock: Clock, turns_made: Made) -> Made {
-        let clip = &*self.clip;
-        let joints = JointTurns {
+    /// What is known of the joints once their turns are found.
+    fn joints<'a>(&'a self, recipe: &'a Recipe) -> JointTurns<'a> {
+        JointTurns {
             filtered: self.filtered.output(),
-            turns: self.turns.output(),
+            turns: self.voices.output().turns.as_deref().unwrap_or(self.turns.output()),
             finder: &recipe.turns,
-            delay: recipe.filter.delay(clip.rate()),
-            weights: &self.weights,
-            apart: clock.frames_in_koma(),
-        };
+            delay: recipe.filter.delay(self.clip.rate()),
+            weights: &self.voices.output().weights,
+            apart: self.clip.clock(recipe.rate).frames_in_koma(),
+        }
+    }
+
+    /// The candidates for keys, and what they are judged against.
+    fn merge(&mut self, recipe: &Recipe, turns_made: Made) -> Made {
         // What is asked of the ranked list does not change the candidates.
         let merging = keys::Choose {
             rank: keys::Rank::Price,
@@ -211,14 +267,29 @@ impl Engine {
             ..recipe.keys.clone()
         };
         let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let made = self.candidates.renew(turns_made, &settings, || recipe.keys.candidates(&joints));
-        let candidates = self.candidates.output();
-        self.reference.renew(Made::CLIP, &recipe.rate, || Reference::of(clip, clock));
-        let reference = self.reference.output();
+        let mut candidates = std::mem::take(&mut self.candidates);
+        let make = || recipe.keys.candidates(&self.joints(recipe));
+        let made = candidates.renew(turns_made, &settings, make);
+        self.candidates = candidates;
+        let clip = &*self.clip;
+        let settings = (recipe.rate, recipe.keys.weights.clone());
+        let own = &self.voices.output().own;
+        self.reference.renew(Made::CLIP, &settings, || {
+            Reference::weighted(clip, clip.clock(recipe.rate), own)
+        });
+        made
+    }
+
+    /// The keys and walls of the layer.
+    fn choose(&mut self, recipe: &Recipe, edits: &Edits, candidates_made: Made) -> Made {
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
-        self.keys.renew(made, &settings, || {
-            recipe.keys.choose(clip, reference, candidates, &joints, edits)
-        })
+        let mut keys = std::mem::take(&mut self.keys);
+        let made = keys.renew(candidates_made, &settings, || {
+            let (reference, candidates) = (self.reference.output(), self.candidates.output());
+            recipe.keys.choose(&self.clip, reference, candidates, &self.joints(recipe), edits)
+        });
+        self.keys = keys;
+        made
     }
 
     /// The sheet, before and after omission.
@@ -247,9 +318,34 @@ impl Engine {
     }
 }
 
+/// How much each joint counts when keys are chosen.
+#[derive(Debug)]
+struct Voices {
+    /// What a person says of each joint, 1 where they say nothing.
+    own: Vec<f64>,
+    /// The same times what hangs on it: the weight of its vote.
+    weights: Vec<f64>,
+    /// The turns without those of joints that have no say; none where all have.
+    turns: Option<Vec<Vec<Turn>>>,
+}
+
+impl Voices {
+    fn of(clip: &Clip, own: Vec<f64>, turns: &[Vec<Turn>]) -> Self {
+        let weights = keys::weights(clip);
+        let weights = weights.iter().zip(&own).map(|(by_bones, own)| by_bones * own).collect();
+        let heard = |(turns, own): (&Vec<Turn>, &f64)| {
+            if *own > 0.0 { turns.clone() } else { Vec::new() }
+        };
+        let some_are_mute = own.contains(&0.0);
+        let turns = some_are_mute.then(|| turns.iter().zip(&own).map(heard).collect());
+        Self { own, weights, turns }
+    }
+}
+
 /// A koma shows one drawing: of two pins on it one would be lost, and pins survive everything.
 fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
-    let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).collect();
+    let moved = edits.moves.iter().map(|moved| moved.to);
+    let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();
     frames.sort_unstable();
     frames.dedup();
     let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);

@@ -19,6 +19,18 @@ pub use knobs::{KNOBS, Kind, Knob};
 /// more are of no use and their table would not fit into memory.
 pub(crate) const KOMA_RATES: std::ops::RangeInclusive<f64> = 2.0..=1000.0;
 
+/// What the weight of a joint is set by, in front of its name.
+const WEIGHTS: &str = "keys.weights.";
+
+/// The knob behind which they are written: a table in a section comes after its values.
+const LAST_OF_KEYS: &str = "keys.per_second";
+
+/// What a written recipe says of them.
+const ABOUT_WEIGHTS: &str = "\
+# 部位の重み — How much joints count, by name or by pattern (* any letters, ? one): 0 has no say, 2 counts
+# twice; a joint that none fits has 1. A whole name goes before a pattern, more letters before fewer.
+";
+
 /// Every setting of the chain. The defaults alone give a sheet an animator can use.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -75,6 +87,9 @@ impl Recipe {
     /// # Errors
     /// [`Error::Setting`] when there is no such knob, or the value is not one it takes.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
+        if let Some(joint) = name.strip_prefix(WEIGHTS).filter(|joint| !joint.is_empty()) {
+            return self.set_weight(joint, text.trim());
+        }
         let knob = Knob::find(name)?;
         let mut table = self.table();
         let (section, field) = knob.path();
@@ -93,6 +108,36 @@ impl Recipe {
         changed.validate()?;
         *self = changed;
         Ok(())
+    }
+
+    /// Sets how much joints of a name or pattern count; `none` takes that back.
+    fn set_weight(&mut self, joint: &str, text: &str) -> Result<(), Error> {
+        let mut weights = self.keys.weights.clone();
+        if text == "none" {
+            weights.0.remove(joint);
+        } else {
+            let weight = text.parse().map_err(|_| {
+                let message = format!("expected a number, 0 (no say) or more, found \"{text}\"");
+                Error::setting(format!("{WEIGHTS}{joint}"), message)
+            })?;
+            weights.0.insert(joint.into(), weight);
+        }
+        weights.validate()?;
+        self.keys.weights = weights;
+        Ok(())
+    }
+
+    /// Every setting with its value, in the words of [`Recipe::set`]: all knobs, and the weights of joints
+    /// that have one.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let knobs = KNOBS.iter().map(|knob| {
+            let value = self.get(knob.name).expect("every knob has a value");
+            (knob.name.to_owned(), value)
+        });
+        let weights = self.keys.weights.0.iter();
+        let weights =
+            weights.map(|(joint, weight)| (format!("{WEIGHTS}{joint}"), weight.to_string()));
+        knobs.chain(weights).collect()
     }
 
     /// A knob's value as text: what [`Recipe::set`] takes back.
@@ -161,6 +206,9 @@ impl Recipe {
                 Ok("none") | Err(_) => text.push_str(&format!("# {field} = none\n")),
                 Ok(value) => text.push_str(&format!("{field} = {}\n", value_from_text(value))),
             }
+            if knob.name == LAST_OF_KEYS {
+                text.push_str(&self.written_weights());
+            }
         }
         if !edits.is_empty() {
             text.push_str("\n# Corrections by a person.\n");
@@ -168,6 +216,16 @@ impl Recipe {
             text.push_str(&edits);
         }
         text
+    }
+
+    /// The weights of joints; an example where there are none.
+    fn written_weights(&self) -> String {
+        let weights = &self.keys.weights;
+        if weights.is_empty() {
+            return format!("\n{ABOUT_WEIGHTS}# [keys.weights]\n# \"*Hand*\" = 2.0\n");
+        }
+        let lines = toml::to_string(weights).expect("names and numbers");
+        format!("\n{ABOUT_WEIGHTS}[keys.weights]\n{lines}")
     }
 
     fn table(&self) -> Table {
@@ -244,7 +302,7 @@ fn located(text: &str, error: &toml::de::Error) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edits::Pin;
+    use crate::edits::{Move, Pin};
     use crate::time::Frame;
 
     #[test]
@@ -276,6 +334,8 @@ mod tests {
             ("filter.width", "20"),
             ("turns.steady", "5%"),
             ("keys.min_price", "4.5"),
+            ("keys.weights.*Hand*", "2"),
+            ("keys.weights.odd \"name\" = 1", "0.1"),
             ("spacing.inbetweens", "3"),
             ("omission.max_hold", "5"),
         ] {
@@ -284,7 +344,12 @@ mod tests {
             assert_ne!(recipe, before, "{name} is not its default");
         }
         let pin = Pin { weight: Some(0.5), ..Pin::parse("150:top").unwrap() };
-        let edits = Edits { pins: vec![pin], forbidden: vec![Frame(7)] };
+        let edits = Edits {
+            pins: vec![pin],
+            forbidden: vec!["7".parse().unwrap(), "20..30".parse().unwrap()],
+            moves: vec![Move::parse("41:42:hit@0.2").unwrap()],
+            only_pins: true,
+        };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");
         let default = Recipe::default().write(&Edits::default());

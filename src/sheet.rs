@@ -119,6 +119,9 @@ pub struct Why {
     /// Set by a person, with the name they gave it (empty when they gave none).
     #[serde(skip_serializing_if = "is_default")]
     pub pinned: Option<String>,
+    /// The source frame near which the key was found that a person put here.
+    #[serde(skip_serializing_if = "is_default")]
+    pub moved_from: Option<usize>,
     /// The begin or the end of a rest (止め).
     #[serde(skip_serializing_if = "is_default")]
     pub rest: bool,
@@ -153,6 +156,9 @@ impl fmt::Display for Why {
             None => {}
             Some("") => reasons.push("pinned".into()),
             Some(name) => reasons.push(format!("pinned: {name}")),
+        }
+        if let Some(from) = self.moved_from {
+            reasons.push(format!("moved from frame {from}"));
         }
         if self.rest {
             reasons.push("a rest begins or ends".into());

@@ -109,15 +109,43 @@ pub(super) struct Settings {
 pub(super) struct Corrections {
     #[command(flatten)]
     pub(super) settings: Settings,
-    /// Frames that are keys whatever is found, with a name if you like: --pin 12,150:wrist-top
-    #[arg(long, value_name = "FRAME[:NAME],…", value_delimiter = ',')]
+    /// Frames that are keys whatever is found, with a name and a spacing weight of their own if you like:
+    /// --pin 12,150:wrist-top,180@0.5,200:hit@0
+    #[arg(long, value_name = "FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
     pub(super) pin: Vec<String>,
-    /// Keys marked on a timesheet of this clip, an XDTS file: its numbers, or those circled as keys.
-    #[arg(long, value_name = "FILE.xdts")]
+    /// Frames near which no key may be found, and ranges without their last frame: --forbid 12,120..140
+    #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
+    pub(super) forbid: Vec<String>,
+    /// Keys that are found near one frame and drawn at another instead: --move 41:42,80:84:hit@0.2
+    #[arg(long = "move", value_name = "FROM:TO[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    pub(super) moves: Vec<String>,
+    /// Keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
+    /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
+    #[arg(long, value_name = "FILE")]
     pub(super) pin_from: Option<PathBuf>,
-    /// The column of that timesheet [default: the only one, or A].
+    /// No keys but those that are pinned or moved, and the clip's ends.
+    #[arg(long)]
+    pub(super) only_pins: bool,
+    /// The column of that file [default: the only one, or A].
     #[arg(long, value_name = "NAME", requires = "pin_from")]
     pub(super) pin_column: Option<String>,
+}
+
+/// What the sheet is to be, instead of the settings that make it so.
+#[derive(Debug, ClapArgs)]
+pub(super) struct TargetArgs {
+    /// So many genga on the sheet, pins and ends of rests with them, the clip's two ends without; over
+    /// keys.min_price and keys.per_second.
+    #[arg(long, value_name = "N")]
+    pub(super) keys: Option<usize>,
+    /// The fewest keys with which the body, slerped from key to key, is nowhere further off than that share
+    /// of its height: 5%; over keys.min_price and keys.per_second.
+    #[arg(long, value_name = "P%", value_parser = percent, conflicts_with = "keys")]
+    pub(super) max_error: Option<f64>,
+    /// So many drawings a second: found with koma-dori, then spacing.on, naka-nashi and the number of keys
+    /// where that is not asked for.
+    #[arg(long, value_name = "X")]
+    pub(super) drawings_per_second: Option<f64>,
 }
 
 /// What both commands that write formats take.
@@ -153,6 +181,8 @@ pub(super) struct RunArgs {
     pub(super) clip: ClipArgs,
     #[command(flatten)]
     pub(super) corrections: Corrections,
+    #[command(flatten)]
+    pub(super) targets: TargetArgs,
     /// Formats to write besides: --deliver remap,bvh, or all.
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
     pub(super) deliver: Vec<String>,
@@ -190,8 +220,10 @@ pub(super) struct KeysArgs {
     pub(super) clip: ClipArgs,
     #[command(flatten)]
     pub(super) corrections: Corrections,
+    #[command(flatten)]
+    pub(super) targets: TargetArgs,
     /// Every joint's keys and walls instead of the body's keys.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "TargetArgs")]
     pub(super) per_joint: bool,
     /// The table, a CSV file; - is stdout.
     #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
@@ -359,6 +391,11 @@ fn persistence(values: &str) -> Result<Axis, Error> {
 
 /// A half-open range of source frames.
 pub(super) type Frames = std::ops::Range<usize>;
+
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('%').trim_end();
+    number.parse().map_err(|_| format!("expected a share of body height (5%), found \"{text}\""))
+}
 
 fn frames(text: &str) -> Result<Frames, String> {
     let number = |text: &str, open: usize| match text.trim() {

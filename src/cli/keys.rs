@@ -3,19 +3,25 @@
 use super::args::KeysArgs;
 use super::failure::Failure;
 use super::words::Words;
-use super::{io, pins, source};
+use super::{io, pins, source, targets};
 use crate::deliver::{self, Drawings, Rows};
 use crate::pipeline::Engine;
 
 pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     io::spare(&args.clip.clip, &args.out)?;
-    let (recipe, mut edits) = source::corrected(&args.corrections)?;
+    if let Some(marked) = &args.corrections.pin_from {
+        io::spare_the("file with your keys", marked, &args.out)?;
+    }
+    let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));
     let mut engine = Engine::new(source.clip)?;
     let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;
     marked.iter().for_each(|note| words.say(note));
+    let short = targets::meet(&args.targets, &mut engine, &mut recipe, &edits, words)?;
+    short.iter().for_each(|note| words.say(note));
     let breakdown = engine.run(&recipe, &edits)?;
+    pins::unmoved(&edits, &breakdown).iter().for_each(|note| words.say(note));
     let table = if args.per_joint {
         deliver::turns_csv(breakdown.clip.skeleton(), breakdown.filtered, breakdown.turns)?
     } else {

@@ -6,7 +6,7 @@ use super::args::RunArgs;
 use super::asked::{Asked, Written};
 use super::failure::Failure;
 use super::words::{Words, counted};
-use super::{io, pictures, pins, source};
+use super::{io, pictures, pins, source, targets};
 use crate::deliver::sheet_json::MadeWith;
 use crate::deliver::{Cut, Report};
 use crate::pipeline::Engine;
@@ -22,7 +22,7 @@ const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is
                     setting and pin of this run";
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
-    let (recipe, mut edits) = source::corrected(&args.corrections)?;
+    let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
     let mut asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
     let name = io::stem(&args.clip.clip);
     let folder = folder(args, &name)?;
@@ -33,9 +33,12 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     working.on("finding the key drawings");
     let mut engine = Engine::new(source.clip)?;
     let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;
+    let short = targets::meet(&args.targets, &mut engine, &mut recipe, &edits, words)?;
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
-    let notes = source.notes.iter().map(ToString::to_string).chain(marked);
+    let unmoved = pins::unmoved(&edits, &breakdown);
+    let notes = source.notes.iter().map(ToString::to_string);
+    let notes = notes.chain(marked).chain(short).chain(unmoved);
     let mut report = Report::of(&breakdown, notes.collect());
     let cut = Cut {
         name: &name,

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::args::{ClipArgs, Corrections, Part, Reading, Settings};
 use super::failure::Failure;
 use super::io;
-use crate::edits::{Edits, Pin};
+use crate::edits::{Edits, Forbidden, Move, Pin};
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
 use crate::recipe::Recipe;
@@ -85,15 +85,35 @@ pub(super) fn recipe(args: &Settings, default: Recipe) -> Result<(Recipe, Edits)
     Ok((recipe, edits))
 }
 
-/// The recipe and corrections of a run: those of the settings, and pins on top.
+/// The recipe and corrections of a run: those of the settings, and those of the command line on top.
 pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> {
     let (recipe, mut edits) = recipe(&args.settings, Recipe::default())?;
     for pin in &args.pin {
-        let pin =
-            Pin::parse(pin).map_err(|error| Failure::AskedWrongly(format!("--pin: {error}")))?;
+        let pin = Pin::parse(pin).map_err(|error| wrongly("pin", error))?;
         // A pin given again says more about the same frame.
         edits.pins.retain(|other| other.frame != pin.frame);
         edits.pins.push(pin);
     }
+    for frames in &args.forbid {
+        let frames: Forbidden = frames
+            .parse()
+            .map_err(|message| Failure::AskedWrongly(format!("--forbid: {message}")))?;
+        if !edits.forbidden.contains(&frames) {
+            edits.forbidden.push(frames);
+        }
+    }
+    for moved in &args.moves {
+        let moved = Move::parse(moved).map_err(|error| wrongly("move", error))?;
+        edits.moves.retain(|other| other.from != moved.from);
+        edits.moves.push(moved);
+    }
+    edits.only_pins |= args.only_pins;
     Ok((recipe, edits))
+}
+
+fn wrongly(option: &str, error: Error) -> Failure {
+    match error {
+        Error::Edits { message } => Failure::AskedWrongly(format!("--{option}: {message}")),
+        other => other.into(),
+    }
 }

@@ -82,7 +82,7 @@ pub(crate) fn recipe() -> Recipe {
 
 pub(crate) fn edits() -> Edits {
     let pin = Pin { weight: Some(0.5), ..Pin::parse("66:top, \"held\"").unwrap() };
-    Edits { pins: vec![pin], forbidden: vec![] }
+    Edits { pins: vec![pin], ..Edits::default() }
 }
 
 /// Each deliverable by its file name.

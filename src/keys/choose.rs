@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::keys::correct::corrected;
 use crate::keys::price::{self, Entry};
 use crate::keys::voters::voters;
-use crate::keys::{Candidates, JointTurns, Key, LayerKeys, Origin, Reference, rest};
+use crate::keys::{Candidates, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest};
 use crate::motion::Clip;
 use crate::time::Span;
 
@@ -60,6 +60,10 @@ pub struct Choose {
     /// Found keys a second at the most, the best first; pins and the ends of rests come on top. Above
     /// 0, default 4.5, `inf` for no limit. Lowered, fast passages lose their keys first.
     pub per_second: f64,
+    /// How much joints count beside what they weigh by their bones: in the votes, in the price and the
+    /// pace of the body, and in its rests. Default: all the same. With 0 a joint's turns are no candidates.
+    #[serde(skip_serializing_if = "JointWeights::is_empty")]
+    pub weights: JointWeights,
 }
 
 impl Default for Choose {
@@ -72,6 +76,7 @@ impl Default for Choose {
             rest: 12.0,
             min_strength: 0.0,
             per_second: 4.5,
+            weights: JointWeights::default(),
         }
     }
 }
@@ -101,7 +106,7 @@ impl Choose {
         if self.per_second.is_nan() || self.per_second <= 0.0 {
             return Err(Error::setting("keys.per_second", "must be above 0, or inf for no limit"));
         }
-        Ok(())
+        self.weights.validate()
     }
 
     /// The keys that are worth a drawing, with who voted for them; a person's pins among them.
@@ -113,8 +118,7 @@ impl Choose {
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> LayerKeys {
-        let rests = rest::rest_ends(reference, self.rest);
-        let mut keys = corrected(candidates, &rests, edits, clip, joints.apart);
+        let mut keys = self.eligible(clip, reference, candidates, joints.apart, edits);
         let over_limit = match self.rank {
             Rank::Price => self.keep_the_dear(clip, reference, &mut keys),
             Rank::Strength => self.keep_the_strong(reference.seconds(), &mut keys),
@@ -126,13 +130,22 @@ impl Choose {
         LayerKeys { keys, walls: candidates.walls.clone(), over_limit }
     }
 
+    /// All that may become keys: candidates, the ends of rests, and what a person wants.
+    pub(super) fn eligible(
+        &self,
+        clip: &Clip,
+        reference: &Reference,
+        candidates: &Candidates,
+        apart: f64,
+        edits: &Edits,
+    ) -> Vec<Key> {
+        let rests = rest::rest_ends(reference, self.rest);
+        corrected(candidates, &rests, edits, clip, apart)
+    }
+
     /// Leaves the keys that are worth a drawing, with their prices. Says how many more would be.
     fn keep_the_dear(&self, clip: &Clip, reference: &Reference, keys: &mut Vec<Key>) -> usize {
-        let end = |frame| Entry { frame, stays: true };
-        let entries: Vec<Entry> = std::iter::once(end(clip.first()))
-            .chain(keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) }))
-            .chain(std::iter::once(end(clip.last())))
-            .collect();
+        let entries = entries(clip, keys);
         let most = self.most_keys(reference.seconds());
         let worthwhile = price::worthwhile(clip, reference, &entries, self.min_price, most);
         let mut prices = worthwhile.prices[1..].iter();
@@ -148,8 +161,7 @@ impl Choose {
     fn keep_the_strong(&self, seconds: f64, keys: &mut Vec<Key>) -> usize {
         let before = keys.len();
         let staying = keys.iter().filter(|key| !is_found(key)).count();
-        let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
-        keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
+        strongest_first(keys);
         keys.truncate(self.most_keys(seconds).saturating_add(staying));
         keys.sort_by_key(|key| key.frame);
         before - keys.len()
@@ -161,6 +173,21 @@ impl Choose {
     }
 }
 
-fn is_found(key: &Key) -> bool {
+/// Keys by frame with the clip's ends about them, to be priced.
+pub(super) fn entries(clip: &Clip, keys: &[Key]) -> Vec<Entry> {
+    let end = |frame| Entry { frame, stays: true };
+    let keys = keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) });
+    let ends = [clip.first(), clip.last()].map(end);
+    std::iter::once(ends[0]).chain(keys).chain(std::iter::once(ends[1])).collect()
+}
+
+/// Those that stay first, then the others, of equals the earlier.
+pub(super) fn strongest_first(keys: &mut [Key]) {
+    let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
+    keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
+}
+
+/// Whether it may go.
+pub(super) fn is_found(key: &Key) -> bool {
     key.origin == Origin::Found
 }

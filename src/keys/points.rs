@@ -23,22 +23,26 @@ pub(super) struct Points {
 }
 
 impl Points {
-    /// The points of a skeleton. Without any bone they all weigh the same.
-    pub(super) fn of(skeleton: &Skeleton) -> Self {
+    /// The points of a skeleton, `own` what each joint and its tips count besides. Without any bone that
+    /// counts they weigh that alone.
+    pub(super) fn of(skeleton: &Skeleton, own: &[f64]) -> Self {
         let bone = |joint: &Joint| joint.parent.map_or(0.0, |_| joint.offset.length());
-        let mut weights: Vec<f64> = skeleton.joints.iter().map(bone).collect();
+        let mut bones: Vec<f64> = skeleton.joints.iter().map(bone).collect();
         let mut tips = Vec::new();
         for (joint, data) in skeleton.iter() {
             for end in &data.end_sites {
                 tips.push((joint.0, end.offset));
-                weights.push(end.offset.length());
+                bones.push(end.offset.length());
             }
         }
-        let all: f64 = weights.iter().sum();
-        let count = weights.len() as f64;
-        for weight in &mut weights {
-            *weight = if all > 0.0 { *weight / all } else { 1.0 / count };
+        let of_tips = tips.iter().map(|(joint, _)| own[*joint]);
+        let own: Vec<f64> = own.iter().copied().chain(of_tips).collect();
+        let mut weights: Vec<f64> = bones.iter().zip(&own).map(|(bone, own)| bone * own).collect();
+        if weights.iter().all(|weight| *weight == 0.0) {
+            weights = own;
         }
+        let all: f64 = weights.iter().sum();
+        weights.iter_mut().for_each(|weight| *weight /= all);
         Self { joints: skeleton.len(), tips, weights }
     }
 
@@ -101,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_point_weighs_as_much_as_the_bone_that_leads_to_it() {
-        let points = Points::of(&chain(&[3.0, 0.0], 1.0));
+        let points = Points::of(&chain(&[3.0, 0.0], 1.0), &[1.0; 3]);
         assert_eq!(points.weights, [0.0, 0.75, 0.0, 0.25], "the root's offset is no bone");
         let rest = [LaneVec::default(); 4];
         let moved = [5.0, 2.0, 5.0, 4.0].map(|way| LaneVec::splat(DVec3::Y * way));
@@ -109,9 +113,21 @@ mod tests {
     }
 
     #[test]
+    fn a_joint_and_its_tips_count_as_much_as_a_person_says() {
+        let body = chain(&[3.0, 2.0], 1.0);
+        assert_eq!(
+            Points::of(&body, &[1.0, 1.0, 2.0]).weights,
+            [0.0, 3.0 / 9.0, 4.0 / 9.0, 2.0 / 9.0]
+        );
+        assert_eq!(Points::of(&body, &[1.0, 1.0, 0.0]).weights, [0.0, 1.0, 0.0, 0.0]);
+        let root_alone = Points::of(&body, &[2.0, 0.0, 0.0]).weights;
+        assert_eq!(root_alone, [1.0, 0.0, 0.0, 0.0], "it has no bone and the only say");
+    }
+
+    #[test]
     fn a_joint_more_on_the_same_bone_changes_nothing_that_turns_with_it() {
         let apart = |skeleton: &Skeleton| {
-            let points = Points::of(skeleton);
+            let points = Points::of(skeleton, &vec![1.0; skeleton.len()]);
             let (rig, mut pose) = (Rig::of(skeleton), LanePose::rest(skeleton));
             let mut positions = vec![LaneVec::default(); points.len()];
             points.place(&rig, &mut pose, &mut positions);
@@ -126,7 +142,7 @@ mod tests {
     #[test]
     fn a_tip_turns_with_its_joint() {
         let skeleton = chain(&[2.0], 1.0);
-        let points = Points::of(&skeleton);
+        let points = Points::of(&skeleton, &[1.0; 2]);
         let mut pose = LanePose::rest(&skeleton);
         let quarter = glam::DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         pose.rotations[1] = crate::motion::lanes::LaneQuat::splat(quarter);
@@ -138,8 +154,8 @@ mod tests {
 
     #[test]
     fn without_bones_all_points_weigh_the_same() {
-        let points = Points::of(&chain(&[0.0], 0.0));
+        let points = Points::of(&chain(&[0.0], 0.0), &[1.0; 2]);
         assert_eq!(points.weights, [1.0 / 3.0; 3]);
-        assert_eq!(Points::of(&Skeleton::default()).len(), 0);
+        assert_eq!(Points::of(&Skeleton::default(), &[]).len(), 0);
     }
 }

@@ -31,7 +31,13 @@ impl Reference {
     /// It is taken from the motion and not from the rest pose because rest poses are a matter of the
     /// rig: arms out, arms down, or all bones along one axis.
     pub fn of(clip: &Clip, clock: Clock) -> Self {
-        let points = Points::of(clip.skeleton());
+        Self::weighted(clip, clock, &vec![1.0; clip.skeleton().len()])
+    }
+
+    /// The same where joints do not all count as much as their bones say: `own` has a factor for each, 0 or
+    /// more and one of them above. It does not change the height.
+    pub fn weighted(clip: &Clip, clock: Clock, own: &[f64]) -> Self {
+        let points = Points::of(clip.skeleton(), own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
@@ -62,6 +68,11 @@ impl Reference {
         self.clock
     }
 
+    /// Number of koma.
+    pub fn koma(&self) -> usize {
+        self.koma
+    }
+
     /// Seconds that its koma last.
     pub(super) fn seconds(&self) -> f64 {
         self.koma as f64 / self.clock.koma_rate
@@ -81,6 +92,12 @@ impl Reference {
     /// The body's height in the file's unit: see [`Reference::of`].
     pub(super) fn height(&self) -> f64 {
         self.height
+    }
+
+    /// A mean squared distance of points, as its root in % of the body's height.
+    #[inline(always)]
+    pub(super) fn percent(&self, squared: f64) -> f64 {
+        100.0 * squared.sqrt() / self.height
     }
 
     /// How fast the body goes into each koma from the second on, in % of its height a second: root mean

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::edits::Pin;
+use crate::edits::{Forbidden, Move, Pin};
 use crate::motion::bvh;
 use crate::motion::lanes::narrow;
 use crate::recipe::{KNOBS, Kind, Knob};
@@ -84,13 +84,17 @@ fn changes(seed: u64) -> Vec<(&'static Knob, String)> {
     changes
 }
 
+fn not(frames: &[usize]) -> Vec<Forbidden> {
+    frames.iter().map(|frame| Forbidden::one(Frame(*frame))).collect()
+}
+
 fn corrections(step: usize) -> Edits {
     let pin = |frame: usize| Pin::parse(&format!("{frame}:by hand")).unwrap();
     match step % 4 {
         0 => Edits::default(),
-        1 => Edits { pins: vec![pin(20 + step % 100)], forbidden: vec![] },
-        2 => Edits { pins: vec![pin(60)], forbidden: vec![Frame(70), Frame(90)] },
-        _ => Edits { pins: vec![], forbidden: vec![Frame(20 + step % 100)] },
+        1 => Edits { pins: vec![pin(20 + step % 100)], ..Edits::default() },
+        2 => Edits { pins: vec![pin(60)], forbidden: not(&[70, 90]), ..Edits::default() },
+        _ => Edits { forbidden: not(&[20 + step % 100]), ..Edits::default() },
     }
 }
 
@@ -213,7 +217,7 @@ fn a_recipe_or_correction_that_is_refused_changes_nothing_afterwards() {
         assert!(engine.run(&recipe, &none).is_err());
         assert!(run(&mut engine, &default, &none) == before);
     }
-    let outside = Edits { pins: vec![Pin::parse("19").unwrap()], forbidden: vec![] };
+    let outside = Edits { pins: vec![Pin::parse("19").unwrap()], ..Edits::default() };
     assert!(engine.run(&default, &outside).is_err());
     assert!(engine.find_keys(&default, &outside).is_err());
     assert!(run(&mut engine, &default, &none) == before);
@@ -250,7 +254,7 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
 fn two_pins_on_one_koma_are_refused_and_never_lost() {
     let pins = |frames: &[usize]| {
         let pin = |frame: &usize| Pin { frame: Frame(*frame), name: None, weight: None };
-        Edits { pins: frames.iter().map(pin).collect(), forbidden: vec![] }
+        Edits { pins: frames.iter().map(pin).collect(), ..Edits::default() }
     };
     let mut engine = Engine::new(pitch()).unwrap();
     let mut recipe = Recipe::default();
@@ -258,9 +262,72 @@ fn two_pins_on_one_koma_are_refused_and_never_lost() {
     recipe.rate = 12.0;
     let error = engine.run(&recipe, &pins(&[62, 40, 61])).unwrap_err().to_string();
     assert_eq!(error, "edits: pinned frames 61 and 62 fall on one koma, 22: pin one of them");
+    let moved = Edits { moves: vec![Move::parse("30:61").unwrap()], ..pins(&[62]) };
+    let error = engine.run(&recipe, &moved).unwrap_err().to_string();
+    assert!(error.contains("frames 61 and 62 fall on one koma"), "{error}");
     let breakdown = engine.run(&recipe, &pins(&[60, 61])).unwrap();
     let pinned = |drawing: &&crate::sheet::Drawing| drawing.why.pinned.is_some();
     assert_eq!(breakdown.sheet.layers[0].drawings.iter().filter(pinned).count(), 2);
+}
+
+#[test]
+fn nothing_is_moved_where_nothing_was_found() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let recipe = Recipe::default();
+    let before = run(&mut engine, &recipe, &Edits::default());
+    let all: Vec<Frame> = before.candidates.keys.iter().map(|key| key.frame).collect();
+    let is_empty = |frame: &usize| all.iter().all(|other| other.0 != *frame);
+    let from = (30..110).find(is_empty).unwrap();
+    let edits = |to: usize| Edits {
+        moves: vec![Move { from: Frame(from), to: Frame(to), name: None, weight: None }],
+        ..Edits::default()
+    };
+    assert_eq!(run(&mut engine, &recipe, &edits(from + 5)), before);
+}
+
+#[test]
+fn what_all_joints_weigh_is_nothing_and_what_one_weighs_is_something() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let mut keys = |merge: &str, weights: &[(&str, &str)]| {
+        let mut recipe = Recipe::default();
+        recipe.set("keys.merge", merge).unwrap();
+        for (joint, weight) in weights {
+            recipe.set(&format!("keys.weights.{joint}"), weight).unwrap();
+        }
+        engine.run(&recipe, &Edits::default()).unwrap().keys.clone()
+    };
+    for merge in ["union", "vote", "sum"] {
+        let plain = keys(merge, &[]);
+        assert_eq!(keys(merge, &[("*", "2")]), plain, "{merge}");
+        assert_ne!(keys(merge, &[("*Foot", "8")]), plain, "{merge}");
+        assert_ne!(keys(merge, &[("*Foot", "0")]), plain, "{merge}");
+    }
+}
+
+#[test]
+fn a_joint_without_a_say_is_nobody_s_reason() {
+    let clip = pitch();
+    let feet = |name: &str| name.contains("Foot") || name.contains("Toe");
+    let mute = |joint: &crate::motion::JointId| !feet(&clip.skeleton().joints[joint.0].name);
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let mut recipe = Recipe::default();
+    for (joint, weight) in [("*", "0"), ("*Foot*", "1"), ("*Toe*", "1")] {
+        recipe.set(&format!("keys.weights.{joint}"), weight).unwrap();
+    }
+    let made = engine.run(&recipe, &Edits::default()).unwrap();
+    assert!(made.keys.keys.len() > 3, "{:?}", made.keys);
+    for key in made.keys.keys.iter().filter(|key| key.origin == keys::Origin::Found) {
+        assert!(!key.voters.is_empty() && !key.voters.iter().any(mute), "{key:?}");
+    }
+    // What every joint does is still known.
+    let (turns, _) = engine.find_keys(&recipe, &Edits::default()).unwrap();
+    assert!(turns.iter().filter(|turns| !turns.is_empty()).count() > 8);
+    let error = recipe.set("keys.weights.*Foot*", "none").and_then(|()| {
+        recipe.set("keys.weights.*Toe*", "0")?;
+        engine.run(&recipe, &Edits::default()).map(drop)
+    });
+    assert!(error.unwrap_err().to_string().contains("every joint has 0"));
 }
 
 /// A recipe with some knobs turned to anything.
@@ -291,7 +358,7 @@ proptest! {
         let clip = pitch();
         let mut engine = Engine::new(clip).unwrap();
         let pin = Pin { frame: Frame(frame), name: Some("hand".into()), weight: None };
-        let edits = Edits { pins: vec![pin], forbidden: vec![] };
+        let edits = Edits { pins: vec![pin], ..Edits::default() };
         let breakdown = engine.run(&recipe, &edits).unwrap();
         prop_assert!(breakdown.keys.keys.iter().any(|key| key.frame == Frame(frame)));
         for sheet in [breakdown.spaced, breakdown.sheet] {
@@ -318,6 +385,71 @@ proptest! {
     }
 
     #[test]
+    fn a_moved_key_stands_where_it_is_moved_and_nothing_near_where_it_was(
+        recipe in any_recipe(),
+        chosen in any::<prop::sample::Index>(),
+        to in 22usize..118,
+    ) {
+        let mut engine = Engine::new(pitch()).unwrap();
+        let free = engine.run(&recipe, &Edits::default()).unwrap();
+        let (apart, koma) = (free.clock.frames_in_koma(), free.spaced.length());
+        let found: Vec<Frame> = free.keys.keys.iter().map(|key| key.frame).collect();
+        prop_assume!(!found.is_empty());
+        let from = found[chosen.index(found.len())];
+        let moved = Move { from, to: Frame(to), name: Some("there".into()), weight: Some(0.9) };
+        prop_assume!(from != moved.to);
+        let edits = Edits { moves: vec![moved], ..Edits::default() };
+        let breakdown = engine.run(&recipe, &edits).unwrap();
+        for key in &breakdown.keys.keys {
+            let away = |frame: Frame| key.frame.0.abs_diff(frame.0) as f64 >= apart;
+            if key.frame == Frame(to) {
+                prop_assert_eq!(key.origin, keys::Origin::Moved { from });
+                prop_assert_eq!((key.name.as_deref(), key.weight), (Some("there"), Some(0.9)));
+            } else {
+                prop_assert!(away(from) && away(Frame(to)), "{:?}", key);
+            }
+        }
+        prop_assert!(breakdown.keys.keys.iter().any(|key| key.frame == Frame(to)));
+        let at = breakdown.clock.koma_from_place(to as f64);
+        if (1..koma - 1).contains(&at) {
+            let shown = |drawing: &crate::sheet::Drawing| {
+                drawing.why.moved_from == Some(from.0) && drawing.source == Source::At(to as f64)
+            };
+            prop_assert_eq!(breakdown.sheet.layers[0].drawings.iter().filter(|d| shown(d)).count(), 1);
+        }
+    }
+
+    #[test]
+    fn a_forbidden_range_is_every_frame_of_it_forbidden(
+        recipe in any_recipe(),
+        from in 15..118usize,
+        length in 6..40usize,
+    ) {
+        let mut engine = Engine::new(pitch()).unwrap();
+        let last = (from + length).min(120);
+        let single = (from.max(20)..last).map(|frame| Forbidden::one(Frame(frame)));
+        let singles = Edits { forbidden: single.collect(), ..Edits::default() };
+        let range = Forbidden { from: Frame(from), past: Frame(from + length) };
+        let edits = Edits { forbidden: vec![range], ..Edits::default() };
+        prop_assert!(run(&mut engine, &recipe, &edits) == run(&mut engine, &recipe, &singles));
+    }
+
+    #[test]
+    fn where_only_pins_are_keys_there_are_no_others(
+        recipe in any_recipe(),
+        pins in prop::collection::btree_set(22usize..118, 1..9),
+    ) {
+        let mut engine = Engine::new(pitch()).unwrap();
+        let pin = |frame: &usize| Pin { frame: Frame(*frame), name: None, weight: None };
+        let edits =
+            Edits { pins: pins.iter().map(pin).collect(), only_pins: true, ..Edits::default() };
+        if let Ok(breakdown) = engine.run(&recipe, &edits) {
+            let keys: Vec<usize> = breakdown.keys.keys.iter().map(|key| key.frame.0).collect();
+            prop_assert_eq!(keys, pins.into_iter().collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
     fn no_key_is_found_within_a_koma_of_a_forbidden_frame(
         recipe in any_recipe(),
         chosen in any::<prop::sample::Index>(),
@@ -328,7 +460,7 @@ proptest! {
         let found: Vec<Frame> = free.keys.keys.iter().map(|key| key.frame).collect();
         prop_assume!(!found.is_empty());
         let forbidden = found[chosen.index(found.len())];
-        let edits = Edits { pins: vec![], forbidden: vec![forbidden] };
+        let edits = Edits { forbidden: vec![Forbidden::one(forbidden)], ..Edits::default() };
         let breakdown = engine.run(&recipe, &edits).unwrap();
         for key in &breakdown.keys.keys {
             prop_assert!(key.frame.0.abs_diff(forbidden.0) as f64 >= apart, "{key:?}");

@@ -1,6 +1,6 @@
 //! Every knob by name: what a recipe file, `--set` and a window show of it.
 
-use crate::error::Error;
+use crate::error::{Error, nearest};
 
 /// One setting of the recipe.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -265,8 +265,7 @@ impl Knob {
     /// [`Error::Setting`] with the nearest name when there is none.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         KNOBS.iter().find(|knob| knob.name == name).ok_or_else(|| {
-            let nearest = KNOBS.iter().min_by_key(|knob| distance(knob.name, name));
-            let hint = nearest.map_or("", |knob| knob.name);
+            let hint = nearest(name, KNOBS.iter().map(|knob| knob.name)).unwrap_or_default();
             Error::setting(name, format!("there is no such setting; did you mean {hint}?"))
         })
     }
@@ -305,18 +304,4 @@ impl Knob {
         };
         Error::setting(self.name, format!("expected {takes}, found \"{found}\""))
     }
-}
-
-/// Letters to change, add or drop between two names.
-fn distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, y) in b.bytes().enumerate() {
-            let change = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }

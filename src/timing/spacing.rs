@@ -204,8 +204,12 @@ impl Station<'_> {
             let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
             why.voters = key.voters.iter().map(name).collect();
             why.strength = Some(key.strength);
+            if key.origin.is_set() {
+                why.pinned = Some(key.name.clone().unwrap_or_default());
+            }
             match key.origin {
-                Origin::Pinned => why.pinned = Some(key.name.clone().unwrap_or_default()),
+                Origin::Pinned => {}
+                Origin::Moved { from } => why.moved_from = Some(from.0),
                 Origin::Rest => why.rest = true,
                 Origin::Found => why.price = Some(key.price).filter(|price| price.is_finite()),
             }
@@ -220,7 +224,7 @@ impl<'a> Station<'a> {
         if self.key.is_none_or(|other| key.price > other.price) {
             self.key = Some(key);
         }
-        if key.origin == Origin::Pinned {
+        if key.origin.is_set() {
             self.place = key.frame.0 as f64;
         }
     }

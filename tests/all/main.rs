@@ -17,6 +17,9 @@ mod rerig; // the same motion in another rig gives the same sheet
 mod rooms; // who may import whom
 #[cfg(feature = "cli")]
 mod studies; // one or two settings varied, as tables and pictures
+mod targets; // numbers of keys and drawings on every real clip
 #[cfg(feature = "cli")]
 mod timesheets; // sheets for programs and for paper, and keys marked on them
 mod tiny_clips; // the smallest clips with any recipe never panic
+#[cfg(feature = "cli")]
+mod wanted; // targets and corrections, as a person gives them

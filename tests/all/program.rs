@@ -60,7 +60,7 @@ impl Place {
     }
 
     /// Runs it with bytes on stdin.
-    fn fed(&self, args: &str, bytes: &[u8]) -> Output {
+    pub(crate) fn fed(&self, args: &str, bytes: &[u8]) -> Output {
         let mut command = self.command(&words(args));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
@@ -85,7 +85,7 @@ impl Place {
     }
 
     /// Every file of a folder by its name.
-    fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+    pub(crate) fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
         let entries = fs::read_dir(self.path(folder)).unwrap();
         let paths = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());

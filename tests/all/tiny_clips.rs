@@ -1,7 +1,7 @@
 //! The smallest clips with any recipe: a clear error or a sensible sheet, never a panic.
 
 use genga::deliver::{self, Drawings, Report, Rows};
-use genga::edits::{Edits, Pin};
+use genga::edits::{Edits, Forbidden, Move, Pin};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use genga::pipeline::{Breakdown, Engine};
 use genga::plot::{PoseRow, SheetPlot, SpeedPlot, XSheet};
@@ -134,15 +134,20 @@ proptest! {
         clip in any_clip(),
         settings in prop::collection::vec(any_setting(), 0..10),
         pin in prop::option::of(any::<prop::sample::Index>()),
-        forbidden in prop::option::of(7..20usize),
+        forbidden in prop::option::of((7..20usize, 1..4usize)),
+        moved in prop::option::of((7..20usize, 7..20usize)),
+        only_pins in prop::bool::weighted(0.1),
     ) {
         let recipe = recipe(&settings);
         let pinned = pin.map(|pin| Frame(7 + pin.index(clip.len())));
         let pins = pinned.map(|frame| Pin { frame, name: None, weight: Some(0.9) });
-        let forbidden = forbidden.map(Frame).filter(|frame| Some(*frame) != pinned);
+        let range = |(from, length)| Forbidden { from: Frame(from), past: Frame(from + length) };
+        let move_to = |(from, to)| Move { from: Frame(from), to: Frame(to), name: None, weight: None };
         let edits = Edits {
             pins: pins.into_iter().collect(),
-            forbidden: forbidden.into_iter().collect(),
+            forbidden: forbidden.map(range).into_iter().collect(),
+            moves: moved.map(move_to).into_iter().collect(),
+            only_pins,
         };
         let mut engine = Engine::new(clip).unwrap();
         match engine.run(&recipe, &edits) {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::digest;
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::recipe::{KNOBS, Recipe};
+use crate::recipe::Recipe;
 use crate::sheet::{Sheet, is_default};
 
 /// Recipe and corrections of a sheet, for the record: a setting that is no longer known does no harm.
@@ -28,10 +28,9 @@ pub struct MadeWith {
 impl MadeWith {
     /// The record of a run and the sheet that it made.
     pub fn of(recipe: &Recipe, edits: &Edits, sheet: &Sheet) -> Self {
-        let word = |name| recipe.get(name).expect("every knob has a value");
-        let settings = KNOBS.iter().map(|knob| (knob.name.to_owned(), word(knob.name)));
         let layers = digest::layers(&sheet.layers);
-        Self { recipe: settings.collect(), edits: edits.clone(), layers }
+        let recipe = recipe.settings().into_iter().collect();
+        Self { recipe, edits: edits.clone(), layers }
     }
 
     /// The recipe again; what is not named has its default.

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::edits::{Edits, Pin};
+use crate::edits::{Edits, Forbidden, Move, Pin};
 use crate::sheet::{Drawing, Exposure, Layer, Sheet, Why};
 use crate::time::{Clock, Frame, FrameRate};
 
@@ -28,16 +28,18 @@ fn why() -> impl Strategy<Value = Why> {
     let value = || prop::option::of(prop_oneof![Just(0.0), -1e300..1e300, 0.0..1e-300, 0.0..100.0]);
     let counts = prop::array::uniform3(0..4usize);
     let pinned = prop::option::of(any::<String>());
-    (words, pinned, any::<bool>(), value(), value(), counts).prop_map(
-        |(voters, pinned, rest, strength, price, [lengthened, omitted_before, held_for])| Why {
+    let moved = prop::option::of(0..999usize);
+    (words, pinned, moved, any::<bool>(), value(), value(), counts).prop_map(
+        |(voters, pinned, moved_from, rest, strength, price, counts)| Why {
             voters,
             pinned,
+            moved_from,
             rest,
             strength,
             price,
-            lengthened,
-            omitted_before,
-            held_for,
+            lengthened: counts[0],
+            omitted_before: counts[1],
+            held_for: counts[2],
         },
     )
 }
@@ -60,15 +62,30 @@ fn layer() -> impl Strategy<Value = Layer> {
     })
 }
 
+fn range(from: u32, more: u16) -> Forbidden {
+    let from = from as usize;
+    Forbidden { from: Frame(from), past: Frame(from + 1 + more as usize) }
+}
+
+fn moved((from, to): (u32, u32)) -> Move {
+    Move { from: Frame(from as usize), to: Frame(to as usize), name: None, weight: None }
+}
+
 fn made_with() -> impl Strategy<Value = MadeWith> {
     let recipe = prop::collection::btree_map(any::<String>(), any::<String>(), 0..3);
     let pin = (any::<u32>(), prop::option::of(any::<String>()), prop::option::of(0.0..1.0))
         .prop_map(|(frame, name, weight)| Pin { frame: Frame(frame as usize), name, weight });
     let forbidden =
-        prop::collection::vec(any::<u32>().prop_map(|frame| Frame(frame as usize)), 0..3);
-    (recipe, prop::collection::vec(pin, 0..3), forbidden).prop_map(|(recipe, pins, forbidden)| {
-        MadeWith { recipe, layers: "7".repeat(pins.len()), edits: Edits { pins, forbidden } }
-    })
+        prop::collection::vec(any::<(u32, u16)>().prop_map(|(from, more)| range(from, more)), 0..3);
+    let moves = prop::collection::vec(any::<(u32, u32)>().prop_map(moved), 0..3);
+    let pins = prop::collection::vec(pin, 0..3);
+    (recipe, pins, forbidden, moves, any::<bool>()).prop_map(
+        |(recipe, pins, forbidden, moves, only_pins)| MadeWith {
+            recipe,
+            layers: "7".repeat(pins.len()),
+            edits: Edits { pins, forbidden, moves, only_pins },
+        },
+    )
 }
 
 fn sheet_file() -> impl Strategy<Value = SheetFile> {

@@ -61,7 +61,7 @@ fn the_keys_of_a_run_given_back_alone_are_the_same_keys() {
         let pins = pins(&column(&file), Numbered::Keys, &own, frames).unwrap();
         let kept: Vec<_> = own.layers[0].drawings.iter().filter(|d| d.role.is_kept()).collect();
         assert_eq!(pins.len(), kept.len());
-        let edits = Edits { pins, forbidden: vec![] };
+        let edits = Edits { pins, ..Edits::default() };
         let mut engine = Engine::new(clip).unwrap();
         let again = engine.run(&recipe, &edits).unwrap().sheet;
         let places = |sheet: &Sheet| -> Vec<(usize, f64)> {

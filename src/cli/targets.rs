@@ -1,0 +1,58 @@
+//! `--keys`, `--max-error` and `--drawings-per-second`: settings by what is wanted of the sheet.
+
+use super::args::TargetArgs;
+use super::failure::Failure;
+use super::words::Words;
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::pipeline::Engine;
+use crate::recipe::{KNOBS, Recipe};
+use crate::target::{self, Target};
+
+/// Puts the settings that were found into the recipe, and says which. Gives what a person should know: a
+/// sentence for each target that could not be met.
+pub(super) fn meet(
+    args: &TargetArgs,
+    engine: &mut Engine,
+    recipe: &mut Recipe,
+    edits: &Edits,
+    words: &Words,
+) -> Result<Vec<String>, Failure> {
+    let targets = targets(args);
+    if targets.is_empty() {
+        return Ok(vec![]);
+    }
+    let met = target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
+        // A target's own mistake, by its option; one of the recipe by its setting.
+        Error::Setting { name, message } if targets.iter().any(|target| target.name() == name) => {
+            Failure::AskedWrongly(format!("--{name}: {message}"))
+        }
+        other => other.into(),
+    })?;
+    let changed = changes(recipe, &met.recipe)?;
+    if !changed.is_empty() {
+        words.say(format_args!("found       {}", changed.join(" ")));
+    }
+    *recipe = met.recipe;
+    let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
+    Ok(short.map(ToString::to_string).collect())
+}
+
+fn targets(args: &TargetArgs) -> Vec<Target> {
+    let keys = args.keys.map(Target::Keys);
+    let drawings = args.drawings_per_second.map(Target::DrawingsPerSecond);
+    let error = args.max_error.map(Target::MaxError);
+    keys.into_iter().chain(error).chain(drawings).collect()
+}
+
+/// The settings that are no longer what they were, as `--set` takes them.
+fn changes(before: &Recipe, after: &Recipe) -> Result<Vec<String>, Error> {
+    let mut changed = Vec::new();
+    for knob in KNOBS {
+        let now = after.get(knob.name)?;
+        if before.get(knob.name)? != now {
+            changed.push(format!("{}={now}", knob.name));
+        }
+    }
+    Ok(changed)
+}

@@ -1,0 +1,171 @@
+//! Keys that a person marked in a file of genga's own: the genga of an edited table or sheet, as pins.
+
+use csv::{ReaderBuilder, StringRecord};
+
+use crate::deliver::sheet_json::SheetFile;
+use crate::edits::Pin;
+use crate::error::Error;
+use crate::sheet::{Drawing, Layer, Role};
+use crate::time::Frame;
+
+/// The genga of a `keys.csv`, `drawings.csv` or `sheet.csv` as pins, and the column that they are of.
+///
+/// What counts is `source_frame`, rounded to a whole frame; a row without a role is a genga, as is one
+/// whose role a person changed. A name is that of a column `name` where there is one, else what the
+/// `note` or `why` says of it; a weight that of a column `weight`. The fields may be parted by commas,
+/// semicolons or tabs, as the programs that save tables please.
+///
+/// # Errors
+/// [`Error::Sheet`] saying the line and what is wrong there: no such column, no genga, a frame that is no
+/// number.
+pub fn pins_from_table(bytes: &[u8], column: Option<&str>) -> Result<(Vec<Pin>, String), Error> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| Error::sheet("this is not text in UTF-8; save the table as CSV in UTF-8"))?;
+    let header = text.lines().next().unwrap_or_default();
+    let parted_by = [b',', b';', b'\t'];
+    let count = |byte: &u8| header.bytes().filter(|other| other == byte).count();
+    // Of equals the last: a comma where there is only one column.
+    let delimiter = parted_by.into_iter().rev().max_by_key(count).unwrap_or(b',');
+    let mut reader =
+        ReaderBuilder::new().delimiter(delimiter).flexible(true).from_reader(text.as_bytes());
+    let failed = |error: csv::Error| Error::sheet(format!("is no table: {error}"));
+    let table = Table::of(reader.headers().map_err(failed)?)?;
+    let mut keys = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(failed)?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let wrong = |message: String| Error::sheet(format!("line {line}: {message}"));
+        keys.extend(table.key(&record).map_err(wrong)?);
+    }
+    let columns = keys.iter().map(|(column, _)| column.as_str()).collect();
+    let column = one_of(columns, column)?;
+    let mut pins: Vec<Pin> =
+        keys.into_iter().filter(|(own, _)| *own == column).map(|(_, pin)| pin).collect();
+    // A sheet has a row a koma: a genga that is held comes again.
+    pins.dedup_by_key(|pin| pin.frame);
+    Ok((pins, column))
+}
+
+/// Where a table has what.
+struct Table {
+    column: Option<usize>,
+    role: Option<usize>,
+    frame: usize,
+    name: Option<usize>,
+    weight: Option<usize>,
+    note: Option<usize>,
+}
+
+impl Table {
+    fn of(header: &StringRecord) -> Result<Self, Error> {
+        let at = |name: &str| header.iter().position(|field| field.trim() == name);
+        let frame = at("source_frame").ok_or_else(|| {
+            Error::sheet(
+                "line 1: there is no column source_frame; keys are read from a keys.csv, drawings.csv or \
+                 sheet.csv as genga writes it, from a sheet.json and from an XDTS timesheet",
+            )
+        })?;
+        Ok(Self {
+            column: at("column").or_else(|| at("layer")),
+            role: at("role"),
+            frame,
+            name: at("name"),
+            weight: at("weight"),
+            note: at("note").or_else(|| at("why")),
+        })
+    }
+
+    /// The key of a row with its column, if it is one.
+    fn key(&self, row: &StringRecord) -> Result<Option<(String, Pin)>, String> {
+        let field = |at: Option<usize>| at.and_then(|at| row.get(at)).unwrap_or_default().trim();
+        match field(self.role) {
+            "" | "genga" => {}
+            "inbetween" | "end" => return Ok(None),
+            other => {
+                return Err(format!("role: expected genga, inbetween or end, found \"{other}\""));
+            }
+        }
+        let frame = match field(Some(self.frame)) {
+            // A line of nothing but commas, as table programs leave below.
+            "" if row.iter().all(|field| field.trim().is_empty()) => return Ok(None),
+            text => text.parse().ok().and_then(whole_frame).ok_or_else(|| {
+                format!("source_frame: expected a frame number of the clip, found \"{text}\"")
+            })?,
+        };
+        let name = Some(field(self.name)).filter(|name| !name.is_empty());
+        let name = name.or_else(|| named_in(field(self.note))).map(String::from);
+        let weight = match field(self.weight) {
+            "" => None,
+            text => Some(text.parse().map_err(|_| {
+                format!("weight: expected a spacing weight, 0 to below 1, found \"{text}\"")
+            })?),
+        };
+        let column = Some(field(self.column)).filter(|column| !column.is_empty());
+        Ok(Some((column.unwrap_or("A").into(), Pin { frame, name, weight })))
+    }
+}
+
+/// The name that a note gives a pinned key: see [`Why`](crate::sheet::Why).
+fn named_in(note: &str) -> Option<&str> {
+    note.split("; ").find_map(|reason| reason.strip_prefix("pinned: "))
+}
+
+/// The genga of a sheet that are on screen as pins, with the names and weights that they were pinned with,
+/// and the layer that they are of.
+///
+/// # Errors
+/// [`Error::Sheet`] where there is no such layer, or no genga in it.
+pub fn pins_from_sheet(file: &SheetFile, layer: Option<&str>) -> Result<(Vec<Pin>, String), Error> {
+    let layers = &file.sheet.layers;
+    let has_genga = |layer: &&Layer| layer.count(Role::Genga) > 0;
+    let names = layers.iter().filter(has_genga).map(|layer| layer.name.as_str()).collect();
+    let name = one_of(names, layer)?;
+    let layer = layers.iter().filter(has_genga).find(|layer| layer.name == name);
+    let edits = file.made_with.as_ref().map(|made| &made.edits);
+    let weight = |frame| {
+        let edits = edits?;
+        let moved = edits.moves.iter().map(|moved| (moved.to, moved.weight));
+        let mut pins = edits.pins.iter().map(|pin| (pin.frame, pin.weight)).chain(moved);
+        pins.find(|(pinned, _)| *pinned == frame)?.1
+    };
+    let pin = |drawing: &Drawing| {
+        let frame = whole_frame(drawing.source.place())?;
+        let name = drawing.why.pinned.clone().filter(|name| !name.is_empty());
+        Some(Pin { frame, name, weight: weight(frame) })
+    };
+    let genga = layer.into_iter().flat_map(Layer::shown);
+    let pins = genga.filter(|drawing| drawing.role == Role::Genga).filter_map(pin).collect();
+    Ok((pins, name))
+}
+
+/// The frame nearest to a place.
+fn whole_frame(place: f64) -> Option<Frame> {
+    let is_frame = place.is_finite() && place > -0.5 && place < 1e15;
+    is_frame.then(|| Frame(place.round().max(0.0) as usize))
+}
+
+/// The column that is asked for, else the only one, else A.
+fn one_of(mut columns: Vec<&str>, asked: Option<&str>) -> Result<String, Error> {
+    columns.sort_unstable();
+    columns.dedup();
+    if columns.is_empty() {
+        let message =
+            "there is no genga in it, so there is no key to pin; the role of a key is genga";
+        return Err(Error::sheet(message));
+    }
+    let found = match (asked, columns.as_slice()) {
+        (None, [only]) => Some(*only),
+        (name, _) => columns.iter().copied().find(|column| *column == name.unwrap_or("A")),
+    };
+    found.map(String::from).ok_or_else(|| {
+        let there = columns.join(", ");
+        Error::sheet(match asked {
+            Some(name) => format!("there is no genga in a column {name}; there are {there}"),
+            None => format!("which column? --pin-column takes one of {there}"),
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests;

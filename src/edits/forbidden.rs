@@ -1,0 +1,102 @@
+//! Frames on which no key may be.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use crate::time::Frame;
+
+/// A frame, or a range of frames, near which no key may be found. Written `150`, `120..140`, `120..` or
+/// `..140`; the last is not in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "ForbiddenText", into = "ForbiddenText")]
+pub struct Forbidden {
+    /// The first frame.
+    pub from: Frame,
+    /// The frame after the last.
+    pub past: Frame,
+}
+
+impl Forbidden {
+    /// One frame alone.
+    pub fn one(frame: Frame) -> Self {
+        Self { from: frame, past: Frame(frame.0.saturating_add(1)) }
+    }
+
+    /// Whether it is one frame alone.
+    pub fn is_one(self) -> bool {
+        self == Self::one(self.from)
+    }
+
+    /// Frames from a frame to the nearest that is forbidden; 0 inside.
+    pub fn distance(self, frame: Frame) -> usize {
+        if frame < self.from {
+            self.from.0 - frame.0
+        } else {
+            (frame.0 + 1).saturating_sub(self.past.0)
+        }
+    }
+}
+
+impl fmt::Display for Forbidden {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { from, past } = self;
+        match (self.is_one(), past.0) {
+            (true, _) => write!(f, "{from}"),
+            (false, usize::MAX) => write!(f, "{from}.."),
+            (false, _) => write!(f, "{from}..{past}"),
+        }
+    }
+}
+
+impl FromStr for Forbidden {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("expected a frame (150) or a range (120..140), found \"{text}\"");
+        let number = |text: &str| text.trim().parse().map(Frame).map_err(|_| wrong());
+        let Some((from, past)) = text.split_once("..") else {
+            return number(text).map(Self::one);
+        };
+        let bound = |text: &str, open| match text.trim() {
+            "" => Ok(Frame(open)),
+            text => number(text),
+        };
+        let range = Self { from: bound(from, 0)?, past: bound(past, usize::MAX)? };
+        if range.from < range.past {
+            Ok(range)
+        } else {
+            Err(format!("\"{text}\" has no frame in it"))
+        }
+    }
+}
+
+/// What a file may write: `150` or `"120..140"`.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum ForbiddenText {
+    Frame(usize),
+    Range(String),
+}
+
+impl TryFrom<ForbiddenText> for Forbidden {
+    type Error = String;
+
+    fn try_from(text: ForbiddenText) -> Result<Self, String> {
+        match text {
+            ForbiddenText::Frame(frame) => Ok(Self::one(Frame(frame))),
+            ForbiddenText::Range(text) => text.parse(),
+        }
+    }
+}
+
+impl From<Forbidden> for ForbiddenText {
+    fn from(forbidden: Forbidden) -> Self {
+        if forbidden.is_one() {
+            Self::Frame(forbidden.from.0)
+        } else {
+            Self::Range(forbidden.to_string())
+        }
+    }
+}

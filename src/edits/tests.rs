@@ -1,0 +1,152 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn pins(texts: &[&str]) -> Vec<Pin> {
+    texts.iter().map(|text| Pin::parse(text).unwrap()).collect()
+}
+
+fn moves(texts: &[&str]) -> Vec<Move> {
+    texts.iter().map(|text| Move::parse(text).unwrap()).collect()
+}
+
+fn forbidden(texts: &[&str]) -> Vec<Forbidden> {
+    texts.iter().map(|text| text.parse().unwrap()).collect()
+}
+
+/// What is wrong with corrections of a clip of frames 5 to 9; nothing for none.
+fn said(edits: Edits) -> String {
+    let checked = edits.validate(Frame(5), Frame(9));
+    checked.err().map_or_else(String::new, |error| error.to_string())
+}
+
+#[test]
+fn a_pin_must_lie_in_the_clip_and_not_be_forbidden() {
+    let check = |pin: &str, not: &[&str]| {
+        said(Edits { pins: pins(&[pin]), forbidden: forbidden(not), ..Edits::default() })
+    };
+    for (pin, not) in [("5", &[][..]), ("9@0", &["8"]), ("7", &["5..9"]), ("7", &["7..9"])] {
+        assert_eq!(check(pin, not), "", "{pin} {not:?}");
+    }
+    assert!(
+        check("4", &[]).ends_with("pinned frame 4 is not in the clip, which has frames 5 to 9")
+    );
+    assert!(check("10", &[]).contains("frame 10 is not in the clip"));
+    assert!(check("7", &["7"]).contains("pinned and forbidden at once"));
+    assert!(check("7@1", &[]).contains("weight of pinned frame 7"));
+    assert!(check("7@-0.1", &[]).contains("at least 0 and below 1"));
+    assert!(check("7@nan", &[]).contains("at least 0 and below 1"));
+}
+
+#[test]
+fn a_move_is_from_one_frame_of_the_clip_to_another_that_is_free() {
+    let check = |texts: &[&str], pin: &[&str], not: &[&str]| {
+        let (pins, forbidden) = (pins(pin), forbidden(not));
+        said(Edits { moves: moves(texts), pins, forbidden, only_pins: false })
+    };
+    assert_eq!(check(&["5:9", "6:5:top@0.5"], &["7"], &["6", "5..9"]), "");
+    assert!(check(&["4:6"], &[], &[]).contains("frame 4 of the move 4:6 is not in the clip"));
+    assert!(check(&["6:10"], &[], &[]).contains("frame 10 of the move"));
+    assert!(check(&["6:6"], &[], &[]).contains("moved to where it is"));
+    assert!(check(&["6:7", "6:8"], &[], &[]).contains("moved twice"));
+    assert!(check(&["6:7"], &["6"], &[]).contains("pinned and moved at once: pin 7 instead"));
+    assert!(check(&["6:7"], &[], &["7"]).contains("frame 7 is forbidden"));
+    assert!(check(&["6:7@1"], &[], &[]).contains("weight of moved-to frame 7"));
+}
+
+#[test]
+fn what_is_forbidden_must_reach_into_the_clip() {
+    let check = |not: &str| said(Edits { forbidden: forbidden(&[not]), ..Edits::default() });
+    for not in ["5", "9", "0..6", "9..40", "0..", "..6"] {
+        assert_eq!(check(not), "", "{not}");
+    }
+    assert!(check("4").contains("forbidden frame 4 is not in the clip, which has frames 5 to 9"));
+    assert!(check("0..5").contains("forbidden range 0..5 is not in the clip"));
+    assert!(check("10..").contains("forbidden range 10.. is not in the clip"));
+    let empty = Forbidden { from: Frame(7), past: Frame(7) };
+    assert!(said(Edits { forbidden: vec![empty], ..Edits::default() }).contains("no frame in it"));
+}
+
+#[test]
+fn only_pins_asks_for_a_pin() {
+    let only = Edits { only_pins: true, ..Edits::default() };
+    assert!(said(only.clone()).contains("there is no pin"));
+    assert_eq!(said(Edits { pins: pins(&["7"]), ..only.clone() }), "");
+    assert_eq!(said(Edits { moves: moves(&["7:8"]), ..only }), "");
+}
+
+#[test]
+fn a_pin_is_written_as_frame_name_and_weight() {
+    let pin = |text: &str| Pin::parse(text).map(|pin| (pin.frame.0, pin.name, pin.weight));
+    let top = Some("left-wrist-top".to_owned());
+    assert_eq!(pin("150: left-wrist-top").unwrap(), (150, top.clone(), None));
+    assert_eq!(pin("150:left-wrist-top@0.5").unwrap(), (150, top, Some(0.5)));
+    assert_eq!(pin("12").unwrap(), (12, None, None));
+    assert_eq!(pin("12: ").unwrap(), (12, None, None), "an empty name is none");
+    assert_eq!(pin("12@0").unwrap(), (12, None, Some(0.0)));
+    for wrong in ["twelve", "", ":top", "-1", "1.5"] {
+        assert!(pin(wrong).unwrap_err().to_string().contains("FRAME:NAME@WEIGHT"), "{wrong}");
+    }
+    for wrong in ["12:me@home", "12@", "12@half"] {
+        assert!(pin(wrong).unwrap_err().to_string().contains("recipe file"), "{wrong}");
+    }
+}
+
+#[test]
+fn a_move_is_written_as_two_frames_and_what_a_pin_has() {
+    let expected =
+        Move { from: Frame(41), to: Frame(42), name: Some("hit".into()), weight: Some(0.2) };
+    assert_eq!(Move::parse("41:42:hit@0.2").unwrap(), expected);
+    assert_eq!(Move::parse("41:42@0.2").unwrap(), Move { name: None, ..expected });
+    for wrong in ["41", "41:", ":42", "a:42", "41:b", "41-42", ""] {
+        let error = Move::parse(wrong).unwrap_err().to_string();
+        assert!(error.contains("expected FROM:TO, two frame numbers"), "{wrong}: {error}");
+    }
+}
+
+#[test]
+fn what_is_forbidden_is_written_as_a_frame_or_a_range() {
+    for text in ["150", "120..140", "120..", "0..140"] {
+        assert_eq!(text.parse::<Forbidden>().unwrap().to_string(), text);
+    }
+    assert_eq!("..140".parse(), "0..140".parse::<Forbidden>());
+    assert_eq!("7..8".parse(), Ok(Forbidden::one(Frame(7))));
+    for wrong in ["", "a", "1..b", "140..120", "7..7", "-3", "1.5"] {
+        assert!(wrong.parse::<Forbidden>().is_err(), "{wrong}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_forbidden_range_is_as_near_as_the_nearest_of_its_frames(
+        from in 0..40usize,
+        length in 1..20usize,
+        frame in 0..80usize,
+    ) {
+        let range = Forbidden { from: Frame(from), past: Frame(from + length) };
+        let nearest = (from..from + length).map(|other| other.abs_diff(frame)).min();
+        prop_assert_eq!(Some(range.distance(Frame(frame))), nearest);
+    }
+
+    #[test]
+    fn corrections_read_back_as_written(
+        pins in prop::collection::vec((0..99usize, prop::option::of("[a-z]{1,5}"), prop::option::of(0.0..1.0)), 0..4),
+        ranges in prop::collection::vec((0..99usize, 1..9usize), 0..4),
+        moves in prop::collection::vec((0..99usize, 0..99usize, prop::option::of("[a-z]{1,5}")), 0..4),
+        only_pins in any::<bool>(),
+    ) {
+        let pin = |(frame, name, weight)| Pin { frame: Frame(frame), name, weight };
+        let range = |(from, length)| Forbidden { from: Frame(from), past: Frame(from + length) };
+        let moved = |(from, to, name)| Move { from: Frame(from), to: Frame(to), name, weight: None };
+        let edits = Edits {
+            pins: pins.into_iter().map(pin).collect(),
+            forbidden: ranges.into_iter().map(range).collect(),
+            moves: moves.into_iter().map(moved).collect(),
+            only_pins,
+        };
+        let text = toml::to_string(&edits).unwrap();
+        prop_assert_eq!(&toml::from_str::<Edits>(&text).unwrap(), &edits, "{}", text);
+        let json = serde_json::to_string(&edits).unwrap();
+        prop_assert_eq!(serde_json::from_str::<Edits>(&json).unwrap(), edits, "{}", json);
+    }
+}

@@ -1,0 +1,168 @@
+//! **Targets** (目標): what a sheet is to be, instead of the knobs that make it so.
+//!
+//! [`meet`] finds the settings by search, writes them into a recipe, and says what stood in the way.
+//! The same clip, recipe and targets give the same settings; with them the clip gives the same sheet
+//! again without any target.
+
+mod drawings;
+mod error;
+mod genga;
+mod ladder;
+
+use std::fmt;
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::pipeline::{Breakdown, Engine};
+use crate::recipe::Recipe;
+use crate::sheet::{Layer, Role};
+
+/// What a sheet is to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Target {
+    /// So many genga on the sheet, found ones, pins and ends of rests together; the clip's two ends do
+    /// not count.
+    Keys(usize),
+    /// Drawings on the sheet over its seconds: above 0, and at most a drawing a koma.
+    DrawingsPerSecond(f64),
+    /// The fewest keys with which the body, slerped from key to key, is nowhere further off than so many %
+    /// of its height, above 0: at the worst koma, root mean square over its points.
+    MaxError(f64),
+}
+
+/// Settings that come as near to some targets as they can.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Met {
+    /// The recipe, with nothing changed that did not need to be.
+    pub recipe: Recipe,
+    /// What became of each target, in the order in which they were met.
+    pub outcomes: Vec<Outcome>,
+}
+
+/// What became of a target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// What was asked for.
+    pub target: Target,
+    /// What the sheet has, in the same unit.
+    pub reached: f64,
+    /// Why it is not what was asked for; none where it is, or as near as whole drawings allow.
+    pub shortfall: Option<String>,
+}
+
+/// Finds settings with which the sheet is what the targets say, or as near to it as can be.
+///
+/// Keys are settled first, then drawings: a number of drawings never changes keys that a target asked
+/// for. A recipe that meets a target already is left as it is.
+///
+/// # Errors
+/// [`Error::Setting`] named as the target when it can never be met or contradicts another, and those of
+/// [`Engine::run`].
+pub fn meet(
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &Edits,
+    targets: &[Target],
+) -> Result<Met, Error> {
+    check(targets, recipe)?;
+    let mut met = Met { recipe: recipe.clone(), outcomes: Vec::new() };
+    let mut keys_are_free = true;
+    for target in targets {
+        let settled = match *target {
+            Target::Keys(count) => genga::meet(engine, &met.recipe, edits, count)?,
+            Target::MaxError(most) => error::meet(engine, &met.recipe, edits, most)?,
+            Target::DrawingsPerSecond(_) => continue,
+        };
+        keys_are_free = false;
+        met.settle(settled);
+    }
+    for target in targets {
+        if let Target::DrawingsPerSecond(rate) = *target {
+            let goal = drawings::Goal { per_second: rate, keys_are_free };
+            met.settle(goal.meet(engine, &met.recipe, edits)?);
+        }
+    }
+    Ok(met)
+}
+
+fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
+    for (at, target) in targets.iter().enumerate() {
+        if targets[..at].iter().any(|other| other.name() == target.name()) {
+            return Err(Error::setting(target.name(), "is asked for twice"));
+        }
+        match *target {
+            Target::DrawingsPerSecond(rate) if !(rate > 0.0 && rate <= recipe.rate) => {
+                let most = recipe.rate;
+                let message =
+                    format!("must be above 0 and at most {most}, a drawing a koma; 8 is usual");
+                return Err(Error::setting(target.name(), message));
+            }
+            Target::MaxError(most) if !(most > 0.0 && most.is_finite()) => {
+                let message = "must be above 0, in % of body height, such as 5%";
+                return Err(Error::setting(target.name(), message));
+            }
+            _ => {}
+        }
+    }
+    let names: Vec<_> = targets.iter().map(Target::name).collect();
+    if names.contains(&"keys") && names.contains(&"max-error") {
+        let message = "cannot be asked for together with --keys, as each says how many keys there are; ask for \
+                       one of them";
+        return Err(Error::setting("max-error", message));
+    }
+    Ok(())
+}
+
+impl Met {
+    fn settle(&mut self, (recipe, outcome): (Recipe, Outcome)) {
+        self.recipe = recipe;
+        self.outcomes.push(outcome);
+    }
+}
+
+impl Target {
+    /// The name by which it is asked for.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Keys(_) => "keys",
+            Self::DrawingsPerSecond(_) => "drawings-per-second",
+            Self::MaxError(_) => "max-error",
+        }
+    }
+}
+
+/// What was asked for and reached, in a sentence.
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let reached = self.reached;
+        match self.target {
+            Target::Keys(count) => {
+                write!(f, "{count} genga were asked for, and there are {reached}")?
+            }
+            Target::DrawingsPerSecond(rate) => {
+                write!(f, "{rate} drawings a second were asked for, and there are {reached:.2}")?;
+            }
+            Target::MaxError(most) => write!(
+                f,
+                "the body was to be {most} % of its height off at the most, and it is {reached:.2} %"
+            )?,
+        }
+        match &self.shortfall {
+            None => Ok(()),
+            Some(why) => write!(f, ": {why}"),
+        }
+    }
+}
+
+/// The layer that targets are about.
+fn layer<'a>(breakdown: &Breakdown<'a>) -> &'a Layer {
+    &breakdown.sheet.layers[0]
+}
+
+/// Genga on the sheet.
+fn genga(breakdown: &Breakdown<'_>) -> usize {
+    layer(breakdown).count(Role::Genga)
+}
+
+#[cfg(test)]
+mod tests;

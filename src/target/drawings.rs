@@ -1,0 +1,236 @@
+//! A number of drawings a second: koma-dori gives single ones, and the other settings of the sheet where
+//! its range ends.
+
+use super::ladder::{denser, sparser, sparser_to_fours};
+use super::{Outcome, Target, genga, layer};
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::Origin;
+use crate::pipeline::Engine;
+use crate::recipe::Recipe;
+use crate::timing::{Amount, Spacing};
+
+/// Nearer than this no whole number of drawings comes.
+const EXACT: f64 = 0.5 + 1e-9;
+
+/// Further off than this, a person is told.
+const NEAR: f64 = 1.0 + 1e-9;
+
+/// Corrections of the count of koma-dori. One is enough where naka-nashi goes first.
+const MOST_CORRECTIONS: usize = 16;
+
+/// So many drawings a second.
+pub(super) struct Goal {
+    pub(super) per_second: f64,
+    /// Whether keys may go for it.
+    pub(super) keys_are_free: bool,
+}
+
+/// Settings, and by how many drawings their sheet has too many.
+#[derive(Clone)]
+struct Found {
+    recipe: Recipe,
+    excess: f64,
+}
+
+struct Search<'a> {
+    engine: &'a mut Engine,
+    edits: &'a Edits,
+    per_second: f64,
+}
+
+impl Goal {
+    /// Settings whose sheet has so many drawings a second, or as near as it gets.
+    pub(super) fn meet(
+        &self,
+        engine: &mut Engine,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<(Recipe, Outcome), Error> {
+        let mut search = Search { engine, edits, per_second: self.per_second };
+        let as_it_is = search.look(recipe)?.0;
+        let found = if as_it_is.is_exact() { as_it_is } else { self.search(&mut search, recipe)? };
+        let target = Target::DrawingsPerSecond(self.per_second);
+        let breakdown = search.engine.run(&found.recipe, edits)?;
+        let (drawings, genga) = (layer(&breakdown).shown().count(), genga(&breakdown));
+        let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+        let shortfall = if found.excess.abs() <= NEAR {
+            None
+        } else if found.excess > 0.0 && !self.keys_are_free {
+            Some(format!(
+                "{genga} genga and both ends are wanted, and every drawing between them that could go is gone"
+            ))
+        } else if found.excess > 0.0 {
+            Some(format!("{drawings} drawings are left: ends, pins and ends of rests stay"))
+        } else {
+            Some("no other settings of koma-dori, spacing.on and naka-nashi come nearer".into())
+        };
+        Ok((found.recipe, Outcome { target, reached: drawings as f64 / seconds, shortfall }))
+    }
+
+    /// The settings nearest to the recipe; a fixed number of inbetweens gives way where no number does.
+    fn search(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
+        let found = self.descend(search, recipe)?;
+        if found.excess.abs() <= NEAR || recipe.spacing.inbetweens.is_none() {
+            return Ok(found);
+        }
+        let mut free = recipe.clone();
+        free.spacing.inbetweens = None;
+        Ok(found.or(self.descend(search, &free)?))
+    }
+
+    /// Koma-dori first; then the spacing, and the koma-dori for it; then naka-nashi, or keys.
+    fn descend(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
+        let held = search.hold(recipe)?;
+        if held.is_exact() {
+            return Ok(held);
+        }
+        if held.excess < 0.0 {
+            return search.more(held);
+        }
+        let slow = search.climb(held, sparser_to_fours)?;
+        match slow.excess > EXACT {
+            true if self.keys_are_free => search.fewer(slow),
+            true => search.climb(slow, sparser),
+            false => Ok(slow),
+        }
+    }
+}
+
+impl Found {
+    fn is_exact(&self) -> bool {
+        self.excess.abs() <= EXACT
+    }
+
+    /// The nearer of two, of equals this one.
+    fn or(self, other: Self) -> Self {
+        if other.excess.abs() < self.excess.abs() { other } else { self }
+    }
+}
+
+impl Search<'_> {
+    /// By how many drawings a recipe gives too many, and how many koma-dori took.
+    fn look(&mut self, recipe: &Recipe) -> Result<(Found, usize), Error> {
+        let breakdown = self.engine.run(recipe, self.edits)?;
+        let drawings = layer(&breakdown).shown().count() as f64;
+        let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+        let excess = drawings - self.per_second * seconds;
+        let done = breakdown.omission.koma_dori.done;
+        Ok((Found { recipe: recipe.clone(), excess }, done))
+    }
+
+    /// The count of koma-dori with which a recipe comes nearest.
+    ///
+    /// Koma-dori goes drawing by drawing, and another count takes more or fewer steps on the same way. So
+    /// where naka-nashi has gone before, a drawing more is a drawing less on the sheet, and the first
+    /// correction is right or as far as it goes. Where naka-nashi comes after it may take other drawings
+    /// then; the corrections go on, and the nearest is kept.
+    fn hold(&mut self, recipe: &Recipe) -> Result<Found, Error> {
+        let mut count = 0;
+        let mut best: Option<Found> = None;
+        for _ in 0..MOST_CORRECTIONS {
+            let (found, done) = self.look(&with_koma_dori(recipe, count))?;
+            let excess = found.excess;
+            // What could not be done is not asked for either.
+            let found = Found { recipe: with_koma_dori(recipe, count.min(done)), excess };
+            let next = (done as f64 + excess.round()).max(0.0) as usize;
+            let is_exact = found.is_exact();
+            best = Some(match best {
+                None => found,
+                Some(best) => best.or(found),
+            });
+            if is_exact || next == count || (done < count && next > done) {
+                break;
+            }
+            count = next;
+        }
+        Ok(best.expect("it was looked at once"))
+    }
+
+    /// Rung after rung of spacing until there are too few drawings; the nearest of all.
+    fn climb(
+        &mut self,
+        from: Found,
+        next: fn(&Spacing) -> Option<Spacing>,
+    ) -> Result<Found, Error> {
+        let was_above = from.excess > 0.0;
+        let mut rung = from.recipe.spacing.clone();
+        let mut best = from;
+        while let Some(spacing) = next(&rung) {
+            rung = spacing;
+            let found = self.hold(&Recipe { spacing: rung.clone(), ..best.recipe.clone() })?;
+            let is_past = found.is_exact() || (found.excess > 0.0) != was_above;
+            best = best.or(found);
+            if is_past {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
+    /// More drawings than there are with no koma-dori: denser spacing, and then no naka-nashi.
+    fn more(&mut self, from: Found) -> Result<Found, Error> {
+        let dense = self.climb(from, denser)?;
+        if dense.excess >= -EXACT {
+            return Ok(dense);
+        }
+        let mut recipe = dense.recipe.clone();
+        recipe.omission.naka_nashi = Amount::Count(0);
+        let whole = self.hold(&recipe)?;
+        Ok(dense.or(whole))
+    }
+
+    /// Fewer drawings than there are with all keys on fours: fewer keys, on the first rung on which there
+    /// are few enough drawings without any found key. A hold has its bound, so on a denser one there are
+    /// too many whatever keys go.
+    fn fewer(&mut self, from: Found) -> Result<Found, Error> {
+        let ranking = self.engine.rank(&from.recipe, self.edits)?;
+        let keys = &self.engine.run(&from.recipe, self.edits)?.keys.keys;
+        let found = keys.iter().filter(|key| key.origin == Origin::Found).count();
+        let mut best = from.clone();
+        let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);
+        for spacing in rungs {
+            let with = |count| {
+                let keys = ranking.keeping(count, &from.recipe.keys);
+                Recipe { keys, spacing: spacing.clone(), ..from.recipe.clone() }
+            };
+            let fewest = self.hold(&with(0))?;
+            let is_enough = fewest.excess <= EXACT;
+            best = best.or(fewest);
+            if is_enough {
+                return self.with_most_keys(best, found + 1, with);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The most keys with which there are few enough drawings, fewer than `too_many`.
+    ///
+    /// Fewer keys are not always fewer drawings, since inbetweens come where a key was. So the bisection is
+    /// a search and no proof: what it gives was looked at, that no more keys would do is not certain.
+    fn with_most_keys(
+        &mut self,
+        mut best: Found,
+        mut too_many: usize,
+        with: impl Fn(usize) -> Recipe,
+    ) -> Result<Found, Error> {
+        let mut few_enough = 0;
+        while few_enough + 1 < too_many {
+            let count = usize::midpoint(few_enough, too_many);
+            let found = self.hold(&with(count))?;
+            if found.excess <= EXACT {
+                few_enough = count;
+                best = if found.is_exact() { found } else { best.or(found) };
+            } else {
+                too_many = count;
+            }
+        }
+        Ok(best)
+    }
+}
+
+fn with_koma_dori(recipe: &Recipe, count: usize) -> Recipe {
+    let mut recipe = recipe.clone();
+    recipe.omission.koma_dori = Amount::Count(count);
+    recipe
+}

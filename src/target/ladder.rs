@@ -1,0 +1,91 @@
+//! The rungs of spacing: the next settings with more drawings, or with fewer.
+
+use crate::timing::{On, Spacing};
+
+/// On fours: beyond it a movement no longer reads as one, so rather keys go than that drawings stay longer.
+pub(super) const SLOWEST: usize = 4;
+
+/// More inbetweens between any two keys than this nobody asks for by number.
+const MOST_INBETWEENS: usize = 24;
+
+/// Koma between drawings at which the ladder ends.
+const LONGEST: usize = 1000;
+
+/// Spacing with more drawings: the upper end of a range comes down to the lower, then both; of a fixed
+/// number of inbetweens one more. None where there is a drawing every koma.
+pub(super) fn denser(spacing: &Spacing) -> Option<Spacing> {
+    let Spacing { on, inbetweens, .. } = *spacing;
+    let (on, inbetweens) = match inbetweens {
+        Some(count) if count < MOST_INBETWEENS => (on, Some(count + 1)),
+        Some(_) => (On::every(1), None),
+        None if on.least < on.most => (On { most: on.most - 1, ..on }, None),
+        None if on.most > 1 => (On::every(on.most - 1), None),
+        None => return None,
+    };
+    Some(Spacing { on, inbetweens, ..spacing.clone() })
+}
+
+/// Spacing with fewer drawings: the lower end of a range goes up to the upper, then both; of a fixed
+/// number of inbetweens one less. None where no more can go.
+pub(super) fn sparser(spacing: &Spacing) -> Option<Spacing> {
+    let Spacing { on, inbetweens, .. } = *spacing;
+    let (on, inbetweens) = match inbetweens {
+        Some(count) => (on, Some(count.checked_sub(1)?)),
+        None if on.least < on.most => (On { least: on.least + 1, ..on }, None),
+        // By a quarter at a time: two drawings' time is the bound of a hold, so what koma-dori reaches on
+        // neighbouring rungs overlaps.
+        None if on.most < LONGEST => {
+            (On::every((on.most + (on.most / 4).max(1)).min(LONGEST)), None)
+        }
+        None => return None,
+    };
+    Some(Spacing { on, inbetweens, ..spacing.clone() })
+}
+
+/// The same, but no slower than on fours.
+pub(super) fn sparser_to_fours(spacing: &Spacing) -> Option<Spacing> {
+    sparser(spacing).filter(|next| next.inbetweens.is_some() || next.on.most <= SLOWEST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spacing(on: &str, inbetweens: Option<usize>) -> Spacing {
+        Spacing { on: on.parse().unwrap(), inbetweens, ..Spacing::default() }
+    }
+
+    /// All rungs from a spacing on.
+    fn rungs(from: Spacing, next: fn(&Spacing) -> Option<Spacing>) -> Vec<String> {
+        let rungs = std::iter::successors(Some(from), next);
+        let words = rungs.map(|rung| match rung.inbetweens {
+            None => rung.on.to_string(),
+            Some(count) => format!("{count} between"),
+        });
+        words.collect()
+    }
+
+    #[test]
+    fn a_range_closes_before_it_moves() {
+        assert_eq!(rungs(spacing("1-3", None), denser), ["1-3", "1-2", "1"]);
+        assert_eq!(rungs(spacing("3", None), denser), ["3", "2", "1"]);
+        assert_eq!(rungs(spacing("1-3", None), sparser_to_fours), ["1-3", "2-3", "3", "4"]);
+        assert_eq!(rungs(spacing("6", None), sparser_to_fours), ["6"]);
+    }
+
+    #[test]
+    fn a_fixed_number_of_inbetweens_goes_by_ones_and_gives_way_to_ones() {
+        let up = rungs(spacing("2", Some(22)), denser);
+        assert_eq!(up, ["22 between", "23 between", "24 between", "1"]);
+        let down = rungs(spacing("9", Some(2)), sparser_to_fours);
+        assert_eq!(down, ["2 between", "1 between", "0 between"]);
+    }
+
+    #[test]
+    fn the_ladder_has_an_end() {
+        let rungs = rungs(spacing("4", None), sparser);
+        assert_eq!(rungs[..5], ["4", "5", "6", "7", "8"]);
+        assert_eq!(rungs.last().unwrap(), "1000");
+        assert!(rungs.len() < 40, "{rungs:?}");
+    }
+}

@@ -1,0 +1,259 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::edits::Pin;
+use crate::keys::Choose;
+use crate::motion::{Clip, bvh};
+use crate::time::Frame;
+use crate::timing::On;
+
+/// A made motion of `data/`.
+fn sample(name: &str) -> Clip {
+    let path = format!("{}/data/{name}.bvh", env!("CARGO_MANIFEST_DIR"));
+    bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
+}
+
+fn engine(name: &str) -> Engine {
+    Engine::new(sample(name)).unwrap()
+}
+
+/// What the sheet of a recipe has: genga, drawings, and seconds.
+fn figures(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> (usize, usize, f64) {
+    let breakdown = engine.run(recipe, edits).unwrap();
+    let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+    (genga(&breakdown), layer(&breakdown).shown().count(), seconds)
+}
+
+/// The fewest and the most genga that any price and number a second gives.
+fn bounds(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> (usize, usize) {
+    let bound = |min_price, per_second| {
+        let keys = Choose { min_price, per_second, ..recipe.keys.clone() };
+        Recipe { keys, ..recipe.clone() }
+    };
+    let fewest = figures(engine, &bound(1e9, 1e-9), edits).0;
+    (fewest, figures(engine, &bound(0.0, f64::INFINITY), edits).0)
+}
+
+#[test]
+fn every_number_of_genga_between_those_that_stay_and_all_is_met() {
+    let mut engine = engine("kick");
+    let (recipe, edits) = (Recipe::default(), Edits::default());
+    let (fewest, most) = bounds(&mut engine, &recipe, &edits);
+    assert!(most > fewest + 20, "{fewest} to {most}");
+    for count in 0..most + 3 {
+        let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
+        let outcome = &met.outcomes[0];
+        let (genga, ..) = figures(&mut engine, &met.recipe, &edits);
+        assert_eq!(genga, count.clamp(fewest, most));
+        assert_eq!(outcome.reached, genga as f64);
+        assert_eq!(outcome.shortfall.is_none(), genga == count, "{outcome}");
+    }
+}
+
+#[test]
+fn what_stands_in_the_way_is_said() {
+    let mut engine = engine("kick");
+    let pins = vec![Pin::parse("30").unwrap(), Pin::parse("42").unwrap()];
+    let edits = Edits { pins, ..Edits::default() };
+    let recipe = Recipe::default();
+    let mut said = |target| {
+        let met = meet(&mut engine, &recipe, &edits, &[target]).unwrap();
+        met.outcomes[0].to_string()
+    };
+    let few = said(Target::Keys(1));
+    assert!(few.starts_with("1 genga were asked for, and there are "), "{few}");
+    assert!(few.contains("pins and ends of rests, which stay"), "{few}");
+    let many = said(Target::Keys(500));
+    assert!(many.contains("no joint turns at any other moment"), "{many}");
+    let still = said(Target::DrawingsPerSecond(0.5));
+    assert!(still.contains("0.5 drawings a second were asked for"), "{still}");
+    assert!(still.contains("ends, pins and ends of rests stay"), "{still}");
+}
+
+#[test]
+fn a_recipe_that_meets_its_targets_is_left_as_it_is() {
+    let mut engine = engine("kick");
+    let (recipe, edits) = (Recipe::default(), Edits::default());
+    let (genga, drawings, seconds) = figures(&mut engine, &recipe, &edits);
+    let targets = [Target::DrawingsPerSecond(drawings as f64 / seconds), Target::Keys(genga)];
+    let met = meet(&mut engine, &recipe, &edits, &targets).unwrap();
+    assert_eq!(met.recipe, recipe);
+    let names: Vec<_> = met.outcomes.iter().map(|outcome| outcome.target.name()).collect();
+    assert_eq!(names, ["keys", "drawings-per-second"], "keys are settled first");
+}
+
+#[test]
+fn drawings_never_cost_keys_that_were_asked_for() {
+    let mut engine = engine("kick");
+    let (recipe, edits) = (Recipe::default(), Edits::default());
+    let targets = [Target::Keys(24), Target::DrawingsPerSecond(3.0)];
+    let met = meet(&mut engine, &recipe, &edits, &targets).unwrap();
+    assert_eq!(figures(&mut engine, &met.recipe, &edits).0, 24);
+    let said = met.outcomes[1].to_string();
+    assert!(said.contains("24 genga and both ends are wanted"), "{said}");
+}
+
+#[test]
+fn a_fixed_number_of_inbetweens_gives_way_where_no_number_will_do() {
+    let mut engine = engine("kuroda-pitch");
+    let mut recipe = Recipe::default();
+    recipe.spacing.on = On::every(1);
+    recipe.spacing.inbetweens = Some(0);
+    recipe.omission.keep_length = false;
+    let target = [Target::DrawingsPerSecond(5.25)];
+    let met = meet(&mut engine, &recipe, &Edits::default(), &target).unwrap();
+    assert_eq!(met.recipe.spacing.inbetweens, None);
+    assert_eq!(met.outcomes[0].shortfall, None);
+}
+
+#[test]
+fn every_koma_has_a_drawing_when_as_many_are_asked_for() {
+    let mut engine = engine("kick");
+    let target = [Target::DrawingsPerSecond(24.0)];
+    let met = meet(&mut engine, &Recipe::default(), &Edits::default(), &target).unwrap();
+    assert_eq!(figures(&mut engine, &met.recipe, &Edits::default()).1, 92);
+    assert_eq!(met.recipe.get("omission.naka_nashi").unwrap(), "0");
+}
+
+#[test]
+fn what_can_never_be_met_is_refused() {
+    let mut engine = engine("kick");
+    let mut error = |targets: &[Target]| {
+        let met = meet(&mut engine, &Recipe::default(), &Edits::default(), targets);
+        met.unwrap_err().to_string()
+    };
+    for rate in [0.0, -1.0, 24.5, f64::NAN, f64::INFINITY] {
+        let said = error(&[Target::DrawingsPerSecond(rate)]);
+        assert!(said.starts_with("drawings-per-second: must be above 0 and at most 24"), "{said}");
+    }
+    for most in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let said = error(&[Target::MaxError(most)]);
+        assert!(said.starts_with("max-error: must be above 0, in % of body height"), "{said}");
+    }
+    let said = error(&[Target::Keys(3), Target::MaxError(4.0)]);
+    assert!(said.starts_with("max-error: cannot be asked for together with --keys"), "{said}");
+    let said = error(&[Target::Keys(3), Target::Keys(4)]);
+    assert_eq!(said, "keys: is asked for twice");
+}
+
+#[test]
+fn the_smallest_clips_have_targets_too() {
+    let pitch = sample("pitch");
+    for frames in 1..5 {
+        let clip = pitch.clone().trimmed(Frame(60), Frame(60 + frames)).unwrap();
+        let mut engine = Engine::new(clip).unwrap();
+        for target in [Target::Keys(0), Target::Keys(3), Target::DrawingsPerSecond(24.0)] {
+            let met = meet(&mut engine, &Recipe::default(), &Edits::default(), &[target]).unwrap();
+            assert_eq!(met.outcomes.len(), 1);
+        }
+    }
+}
+
+/// Koma on which the body is further off than `most` with the keys of a recipe.
+fn beyond(most: f64, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> usize {
+    let rebuilt = engine.reconstruction(recipe, edits).unwrap();
+    rebuilt.errors.into_iter().filter(|error| *error > most).count()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn a_largest_error_takes_the_fewest_keys_of_the_list(
+        name in prop::sample::select(&["kick", "pitch"][..]),
+        most in prop_oneof![0.3..4.0, 4.0..40.0],
+        pin in prop::option::of(5..80usize),
+    ) {
+        let mut engine = engine(name);
+        let pins = pin.map(|frame| Pin::parse(&frame.to_string()).unwrap());
+        let edits = Edits { pins: pins.into_iter().collect(), ..Edits::default() };
+        let recipe = Recipe::default();
+        let met = meet(&mut engine, &recipe, &edits, &[Target::MaxError(most)]).unwrap();
+        let outcome = &met.outcomes[0];
+        let keys = &engine.run(&met.recipe, &edits).unwrap().keys.keys;
+        let found = keys.iter().filter(|key| key.origin == crate::keys::Origin::Found).count();
+        let worst = engine.reconstruction(&met.recipe, &edits).unwrap().worst();
+        prop_assert_eq!(outcome.reached, worst);
+        prop_assert_eq!(outcome.shortfall.is_none(), worst <= most, "{}", outcome);
+        let least = beyond(most, &mut engine, &met.recipe, &edits);
+        prop_assert_eq!(least == 0, worst <= most);
+        let ranking = engine.rank(&recipe, &edits).unwrap();
+        for count in 0..=ranking.found.len() {
+            let other = Recipe { keys: ranking.keeping(count, &recipe.keys), ..recipe.clone() };
+            let beyond = beyond(most, &mut engine, &other, &edits);
+            prop_assert!(beyond > least || (beyond == least && count >= found), "{}", count);
+        }
+        let again = meet(&mut engine, &met.recipe, &edits, &[Target::MaxError(most)]).unwrap();
+        prop_assert_eq!(again.recipe, met.recipe);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn drawings_come_within_one_or_it_is_said_why(
+        name in prop::sample::select(&["kick", "tennis", "kuroda-pitch"][..]),
+        per_second in 0.3..24.0,
+        on in prop::sample::select(&["1", "2", "3", "6", "1-3"][..]),
+        inbetweens in prop::option::weighted(0.3, 0..6usize),
+        dori_first in any::<bool>(),
+        keep_length in any::<bool>(),
+        keys in prop::option::weighted(0.3, 0..30usize),
+    ) {
+        let mut engine = engine(name);
+        let (mut recipe, edits) = (Recipe::default(), Edits::default());
+        recipe.spacing.on = on.parse::<On>().unwrap();
+        recipe.spacing.inbetweens = inbetweens;
+        recipe.omission.keep_length = keep_length;
+        if dori_first {
+            recipe.set("omission.order", "koma_dori_first").unwrap();
+        }
+        let drawings = Target::DrawingsPerSecond(per_second);
+        let targets: Vec<_> = keys.map(Target::Keys).into_iter().chain([drawings]).collect();
+        let met = meet(&mut engine, &recipe, &edits, &targets).unwrap();
+        let outcome = met.outcomes.last().unwrap();
+        let (_, drawings, seconds) = figures(&mut engine, &met.recipe, &edits);
+        prop_assert_eq!(outcome.reached, drawings as f64 / seconds);
+        let excess = drawings as f64 - per_second * seconds;
+        prop_assert_eq!(outcome.shortfall.is_none(), excess.abs() <= 1.0 + 1e-9, "{}", outcome);
+        // There is always a way to more, and to fewer until only what stays is left.
+        prop_assert!(excess > -1.0 - 1e-9, "{}", outcome);
+        if outcome.shortfall.is_some() {
+            let inbetweens = drawings - figures(&mut engine, &met.recipe, &edits).0 - 2;
+            prop_assert_eq!(inbetweens, 0, "{}", outcome);
+        }
+        // What could not be held is not asked for either.
+        let held = &engine.run(&met.recipe, &edits).unwrap().omission.koma_dori;
+        prop_assert!(met.recipe.omission.koma_dori == recipe.omission.koma_dori || held.asked == held.done);
+        // The recipe alone says it all, and is not changed for what it gives.
+        let again = meet(&mut engine, &met.recipe, &edits, &targets).unwrap();
+        prop_assert!(again.recipe == met.recipe || excess.abs() > 0.5, "{}", outcome);
+        let written = met.recipe.write(&edits);
+        prop_assert_eq!(Recipe::parse(&written).unwrap().0, met.recipe);
+    }
+
+    #[test]
+    fn genga_are_exact_on_any_part_of_a_clip_with_any_pins(
+        begin in 0..60usize,
+        length in 10..60usize,
+        pins in prop::collection::vec(any::<prop::sample::Index>(), 0..4),
+        count in 0..40usize,
+        by_strength in any::<bool>(),
+    ) {
+        let clip = sample("pitch").trimmed(Frame(begin), Frame(begin + length)).unwrap();
+        let frames: std::collections::BTreeSet<usize> =
+            pins.iter().map(|pin| begin + pin.index(length)).collect();
+        let pins = frames.iter().map(|frame| Pin::parse(&frame.to_string()).unwrap()).collect();
+        let edits = Edits { pins, ..Edits::default() };
+        let mut recipe = Recipe::default();
+        if by_strength {
+            recipe.set("keys.rank", "strength").unwrap();
+        }
+        let mut engine = Engine::new(clip).unwrap();
+        let (fewest, most) = bounds(&mut engine, &recipe, &edits);
+        let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
+        prop_assert_eq!(figures(&mut engine, &met.recipe, &edits).0, count.clamp(fewest, most));
+        prop_assert_eq!(met.outcomes[0].shortfall.is_none(), (fewest..=most).contains(&count));
+    }
+}

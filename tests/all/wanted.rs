@@ -1,0 +1,342 @@
+//! What a person wants, through the program: targets, pins, forbidden and moved keys, joint weights.
+
+use std::fs;
+
+use crate::program::{Place, column, text};
+
+/// Rows of a key table that are genga.
+fn genga(table: &str) -> usize {
+    column(table, "role").iter().filter(|role| *role == "genga").count()
+}
+
+fn report(place: &Place, folder: &str) -> serde_json::Value {
+    let bytes = fs::read(place.path(&format!("{folder}/report.json"))).unwrap();
+    serde_json::from_slice(&bytes).unwrap()
+}
+
+#[test]
+fn as_many_genga_and_drawings_as_asked_for() {
+    let place = Place::new();
+    let said = place.genga("run data/kick.bvh --out a --keys 12 --drawings-per-second 6");
+    assert!(said.status.success());
+    let said = text(&said.stderr);
+    assert!(said.contains("found       keys.min_price="), "{said}");
+    assert!(
+        said.contains("12 and both ends") && said.contains(", 23 drawings, 6.0 a second"),
+        "{said}"
+    );
+    assert_eq!(report(&place, "a")["notes"], serde_json::json!([]));
+    assert_eq!(genga(&place.done("keys data/kick.bvh --keys 12")), 12);
+}
+
+#[test]
+fn the_recipe_of_a_target_gives_the_same_bytes_without_it() {
+    let place = Place::new();
+    for targets in [
+        "--keys 24",
+        "--max-error 8%",
+        "--drawings-per-second 10.5",
+        "--keys 7 --drawings-per-second 4",
+    ] {
+        place.done(&format!("run data/tennis.bvh --out a {targets}"));
+        place.done("run data/tennis.bvh --out b --recipe a/recipe.toml");
+        let (a, b) = (place.files("a"), place.files("b"));
+        assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
+        for (file, bytes) in a {
+            assert!(b[&file] == bytes, "{targets}: {file} came out different");
+        }
+    }
+}
+
+#[test]
+fn a_smaller_error_takes_more_keys() {
+    let place = Place::new();
+    let keys = |error: &str| genga(&place.done(&format!("keys data/kick.bvh --max-error {error}")));
+    let counts = ["40%", "12%", "6", "4%"].map(keys);
+    assert!(counts.is_sorted_by(|a, b| a < b), "{counts:?}");
+    let said = text(&place.genga("keys data/kick.bvh --max-error 0.1%").stderr);
+    assert!(
+        said.contains("the body was to be 0.1 % of its height off at the most, and it is "),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_could_not_be_met_is_a_note() {
+    let place = Place::new();
+    let said = text(&place.genga("run data/kick.bvh --out a --keys 900 --pin 42").stderr);
+    let note = "900 genga were asked for, and there are ";
+    assert!(said.contains(&format!("note        {note}")), "{said}");
+    let notes = report(&place, "a")["notes"].clone();
+    assert!(notes[0].as_str().unwrap().starts_with(note), "{notes}");
+    let said = text(&place.genga("keys data/kick.bvh --keys 900").stderr);
+    assert!(said.starts_with("found       ") && said.contains(&format!("\n{note}")), "{said}");
+}
+
+#[test]
+fn a_target_that_can_never_be_met_is_refused_before_the_work() {
+    let place = Place::new();
+    for (args, wanted) in [
+        (
+            "run data/kick.bvh --drawings-per-second 25",
+            "--drawings-per-second: must be above 0 and at most 24",
+        ),
+        ("run data/kick.bvh --drawings-per-second 0", "--drawings-per-second: must be above 0"),
+        ("run data/kick.bvh --drawings-per-second nan", "--drawings-per-second: must be above 0"),
+        ("keys data/kick.bvh --max-error 0", "--max-error: must be above 0"),
+        (
+            "keys data/kick.bvh --max-error much",
+            "expected a share of body height (5%), found \"much\"",
+        ),
+        ("keys data/kick.bvh --max-error 5% --keys 9", "--max-error"),
+        ("keys data/kick.bvh --keys=-1", "--keys"),
+        ("keys data/kick.bvh --keys many", "--keys"),
+        ("keys data/kick.bvh --keys 3 --keys 4", "--keys"),
+        ("keys data/kick.bvh --keys 3 --per-joint", "--per-joint"),
+        ("keys data/kick.bvh --keys 3 --set keys.rest=-1", "keys.rest: must be"),
+    ] {
+        let said = place.refused(2, args);
+        assert!(said.contains(wanted), "{args}: {said}");
+        assert!(!place.path("kick-genga").exists(), "{args}");
+    }
+}
+
+/// Source frame and note of every genga of a key table.
+fn keys(table: &str) -> Vec<(String, String)> {
+    let rows = column(table, "source_frame").into_iter().zip(column(table, "note"));
+    let roles = column(table, "role").into_iter();
+    rows.zip(roles).filter(|(_, role)| role == "genga").map(|(row, _)| row).collect()
+}
+
+fn frames(table: &str) -> Vec<String> {
+    keys(table).into_iter().map(|(frame, _)| frame).collect()
+}
+
+#[test]
+fn keys_are_pinned_forbidden_moved_and_named_and_the_recipe_keeps_it_all() {
+    let place = Place::new();
+    let corrections = "--pin 42:contact@0.7 --forbid 60,10..16 --move 77:79:land@0.1";
+    let before = frames(&place.done("keys data/kick.bvh"));
+    assert!(["41", "77"].iter().all(|frame| before.contains(&(*frame).to_owned())), "{before:?}");
+    place.done(&format!("run data/kick.bvh --out a {corrections}"));
+    let table = fs::read_to_string(place.path("a/keys.csv")).unwrap();
+    let note = |frame: &str| {
+        let key = keys(&table).into_iter().find(|(own, _)| own == frame);
+        key.unwrap_or_else(|| panic!("no {frame} in {table}")).1
+    };
+    assert!(note("42").starts_with("pinned: contact"));
+    assert!(note("79").starts_with("pinned: land; moved from frame 77"), "{}", note("79"));
+    for frame in frames(&table) {
+        let frame: usize = frame.parse().unwrap();
+        assert!(frame != 77 && frame != 60 && !(10..16).contains(&frame), "{frame} in {table}");
+    }
+    let recipe = fs::read_to_string(place.path("a/recipe.toml")).unwrap();
+    for line in [
+        "[edits]\nforbidden = [60, \"10..16\"]",
+        "[[edits.pins]]\nframe = 42\nname = \"contact\"\nweight = 0.7",
+        "[[edits.moves]]\nfrom = 77\nto = 79\nname = \"land\"\nweight = 0.1",
+        "# 原画の順位",
+    ] {
+        assert!(recipe.contains(line), "{line} is not in\n{recipe}");
+    }
+    place.done("run data/kick.bvh --out b --recipe a/recipe.toml");
+    let (a, b) = (place.files("a"), place.files("b"));
+    assert!(a == b, "the recipe alone gives the same bytes");
+    // What is found anew with other settings keeps them.
+    let table = place.done("keys data/kick.bvh --recipe a/recipe.toml --keys 9");
+    assert_eq!(genga(&table), 9);
+    for frame in ["42", "79"] {
+        assert!(frames(&table).contains(&frame.to_owned()), "{frame} in {table}");
+    }
+    let table = place.done("keys data/kick.bvh --pin 20,30:top --only-pins");
+    assert_eq!(frames(&table), ["20", "30"]);
+}
+
+#[test]
+fn an_own_weight_crowds_the_inbetweens_of_that_key_alone() {
+    let place = Place::new();
+    let places = |weight: &str| {
+        place.done(&format!("run data/kick.bvh --out o --pin 80{weight} --set spacing.on=1"));
+        column(&fs::read_to_string(place.path("o/drawings.csv")).unwrap(), "source_frame")
+    };
+    let (plain, own) = (places(""), places("@0.9"));
+    assert_ne!(plain, own);
+    assert_eq!(plain, places("@0.3"), "the recipe's weight");
+}
+
+#[test]
+fn a_move_that_finds_nothing_is_said() {
+    let place = Place::new();
+    let forbidden = "--forbid 30..36 --move 3:33";
+    let output = place.genga(&format!("run data/kick.bvh --out a {forbidden}"));
+    let said = text(&output.stderr);
+    let note = "no key is found near frame 3, so none was moved to 33; --pin 33 makes one there";
+    assert!(output.status.success() && said.contains(note), "{said}");
+    assert_eq!(report(&place, "a")["notes"], serde_json::json!([note]));
+    assert!(text(&place.genga(&format!("keys data/kick.bvh {forbidden}")).stderr).contains(note));
+}
+
+#[test]
+fn the_keys_of_an_edited_table_or_sheet_come_back_alone_or_with_others() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --pin 42:contact");
+    let table = fs::read_to_string(place.path("a/keys.csv")).unwrap();
+    let own = frames(&table);
+    for file in ["keys.csv", "drawings.csv", "sheet.csv", "sheet.json"] {
+        let back = format!("keys data/kick.bvh --pin-from a/{file} --only-pins");
+        let output = place.genga(&back);
+        let back = text(&output.stdout);
+        assert_eq!(frames(&back), own, "{file}");
+        assert!(back.contains("pinned: contact"), "{file}: {back}");
+        let said = text(&output.stderr);
+        let count = own.len();
+        assert!(
+            said.contains(&format!("pinned from a/{file}: {count} keys of column A")),
+            "{said}"
+        );
+    }
+    // A row deleted, one changed.
+    let edited: Vec<&str> = table.lines().filter(|line| !line.contains(",genga,4,")).collect();
+    let edited = edited.join("\n").replace(",42,1.75,", ",44,1.75,");
+    fs::write(place.path("edited.csv"), &edited).unwrap();
+    let back = place.done("keys data/kick.bvh --pin-from edited.csv --only-pins");
+    let mut wanted: Vec<_> = own.iter().map(|frame| frame.replace("42", "44")).collect();
+    wanted.remove(2);
+    assert_eq!(frames(&back), wanted, "{edited}");
+    let found = place.done("keys data/kick.bvh --pin-from edited.csv");
+    assert!(frames(&found).len() >= wanted.len());
+    assert!(wanted.iter().all(|frame| frames(&found).contains(frame)), "{found}");
+    // Of the run too, whose recipe has them.
+    place.done("run data/kick.bvh --out b --pin-from edited.csv --only-pins");
+    place.done("run data/kick.bvh --out c --recipe b/recipe.toml");
+    let (mut b, mut c) = (place.files("b"), place.files("c"));
+    // The report says where they are from.
+    assert_ne!(b.remove("report.json"), c.remove("report.json"));
+    assert!(b == c);
+    // From stdin it is known by its first letters.
+    for file in ["a/keys.csv", "a/sheet.json"] {
+        let bytes = fs::read(place.path(file)).unwrap();
+        let output = place.fed("keys data/kick.bvh --pin-from - --only-pins", &bytes);
+        assert_eq!(frames(&text(&output.stdout)), own, "{file}");
+    }
+}
+
+#[test]
+fn a_table_or_sheet_with_marked_keys_is_not_written_over() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    let before = place.files("a");
+    for args in [
+        "run data/kick.bvh --out a --pin-from a/keys.csv",
+        "run data/kick.bvh --out a --pin-from a/sheet.json",
+        "run data/kick.bvh --out a --pin-from a/sheet.csv",
+        "keys data/kick.bvh --out a/keys.csv --pin-from a/keys.csv",
+    ] {
+        let said = place.refused(2, args);
+        assert!(said.contains("this is the file with your keys itself; write elsewhere"), "{said}");
+        assert!(place.files("a") == before, "{args}");
+    }
+}
+
+#[test]
+fn wrong_corrections_are_refused_with_the_way_out() {
+    let place = Place::new();
+    fs::write(place.path("no.csv"), "koma,layer\n1,A\n").unwrap();
+    fs::write(place.path("gnega.csv"), "source_frame,role\n3,gnega\n").unwrap();
+    fs::write(place.path("far.csv"), "source_frame\n300\n").unwrap();
+    fs::write(place.path("no.json"), "{}").unwrap();
+    fs::write(place.path("r.toml"), "[edits]\nforbidden = [\"9..2\"]\n").unwrap();
+    fs::write(place.path("m.toml"), "[[edits.moves]]\nfrom = 4\n").unwrap();
+    place.done("run data/kick.bvh --out a");
+    for (code, args, wanted) in [
+        (
+            2,
+            "--pin twelve",
+            "--pin: expected FRAME, FRAME:NAME or FRAME:NAME@WEIGHT, found \"twelve\"",
+        ),
+        (2, "--pin 12:me@home", "--pin: expected a spacing weight, 0 to below 1, behind the @"),
+        (2, "--pin 12@1", "the weight of pinned frame 12 must be at least 0 and below 1"),
+        (2, "--pin 92", "pinned frame 92 is not in the clip, which has frames 0 to 91"),
+        (2, "--forbid 9..2", "--forbid: \"9..2\" has no frame in it"),
+        (
+            2,
+            "--forbid many",
+            "--forbid: expected a frame (150) or a range (120..140), found \"many\"",
+        ),
+        (
+            2,
+            "--forbid 92..99",
+            "forbidden range 92..99 is not in the clip, which has frames 0 to 91",
+        ),
+        (2, "--forbid 42 --pin 42", "frame 42 is pinned and forbidden at once"),
+        (2, "--move 41", "--move: expected FROM:TO, two frame numbers, found \"41\""),
+        (2, "--move 41:92", "frame 92 of the move 41:92 is not in the clip"),
+        (2, "--move 41:41", "moved to where it is"),
+        (2, "--move 42:43 --pin 42", "frame 42 is pinned and moved at once: pin 43 instead"),
+        (2, "--only-pins", "there is no pin: pin a frame"),
+        (2, "--recipe r.toml", "\"9..2\" has no frame in it"),
+        (2, "--recipe m.toml", "missing field `to`"),
+        (1, "--pin-from no.csv", "no.csv: line 1: there is no column source_frame"),
+        (1, "--pin-from gnega.csv", "gnega.csv: line 2: role: expected genga, inbetween or end"),
+        (2, "--pin-from far.csv", "pinned frame 300 is not in the clip"),
+        (1, "--pin-from no.json", "no.json: this is no sheet of genga"),
+        (1, "--pin-from a/keys.csv --pin-column B", "there is no genga in a column B; there are A"),
+        (
+            1,
+            "--fps 30 --pin-from a/sheet.json",
+            "the sheet is for 24 frames a second, the clip has 30",
+        ),
+    ] {
+        let said = place.refused(code, &format!("keys data/kick.bvh {args}"));
+        assert!(said.contains(wanted), "{args}: {said}");
+    }
+}
+
+#[test]
+fn joints_count_as_much_as_a_person_says() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out plain");
+    place.done("run data/kick.bvh --out a --set keys.weights.*Hand*=6 --set keys.weights.Hips=0");
+    let table =
+        |folder: &str| fs::read_to_string(place.path(&format!("{folder}/keys.csv"))).unwrap();
+    assert_ne!(frames(&table("a")), frames(&table("plain")));
+    assert!(table("plain").contains("Hips") && !table("a").contains("Hips"), "{}", table("a"));
+    let recipe = fs::read_to_string(place.path("a/recipe.toml")).unwrap();
+    assert!(
+        recipe.contains("\n[keys.weights]\n\"*Hand*\" = 6.0\nHips = 0.0\n\n[spacing]\n"),
+        "{recipe}"
+    );
+    place.done("run data/kick.bvh --out b --recipe a/recipe.toml");
+    assert!(place.files("a") == place.files("b"));
+    // The sheet says what it was made with.
+    let sheet = fs::read_to_string(place.path("a/sheet.json")).unwrap();
+    assert!(sheet.contains("\"keys.weights.*Hand*\": \"6\""), "{sheet}");
+    place.done("run data/kick.bvh --out c --recipe a/recipe.toml --set keys.weights.*Hand*=none --set keys.weights.Hips=1");
+    assert_eq!(table("c"), table("plain"));
+}
+
+#[test]
+fn wrong_joint_weights_are_refused_with_the_nearest_name() {
+    let place = Place::new();
+    fs::write(place.path("r.toml"), "[keys.weights]\nLeftHnad = 2\n").unwrap();
+    fs::write(place.path("w.toml"), "[keys.weights]\nLeftHand = \"much\"\n").unwrap();
+    for (args, wanted) in [
+        (
+            "--recipe r.toml",
+            "keys.weights.LeftHnad: the clip has no such joint; did you mean LeftHand?",
+        ),
+        ("--recipe r.toml --keys 5", "genga: keys.weights.LeftHnad: the clip has no such joint"),
+        ("--recipe w.toml", "w.toml:2:12: invalid type: string"),
+        (
+            "--set keys.weights.*Tail*=2",
+            "keys.weights.*Tail*: the clip has no such joint; did you mean ",
+        ),
+        ("--set keys.weights.Hips=-1", "keys.weights.Hips: expected a number, 0 (no say) or more"),
+        ("--set keys.weights.Hips=much", "found \"much\""),
+        ("--set keys.weights.*=0", "keys.weights: every joint has 0: leave one that has a say"),
+        ("--set keys.weights=2", "did you mean"),
+    ] {
+        let said = place.refused(2, &format!("keys data/kick.bvh {args}"));
+        assert!(said.contains(wanted), "{args}: {said}");
+    }
+}
