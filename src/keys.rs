@@ -4,6 +4,7 @@
 //! key), which gives candidates; a price says what each of them saves; [`Choose`] keeps those that are
 //! worth a drawing.
 
+mod bridge;
 mod choose;
 mod correct;
 mod matching;
@@ -11,6 +12,7 @@ mod merge;
 mod peaks;
 mod points;
 mod price;
+mod reconstruction;
 mod reference;
 mod rest;
 mod sum;
@@ -23,6 +25,7 @@ use crate::time::Frame;
 pub use choose::{Choose, Merge, Rank};
 pub use matching::Matching;
 pub use merge::JointTurns;
+pub use reconstruction::Reconstruction;
 pub use reference::Reference;
 pub use voters::weights;
 

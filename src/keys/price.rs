@@ -8,14 +8,11 @@
 //! a small drift that lasts. And it is the root mean square over the body, not the mean: a foot that
 //! misses its contact shows, though the rest be right.
 
-mod bridge;
-mod stances;
-
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::keys::Reference;
-use crate::keys::price::bridge::Bridge;
+use crate::keys::bridge::Bridge;
 use crate::motion::Clip;
 use crate::time::Frame;
 
@@ -49,7 +46,8 @@ pub(super) fn worthwhile(
     enough: f64,
     most: usize,
 ) -> Worthwhile {
-    let mut list = RankedList::new(clip, reference, entries);
+    let frames: Vec<Frame> = entries.iter().map(|entry| entry.frame).collect();
+    let mut list = RankedList::new(Bridge::new(clip, reference, &frames), entries);
     let mut left = entries.iter().filter(|entry| !entry.stays).count();
     let mut over_limit = 0;
     while let Some((price, entry)) = list.cheapest() {
@@ -83,11 +81,11 @@ struct RankedList<'a> {
 }
 
 impl<'a> RankedList<'a> {
-    fn new(clip: &'a Clip, reference: &'a Reference, entries: &'a [Entry]) -> Self {
+    fn new(bridge: Bridge<'a>, entries: &'a [Entry]) -> Self {
         let count = entries.len();
         let mut list = Self {
             entries,
-            bridge: Bridge::new(clip, reference, entries),
+            bridge,
             before: (0..count).map(|entry| entry.saturating_sub(1)).collect(),
             after: (1..=count).collect(),
             price: vec![f64::NAN; count],

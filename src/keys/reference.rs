@@ -62,6 +62,11 @@ impl Reference {
         self.clock
     }
 
+    /// Number of koma.
+    pub fn koma(&self) -> usize {
+        self.koma
+    }
+
     /// Seconds that its koma last.
     pub(super) fn seconds(&self) -> f64 {
         self.koma as f64 / self.clock.koma_rate
@@ -81,6 +86,12 @@ impl Reference {
     /// The body's height in the file's unit: see [`Reference::of`].
     pub(super) fn height(&self) -> f64 {
         self.height
+    }
+
+    /// A mean squared distance of points, as its root in % of the body's height.
+    #[inline(always)]
+    pub(super) fn percent(&self, squared: f64) -> f64 {
+        100.0 * squared.sqrt() / self.height
     }
 
     /// How fast the body goes into each koma from the second on, in % of its height a second: root mean

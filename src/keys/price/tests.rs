@@ -31,6 +31,10 @@ fn entries(frames: &[usize], last: usize) -> Vec<Entry> {
     frames.iter().map(entry).collect()
 }
 
+fn frames(entries: &[Entry]) -> Vec<Frame> {
+    entries.iter().map(|entry| entry.frame).collect()
+}
+
 fn triangle(frames: usize, turn: usize) -> Vec<f64> {
     (0..frames).map(|at| 3.0 * (turn as f64 - at.abs_diff(turn) as f64)).collect()
 }
@@ -58,7 +62,7 @@ fn the_bridge_equals_a_slerp_a_koma() {
     let clip = clip.with_rate(FrameRate::new(50.0).unwrap());
     let reference = Reference::of(&clip, clip.clock(24.0));
     let ends = entries(&[3, 36], 36);
-    let fast = whole_error(&mut Bridge::new(&clip, &reference, &ends), 0, 0, 1);
+    let fast = whole_error(&mut Bridge::new(&clip, &reference, &frames(&ends)), 0, 0, 1);
     let (mut from, mut to) = (Pose::rest(clip.skeleton()), Pose::rest(clip.skeleton()));
     from.take_frame(&clip, Frame(3));
     to.take_frame(&clip, Frame(36));
@@ -88,6 +92,7 @@ fn the_error_is_the_same_whichever_koma_was_looked_at_first() {
     let clip = swing(&(0..40).map(|at| 40.0 * (at as f64 * 0.4).sin()).collect::<Vec<_>>());
     let reference = Reference::of(&clip, clip.clock(24.0));
     let list = entries(&(3..37).collect::<Vec<_>>(), 36);
+    let list = frames(&list);
     let mut bridge = Bridge::new(&clip, &reference, &list);
     let last = list.len() - 1;
     let wholes: Vec<f64> = (0..=last).map(|at| whole_error(&mut bridge, 0, at, last)).collect();
@@ -106,8 +111,9 @@ fn slowly(
 ) -> Vec<Frame> {
     let mut kept = entries.to_vec();
     loop {
+        let frames = frames(&kept);
         let price =
-            |at: usize| whole_error(&mut Bridge::new(clip, reference, &kept), at - 1, at, at + 1);
+            |at: usize| whole_error(&mut Bridge::new(clip, reference, &frames), at - 1, at, at + 1);
         let cheapest = (1..kept.len() - 1)
             .filter(|at| !kept[*at].stays)
             .map(|at| (price(at), at))
@@ -145,7 +151,7 @@ fn nothing_between_two_frames_costs_nothing() {
     let clip = swing(&[0.0, 10.0, 0.0]);
     let reference = Reference::of(&clip, clip.clock(24.0));
     let ends = entries(&[0, 1], 2);
-    assert_eq!(whole_error(&mut Bridge::new(&clip, &reference, &ends), 0, 0, 1), 0.0);
+    assert_eq!(whole_error(&mut Bridge::new(&clip, &reference, &frames(&ends)), 0, 0, 1), 0.0);
     let still = swing(&[0.0; 9]);
     let reference = Reference::of(&still, still.clock(24.0));
     assert_eq!(

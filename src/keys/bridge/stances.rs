@@ -4,17 +4,18 @@ use std::array;
 
 use glam::DVec3;
 
-use crate::keys::price::Entry;
 use crate::motion::Clip;
 use crate::motion::lanes::{LANES, LaneQuat, wide};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
+use crate::time::Frame;
 
-/// The local pose of each entry, read once for all bridges that begin or end there.
+/// The local pose of each frame, read once for all bridges that begin or end there.
+#[derive(Clone)]
 pub(super) struct Stances {
-    /// Entries × groups of [`LANES`] joints.
+    /// Frames × groups of [`LANES`] joints.
     rotations: Vec<LaneQuat>,
-    /// Entries × joints that have a position of their own.
+    /// Frames × joints that have a position of their own.
     translations: Vec<DVec3>,
     groups: usize,
     /// The joints that have a position of their own.
@@ -22,18 +23,18 @@ pub(super) struct Stances {
 }
 
 impl Stances {
-    pub(super) fn of(clip: &Clip, rig: &Rig, entries: &[Entry]) -> Self {
+    pub(super) fn of(clip: &Clip, rig: &Rig, frames: &[Frame]) -> Self {
         let moving: Vec<usize> = rig.moving().collect();
         let groups = rig.len().div_ceil(LANES);
-        let mut rotations = vec![LaneQuat::default(); entries.len() * groups];
-        let mut translations = Vec::with_capacity(entries.len() * moving.len());
+        let mut rotations = vec![LaneQuat::default(); frames.len() * groups];
+        let mut translations = Vec::with_capacity(frames.len() * moving.len());
         let mut pose = LanePose::rest(clip.skeleton());
         let into = rotations.chunks_mut((LANES * groups).max(1));
-        for (entries, rotations) in entries.chunks(LANES).zip(into) {
-            let entry = |lane: usize| entries[lane.min(entries.len() - 1)];
+        for (frames, rotations) in frames.chunks(LANES).zip(into) {
+            let frame = |lane: usize| frames[lane.min(frames.len() - 1)];
             wide(
                 #[inline(always)]
-                || pose.take_rows(rig, &array::from_fn(|lane| clip.row(entry(lane).frame))),
+                || pose.take_rows(rig, &array::from_fn(|lane| clip.row(frame(lane)))),
             );
             for (lane, groups) in rotations.chunks_exact_mut(groups).enumerate() {
                 for (joint, rotation) in pose.rotations.iter().enumerate() {
@@ -56,14 +57,14 @@ impl Stances {
         &self.moving
     }
 
-    /// The rotations of an entry's joints, [`LANES`] joints together.
-    pub(super) fn rotations(&self, entry: usize) -> &[LaneQuat] {
-        &self.rotations[entry * self.groups..(entry + 1) * self.groups]
+    /// The rotations of a frame's joints, [`LANES`] joints together.
+    pub(super) fn rotations(&self, at: usize) -> &[LaneQuat] {
+        &self.rotations[at * self.groups..(at + 1) * self.groups]
     }
 
-    /// Where the moving joints of an entry stand.
-    pub(super) fn translations(&self, entry: usize) -> &[DVec3] {
+    /// Where the moving joints of a frame stand.
+    pub(super) fn translations(&self, at: usize) -> &[DVec3] {
         let moving = self.moving.len();
-        &self.translations[entry * moving..(entry + 1) * moving]
+        &self.translations[at * moving..(at + 1) * moving]
     }
 }

@@ -1,18 +1,23 @@
-//! How far the body is off, koma after koma, when the poses of two entries are slerped.
+//! How far the body is off, koma after koma, when the poses of two frames are slerped.
+
+mod stances;
 
 use std::ops::Range;
 
 use crate::keys::Reference;
-use crate::keys::price::Entry;
-use crate::keys::price::stances::Stances;
 use crate::motion::Clip;
 use crate::motion::lanes::{Arc, LANES, LaneQuat, LaneVec, Lanes, wide};
 use crate::motion::rig::Rig;
+use crate::time::Frame;
+use stances::Stances;
 
-/// The error of slerping between two entries, with its buffers.
-pub(super) struct Bridge<'a> {
+/// The error of slerping between any two of some frames, with its buffers.
+///
+/// Frames are spoken of by their place in the list.
+#[derive(Clone)]
+pub(crate) struct Bridge<'a> {
     reference: &'a Reference,
-    entries: &'a [Entry],
+    frames: &'a [Frame],
     rig: Rig,
     stances: Stances,
     /// The way of each joint, [`LANES`] joints together.
@@ -40,12 +45,12 @@ impl Piers {
 }
 
 impl<'a> Bridge<'a> {
-    pub(super) fn new(clip: &'a Clip, reference: &'a Reference, entries: &'a [Entry]) -> Self {
+    pub(crate) fn new(clip: &Clip, reference: &'a Reference, frames: &'a [Frame]) -> Self {
         let rig = Rig::of(clip.skeleton());
-        let stances = Stances::of(clip, &rig, entries);
+        let stances = Stances::of(clip, &rig, frames);
         Self {
             reference,
-            entries,
+            frames,
             arcs: vec![Arc::default(); stances.groups()],
             rotations: vec![LaneQuat::default(); rig.len()],
             translations: (0..rig.len()).map(|joint| LaneVec::splat(rig.offset(joint))).collect(),
@@ -73,7 +78,7 @@ impl<'a> Bridge<'a> {
         (error, piers.blocks().len() == 1)
     }
 
-    /// The position error of the worst koma between two entries, root mean square over the body's
+    /// The position error of the worst koma between two frames, root mean square over the body's
     /// points, in % of body height; `least` is what [`Self::least_error`] said of it.
     pub(super) fn error(&mut self, from: usize, at: usize, to: usize, least: f64) -> f64 {
         let piers = self.piers(from, to);
@@ -94,17 +99,40 @@ impl<'a> Bridge<'a> {
         )
     }
 
+    /// The error at every koma that lies strictly between two frames, with its number: root mean square
+    /// over the body's points, in % of body height.
+    pub(crate) fn errors(&mut self, from: usize, to: usize, mut each: impl FnMut(usize, f64)) {
+        let piers = self.piers(from, to);
+        if piers.koma.is_empty() {
+            return;
+        }
+        wide(
+            #[inline(always)]
+            || {
+                self.aim(&piers);
+                for block in piers.blocks() {
+                    let apart = self.apart_in(block, &piers);
+                    for (koma, apart) in (block * LANES..).zip(apart.0) {
+                        if piers.koma.contains(&koma) {
+                            each(koma, self.reference.percent(apart));
+                        }
+                    }
+                }
+            },
+        );
+    }
+
     fn piers(&self, from: usize, to: usize) -> Piers {
         let nothing = self.positions.is_empty() || self.reference.height() <= 0.0;
-        let [begin, end] = [from, to].map(|entry| self.entries[entry].frame);
+        let [begin, end] = [from, to].map(|at| self.frames[at]);
         let koma = if nothing { 0..0 } else { self.reference.koma_between(begin, end) };
         Piers { from, to, koma }
     }
 
-    /// The block of the koma that is nearest to an entry.
+    /// The block of the koma that is nearest to a frame.
     fn near(&self, at: usize, piers: &Piers) -> usize {
         let clock = self.reference.clock();
-        let koma = clock.koma_from_place(self.entries[at].frame.0 as f64);
+        let koma = clock.koma_from_place(self.frames[at].0 as f64);
         koma.clamp(piers.koma.start, piers.koma.end - 1) / LANES
     }
 
@@ -121,10 +149,19 @@ impl<'a> Bridge<'a> {
     /// The error at the worst koma of a block.
     #[inline(always)]
     fn error_in(&mut self, block: usize, piers: &Piers) -> f64 {
+        let apart = self.apart_in(block, piers);
+        let lanes = (0..LANES).filter(|lane| piers.koma.contains(&(block * LANES + lane)));
+        let worst = lanes.map(|lane| apart.0[lane]).fold(0.0, f64::max);
+        self.reference.percent(worst)
+    }
+
+    /// The mean squared distance from the source at each koma of a block; of koma that lie outside the
+    /// bridge that of the nearest inside.
+    #[inline(always)]
+    fn apart_in(&mut self, block: usize, piers: &Piers) -> Lanes {
         let koma = &piers.koma;
-        // Lanes outside the bridge show the nearest koma inside it: they change no maximum.
         let inside = |lane: usize| (block * LANES + lane).clamp(koma.start, koma.end - 1);
-        let [begin, end] = [piers.from, piers.to].map(|entry| self.entries[entry].frame.0 as f64);
+        let [begin, end] = [piers.from, piers.to].map(|at| self.frames[at].0 as f64);
         let clock = self.reference.clock();
         let place = Lanes::from_fn(|lane| clock.place_from_koma(inside(lane)));
         let shares = place.map(|place| (place - begin) / (end - begin));
@@ -132,10 +169,7 @@ impl<'a> Bridge<'a> {
         self.turn_joints(piers.from, shares);
         let points = self.reference.points();
         points.place_tips(&self.rotations, &mut self.positions);
-        let apart = points.apart(self.reference.positions(block), &self.positions);
-        let lanes = (0..LANES).filter(|lane| koma.contains(&(block * LANES + lane)));
-        let worst = lanes.map(|lane| apart.0[lane]).fold(0.0, f64::max);
-        100.0 * worst.sqrt() / self.reference.height()
+        points.apart(self.reference.positions(block), &self.positions)
     }
 
     /// Puts the joints that have a position of their own some shares of the way along.
