@@ -2,6 +2,7 @@
 //!
 //! [`FORMATS`] lists those that can be asked for by name. A format is a row there and a file here.
 
+mod comparison;
 mod cut;
 mod drawings;
 mod figures;
@@ -10,6 +11,7 @@ mod glb;
 mod koma;
 mod limited_bvh;
 mod pictures;
+mod reference_keys;
 mod report;
 mod settings;
 pub mod sheet_json;
@@ -21,6 +23,7 @@ mod vmd;
 pub mod xdts;
 mod xsheet;
 
+pub use comparison::comparison_csv;
 pub use cut::{Cut, Sink};
 pub use drawings::{Drawings, Rows};
 pub use figures::FigureSettings;
@@ -29,6 +32,7 @@ pub use glb::{Glb, LengthUnit, Up};
 pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::{keys_bvh, limited_bvh};
 pub use pictures::{bars, poses};
+pub use reference_keys::reference_keys;
 pub use report::Report;
 pub use settings::{CsvSettings, Settings};
 pub use study::study_csv;

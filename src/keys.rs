@@ -7,6 +7,7 @@
 mod bridge;
 mod choose;
 mod correct;
+mod figure;
 mod matching;
 mod merge;
 mod peaks;
@@ -22,7 +23,9 @@ mod voters;
 use crate::motion::JointId;
 use crate::time::Frame;
 
+pub(crate) use bridge::Bridge;
 pub use choose::{Choose, Merge, Rank};
+pub use figure::Figure;
 pub use matching::Matching;
 pub use merge::JointTurns;
 pub use reconstruction::Reconstruction;

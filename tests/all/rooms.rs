@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::clips::here;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
-const ROOMS: [&[&str]; 11] = [
+const ROOMS: [&[&str]; 12] = [
     &["error", "time", "sheet", "edits"],
     &["motion"],
     &["signal"],
@@ -15,6 +15,7 @@ const ROOMS: [&[&str]; 11] = [
     &["recipe"],
     &["pipeline"],
     &["study"],
+    &["quality"],
     &["plot"],
     &["deliver"],
     &["cli"],
