@@ -44,6 +44,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
         part.table(name, by_clip(&judged, measure));
     }
     part.table("summary", summary(&judged));
+    part.table("paces", paces(&judged));
     part.measured("times", times(&judged));
     part.table("sheets", sheets(takes)?);
     part.number("clips", judged.len());
@@ -135,6 +136,30 @@ fn summary(judged: &[Judged<'_>]) -> Table {
     table
 }
 
+/// Keys on threes and on twos, medians over the clips.
+fn paces(judged: &[Judged<'_>]) -> Table {
+    let mut table =
+        Table::new(&["keys", ">a second", ">mean error", ">× mean", ">× worst", ">timing", ">off"]);
+    for (method, step) in Method::PACES {
+        let middle = |measure: fn(&Row) -> Option<f64>| {
+            let rows = judged.iter().flat_map(|clip| &clip.found.paces);
+            let values: Vec<f64> =
+                rows.filter(|row| row.method == method).filter_map(measure).collect();
+            if values.is_empty() { "–".into() } else { number(spread(values)[1], 2) }
+        };
+        table.row(&[
+            method.word().into(),
+            (24 / step).to_string(),
+            middle(|row| Some(row.mean)),
+            middle(|row| row.mean_ratio),
+            middle(|row| row.worst_ratio),
+            middle(|row| Some(row.timing)),
+            middle(|row| row.off),
+        ]);
+    }
+    table
+}
+
 fn median(
     judged: &[Judged<'_>],
     method: Method,
@@ -146,7 +171,7 @@ fn median(
     (!values.is_empty()).then(|| spread(values)[1])
 }
 
-/// Milliseconds of each method, for all three counts together.
+/// Milliseconds of each method, for all counts together.
 fn times(judged: &[Judged<'_>]) -> Table {
     let mut table = Table::new(&["method", ">least ms", ">median", ">most", ">all clips"]);
     for method in Method::ALL {

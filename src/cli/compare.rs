@@ -84,7 +84,7 @@ fn page(name: &str, found: &Comparison) -> String {
     table.row(header.into_iter().chain(has_times.then_some("ms")));
     table.row(japanese.into_iter().chain(has_times.then_some("時間")));
     let mut last = None;
-    for row in &found.rows {
+    for row in found.rows.iter().chain(&found.paces) {
         let count = if last == Some(row.asked) { String::new() } else { row.asked.to_string() };
         last = Some(row.asked);
         table.row(cells(row, count, has_times));

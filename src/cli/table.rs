@@ -49,10 +49,10 @@ mod tests {
     #[test]
     fn columns_line_up_whatever_they_are_written_in() {
         let mut table = Table::default();
-        table.row(["genga", "原画", "12"]);
+        table.row(["genga", "原画のみ", "12"]);
         table.row(["on screen", "画面", "1.25"]);
         table.row(["none"]);
-        assert_eq!(table.text(2), "genga      原画    12\non screen  画面  1.25\nnone\n");
+        assert_eq!(table.text(2), "genga      原画のみ    12\non screen  画面      1.25\nnone\n");
         assert_eq!(Table::default().text(1), "");
     }
 }

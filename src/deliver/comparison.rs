@@ -27,7 +27,7 @@ const HEADER: [&str; 12] = [
 pub fn comparison_csv(clips: &[String], comparisons: &[Comparison]) -> Result<String, Error> {
     let some = |value: Option<f64>| value.map_or(String::new(), number);
     let rows = clips.iter().zip(comparisons).flat_map(|(clip, comparison)| {
-        comparison.rows.iter().map(move |row| {
+        comparison.rows.iter().chain(&comparison.paces).map(move |row| {
             [
                 clip.clone(),
                 row.asked.to_string(),

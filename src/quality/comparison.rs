@@ -58,6 +58,8 @@ pub struct Comparison {
     pub extrema: usize,
     /// Counts in their order, in each the methods in theirs.
     pub rows: Vec<Row>,
+    /// Keys on threes and on twos, each with as many as that are: see [`Method::PACES`].
+    pub paces: Vec<Row>,
 }
 
 /// One method at one count.
@@ -114,7 +116,10 @@ impl Compare {
         let noisy = Arc::new(self.noise.on(&clip));
         let mut chooser = Chooser::new(clip, &self.recipe, self.longest)?;
         let counts = self.counts_of(chooser.own_keys()?, chooser.grid().inner());
-        let chosen = chooser.choose(&counts)?;
+        let paces = chooser.paces();
+        let all: Vec<usize> =
+            counts.iter().copied().chain(paces.iter().map(|(_, keys)| keys.len())).collect();
+        let chosen = chooser.choose(&all)?;
         let again = if self.noise.degrees > 0.0 {
             Some(Chooser::new(noisy, &self.recipe, self.longest / 3)?.choose(&counts)?)
         } else {
@@ -138,9 +143,17 @@ impl Compare {
                 .collect();
             rows.extend(with_ratios(own));
         }
+        let paced = (counts.len()..).zip(&paces).map(|(at, (method, keys))| {
+            let best = chosen.iter().filter(|chosen| chosen.method.is_optimal());
+            let best =
+                best.map(|best| row(grid, best.method, keys.len(), &best.keys[at], &extrema));
+            let own = row(grid, *method, keys.len(), keys, &extrema);
+            with_ratios(best.chain([own]).collect()).pop()
+        });
+        let paces = paced.flatten().collect();
         let own_keys = chooser.own_keys()?;
         let koma = chooser.grid().reference.koma();
-        Ok(Comparison { koma, own_keys, extrema: extrema.moments.len(), rows })
+        Ok(Comparison { koma, own_keys, extrema: extrema.moments.len(), rows, paces })
     }
 
     fn counts_of(&self, own: usize, inner: usize) -> Vec<usize> {
@@ -246,6 +259,10 @@ mod tests {
         assert_eq!(ratio(Method::OptimalWorst).worst_ratio, Some(1.0));
         assert_eq!(ratio(Method::Uniform).steady, Some(1.0), "noise moves no even distance");
         assert_eq!(asked.run(clip()).unwrap(), found, "the same again");
+        let paces: Vec<_> = found.paces.iter().map(|row| (row.method, row.keys)).collect();
+        assert_eq!(paces, [(Method::Threes, 39), (Method::Twos, 59)]);
+        assert!(found.paces.iter().all(|row| row.mean_ratio.is_some_and(|ratio| ratio > 1.0)));
+        assert!(found.paces[1].mean < found.paces[0].mean);
     }
 
     #[test]

@@ -21,10 +21,14 @@ pub enum Method {
     KurodaTokoi,
     /// Even distances.
     Uniform,
+    /// A key every second koma, however many that are.
+    Twos,
+    /// A key every third koma.
+    Threes,
 }
 
 impl Method {
-    /// All, in the order of tables.
+    /// Those that choose as many keys as they are asked for, in the order of tables.
     pub const ALL: [Self; 7] = [
         Self::Own,
         Self::OptimalMean,
@@ -34,6 +38,14 @@ impl Method {
         Self::KurodaTokoi,
         Self::Uniform,
     ];
+
+    /// Those that have a number of keys of their own, with the koma from key to key.
+    pub const PACES: [(Self, usize); 2] = [(Self::Threes, 3), (Self::Twos, 2)];
+
+    /// Whether it is the best there is by some measure.
+    pub fn is_optimal(self) -> bool {
+        matches!(self, Self::OptimalMean | Self::OptimalWorst)
+    }
 
     /// What it is called in tables and files.
     pub fn word(self) -> &'static str {
@@ -45,6 +57,8 @@ impl Method {
             Self::Polyline => "polyline",
             Self::KurodaTokoi => "kt11",
             Self::Uniform => "uniform",
+            Self::Twos => "twos",
+            Self::Threes => "threes",
         }
     }
 
@@ -66,6 +80,8 @@ impl Method {
                 ("the first paper alone, what most joints share first", "関節の原画の和")
             }
             Self::Uniform => ("even distances", "均等割り"),
+            Self::Twos => ("a key every second koma, as many as that are", "2コマ打ち"),
+            Self::Threes => ("a key every third koma, as many as that are", "3コマ打ち"),
         }
     }
 }

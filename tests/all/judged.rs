@@ -91,14 +91,15 @@ fn methods_stand_side_by_side_on_as_many_keys() {
         assert!(rows >= 2, "{rows} rows of {word} in\n{page}");
     }
     assert!(!page.contains("ms") && place.done("compare data/kick.bvh --times").contains("ms"));
-    let table = place.done("compare data/kick.bvh data/pitch.bvh --keys 4,8 --out -");
-    assert_eq!(column(&table, "clip").len(), 28);
+    let table = place.done("compare data/kick.bvh data/pitch.bvh --keys 8,4 --out -");
+    assert_eq!(column(&table, "clip").len(), 2 * (2 * 7 + 2));
     assert_eq!(column(&table, "asked")[..8].join(" "), "4 4 4 4 4 4 4 8");
     assert!(column(&table, "ms").iter().all(String::is_empty), "times are other on each run");
     assert_eq!(table, place.done("compare data/kick.bvh data/pitch.bvh --keys 4,8 --out -"));
     place.done("compare data/kick.bvh --noise 0 --out c.csv --json c.json");
     let found = json(&fs::read_to_string(place.path("c.json")).unwrap());
-    let rows = found[0]["rows"].as_array().unwrap();
+    let list = |name: &str| found[0][name].as_array().unwrap().clone();
+    let rows = [list("rows"), list("paces")].concat();
     let table = fs::read_to_string(place.path("c.csv")).unwrap();
     assert_eq!((&found[0]["clip"], rows.len()), (&"kick".into(), column(&table, "mean").len()));
     assert!(rows.iter().all(|row| row["steady"].is_null()));
@@ -108,7 +109,7 @@ fn methods_stand_side_by_side_on_as_many_keys() {
 #[test]
 fn what_cannot_be_compared_is_refused() {
     let place = Place::new();
-    for wrong in ["--keys 0", "--keys few", "--noise -1", "--out a --json a", "--set keys.rest=x"] {
+    for wrong in ["--keys 0", "--keys few", "--noise=-1", "--out a --json a", "--set keys.rest=x"] {
         place.refused(2, &format!("compare data/kick.bvh {wrong}"));
     }
     fs::write(place.path("a.bvh"), "").unwrap();

@@ -37,7 +37,8 @@ pub(in crate::cli) struct CompareArgs {
 
 /// The methods and columns, a line each.
 fn help() -> String {
-    let lines = Method::ALL.map(|method| {
+    let paces = Method::PACES.map(|(method, _)| method);
+    let lines = Method::ALL.into_iter().chain(paces).map(|method| {
         let (english, japanese) = method.words();
         format!("\n  {method:<15}{english} ({japanese})")
     });
@@ -51,6 +52,6 @@ fn help() -> String {
          off            how far the nearest key is from such a moment in the mean, in koma\n  \
          steady         F1, within a koma, of the keys with and without noise on the clip\n\n\
          Examples:\n  genga compare kick.bvh --keys 8,16,32\n  genga compare *.bvh --out methods.csv",
-        lines.concat()
+        lines.collect::<String>()
     )
 }

@@ -9,7 +9,7 @@ use crate::keys::{Merge, Origin, Rank};
 use crate::motion::Clip;
 use crate::pipeline::Engine;
 use crate::quality::baselines::{
-    LongestPolyline, Objective, Optimal, Segments, Simplified, uniform,
+    LongestPolyline, Objective, Optimal, Segments, Simplified, every, uniform,
 };
 use crate::quality::{Grid, Method};
 use crate::recipe::Recipe;
@@ -50,6 +50,14 @@ impl<'a> Chooser<'a> {
         Ok(self.engine.find_keys(self.recipe, &Edits::default())?.1.keys.len())
     }
 
+    /// The keys of methods that have a number of their own; none where the clip is too short.
+    pub(super) fn paces(&self) -> Vec<(Method, Vec<Frame>)> {
+        let paces = Method::PACES.map(|(method, step)| {
+            (method, self.grid.frames_at(&every(self.grid.frames.len(), step)))
+        });
+        paces.into_iter().filter(|(_, keys)| !keys.is_empty()).collect()
+    }
+
     /// The keys of every method; of the optimal ones only where the clip is not too long.
     pub(super) fn choose(&mut self, counts: &[usize]) -> Result<Vec<Chosen>, Error> {
         let mut chosen = Vec::new();
@@ -59,16 +67,14 @@ impl<'a> Chooser<'a> {
             let keys = match method {
                 Method::Own => self.ranked(self.recipe, counts)?,
                 Method::KurodaTokoi => self.ranked(&by_joints(self.recipe.rate), counts)?,
-                Method::OptimalMean | Method::OptimalWorst => {
+                optimal if optimal.is_optimal() => {
                     if self.grid.reference.koma() > self.longest {
                         continue;
                     }
                     let segments = segments.get_or_insert_with(|| Segments::of(&self.grid));
                     self.optimal(segments, method, counts)
                 }
-                Method::Simplified | Method::Polyline | Method::Uniform => {
-                    self.simple(method, counts)
-                }
+                _ => self.simple(method, counts),
             };
             chosen.push(Chosen { method, keys, ms: 1e3 * begin.elapsed().as_secs_f64() });
         }
