@@ -39,6 +39,10 @@ printf '\n## A study\n\n```text\n'
 cargo bench --locked --quiet --bench study
 printf '```\n'
 
+printf '\n## Optimal keys\n\n```text\n'
+cargo bench --locked --quiet --bench optimal
+printf '```\n'
+
 printf '\n## A long take\n\n'
 cargo build --locked --quiet --release
 /usr/bin/time -v target/release/genga --quiet run "$long" --out "$work/out" 2>"$work/time"

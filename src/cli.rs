@@ -2,7 +2,9 @@
 
 mod args;
 mod asked;
+mod compare;
 mod deliver;
+mod eval;
 mod failure;
 mod inspect;
 mod io;
@@ -16,6 +18,7 @@ mod run;
 mod source;
 mod stale;
 mod study;
+mod table;
 mod targets;
 mod words;
 
@@ -37,6 +40,8 @@ pub fn main() -> ExitCode {
         Command::Keys(args) => keys::run(&args, &words),
         Command::Omit(args) => omit::run(&args, &words),
         Command::Study(args) => study::run(&args, &words),
+        Command::Eval(args) => eval::run(&args, &words),
+        Command::Compare(args) => compare::run(&args, &words),
         Command::Inspect(args) => inspect::run(&args, &words),
         Command::Recipe(args) => recipe::run(&args),
         Command::Completions { shell } => pages::completions(shell),

@@ -2,6 +2,7 @@
 //!
 //! [`FORMATS`] lists those that can be asked for by name. A format is a row there and a file here.
 
+mod comparison;
 mod cut;
 mod drawings;
 mod figures;
@@ -11,6 +12,7 @@ mod koma;
 mod limited_bvh;
 mod marked;
 mod pictures;
+mod reference_keys;
 mod report;
 mod settings;
 pub mod sheet_json;
@@ -22,6 +24,7 @@ mod vmd;
 pub mod xdts;
 mod xsheet;
 
+pub use comparison::comparison_csv;
 pub use cut::{Cut, Sink};
 pub use drawings::{Drawings, Rows};
 pub use figures::FigureSettings;
@@ -31,6 +34,7 @@ pub use koma::{remap_csv, sheet_csv};
 pub use limited_bvh::{keys_bvh, limited_bvh};
 pub use marked::{pins_from_sheet, pins_from_table};
 pub use pictures::{bars, poses};
+pub use reference_keys::reference_keys;
 pub use report::Report;
 pub use settings::{CsvSettings, Settings};
 pub use study::study_csv;

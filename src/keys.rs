@@ -7,6 +7,7 @@
 mod bridge;
 mod choose;
 mod correct;
+mod figure;
 mod matching;
 mod merge;
 mod peaks;
@@ -24,7 +25,9 @@ mod weights;
 use crate::motion::JointId;
 use crate::time::Frame;
 
+pub(crate) use bridge::Bridge;
 pub use choose::{Choose, Merge, Rank};
+pub use figure::Figure;
 pub use matching::Matching;
 pub use merge::JointTurns;
 pub use ranking::{Ranked, Ranking};

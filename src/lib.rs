@@ -23,7 +23,8 @@
 //!
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
-//! result. [`study`] varies settings, [`target`] finds those that give what is wanted. `cli` is the program; it uses this library and nothing else.
+//! result; [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
+//! what comes out. `cli` is the program; it uses this library and nothing else.
 //!
 //! # Example
 //!
@@ -75,6 +76,7 @@ pub mod keys;
 pub mod motion;
 pub mod pipeline;
 pub mod plot;
+pub mod quality;
 pub mod recipe;
 pub mod sheet;
 pub mod signal;

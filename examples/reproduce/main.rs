@@ -1,5 +1,6 @@
-//! Makes the tables, pictures and numbers of two pages: `docs/reproduction.md`, both papers beside
-//! what this program gives, and `docs/evidence.md`, how good its keys are on real clips.
+//! Makes the tables, pictures and numbers of three pages: `docs/reproduction.md`, both papers beside
+//! what this program gives, `docs/evidence.md`, how good its keys are on real clips, and
+//! `docs/quality.md`, its keys beside those of other methods.
 //!
 //! `cargo run --release --example reproduce` writes them, with `-- --check` it writes nothing and
 //! proves that what is there is what it would write: the same bytes on every run, but for the tables
@@ -14,6 +15,7 @@ mod kuroda_tokoi;
 mod ones;
 mod page;
 mod part;
+mod quality;
 mod samples;
 mod steady;
 mod table;
@@ -46,7 +48,7 @@ struct Page {
     is_bound: bool,
 }
 
-const PAGES: [Page; 2] = [
+const PAGES: [Page; 3] = [
     Page {
         name: "reproduction",
         from_samples: &[kuroda_tokoi::from_samples, kitamura::from_samples, steady::from_samples],
@@ -64,6 +66,7 @@ const PAGES: [Page; 2] = [
         from_takes: &[evidence::from_takes],
         is_bound: false,
     },
+    Page { name: "quality", from_samples: &[], from_takes: &[quality::from_takes], is_bound: true },
 ];
 
 fn main() -> ExitCode {
@@ -122,7 +125,9 @@ impl Page {
             return Err(format!("{}: {message}", path.display()).into());
         }
         let folder = docs.join(self.name);
-        fs::create_dir_all(&folder)?;
+        if !part.pictures.is_empty() {
+            fs::create_dir_all(&folder)?;
+        }
         let pictures = part.pictures.into_iter().map(|(name, svg)| (folder.join(name), svg));
         Ok([(path, text)].into_iter().chain(pictures).collect())
     }

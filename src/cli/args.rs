@@ -1,5 +1,8 @@
 //! What can be asked on the command line.
 
+mod compare;
+mod eval;
+
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
@@ -10,6 +13,9 @@ use crate::plot::Camera;
 use crate::study::{Axis, Measure};
 use crate::time::FrameRate;
 use crate::timing::Amount;
+
+pub(super) use compare::CompareArgs;
+pub(super) use eval::EvalArgs;
 
 /// Motion capture to Japanese limited animation.
 ///
@@ -40,6 +46,10 @@ pub(super) enum Command {
     Omit(OmitArgs),
     /// What is found when one or two settings vary: the first paper's Table 1, or any knob.
     Study(StudyArgs),
+    /// How good a sheet is: its drawings beside the source, its genga beside keys of your own.
+    Eval(EvalArgs),
+    /// Several ways to choose the same number of keys, side by side, the best possible among them.
+    Compare(CompareArgs),
     /// What is in a clip: joints, rate, length, size, an inserted T-pose, warnings.
     Inspect(InspectArgs),
     /// The commented default recipe on stdout.

@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use tempfile::{NamedTempFile, TempPath};
 
 use super::failure::Failure;
@@ -36,6 +37,13 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     }
     let path = &behind_link(path);
     take_place(written_beside(path, bytes)?, path)
+}
+
+/// Writes data as JSON, as [`write`] does.
+pub(super) fn write_json(path: &Path, data: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(data)
+        .map_err(|error| Failure::CouldNot(format!("{}: {error}", path.display())))?;
+    write(path, (text + "\n").as_bytes())
 }
 
 /// Whether a path is a device or a pipe, which takes what is written and must not be replaced by a file.
@@ -200,6 +208,16 @@ pub(super) fn stem(path: &Path) -> String {
         return "stdin".into();
     }
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// What several clips are called: as short as tells them apart.
+pub(super) fn names(clips: &[PathBuf]) -> Vec<String> {
+    let stems: Vec<String> = clips.iter().map(|clip| stem(clip)).collect();
+    let is_one = |stem: &String| stems.iter().filter(|other| *other == stem).count() == 1;
+    if stems.iter().all(is_one) {
+        return stems;
+    }
+    clips.iter().map(|clip| clip.display().to_string()).collect()
 }
 
 /// The name of a file without its folders; of stdin it is `stdin`.

@@ -1,10 +1,11 @@
 //! The clip and the recipe that a command asks for.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::args::{ClipArgs, Corrections, Part, Reading, Settings};
 use super::failure::Failure;
 use super::io;
+use super::words::Words;
 use crate::edits::{Edits, Forbidden, Move, Pin};
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
@@ -50,6 +51,22 @@ pub(super) fn part(path: &Path, args: &Part) -> Result<Source, Failure> {
     }
     clip.check_size().map_err(failed)?;
     Ok(Source { clip, notes, written_frame_time })
+}
+
+/// [`clip`] of every file, before any work on one begins; says what there is to know of each.
+pub(super) fn parts(paths: &[PathBuf], args: &Part, words: &Words) -> Result<Vec<Clip>, Failure> {
+    let read = |path: &PathBuf| {
+        let source = part(path, args)?;
+        for note in &source.notes {
+            if paths.len() > 1 {
+                words.say(format_args!("{}: {note}", path.display()));
+            } else {
+                words.say(note);
+            }
+        }
+        Ok(source.clip)
+    };
+    paths.iter().map(read).collect()
 }
 
 /// Reads the whole file, with everything that stands in front of the motion.

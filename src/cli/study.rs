@@ -1,6 +1,5 @@
 //! `genga study`: what is found when one or two settings vary.
 
-use std::path::Path;
 use std::slice::from_ref;
 
 use rayon::prelude::*;
@@ -35,9 +34,9 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if args.heat.is_some() {
         HeatMap::fits(&study.x, study.y.as_ref())?;
     }
-    let clips = read(args, words)?;
+    let clips = source::parts(&args.clips, &args.part, words)?;
     let grids = swept(&study, clips, words)?;
-    let names = names(args);
+    let names = io::names(&args.clips);
     let tolerance = args.stability.then_some(args.tolerance);
     let plateaus = tolerance.map(|koma| Plateaus::of(&grids, koma));
     if let Some(path) = &args.plot {
@@ -169,39 +168,12 @@ fn usually_shown(study: &Study) -> Measure {
     if is_compared { Measure::LayerKeys } else { study.measures[0] }
 }
 
-/// Every clip, before any work on one begins.
-fn read(args: &StudyArgs, words: &Words) -> Result<Vec<Clip>, Failure> {
-    let several = args.clips.len() > 1;
-    let read = |path: &Path| {
-        let source = source::part(path, &args.part)?;
-        for note in &source.notes {
-            if several {
-                words.say(format_args!("{}: {note}", path.display()));
-            } else {
-                words.say(note);
-            }
-        }
-        Ok(source.clip)
-    };
-    args.clips.iter().map(|path| read(path)).collect()
-}
-
 fn swept(study: &Study, clips: Vec<Clip>, words: &Words) -> Result<Vec<Grid>, Failure> {
     let counter = words.counting(study.len() * clips.len(), "cells");
     let grids: Vec<_> =
         clips.into_par_iter().map(|clip| study.run(clip, || counter.count())).collect();
     // The first of what went wrong, whichever thread was first.
     Ok(grids.into_iter().collect::<Result<_, _>>()?)
-}
-
-/// What the clips are called: as short as tells them apart.
-fn names(args: &StudyArgs) -> Vec<String> {
-    let stems: Vec<String> = args.clips.iter().map(|clip| io::stem(clip)).collect();
-    let is_one = |stem: &String| stems.iter().filter(|other| *other == stem).count() == 1;
-    if stems.iter().all(is_one) {
-        return stems;
-    }
-    args.clips.iter().map(|clip| clip.display().to_string()).collect()
 }
 
 fn kind(filter: Filter) -> FilterKind {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
-use crate::motion::{Joint, Skeleton};
+use crate::motion::{Body, Joint, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -66,6 +66,19 @@ impl Points {
         for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
             *tip = joints[*joint] + rotations[*joint].rotate(LaneVec::splat(*offset));
         }
+    }
+
+    /// The same for one pose, whose joints a body has placed.
+    pub(super) fn place_still(&self, body: &Body, positions: &mut [DVec3]) {
+        let (joints, tips) = positions.split_at_mut(self.joints);
+        for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
+            *tip = joints[*joint] + body.rotations()[*joint] * *offset;
+        }
+    }
+
+    /// The weighted mean of one value a point.
+    pub(super) fn mean(&self, values: impl Iterator<Item = f64>) -> f64 {
+        values.zip(&self.weights).map(|(value, weight)| value * weight).sum()
     }
 
     /// The squared distance of two poses, a weighted mean over the points.

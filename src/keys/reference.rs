@@ -64,7 +64,7 @@ impl Reference {
     }
 
     /// Where its koma stand.
-    pub(crate) fn clock(&self) -> Clock {
+    pub fn clock(&self) -> Clock {
         self.clock
     }
 
@@ -90,8 +90,37 @@ impl Reference {
     }
 
     /// The body's height in the file's unit: see [`Reference::of`].
-    pub(super) fn height(&self) -> f64 {
+    pub fn height(&self) -> f64 {
         self.height
+    }
+
+    /// How far the poses of two koma are apart: root mean square over the body's points, in % of its
+    /// height.
+    ///
+    /// # Panics
+    /// When there is no such koma.
+    pub fn apart(&self, a: usize, b: usize) -> f64 {
+        self.way(self.still(a), self.still(b))
+    }
+
+    /// How far some positions of all points are from the source at a koma, in the same measure.
+    pub(super) fn off(&self, koma: usize, positions: &[DVec3]) -> f64 {
+        self.way(self.still(koma), positions.iter().copied())
+    }
+
+    /// How far two poses are apart, in the same measure.
+    pub(super) fn way(
+        &self,
+        from: impl Iterator<Item = DVec3>,
+        to: impl Iterator<Item = DVec3>,
+    ) -> f64 {
+        let squares = from.zip(to).map(|(from, to)| from.distance_squared(to));
+        if self.height > 0.0 { self.percent(self.points.mean(squares)) } else { 0.0 }
+    }
+
+    /// Where every point stands at a koma.
+    fn still(&self, koma: usize) -> impl Iterator<Item = DVec3> {
+        self.positions(koma / LANES).iter().map(move |position| position.lane(koma % LANES))
     }
 
     /// A mean squared distance of points, as its root in % of the body's height.

@@ -34,8 +34,19 @@ const FILES: [(&str, &str); 11] = [
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 9] =
-    ["run", "deliver", "keys", "omit", "study", "inspect", "recipe", "completions", "man"];
+const SUBCOMMANDS: [&str; 11] = [
+    "run",
+    "deliver",
+    "keys",
+    "omit",
+    "study",
+    "eval",
+    "compare",
+    "inspect",
+    "recipe",
+    "completions",
+    "man",
+];
 
 /// A folder of its own for each test; the program runs in it.
 pub(crate) struct Place(TempDir);

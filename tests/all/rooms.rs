@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::clips::here;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
-const ROOMS: [&[&str]; 12] = [
+const ROOMS: [&[&str]; 13] = [
     &["error", "time", "sheet", "edits"],
     &["motion"],
     &["signal"],
@@ -16,6 +16,7 @@ const ROOMS: [&[&str]; 12] = [
     &["pipeline"],
     &["target"],
     &["study"],
+    &["quality"],
     &["plot"],
     &["deliver"],
     &["cli"],

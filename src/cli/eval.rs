@@ -1,0 +1,135 @@
+//! `genga eval`: how good a sheet is.
+
+use super::args::EvalArgs;
+use super::failure::Failure;
+use super::table::Table;
+use super::words::{Words, counted};
+use super::{io, source};
+use crate::deliver::{reference_keys, sheet_json};
+use crate::quality::{Evaluation, Off, Slip, Timing};
+
+pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
+    check_files(args)?;
+    let of_sheet = |error| Failure::of_file(&io::named(&args.sheet), error);
+    let file = sheet_json::read(&io::read(&args.sheet)?).map_err(of_sheet)?;
+    let reference = match &args.reference {
+        None => None,
+        Some(path) => Some(
+            reference_keys(&io::read(path)?)
+                .map_err(|error| Failure::of_file(&io::named(path), error))?,
+        ),
+    };
+    let read = source::whole(&args.clip, &args.reading)?;
+    let (clip, notes) = file.fit(read.clip).map_err(of_sheet)?;
+    clip.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
+    read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
+    if let [first, _, ..] = &file.sheet.layers[..] {
+        words.say(format_args!("of several layers only the first is judged: {}", first.name));
+    }
+    let outside = |keys: &Vec<_>| keys.iter().filter(|frame| !clip.contains(**frame)).count();
+    if let Some(count) = reference.as_ref().map(outside).filter(|count| *count > 0) {
+        let keys = counted(count, "reference key");
+        let (first, last) = (clip.first(), clip.last());
+        words.say(format_args!("{keys} beyond frames {first} to {last} of the sheet do not count"));
+    }
+    let found = Evaluation::of(&clip, &file.sheet, reference.as_deref(), args.tolerance)
+        .map_err(of_sheet)?;
+    if let Some(path) = &args.json {
+        io::write_json(path, &found)?;
+    }
+    if args.json.as_deref().is_some_and(io::is_stream) {
+        return Ok(());
+    }
+    io::to_stdout(page(&file.cut, &found, args.tolerance).as_bytes())
+}
+
+/// One stdin, and nothing written over what is read.
+fn check_files(args: &EvalArgs) -> Result<(), Failure> {
+    let sources = || [Some(&args.sheet), Some(&args.clip), args.reference.as_ref()];
+    if sources().into_iter().flatten().filter(|path| io::is_stream(path)).count() > 1 {
+        let message = "only one of sheet, clip and reference can come from stdin".into();
+        return Err(Failure::AskedWrongly(message));
+    }
+    let named = ["sheet", "motion", "reference"].into_iter().zip(sources());
+    for (what, path) in named {
+        if let (Some(path), Some(target)) = (path, &args.json) {
+            io::spare_the(what, path, target)?;
+        }
+    }
+    Ok(())
+}
+
+/// The measures for people.
+fn page(cut: &str, found: &Evaluation, tolerance: f64) -> String {
+    let pace = &found.pace;
+    let (koma, drawings) = (pace.koma, counted(pace.drawings, "drawing"));
+    let mut table = Table::default();
+    let mut line = |english: &str, japanese: &str, value: String| {
+        table.row([english.to_owned(), japanese.to_owned(), value]);
+    };
+    line(
+        "sheet",
+        "シート",
+        format!(
+            "{cut}: {koma} koma, {drawings}, {:.1} a second, {} genga",
+            pace.drawings_per_second, pace.genga
+        ),
+    );
+    let holds = pace.holds.iter().map(|(koma, count)| format!("{count} of {koma}"));
+    line("exposures", "コマ打ち", holds.collect::<Vec<_>>().join(", ") + " koma");
+    line("keys alone", "原画のみ", off(found.keys) + &slid(found.keys_slip));
+    line("on screen", "画面", off(found.shown) + &slid(found.shown_slip));
+    line("pops", "飛び", pops(found));
+    if let Some(timing) = &found.timing {
+        line("reference", "照合", matched(timing, tolerance));
+        line("", "", distance(timing));
+    }
+    table.text(3)
+}
+
+fn off(off: Off) -> String {
+    format!("off by {:.2} % of body height in the mean, {:.2} % at worst", off.mean, off.worst)
+}
+
+fn slid(slip: Slip) -> String {
+    if slip.contacts == 0 {
+        return "; no foot stands".into();
+    }
+    format!(
+        "; feet slide {:.2} % in the mean of {}, {:.2} % at worst",
+        slip.mean,
+        counted(slip.contacts, "contact"),
+        slip.worst
+    )
+}
+
+fn pops(found: &Evaluation) -> String {
+    let of = format!("{} of {}", found.pops.pops.len(), counted(found.pops.holds, "hold"));
+    match found.pops.worst() {
+        None => of,
+        Some(pop) => {
+            format!(
+                "{of}, the worst at koma {}, {:.1} times the steps round it",
+                pop.koma + 1,
+                pop.times
+            )
+        }
+    }
+}
+
+fn matched(timing: &Timing, tolerance: f64) -> String {
+    let Timing { pairs, found, reference, precision, recall, f1, .. } = timing;
+    format!(
+        "precision {precision:.2}, recall {recall:.2}, F1 {f1:.2}: {pairs} of {found} genga and \
+         {reference} reference keys within {tolerance} koma"
+    )
+}
+
+fn distance(timing: &Timing) -> String {
+    match (timing.mean_off, timing.off_95) {
+        (Some(mean), Some(most)) => {
+            format!("the nearest genga is {mean:.2} koma off in the mean, 95 % within {most} koma")
+        }
+        _ => "there is nothing to measure a distance by".into(),
+    }
+}

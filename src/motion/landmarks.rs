@@ -1,0 +1,297 @@
+//! The landmarks of a body (頭・手首・足首): head, wrists and ankles, found by its shape and motion.
+//!
+//! Names are a matter of the program that wrote the file, so they are not asked.
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+
+use crate::motion::{Axis, Body, Clip, JointId, Pose, Skeleton, Stature};
+use crate::time::{Clock, Frame};
+
+/// Frames that are looked at: enough to know which limb is usually low.
+const LOOKS: usize = 200;
+
+/// The longest hand, foot or head, as a share of the body's height: what a joint may carry and still be
+/// the end of a limb. A hand is a ninth and a forearm with its hand a quarter where both are whole; in
+/// real files, which cut off toes and fingers, feet go up to 0.152 and forearms down to 0.157.
+const LONGEST_END: f64 = 0.154;
+
+/// The shortest limb, from the root to its end, as a share of the body's height.
+const SHORTEST_LIMB: f64 = 0.15;
+
+/// A point that a joint carries.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// The joint.
+    pub joint: JointId,
+    /// From the joint, in its own axes and in the file's unit; 0 for the joint itself.
+    pub offset: DVec3,
+}
+
+impl Point {
+    fn of(joint: usize) -> Self {
+        Self { joint: JointId(joint), offset: DVec3::ZERO }
+    }
+
+    /// Where it stands in the world, given where the joints do.
+    pub fn position(&self, body: &Body, positions: &[DVec3]) -> DVec3 {
+        positions[self.joint.0] + body.rotations()[self.joint.0] * self.offset
+    }
+}
+
+/// A foot (足).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// The ankle, where the foot hangs on the leg.
+    pub ankle: Point,
+    /// The point of the foot that is lowest in the mean: the ball or the tip of the toes.
+    pub sole: Point,
+}
+
+/// Head, wrists and ankles of a body; what a body does not have is missing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Landmarks {
+    /// The head, or the neck where the head is short.
+    pub head: Option<Point>,
+    /// The wrists, none, one or two, in the order of the file.
+    pub wrists: Vec<Point>,
+    /// The feet, none, one or two, in the order of the file.
+    pub feet: Vec<Foot>,
+    /// The axis that points up.
+    pub up: Axis,
+    /// The height of the body in the file's unit: the middle one of the longest sides of the boxes
+    /// round its joints, over the frames.
+    pub height: f64,
+}
+
+impl Landmarks {
+    /// Finds them. A limb ends at the first joint from the root that carries no more than 15 %
+    /// of the body's height. Of the ends the two that are lowest in the mean over the clip are the feet, the
+    /// highest is the head, and of what is left the two furthest from the root along the bones are the
+    /// hands. A body of fewer than three ends has no landmark.
+    pub fn of(clip: &Clip) -> Self {
+        let up = Stature::of(clip).up;
+        let looks = Looks::at(clip, up.unit());
+        let ends = ends(clip.skeleton(), looks.height);
+        let mut landmarks =
+            Self { head: None, wrists: vec![], feet: vec![], up, height: looks.height };
+        if ends.len() < 3 {
+            return landmarks;
+        }
+        let mut ends: Vec<usize> = ends.into_iter().collect();
+        ends.sort_by(|a, b| looks.levels[*a].total_cmp(&looks.levels[*b]));
+        let mut feet = ends.drain(..2).collect::<Vec<_>>();
+        feet.sort_unstable();
+        landmarks.feet = feet.into_iter().map(|ankle| looks.foot(clip.skeleton(), ankle)).collect();
+        landmarks.head = ends.pop().map(Point::of);
+        let lengths = lengths(clip.skeleton());
+        ends.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
+        ends.truncate(2);
+        ends.sort_unstable();
+        landmarks.wrists = ends.into_iter().map(Point::of).collect();
+        landmarks
+    }
+
+    /// Wrists, ankles and head.
+    pub fn points(&self) -> Vec<Point> {
+        let ankles = self.feet.iter().map(|foot| foot.ankle);
+        self.wrists.iter().copied().chain(ankles).chain(self.head).collect()
+    }
+}
+
+/// Where some points stand in the world at each koma of a clock: one path a point, in the file's unit.
+pub fn paths(clip: &Clip, clock: Clock, points: &[Point]) -> Vec<Vec<DVec3>> {
+    let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+    let mut pose = Pose::rest(clip.skeleton());
+    let mut body = Body::new(clip.skeleton());
+    let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+    let mut paths = vec![Vec::with_capacity(koma); points.len()];
+    for koma in 0..koma {
+        pose.take_place(clip, clock.place_from_koma(koma));
+        body.place(&pose, &mut positions);
+        for (path, point) in paths.iter_mut().zip(points) {
+            path.push(point.position(&body, &positions));
+        }
+    }
+    paths
+}
+
+/// How high each joint and tip stands in the mean over a clip, and how tall the body is.
+struct Looks {
+    /// One a joint.
+    levels: Vec<f64>,
+    /// One an End Site, in the order of the file.
+    tips: Vec<(Point, f64)>,
+    height: f64,
+}
+
+impl Looks {
+    fn at(clip: &Clip, up: DVec3) -> Self {
+        let skeleton = clip.skeleton();
+        let tips = skeleton.iter().flat_map(|(joint, data)| {
+            data.end_sites.iter().map(move |end| (Point { joint, offset: end.offset }, 0.0))
+        });
+        let mut looks =
+            Self { levels: vec![0.0; skeleton.len()], tips: tips.collect(), height: 0.0 };
+        let mut pose = Pose::rest(skeleton);
+        let mut body = Body::new(skeleton);
+        let mut positions = vec![DVec3::ZERO; skeleton.len()];
+        let mut sides = Vec::new();
+        for look in 0..clip.len().min(LOOKS) {
+            let row = look * clip.len() / clip.len().min(LOOKS);
+            pose.take_frame(clip, Frame(clip.first().0 + row));
+            body.place(&pose, &mut positions);
+            for (level, position) in looks.levels.iter_mut().zip(&positions) {
+                *level += position.dot(up);
+            }
+            for (tip, level) in &mut looks.tips {
+                *level += tip.position(&body, &positions).dot(up);
+            }
+            let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
+            let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
+            sides.push((high - low).max_element());
+        }
+        sides.sort_by(f64::total_cmp);
+        looks.height = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+        looks
+    }
+
+    /// The foot below an ankle.
+    fn foot(&self, skeleton: &Skeleton, ankle: usize) -> Foot {
+        let joints = below(skeleton, ankle).map(|joint| (Point::of(joint), self.levels[joint]));
+        let inside: BTreeSet<usize> = below(skeleton, ankle).collect();
+        let tips = self.tips.iter().copied().filter(|(tip, _)| inside.contains(&tip.joint.0));
+        let lowest = joints.chain(tips).min_by(|a, b| a.1.total_cmp(&b.1));
+        let ankle = Point::of(ankle);
+        Foot { ankle, sole: lowest.map_or(ankle, |(sole, _)| sole) }
+    }
+}
+
+/// The joints at which limbs end.
+fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
+    let (reaches, lengths) = (skeleton.reaches(), lengths(skeleton));
+    let mut is_leaf = vec![true; skeleton.len()];
+    for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
+        is_leaf[parent.0] = false;
+    }
+    let end = |leaf: usize| {
+        let mut end = leaf;
+        while let Some(parent) = skeleton.joints[end].parent
+            && reaches[parent.0] <= LONGEST_END * height
+        {
+            end = parent.0;
+        }
+        end
+    };
+    let leaves = (0..skeleton.len()).filter(|joint| is_leaf[*joint]);
+    leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
+}
+
+/// How far each joint is from its root along the bones. The root's own offset is no bone.
+fn lengths(skeleton: &Skeleton) -> Vec<f64> {
+    let mut lengths: Vec<f64> = Vec::with_capacity(skeleton.len());
+    for joint in &skeleton.joints {
+        lengths.push(joint.parent.map_or(0.0, |parent| lengths[parent.0] + joint.offset.length()));
+    }
+    lengths
+}
+
+/// A joint and all that hangs on it.
+fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usize> {
+    let mut is_below = vec![false; skeleton.len()];
+    for (joint, data) in skeleton.joints.iter().enumerate().skip(top) {
+        is_below[joint] = joint == top || data.parent.is_some_and(|parent| is_below[parent.0]);
+    }
+    is_below.into_iter().enumerate().filter_map(|(joint, is_below)| is_below.then_some(joint))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Channel, EndSite, Joint};
+    use crate::time::FrameRate;
+
+    /// Name, parent, offset at rest and tip of a joint.
+    type Bone = (&'static str, Option<usize>, [f64; 3], Option<[f64; 3]>);
+
+    /// A standing body with a hand of two fingers.
+    const BODY: [Bone; 17] = [
+        ("a", None, [0.0, 90.0, 0.0], None),
+        ("b", Some(0), [0.0, 20.0, 0.0], None),
+        ("c", Some(1), [0.0, 35.0, 0.0], None),
+        ("d", Some(2), [0.0, 10.0, 0.0], Some([0.0, 15.0, 0.0])),
+        ("e", Some(2), [15.0, 0.0, 0.0], None),
+        ("f", Some(4), [28.0, 0.0, 0.0], None),
+        ("g", Some(5), [25.0, 0.0, 0.0], None),
+        ("h", Some(6), [9.0, 0.0, 2.0], Some([8.0, 0.0, 0.0])),
+        ("i", Some(6), [5.0, 0.0, -4.0], Some([4.0, 0.0, 0.0])),
+        ("j", Some(2), [-15.0, 0.0, 0.0], None),
+        ("k", Some(9), [-28.0, 0.0, 0.0], None),
+        ("l", Some(10), [-25.0, 0.0, 0.0], Some([-15.0, 0.0, 0.0])),
+        ("m", Some(0), [9.0, -40.0, 0.0], None),
+        ("n", Some(12), [0.0, -40.0, 0.0], Some([0.0, -8.0, 15.0])),
+        ("o", Some(0), [-9.0, -40.0, 0.0], None),
+        ("p", Some(14), [0.0, -40.0, 0.0], None),
+        ("q", Some(15), [0.0, -8.0, 12.0], Some([0.0, 0.0, 5.0])),
+    ];
+
+    /// That body, standing still; `turned` is the axis that is up.
+    fn standing(scale: f64, turned: fn(DVec3) -> DVec3) -> Clip {
+        let place = |offset: [f64; 3]| turned(scale * DVec3::from_array(offset));
+        let joints = BODY.iter().map(|(name, parent, offset, tip)| Joint {
+            name: (*name).into(),
+            parent: parent.map(JointId),
+            offset: place(*offset),
+            channels: if parent.is_none() { vec![Channel::Rotation(Axis::X)] } else { vec![] },
+            first_channel: usize::from(parent.is_some()),
+            end_sites: tip
+                .iter()
+                .map(|tip| EndSite { name: "Site".into(), offset: place(*tip) })
+                .collect(),
+        });
+        let skeleton = Skeleton { joints: joints.collect() };
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(skeleton, rate, Frame(7), 3, vec![0.0; 3]).unwrap()
+    }
+
+    #[test]
+    fn head_wrists_and_ankles_are_found_without_their_names_at_any_size_and_either_way_up() {
+        for (scale, turned) in [
+            (1.0, (|offset| offset) as fn(DVec3) -> DVec3),
+            (0.01, |offset| offset),
+            (12.0, |offset| DVec3::new(offset.x, -offset.z, offset.y)),
+        ] {
+            let clip = standing(scale, turned);
+            let found = Landmarks::of(&clip);
+            let joint = |point: &Point| clip.skeleton().joints[point.joint.0].name.clone();
+            assert_eq!(found.head.as_ref().map(joint).as_deref(), Some("d"));
+            assert_eq!(found.wrists.iter().map(joint).collect::<Vec<_>>(), ["g", "l"]);
+            let ankles = found.feet.iter().map(|foot| joint(&foot.ankle));
+            assert_eq!(ankles.collect::<Vec<_>>(), ["n", "p"]);
+            let soles: Vec<_> = found.feet.iter().map(|foot| joint(&foot.sole)).collect();
+            assert_eq!(soles, ["n", "q"], "the tip of a foot of one bone, the ball of one of two");
+            assert!(found.feet[0].sole.offset.length() > 0.0);
+            assert_eq!(found.points().len(), 5);
+        }
+    }
+
+    #[test]
+    fn a_path_has_a_place_a_koma() {
+        let clip = standing(1.0, |offset| offset);
+        let points = Landmarks::of(&clip).points();
+        let paths = paths(&clip, clip.clock(24.0), &points);
+        assert_eq!(paths.len(), 5);
+        assert_eq!(paths[4], [DVec3::new(0.0, 155.0, 0.0); 3], "the head");
+        assert_eq!(paths[0][0], DVec3::new(68.0, 145.0, 0.0), "a wrist");
+    }
+
+    #[test]
+    fn a_body_without_limbs_has_no_landmark() {
+        let mut skeleton = standing(1.0, |offset| offset).skeleton().clone();
+        skeleton.joints.truncate(2);
+        let rate = FrameRate::new(24.0).unwrap();
+        let clip = Clip::new(skeleton, rate, Frame(0), 1, vec![0.0]).unwrap();
+        assert!(Landmarks::of(&clip).points().is_empty());
+    }
+}

@@ -1,0 +1,298 @@
+//! Several ways to choose the same number of keys, side by side.
+
+mod chooser;
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::keys::{Matching, Reconstruction};
+use crate::motion::Clip;
+use crate::quality::{Extrema, Grid, Method, Timing};
+use crate::recipe::Recipe;
+use crate::study::Noise;
+use crate::time::{Clock, Frame};
+use chooser::Chooser;
+
+/// How far a key may be from another and still be the same, in koma.
+const TOLERANCE: f64 = 1.0;
+
+/// Which comparison is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compare {
+    /// What the program's own keys are chosen by, up to their number.
+    pub recipe: Recipe,
+    /// Numbers of keys, without the clip's ends; none for as many as the recipe finds, half and double.
+    pub counts: Vec<usize>,
+    /// The noise under which keys are chosen once more.
+    pub noise: Noise,
+    /// Koma of the longest clip whose optimal sets are looked for: their work grows with the third
+    /// power. With noise they are looked for up to a third of it.
+    pub longest: usize,
+    /// Whether it is told how long each method took. Times are other on each run.
+    pub times: bool,
+}
+
+impl Default for Compare {
+    /// Noise of 0.1°, and optimal sets for up to 1,500 koma, a minute.
+    fn default() -> Self {
+        Self {
+            recipe: Recipe::default(),
+            counts: Vec::new(),
+            noise: Noise { degrees: 0.1, seed: 0 },
+            longest: 1500,
+            times: false,
+        }
+    }
+}
+
+/// Ways to choose keys of one clip, side by side (比較).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Koma of the clip.
+    pub koma: usize,
+    /// Keys that the recipe finds when nobody says how many.
+    pub own_keys: usize,
+    /// Moments at which the body turns in the world.
+    pub extrema: usize,
+    /// Counts in their order, in each the methods in theirs.
+    pub rows: Vec<Row>,
+    /// Keys on threes and on twos, each with as many as that are: see [`Method::PACES`].
+    pub paces: Vec<Row>,
+}
+
+/// One method at one count.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// The way of choosing.
+    pub method: Method,
+    /// How many keys were asked for.
+    pub asked: usize,
+    /// How many it gave.
+    pub keys: usize,
+    /// The mean error of reconstruction, in % of body height.
+    pub mean: f64,
+    /// The error of the worst koma.
+    pub worst: f64,
+    /// The mean error as a multiple of the least there is; none where that was not looked for or is 0.
+    pub mean_ratio: Option<f64>,
+    /// The worst error as a multiple of the least there is.
+    pub worst_ratio: Option<f64>,
+    /// The share of keys, and of as many heaviest extrema, that have each other within a koma (F1).
+    pub timing: f64,
+    /// How far the nearest key is from one of those extrema in the mean, in koma; none without both.
+    pub off: Option<f64>,
+    /// The share of keys that are the same within a koma when there is noise on the clip (F1); none
+    /// without noise.
+    pub steady: Option<f64>,
+    /// Milliseconds from the clip to the keys of all counts; none unless asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ms: Option<f64>,
+}
+
+impl Compare {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a count of 0 and what does not hold in recipe and noise.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.recipe.validate()?;
+        self.noise.validate()?;
+        if self.counts.contains(&0) {
+            return Err(Error::setting("keys", "a comparison needs a key: 1 or more"));
+        }
+        Ok(())
+    }
+
+    /// Compares all methods on a clip. Where a method has fewer keys to give than are asked for it gives
+    /// those; the others give what was asked for, as far as the clip has koma.
+    ///
+    /// # Errors
+    /// Those of [`Compare::validate`], and [`Error::Clip`] for a clip without motion.
+    pub fn run(&self, clip: impl Into<Arc<Clip>>) -> Result<Comparison, Error> {
+        self.validate()?;
+        let clip = clip.into();
+        let noisy = Arc::new(self.noise.on(&clip));
+        let mut chooser = Chooser::new(clip, &self.recipe, self.longest)?;
+        let counts = self.counts_of(chooser.own_keys()?, chooser.grid().inner());
+        let paces = chooser.paces();
+        let all: Vec<usize> =
+            counts.iter().copied().chain(paces.iter().map(|(_, keys)| keys.len())).collect();
+        let chosen = chooser.choose(&all)?;
+        let again = if self.noise.degrees > 0.0 {
+            Some(Chooser::new(noisy, &self.recipe, self.longest / 3)?.choose(&counts)?)
+        } else {
+            None
+        };
+        let grid = chooser.grid();
+        let extrema = Extrema::of(&grid.clip, grid.clock());
+        let mut rows = Vec::new();
+        for (at, asked) in counts.iter().enumerate() {
+            let own: Vec<Row> = chosen
+                .iter()
+                .map(|chosen| {
+                    let keys = &chosen.keys[at];
+                    let again = again
+                        .as_ref()
+                        .and_then(|again| again.iter().find(|other| other.method == chosen.method));
+                    let steady = again.map(|again| kept(grid.clock(), keys, &again.keys[at]));
+                    let ms = self.times.then_some(chosen.ms);
+                    Row { steady, ms, ..row(grid, chosen.method, *asked, keys, &extrema) }
+                })
+                .collect();
+            rows.extend(with_ratios(own));
+        }
+        let paced = (counts.len()..).zip(&paces).map(|(at, (method, keys))| {
+            let best = chosen.iter().filter(|chosen| chosen.method.is_optimal());
+            let best =
+                best.map(|best| row(grid, best.method, keys.len(), &best.keys[at], &extrema));
+            let own = row(grid, *method, keys.len(), keys, &extrema);
+            with_ratios(best.chain([own]).collect()).pop()
+        });
+        let paces = paced.flatten().collect();
+        let own_keys = chooser.own_keys()?;
+        let koma = chooser.grid().reference.koma();
+        Ok(Comparison { koma, own_keys, extrema: extrema.moments.len(), rows, paces })
+    }
+
+    fn counts_of(&self, own: usize, inner: usize) -> Vec<usize> {
+        let mut counts = self.counts.clone();
+        if counts.is_empty() {
+            counts = vec![own / 2, own, 2 * own];
+        }
+        counts.iter_mut().for_each(|count| *count = (*count).min(inner));
+        counts.retain(|count| *count > 0);
+        counts.sort_unstable();
+        counts.dedup();
+        counts
+    }
+}
+
+impl Comparison {
+    /// The row of a method at a count.
+    pub fn row(&self, method: Method, asked: usize) -> Option<&Row> {
+        self.rows.iter().find(|row| row.method == method && row.asked == asked)
+    }
+
+    /// The counts that were asked for, from few to many.
+    pub fn counts(&self) -> Vec<usize> {
+        let mut counts: Vec<usize> = self.rows.iter().map(|row| row.asked).collect();
+        counts.dedup();
+        counts
+    }
+}
+
+fn row(grid: &Grid, method: Method, asked: usize, keys: &[Frame], extrema: &Extrema) -> Row {
+    let errors = Reconstruction::of(&grid.clip, &grid.reference, keys);
+    let timing = Timing::of(&koma(grid.clock(), keys), &extrema.heaviest(asked), TOLERANCE);
+    Row {
+        method,
+        asked,
+        keys: keys.len(),
+        mean: errors.mean(),
+        worst: errors.worst(),
+        mean_ratio: None,
+        worst_ratio: None,
+        timing: timing.f1,
+        off: timing.mean_off,
+        steady: None,
+        ms: None,
+    }
+}
+
+/// The rows of one count, with errors beside the least there are.
+fn with_ratios(mut rows: Vec<Row>) -> Vec<Row> {
+    let of = |method: Method, error: fn(&Row) -> f64| {
+        rows.iter().find(|row| row.method == method).map(error).filter(|least| *least > 0.0)
+    };
+    let mean = of(Method::OptimalMean, |row| row.mean);
+    let worst = of(Method::OptimalWorst, |row| row.worst);
+    for row in &mut rows {
+        row.mean_ratio = mean.map(|least| row.mean / least);
+        row.worst_ratio = worst.map(|least| row.worst / least);
+    }
+    rows
+}
+
+fn koma(clock: Clock, keys: &[Frame]) -> Vec<usize> {
+    keys.iter().map(|key| clock.koma_from_place(key.0 as f64)).collect()
+}
+
+/// The share of the keys of two lists that are in both.
+fn kept(clock: Clock, keys: &[Frame], others: &[Frame]) -> f64 {
+    Matching::between(keys, others, TOLERANCE * clock.frames_in_koma()).kept()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::tests::swing;
+
+    fn clip() -> Clip {
+        let angle = |at: i32| {
+            let time = f64::from(at) / 24.0;
+            50.0 * (5.0 * time).sin() + 12.0 * (13.0 * time).sin()
+        };
+        swing(&(0..120).map(angle).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn every_method_gives_as_many_keys_and_none_is_better_than_the_best() {
+        let asked = Compare { counts: vec![12, 4, 8, 8], ..Compare::default() };
+        let found = asked.run(clip()).unwrap();
+        assert_eq!(found.counts(), [4, 8, 12]);
+        assert_eq!(found.rows.len(), 3 * Method::ALL.len());
+        for row in &found.rows {
+            if ![Method::Own, Method::KurodaTokoi].contains(&row.method) {
+                assert_eq!(row.keys, row.asked, "{row:?}");
+            }
+            assert!(row.keys <= row.asked, "{row:?}");
+            let [mean, worst] = [row.mean_ratio, row.worst_ratio].map(Option::unwrap);
+            // The program's own keys may stand between koma.
+            let least = if row.method == Method::Own { 0.9 } else { 1.0 - 1e-12 };
+            assert!(mean >= least && worst >= least, "{row:?}");
+            assert_eq!(row.ms, None);
+        }
+        let ratio = |method| found.row(method, 8).unwrap();
+        assert_eq!(ratio(Method::OptimalMean).mean_ratio, Some(1.0));
+        assert_eq!(ratio(Method::OptimalWorst).worst_ratio, Some(1.0));
+        assert_eq!(ratio(Method::Uniform).steady, Some(1.0), "noise moves no even distance");
+        assert_eq!(asked.run(clip()).unwrap(), found, "the same again");
+        let paces: Vec<_> = found.paces.iter().map(|row| (row.method, row.keys)).collect();
+        assert_eq!(paces, [(Method::Threes, 39), (Method::Twos, 59)]);
+        assert!(found.paces.iter().all(|row| row.mean_ratio.is_some_and(|ratio| ratio > 1.0)));
+        assert!(found.paces[1].mean < found.paces[0].mean);
+    }
+
+    #[test]
+    fn without_counts_it_is_as_many_as_the_recipe_finds_half_and_double() {
+        let asked = Compare { times: true, ..Compare::default() };
+        let found = asked.run(clip()).unwrap();
+        assert!(found.own_keys > 2);
+        assert_eq!(found.counts(), [found.own_keys / 2, found.own_keys, 2 * found.own_keys]);
+        let own = found.row(Method::Own, found.own_keys).unwrap();
+        assert_eq!(own.keys, found.own_keys);
+        assert!(found.rows.iter().all(|row| row.ms.is_some_and(|ms| ms >= 0.0)));
+    }
+
+    #[test]
+    fn a_clip_that_is_too_long_has_no_optimum_and_without_noise_nothing_is_steady() {
+        let noise = Noise { degrees: 0.0, seed: 0 };
+        let asked = Compare { counts: vec![5], longest: 100, noise, ..Compare::default() };
+        let found = asked.run(clip()).unwrap();
+        assert!(found.row(Method::OptimalMean, 5).is_none());
+        assert!(found.rows.iter().all(|row| row.mean_ratio.is_none() && row.steady.is_none()));
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_refused() {
+        let asked = |counts: &[usize]| Compare { counts: counts.to_vec(), ..Compare::default() };
+        assert!(asked(&[0]).run(clip()).is_err());
+        assert!(asked(&[4]).run(swing(&[])).is_err());
+        assert!(asked(&[4]).run(swing(&[1.0])).unwrap().rows.is_empty(), "no key fits in");
+        let noise = Noise { degrees: -1.0, seed: 0 };
+        assert!(Compare { noise, ..Compare::default() }.validate().is_err());
+        assert_eq!(asked(&[90]).run(swing(&[0.0, 9.0, 0.0, 9.0])).unwrap().counts(), [2]);
+    }
+}

@@ -1,0 +1,147 @@
+//! The keys of every method at every count.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::{Merge, Origin, Rank};
+use crate::motion::Clip;
+use crate::pipeline::Engine;
+use crate::quality::baselines::{
+    LongestPolyline, Objective, Optimal, Segments, Simplified, every, uniform,
+};
+use crate::quality::{Grid, Method};
+use crate::recipe::Recipe;
+use crate::study::table_1_recipe;
+use crate::time::Frame;
+
+/// What a method chooses.
+pub(super) struct Chosen {
+    pub(super) method: Method,
+    /// One list a count, by frame and without the clip's ends.
+    pub(super) keys: Vec<Vec<Frame>>,
+    /// How long it took, in milliseconds.
+    pub(super) ms: f64,
+}
+
+/// Chooses keys of a clip.
+pub(super) struct Chooser<'a> {
+    recipe: &'a Recipe,
+    /// Koma of the longest clip whose optimal sets are looked for.
+    longest: usize,
+    engine: Engine,
+    grid: Grid,
+}
+
+impl<'a> Chooser<'a> {
+    pub(super) fn new(clip: Arc<Clip>, recipe: &'a Recipe, longest: usize) -> Result<Self, Error> {
+        let engine = Engine::new(Arc::clone(&clip))?;
+        let clock = clip.clock(recipe.rate);
+        Ok(Self { recipe, longest, engine, grid: Grid::of(clip, clock) })
+    }
+
+    pub(super) fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// How many keys the recipe finds when nobody says how many.
+    pub(super) fn own_keys(&mut self) -> Result<usize, Error> {
+        Ok(self.engine.find_keys(self.recipe, &Edits::default())?.1.keys.len())
+    }
+
+    /// The keys of methods that have a number of their own; none where the clip is too short.
+    pub(super) fn paces(&self) -> Vec<(Method, Vec<Frame>)> {
+        let paces = Method::PACES.map(|(method, step)| {
+            (method, self.grid.frames_at(&every(self.grid.frames.len(), step)))
+        });
+        paces.into_iter().filter(|(_, keys)| !keys.is_empty()).collect()
+    }
+
+    /// The keys of every method; of the optimal ones only where the clip is not too long.
+    pub(super) fn choose(&mut self, counts: &[usize]) -> Result<Vec<Chosen>, Error> {
+        let mut chosen = Vec::new();
+        let mut segments = None;
+        for method in Method::ALL {
+            let begin = Instant::now();
+            let keys = match method {
+                Method::Own => self.ranked(self.recipe, counts)?,
+                Method::KurodaTokoi => self.ranked(&by_joints(self.recipe.rate), counts)?,
+                optimal if optimal.is_optimal() => {
+                    if self.grid.reference.koma() > self.longest {
+                        continue;
+                    }
+                    let segments = segments.get_or_insert_with(|| Segments::of(&self.grid));
+                    self.optimal(segments, method, counts)
+                }
+                _ => self.simple(method, counts),
+            };
+            chosen.push(Chosen { method, keys, ms: 1e3 * begin.elapsed().as_secs_f64() });
+        }
+        Ok(chosen)
+    }
+
+    /// The ranked list of a recipe cut at each count. With fewer keys than rests have ends the rests
+    /// are left out, as those stay whatever a key saves.
+    fn ranked(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
+        let mut all = recipe.clone();
+        all.keys.min_price = 0.0;
+        all.keys.per_second = f64::INFINITY;
+        let edits = Edits::default();
+        let (_, found) = self.engine.find_keys(&all, &edits)?;
+        let staying = found.keys.iter().filter(|key| key.origin != Origin::Found).count();
+        let seconds = self.grid.reference.koma() as f64 / all.rate;
+        let mut lists = Vec::with_capacity(counts.len());
+        for count in counts {
+            let mut cut = all.clone();
+            let free = if *count >= staying {
+                count - staying
+            } else {
+                cut.keys.rest = 0.0;
+                *count
+            };
+            // The limit is a rate: half a key more, so that rounding cannot take one away.
+            cut.keys.per_second = (free as f64 + 0.5) / seconds;
+            let (_, found) = self.engine.find_keys(&cut, &edits)?;
+            lists.push(found.keys.iter().map(|key| key.frame).collect());
+        }
+        Ok(lists)
+    }
+
+    fn optimal(&self, segments: &Segments, method: Method, counts: &[usize]) -> Vec<Vec<Frame>> {
+        let objective =
+            if method == Method::OptimalMean { Objective::Mean } else { Objective::Worst };
+        let best = Optimal::of(segments, objective, most(counts));
+        counts.iter().map(|count| self.grid.frames_at(&best.keys(*count))).collect()
+    }
+
+    fn simple(&self, method: Method, counts: &[usize]) -> Vec<Vec<Frame>> {
+        let grid = &self.grid;
+        let places: Vec<Vec<usize>> = match method {
+            Method::Simplified => {
+                let order = Simplified::of(grid, most(counts));
+                counts.iter().map(|count| order.keys(*count)).collect()
+            }
+            Method::Polyline => {
+                let longest = LongestPolyline::of(grid, most(counts));
+                counts.iter().map(|count| longest.keys(*count)).collect()
+            }
+            _ => counts.iter().map(|count| uniform(grid.frames.len(), *count)).collect(),
+        };
+        places.iter().map(|places| grid.frames_at(places)).collect()
+    }
+}
+
+fn most(counts: &[usize]) -> usize {
+    counts.iter().copied().max().unwrap_or(0)
+}
+
+/// The first paper's own rule: a turn of any joint, and those that most joints share come first.
+fn by_joints(rate: f64) -> Recipe {
+    let mut recipe = table_1_recipe();
+    recipe.rate = rate;
+    recipe.keys.merge = Merge::Union;
+    recipe.keys.rank = Rank::Strength;
+    recipe.keys.rest = 0.0;
+    recipe
+}

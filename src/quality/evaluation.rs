@@ -1,0 +1,238 @@
+//! How good a sheet is: its drawings beside the source, and its keys beside somebody else's.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::keys::{Figure, Reconstruction, Reference};
+use crate::motion::Clip;
+use crate::quality::holds::Pops;
+use crate::quality::{Slip, Timing, shown};
+use crate::sheet::{Role, Sheet};
+use crate::signal::{ContactFinder, Limb};
+use crate::time::Frame;
+
+/// How far the body is off over some koma, in % of its height (root mean square over its points).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Off {
+    /// The mean over the koma.
+    pub mean: f64,
+    /// The worst koma.
+    pub worst: f64,
+}
+
+impl Off {
+    /// Of one error a koma; 0 of none.
+    pub fn of(errors: &[f64]) -> Self {
+        let all = Reconstruction { errors: errors.to_vec() };
+        Self { mean: all.mean(), worst: all.worst() }
+    }
+}
+
+/// How many drawings a sheet has, and how long they stay.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pace {
+    /// Koma of the sheet.
+    pub koma: usize,
+    /// Drawings on screen.
+    pub drawings: usize,
+    /// Of them genga, without the clip's two ends.
+    pub genga: usize,
+    /// Drawings a second of the sheet.
+    pub drawings_per_second: f64,
+    /// How many exposures have how many koma.
+    pub holds: BTreeMap<usize, usize>,
+}
+
+/// The measures of a sheet (評価).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Evaluation {
+    /// How many drawings it has.
+    pub pace: Pace,
+    /// What is off when the motion is made again from the genga and both ends alone, by slerp.
+    pub keys: Off,
+    /// What is off on screen: the drawing of each koma beside the source at that koma.
+    pub shown: Off,
+    /// How far feet slide in a motion made again from the genga.
+    pub keys_slip: Slip,
+    /// How far feet slide on screen.
+    pub shown_slip: Slip,
+    /// Contacts of hands in the source.
+    pub hand_contacts: usize,
+    /// Steps out of holds that stand out.
+    pub pops: Pops,
+    /// The genga beside reference keys, where there are some.
+    pub timing: Option<Timing>,
+}
+
+impl Evaluation {
+    /// Measures a sheet of a clip; of several layers the first. `reference` are keys by source frame,
+    /// `tolerance` says in koma how far a key may be from one of them. Genga are compared by the koma
+    /// nearest to their frames. Neither the ends of the clip nor reference keys on them count: both
+    /// drawings are there whatever is found.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] as [`Sheet::check`], without a layer, and when the sheet shows what is not in the
+    /// clip or is not as long; [`Error::Clip`] for a clip without motion.
+    pub fn of(
+        clip: &Clip,
+        sheet: &Sheet,
+        reference: Option<&[Frame]>,
+        tolerance: f64,
+    ) -> Result<Self, Error> {
+        sheet.check()?;
+        if clip.is_empty() || clip.skeleton().is_empty() {
+            return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
+        }
+        let layer = sheet.layers.first().ok_or_else(|| Error::sheet("the sheet has no layer"))?;
+        let source = Reference::of(clip, sheet.clock);
+        let genga = layer.shown().filter(|drawing| drawing.role == Role::Genga);
+        let genga = frames(clip, genga.map(|drawing| drawing.source.place()));
+        let on_screen: Vec<_> =
+            layer.koma().map(|drawing| layer.drawings[drawing].source).collect();
+        let koma = on_screen.len().min(source.koma());
+        let mut figure = Figure::of(clip, &source);
+        let contacts = ContactFinder::default().find(clip, sheet.clock);
+        let held = |koma: usize| on_screen[koma.min(on_screen.len() - 1)];
+        let made = shown::slerped(clip, sheet.clock, &genga);
+        Ok(Self {
+            pace: pace(sheet),
+            keys: Off::of(&Reconstruction::of(clip, &source, &genga).errors),
+            shown: Off::of(&shown::errors(&mut figure, &on_screen[..koma])),
+            keys_slip: Slip::of(&mut figure, sheet.clock, &contacts, &made),
+            shown_slip: if koma > 0 {
+                Slip::of(&mut figure, sheet.clock, &contacts, held)
+            } else {
+                Slip::default()
+            },
+            hand_contacts: contacts.iter().filter(|contact| contact.limb == Limb::Hand).count(),
+            pops: shown::pops(&mut figure, layer, sheet.clock.koma_rate),
+            timing: reference.map(|keys| timing(clip, sheet, &genga, keys, tolerance)),
+        })
+    }
+}
+
+fn pace(sheet: &Sheet) -> Pace {
+    let layer = &sheet.layers[0];
+    let mut holds = BTreeMap::new();
+    for exposure in &layer.exposures {
+        *holds.entry(exposure.koma).or_default() += 1;
+    }
+    let (koma, drawings) = (layer.length(), layer.shown().count());
+    Pace {
+        koma,
+        drawings,
+        genga: layer.count(Role::Genga),
+        drawings_per_second: drawings as f64 * sheet.clock.koma_rate / koma.max(1) as f64,
+        holds,
+    }
+}
+
+/// The frames nearest to some places, by number and each once.
+fn frames(clip: &Clip, places: impl Iterator<Item = f64>) -> Vec<Frame> {
+    let frame = |place: f64| Frame(place.round() as usize).clamp(clip.first(), clip.last());
+    let mut frames: Vec<Frame> = places.map(frame).collect();
+    frames.sort_unstable();
+    frames.dedup();
+    frames
+}
+
+fn timing(
+    clip: &Clip,
+    sheet: &Sheet,
+    genga: &[Frame],
+    reference: &[Frame],
+    tolerance: f64,
+) -> Timing {
+    let is_inside = |frame: &&Frame| **frame > clip.first() && **frame < clip.last();
+    let koma = |frames: &[Frame]| -> Vec<usize> {
+        let inside = frames.iter().filter(is_inside);
+        inside.map(|frame| sheet.clock.koma_from_place(frame.0 as f64)).collect()
+    };
+    Timing::of(&koma(genga), &koma(reference), tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::tests::swing;
+    use crate::sheet::{Drawing, Exposure, Layer, Source, Why};
+
+    /// A sheet of the drawings that show these frames for so many koma; the first and last are ends.
+    fn sheet(clip: &Clip, shown: &[(f64, usize)]) -> Sheet {
+        let last = shown.len() - 1;
+        let drawings = shown.iter().enumerate().map(|(at, (place, _))| Drawing {
+            source: Source::At(*place),
+            role: if at == 0 || at == last { Role::End } else { Role::Genga },
+            why: Why::default(),
+        });
+        let exposures = shown.iter().enumerate();
+        let exposures = exposures.map(|(drawing, (_, koma))| Exposure { drawing, koma: *koma });
+        let layer = Layer {
+            name: "A".into(),
+            drawings: drawings.collect(),
+            exposures: exposures.collect(),
+        };
+        Sheet { clock: clip.clock(24.0), layers: vec![layer] }
+    }
+
+    fn clip() -> Clip {
+        swing(&(0..13).map(|at| 50.0 * (f64::from(at) * 0.5).sin()).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_sheet_on_ones_shows_the_source() {
+        let clip = clip();
+        let ones: Vec<_> = (0..13).map(|frame| (f64::from(frame), 1)).collect();
+        let found = Evaluation::of(&clip, &sheet(&clip, &ones), None, 1.0).unwrap();
+        assert!(found.shown.worst < 1e-12, "{found:?}");
+        assert_eq!(found.keys, Off { mean: 0.0, worst: 0.0 }, "every frame is a key");
+        assert_eq!((found.pace.drawings, found.pace.genga), (13, 11));
+        assert_eq!(found.pace.drawings_per_second, 24.0);
+        assert_eq!(found.pace.holds, BTreeMap::from([(1, 13)]));
+        assert_eq!((found.pops, found.timing), (Pops::default(), None));
+    }
+
+    #[test]
+    fn what_is_held_is_off_and_keys_are_judged_by_slerp() {
+        let clip = clip();
+        let shown = [(0.0, 3), (3.0, 3), (6.0, 3), (9.0, 3), (12.0, 1)];
+        let sheet = sheet(&clip, &shown);
+        let keys = [Frame(0), Frame(3), Frame(7), Frame(12)];
+        let found = Evaluation::of(&clip, &sheet, Some(&keys), 1.0).unwrap();
+        let genga = [Frame(3), Frame(6), Frame(9)];
+        let source = Reference::of(&clip, sheet.clock);
+        let alone = Reconstruction::of(&clip, &source, &genga);
+        assert_eq!(found.keys, Off { mean: alone.mean(), worst: alone.worst() });
+        assert!(found.shown.mean > 2.0 * found.keys.mean, "{found:?}");
+        let step = |a, b| source.apart(a, b);
+        let worst = [(0, 2), (3, 5), (6, 8), (9, 11)].map(|(a, b)| step(a, b));
+        let worst = worst.into_iter().fold(0.0, f64::max);
+        assert!((found.shown.worst - worst).abs() < 1e-9);
+        let timing = found.timing.unwrap();
+        assert_eq!((timing.reference, timing.found, timing.pairs), (2, 3, 2), "ends do not count");
+        assert_eq!(found.pace.holds, BTreeMap::from([(1, 1), (3, 4)]));
+    }
+
+    #[test]
+    fn a_sheet_without_a_layer_and_a_clip_without_motion_are_refused() {
+        let clip = clip();
+        let none = Sheet { clock: clip.clock(24.0), layers: vec![] };
+        assert!(Evaluation::of(&clip, &none, None, 1.0).is_err());
+        let empty = swing(&[]);
+        let sheet = sheet(&clip, &[(0.0, 12), (12.0, 1)]);
+        assert!(Evaluation::of(&empty, &sheet, None, 1.0).is_err());
+    }
+
+    #[test]
+    fn a_sheet_longer_or_shorter_than_its_clip_is_judged_as_far_as_both_go() {
+        let clip = clip();
+        let long =
+            Evaluation::of(&clip, &sheet(&clip, &[(0.0, 6), (6.0, 20), (12.0, 1)]), None, 1.0);
+        assert_eq!(long.unwrap().pace.koma, 27);
+        let short =
+            Evaluation::of(&clip, &sheet(&clip, &[(0.0, 2), (12.0, 1)]), None, 1.0).unwrap();
+        assert!(short.shown.worst > 0.0);
+    }
+}

@@ -1,0 +1,111 @@
+//! Feet that slide (足滑り) while they stand in the source.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use crate::keys::Figure;
+use crate::motion::Stature;
+use crate::sheet::Source;
+use crate::signal::{Contact, Limb};
+use crate::time::Clock;
+
+/// How far feet slide on the ground while they stand in the source, in % of body height.
+///
+/// Of each contact only the koma count on which the drawing itself is of an instant of that contact. A
+/// foot that lands a koma late because a drawing before was held does not slide: it is late, and
+/// that is part of the error.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Slip {
+    /// Contacts of feet that are shown on two koma or more.
+    pub contacts: usize,
+    /// The mean over those contacts of how far the foot goes, along the ground, from where it is shown
+    /// first.
+    pub mean: f64,
+    /// The same of the worst contact.
+    pub worst: f64,
+}
+
+impl Slip {
+    /// Measures what is shown at each koma; contacts are those of the source.
+    pub fn of(
+        figure: &mut Figure<'_>,
+        clock: Clock,
+        contacts: &[Contact],
+        shown: impl Fn(usize) -> Source,
+    ) -> Self {
+        let up = Stature::of(figure.clip()).up.unit();
+        let percent = 100.0 / figure.height();
+        let mut slips = Vec::new();
+        for contact in contacts.iter().filter(|contact| contact.limb == Limb::Foot) {
+            let [begin, end] =
+                [contact.koma.start(), contact.koma.end()].map(|koma| clock.place_from_koma(*koma));
+            let own = |source: &Source| (begin..=end).contains(&source.place());
+            let mut first: Option<DVec3> = None;
+            let mut slip: Option<f64> = None;
+            for source in contact.koma.clone().map(&shown).filter(own) {
+                figure.take(source);
+                let place = figure.position(contact.point).reject_from(up);
+                let way = first.map(|first| first.distance(place));
+                slip = way.map_or(slip, |way| Some(slip.unwrap_or(0.0).max(way)));
+                first.get_or_insert(place);
+            }
+            slips.extend(slip.map(|slip| percent * slip));
+        }
+        Self {
+            contacts: slips.len(),
+            mean: slips.iter().sum::<f64>() / slips.len().max(1) as f64,
+            worst: slips.into_iter().fold(0.0, f64::max),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::Reference;
+    use crate::motion::Axis;
+    use crate::motion::{Channel, Clip, Joint, JointId, Skeleton, landmarks::Point};
+    use crate::time::{Frame, FrameRate};
+
+    /// A body of two points that is carried along X; 10 tall.
+    fn carried(places: &[f64]) -> Clip {
+        let joint = |parent: Option<usize>, channels: Vec<Channel>| Joint {
+            name: "joint".into(),
+            parent: parent.map(JointId),
+            offset: 10.0 * DVec3::Y,
+            first_channel: usize::from(channels.is_empty()),
+            channels,
+            end_sites: vec![],
+        };
+        let root = joint(None, vec![Channel::Position(Axis::X)]);
+        let skeleton = Skeleton { joints: vec![root, joint(Some(0), vec![])] };
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(skeleton, rate, Frame(0), places.len(), places.to_vec()).unwrap()
+    }
+
+    fn contact(koma: std::ops::RangeInclusive<usize>, limb: Limb) -> Contact {
+        Contact { limb, point: Point { joint: JointId(0), offset: DVec3::ZERO }, koma }
+    }
+
+    #[test]
+    fn a_foot_slides_by_how_far_it_goes_on_screen_while_it_stands() {
+        let clip = carried(&[0.0, 4.0, 8.0, 8.0, 8.0, 8.0, 12.0, 16.0]);
+        let reference = Reference::of(&clip, clip.clock(24.0));
+        let mut figure = Figure::of(&clip, &reference);
+        let contacts = [contact(2..=5, Limb::Foot), contact(0..=7, Limb::Hand)];
+        let clock = clip.clock(24.0);
+        let slip = |figure: &mut Figure<'_>, places: [f64; 8]| {
+            Slip::of(figure, clock, &contacts, |koma| Source::At(places[koma]))
+        };
+        let ones = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        assert_eq!(slip(&mut figure, ones), Slip { contacts: 1, mean: 0.0, worst: 0.0 });
+        // Late by a koma: the drawings before the contact and none after it are not counted.
+        let late = [0.0, 0.0, 1.0, 1.0, 3.0, 3.0, 5.0, 5.0];
+        assert_eq!(slip(&mut figure, late), Slip { contacts: 1, mean: 0.0, worst: 0.0 });
+        let blend = |koma: usize| Source::Between { from: 0.0, to: 7.0, share: koma as f64 / 7.0 };
+        let slid = Slip::of(&mut figure, clock, &contacts, blend);
+        assert!((slid.worst - 100.0 * (16.0 * 3.0 / 7.0) / 10.0).abs() < 1e-9, "{slid:?}");
+        assert_eq!(slid.mean, slid.worst);
+        assert_eq!(slip(&mut figure, [0.0; 8]), Slip::default(), "it is never shown standing");
+    }
+}

@@ -1,0 +1,122 @@
+//! Pops (飛び): what was held back by a hold and comes all at once.
+
+use serde::Serialize;
+
+/// A step out of a hold is a pop when it is so many times the steps round it.
+const TIMES: f64 = 2.0;
+
+/// And when it is so far, in % of body height: a jerk of a finger is none.
+const FAR: f64 = 1.0;
+
+/// A drawing on screen for more koma than this is a hold, as in the table of drawings.
+const HOLD: usize = 3;
+
+/// Seconds before and after a step whose steps it is compared with.
+const ROUND: f64 = 0.5;
+
+/// A step out of a hold that stands out.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pop {
+    /// The koma that shows what comes after the hold, from 0.
+    pub koma: usize,
+    /// How far the body goes there, in % of its height (root mean square over its points).
+    pub step: f64,
+    /// How many times the middle one of the steps round it that is.
+    pub times: f64,
+}
+
+/// The pops of a layer.
+///
+/// A hold stores up movement, and when it ends the body goes all of it in one koma. Among fast steps
+/// nobody sees that; among small ones it is a jump. So the step out of every hold, a drawing on screen
+/// for more than three koma, is set against the middle one (the median) of the other steps in half a
+/// second before and after. From twice that and 1 % of body height on it is a pop.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Pops {
+    /// Drawings that are held and followed by another.
+    pub holds: usize,
+    /// The pops by koma.
+    pub pops: Vec<Pop>,
+}
+
+impl Pops {
+    /// Looks at the exposures of a layer in koma, and at how far the body goes from each to the next, in
+    /// % of its height: one step fewer than exposures.
+    pub fn of(exposures: &[usize], steps: &[f64], koma_rate: f64) -> Self {
+        debug_assert_eq!(steps.len() + 1, exposures.len().max(1));
+        let mut koma = 0;
+        let ends: Vec<usize> = exposures
+            .iter()
+            .map(|exposure| {
+                koma += exposure;
+                koma
+            })
+            .collect();
+        let mut found = Self::default();
+        for (at, step) in steps.iter().enumerate().filter(|(at, _)| exposures[*at] > HOLD) {
+            found.holds += 1;
+            let near = |other: &usize| {
+                *other != at && ends[*other].abs_diff(ends[at]) as f64 <= ROUND * koma_rate
+            };
+            let Some(round) = middle((0..steps.len()).filter(near).map(|other| steps[other]))
+            else {
+                continue;
+            };
+            let times = if round > 0.0 { step / round } else { f64::INFINITY };
+            if times >= TIMES && *step >= FAR {
+                found.pops.push(Pop { koma: ends[at], step: *step, times });
+            }
+        }
+        found
+    }
+
+    /// The pop that stands out most; none without one.
+    pub fn worst(&self) -> Option<Pop> {
+        self.pops.iter().copied().reduce(|a, b| if b.times > a.times { b } else { a })
+    }
+}
+
+/// The middle value, of an even number the lower of the two; none of none.
+fn middle(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().saturating_sub(1) / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_out_of_a_hold_among_small_steps_is_a_pop() {
+        let exposures = [2, 2, 4, 2, 2, 2];
+        let pops = Pops::of(&exposures, &[2.0, 2.0, 6.0, 2.0, 2.0], 24.0);
+        assert_eq!(pops.holds, 1);
+        assert_eq!(pops.pops, [Pop { koma: 8, step: 6.0, times: 3.0 }]);
+        assert_eq!(pops.worst().unwrap().koma, 8);
+        assert!(Pops::of(&exposures, &[5.0; 5], 24.0).pops.is_empty(), "as fast as all round it");
+        assert!(Pops::of(&exposures, &[0.2, 0.2, 0.9, 0.2, 0.2], 24.0).pops.is_empty(), "dust");
+    }
+
+    #[test]
+    fn a_step_that_follows_no_hold_is_none() {
+        let pops = Pops::of(&[2, 2, 2, 2], &[1.0, 9.0, 1.0], 24.0);
+        assert_eq!(pops, Pops::default());
+    }
+
+    #[test]
+    fn only_what_is_near_is_compared() {
+        // Fast steps lie more than half a second away.
+        let exposures = [1, 1, 30, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2];
+        let steps = [20.0, 20.0, 4.0, 1.0, 1.0, 1.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0];
+        let pops = Pops::of(&exposures, &steps, 12.0);
+        assert_eq!(pops.pops.len(), 1, "{pops:?}");
+        assert_eq!(pops.pops[0].times, 4.0);
+    }
+
+    #[test]
+    fn without_drawings_nothing_pops() {
+        assert_eq!(Pops::of(&[], &[], 24.0), Pops::default());
+        assert_eq!(Pops::of(&[5], &[], 24.0), Pops::default());
+    }
+}
