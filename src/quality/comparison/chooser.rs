@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Merge, Origin, Rank};
+use crate::keys::{Merge, Rank};
 use crate::motion::Clip;
 use crate::pipeline::Engine;
 use crate::quality::baselines::{
@@ -84,28 +84,20 @@ impl<'a> Chooser<'a> {
     /// The ranked list of a recipe cut at each count. With fewer keys than rests have ends the rests
     /// are left out, as those stay whatever a key saves.
     fn ranked(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
-        let mut all = recipe.clone();
-        all.keys.min_price = 0.0;
-        all.keys.per_second = f64::INFINITY;
+        let mut without_rests = recipe.clone();
+        without_rests.keys.rest = 0.0;
         let edits = Edits::default();
-        let (_, found) = self.engine.find_keys(&all, &edits)?;
-        let staying = found.keys.iter().filter(|key| key.origin != Origin::Found).count();
-        let seconds = self.grid.reference.koma() as f64 / all.rate;
-        let mut lists = Vec::with_capacity(counts.len());
-        for count in counts {
-            let mut cut = all.clone();
-            let free = if *count >= staying {
-                count - staying
-            } else {
-                cut.keys.rest = 0.0;
-                *count
-            };
-            // The limit is a rate: half a key more, so that rounding cannot take one away.
-            cut.keys.per_second = (free as f64 + 0.5) / seconds;
-            let (_, found) = self.engine.find_keys(&cut, &edits)?;
-            lists.push(found.keys.iter().map(|key| key.frame).collect());
-        }
-        Ok(lists)
+        let ranking = self.engine.rank(recipe, &edits)?;
+        let fewer = self.engine.rank(&without_rests, &edits)?;
+        let cut = |count: &usize| {
+            let ranking = if *count < ranking.staying.len() { &fewer } else { &ranking };
+            let free = (count - ranking.staying.len()).min(ranking.found.len());
+            let found = ranking.found[..free].iter().map(|key| key.frame);
+            let mut frames: Vec<Frame> = ranking.staying.iter().copied().chain(found).collect();
+            frames.sort_unstable();
+            frames
+        };
+        Ok(counts.iter().map(cut).collect())
     }
 
     fn optimal(&self, segments: &Segments, method: Method, counts: &[usize]) -> Vec<Vec<Frame>> {
