@@ -342,19 +342,24 @@ impl Voices {
     }
 }
 
-/// A koma shows one drawing: of two pins on it one would be lost, and pins survive everything.
+/// A koma shows one drawing: of two pins on it, or keys moved there, one would be lost, and they survive
+/// everything.
 fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
     let moved = edits.moves.iter().map(|moved| moved.to);
     let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();
     frames.sort_unstable();
-    frames.dedup();
     let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);
     match frames.windows(2).find(|pair| koma(pair[0]) == koma(pair[1])) {
         None => Ok(()),
         Some(pair) => {
             let (a, b, koma) = (pair[0], pair[1], koma(pair[0]) + 1);
-            let message =
-                format!("pinned frames {a} and {b} fall on one koma, {koma}: pin one of them");
+            let message = if a == b {
+                format!("frame {a} is pinned or moved to twice: once is enough")
+            } else {
+                format!(
+                    "frames {a} and {b}, pinned or moved to, fall on one koma, {koma}: take one of them away"
+                )
+            };
             Err(Error::Edits { message })
         }
     }

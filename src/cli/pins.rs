@@ -12,6 +12,7 @@ use super::words::counted;
 use crate::deliver::{pins_from_sheet, pins_from_table, sheet_json};
 use crate::edits::{Edits, Pin};
 use crate::error::Error;
+use crate::keys::Origin;
 use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 
@@ -83,11 +84,18 @@ fn add(pins: Vec<Pin>, engine: &Engine, recipe: &Recipe, edits: &mut Edits) -> u
 
 /// A sentence for each move that found nothing to move.
 pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
-    let is_key = |frame| breakdown.keys.keys.iter().any(|key| key.frame == frame);
-    let idle = edits.moves.iter().filter(|moved| !is_key(moved.to));
+    let keys = &breakdown.keys.keys;
+    let is_moved = |from| keys.iter().any(|key| key.origin == Origin::Moved { from });
+    let idle = edits.moves.iter().filter(|moved| !is_moved(moved.from));
     let said = idle.map(|moved| {
         let (from, to) = (moved.from, moved.to);
-        format!("no key is found near frame {from}, so none was moved to {to}; --pin {to} makes one there")
+        let after = keys.partition_point(|key| key.frame < from);
+        let near: Vec<String> = keys[after.saturating_sub(1)..].iter().take(2).map(|key| key.frame.to_string()).collect();
+        let nearest = match near.as_slice() {
+            [] => String::new(),
+            near => format!(" (the nearest are at {})", near.join(" and ")),
+        };
+        format!("no key is found at frame {from}{nearest}, so none was moved to {to}; --pin {to} makes one there")
     });
     said.collect()
 }

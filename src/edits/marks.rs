@@ -19,8 +19,8 @@ pub struct Pin {
     pub weight: Option<f64>,
 }
 
-/// A key that is drawn elsewhere than it was found. What is found nearer than a koma to `from` goes, and
-/// `to` is a key that survives everything. Where nothing is found near `from`, nothing is moved.
+/// A key that is drawn elsewhere than it was found. The chosen key nearest to `from`, nearer than a koma,
+/// stands at `to` instead and survives everything. Where there is none, nothing is moved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Move {

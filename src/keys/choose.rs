@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::correct::corrected;
+use crate::keys::correct::{corrected, moved};
 use crate::keys::price::{self, Entry};
 use crate::keys::voters::voters;
 use crate::keys::{Candidates, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest};
@@ -123,14 +123,16 @@ impl Choose {
             Rank::Price => self.keep_the_dear(clip, reference, &mut keys),
             Rank::Strength => self.keep_the_strong(reference.seconds(), &mut keys),
         };
+        moved(&mut keys, edits, joints.apart);
         let reach = self.reach.frames(clip.rate()).max(joints.apart);
         for key in &mut keys {
             key.voters = voters(joints.turns, joints.weights, key.frame, reach);
         }
+        let over_limit = if edits.only_pins { 0 } else { over_limit };
         LayerKeys { keys, walls: candidates.walls.clone(), over_limit }
     }
 
-    /// All that may become keys: candidates, the ends of rests, and what a person wants.
+    /// All that may become keys: candidates, the ends of rests, and pins.
     pub(super) fn eligible(
         &self,
         clip: &Clip,

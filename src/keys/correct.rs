@@ -1,4 +1,4 @@
-//! A person's corrections and the ends of rests among the candidates.
+//! A person's corrections: pins and what is forbidden among the candidates, moves among the keys.
 
 use crate::edits::{Edits, Move, Pin};
 use crate::keys::{Candidates, Key, Origin};
@@ -6,8 +6,7 @@ use crate::motion::Clip;
 use crate::time::Frame;
 
 /// Candidates, the ends of rests and pins in order. A pin pushes out what lies nearer than a koma, a
-/// forbidden frame and both frames of a move too; the end of a rest pushes out candidates. `apart` is one
-/// koma in frames.
+/// forbidden frame too; the end of a rest pushes out candidates. `apart` is one koma in frames.
 pub(super) fn corrected(
     candidates: &Candidates,
     rests: &[Frame],
@@ -15,26 +14,10 @@ pub(super) fn corrected(
     clip: &Clip,
     apart: f64,
 ) -> Vec<Key> {
-    let near = |a: Frame, b: Frame| (a.0.abs_diff(b.0) as f64) < apart;
-    let is_there = |from: Frame| {
-        rests.iter().any(|rest| near(*rest, from))
-            || candidates.keys.iter().any(|candidate| near(candidate.frame, from))
-    };
-    let moves: Vec<&Move> = edits.moves.iter().filter(|moved| is_there(moved.from)).collect();
+    let near = |a: Frame, b: Frame| distance(a, b) < apart;
     let unwanted = |frame: Frame| {
-        edits.only_pins
-            || edits.pins.iter().any(|pin| near(pin.frame, frame))
+        edits.pins.iter().any(|pin| near(pin.frame, frame))
             || edits.forbidden.iter().any(|range| (range.distance(frame) as f64) < apart)
-            || moves.iter().any(|moved| near(moved.from, frame) || near(moved.to, frame))
-    };
-    let key = |frame, strength, origin| Key {
-        frame,
-        strength,
-        price: f64::INFINITY,
-        voters: Vec::new(),
-        weight: None,
-        name: None,
-        origin,
     };
     let inside = |frame: &Frame| *frame > clip.first() && *frame < clip.last();
     let rests = rests.iter().copied().filter(inside);
@@ -53,14 +36,49 @@ pub(super) fn corrected(
         .map(|candidate| key(candidate.frame, candidate.strength, Origin::Found))
         .collect();
     keys.extend(found);
-    let wanted = |pin: Pin, origin| Key {
-        weight: pin.weight,
-        name: pin.name,
-        ..key(pin.frame, 1.0, origin)
-    };
     keys.extend(edits.pins.iter().map(|pin| wanted(pin.clone(), Origin::Pinned)));
-    keys.extend(moves.iter().map(|moved| wanted(moved.pin(), Origin::Moved { from: moved.from })));
     keys.sort_by_key(|key| key.frame);
-    keys.dedup_by_key(|key| key.frame);
     keys
+}
+
+/// Moves keys that were chosen, and where a person wants no others leaves theirs alone.
+///
+/// Only now, so that a nudge changes nothing but the key that is nudged: what was worth a drawing beside
+/// it still is. A move takes the key nearest to where it begins and nearer than a koma, and pushes out
+/// what lies nearer than a koma to where it ends.
+pub(super) fn moved(keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
+    let mut taken: Vec<(usize, &Move)> = Vec::new();
+    for moved in &edits.moves {
+        let is_free = |at: &usize| {
+            let key = &keys[*at];
+            key.origin != Origin::Pinned
+                && distance(key.frame, moved.from) < apart
+                && taken.iter().all(|(other, _)| other != at)
+        };
+        let free = (0..keys.len()).filter(is_free);
+        let nearest = free.min_by_key(|at| keys[*at].frame.0.abs_diff(moved.from.0));
+        taken.extend(nearest.map(|at| (at, moved)));
+    }
+    for (at, moved) in &taken {
+        keys[*at] = wanted(moved.pin(), Origin::Moved { from: moved.from });
+    }
+    let gives_way = |key: &Key| {
+        let ends = taken.iter().map(|(_, moved)| moved.to);
+        edits.only_pins || ends.clone().any(|to| distance(key.frame, to) < apart)
+    };
+    keys.retain(|key| key.origin.is_set() || !gives_way(key));
+    keys.sort_by_key(|key| key.frame);
+}
+
+fn distance(a: Frame, b: Frame) -> f64 {
+    a.0.abs_diff(b.0) as f64
+}
+
+fn key(frame: Frame, strength: f64, origin: Origin) -> Key {
+    let (voters, weight, name) = (Vec::new(), None, None);
+    Key { frame, strength, price: f64::INFINITY, voters, weight, name, origin }
+}
+
+fn wanted(pin: Pin, origin: Origin) -> Key {
+    Key { weight: pin.weight, name: pin.name, ..key(pin.frame, 1.0, origin) }
 }

@@ -33,7 +33,8 @@ pub struct Ranked {
 }
 
 impl Choose {
-    /// Every key that these settings could give, whatever its price and however many there are.
+    /// Every key that these settings could give, whatever its price and however many there are, before any
+    /// is moved.
     pub fn ranking(
         &self,
         clip: &Clip,
@@ -42,6 +43,16 @@ impl Choose {
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> Ranking {
+        if edits.only_pins {
+            let keys = self.choose(clip, reference, candidates, joints, edits).keys;
+            let staying = keys.iter().map(|key| key.frame).collect();
+            return Ranking {
+                staying,
+                found: vec![],
+                rank: self.rank,
+                seconds: reference.seconds(),
+            };
+        }
         let mut keys = self.eligible(clip, reference, candidates, joints.apart, edits);
         let staying = keys.iter().filter(|key| !is_found(key)).map(|key| key.frame).collect();
         let found = match self.rank {
