@@ -90,10 +90,12 @@ pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
     let said = idle.map(|moved| {
         let (from, to) = (moved.from, moved.to);
         let after = keys.partition_point(|key| key.frame < from);
-        let near: Vec<String> = keys[after.saturating_sub(1)..].iter().take(2).map(|key| key.frame.to_string()).collect();
-        let nearest = match near.as_slice() {
+        let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
+        let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
+        let nearest = match round.as_slice() {
             [] => String::new(),
-            near => format!(" (the nearest are at {})", near.join(" and ")),
+            [only] => format!(" (the nearest is at {only})"),
+            both => format!(" (the nearest are at {})", both.join(" and ")),
         };
         format!("no key is found at frame {from}{nearest}, so none was moved to {to}; --pin {to} makes one there")
     });

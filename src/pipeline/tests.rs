@@ -258,13 +258,17 @@ fn two_pins_on_one_koma_are_refused_and_never_lost() {
     };
     let mut engine = Engine::new(pitch()).unwrap();
     let mut recipe = Recipe::default();
-    assert!(engine.run(&recipe, &pins(&[60, 61, 60])).is_ok(), "named twice is one pin");
+    let error = engine.run(&recipe, &pins(&[60, 61, 60])).unwrap_err().to_string();
+    assert_eq!(error, "edits: frame 60 is pinned or moved to twice: once is enough");
     recipe.rate = 12.0;
     let error = engine.run(&recipe, &pins(&[62, 40, 61])).unwrap_err().to_string();
-    assert_eq!(error, "edits: pinned frames 61 and 62 fall on one koma, 22: pin one of them");
+    assert_eq!(
+        error,
+        "edits: frames 61 and 62, pinned or moved to, fall on one koma, 22: take one of them away"
+    );
     let moved = Edits { moves: vec![Move::parse("30:61").unwrap()], ..pins(&[62]) };
     let error = engine.run(&recipe, &moved).unwrap_err().to_string();
-    assert!(error.contains("frames 61 and 62 fall on one koma"), "{error}");
+    assert!(error.contains("frames 61 and 62, pinned or moved to"), "{error}");
     let breakdown = engine.run(&recipe, &pins(&[60, 61])).unwrap();
     let pinned = |drawing: &&crate::sheet::Drawing| drawing.why.pinned.is_some();
     assert_eq!(breakdown.sheet.layers[0].drawings.iter().filter(pinned).count(), 2);

@@ -165,12 +165,34 @@ fn an_own_weight_crowds_the_inbetweens_of_that_key_alone() {
 }
 
 #[test]
+fn a_move_changes_the_key_that_is_moved_and_no_other() {
+    let place = Place::new();
+    let before = frames(&place.done("keys data/kick.bvh"));
+    let moved = frames(&place.done("keys data/kick.bvh --move 77:78"));
+    let expected = before.iter().map(|frame| if frame == "77" { "78" } else { frame });
+    assert_eq!(moved, expected.collect::<Vec<_>>());
+    // Beside the key there is none, though joints may turn there; and that a key is found where the move
+    // ends makes no difference.
+    for beside in ["76:79", "76:77", "10:77"] {
+        let output = place.genga(&format!("keys data/kick.bvh --move {beside}"));
+        assert_eq!(frames(&text(&output.stdout)), before, "{beside}");
+        let said = text(&output.stderr);
+        assert!(
+            said.contains("no key is found at frame") && said.contains("(the nearest "),
+            "{said}"
+        );
+    }
+    let said = place.refused(2, "keys data/kick.bvh --pin 20 --move 77:20");
+    assert!(said.contains("frame 20 is pinned or moved to twice: once is enough"), "{said}");
+}
+
+#[test]
 fn a_move_that_finds_nothing_is_said() {
     let place = Place::new();
     let forbidden = "--forbid 30..36 --move 3:33";
     let output = place.genga(&format!("run data/kick.bvh --out a {forbidden}"));
     let said = text(&output.stderr);
-    let note = "no key is found near frame 3, so none was moved to 33; --pin 33 makes one there";
+    let note = "no key is found at frame 3 (the nearest is at 14), so none was moved to 33; --pin 33 makes one there";
     assert!(output.status.success() && said.contains(note), "{said}");
     assert_eq!(report(&place, "a")["notes"], serde_json::json!([note]));
     assert!(text(&place.genga(&format!("keys data/kick.bvh {forbidden}")).stderr).contains(note));
