@@ -293,6 +293,7 @@ fn wrong_corrections_are_refused_with_the_way_out() {
 }
 
 #[test]
+    fs::write(place.path("half.toml"), "[edits]\nforbidden = [20.5]\n").unwrap();
 fn joints_count_as_much_as_a_person_says() {
     let place = Place::new();
     place.done("run data/kick.bvh --out plain");
@@ -322,6 +323,7 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
     fs::write(place.path("w.toml"), "[keys.weights]\nLeftHand = \"much\"\n").unwrap();
     for (args, wanted) in [
         (
+        (2, "--recipe half.toml", "2:13: expected a frame (150) or a range (\"120..140\")"),
             "--recipe r.toml",
             "keys.weights.LeftHnad: the clip has no such joint; did you mean LeftHand?",
         ),
