@@ -342,3 +342,7 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
         assert!(said.contains(wanted), "{args}: {said}");
     }
 }
+        (
+            "--set keys.weights.Hips=1e308",
+            "keys.weights.Hips: expected a number, 0 (no say) or more, at most 1000000; 1 is usual",
+        ),
