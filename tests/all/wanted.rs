@@ -336,7 +336,11 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
         ("--set keys.weights.Hips=-1", "keys.weights.Hips: expected a number, 0 (no say) or more"),
         ("--set keys.weights.Hips=much", "found \"much\""),
         ("--set keys.weights.*=0", "keys.weights: every joint has 0: leave one that has a say"),
-        ("--set keys.weights=2", "did you mean"),
+        (
+            "--set keys.weights=2",
+            "keys.weights: there is no such setting; how much a joint counts is set by keys.weights.JOINT=2",
+        ),
+        ("--set keys.weight.Head=1", "is set by keys.weights.JOINT=2"),
     ] {
         let said = place.refused(2, &format!("keys data/kick.bvh {args}"));
         assert!(said.contains(wanted), "{args}: {said}");
