@@ -133,9 +133,10 @@ pub(super) struct Corrections {
     /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
     #[arg(long, value_name = "FILE")]
     pub(super) pin_from: Option<PathBuf>,
-    /// No keys but those that are pinned or moved, and the clip's ends.
-    #[arg(long)]
-    pub(super) only_pins: bool,
+    /// No keys but those that are pinned or moved, and the clip's ends; =false takes back what a recipe says
+    /// of it.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    pub(super) only_pins: Option<bool>,
     /// The column of that file [default: the only one, or A].
     #[arg(long, value_name = "NAME", requires = "pin_from")]
     pub(super) pin_column: Option<String>,
@@ -402,8 +403,8 @@ fn persistence(values: &str) -> Result<Axis, Error> {
 /// A half-open range of source frames.
 pub(super) type Frames = std::ops::Range<usize>;
 
-fn percent(text: &str) -> Result<f64, String> {
 /// A share of body height. Without its % a number below 1 might be a fraction.
+fn percent(text: &str) -> Result<f64, String> {
     let (number, has_sign) = match text.trim().strip_suffix('%') {
         Some(number) => (number.trim_end(), true),
         None => (text.trim(), false),
@@ -472,7 +473,6 @@ mod tests {
     }
 
     #[test]
-    #[test]
     fn a_share_of_body_height_has_its_sign_where_it_could_be_a_fraction() {
         for (text, share) in [("5%", 5.0), ("5", 5.0), (" 0.5 % ", 0.5), ("1", 1.0), ("0", 0.0)] {
             assert_eq!(percent(text), Ok(share), "{text}");
@@ -483,6 +483,7 @@ mod tests {
         }
     }
 
+    #[test]
     fn a_range_is_two_frames_or_open() {
         assert_eq!(frames("120..480").unwrap(), 120..480);
         assert_eq!(frames("120..").unwrap(), 120..usize::MAX);

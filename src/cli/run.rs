@@ -28,6 +28,7 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
                             run with --out into another folder, whose recipe.toml then has them";
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
+    targets::check(&args.targets, &args.corrections)?;
     let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
     let mut asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
     let name = io::stem(&args.clip.clip);
