@@ -42,16 +42,14 @@ pub(super) fn meet(
         }
         other => other.into(),
     })?;
-    let changed = changes(recipe, &met.recipe)?;
-    match (changed.join(" "), furthest_off(&met)) {
-        (changed, Some(error)) if changed.is_empty() => {
-            words.say(format_args!("found       nothing to change; furthest off {error:.2} %"));
+    let changed = changes(recipe, &met.recipe)?.join(" ");
+    let settings = if changed.is_empty() { "nothing to change" } else { &changed };
+    match furthest_off(&met) {
+        Some(error) => {
+            words.say(format_args!("found       {settings}; furthest off {error:.2} %"));
         }
-        (changed, Some(error)) => {
-            words.say(format_args!("found       {changed}; furthest off {error:.2} %"));
-        }
-        (changed, None) if changed.is_empty() => {}
-        (changed, None) => words.say(format_args!("found       {changed}")),
+        None if changed.is_empty() => {}
+        None => words.say(format_args!("found       {settings}")),
     }
     *recipe = met.recipe;
     let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());

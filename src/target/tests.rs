@@ -116,12 +116,18 @@ fn the_frame_that_is_furthest_off_may_be_forbidden() {
     assert!(
         free.contains(" koma no key where a joint turns comes nearer; the worst is near frame ")
     );
-    let worst = free.split("--pin ").nth(1).unwrap().strip_suffix(" helps").unwrap();
-    let pinned = Edits { pins: vec![Pin::parse(worst).unwrap()], ..Edits::default() };
-    assert!(!said(&pinned).contains(&format!("--pin {worst} ")), "it helps");
-    let forbidden = Edits { forbidden: vec![worst.parse().unwrap()], ..Edits::default() };
-    let said = said(&forbidden);
-    assert!(!said.contains(&format!("--pin {worst} ")), "{said}");
+    let worst_of = |said: &str| {
+        let worst = said.split("--pin ").nth(1).unwrap().strip_suffix(" helps");
+        worst.unwrap().to_owned()
+    };
+    let worst = worst_of(&free);
+    let pinned = Edits { pins: vec![Pin::parse(&worst).unwrap()], ..Edits::default() };
+    assert_ne!(worst_of(&said(&pinned)), worst, "it helps");
+    // Where there are only pins, what is forbidden changes no key.
+    let alone = Edits { only_pins: true, ..pinned };
+    let worst = worst_of(&said(&alone));
+    let forbidden = said(&Edits { forbidden: vec![worst.parse().unwrap()], ..alone });
+    assert!(forbidden.ends_with(&format!("near frame {worst}, which is forbidden")), "{forbidden}");
 }
 
 #[test]
