@@ -8,6 +8,7 @@ mod drawings;
 mod error;
 mod genga;
 mod ladder;
+mod reasons;
 
 use std::fmt;
 

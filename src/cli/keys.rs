@@ -12,6 +12,7 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     if let Some(marked) = &args.corrections.pin_from {
         io::spare_the("file with your keys", marked, &args.out)?;
     }
+    targets::check(&args.targets, &args.corrections)?;
     let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
     let source = source::clip(&args.clip)?;
     source.notes.iter().for_each(|note| words.say(note));

@@ -9,19 +9,26 @@ use super::words::{Words, counted};
 use super::{io, pictures, pins, source, targets};
 use crate::deliver::sheet_json::MadeWith;
 use crate::deliver::{Cut, Report};
+use crate::edits::Edits;
 use crate::pipeline::Engine;
+use crate::recipe::Recipe;
 
 /// What a run writes whether or not it is asked for: formats, and files of its own.
 const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
 const OWN: [&str; 3] = ["speed.svg", RECIPE, "report.json"];
 const RECIPE: &str = "recipe.toml";
 
-/// A recipe that is used in its place is somebody's text, with comments that the settings do not hold. A
-/// run after an edit is how a recipe is tuned, so it is kept and not refused; the sheet has the settings.
-const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is; sheet.json has every \
-                    setting and pin of this run";
+/// A recipe that is used in its place and is not as genga writes it is somebody's text, with comments that
+/// the settings do not hold. A run after an edit is how a recipe is tuned, so it is kept and not refused.
+const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is";
+
+/// The same where the run has more than the file says.
+const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your own writing, and stays as it is: the \
+                            corrections and settings that this run adds are not in it; write them there, or \
+                            run with --out into another folder, whose recipe.toml then has them";
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
+    targets::check(&args.targets, &args.corrections)?;
     let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
     let mut asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
     let name = io::stem(&args.clip.clip);
@@ -50,14 +57,12 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     };
     report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));
     let settings = recipe.write(&edits);
-    let keeps_recipe = is_other_recipe(args, &folder.join(RECIPE), &settings);
-    if keeps_recipe {
-        report.notes.push(KEPT.into());
-    }
+    let kept = kept(args, &folder.join(RECIPE), (&recipe, &edits));
+    report.notes.extend(kept.map(str::to_owned));
     let mut bundle = io::Bundle::begin(&folder)?;
     let Written { mut files, stale } = asked.write(&cut, &mut bundle)?;
     bundle.add("speed.svg", pictures::speed(&breakdown)?)?;
-    if !keeps_recipe {
+    if kept.is_none() {
         bundle.add(RECIPE, settings)?;
     }
     bundle.add("report.json", json(&report)?)?;
@@ -88,11 +93,19 @@ fn spare(args: &RunArgs, asked: &Asked, folder: &Path, cut: &str) -> Result<(), 
     asked.spare_edited(folder)
 }
 
-/// Whether a file is the recipe that was given, and says something else or otherwise.
-fn is_other_recipe(args: &RunArgs, file: &Path, settings: &str) -> bool {
-    let given = args.corrections.settings.recipe.as_deref();
-    let is_given = given.is_some_and(|given| io::is_same(given, file));
-    is_given && io::read(file).is_ok_and(|bytes| bytes != settings.as_bytes())
+/// Why the recipe in the folder stays as it is; none where it is to be written, as it is for one that was
+/// given but has nothing that would be lost.
+fn kept(args: &RunArgs, file: &Path, used: (&Recipe, &Edits)) -> Option<&'static str> {
+    let given = args.corrections.settings.recipe.as_deref()?;
+    if !io::is_same(given, file) {
+        return None;
+    }
+    let text = String::from_utf8(io::read(file).ok()?).ok()?;
+    match Recipe::parse(&text) {
+        Ok((recipe, edits)) if recipe.write(&edits) == text => None,
+        Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),
+        _ => Some(KEPT_WITHOUT),
+    }
 }
 
 fn json(report: &Report) -> Result<String, Failure> {

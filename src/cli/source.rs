@@ -124,7 +124,7 @@ pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> 
         edits.moves.retain(|other| other.from != moved.from);
         edits.moves.push(moved);
     }
-    edits.only_pins |= args.only_pins;
+    edits.only_pins = args.only_pins.unwrap_or(edits.only_pins);
     Ok((recipe, edits))
 }
 

@@ -1,13 +1,26 @@
 //! `--keys`, `--max-error` and `--drawings-per-second`: settings by what is wanted of the sheet.
 
-use super::args::TargetArgs;
+use super::args::{Corrections, TargetArgs};
 use super::failure::Failure;
 use super::words::Words;
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::pipeline::Engine;
 use crate::recipe::{KNOBS, Recipe};
-use crate::target::{self, Target};
+use crate::target::{self, Met, Target};
+
+/// Refuses a target for the number of keys where none are to be found.
+pub(super) fn check(args: &TargetArgs, corrections: &Corrections) -> Result<(), Failure> {
+    let of_keys = |target: &&Target| !matches!(target, Target::DrawingsPerSecond(_));
+    match targets(args).iter().find(of_keys) {
+        Some(target) if corrections.only_pins == Some(true) => Err(Failure::AskedWrongly(format!(
+            "--{}: cannot be asked for together with --only-pins, which wants no keys but your own; leave one of \
+                 them out",
+            target.name()
+        ))),
+        _ => Ok(()),
+    }
+}
 
 /// Puts the settings that were found into the recipe, and says which. Gives what a person should know: a
 /// sentence for each target that could not be met.
@@ -29,13 +42,25 @@ pub(super) fn meet(
         }
         other => other.into(),
     })?;
-    let changed = changes(recipe, &met.recipe)?;
-    if !changed.is_empty() {
-        words.say(format_args!("found       {}", changed.join(" ")));
+    let changed = changes(recipe, &met.recipe)?.join(" ");
+    let settings = if changed.is_empty() { "nothing to change" } else { &changed };
+    match furthest_off(&met) {
+        Some(error) => {
+            words.say(format_args!("found       {settings}; furthest off {error:.2} %"));
+        }
+        None if changed.is_empty() => {}
+        None => words.say(format_args!("found       {settings}")),
     }
     *recipe = met.recipe;
     let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
     Ok(short.map(ToString::to_string).collect())
+}
+
+/// The largest error, where one was asked for and reached: nothing else on a screen says it.
+fn furthest_off(met: &Met) -> Option<f64> {
+    let mut met_ones = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_none());
+    let of_error = met_ones.find(|outcome| matches!(outcome.target, Target::MaxError(_)));
+    of_error.map(|outcome| outcome.reached)
 }
 
 fn targets(args: &TargetArgs) -> Vec<Target> {

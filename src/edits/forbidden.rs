@@ -74,7 +74,7 @@ impl FromStr for Forbidden {
 
 /// What a file may write: `150` or `"120..140"`.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a frame (150) or a range (\"120..140\")")]
 enum ForbiddenText {
     Frame(usize),
     Range(String),

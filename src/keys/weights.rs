@@ -7,10 +7,13 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, nearest};
 use crate::motion::Skeleton;
 
+/// The largest weight. Sums over the body of larger ones may be more than a number can say.
+const MOST: f64 = 1e6;
+
 /// Weights of joints by their names, or by patterns in which `*` stands for any letters and `?` for one.
 ///
 /// Of several that fit a joint its whole name wins, else the pattern with the most letters of its own, of
-/// equals the later in the alphabet. A joint that none fits has 1; 0 has no say.
+/// equals the later in the alphabet. A joint that none fits has 1; 0 has no say, and 1000000 is the most.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct JointWeights(pub BTreeMap<String, f64>);
@@ -24,13 +27,14 @@ impl JointWeights {
     /// Checks the values.
     ///
     /// # Errors
-    /// [`Error::Setting`] naming the first weight that is no number of 0 or more.
+    /// [`Error::Setting`] naming the first weight that is no number from 0 to 1000000.
     pub fn validate(&self) -> Result<(), Error> {
-        match self.0.iter().find(|(_, weight)| !(**weight >= 0.0 && weight.is_finite())) {
+        match self.0.iter().find(|(_, weight)| !(0.0..=MOST).contains(*weight)) {
             None => Ok(()),
             Some((name, weight)) => {
-                let message =
-                    format!("expected a number, 0 (no say) or more, 1 is usual, found {weight}");
+                let message = format!(
+                    "expected a number, 0 (no say) or more, at most {MOST}; 1 is usual, found {weight:?}"
+                );
                 Err(Error::setting(knob(name), message))
             }
         }
@@ -150,7 +154,7 @@ mod tests {
         );
         assert!(error(&[("*Foot*", 2.0)]).starts_with("keys.weights.*Foot*: the clip has no such"));
         assert!(error(&[("*", 0.0)]).contains("every joint has 0"));
-        for wrong in [-1.0, f64::NAN, f64::INFINITY] {
+        for wrong in [-1.0, f64::NAN, f64::INFINITY, 1e308, 1_000_001.0] {
             assert!(error(&[("Hips", wrong)]).contains("0 (no say) or more"));
         }
     }

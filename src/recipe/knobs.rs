@@ -265,6 +265,11 @@ impl Knob {
     /// [`Error::Setting`] with the nearest name when there is none.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         KNOBS.iter().find(|knob| knob.name == name).ok_or_else(|| {
+            // A table and no knob.
+            if name.starts_with("keys.weight") {
+                let message = "there is no such setting; how much a joint counts is set by keys.weights.JOINT=2";
+                return Error::setting(name, message);
+            }
             let hint = nearest(name, KNOBS.iter().map(|knob| knob.name)).unwrap_or_default();
             Error::setting(name, format!("there is no such setting; did you mean {hint}?"))
         })

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Outcome, Target, genga};
+use super::{Outcome, Target, genga, reasons};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::Ranking;
@@ -32,8 +32,11 @@ pub(super) fn meet(
     let reached = genga(&engine.run(&recipe, edits)?);
     let shortfall = match reached.cmp(&count) {
         std::cmp::Ordering::Equal => None,
-        std::cmp::Ordering::Less => Some(too_few(&recipe)),
-        std::cmp::Ordering::Greater => Some(too_many(reached, edits)),
+        std::cmp::Ordering::Less => Some(too_few(&recipe, edits)),
+        std::cmp::Ordering::Greater => {
+            let (_, left) = engine.find_keys(&recipe, edits)?;
+            Some(reasons::staying(reached, &left.keys))
+        }
     };
     Ok((recipe, Outcome { target, reached: reached as f64, shortfall }))
 }
@@ -57,19 +60,13 @@ fn reaching(count: usize, ranking: &Ranking, clip: &Clip, koma_rate: f64) -> usi
     enough.map_or(ranking.found.len(), |at| at + 1)
 }
 
-fn too_few(recipe: &Recipe) -> String {
-    let floor =
-        if recipe.keys.min_strength > 0.0 { " that keys.min_strength lets through" } else { "" };
+fn too_few(recipe: &Recipe, edits: &Edits) -> String {
+    if edits.only_pins {
+        return reasons::ONLY_PINS.into();
+    }
     format!(
-        "no joint turns at any other moment{floor}; a pin makes a key anywhere, and a smaller turns.steady or \
-         turns.persistence finds more turns"
+        "no joint turns at any other moment{}; a pin makes a key anywhere, and a smaller turns.steady or \
+         turns.persistence finds more turns",
+        reasons::limits(recipe, edits)
     )
-}
-
-fn too_many(reached: usize, edits: &Edits) -> String {
-    let pins = match edits.pins.len() {
-        0 => "",
-        _ => "pins and ",
-    };
-    format!("all {reached} are {pins}ends of rests, which stay; keys.rest=0 knows no rests")
 }

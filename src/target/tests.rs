@@ -71,6 +71,66 @@ fn what_stands_in_the_way_is_said() {
 }
 
 #[test]
+fn a_reason_names_what_is_so_and_nothing_else() {
+    let mut engine = engine("kick");
+    let mut said = |set: &str, edits: &Edits, target| {
+        let mut recipe = Recipe::default();
+        recipe.set("keys.rest", set).unwrap();
+        let met = meet(&mut engine, &recipe, edits, &[target]).unwrap();
+        met.outcomes[0].shortfall.clone().unwrap()
+    };
+    let pins = |texts: &[&str]| texts.iter().map(|pin| Pin::parse(pin).unwrap()).collect();
+    let pinned = Edits { pins: pins(&["42"]), ..Edits::default() };
+    assert_eq!(said("0", &pinned, Target::Keys(0)), "the one that is left is a pin, which stays");
+    let moves = vec![crate::edits::Move::parse("77:79").unwrap()];
+    let moved = Edits { moves, ..Edits { pins: pins(&["42"]), ..Edits::default() } };
+    assert_eq!(said("0", &moved, Target::Keys(1)), "all 2 are pins and moved keys, which stay");
+    let rests = said("60", &moved, Target::Keys(1));
+    assert!(
+        rests.contains("pins, moved keys and ends of rests, which stay; keys.rest=0"),
+        "{rests}"
+    );
+    let alone = Edits { only_pins: true, ..pinned.clone() };
+    for target in [Target::Keys(9), Target::MaxError(2.0)] {
+        let only = said("12", &alone, target);
+        assert!(only.contains("only_pins wants no keys but pins and moved ones"), "{only}");
+        assert!(!only.contains("joint"), "{only}");
+    }
+    let forbidden = Edits { forbidden: vec!["10..60".parse().unwrap()], ..Edits::default() };
+    for target in [Target::Keys(900), Target::MaxError(2.0)] {
+        let outside = said("12", &forbidden, target);
+        assert!(outside.contains("outside what is forbidden"), "{outside}");
+        assert!(!said("12", &pinned, Target::Keys(900)).contains("forbidden"));
+    }
+}
+
+#[test]
+fn the_frame_that_is_furthest_off_may_be_forbidden() {
+    let mut engine = engine("kick");
+    let mut said = |edits: &Edits| {
+        let target = [Target::MaxError(0.1)];
+        let met = meet(&mut engine, &Recipe::default(), edits, &target).unwrap();
+        met.outcomes[0].shortfall.clone().unwrap()
+    };
+    let free = said(&Edits::default());
+    assert!(
+        free.contains(" koma no key where a joint turns comes nearer; the worst is near frame ")
+    );
+    let worst_of = |said: &str| {
+        let worst = said.split("--pin ").nth(1).unwrap().strip_suffix(" helps");
+        worst.unwrap().to_owned()
+    };
+    let worst = worst_of(&free);
+    let pinned = Edits { pins: vec![Pin::parse(&worst).unwrap()], ..Edits::default() };
+    assert_ne!(worst_of(&said(&pinned)), worst, "it helps");
+    // Where there are only pins, what is forbidden changes no key.
+    let alone = Edits { only_pins: true, ..pinned };
+    let worst = worst_of(&said(&alone));
+    let forbidden = said(&Edits { forbidden: vec![worst.parse().unwrap()], ..alone });
+    assert!(forbidden.ends_with(&format!("near frame {worst}, which is forbidden")), "{forbidden}");
+}
+
+#[test]
 fn a_recipe_that_meets_its_targets_is_left_as_it_is() {
     let mut engine = engine("kick");
     let (recipe, edits) = (Recipe::default(), Edits::default());

@@ -818,11 +818,34 @@ fn what_is_read_is_not_written_over() {
     fs::write(place.path("o/recipe.toml"), "[spacing]\non = 3 # mine\n").unwrap();
     let said = text(&place.genga("run data/kick.bvh --out o --recipe o/recipe.toml").stderr);
     assert!(said.contains("recipe.toml is the recipe that was given"), "{said}");
+    assert!(!said.contains("this run adds"), "{said}");
     assert!(read(&place.path("o/report.json")).contains("recipe.toml is the recipe"));
     assert_eq!(read(&place.path("o/recipe.toml")), "[spacing]\non = 3 # mine\n");
     place.done("run data/kick.bvh --out p --recipe o/recipe.toml");
     let said = text(&place.genga("run data/kick.bvh --out p --recipe p/recipe.toml").stderr);
     assert!(!said.contains("recipe.toml is"), "{said}");
+}
+
+#[test]
+fn a_recipe_tuned_in_its_place_loses_neither_comments_nor_corrections() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --keys 12");
+    let again = "run data/kick.bvh --out a --recipe a/recipe.toml --pin 42:contact";
+    let said = text(&place.genga(again).stderr);
+    assert!(!said.contains("recipe.toml is"), "{said}");
+    let tuned = read(&place.path("a/recipe.toml"));
+    assert!(tuned.contains("[[edits.pins]]\nframe = 42\nname = \"contact\"\n"), "{tuned}");
+    place.done("run data/kick.bvh --out b --recipe a/recipe.toml");
+    assert!(place.files("a") == place.files("b"), "and the settings that --keys found");
+    // With a comment it is somebody's own.
+    let own = tuned.replace("frame = 42", "frame = 42 # the foot");
+    fs::write(place.path("a/recipe.toml"), &own).unwrap();
+    let said = text(&place.genga(&again.replace("--pin 42:contact", "--pin 60")).stderr);
+    assert!(said.contains("corrections and settings that this run adds are not in it"), "{said}");
+    assert_eq!(read(&place.path("a/recipe.toml")), own);
+    // The way out that is named.
+    place.done("run data/kick.bvh --out c --recipe a/recipe.toml --pin 60");
+    assert!(read(&place.path("c/recipe.toml")).contains("frame = 60"));
 }
 
 #[test]

@@ -54,6 +54,15 @@ fn a_smaller_error_takes_more_keys() {
     let keys = |error: &str| genga(&place.done(&format!("keys data/kick.bvh --max-error {error}")));
     let counts = ["40%", "12%", "6", "4%"].map(keys);
     assert!(counts.is_sorted_by(|a, b| a < b), "{counts:?}");
+    let said = text(&place.genga("run data/kick.bvh --out a --max-error 8%").stderr);
+    let found = said.lines().find(|line| line.starts_with("found       ")).unwrap();
+    let (settings, reached) = found.split_once("; furthest off ").expect(found);
+    assert!(settings.starts_with("found       keys."), "{found}");
+    let reached: f64 = reached.strip_suffix(" %").unwrap().parse().unwrap();
+    assert!(reached > 2.0 && reached <= 8.0, "{found}");
+    let again = "keys data/kick.bvh --recipe a/recipe.toml --max-error 8%";
+    let said = text(&place.genga(again).stderr);
+    assert_eq!(said, format!("found       nothing to change; furthest off {reached:.2} %\n"));
     let said = text(&place.genga("keys data/kick.bvh --max-error 0.1%").stderr);
     assert!(
         said.contains("the body was to be 0.1 % of its height off at the most, and it is "),
@@ -89,8 +98,41 @@ fn a_target_that_can_never_be_met_is_refused_before_the_work() {
             "expected a share of body height (5%), found \"much\"",
         ),
         ("keys data/kick.bvh --max-error 5% --keys 9", "--max-error"),
-        ("keys data/kick.bvh --keys=-1", "--keys"),
-        ("keys data/kick.bvh --keys many", "--keys"),
+        (
+            "keys data/kick.bvh --only-pins --pin 3 --keys 9",
+            "--keys: cannot be asked for together with --only-pins, which wants no keys but your own",
+        ),
+        (
+            "run data/kick.bvh --only-pins --pin 3 --max-error 9%",
+            "--max-error: cannot be asked for together with --only-pins",
+        ),
+        (
+            "keys data/kick.bvh --max-error 5%%",
+            "expected a share of body height (5%), found \"5%%\"",
+        ),
+        (
+            "keys data/kick.bvh --max-error 0.07",
+            "0.07 may mean 0.07% or 7% of the body's height; write the one you mean with its %",
+        ),
+        ("keys data/kick.bvh --max-error -1", "--max-error: must be above 0"),
+        (
+            "keys data/kick.bvh --keys=-1",
+            "expected a whole number of genga, 0 or more, as in 24, found \"-1\"",
+        ),
+        (
+            "keys data/kick.bvh --keys -1",
+            "expected a whole number of genga, 0 or more, as in 24, found \"-1\"",
+        ),
+        (
+            "keys data/kick.bvh --keys 24.5",
+            "expected a whole number of genga, 0 or more, as in 24, found \"24.5\"",
+        ),
+        ("keys data/kick.bvh --keys many", "for '--keys <N>': expected a whole number of genga"),
+        (
+            "run data/kick.bvh --drawings-per-second x",
+            "expected drawings a second, above 0, as in 8 or 6.5, found \"x\"",
+        ),
+        ("run data/kick.bvh --drawings-per-second -8", "--drawings-per-second: must be above 0"),
         ("keys data/kick.bvh --keys 3 --keys 4", "--keys"),
         ("keys data/kick.bvh --keys 3 --per-joint", "--per-joint"),
         ("keys data/kick.bvh --keys 3 --set keys.rest=-1", "keys.rest: must be"),
@@ -150,6 +192,11 @@ fn keys_are_pinned_forbidden_moved_and_named_and_the_recipe_keeps_it_all() {
     }
     let table = place.done("keys data/kick.bvh --pin 20,30:top --only-pins");
     assert_eq!(frames(&table), ["20", "30"]);
+    place.done("run data/kick.bvh --out c --pin 20,30:top --only-pins");
+    let back = place.genga("keys data/kick.bvh --recipe c/recipe.toml --keys 9");
+    assert!(text(&back.stderr).contains(": only_pins wants no keys but pins"), "{back:?}");
+    let back = place.done("keys data/kick.bvh --recipe c/recipe.toml --keys 9 --only-pins=false");
+    assert_eq!(genga(&back), 9);
 }
 
 #[test]
@@ -268,6 +315,7 @@ fn wrong_corrections_are_refused_with_the_way_out() {
     fs::write(place.path("far.csv"), "source_frame\n300\n").unwrap();
     fs::write(place.path("no.json"), "{}").unwrap();
     fs::write(place.path("r.toml"), "[edits]\nforbidden = [\"9..2\"]\n").unwrap();
+    fs::write(place.path("half.toml"), "[edits]\nforbidden = [20.5]\n").unwrap();
     fs::write(place.path("m.toml"), "[[edits.moves]]\nfrom = 4\n").unwrap();
     place.done("run data/kick.bvh --out a");
     for (code, args, wanted) in [
@@ -297,6 +345,7 @@ fn wrong_corrections_are_refused_with_the_way_out() {
         (2, "--move 42:43 --pin 42", "frame 42 is pinned and moved at once: pin 43 instead"),
         (2, "--only-pins", "there is no pin: pin a frame"),
         (2, "--recipe r.toml", "\"9..2\" has no frame in it"),
+        (2, "--recipe half.toml", "2:13: expected a frame (150) or a range (\"120..140\")"),
         (2, "--recipe m.toml", "missing field `to`"),
         (1, "--pin-from no.csv", "no.csv: line 1: there is no column source_frame"),
         (1, "--pin-from gnega.csv", "gnega.csv: line 2: role: expected genga, inbetween or end"),
@@ -353,10 +402,18 @@ fn wrong_joint_weights_are_refused_with_the_nearest_name() {
             "--set keys.weights.*Tail*=2",
             "keys.weights.*Tail*: the clip has no such joint; did you mean ",
         ),
+        (
+            "--set keys.weights.Hips=1e308",
+            "keys.weights.Hips: expected a number, 0 (no say) or more, at most 1000000; 1 is usual",
+        ),
         ("--set keys.weights.Hips=-1", "keys.weights.Hips: expected a number, 0 (no say) or more"),
         ("--set keys.weights.Hips=much", "found \"much\""),
         ("--set keys.weights.*=0", "keys.weights: every joint has 0: leave one that has a say"),
-        ("--set keys.weights=2", "did you mean"),
+        (
+            "--set keys.weights=2",
+            "keys.weights: there is no such setting; how much a joint counts is set by keys.weights.JOINT=2",
+        ),
+        ("--set keys.weight.Head=1", "is set by keys.weights.JOINT=2"),
     ] {
         let said = place.refused(2, &format!("keys data/kick.bvh {args}"));
         assert!(said.contains(wanted), "{args}: {said}");

@@ -1,0 +1,47 @@
+//! Why the keys of a target are not other ones, in words.
+
+use crate::edits::Edits;
+use crate::keys::{Key, Origin};
+use crate::recipe::Recipe;
+
+/// Why there are no found keys where a person wants none.
+pub(super) const ONLY_PINS: &str =
+    "only_pins wants no keys but pins and moved ones; --only-pins=false lets others be found";
+
+/// What keeps the turns of joints from being keys, behind a word for them; empty where nothing does.
+pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {
+    let weak = recipe.keys.min_strength > 0.0;
+    let limits = [
+        (weak, " that keys.min_strength lets through"),
+        (!edits.forbidden.is_empty(), " outside what is forbidden"),
+    ];
+    limits.into_iter().filter(|(limits, _)| *limits).map(|(_, words)| words).collect()
+}
+
+/// Why no key of these goes, none of which was found.
+pub(super) fn staying(genga: usize, keys: &[Key]) -> String {
+    let any = |is: fn(Origin) -> bool| keys.iter().any(|key| is(key.origin));
+    let rests = any(|origin| origin == Origin::Rest);
+    let kinds = [
+        (any(|origin| origin == Origin::Pinned), "a pin", "pins"),
+        (any(|origin| matches!(origin, Origin::Moved { .. })), "a moved key", "moved keys"),
+        (rests, "the end of a rest", "ends of rests"),
+    ];
+    let there = kinds.into_iter().filter(|(is_there, ..)| *is_there);
+    let words: Vec<&str> =
+        there.map(|(_, one, many)| if genga == 1 { one } else { many }).collect();
+    let words = listed(&words);
+    let way = if rests { "; keys.rest=0 knows no rests" } else { "" };
+    match genga {
+        1 => format!("the one that is left is {words}, which stays{way}"),
+        _ => format!("all {genga} are {words}, which stay{way}"),
+    }
+}
+
+/// `a, b and c`.
+fn listed(words: &[&str]) -> String {
+    match words {
+        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        _ => words.concat(),
+    }
+}
