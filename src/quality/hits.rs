@@ -27,29 +27,28 @@ impl Hits {
         if moments.is_empty() || koma < 2 {
             return None;
         }
-        let in_koma = clock.frames_in_koma();
-        // Keys are whole frames, and the one nearest to a koma may be half a frame from it.
-        let within = WITHIN + 0.5 / in_koma + 1e-9;
+        // A moment is known by its koma and no finer, so that keys are taken by theirs too: else one between
+        // two koma would be within a koma of two moments' places, and one on a koma of three.
         let places: Vec<f64> =
-            keys.iter().map(|key| (key.0 as f64 - clock.first.0 as f64) / in_koma).collect();
+            keys.iter().map(|key| clock.koma_from_place(key.0 as f64) as f64).collect();
         let turned = |by: usize| {
             let mut turned: Vec<f64> =
                 places.iter().map(|place| (place + by as f64) % koma as f64).collect();
             turned.sort_by(f64::total_cmp);
-            share(&turned, moments, within)
+            share(&turned, moments)
         };
         let off: f64 = moments.iter().map(|moment| nearest(&places, *moment)).sum();
         Some(Self {
-            share: share(&places, moments, within),
+            share: share(&places, moments),
             by_chance: (1..koma).map(turned).sum::<f64>() / (koma - 1) as f64,
             off: (!keys.is_empty()).then(|| off / moments.len() as f64),
         })
     }
 }
 
-/// The share of the moments that have a key no further than that.
-fn share(keys: &[f64], moments: &[usize], within: f64) -> f64 {
-    let hit = moments.iter().filter(|moment| nearest(keys, **moment) <= within).count();
+/// The share of the moments that have a key within a koma.
+fn share(keys: &[f64], moments: &[usize]) -> f64 {
+    let hit = moments.iter().filter(|moment| nearest(keys, **moment) <= WITHIN).count();
     hit as f64 / moments.len() as f64
 }
 
@@ -79,8 +78,8 @@ mod tests {
         assert_eq!(all.unwrap().share, 1.0);
         let one = hits(&[5, 12], &[4, 16, 25], 24.0, 30).unwrap();
         assert_eq!((one.share, one.off), (1.0 / 3.0, Some(6.0)));
-        assert_eq!(hits(&[24], &[4], 120.0, 30).unwrap().share, 1.0, "20 frames are 4 koma");
-        assert_eq!(hits(&[26], &[4], 120.0, 30).unwrap().share, 0.0, "1.2 koma");
+        assert_eq!(hits(&[27], &[4], 120.0, 30).unwrap().share, 1.0, "nearest to koma 5");
+        assert_eq!(hits(&[28], &[4], 120.0, 30).unwrap().share, 0.0, "nearest to koma 6");
         assert_eq!(hits(&[3], &[1], 30.0, 30).unwrap().share, 1.0, "the frame of koma 2");
     }
 
@@ -91,6 +90,14 @@ mod tests {
         assert_eq!((found.share, found.by_chance), (1.0, 2.0 / 9.0));
         let even = hits(&[2, 4, 6, 8], &[3, 7], 24.0, 10).unwrap();
         assert!((even.by_chance - 8.0 / 9.0).abs() < 0.2, "{even:?}");
+    }
+
+    #[test]
+    fn keys_between_koma_have_the_chance_of_those_on_koma() {
+        let chance = |by: usize| hits(&[50 + by], &[4, 15], 120.0, 30).unwrap().by_chance;
+        for by in 1..5 {
+            assert!((chance(by) - chance(0)).abs() < 0.04, "{by}");
+        }
     }
 
     #[test]
