@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 
 use genga::quality::{Compare, Comparison, Evaluation, Method, Row};
+use genga::signal::{ContactFinder, Limb};
 
 use crate::Outcome;
 use crate::part::Part;
@@ -52,6 +53,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     part.table("paces", paces(&judged));
     part.measured("times", times(&judged));
     part.table("sheets", sheets(takes)?);
+    part.text("blind", list(takes.iter().filter_map(blind)));
     part.number("clips", judged.len());
     verdicts(&judged, &mut part);
     Ok(part)
@@ -232,6 +234,32 @@ fn sheets(takes: &[Take]) -> Outcome<Table> {
         ]);
     }
     Ok(table)
+}
+
+/// A clip on which no foot is seen standing for more than so large a share of it.
+const BLIND: f64 = 0.4;
+
+/// A clip on which no foot is seen standing for long, and from where to where.
+fn blind(take: &Take) -> Option<String> {
+    let clock = take.clip.clock(24.0);
+    let koma = clock.frame_rate.koma_from_frames(take.clip.len(), clock.koma_rate);
+    let mut stands = vec![false; koma];
+    let contacts = ContactFinder::default().find(&take.clip, clock);
+    for contact in contacts.iter().filter(|contact| contact.limb == Limb::Foot) {
+        contact.koma.clone().filter(|at| *at < koma).for_each(|at| stands[at] = true);
+    }
+    let mut begin = 0;
+    let mut longest = 0..0;
+    for run in stands.chunk_by(|a, b| a == b) {
+        if !run[0] && run.len() > longest.len() {
+            longest = begin..begin + run.len();
+        }
+        begin += run.len();
+    }
+    (longest.len() as f64 > BLIND * koma as f64).then(|| {
+        let (name, first, last) = (&take.name, longest.start + 1, longest.end);
+        format!("{name} (koma {first} to {last} of {koma})")
+    })
 }
 
 /// Where the program's own keys lead and where not, and numbers for the prose.
