@@ -10,6 +10,7 @@ mod evaluation;
 mod extrema;
 mod feet;
 mod grid;
+mod hits;
 mod holds;
 mod method;
 mod shown;

@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 
 use genga::quality::{Compare, Comparison, Evaluation, Method, Row};
+use genga::signal::{ContactFinder, Limb};
 
 use crate::Outcome;
 use crate::part::Part;
@@ -11,6 +12,10 @@ use crate::takes::Take;
 
 /// What is asked of the mean error at an equal number of keys, as a multiple of the least there is.
 const ASKED: f64 = 1.25;
+
+/// With double as many keys the worst koma should not be more than so many times as far off as the
+/// least there is with as many as found.
+const GAP: f64 = 1.25;
 
 /// A clip and its comparison.
 struct Judged<'a> {
@@ -22,10 +27,11 @@ struct Judged<'a> {
 type Measure = (&'static str, fn(&Row) -> Option<f64>);
 
 /// What each table of clips shows.
-const MEASURES: [Measure; 5] = [
+const MEASURES: [Measure; 6] = [
     ("mean-error", |row| row.mean_ratio),
     ("worst-error", |row| row.worst_ratio),
-    ("timing", |row| Some(row.timing)),
+    ("hits", |row| row.hits),
+    ("by-chance", |row| row.by_chance),
     ("off", |row| row.off),
     ("steady", |row| row.steady),
 ];
@@ -47,6 +53,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     part.table("paces", paces(&judged));
     part.measured("times", times(&judged));
     part.table("sheets", sheets(takes)?);
+    part.text("blind", list(takes.iter().filter_map(blind)));
     part.number("clips", judged.len());
     verdicts(&judged, &mut part);
     Ok(part)
@@ -124,7 +131,8 @@ fn by_clip(judged: &[Judged<'_>], measure: fn(&Row) -> Option<f64>) -> Table {
 
 /// Medians over the clips at half, equal and double the number of keys.
 fn summary(judged: &[Judged<'_>]) -> Table {
-    let header = ["keys", "method", ">× mean", ">× worst", ">timing", ">off", ">steady"];
+    let header =
+        ["keys", "method", ">× mean", ">× worst", ">hits", ">by chance", ">off", ">steady"];
     let mut table = Table::new(&header);
     for (which, keys) in ["half", "as found", "double"].into_iter().enumerate() {
         for method in Method::ALL {
@@ -138,8 +146,7 @@ fn summary(judged: &[Judged<'_>]) -> Table {
 
 /// Keys on threes and on twos, medians over the clips.
 fn paces(judged: &[Judged<'_>]) -> Table {
-    let mut table =
-        Table::new(&["keys", ">a second", ">mean error", ">× mean", ">× worst", ">timing", ">off"]);
+    let mut table = Table::new(&["keys", ">a second", ">mean error", ">× mean", ">× worst"]);
     for (method, step) in Method::PACES {
         let middle = |measure: fn(&Row) -> Option<f64>| {
             let rows = judged.iter().flat_map(|clip| &clip.found.paces);
@@ -153,8 +160,6 @@ fn paces(judged: &[Judged<'_>]) -> Table {
             middle(|row| Some(row.mean)),
             middle(|row| row.mean_ratio),
             middle(|row| row.worst_ratio),
-            middle(|row| Some(row.timing)),
-            middle(|row| row.off),
         ]);
     }
     table
@@ -196,8 +201,10 @@ fn sheets(takes: &[Take]) -> Outcome<Table> {
         ">contacts",
         ">keys slip mean",
         ">worst",
+        ">in source",
         ">shown slip mean",
         ">worst",
+        ">in source",
         ">pops",
         ">holds",
         ">worst pop",
@@ -206,6 +213,7 @@ fn sheets(takes: &[Take]) -> Outcome<Table> {
     for take in takes {
         let found = Evaluation::of(&take.clip, &take.default().sheet, None, 1.0)?;
         let two = |value: f64| number(value, 2);
+        let some = |value: Option<f64>| value.map_or("–".into(), two);
         table.row(&[
             take.name.clone(),
             number(found.pace.drawings_per_second, 1),
@@ -214,16 +222,44 @@ fn sheets(takes: &[Take]) -> Outcome<Table> {
             two(found.shown.mean),
             two(found.shown.worst),
             found.shown_slip.contacts.to_string(),
-            two(found.keys_slip.mean),
-            two(found.keys_slip.worst),
-            two(found.shown_slip.mean),
-            two(found.shown_slip.worst),
+            some(found.keys_slip.mean),
+            some(found.keys_slip.worst),
+            some(found.keys_slip.source),
+            some(found.shown_slip.mean),
+            some(found.shown_slip.worst),
+            some(found.shown_slip.source),
             found.pops.pops.len().to_string(),
             found.pops.holds.to_string(),
             found.pops.worst().map_or("–".into(), |pop| number(pop.times, 1)),
         ]);
     }
     Ok(table)
+}
+
+/// A clip on which no foot is seen standing for more than so large a share of it.
+const BLIND: f64 = 0.4;
+
+/// A clip on which no foot is seen standing for long, and from where to where.
+fn blind(take: &Take) -> Option<String> {
+    let clock = take.clip.clock(24.0);
+    let koma = clock.frame_rate.koma_from_frames(take.clip.len(), clock.koma_rate);
+    let mut stands = vec![false; koma];
+    let contacts = ContactFinder::default().find(&take.clip, clock);
+    for contact in contacts.iter().filter(|contact| contact.limb == Limb::Foot) {
+        contact.koma.clone().filter(|at| *at < koma).for_each(|at| stands[at] = true);
+    }
+    let mut begin = 0;
+    let mut longest = 0..0;
+    for run in stands.chunk_by(|a, b| a == b) {
+        if !run[0] && run.len() > longest.len() {
+            longest = begin..begin + run.len();
+        }
+        begin += run.len();
+    }
+    (longest.len() as f64 > BLIND * koma as f64).then(|| {
+        let (name, first, last) = (&take.name, longest.start + 1, longest.end);
+        format!("{name} (koma {first} to {last} of {koma})")
+    })
 }
 
 /// Where the program's own keys lead and where not, and numbers for the prose.
@@ -233,37 +269,89 @@ fn verdicts(judged: &[Judged<'_>], part: &mut Part) {
         .collect();
     let beyond: Vec<_> = ratios.iter().filter(|(_, ratio)| *ratio > ASKED).collect();
     part.number("asked", number(ASKED, 2));
+    part.number("gap", number(GAP, 2));
     part.number("within", ratios.len() - beyond.len());
     part.number("ratios", ratios.len());
     part.text(
         "beyond",
         list(beyond.iter().map(|(clip, ratio)| format!("{clip} ({})", number(*ratio, 2)))),
     );
-    let leads = |clip: &&Judged<'_>| {
-        let timing = |row: &Row| row.timing;
-        let own = clip.found.row(Method::Own, clip.found.own_keys).map_or(0.0, timing);
-        let rows = clip.found.rows.iter().filter(|row| row.asked == clip.found.own_keys);
-        rows.map(timing).all(|other| other <= own)
-    };
+    let leads = |clip: &&Judged<'_>| behind(clip).is_none();
     part.number("leads", judged.iter().filter(leads).count());
-    part.text("behind", list(judged.iter().filter(|clip| !leads(clip)).map(behind)));
+    part.text("behind", list(judged.iter().filter_map(behind)));
+    part.text("even", list(judged.iter().filter_map(even)));
+    part.text("gaps", list(judged.iter().filter_map(gap)));
+    let searched = |clip: &&Judged<'_>| {
+        let row = clip.found.row(Method::OptimalMean, clip.found.own_keys);
+        row.is_some_and(|row| row.steady.is_some())
+    };
+    part.number("searched", judged.iter().filter(searched).count());
     for method in Method::ALL {
         for (name, measure) in MEASURES {
-            let value = median(judged, method, 1, measure);
-            let value = value.map_or("–".into(), |value| number(value, 2));
+            let [half, value] = [0, 1].map(|which| {
+                let value = median(judged, method, which, measure);
+                value.map_or("–".into(), |value| number(value, 2))
+            });
             part.number(&format!("{name}.{method}"), value);
+            part.number(&format!("half.{name}.{method}"), half);
         }
     }
 }
 
-/// A clip on which another method leads on timing, and by how much.
-fn behind(clip: &Judged<'_>) -> String {
+/// The row of a method at as many keys as the recipe finds.
+fn as_found<'a>(clip: &'a Judged<'_>, method: Method) -> Option<&'a Row> {
+    clip.found.row(method, clip.found.own_keys)
+}
+
+/// A clip on which another method hits more of the moments at which the body turns, and how many.
+fn behind(clip: &Judged<'_>) -> Option<String> {
+    let own = as_found(clip, Method::Own)?.hits?;
+    let others = Method::ALL.into_iter().filter_map(|method| {
+        Some((method, as_found(clip, method)?.hits?)).filter(|(_, hits)| *hits > own)
+    });
+    let (method, hits) = others.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let name = &clip.take.name;
+    Some(format!("{name} ({} against {} of {method})", number(own, 2), number(hits, 2)))
+}
+
+/// A clip on which keys at even distances do as well as the program's own or better, and by what.
+fn even(clip: &Judged<'_>) -> Option<String> {
+    let [own, even] = [Method::Own, Method::Uniform].map(|method| as_found(clip, method));
+    let (own, even) = (own?, even?);
+    let beside = |what: &str, own: f64, even: f64| {
+        format!("{what} {} against {}", number(own, 2), number(even, 2))
+    };
+    let mut words = Vec::new();
+    if even.mean <= own.mean {
+        words.push(beside("mean error", own.mean, even.mean));
+    }
+    if even.worst <= own.worst {
+        words.push(beside("worst error", own.worst, even.worst));
+    }
+    if let (Some(own), Some(even)) = (own.hits, even.hits)
+        && even >= own
+    {
+        words.push(beside("hits", own, even));
+    }
+    (!words.is_empty()).then(|| format!("{}: {}", clip.take.name, words.join(", ")))
+}
+
+/// A clip whose worst koma stays far off however many keys are asked for: with twice as many it is no
+/// better than so many times the least there is with as many as found.
+fn gap(clip: &Judged<'_>) -> Option<String> {
     let found = &clip.found;
-    let rows = found.rows.iter().filter(|row| row.asked == found.own_keys);
-    let best = rows.reduce(|a, b| if b.timing > a.timing { b } else { a });
-    let own = found.row(Method::Own, found.own_keys).map_or(0.0, |row| row.timing);
-    let (method, timing) = best.map_or(("–", 0.0), |row| (row.method.word(), row.timing));
-    format!("{} ({} against {} of {method})", clip.take.name, number(own, 2), number(timing, 2))
+    let double = *found.counts().get(2)?;
+    let [own, twice] = [found.own_keys, double].map(|count| found.row(Method::Own, count));
+    let (own, twice) = (own?, twice?);
+    let least = found.row(Method::OptimalWorst, found.own_keys)?.worst;
+    (twice.worst > GAP * least).then(|| {
+        let errors = [own.worst, twice.worst, least].map(|error| number(error, 2));
+        let [own, twice, least] = errors;
+        format!(
+            "{}: {own} as found, {twice} with double, where {least} is the least as found",
+            clip.take.name
+        )
+    })
 }
 
 fn list(items: impl Iterator<Item = String>) -> String {

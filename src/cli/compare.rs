@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::args::CompareArgs;
 use super::failure::Failure;
 use super::table::Table;
-use super::words::{Words, counted};
+use super::words::{Words, counted, two};
 use super::{io, source};
 use crate::deliver;
 use crate::motion::Clip;
@@ -38,7 +38,7 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
         if comparison.koma > asked.longest {
             let longest = asked.longest;
             words.say(format_args!(
-                "{name}: the optimal sets of more than {longest} koma are not looked for; see --trim"
+                "{name}: optimal sets and polylines of more than {longest} koma are not looked for; see --trim"
             ));
         }
         comparisons.push(comparison);
@@ -76,11 +76,25 @@ fn page(name: &str, found: &Comparison) -> String {
         "{name}: {} koma; the recipe finds {own}; the body turns at {extrema} moments (極値)\n",
         found.koma
     );
+    if found.rows.is_empty() && found.paces.is_empty() {
+        return page + "no key fits between both ends of the clip: there is nothing to compare\n";
+    }
     let has_times = found.rows.iter().any(|row| row.ms.is_some());
     let mut table = Table::default();
-    let header =
-        ["keys", "method", "", "mean", "worst", "× mean", "× worst", "timing", "off", "steady"];
-    let japanese = ["原画", "手法", "", "平均", "最大", "比", "比", "一致", "ずれ", "安定"];
+    let header = [
+        "keys",
+        "method",
+        "",
+        "mean",
+        "worst",
+        "× mean",
+        "× worst",
+        "hits",
+        "by chance",
+        "off",
+        "steady",
+    ];
+    let japanese = ["原画", "手法", "", "平均", "最大", "比", "比", "命中", "偶然", "ずれ", "安定"];
     table.row(header.into_iter().chain(has_times.then_some("ms")));
     table.row(japanese.into_iter().chain(has_times.then_some("時間")));
     let mut last = None;
@@ -94,7 +108,6 @@ fn page(name: &str, found: &Comparison) -> String {
 }
 
 fn cells(row: &Row, count: String, has_times: bool) -> Vec<String> {
-    let some = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.2}"));
     let method = if row.keys == row.asked {
         row.method.word().to_owned()
     } else {
@@ -104,13 +117,14 @@ fn cells(row: &Row, count: String, has_times: bool) -> Vec<String> {
         count,
         method,
         Method::words(row.method).1.into(),
-        format!("{:.2}", row.mean),
-        format!("{:.2}", row.worst),
-        some(row.mean_ratio),
-        some(row.worst_ratio),
-        format!("{:.2}", row.timing),
-        some(row.off),
-        some(row.steady),
+        two(Some(row.mean)),
+        two(Some(row.worst)),
+        two(row.mean_ratio),
+        two(row.worst_ratio),
+        two(row.hits),
+        two(row.by_chance),
+        two(row.off),
+        two(row.steady),
     ];
     if has_times {
         cells.push(row.ms.map_or("–".into(), |ms| format!("{ms:.1}")));

@@ -3,10 +3,11 @@
 use super::args::EvalArgs;
 use super::failure::Failure;
 use super::table::Table;
-use super::words::{Words, counted};
+use super::words::{Words, counted, two};
 use super::{io, source};
 use crate::deliver::{reference_keys, sheet_json};
 use crate::quality::{Evaluation, Off, Slip, Timing};
+use crate::time::Frame;
 
 pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     check_files(args)?;
@@ -40,7 +41,8 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     if args.json.as_deref().is_some_and(io::is_stream) {
         return Ok(());
     }
-    io::to_stdout(page(&file.cut, &found, args.tolerance).as_bytes())
+    let ends = [clip.first(), clip.last()];
+    io::to_stdout(page(&file.cut, &found, args.tolerance, ends).as_bytes())
 }
 
 /// One stdin, and nothing written over what is read.
@@ -60,7 +62,7 @@ fn check_files(args: &EvalArgs) -> Result<(), Failure> {
 }
 
 /// The measures for people.
-fn page(cut: &str, found: &Evaluation, tolerance: f64) -> String {
+fn page(cut: &str, found: &Evaluation, tolerance: f64, ends: [Frame; 2]) -> String {
     let pace = &found.pace;
     let (koma, drawings) = (pace.koma, counted(pace.drawings, "drawing"));
     let mut table = Table::default();
@@ -75,32 +77,37 @@ fn page(cut: &str, found: &Evaluation, tolerance: f64) -> String {
             pace.drawings_per_second, pace.genga
         ),
     );
-    let holds = pace.holds.iter().map(|(koma, count)| format!("{count} of {koma}"));
+    let holds = pace.holds.iter().map(|(koma, count)| format!("{count} × {koma}"));
     line("exposures", "コマ打ち", holds.collect::<Vec<_>>().join(", ") + " koma");
-    line("keys alone", "原画のみ", off(found.keys) + &slid(found.keys_slip));
-    line("on screen", "画面", off(found.shown) + &slid(found.shown_slip));
     line("pops", "飛び", pops(found));
-    if let Some(timing) = &found.timing {
-        line("reference", "照合", matched(timing, tolerance));
-        line("", "", distance(timing));
+    match &found.timing {
+        None => {}
+        Some(timing) if timing.reference == 0 => {
+            line("reference", "照合", nothing_to_match(ends));
+        }
+        Some(timing) => {
+            line("reference", "照合", matched(timing, tolerance));
+            line("", "", shares(timing));
+            line("", "", distance(timing));
+        }
     }
-    table.text(3)
+    format!("{}\n{}", table.text(3), errors(found))
 }
 
-fn off(off: Off) -> String {
-    format!("off by {:.2} % of body height in the mean, {:.2} % at worst", off.mean, off.worst)
-}
-
-fn slid(slip: Slip) -> String {
-    if slip.contacts == 0 {
-        return "; no foot stands".into();
-    }
-    format!(
-        "; feet slide {:.2} % in the mean of {}, {:.2} % at worst",
-        slip.mean,
-        counted(slip.contacts, "contact"),
-        slip.worst
-    )
+/// Errors and slips, with the keys alone and on screen.
+fn errors(found: &Evaluation) -> String {
+    let mut table = Table::default();
+    table.row(["% of body height", "", "error", "worst", "slip", "worst", "in source", "contacts"]);
+    table.row(["身長の%", "", "誤差", "最大", "足滑り", "最大", "元の動き", "接地"]);
+    let mut row = |english: &str, japanese: &str, off: Off, slip: Slip| {
+        let cells = [Some(off.mean), Some(off.worst), slip.mean, slip.worst, slip.source];
+        let cells = cells.map(two);
+        let names = [english.to_owned(), japanese.to_owned()];
+        table.row(names.into_iter().chain(cells).chain([slip.contacts.to_string()]));
+    };
+    row("keys alone", "原画のみ", found.keys, found.keys_slip);
+    row("on screen", "画面", found.shown, found.shown_slip);
+    table.text(2)
 }
 
 fn pops(found: &Evaluation) -> String {
@@ -108,27 +115,33 @@ fn pops(found: &Evaluation) -> String {
     match found.pops.worst() {
         None => of,
         Some(pop) => {
-            format!(
-                "{of}, the worst at koma {}, {:.1} times the steps round it",
-                pop.koma + 1,
-                pop.times
-            )
+            let koma = pop.koma + 1;
+            format!("{of}, the worst at koma {koma}, {:.1} times the speed round it", pop.times)
         }
     }
 }
 
+fn nothing_to_match([first, last]: [Frame; 2]) -> String {
+    format!("no key of it stands between the ends, frames {first} and {last}: nothing to match")
+}
+
 fn matched(timing: &Timing, tolerance: f64) -> String {
-    let Timing { pairs, found, reference, precision, recall, f1, .. } = timing;
-    format!(
-        "precision {precision:.2}, recall {recall:.2}, F1 {f1:.2}: {pairs} of {found} genga and \
-         {reference} reference keys within {tolerance} koma"
-    )
+    let Timing { pairs, found, reference, .. } = timing;
+    let reference = counted(*reference, "reference key");
+    format!("{pairs} of {found} genga and {reference} within {tolerance} koma")
+}
+
+fn shares(timing: &Timing) -> String {
+    let [precision, recall, f1] = [timing.precision, timing.recall, timing.f1].map(two);
+    format!("precision {precision}, recall {recall}, F1 {f1}")
 }
 
 fn distance(timing: &Timing) -> String {
     match (timing.mean_off, timing.off_95) {
         (Some(mean), Some(most)) => {
-            format!("the nearest genga is {mean:.2} koma off in the mean, 95 % within {most} koma")
+            format!(
+                "the nearest genga is {mean:.2} koma off in the mean, 95 % within {most:.2} koma"
+            )
         }
         _ => "there is nothing to measure a distance by".into(),
     }

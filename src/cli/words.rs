@@ -84,6 +84,11 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
+/// A measure with two places; – where there is none.
+pub(super) fn two(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.2}"))
+}
+
 /// A spinner that says what is being done.
 pub(super) struct Working(Option<ProgressBar>);
 

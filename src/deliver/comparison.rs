@@ -4,7 +4,7 @@ use crate::deliver::{csv_table, number};
 use crate::error::Error;
 use crate::quality::Comparison;
 
-const HEADER: [&str; 12] = [
+const HEADER: [&str; 13] = [
     "clip",
     "asked",
     "method",
@@ -13,7 +13,8 @@ const HEADER: [&str; 12] = [
     "worst",
     "mean_ratio",
     "worst_ratio",
-    "timing",
+    "hits",
+    "by_chance",
     "off",
     "steady",
     "ms",
@@ -37,7 +38,8 @@ pub fn comparison_csv(clips: &[String], comparisons: &[Comparison]) -> Result<St
                 number(row.worst),
                 some(row.mean_ratio),
                 some(row.worst_ratio),
-                number(row.timing),
+                some(row.hits),
+                some(row.by_chance),
                 some(row.off),
                 some(row.steady),
                 some(row.ms),

@@ -9,7 +9,8 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::keys::{Matching, Reconstruction};
 use crate::motion::Clip;
-use crate::quality::{Extrema, Grid, Method, Timing};
+use crate::quality::hits::Hits;
+use crate::quality::{Extrema, Grid, Method};
 use crate::recipe::Recipe;
 use crate::study::Noise;
 use crate::time::{Clock, Frame};
@@ -27,15 +28,15 @@ pub struct Compare {
     pub counts: Vec<usize>,
     /// The noise under which keys are chosen once more.
     pub noise: Noise,
-    /// Koma of the longest clip whose optimal sets are looked for: their work grows with the third
-    /// power. With noise they are looked for up to a third of it.
+    /// Koma of the longest clip whose optimal sets and longest polylines are looked for: their work grows
+    /// with the third power. With noise they are looked for up to a third of it.
     pub longest: usize,
     /// Whether it is told how long each method took. Times are other on each run.
     pub times: bool,
 }
 
 impl Default for Compare {
-    /// Noise of 0.1°, and optimal sets for up to 1,500 koma, a minute.
+    /// Noise of 0.1°, and optimal sets and polylines for up to 1,500 koma, a minute.
     fn default() -> Self {
         Self {
             recipe: Recipe::default(),
@@ -79,12 +80,15 @@ pub struct Row {
     pub mean_ratio: Option<f64>,
     /// The worst error as a multiple of the least there is.
     pub worst_ratio: Option<f64>,
-    /// The share of keys, and of as many heaviest extrema, that have each other within a koma (F1).
-    pub timing: f64,
+    /// The share of the heaviest extrema, as many as keys were asked for or as there are, that have a key
+    /// within a koma; none where there is no extremum.
+    pub hits: Option<f64>,
+    /// The same share in the mean when the keys are turned round the clip by 1, 2, 3 … koma.
+    pub by_chance: Option<f64>,
     /// How far the nearest key is from one of those extrema in the mean, in koma; none without both.
     pub off: Option<f64>,
     /// The share of keys that are the same within a koma when there is noise on the clip (F1); none
-    /// without noise.
+    /// without noise or keys.
     pub steady: Option<f64>,
     /// Milliseconds from the clip to the keys of all counts; none unless asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -136,7 +140,7 @@ impl Compare {
                     let again = again
                         .as_ref()
                         .and_then(|again| again.iter().find(|other| other.method == chosen.method));
-                    let steady = again.map(|again| kept(grid.clock(), keys, &again.keys[at]));
+                    let steady = again.and_then(|again| kept(grid.clock(), keys, &again.keys[at]));
                     let ms = self.times.then_some(chosen.ms);
                     Row { steady, ms, ..row(grid, chosen.method, *asked, keys, &extrema) }
                 })
@@ -161,8 +165,7 @@ impl Compare {
         if counts.is_empty() {
             counts = vec![own / 2, own, 2 * own];
         }
-        counts.iter_mut().for_each(|count| *count = (*count).min(inner));
-        counts.retain(|count| *count > 0);
+        counts.retain(|count| *count > 0 && inner > 0);
         counts.sort_unstable();
         counts.dedup();
         counts
@@ -185,7 +188,8 @@ impl Comparison {
 
 fn row(grid: &Grid, method: Method, asked: usize, keys: &[Frame], extrema: &Extrema) -> Row {
     let errors = Reconstruction::of(&grid.clip, &grid.reference, keys);
-    let timing = Timing::of(&koma(grid.clock(), keys), &extrema.heaviest(asked), TOLERANCE);
+    let koma = grid.reference.koma();
+    let hits = Hits::of(keys, &extrema.heaviest(asked), grid.clock(), koma);
     Row {
         method,
         asked,
@@ -194,8 +198,9 @@ fn row(grid: &Grid, method: Method, asked: usize, keys: &[Frame], extrema: &Extr
         worst: errors.worst(),
         mean_ratio: None,
         worst_ratio: None,
-        timing: timing.f1,
-        off: timing.mean_off,
+        hits: hits.map(|hits| hits.share),
+        by_chance: hits.map(|hits| hits.by_chance),
+        off: hits.and_then(|hits| hits.off),
         steady: None,
         ms: None,
     }
@@ -215,13 +220,10 @@ fn with_ratios(mut rows: Vec<Row>) -> Vec<Row> {
     rows
 }
 
-fn koma(clock: Clock, keys: &[Frame]) -> Vec<usize> {
-    keys.iter().map(|key| clock.koma_from_place(key.0 as f64)).collect()
-}
-
-/// The share of the keys of two lists that are in both.
-fn kept(clock: Clock, keys: &[Frame], others: &[Frame]) -> f64 {
-    Matching::between(keys, others, TOLERANCE * clock.frames_in_koma()).kept()
+/// The share of the keys of two lists that are in both; none of two empty ones.
+fn kept(clock: Clock, keys: &[Frame], others: &[Frame]) -> Option<f64> {
+    let matching = Matching::between(keys, others, TOLERANCE * clock.frames_in_koma());
+    (!matching.is_empty()).then(|| matching.kept())
 }
 
 #[cfg(test)]
@@ -281,7 +283,10 @@ mod tests {
         let noise = Noise { degrees: 0.0, seed: 0 };
         let asked = Compare { counts: vec![5], longest: 100, noise, ..Compare::default() };
         let found = asked.run(clip()).unwrap();
-        assert!(found.row(Method::OptimalMean, 5).is_none());
+        for method in [Method::OptimalMean, Method::OptimalWorst, Method::Polyline] {
+            assert!(found.row(method, 5).is_none(), "{method}");
+        }
+        assert!(found.row(Method::Simplified, 5).is_some());
         assert!(found.rows.iter().all(|row| row.mean_ratio.is_none() && row.steady.is_none()));
     }
 
@@ -293,6 +298,29 @@ mod tests {
         assert!(asked(&[4]).run(swing(&[1.0])).unwrap().rows.is_empty(), "no key fits in");
         let noise = Noise { degrees: -1.0, seed: 0 };
         assert!(Compare { noise, ..Compare::default() }.validate().is_err());
-        assert_eq!(asked(&[90]).run(swing(&[0.0, 9.0, 0.0, 9.0])).unwrap().counts(), [2]);
+    }
+
+    #[test]
+    fn more_keys_than_there_are_koma_stay_asked_for_and_are_not_given() {
+        let asked = Compare { counts: vec![90, 200], ..Compare::default() };
+        let found = asked.run(swing(&[0.0, 9.0, 0.0, 9.0])).unwrap();
+        assert_eq!(found.counts(), [90, 200]);
+        for count in [90, 200] {
+            let given = |method| found.row(method, count).unwrap().keys;
+            assert_eq!(given(Method::Uniform), 2);
+            assert_eq!(given(Method::OptimalMean), 2);
+            assert!(given(Method::Own) <= 2);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_measured_is_none() {
+        let asked = Compare { counts: vec![4], ..Compare::default() };
+        let still = asked.run(swing(&[5.0; 40])).unwrap();
+        assert_eq!((still.extrema, still.own_keys), (0, 0));
+        for row in still.rows.iter().chain(&still.paces) {
+            assert_eq!((row.hits, row.by_chance, row.off), (None, None, None), "{row:?}");
+            assert!(row.keys > 0 || row.steady.is_none(), "{row:?}");
+        }
     }
 }

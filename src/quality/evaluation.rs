@@ -68,8 +68,8 @@ pub struct Evaluation {
 
 impl Evaluation {
     /// Measures a sheet of a clip; of several layers the first. `reference` are keys by source frame,
-    /// `tolerance` says in koma how far a key may be from one of them. Genga are compared by the koma
-    /// nearest to their frames. Neither the ends of the clip nor reference keys on them count: both
+    /// `tolerance` says in koma how far a key may be from one of them. Genga are compared by the frames
+    /// nearest to them, not by koma. Neither the ends of the clip nor reference keys on them count: both
     /// drawings are there whatever is found.
     ///
     /// # Errors
@@ -146,11 +146,9 @@ fn timing(
     tolerance: f64,
 ) -> Timing {
     let is_inside = |frame: &&Frame| **frame > clip.first() && **frame < clip.last();
-    let koma = |frames: &[Frame]| -> Vec<usize> {
-        let inside = frames.iter().filter(is_inside);
-        inside.map(|frame| sheet.clock.koma_from_place(frame.0 as f64)).collect()
-    };
-    Timing::of(&koma(genga), &koma(reference), tolerance)
+    let inside =
+        |frames: &[Frame]| -> Vec<Frame> { frames.iter().filter(is_inside).copied().collect() };
+    Timing::of(&inside(genga), &inside(reference), sheet.clock, tolerance)
 }
 
 #[cfg(test)]
@@ -213,6 +211,21 @@ mod tests {
         let timing = found.timing.unwrap();
         assert_eq!((timing.reference, timing.found, timing.pairs), (2, 3, 2), "ends do not count");
         assert_eq!(found.pace.holds, BTreeMap::from([(1, 1), (3, 4)]));
+    }
+
+    #[test]
+    fn the_step_into_the_drawing_of_the_end_is_no_pop() {
+        // It hardly moves, and then goes all at once.
+        let clip = swing(
+            &(0..25).map(|at| if at < 20 { 0.1 * f64::from(at) } else { 60.0 }).collect::<Vec<_>>(),
+        );
+        let pops = |shown: &[(f64, usize)]| {
+            Evaluation::of(&clip, &sheet(&clip, shown), None, 1.0).unwrap().pops
+        };
+        let end = pops(&[(0.0, 4), (4.0, 4), (8.0, 4), (12.0, 12), (24.0, 1)]);
+        assert_eq!((end.holds, end.pops.len()), (3, 0), "{end:?}");
+        let before = pops(&[(0.0, 4), (4.0, 4), (8.0, 4), (12.0, 8), (20.0, 4), (24.0, 1)]);
+        assert_eq!((before.holds, before.pops.len()), (4, 1), "{before:?}");
     }
 
     #[test]

@@ -19,10 +19,13 @@ pub struct Slip {
     /// Contacts of feet that are shown on two koma or more.
     pub contacts: usize,
     /// The mean over those contacts of how far the foot goes, along the ground, from where it is shown
-    /// first.
-    pub mean: f64,
+    /// first; none without a contact.
+    pub mean: Option<f64>,
     /// The same of the worst contact.
-    pub worst: f64,
+    pub worst: Option<f64>,
+    /// The mean of how far the foot goes in the source itself over the same koma: what nothing that shows
+    /// the source can be better than.
+    pub source: Option<f64>,
 }
 
 impl Slip {
@@ -35,28 +38,37 @@ impl Slip {
     ) -> Self {
         let up = Stature::of(figure.clip()).up.unit();
         let percent = 100.0 / figure.height();
-        let mut slips = Vec::new();
+        let (mut slips, mut in_source) = (Vec::new(), Vec::new());
         for contact in contacts.iter().filter(|contact| contact.limb == Limb::Foot) {
             let [begin, end] =
                 [contact.koma.start(), contact.koma.end()].map(|koma| clock.place_from_koma(*koma));
             let own = |source: &Source| (begin..=end).contains(&source.place());
-            let mut first: Option<DVec3> = None;
-            let mut slip: Option<f64> = None;
-            for source in contact.koma.clone().map(&shown).filter(own) {
+            let koma: Vec<usize> = contact.koma.clone().filter(|koma| own(&shown(*koma))).collect();
+            let mut place = |source| {
                 figure.take(source);
-                let place = figure.position(contact.point).reject_from(up);
-                let way = first.map(|first| first.distance(place));
-                slip = way.map_or(slip, |way| Some(slip.unwrap_or(0.0).max(way)));
-                first.get_or_insert(place);
-            }
-            slips.extend(slip.map(|slip| percent * slip));
+                percent * figure.position(contact.point).reject_from(up)
+            };
+            slips.extend(furthest(koma.iter().map(|koma| place(shown(*koma)))));
+            let source = |koma: &usize| Source::At(clock.place_from_koma(*koma));
+            in_source.extend(furthest(koma.iter().map(|koma| place(source(koma)))));
         }
         Self {
             contacts: slips.len(),
-            mean: slips.iter().sum::<f64>() / slips.len().max(1) as f64,
-            worst: slips.into_iter().fold(0.0, f64::max),
+            mean: mean(&slips),
+            worst: slips.iter().copied().reduce(f64::max),
+            source: mean(&in_source),
         }
     }
+}
+
+/// How far a point goes from where it is first; none where it is seen once or not at all.
+fn furthest(mut places: impl Iterator<Item = DVec3>) -> Option<f64> {
+    let first = places.next()?;
+    places.map(|place| first.distance(place)).reduce(f64::max)
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
 #[cfg(test)]
@@ -98,14 +110,29 @@ mod tests {
             Slip::of(figure, clock, &contacts, |koma| Source::At(places[koma]))
         };
         let ones = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
-        assert_eq!(slip(&mut figure, ones), Slip { contacts: 1, mean: 0.0, worst: 0.0 });
+        let none = Slip { contacts: 1, mean: Some(0.0), worst: Some(0.0), source: Some(0.0) };
+        assert_eq!(slip(&mut figure, ones), none);
         // Late by a koma: the drawings before the contact and none after it are not counted.
         let late = [0.0, 0.0, 1.0, 1.0, 3.0, 3.0, 5.0, 5.0];
-        assert_eq!(slip(&mut figure, late), Slip { contacts: 1, mean: 0.0, worst: 0.0 });
+        assert_eq!(slip(&mut figure, late), none);
         let blend = |koma: usize| Source::Between { from: 0.0, to: 7.0, share: koma as f64 / 7.0 };
         let slid = Slip::of(&mut figure, clock, &contacts, blend);
-        assert!((slid.worst - 100.0 * (16.0 * 3.0 / 7.0) / 10.0).abs() < 1e-9, "{slid:?}");
-        assert_eq!(slid.mean, slid.worst);
+        let worst = slid.worst.unwrap();
+        assert!((worst - 100.0 * (16.0 * 3.0 / 7.0) / 10.0).abs() < 1e-9, "{slid:?}");
+        assert_eq!((slid.mean, slid.source), (slid.worst, Some(0.0)));
         assert_eq!(slip(&mut figure, [0.0; 8]), Slip::default(), "it is never shown standing");
+    }
+
+    #[test]
+    fn a_foot_that_slides_in_the_source_says_so_over_the_same_koma() {
+        let clip = carried(&[0.0, 4.0, 8.0, 8.5, 9.0, 9.5, 12.0, 16.0]);
+        let clock = clip.clock(24.0);
+        let reference = Reference::of(&clip, clock);
+        let mut figure = Figure::of(&clip, &reference);
+        let contacts = [contact(2..=5, Limb::Foot)];
+        let late = [0.0, 0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 5.0];
+        let found = Slip::of(&mut figure, clock, &contacts, |koma| Source::At(late[koma]));
+        // Shown are koma 3 to 5: 8, 8 and 8.5 on screen, 8.5 to 9.5 in the source.
+        assert_eq!((found.mean, found.source), (Some(5.0), Some(10.0)));
     }
 }

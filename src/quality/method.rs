@@ -47,6 +47,11 @@ impl Method {
         matches!(self, Self::OptimalMean | Self::OptimalWorst)
     }
 
+    /// Whether its work grows with the third power of the length of a clip.
+    pub fn is_cubic(self) -> bool {
+        self.is_optimal() || self == Self::Polyline
+    }
+
     /// What it is called in tables and files.
     pub fn word(self) -> &'static str {
         match self {

@@ -3,7 +3,7 @@
 use crate::keys::Figure;
 use crate::motion::Clip;
 use crate::quality::holds::Pops;
-use crate::sheet::{Layer, Source};
+use crate::sheet::{Layer, Role, Source};
 use crate::time::{Clock, Frame};
 
 /// How far the drawing of each koma is from the source there, in % of body height.
@@ -20,11 +20,17 @@ pub(super) fn errors(figure: &mut Figure<'_>, shown: &[Source]) -> Vec<f64> {
     shown.iter().copied().enumerate().map(&mut error).collect()
 }
 
-/// The pops of a layer.
+/// The pops of a layer. The drawing of the clip's end is there whatever stands before it, so the step
+/// into it is none.
 pub(super) fn pops(figure: &mut Figure<'_>, layer: &Layer, koma_rate: f64) -> Pops {
+    let is_end = |drawing: usize| layer.drawings[drawing].role == Role::End;
+    let exposures = match layer.exposures.split_last() {
+        Some((last, rest)) if is_end(last.drawing) => rest,
+        _ => &layer.exposures,
+    };
     let mut steps = Vec::new();
     let mut before = Vec::new();
-    for (at, exposure) in layer.exposures.iter().enumerate() {
+    for (at, exposure) in exposures.iter().enumerate() {
         figure.take(layer.drawings[exposure.drawing].source);
         if at > 0 {
             steps.push(figure.apart(&before));
@@ -32,7 +38,7 @@ pub(super) fn pops(figure: &mut Figure<'_>, layer: &Layer, koma_rate: f64) -> Po
         before.clear();
         before.extend_from_slice(figure.positions());
     }
-    let exposures: Vec<usize> = layer.exposures.iter().map(|exposure| exposure.koma).collect();
+    let exposures: Vec<usize> = exposures.iter().map(|exposure| exposure.koma).collect();
     Pops::of(&exposures, &steps, koma_rate)
 }
 

@@ -3,9 +3,12 @@
 use serde::Serialize;
 
 use crate::keys::Matching;
-use crate::time::Frame;
+use crate::time::{Clock, Frame};
 
-/// Keys beside reference keys (照合), all by koma.
+/// Frames more, so that three tenths of a koma are three frames of 240 fps whatever the rounding.
+const HAIR: f64 = 1e-9;
+
+/// Keys beside reference keys (照合), by frame, with all distances in koma.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Timing {
     /// Keys of the reference.
@@ -14,12 +17,12 @@ pub struct Timing {
     pub found: usize,
     /// Pairs that are no further apart than the tolerance, each key in one at the most.
     pub pairs: usize,
-    /// The share of the found keys that are in a pair; 1 where none was found.
-    pub precision: f64,
-    /// The share of the reference keys that are in a pair; 1 where there is none.
-    pub recall: f64,
-    /// The harmonic mean of both: the share of all keys that are in a pair; 1 where there is no key.
-    pub f1: f64,
+    /// The share of the found keys that are in a pair; none where none was found or there is no reference.
+    pub precision: Option<f64>,
+    /// The share of the reference keys that are in a pair; none where there is none.
+    pub recall: Option<f64>,
+    /// The harmonic mean of both: the share of all keys that are in a pair; none without a reference key.
+    pub f1: Option<f64>,
     /// How far the nearest found key is from a reference key in the mean, in koma, whatever the
     /// tolerance; none without keys on both sides.
     pub mean_off: Option<f64>,
@@ -28,27 +31,32 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Lays keys on reference keys, both in koma and in any order, within a tolerance in koma.
-    pub fn of(found: &[usize], reference: &[usize], tolerance: f64) -> Self {
+    /// Lays keys on reference keys, both in any order, within a tolerance in koma. Nothing is rounded to
+    /// koma first: two keys that lie half a koma apart are so, whichever koma they stand nearest to.
+    pub fn of(found: &[Frame], reference: &[Frame], clock: Clock, tolerance: f64) -> Self {
         let [found, reference] = [found, reference].map(|keys| {
-            let mut keys: Vec<Frame> = keys.iter().copied().map(Frame).collect();
+            let mut keys = keys.to_vec();
             keys.sort_unstable();
             keys
         });
-        let matching = Matching::between(&reference, &found, tolerance);
+        let frames_in_koma = clock.frames_in_koma();
+        let matching = Matching::between(&reference, &found, tolerance * frames_in_koma + HAIR);
         let pairs = matching.pairs.len();
-        let share = |of: &[Frame]| if of.is_empty() { 1.0 } else { pairs as f64 / of.len() as f64 };
+        let is_measured = !reference.is_empty();
+        let share =
+            |of: &[Frame]| (is_measured && !of.is_empty()).then(|| pairs as f64 / of.len() as f64);
         let off = distances(&reference, &found);
+        let in_koma = |frames: f64| frames / frames_in_koma;
         Self {
             reference: reference.len(),
             found: found.len(),
             pairs,
             precision: share(&found),
             recall: share(&reference),
-            f1: matching.kept(),
+            f1: is_measured.then(|| matching.kept()),
             mean_off: (!off.is_empty())
-                .then(|| off.iter().sum::<usize>() as f64 / off.len() as f64),
-            off_95: percentile(&off, 0.95).map(|off| off as f64),
+                .then(|| in_koma(off.iter().sum::<usize>() as f64 / off.len() as f64)),
+            off_95: percentile(&off, 0.95).map(|off| in_koma(off as f64)),
         }
     }
 }
@@ -74,36 +82,63 @@ fn percentile(sorted: &[usize], share: f64) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::time::FrameRate;
+
+    /// Keys by frame at so many frames a second.
+    fn timing(found: &[usize], reference: &[usize], fps: f64, tolerance: f64) -> Timing {
+        let frame_rate = FrameRate::new(fps).unwrap();
+        let clock = Clock { first: Frame(0), frame_rate, koma_rate: 24.0 };
+        let frames = |keys: &[usize]| keys.iter().copied().map(Frame).collect::<Vec<_>>();
+        Timing::of(&frames(found), &frames(reference), clock, tolerance)
+    }
 
     #[test]
     fn precision_is_of_what_was_found_and_recall_of_what_should_be() {
-        let timing = Timing::of(&[10, 21, 30], &[10, 20, 50, 90], 1.0);
+        let timing = timing(&[10, 21, 30], &[10, 20, 50, 90], 24.0, 1.0);
         assert_eq!((timing.found, timing.reference, timing.pairs), (3, 4, 2));
-        assert_eq!((timing.precision, timing.recall), (2.0 / 3.0, 0.5));
-        assert_eq!(timing.f1, 4.0 / 7.0);
+        assert_eq!((timing.precision, timing.recall), (Some(2.0 / 3.0), Some(0.5)));
+        assert_eq!(timing.f1, Some(4.0 / 7.0));
         // 0, 1, 20 and 60 koma.
         assert_eq!((timing.mean_off, timing.off_95), (Some(20.25), Some(60.0)));
     }
 
     #[test]
-    fn a_key_is_in_one_pair_at_the_most() {
-        assert_eq!(Timing::of(&[10], &[9, 11], 1.0).pairs, 1);
-        assert_eq!(Timing::of(&[9, 10, 11], &[10], 1.0).precision, 1.0 / 3.0);
+    fn the_tolerance_holds_between_koma_too() {
+        // 5 frames are a koma. Rounded to koma first, 12 and 13 would be a whole one apart.
+        let apart =
+            |by: usize, tolerance| timing(&[12 + by, 112 + by], &[12, 112], 120.0, tolerance);
+        assert_eq!((apart(2, 0.5).f1, apart(2, 0.5).mean_off), (Some(1.0), Some(0.4)));
+        assert_eq!((apart(3, 0.5).f1, apart(3, 0.6).f1), (Some(0.0), Some(1.0)));
+        assert_eq!((apart(5, 1.0).f1, apart(6, 1.0).f1), (Some(1.0), Some(0.0)));
+        assert_eq!(apart(6, 1.0).off_95, Some(1.2));
+        for frames in 1..20 {
+            let whole = timing(&[100 + frames], &[100], 240.0, 0.1 * frames as f64);
+            assert_eq!(whole.pairs, 1, "{frames}");
+        }
     }
 
     #[test]
-    fn without_keys_nothing_is_wrong_and_nothing_is_off() {
-        let nothing = Timing::of(&[], &[], 1.0);
-        assert_eq!((nothing.precision, nothing.recall, nothing.f1), (1.0, 1.0, 1.0));
+    fn a_key_is_in_one_pair_at_the_most() {
+        assert_eq!(timing(&[10], &[9, 11], 24.0, 1.0).pairs, 1);
+        assert_eq!(timing(&[9, 10, 11], &[10], 24.0, 1.0).precision, Some(1.0 / 3.0));
+    }
+
+    #[test]
+    fn without_keys_nothing_is_measured() {
+        let nothing = timing(&[], &[], 24.0, 1.0);
+        assert_eq!((nothing.precision, nothing.recall, nothing.f1), (None, None, None));
         assert_eq!((nothing.mean_off, nothing.off_95), (None, None));
-        let none_found = Timing::of(&[], &[5], 1.0);
-        assert_eq!((none_found.recall, none_found.f1, none_found.mean_off), (0.0, 0.0, None));
+        let none_found = timing(&[], &[5], 24.0, 1.0);
+        assert_eq!((none_found.precision, none_found.recall), (None, Some(0.0)));
+        assert_eq!((none_found.f1, none_found.mean_off), (Some(0.0), None));
+        let no_reference = timing(&[5], &[], 24.0, 1.0);
+        assert_eq!((no_reference.precision, no_reference.f1), (None, None));
     }
 
     #[test]
     fn all_but_one_in_twenty_are_nearer_than_the_95_per_cent() {
         let reference: Vec<usize> = (0..20).map(|key| 100 * key).collect();
         let found: Vec<usize> = (0..20).map(|key| 100 * key + key).collect();
-        assert_eq!(Timing::of(&found, &reference, 0.0).off_95, Some(18.0));
+        assert_eq!(timing(&found, &reference, 24.0, 0.0).off_95, Some(18.0));
     }
 }

@@ -13,7 +13,7 @@ fn a_sheet_is_judged_by_its_source_and_by_keys() {
     let place = Place::new();
     place.done("run data/kick.bvh --out out -q");
     let page = place.done("eval out/sheet.json --clip data/kick.bvh");
-    for word in ["シート", "exposures", "keys alone", "on screen", "feet slide", "pops"] {
+    for word in ["シート", "exposures", "keys alone", "on screen", "slip", "in source", "pops"] {
         assert!(page.contains(word), "no word of {word} in\n{page}");
     }
     assert!(!page.contains("precision"), "{page}");
@@ -49,6 +49,8 @@ fn keys_are_read_from_whatever_has_them_and_their_own_are_all_found() {
         assert_eq!(timing["reference"], genga.len(), "{keys}");
         assert_eq!(timing["mean_off"], 0.0, "{keys}");
         let page = place.done(&format!("{eval} --tolerance 0.5 --json m.json"));
+        let widest = page.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(100), "{page}");
         assert!(page.contains("precision 1.00, recall 1.00, F1 1.00"), "{page}");
         assert!(page.contains("within 0.5 koma"), "{page}");
         assert_eq!(&json(&fs::read_to_string(place.path("m.json")).unwrap())["timing"], timing);
@@ -59,6 +61,43 @@ fn keys_are_read_from_whatever_has_them_and_their_own_are_all_found() {
         place.genga("eval out/sheet.json --clip data/kick.bvh --reference list.txt --json -");
     assert!(text(&output.stderr).contains("1 reference key beyond frames 0 to "));
     assert_eq!(json(&text(&output.stdout))["timing"]["reference"], 1);
+    let page = place.done("eval out/sheet.json --clip data/kick.bvh --reference list.txt");
+    assert!(page.contains("and 1 reference key within 1 koma"), "{page}");
+    fs::write(place.path("list.txt"), "0\n").unwrap();
+    let page = place.done("eval out/sheet.json --clip data/kick.bvh --reference list.txt");
+    assert!(page.contains("no key of it stands between the ends, frames 0 and "), "{page}");
+    assert!(!page.contains("F1"), "{page}");
+}
+
+#[test]
+fn keys_a_little_aside_are_judged_by_how_far_and_not_by_their_koma() {
+    let place = Place::new();
+    place.done("run data/kuroda-pitch.bvh --out out -q");
+    let table = fs::read_to_string(place.path("out/keys.csv")).unwrap();
+    let rows = column(&table, "role").into_iter().zip(column(&table, "source_frame"));
+    let genga: Vec<usize> =
+        rows.filter(|(role, _)| role == "genga").map(|(_, frame)| frame.parse().unwrap()).collect();
+    let sheet = json(&fs::read_to_string(place.path("out/sheet.json")).unwrap());
+    let in_koma = sheet["clip"]["frame_rate"].as_f64().unwrap() / 24.0;
+    let timing = |by: f64, tolerance: &str| {
+        let by = (by * in_koma).round() as usize;
+        let moved: Vec<String> = genga.iter().map(|frame| (frame + by).to_string()).collect();
+        fs::write(place.path("moved.txt"), moved.join("\n")).unwrap();
+        let eval =
+            "eval out/sheet.json --clip data/kuroda-pitch.bvh --reference moved.txt --json -";
+        json(&place.done(&format!("{eval} --tolerance {tolerance}")))["timing"].clone()
+    };
+    let near = timing(0.4, "0.5");
+    assert_eq!(near["f1"], 1.0, "{near}");
+    let off = near["mean_off"].as_f64().unwrap();
+    assert!((off - (0.4 * in_koma).round() / in_koma).abs() < 1e-9, "{near}");
+    let far = timing(1.2, "1");
+    let by = (1.2 * in_koma).round() as usize;
+    let has_neighbour =
+        |frame: &&usize| genga.iter().any(|other| (*frame + by).abs_diff(*other) as f64 <= in_koma);
+    let neighbours = genga.iter().filter(has_neighbour).count();
+    assert!(far["pairs"].as_u64().unwrap() <= neighbours as u64, "{far}");
+    assert!(neighbours * 4 < genga.len() && far["f1"].as_f64().unwrap() < 0.3, "{far}");
 }
 
 #[test]
@@ -94,8 +133,16 @@ fn methods_stand_side_by_side_on_as_many_keys() {
     let table = place.done("compare data/kick.bvh data/pitch.bvh --keys 8,4 --out -");
     assert_eq!(column(&table, "clip").len(), 2 * (2 * 7 + 2));
     assert_eq!(column(&table, "asked")[..8].join(" "), "4 4 4 4 4 4 4 8");
+    for measure in ["hits", "by_chance"] {
+        let shares: Vec<f64> =
+            column(&table, measure).iter().map(|share| share.parse().unwrap()).collect();
+        assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)), "{shares:?}");
+    }
     assert!(column(&table, "ms").iter().all(String::is_empty), "times are other on each run");
     assert_eq!(table, place.done("compare data/kick.bvh data/pitch.bvh --keys 4,8 --out -"));
+    let page = place.done("compare data/kick.bvh --keys 200");
+    assert!(page.contains("  200 ") || page.contains("\n200 "), "{page}");
+    assert!(page.contains("uniform (90)"), "{page}");
     place.done("compare data/kick.bvh --noise 0 --out c.csv --json c.json");
     let found = json(&fs::read_to_string(place.path("c.json")).unwrap());
     let list = |name: &str| found[0][name].as_array().unwrap().clone();

@@ -47,8 +47,9 @@ fn help() -> String {
          Columns:\n  mean, worst    error of the motion made again by slerp from the keys, over all koma and at the\n                 \
          worst: root mean square over the body, in % of its height\n  \
          × mean, worst  the same as a multiple of the least there is for as many keys\n  \
-         timing         F1, within a koma, of the keys and as many of the moments at which wrists, ankles or\n                 \
-         head turn furthest in the world\n  \
+         hits           the share of the moments at which wrists, ankles or head turn furthest in the world, as\n                 \
+         many as keys, that have a key within a koma\n  \
+         by chance      the same in the mean when the keys are turned round the clip by 1, 2, 3 … koma\n  \
          off            how far the nearest key is from such a moment in the mean, in koma\n  \
          steady         F1, within a koma, of the keys with and without noise on the clip\n\n\
          Examples:\n  genga compare kick.bvh --keys 8,16,32\n  genga compare *.bvh --out methods.csv",

@@ -34,8 +34,10 @@ Measures:
   keys alone     the motion made again by slerp from the genga and both ends of the clip, beside the
                  source at each koma: root mean square over the body, in % of its height
   on screen      the same of what the sheet shows at each koma
-  feet slide     how far a foot goes along the ground while it stands in the source
-  pops           steps out of a hold that are twice the steps within half a second, and 1 % or more
+  slip           how far a foot goes along the ground while it stands in the source
+  in source      the same in the source itself over the same koma
+  pops           steps out of a hold that are twice as far as the speed within half a second gives in
+                 the time of the hold, and 1 % or more
   precision, recall, F1
                  genga and keys of the reference that have each other within --tolerance, one to one
   off            how far the nearest genga is from a key of the reference

@@ -28,7 +28,7 @@ pub(super) struct Chosen {
 /// Chooses keys of a clip.
 pub(super) struct Chooser<'a> {
     recipe: &'a Recipe,
-    /// Koma of the longest clip whose optimal sets are looked for.
+    /// Koma of the longest clip on which methods whose work is cubic are tried.
     longest: usize,
     engine: Engine,
     grid: Grid,
@@ -52,25 +52,30 @@ impl<'a> Chooser<'a> {
 
     /// The keys of methods that have a number of their own; none where the clip is too short.
     pub(super) fn paces(&self) -> Vec<(Method, Vec<Frame>)> {
+        let grid = &self.grid;
         let paces = Method::PACES.map(|(method, step)| {
-            (method, self.grid.frames_at(&every(self.grid.frames.len(), step)))
+            // Below 24 fps several koma have one frame.
+            let places =
+                every(grid.reference.koma(), step).into_iter().map(|koma| grid.place(koma));
+            let mut places: Vec<usize> =
+                places.filter(|place| (1..=grid.inner()).contains(place)).collect();
+            places.dedup();
+            (method, grid.frames_at(&places))
         });
         paces.into_iter().filter(|(_, keys)| !keys.is_empty()).collect()
     }
 
-    /// The keys of every method; of the optimal ones only where the clip is not too long.
+    /// The keys of every method; of those that search long only where the clip is not too long.
     pub(super) fn choose(&mut self, counts: &[usize]) -> Result<Vec<Chosen>, Error> {
         let mut chosen = Vec::new();
         let mut segments = None;
-        for method in Method::ALL {
+        let is_long = self.grid.reference.koma() > self.longest;
+        for method in Method::ALL.into_iter().filter(|method| !(is_long && method.is_cubic())) {
             let begin = Instant::now();
             let keys = match method {
                 Method::Own => self.ranked(self.recipe, counts)?,
                 Method::KurodaTokoi => self.ranked(&by_joints(self.recipe.rate), counts)?,
                 optimal if optimal.is_optimal() => {
-                    if self.grid.reference.koma() > self.longest {
-                        continue;
-                    }
                     let segments = segments.get_or_insert_with(|| Segments::of(&self.grid));
                     self.optimal(segments, method, counts)
                 }
@@ -136,4 +141,32 @@ fn by_joints(rate: f64) -> Recipe {
     recipe.keys.rank = Rank::Strength;
     recipe.keys.rest = 0.0;
     recipe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Clip;
+    use crate::quality::tests::swing;
+    use crate::time::{Frame, FrameRate};
+
+    #[test]
+    fn twos_and_threes_go_by_koma_whatever_the_rate_of_the_source() {
+        let angles: Vec<f64> = (0..13).map(|at| 9.0 * f64::from(at)).collect();
+        let paces = |fps: f64| {
+            let swing = swing(&angles);
+            let rate = FrameRate::new(fps).unwrap();
+            let skeleton = swing.skeleton().clone();
+            let clip = Clip::new(skeleton, rate, Frame(0), 13, angles.clone()).unwrap();
+            let recipe = Recipe::default();
+            let chooser = Chooser::new(Arc::new(clip), &recipe, 100).unwrap();
+            let numbers = |keys: Vec<Frame>| keys.iter().map(|key| key.0).collect::<Vec<_>>();
+            chooser.paces().into_iter().map(|(_, keys)| numbers(keys)).collect::<Vec<_>>()
+        };
+        assert_eq!(paces(24.0), [vec![3, 6, 9], vec![2, 4, 6, 8, 10]]);
+        // Two koma are a frame.
+        assert_eq!(paces(12.0)[1], (1..12).collect::<Vec<_>>());
+        assert_eq!(paces(8.0)[0], (1..12).collect::<Vec<_>>());
+        assert_eq!(paces(48.0), [vec![6], vec![4, 8]]);
+    }
 }
