@@ -1,8 +1,11 @@
 //! A small body for the tests of this room.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
+use crate::quality::Grid;
 use crate::time::{Frame, FrameRate};
 
 /// An arm of one bone and a tip that swings about Z, by its angle in degrees at each frame of 24 fps.
@@ -27,4 +30,11 @@ pub(super) fn swing(angles: &[f64]) -> Clip {
     let skeleton = Skeleton { joints: vec![shoulder, hand] };
     let rate = FrameRate::new(24.0).expect("it is a rate");
     Clip::new(skeleton, rate, Frame(0), angles.len(), angles.to_vec()).expect("a row a frame")
+}
+
+/// The grid of [`swing`], a koma a frame.
+pub(super) fn grid(angles: &[f64]) -> Grid {
+    let clip = Arc::new(swing(angles));
+    let clock = clip.clock(24.0);
+    Grid::of(clip, clock)
 }

@@ -139,20 +139,12 @@ fn cheapest(objective: Objective, ways: &[f64], column: &[f64], keys: usize) -> 
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use proptest::prelude::*;
 
     use super::*;
     use crate::keys::{Reconstruction, Reference};
     use crate::quality::Grid;
-    use crate::quality::tests::swing;
-
-    fn grid(angles: &[f64]) -> Grid {
-        let clip = Arc::new(swing(angles));
-        let clock = clip.clock(24.0);
-        Grid::of(clip, clock)
-    }
+    use crate::quality::tests::{grid, swing};
 
     fn error(grid: &Grid, objective: Objective, keys: &[usize]) -> f64 {
         let keys = grid.frames_at(keys);

@@ -62,18 +62,10 @@ fn sides(grid: &Grid, to: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use proptest::prelude::*;
 
     use super::*;
-    use crate::quality::tests::swing;
-
-    fn grid(angles: &[f64]) -> Grid {
-        let clip = Arc::new(swing(angles));
-        let clock = clip.clock(24.0);
-        Grid::of(clip, clock)
-    }
+    use crate::quality::tests::grid;
 
     fn length(grid: &Grid, keys: &[usize]) -> f64 {
         let corners = [&[0], keys, &[grid.frames.len() - 1]].concat();

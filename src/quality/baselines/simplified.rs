@@ -95,14 +95,8 @@ mod tests {
 
     use super::*;
     use crate::keys::Reconstruction;
-    use crate::quality::tests::swing;
+    use crate::quality::tests::{grid, swing};
     use crate::time::FrameRate;
-
-    fn grid(angles: &[f64]) -> Grid {
-        let clip = Arc::new(swing(angles));
-        let clock = clip.clock(24.0);
-        Grid::of(clip, clock)
-    }
 
     #[test]
     fn a_zigzag_is_split_at_its_corners_the_largest_first() {
