@@ -32,6 +32,7 @@ pub use matching::Matching;
 pub use merge::JointTurns;
 pub use ranking::{Ranked, Ranking};
 pub use reconstruction::Reconstruction;
+pub(crate) use reconstruction::with_ends;
 pub use reference::Reference;
 pub use voters::weights;
 pub use weights::JointWeights;

@@ -45,7 +45,7 @@ impl Reconstruction {
 }
 
 /// Keys by frame, each once, with the clip's ends.
-fn with_ends(clip: &Clip, keys: &[Frame]) -> Vec<Frame> {
+pub(crate) fn with_ends(clip: &Clip, keys: &[Frame]) -> Vec<Frame> {
     if clip.is_empty() {
         return Vec::new();
     }

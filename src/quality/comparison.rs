@@ -119,7 +119,8 @@ impl Compare {
         let clip = clip.into();
         let noisy = Arc::new(self.noise.on(&clip));
         let mut chooser = Chooser::new(clip, &self.recipe, self.longest)?;
-        let counts = self.counts_of(chooser.own_keys()?, chooser.grid().inner());
+        let own_keys = chooser.own_keys()?;
+        let counts = self.counts_of(own_keys, chooser.grid().inner());
         let paces = chooser.paces();
         let all: Vec<usize> =
             counts.iter().copied().chain(paces.iter().map(|(_, keys)| keys.len())).collect();
@@ -155,7 +156,6 @@ impl Compare {
             with_ratios(best.chain([own]).collect()).pop()
         });
         let paces = paced.flatten().collect();
-        let own_keys = chooser.own_keys()?;
         let koma = chooser.grid().reference.koma();
         Ok(Comparison { koma, own_keys, extrema: extrema.moments.len(), rows, paces })
     }

@@ -24,8 +24,8 @@ pub struct Off {
 
 impl Off {
     /// Of one error a koma; 0 of none.
-    pub fn of(errors: &[f64]) -> Self {
-        let all = Reconstruction { errors: errors.to_vec() };
+    pub fn of(errors: Vec<f64>) -> Self {
+        let all = Reconstruction { errors };
         Self { mean: all.mean(), worst: all.worst() }
     }
 }
@@ -98,8 +98,8 @@ impl Evaluation {
         let made = shown::slerped(clip, sheet.clock, &genga);
         Ok(Self {
             pace: pace(sheet),
-            keys: Off::of(&Reconstruction::of(clip, &source, &genga).errors),
-            shown: Off::of(&shown::errors(&mut figure, &on_screen[..koma])),
+            keys: Off::of(Reconstruction::of(clip, &source, &genga).errors),
+            shown: Off::of(shown::errors(&mut figure, &on_screen[..koma])),
             keys_slip: Slip::of(&mut figure, sheet.clock, &contacts, &made),
             shown_slip: if koma > 0 {
                 Slip::of(&mut figure, sheet.clock, &contacts, held)

@@ -1,6 +1,6 @@
 //! What is on screen koma by koma.
 
-use crate::keys::Figure;
+use crate::keys::{Figure, with_ends};
 use crate::motion::Clip;
 use crate::quality::holds::Pops;
 use crate::sheet::{Layer, Role, Source};
@@ -45,9 +45,7 @@ pub(super) fn pops(figure: &mut Figure<'_>, layer: &Layer, koma_rate: f64) -> Po
 /// The source of each koma when nothing but some keys and the ends of the clip are left: a slerp from
 /// each to the next.
 pub(super) fn slerped(clip: &Clip, clock: Clock, keys: &[Frame]) -> impl Fn(usize) -> Source {
-    let mut frames = [keys, &[clip.first(), clip.last()]].concat();
-    frames.sort_unstable();
-    frames.dedup();
+    let frames = with_ends(clip, keys);
     move |koma| {
         let place = clock.place_from_koma(koma);
         let after = frames.partition_point(|frame| frame.0 as f64 <= place);

@@ -89,13 +89,17 @@ impl<'a> Chooser<'a> {
     /// The ranked list of a recipe cut at each count. With fewer keys than rests have ends the rests
     /// are left out, as those stay whatever a key saves.
     fn ranked(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
-        let mut without_rests = recipe.clone();
-        without_rests.keys.rest = 0.0;
         let edits = Edits::default();
         let ranking = self.engine.rank(recipe, &edits)?;
-        let fewer = self.engine.rank(&without_rests, &edits)?;
+        let is_few = |count: &usize| *count < ranking.staying.len();
+        let mut without_rests = None;
+        if counts.iter().any(is_few) {
+            let mut recipe = recipe.clone();
+            recipe.keys.rest = 0.0;
+            without_rests = Some(self.engine.rank(&recipe, &edits)?);
+        }
         let cut = |count: &usize| {
-            let ranking = if *count < ranking.staying.len() { &fewer } else { &ranking };
+            let ranking = without_rests.as_ref().filter(|_| is_few(count)).unwrap_or(&ranking);
             let free = (count - ranking.staying.len()).min(ranking.found.len());
             let found = ranking.found[..free].iter().map(|key| key.frame);
             let mut frames: Vec<Frame> = ranking.staying.iter().copied().chain(found).collect();
