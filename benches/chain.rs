@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use genga::edits::Edits;
-use genga::keys::{self, JointTurns, Reference};
+use genga::keys::{self, Chords, JointTurns, Judges, Reference};
 use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -96,8 +96,12 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     watch.lap("merge");
     let reference = Reference::of(clip, clock);
     watch.lap("reference");
-    let keys = recipe.keys.choose(clip, &reference, &candidates, &joints, &Edits::default());
-    watch.lap("rests, prices");
+    let own = vec![1.0; clip.skeleton().len()];
+    let chords = Chords::of(clip, &reference, &own);
+    watch.lap("chords");
+    let judges = Judges { reference: &reference, chords: &chords };
+    let keys = recipe.keys.choose(clip, judges, &candidates, &joints, &Edits::default());
+    watch.lap("rests, keys");
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
     let spaced = recipe.spacing.place(&keys, clip.skeleton(), clock, koma, &Pace::default());
     watch.lap("spacing");

@@ -1,19 +1,20 @@
 //! **Choose** (選ぶ): from the turns of joints to the keys (原画) and walls (壁) of a layer.
 //!
-//! Joints are merged in one of three ways (they vote, their speeds are added, or any joint's turn is a
-//! key), which gives candidates; a price says what each of them saves; [`Choose`] keeps those that are
-//! worth a drawing.
+//! Candidates are every moment, with what the joints say of it, or the moments that joints name (they
+//! vote, their speeds are added, or any joint's turn is one); [`Choose`] takes of them the set that
+//! loses least at a price a drawing.
 
 mod bridge;
+mod cheapest;
 mod choose;
+mod chords;
 mod correct;
 mod figure;
 mod matching;
 mod merge;
 mod peaks;
 mod points;
-mod price;
-mod ranking;
+mod postures;
 mod reconstruction;
 mod reference;
 mod rest;
@@ -26,11 +27,11 @@ use crate::motion::JointId;
 use crate::time::Frame;
 
 pub(crate) use bridge::Bridge;
-pub use choose::{Choose, Merge, Rank};
+pub use choose::{Choose, Judges, Merge, Rank};
+pub use chords::Chords;
 pub use figure::Figure;
 pub use matching::Matching;
 pub use merge::JointTurns;
-pub use ranking::{Ranked, Ranking};
 pub use reconstruction::Reconstruction;
 pub(crate) use reconstruction::with_ends;
 pub use reference::Reference;
@@ -44,8 +45,8 @@ pub struct Key {
     pub frame: Frame,
     /// How strong it is: a share of all weight for votes, the prominence of its valley for `sum`.
     pub strength: f64,
-    /// What it saves, in % of body height: how far the body would be off without it. Infinite for keys
-    /// that may not go.
+    /// What it saves, in % of body height: the error that its neighbours would leave without it, spread
+    /// over an eighth of a second. Infinite for keys that may not go.
     pub price: f64,
     /// Joints that have a turn of their own here.
     pub voters: Vec<JointId>,
@@ -92,7 +93,7 @@ pub struct Wall {
 /// What the joints say together: candidates, before it is asked what they are worth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidates {
-    /// Key candidates by frame, none nearer to another than one koma.
+    /// Key candidates by frame; unless every moment is one, none nearer to another than one koma.
     pub keys: Vec<Candidate>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
@@ -103,7 +104,7 @@ pub struct Candidates {
 pub struct Candidate {
     /// The source frame.
     pub frame: Frame,
-    /// How strong it is; above 0.
+    /// How strong it is; above 0, or 0 where every moment is a candidate and no joint turns.
     pub strength: f64,
 }
 
@@ -117,3 +118,6 @@ pub struct LayerKeys {
     /// Keys that were worth a drawing and went all the same, because there were too many a second.
     pub over_limit: usize,
 }
+
+#[cfg(test)]
+mod tests;

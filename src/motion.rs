@@ -7,6 +7,7 @@ mod drawn;
 mod kinematics;
 pub mod landmarks;
 pub(crate) mod lanes;
+pub(crate) mod mannequin;
 pub(crate) mod rig;
 pub(crate) mod sampler;
 mod side;

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, Candidates, JointTurns, JointWeights, LayerKeys, Ranking, Reconstruction, Reference,
+    self, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Reconstruction,
+    Reference,
 };
 use crate::motion::Clip;
 use crate::recipe::Recipe;
@@ -32,6 +33,7 @@ pub struct Engine {
     voices: Stage<JointWeights, Voices>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, JointWeights), Reference>,
+    chords: Stage<(f64, JointWeights), Chords>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
@@ -88,6 +90,7 @@ impl Engine {
             voices: Stage::default(),
             candidates: Stage::default(),
             reference: Stage::default(),
+            chords: Stage::default(),
             keys: Stage::default(),
             spaced: Stage::default(),
             stills: Stage::default(),
@@ -121,6 +124,7 @@ impl Engine {
         let clock = self.run(recipe, edits)?.clock;
         self.turning.forget();
         self.reference.forget();
+        self.chords.forget();
         self.stills.forget();
         Ok(self.breakdown(clock))
     }
@@ -163,33 +167,6 @@ impl Engine {
     ) -> Result<(&[Vec<Turn>], &LayerKeys), Error> {
         self.find(recipe, edits)?;
         Ok((self.turns.output(), self.keys.output()))
-    }
-
-    /// Runs the chain up to the candidates and ranks all that could be keys.
-    ///
-    /// # Errors
-    /// Those of [`Engine::run`].
-    pub fn rank(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Ranking, Error> {
-        let turns = self.check_and_measure(recipe, edits)?;
-        self.merge(recipe, turns);
-        let (reference, candidates) = (self.reference.output(), self.candidates.output());
-        Ok(recipe.keys.ranking(&self.clip, reference, candidates, &self.joints(recipe), edits))
-    }
-
-    /// The fewest of the found keys, best first, with which the body is nowhere further off than `most`:
-    /// see [`Ranking::fewest_within`].
-    ///
-    /// # Errors
-    /// Those of [`Engine::run`].
-    pub fn fewest_within(
-        &mut self,
-        most: f64,
-        recipe: &Recipe,
-        edits: &Edits,
-    ) -> Result<(Ranking, usize), Error> {
-        let ranking = self.rank(recipe, edits)?;
-        let fewest = ranking.fewest_within(most, &self.clip, self.reference.output());
-        Ok((ranking, fewest))
     }
 
     /// How far off the body is when nothing but the keys of a recipe is left.
@@ -260,7 +237,6 @@ impl Engine {
     fn merge(&mut self, recipe: &Recipe, turns_made: Made) -> Made {
         // What is asked of the ranked list does not change the candidates.
         let merging = keys::Choose {
-            rank: keys::Rank::Price,
             min_price: 0.0,
             rest: 0.0,
             per_second: f64::INFINITY,
@@ -277,6 +253,8 @@ impl Engine {
         self.reference.renew(Made::CLIP, &settings, || {
             Reference::weighted(clip, clip.clock(recipe.rate), own)
         });
+        let reference = self.reference.output();
+        self.chords.renew(Made::CLIP, &settings, || Chords::of(clip, reference, own));
         made
     }
 
@@ -285,8 +263,10 @@ impl Engine {
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
         let mut keys = std::mem::take(&mut self.keys);
         let made = keys.renew(candidates_made, &settings, || {
-            let (reference, candidates) = (self.reference.output(), self.candidates.output());
-            recipe.keys.choose(&self.clip, reference, candidates, &self.joints(recipe), edits)
+            let judges =
+                Judges { reference: self.reference.output(), chords: self.chords.output() };
+            let candidates = self.candidates.output();
+            recipe.keys.choose(&self.clip, judges, candidates, &self.joints(recipe), edits)
         });
         self.keys = keys;
         made

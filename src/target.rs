@@ -9,6 +9,7 @@ mod error;
 mod genga;
 mod ladder;
 mod reasons;
+mod room;
 
 use std::fmt;
 
@@ -17,6 +18,7 @@ use crate::error::Error;
 use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 use crate::sheet::{Layer, Role};
+pub(crate) use room::with_found;
 
 /// What a sheet is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -60,45 +60,6 @@ impl<'a> Bridge<'a> {
         }
     }
 
-    /// What the error is at least, and whether it is that: looked at round one koma alone. It is
-    /// largest where the movement turns, so the koma of the key left out says nearly all.
-    pub(super) fn least_error(&mut self, from: usize, at: usize, to: usize) -> (f64, bool) {
-        let piers = self.piers(from, to);
-        if piers.koma.is_empty() {
-            return (0.0, true);
-        }
-        let near = self.near(at, &piers);
-        let error = wide(
-            #[inline(always)]
-            || {
-                self.aim(&piers);
-                self.error_in(near, &piers)
-            },
-        );
-        (error, piers.blocks().len() == 1)
-    }
-
-    /// The position error of the worst koma between two frames, root mean square over the body's
-    /// points, in % of body height; `least` is what [`Self::least_error`] said of it.
-    pub(super) fn error(&mut self, from: usize, at: usize, to: usize, least: f64) -> f64 {
-        let piers = self.piers(from, to);
-        if piers.koma.is_empty() {
-            return least;
-        }
-        let near = self.near(at, &piers);
-        wide(
-            #[inline(always)]
-            || {
-                self.aim(&piers);
-                let mut worst = least;
-                for block in piers.blocks().filter(|block| *block != near) {
-                    worst = worst.max(self.error_in(block, &piers));
-                }
-                worst
-            },
-        )
-    }
-
     /// The error at every koma that lies strictly between two frames, with its number: root mean square
     /// over the body's points, in % of body height.
     pub(crate) fn errors(&mut self, from: usize, to: usize, mut each: impl FnMut(usize, f64)) {
@@ -129,13 +90,6 @@ impl<'a> Bridge<'a> {
         Piers { from, to, koma }
     }
 
-    /// The block of the koma that is nearest to a frame.
-    fn near(&self, at: usize, piers: &Piers) -> usize {
-        let clock = self.reference.clock();
-        let koma = clock.koma_from_place(self.frames[at].0 as f64);
-        koma.clamp(piers.koma.start, piers.koma.end - 1) / LANES
-    }
-
     /// Finds the way of each joint from one end to the other.
     #[inline(always)]
     fn aim(&mut self, piers: &Piers) {
@@ -144,15 +98,6 @@ impl<'a> Bridge<'a> {
         for (arc, (from, to)) in self.arcs.iter_mut().zip(ends) {
             *arc = Arc::between(*from, *to);
         }
-    }
-
-    /// The error at the worst koma of a block.
-    #[inline(always)]
-    fn error_in(&mut self, block: usize, piers: &Piers) -> f64 {
-        let apart = self.apart_in(block, piers);
-        let lanes = (0..LANES).filter(|lane| piers.koma.contains(&(block * LANES + lane)));
-        let worst = lanes.map(|lane| apart.0[lane]).fold(0.0, f64::max);
-        self.reference.percent(worst)
     }
 
     /// The mean squared distance from the source at each koma of a block; of koma that lie outside the

@@ -1,26 +1,34 @@
-//! Which candidates are keys of the layer: ranked by what they save, and cut.
+//! Which candidates are keys of the layer: those that together save most for their price.
 
 use serde::{Deserialize, Serialize};
 
 use crate::edits::Edits;
 use crate::error::Error;
+use crate::keys::cheapest::{Cheapest, Entry};
 use crate::keys::correct::{corrected, moved};
-use crate::keys::price::{self, Entry};
 use crate::keys::voters::voters;
-use crate::keys::{Candidates, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest};
+use crate::keys::{
+    Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest,
+};
 use crate::motion::Clip;
 use crate::time::Span;
 
-/// How the turns of joints become the keys of a layer.
+/// Seconds for which a key has to save [`Choose::min_price`]: three koma of 24 a second.
+const HELD: f64 = 0.125;
+
+/// What may be a key of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Merge {
+    /// Every moment, half koma by half koma; its strength is the vote. Ranked by strength it is
+    /// [`Merge::Union`].
+    #[default]
+    Every,
     /// Every joint votes with the weight of what hangs on it; keys are the maxima of the vote.
     Vote,
     /// The joints' speeds are added first; keys are the valleys of the sum.
     Sum,
     /// A turn of any joint is a key [KT11 §3.3].
-    #[default]
     Union,
 }
 
@@ -28,7 +36,7 @@ pub enum Merge {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rank {
-    /// By what a key saves: how far the body would be off at the worst koma without it.
+    /// By what they save: of all sets of keys the one that loses least, each key at a price.
     #[default]
     Price,
     /// By how strong it is.
@@ -39,26 +47,27 @@ pub enum Rank {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Choose {
-    /// How joints are merged. Default: `union`, and the price picks from it.
+    /// What may be a key. Default: `every` moment, and the price picks.
     pub merge: Merge,
     /// How far a joint's vote carries, frames or seconds. Default 0.08 s. Raised, it joins turns that
     /// lie further apart into one key, and quick double actions become one.
     pub reach: Span,
     /// By what keys are ranked. Default: `price`.
     pub rank: Rank,
-    /// The least a key must save, in % of body height: how far the body would be off at the worst koma
-    /// without it; 0 or more, default 2.5. Raised, small gestures lose their keys first. It counts when
-    /// ranked by price.
+    /// What a key costs, in % of body height: it must save an error so large for an eighth of a second;
+    /// 0 or more, default 2.5. Raised, small gestures lose their keys first. It counts when ranked by
+    /// price.
     pub min_price: f64,
-    /// The speed below which the whole body rests, in % of its height a second (root mean square over
-    /// the bones); 0 or more, default 12, 0 for no rests. Both ends of a rest of half a second or more
+    /// The speed below which the whole body rests, in % of its height a second (the posture's: pelvis,
+    /// heading, and root mean square over the other points); 0 or more, default 12, 0 for no rests. Both ends of a rest of half a second or more
     /// are keys whatever they save. Raised, slow gestures count as rests.
     pub rest: f64,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
     pub min_strength: f64,
-    /// Found keys a second at the most, the best first; pins and the ends of rests come on top. Above
-    /// 0, default 4.5, `inf` for no limit. Lowered, fast passages lose their keys first.
+    /// Found keys a second at the most; pins and the ends of rests come on top. Above 0, default 4.5,
+    /// `inf` for no limit. Where more would be worth it the price is raised until they fit: lowered, it
+    /// takes those that save least.
     pub per_second: f64,
     /// How much joints count beside what they weigh by their bones: in the votes, in the price and the
     /// pace of the body, and in its rests. Default: all the same. With 0 a joint's turns are no candidates.
@@ -69,7 +78,7 @@ pub struct Choose {
 impl Default for Choose {
     fn default() -> Self {
         Self {
-            merge: Merge::Union,
+            merge: Merge::Every,
             reach: Span::Seconds(0.08),
             rank: Rank::Price,
             min_price: 2.5,
@@ -79,6 +88,15 @@ impl Default for Choose {
             weights: JointWeights::default(),
         }
     }
+}
+
+/// What keys are judged by.
+#[derive(Debug, Clone, Copy)]
+pub struct Judges<'a> {
+    /// The source koma after koma.
+    pub reference: &'a Reference,
+    /// What is lost from any instant to another.
+    pub chords: &'a Chords,
 }
 
 impl Choose {
@@ -113,14 +131,15 @@ impl Choose {
     pub fn choose(
         &self,
         clip: &Clip,
-        reference: &Reference,
+        judges: Judges<'_>,
         candidates: &Candidates,
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> LayerKeys {
-        let mut keys = self.eligible(clip, reference, candidates, joints.apart, edits);
+        let reference = judges.reference;
+        let mut keys = self.eligible(clip, judges.chords, candidates, joints.apart, edits);
         let over_limit = match self.rank {
-            Rank::Price => self.keep_the_dear(clip, reference, &mut keys),
+            Rank::Price => self.keep_the_cheapest(clip, judges, joints.apart, &mut keys),
             Rank::Strength => self.keep_the_strong(reference.seconds(), &mut keys),
         };
         moved(&mut keys, edits, joints.apart);
@@ -133,30 +152,42 @@ impl Choose {
     }
 
     /// All that may become keys: candidates, the ends of rests, and pins.
-    pub(super) fn eligible(
+    fn eligible(
         &self,
         clip: &Clip,
-        reference: &Reference,
+        chords: &Chords,
         candidates: &Candidates,
         apart: f64,
         edits: &Edits,
     ) -> Vec<Key> {
-        let rests = rest::rest_ends(reference, self.rest);
+        let rests = rest::rest_ends(chords, self.rest);
         corrected(candidates, &rests, edits, clip, apart)
     }
 
-    /// Leaves the keys that are worth a drawing, with their prices. Says how many more would be.
-    fn keep_the_dear(&self, clip: &Clip, reference: &Reference, keys: &mut Vec<Key>) -> usize {
-        let entries = entries(clip, keys);
-        let most = self.most_keys(reference.seconds());
-        let worthwhile = price::worthwhile(clip, reference, &entries, self.min_price, most);
-        let mut prices = worthwhile.prices[1..].iter();
-        keys.retain_mut(|key| {
-            let price = prices.next().copied().flatten();
-            key.price = price.unwrap_or(key.price);
-            price.is_some()
+    /// Leaves the set that loses least, each with what it saves. Says how many more would be worth it.
+    fn keep_the_cheapest(
+        &self,
+        clip: &Clip,
+        judges: Judges<'_>,
+        apart: f64,
+        keys: &mut Vec<Key>,
+    ) -> usize {
+        let Judges { reference, chords } = judges;
+        let entries = entries(clip, chords, keys);
+        let cheapest = Cheapest { chords, entries: &entries, apart };
+        let held = HELD * reference.clock().koma_rate;
+        let price = self.min_price.powi(2) * held;
+        let set = cheapest.set(price, self.most_keys(reference.seconds()));
+        // The clip's ends are first and last among the entries and not among the keys.
+        let saves = cheapest.saves(&set.kept);
+        let inner =
+            set.kept.iter().zip(saves).filter(|(entry, _)| (1..=keys.len()).contains(*entry));
+        let kept = inner.map(|(entry, saved)| {
+            let price = (saved.max(0.0) / held).sqrt();
+            Key { price, ..keys[entry - 1].clone() }
         });
-        worthwhile.over_limit
+        *keys = kept.collect();
+        set.over_limit
     }
 
     /// Leaves the strongest keys. Says how many more there are.
@@ -175,21 +206,21 @@ impl Choose {
     }
 }
 
-/// Keys by frame with the clip's ends about them, to be priced.
-pub(super) fn entries(clip: &Clip, keys: &[Key]) -> Vec<Entry> {
-    let end = |frame| Entry { frame, stays: true };
-    let keys = keys.iter().map(|key| Entry { frame: key.frame, stays: !is_found(key) });
-    let ends = [clip.first(), clip.last()].map(end);
-    std::iter::once(ends[0]).chain(keys).chain(std::iter::once(ends[1])).collect()
+/// Keys by frame with the clip's ends about them.
+fn entries(clip: &Clip, chords: &Chords, keys: &[Key]) -> Vec<Entry> {
+    let entry = |frame, stays| Entry { frame, instant: chords.instant(frame), stays };
+    let end = |frame| std::iter::once(entry(frame, true));
+    let keys = keys.iter().map(|key| entry(key.frame, !is_found(key)));
+    end(clip.first()).chain(keys).chain(end(clip.last())).collect()
 }
 
 /// Those that stay first, then the others, of equals the earlier.
-pub(super) fn strongest_first(keys: &mut [Key]) {
+fn strongest_first(keys: &mut [Key]) {
     let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
     keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
 }
 
 /// Whether it may go.
-pub(super) fn is_found(key: &Key) -> bool {
+fn is_found(key: &Key) -> bool {
     key.origin == Origin::Found
 }

@@ -1,8 +1,9 @@
-//! From the turns of joints to candidates of the layer: union, vote or sum.
+//! From the turns of joints to candidates of the layer: every moment, union, vote or sum.
 
+use crate::keys::chords::STEP;
 use crate::keys::peaks::strongest_apart;
 use crate::keys::vote::Poll;
-use crate::keys::{Candidate, Candidates, Choose, Merge, Wall, sum};
+use crate::keys::{Candidate, Candidates, Choose, Merge, Rank, Wall, sum};
 use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
 use crate::time::Frame;
 
@@ -27,16 +28,14 @@ impl Choose {
     /// What the joints say together.
     pub fn candidates(&self, joints: &JointTurns<'_>) -> Candidates {
         let filtered = joints.filtered;
-        let merged = |kind| match self.merge {
-            Merge::Sum => summed(joints, kind),
-            Merge::Vote => {
-                let poll = self.poll(joints);
-                poll.elected(&poll.count(joints.turns, kind))
-            }
-            Merge::Union => {
-                let poll = self.poll(joints);
-                poll.named(joints.turns, kind, &poll.count(joints.turns, kind))
-            }
+        let poll = self.poll(joints);
+        let elected = |kind| poll.elected(&poll.count(joints.turns, kind));
+        let named = |kind| poll.named(joints.turns, kind, &poll.count(joints.turns, kind));
+        let merged = |kind| match (self.merge, kind) {
+            (Merge::Every, TurnKind::Key) if self.rank == Rank::Price => every(&poll, joints),
+            (Merge::Sum, _) => summed(joints, kind),
+            (Merge::Vote, _) => elected(kind),
+            (Merge::Union | Merge::Every, _) => named(kind),
         };
         let inside = |frame: Frame| {
             frame > filtered.first && frame.0 + 1 < filtered.first.0 + filtered.frames()
@@ -64,6 +63,15 @@ impl Choose {
             apart: joints.apart,
         }
     }
+}
+
+/// The frames nearest to each half koma, with the vote there.
+fn every(poll: &Poll<'_>, joints: &JointTurns<'_>) -> Vec<(Frame, f64)> {
+    let votes = poll.count(joints.turns, TurnKind::Key);
+    let row = |instant: usize| (instant as f64 * STEP * joints.apart).round() as usize;
+    let mut rows: Vec<usize> = (0..).map(row).take_while(|row| *row < votes.len()).collect();
+    rows.dedup();
+    rows.into_iter().map(|row| (Frame(poll.first.0 + row), votes[row])).collect()
 }
 
 /// The turns of the layer's mean speed, with their prominence.

@@ -55,8 +55,19 @@ impl Points {
     #[inline(always)]
     pub(super) fn place(&self, rig: &Rig, pose: &mut LanePose, positions: &mut [LaneVec]) {
         pose.place(rig);
+        self.placed(pose, positions);
+    }
+
+    /// Writes where the points of poses that are placed already stand.
+    #[inline(always)]
+    pub(super) fn placed(&self, pose: &LanePose, positions: &mut [LaneVec]) {
         positions[..self.joints].copy_from_slice(&pose.translations);
         self.place_tips(&pose.rotations, positions);
+    }
+
+    /// What each point weighs, joints first; their sum is 1.
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.weights
     }
 
     /// Writes where the tips stand behind where the joints do, whose world rotations these are.

@@ -61,7 +61,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::keys::price::tests::swing;
+    use crate::keys::tests::swing;
     use crate::motion::{Body, Pose};
     use crate::time::FrameRate;
 

@@ -3,6 +3,7 @@
 //! Names are a matter of the program that wrote the file, so they are not asked.
 
 use std::collections::BTreeSet;
+use std::iter;
 
 use glam::DVec3;
 
@@ -30,7 +31,7 @@ pub struct Point {
 }
 
 impl Point {
-    fn of(joint: usize) -> Self {
+    pub(super) fn of(joint: usize) -> Self {
         Self { joint: JointId(joint), offset: DVec3::ZERO }
     }
 
@@ -175,21 +176,21 @@ fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
         is_leaf[parent.0] = false;
     }
-    let end = |leaf: usize| {
-        let mut end = leaf;
-        while let Some(parent) = skeleton.joints[end].parent
-            && reaches[parent.0] <= LONGEST_END * height
-        {
-            end = parent.0;
-        }
-        end
-    };
+    // A joint that cannot turn is a point on a bone.
+    let is_end =
+        |joint: &usize| reaches[*joint] <= LONGEST_END * height && skeleton.joints[*joint].turns();
+    let end = |leaf: usize| above(skeleton, leaf).filter(is_end).last().unwrap_or(leaf);
     let leaves = (0..skeleton.len()).filter(|joint| is_leaf[*joint]);
     leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
 }
 
+/// A joint and all that it hangs on, up to its root.
+pub(super) fn above(skeleton: &Skeleton, joint: usize) -> impl Iterator<Item = usize> {
+    iter::successors(Some(joint), |joint| skeleton.joints[*joint].parent.map(|parent| parent.0))
+}
+
 /// How far each joint is from its root along the bones. The root's own offset is no bone.
-fn lengths(skeleton: &Skeleton) -> Vec<f64> {
+pub(super) fn lengths(skeleton: &Skeleton) -> Vec<f64> {
     let mut lengths: Vec<f64> = Vec::with_capacity(skeleton.len());
     for joint in &skeleton.joints {
         lengths.push(joint.parent.map_or(0.0, |parent| lengths[parent.0] + joint.offset.length()));
@@ -198,7 +199,7 @@ fn lengths(skeleton: &Skeleton) -> Vec<f64> {
 }
 
 /// A joint and all that hangs on it.
-fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usize> {
+pub(super) fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usize> {
     let mut is_below = vec![false; skeleton.len()];
     for (joint, data) in skeleton.joints.iter().enumerate().skip(top) {
         is_below[joint] = joint == top || data.parent.is_some_and(|parent| is_below[parent.0]);
@@ -239,12 +240,12 @@ mod tests {
     /// That body, standing still; `turned` is the axis that is up.
     fn standing(scale: f64, turned: fn(DVec3) -> DVec3) -> Clip {
         let place = |offset: [f64; 3]| turned(scale * DVec3::from_array(offset));
-        let joints = BODY.iter().map(|(name, parent, offset, tip)| Joint {
+        let joints = BODY.iter().enumerate().map(|(at, (name, parent, offset, tip))| Joint {
             name: (*name).into(),
             parent: parent.map(JointId),
             offset: place(*offset),
-            channels: if parent.is_none() { vec![Channel::Rotation(Axis::X)] } else { vec![] },
-            first_channel: usize::from(parent.is_some()),
+            channels: vec![Channel::Rotation(Axis::X)],
+            first_channel: at,
             end_sites: tip
                 .iter()
                 .map(|tip| EndSite { name: "Site".into(), offset: place(*tip) })
@@ -252,7 +253,7 @@ mod tests {
         });
         let skeleton = Skeleton { joints: joints.collect() };
         let rate = FrameRate::new(24.0).unwrap();
-        Clip::new(skeleton, rate, Frame(7), 3, vec![0.0; 3]).unwrap()
+        Clip::new(skeleton, rate, Frame(7), 3, vec![0.0; 3 * BODY.len()]).unwrap()
     }
 
     #[test]
@@ -291,7 +292,7 @@ mod tests {
         let mut skeleton = standing(1.0, |offset| offset).skeleton().clone();
         skeleton.joints.truncate(2);
         let rate = FrameRate::new(24.0).unwrap();
-        let clip = Clip::new(skeleton, rate, Frame(0), 1, vec![0.0]).unwrap();
+        let clip = Clip::new(skeleton, rate, Frame(0), 1, vec![0.0; 2]).unwrap();
         assert!(Landmarks::of(&clip).points().is_empty());
     }
 }

@@ -61,6 +61,13 @@ pub struct Joint {
     pub end_sites: Vec<EndSite>,
 }
 
+impl Joint {
+    /// Whether it can turn; else it is a point on the bone of the joint before it.
+    pub(crate) fn turns(&self) -> bool {
+        self.channels.iter().any(|channel| matches!(channel, Channel::Rotation(_)))
+    }
+}
+
 /// Joints in file order, so that a parent always stands before its children.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Skeleton {

@@ -280,8 +280,8 @@ fn nothing_is_moved_where_nothing_was_found() {
     let mut engine = Engine::new(clip.clone()).unwrap();
     let recipe = Recipe::default();
     let before = run(&mut engine, &recipe, &Edits::default());
-    let all: Vec<Frame> = before.candidates.keys.iter().map(|key| key.frame).collect();
-    let is_empty = |frame: &usize| all.iter().all(|other| other.0 != *frame);
+    let is_empty =
+        |frame: &usize| before.keys.keys.iter().all(|key| key.frame.0.abs_diff(*frame) >= 5);
     let from = (30..110).find(is_empty).unwrap();
     let edits = |to: usize| Edits {
         moves: vec![Move { from: Frame(from), to: Frame(to), name: None, weight: None }],
@@ -301,7 +301,7 @@ fn what_all_joints_weigh_is_nothing_and_what_one_weighs_is_something() {
         }
         engine.run(&recipe, &Edits::default()).unwrap().keys.clone()
     };
-    for merge in ["union", "vote", "sum"] {
+    for merge in ["every", "union", "vote", "sum"] {
         let plain = keys(merge, &[]);
         assert_eq!(keys(merge, &[("*", "2")]), plain, "{merge}");
         assert_ne!(keys(merge, &[("*Foot", "8")]), plain, "{merge}");
@@ -316,6 +316,7 @@ fn a_joint_without_a_say_is_nobody_s_reason() {
     let mute = |joint: &crate::motion::JointId| !feet(&clip.skeleton().joints[joint.0].name);
     let mut engine = Engine::new(clip.clone()).unwrap();
     let mut recipe = Recipe::default();
+    recipe.set("keys.merge", "union").unwrap();
     for (joint, weight) in [("*", "0"), ("*Foot*", "1"), ("*Toe*", "1")] {
         recipe.set(&format!("keys.weights.{joint}"), weight).unwrap();
     }

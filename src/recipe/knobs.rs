@@ -116,11 +116,11 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "keys.merge",
-        japanese: "部位のまとめ方",
-        kind: Kind::Choice(&["union", "vote", "sum"]),
+        japanese: "原画の候補",
+        kind: Kind::Choice(&["every", "union", "vote", "sum"]),
         unit: "",
-        help: "How joints make the candidates for the body's keys: a turn of any joint is one (union), \
-               each joint votes with the length of what hangs on it, or their speeds are added first.",
+        help: "What may be a key: every moment, a turn of any joint (union), what joints elect that vote \
+               with the length of what hangs on them, or turns of their speeds added up (sum).",
     },
     Knob {
         name: "keys.reach",
@@ -132,18 +132,19 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "keys.rank",
-        japanese: "原画の順位",
+        japanese: "原画の選び方",
         kind: Kind::Choice(&["price", "strength"]),
         unit: "",
-        help: "By what keys are ranked: what leaving one out would cost, or how strong it is.",
+        help: "What decides between keys: what they save together at a price a drawing, or how many joints \
+               turn.",
     },
     Knob {
         name: "keys.min_price",
         japanese: "最低の価値",
         kind: number(0.0, 20.0),
         unit: "% of body height",
-        help: "How far the body must be off without a key for it to be kept. Higher keeps fewer; small \
-               gestures go first.",
+        help: "What a key costs: it must save an error so large for an eighth of a second. Higher keeps \
+               fewer; small gestures go first.",
     },
     Knob {
         name: "keys.rest",
@@ -164,7 +165,8 @@ pub const KNOBS: &[Knob] = &[
         japanese: "毎秒の原画数",
         kind: number(0.1, 12.0),
         unit: "keys a second, inf for no limit",
-        help: "That many found keys at the most, the best first; pins and ends of rests come on top. Lower keeps fewer; fast passages lose theirs first.",
+        help: "That many found keys at the most; pins and ends of rests come on top. Where more are worth it \
+               the price rises until they fit.",
     },
     Knob {
         name: "spacing.on",

@@ -2,10 +2,9 @@
 //! its range ends.
 
 use super::ladder::{denser, sparser, sparser_to_fours};
-use super::{Outcome, Target, genga, layer};
+use super::{Outcome, Target, genga, layer, room};
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::Origin;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::timing::{Amount, Spacing};
@@ -147,6 +146,12 @@ impl Search<'_> {
         Ok(best.expect("it was looked at once"))
     }
 
+    /// The same with so many found keys.
+    fn hold_with(&mut self, recipe: &Recipe, count: usize) -> Result<Found, Error> {
+        let recipe = room::with_found(self.engine, recipe, self.edits, count)?;
+        self.hold(&recipe)
+    }
+
     /// Rung after rung of spacing until there are too few drawings; the nearest of all.
     fn climb(
         &mut self,
@@ -184,21 +189,16 @@ impl Search<'_> {
     /// are few enough drawings without any found key. A hold has its bound, so on a denser one there are
     /// too many whatever keys go.
     fn fewer(&mut self, from: Found) -> Result<Found, Error> {
-        let ranking = self.engine.rank(&from.recipe, self.edits)?;
-        let keys = &self.engine.run(&from.recipe, self.edits)?.keys.keys;
-        let found = keys.iter().filter(|key| key.origin == Origin::Found).count();
+        let found = room::found(self.engine, &from.recipe, self.edits)?;
         let mut best = from.clone();
         let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);
         for spacing in rungs {
-            let with = |count| {
-                let keys = ranking.keeping(count, &from.recipe.keys);
-                Recipe { keys, spacing: spacing.clone(), ..from.recipe.clone() }
-            };
-            let fewest = self.hold(&with(0))?;
+            let sparse = Recipe { spacing, ..from.recipe.clone() };
+            let fewest = self.hold_with(&sparse, 0)?;
             let is_enough = fewest.excess <= EXACT;
             best = best.or(fewest);
             if is_enough {
-                return self.with_most_keys(best, found + 1, with);
+                return self.with_most_keys(best, found + 1, &sparse);
             }
         }
         Ok(best)
@@ -212,12 +212,12 @@ impl Search<'_> {
         &mut self,
         mut best: Found,
         mut too_many: usize,
-        with: impl Fn(usize) -> Recipe,
+        recipe: &Recipe,
     ) -> Result<Found, Error> {
         let mut few_enough = 0;
         while few_enough + 1 < too_many {
             let count = usize::midpoint(few_enough, too_many);
-            let found = self.hold(&with(count))?;
+            let found = self.hold_with(recipe, count)?;
             if found.excess <= EXACT {
                 few_enough = count;
                 best = if found.is_exact() { found } else { best.or(found) };

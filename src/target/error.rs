@@ -1,27 +1,46 @@
-//! A largest error: the fewest keys of the ranked list with which the body is nowhere further off.
+//! A largest error: the fewest keys with which the body is nowhere further off.
 
-use super::{Outcome, Target, reasons};
+use super::{Outcome, Target, reasons, room};
 use crate::edits::{Edits, Forbidden};
 use crate::error::Error;
-use crate::keys::Origin;
+use crate::keys::{Merge, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::time::Frame;
 
-/// Settings with the fewest keys that put the body nowhere further off than `most`, in % of its height;
-/// where no number of keys will do, with the fewest that put it further off on the fewest koma.
+/// The highest price that is tried, in % of body height.
+const HIGHEST: f64 = 100.0;
+
+/// Each price, and each number of keys, is so many times the one before.
+const STEP: f64 = 1.09;
+
+/// Settings with the fewest keys that put the body nowhere further off than `most`, in % of its height; where
+/// none will do, with the fewest that put it further off on the fewest koma.
+///
+/// A key more may well put the body further off somewhere, so no bisection would be sure: settings are
+/// tried from few keys to many in even steps, and the first that will do is the answer.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
     edits: &Edits,
     most: f64,
 ) -> Result<(Recipe, Outcome), Error> {
-    let (ranking, count) = engine.fewest_within(most, recipe, edits)?;
-    let (_, now) = engine.find_keys(recipe, edits)?;
-    let found = now.keys.iter().filter(|key| key.origin == Origin::Found).count();
+    let mut best: Option<(usize, Recipe)> = None;
+    for rung in rungs(engine, recipe, edits)? {
+        let errors = engine.reconstruction(&rung, edits)?.errors;
+        let beyond = errors.iter().filter(|error| **error > most).count();
+        if best.as_ref().is_none_or(|(least, _)| beyond < *least) {
+            best = Some((beyond, rung));
+        }
+        if beyond == 0 {
+            break;
+        }
+    }
     let mut recipe = recipe.clone();
-    if found != count {
-        recipe.keys = ranking.keeping(count, &recipe.keys);
+    if let Some((_, best)) = best
+        && keys(engine, &best, edits)? != keys(engine, &recipe, edits)?
+    {
+        recipe = best;
     }
     let rebuilt = engine.reconstruction(&recipe, edits)?;
     let reached = rebuilt.worst();
@@ -35,13 +54,43 @@ pub(super) fn meet(
     Ok((recipe, Outcome { target: Target::MaxError(most), reached, shortfall }))
 }
 
+/// Settings from few keys to all.
+fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Recipe>, Error> {
+    let mut all = recipe.clone();
+    all.keys.per_second = f64::INFINITY;
+    if recipe.keys.rank == Rank::Price {
+        let priced = |min_price| {
+            let mut rung = all.clone();
+            rung.keys.min_price = min_price;
+            rung
+        };
+        let prices = std::iter::successors(Some(HIGHEST), |price| Some(price / STEP));
+        // Three digits are enough to part two rungs, and a person reads them.
+        let rounded = prices.map(|price| (1000.0 * price).round() / 1000.0);
+        return Ok(rounded.take_while(|price| *price > 0.05).chain([0.0]).map(priced).collect());
+    }
+    let most = room::found(engine, &all, edits)?;
+    let more = |count: &usize| Some((count + 1).max((*count as f64 * STEP) as usize));
+    let counts = std::iter::successors(Some(0), more).take_while(|count| *count < most);
+    let rungs: Result<Vec<_>, _> =
+        counts.map(|count| room::with_found(engine, recipe, edits, count)).collect();
+    Ok(rungs?.into_iter().chain([all]).collect())
+}
+
+fn keys(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Frame>, Error> {
+    Ok(engine.find_keys(recipe, edits)?.1.keys.iter().map(|key| key.frame).collect())
+}
+
 /// Why some koma are further off, the worst of them near a frame, and what helps.
 fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> String {
     let why = if edits.only_pins {
         format!("it is further off: {}", reasons::ONLY_PINS)
     } else {
         let limits = reasons::limits(recipe, edits);
-        format!("no key where a joint turns{limits} comes nearer")
+        match recipe.keys.merge {
+            Merge::Every => format!("no keys a koma apart{limits} come nearer"),
+            _ => format!("no key where a joint turns{limits} comes nearer"),
+        }
     };
     let way = if edits.forbidden.contains(&Forbidden::one(worst)) {
         ", which is forbidden".into()

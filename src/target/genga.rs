@@ -1,20 +1,19 @@
-//! A number of genga: how far down the ranked list keys go.
+//! A number of genga: how many keys there is room for.
 
-use std::collections::BTreeSet;
-
-use super::{Outcome, Target, genga, reasons};
+use super::{Outcome, Target, genga, reasons, room};
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::Ranking;
-use crate::motion::Clip;
+use crate::keys::{Merge, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
-use crate::time::Frame;
 
-/// Settings with which the sheet has `count` genga, or as near as the ranked list comes.
+/// Settings that are looked at: a found key more is nearly always a genga more.
+const MOST_LOOKS: usize = 16;
+
+/// Settings with which the sheet has `count` genga, or as near as it gets.
 ///
-/// The list is nested, so a key more of it is a genga more on the sheet or, where it falls on the koma of
-/// another or of an end, none: every number from that of the keys that stay to that of all is there.
+/// A found key more is a genga more on the sheet or, where it falls on the koma of a pin or of an end,
+/// none. So the number of found keys is corrected by what is missing until it is right.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -22,14 +21,35 @@ pub(super) fn meet(
     count: usize,
 ) -> Result<(Recipe, Outcome), Error> {
     let target = Target::Keys(count);
-    if genga(&engine.run(recipe, edits)?) == count {
-        return Ok((recipe.clone(), Outcome { target, reached: count as f64, shortfall: None }));
+    let mut best = (genga(&engine.run(recipe, edits)?), recipe.clone());
+    if best.0 == count {
+        return Ok((best.1, Outcome { target, reached: count as f64, shortfall: None }));
     }
-    let ranking = engine.rank(recipe, edits)?;
-    let found = reaching(count, &ranking, engine.clip(), recipe.rate);
-    let keys = ranking.keeping(found, &recipe.keys);
-    let recipe = Recipe { keys, ..recipe.clone() };
-    let reached = genga(&engine.run(&recipe, edits)?);
+    let mut wanted = room::found(engine, recipe, edits)?;
+    let mut now = best.0;
+    for _ in 0..MOST_LOOKS {
+        let next = (wanted + count).saturating_sub(now);
+        if best.0 == count || next == wanted {
+            break;
+        }
+        wanted = next;
+        let tried = room::with_found(engine, recipe, edits, wanted)?;
+        now = genga(&engine.run(&tried, edits)?);
+        let is_all = room::found(engine, &tried, edits)? < wanted;
+        if now.abs_diff(count) < best.0.abs_diff(count) {
+            best = (now, tried);
+        }
+        if is_all {
+            break;
+        }
+    }
+    let (reached, mut recipe) = best;
+    if reached == count && recipe.keys.rank == Rank::Price {
+        let priced = room::by_price(engine, &recipe, edits)?;
+        if genga(&engine.run(&priced, edits)?) == count {
+            recipe = priced;
+        }
+    }
     let shortfall = match reached.cmp(&count) {
         std::cmp::Ordering::Equal => None,
         std::cmp::Ordering::Less => Some(too_few(&recipe, edits)),
@@ -41,32 +61,16 @@ pub(super) fn meet(
     Ok((recipe, Outcome { target, reached: reached as f64, shortfall }))
 }
 
-/// How many of the found keys give so many genga: the fewest that do, else as near as it gets.
-fn reaching(count: usize, ranking: &Ranking, clip: &Clip, koma_rate: f64) -> usize {
-    let clock = clip.clock(koma_rate);
-    let last = clip.rate().koma_from_frames(clip.len(), koma_rate).saturating_sub(1);
-    let mut taken = BTreeSet::from([0, last]);
-    let mut genga = 0;
-    let mut put = |frame: Frame| {
-        let koma = clock.koma_from_place(frame.0 as f64).min(last);
-        genga += usize::from(taken.insert(koma));
-        genga
-    };
-    let staying = ranking.staying.iter().map(|frame| put(*frame)).last().unwrap_or(0);
-    if staying >= count {
-        return 0;
-    }
-    let enough = ranking.found.iter().position(|key| put(key.frame) == count);
-    enough.map_or(ranking.found.len(), |at| at + 1)
-}
-
 fn too_few(recipe: &Recipe, edits: &Edits) -> String {
     if edits.only_pins {
         return reasons::ONLY_PINS.into();
     }
-    format!(
-        "no joint turns at any other moment{}; a pin makes a key anywhere, and a smaller turns.steady or \
-         turns.persistence finds more turns",
-        reasons::limits(recipe, edits)
-    )
+    let limits = reasons::limits(recipe, edits);
+    match recipe.keys.merge {
+        Merge::Every => format!("there is no room for another{limits}: keys stand a koma apart"),
+        _ => format!(
+            "no joint turns at any other moment{limits}; keys.merge=every takes every moment for one, and a \
+             smaller turns.steady or turns.persistence finds more turns"
+        ),
+    }
 }

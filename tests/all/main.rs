@@ -11,6 +11,7 @@ mod lead_ins; // the same lead-in in every dialect and at every rate
 mod lies; // files that say what is not so end fast
 mod lying_files; // how such files are made
 mod mutated; // real files with anything changed: no panic, and what is read is written
+mod one_motion; // the same keys in any rig, at any rate, with noise
 mod opened; // a file in blocks is the file from memory
 #[cfg(feature = "cli")]
 mod program; // the built binary, as a person or a script uses it

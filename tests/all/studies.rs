@@ -99,7 +99,7 @@ fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
 #[test]
 fn stability_compares_cells_and_names_the_plateau() {
     let place = Place::new();
-    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,layer_keys";
+    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,layer_keys --set keys.merge=union";
     let output = place.genga(&format!("{args} --stability --heat h.svg"));
     let (table, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(output.status.code(), Some(0), "{said}");
@@ -115,11 +115,11 @@ fn stability_compares_cells_and_names_the_plateau() {
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
     // The recipe's own 0.1 s are 2.4 frames here, so the cell of 2 and 2.
     assert!(
-        lines[1].contains("filter.width 3, ") && lines[1].ends_with("stand beside it"),
+        lines[1].contains("filter.width 1 to 2, ") && lines[1].ends_with("stand on it"),
         "{said}"
     );
     assert!(
-        lines[2].contains("filter.width 1 to 4, ") && lines[2].ends_with("stand on it"),
+        lines[2].contains("filter.width 3 to 7, ") && lines[2].ends_with("stand beside it"),
         "{said}"
     );
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();

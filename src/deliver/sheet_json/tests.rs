@@ -76,7 +76,7 @@ fn an_edited_sheet_is_known_and_stays_known_when_it_is_written_again() {
     for (line, edited) in [
         ("\"koma\": 4", "\"koma\": 5"),
         ("\"role\": \"genga\"", "\"role\": \"inbetween\""),
-        ("\"frame\": 23", "\"frame\": 24"),
+        ("\"frame\": 25", "\"frame\": 26"),
         ("\"name\": \"A\"", "\"name\": \"B\""),
         ("    \"layers\": \"", "    \"layers\": \"0"),
     ] {
@@ -132,8 +132,8 @@ fn a_sheet_that_no_reader_would_take_is_not_written() {
         ("layer A: frame 104.5 is not in the clip, which has frames 4 to 104", |file| {
             file.sheet.layers[0].drawings[0].source = Source::At(104.5);
         }),
-        ("layer A shows drawing 17 but has 17", |file| {
-            file.sheet.layers[0].exposures[0].drawing = 17;
+        ("layer A shows drawing 18 but has 18", |file| {
+            file.sheet.layers[0].exposures[0].drawing = 18;
         }),
         ("layer A: an exposure of 0 koma", |file| file.sheet.layers[0].exposures[0].koma = 0),
         ("layer A: a strength or price", |file| {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Merge, Rank};
+use crate::keys::{Merge, Origin, Rank};
 use crate::motion::Clip;
 use crate::pipeline::Engine;
 use crate::quality::baselines::{
@@ -14,6 +14,7 @@ use crate::quality::baselines::{
 use crate::quality::{Grid, Method};
 use crate::recipe::Recipe;
 use crate::study::table_1_recipe;
+use crate::target::with_found;
 use crate::time::Frame;
 
 /// What a method chooses.
@@ -73,8 +74,8 @@ impl<'a> Chooser<'a> {
         for method in Method::ALL.into_iter().filter(|method| !(is_long && method.is_cubic())) {
             let begin = Instant::now();
             let keys = match method {
-                Method::Own => self.ranked(self.recipe, counts)?,
-                Method::KurodaTokoi => self.ranked(&by_joints(self.recipe.rate), counts)?,
+                Method::Own => self.own(self.recipe, counts)?,
+                Method::KurodaTokoi => self.own(&by_joints(self.recipe.rate), counts)?,
                 optimal if optimal.is_optimal() => {
                     let segments = segments.get_or_insert_with(|| Segments::of(&self.grid));
                     self.optimal(segments, method, counts)
@@ -86,27 +87,25 @@ impl<'a> Chooser<'a> {
         Ok(chosen)
     }
 
-    /// The ranked list of a recipe cut at each count. With fewer keys than rests have ends the rests
-    /// are left out, as those stay whatever a key saves.
-    fn ranked(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
+    /// The keys of a recipe with room for each count. With fewer keys than rests have ends the rests are
+    /// left out, as those stay whatever a key saves.
+    fn own(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
         let edits = Edits::default();
-        let ranking = self.engine.rank(recipe, &edits)?;
-        let is_few = |count: &usize| *count < ranking.staying.len();
-        let mut without_rests = None;
-        if counts.iter().any(is_few) {
-            let mut recipe = recipe.clone();
-            recipe.keys.rest = 0.0;
-            without_rests = Some(self.engine.rank(&recipe, &edits)?);
+        let (_, layer) = self.engine.find_keys(recipe, &edits)?;
+        let rests = layer.keys.iter().filter(|key| key.origin != Origin::Found).count();
+        let mut without_rests = recipe.clone();
+        without_rests.keys.rest = 0.0;
+        let mut keys = Vec::with_capacity(counts.len());
+        for count in counts {
+            let (recipe, free) = match count.checked_sub(rests) {
+                Some(free) => (recipe, free),
+                None => (&without_rests, *count),
+            };
+            let recipe = with_found(&mut self.engine, recipe, &edits, free)?;
+            let (_, layer) = self.engine.find_keys(&recipe, &edits)?;
+            keys.push(layer.keys.iter().map(|key| key.frame).collect());
         }
-        let cut = |count: &usize| {
-            let ranking = without_rests.as_ref().filter(|_| is_few(count)).unwrap_or(&ranking);
-            let free = (count - ranking.staying.len()).min(ranking.found.len());
-            let found = ranking.found[..free].iter().map(|key| key.frame);
-            let mut frames: Vec<Frame> = ranking.staying.iter().copied().chain(found).collect();
-            frames.sort_unstable();
-            frames
-        };
-        Ok(counts.iter().map(cut).collect())
+        Ok(keys)
     }
 
     fn optimal(&self, segments: &Segments, method: Method, counts: &[usize]) -> Vec<Vec<Frame>> {

@@ -1,0 +1,219 @@
+//! The cheapest set (最も安い組): of all sets of keys the one that loses least, each key at a price.
+//!
+//! Keys are not taken away one by one: which of two neighbours goes first would hang on a hair, and all
+//! that follows on it. The set is found as a whole, by dynamic programming over the chords between
+//! instants, so that a little noise or another rig of the same body changes little.
+
+use crate::keys::chords::Chords;
+use crate::time::Frame;
+
+/// The highest price that is tried for a limit, %² of body height times koma: more than anything loses.
+const HIGHEST: f64 = 1e12;
+
+/// The lowest, where the first is 0.
+const LOWEST: f64 = 1e-6;
+
+/// Halvings of the span of prices in the search for one: more would not tell two sets apart.
+const HALVINGS: usize = 40;
+
+/// What may be a key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Entry {
+    /// The source frame.
+    pub(super) frame: Frame,
+    /// The instant of the chords that is nearest to it.
+    pub(super) instant: usize,
+    /// Pins, ends of rests and the clip's ends are always in the set.
+    pub(super) stays: bool,
+}
+
+/// Chooses among entries, the first and the last of which are the clip's ends and stay.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cheapest<'a> {
+    pub(super) chords: &'a Chords,
+    /// By frame.
+    pub(super) entries: &'a [Entry],
+    /// Frames from one key to the next at least, unless both stay.
+    pub(super) apart: f64,
+}
+
+/// A set of entries by their place in the list.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Set {
+    pub(super) kept: Vec<usize>,
+    /// How many fewer are in it than are worth their price; 0 where there is none.
+    pub(super) over_limit: usize,
+}
+
+impl Cheapest<'_> {
+    /// The cheapest set in which no more than `most` entries are there of their own, at the least price
+    /// from `price` on at which there are so few; and then as many of the next best as there is room
+    /// for and `price` lets in. At a price of 0 nothing has to be saved, and all are taken that fit.
+    pub(super) fn set(&self, price: f64, most: usize) -> Set {
+        let free = if price > 0.0 { self.at(price) } else { self.all() };
+        let wanted = self.found(&free);
+        if wanted <= most {
+            return Set { kept: free, over_limit: 0 };
+        }
+        let mut kept = self.limited(price, most);
+        self.thin(&mut kept, most);
+        self.fill(&mut kept, price, most);
+        if price == 0.0 && self.found(&kept) < most {
+            // So many fit only where they stand closer than the best of them do.
+            kept = free;
+            self.thin(&mut kept, most);
+        }
+        let over_limit = if price > 0.0 { wanted - self.found(&kept) } else { 0 };
+        Set { kept, over_limit }
+    }
+
+    /// What is lost besides if one of a set is left out; infinite for those that stay.
+    pub(super) fn saves(&self, kept: &[usize]) -> Vec<f64> {
+        let saved = |at: usize| match (at.checked_sub(1), kept.get(at + 1)) {
+            (Some(before), Some(after)) if !self.entries[kept[at]].stays => {
+                self.saved(kept[before], kept[at], *after)
+            }
+            _ => f64::INFINITY,
+        };
+        (0..kept.len()).map(saved).collect()
+    }
+
+    fn saved(&self, before: usize, at: usize, after: usize) -> f64 {
+        self.loss(before, after) - self.loss(before, at) - self.loss(at, after)
+    }
+
+    fn loss(&self, from: usize, to: usize) -> f64 {
+        self.chords.loss(self.entries[from].instant, self.entries[to].instant)
+    }
+
+    /// How many of a set are there because they are worth it.
+    fn found(&self, kept: &[usize]) -> usize {
+        kept.iter().filter(|entry| !self.entries[**entry].stays).count()
+    }
+
+    fn are_apart(&self, from: usize, to: usize) -> bool {
+        let [from, to] = [from, to].map(|entry| &self.entries[entry]);
+        (from.stays && to.stays) || (to.frame.0 - from.frame.0) as f64 >= self.apart
+    }
+
+    /// As many as fit, from the first on.
+    fn all(&self) -> Vec<usize> {
+        let mut kept = vec![0];
+        let mut staying = 0;
+        for at in 1..self.entries.len() {
+            if staying < at {
+                let stays = |other: &usize| self.entries[*other].stays;
+                staying = (at..self.entries.len()).find(stays).unwrap_or(at);
+            }
+            let before = kept[kept.len() - 1];
+            if at == staying || (self.are_apart(before, at) && self.are_apart(at, staying)) {
+                kept.push(at);
+            }
+        }
+        kept
+    }
+
+    /// The cheapest set at a price.
+    fn at(&self, price: f64) -> Vec<usize> {
+        let count = self.entries.len();
+        let (mut costs, mut before) = (vec![f64::INFINITY; count], vec![0; count]);
+        costs[0] = 0.0;
+        let mut staying = 0;
+        for to in 1..count {
+            let entry = &self.entries[to];
+            let (cost, from) = self.best_way(to, staying, &costs);
+            costs[to] = cost + if entry.stays { 0.0 } else { price };
+            before[to] = from;
+            if entry.stays {
+                staying = to;
+            }
+        }
+        let mut kept: Vec<usize> =
+            std::iter::successors(Some(count - 1), |at| (*at > 0).then(|| before[*at])).collect();
+        kept.reverse();
+        kept
+    }
+
+    /// The least cost of a set that ends on an entry, without its own price, and what stands before it.
+    /// None that stays is passed over.
+    fn best_way(&self, to: usize, staying: usize, costs: &[f64]) -> (f64, usize) {
+        let mut best = (f64::INFINITY, staying);
+        let instant = self.entries[to].instant;
+        for from in (staying..to).rev() {
+            let begin = self.entries[from].instant;
+            if instant - begin > self.chords.reach() {
+                break;
+            }
+            if self.are_apart(from, to) {
+                let known = if begin < instant { self.chords.known(begin, instant) } else { 0.0 };
+                let cost = costs[from] + known;
+                if cost <= best.0 {
+                    best = (cost, from);
+                }
+            }
+        }
+        if best.0 == f64::INFINITY && self.entries[to].stays {
+            // Nothing within reach may be a key: the last that may, or what stays, is further off.
+            let is_way = |from: &usize| costs[*from] < f64::INFINITY && self.are_apart(*from, to);
+            let from = (staying..to).rev().find(is_way).unwrap_or(staying);
+            best = (costs[from] + self.loss(from, to), from);
+        }
+        best
+    }
+
+    /// The cheapest set at the least price, `price` or more, at which so few are worth it.
+    fn limited(&self, price: f64, most: usize) -> Vec<usize> {
+        let (mut low, mut high) = (price.max(LOWEST).ln(), HIGHEST.ln());
+        let mut few = self.at(HIGHEST);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(low, high);
+            let set = self.at(middle.exp());
+            let found = self.found(&set);
+            if found > most {
+                low = middle;
+            } else {
+                (high, few) = (middle, set);
+                if found == most {
+                    break;
+                }
+            }
+        }
+        few
+    }
+
+    /// Takes the cheapest away until there are few enough: no chord is long enough for so few.
+    fn thin(&self, kept: &mut Vec<usize>, most: usize) {
+        for _ in most..self.found(kept) {
+            let saves = self.saves(kept);
+            let cheapest = (0..kept.len()).min_by(|a, b| saves[*a].total_cmp(&saves[*b]));
+            cheapest.map(|at| kept.remove(at));
+        }
+    }
+
+    /// Puts the best of those left out back while there is room and they save what they cost.
+    fn fill(&self, kept: &mut Vec<usize>, price: f64, most: usize) {
+        while self.found(kept) < most {
+            let gaps = kept.windows(2).enumerate();
+            let best = gaps
+                .filter_map(|(gap, ends)| Some((gap, self.best_between(ends[0], ends[1], price)?)));
+            let Some((gap, (entry, _))) =
+                best.reduce(|best, other| if other.1.1 > best.1.1 { other } else { best })
+            else {
+                break;
+            };
+            kept.insert(gap + 1, entry);
+        }
+    }
+
+    /// The entry between two of a set that saves most beyond what it costs, and how much that is.
+    fn best_between(&self, from: usize, to: usize, price: f64) -> Option<(usize, f64)> {
+        let fits = |at: &usize| self.are_apart(from, *at) && self.are_apart(*at, to);
+        let gain = |at: usize| (at, self.saved(from, at, to) - price);
+        let is_worth_it = |(_, gain): &(usize, f64)| *gain > 0.0 || price == 0.0;
+        let gains = (from + 1..to).filter(fits).map(gain).filter(is_worth_it);
+        gains.reduce(|best, other| if other.1 > best.1 { other } else { best })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,115 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::keys::Reference;
+use crate::keys::tests::swing;
+
+/// An arm that swings to and fro ever faster.
+fn chords(koma: usize) -> Chords {
+    let angle = |at: usize| 50.0 * (at as f64 * at as f64 * 0.004).sin() + at as f64;
+    let clip = swing(&(0..koma).map(angle).collect::<Vec<_>>());
+    Chords::of(&clip, &Reference::of(&clip, clip.clock(24.0)), &[1.0; 2])
+}
+
+/// One entry a frame of 24 fps, where the chords have two instants.
+fn entries(count: usize, staying: &[usize]) -> Vec<Entry> {
+    let entry = |frame: usize| Entry {
+        frame: Frame(frame),
+        instant: 2 * frame,
+        stays: frame == 0 || frame + 1 == count || staying.contains(&frame),
+    };
+    (0..count).map(entry).collect()
+}
+
+/// What a set loses and costs.
+fn cost(cheapest: &Cheapest<'_>, kept: &[usize], price: f64) -> f64 {
+    let lost: f64 = kept.windows(2).map(|ends| cheapest.loss(ends[0], ends[1])).sum();
+    lost + price * cheapest.found(kept) as f64
+}
+
+/// Every set that may be: the ends and what stays in it, the others a distance apart.
+fn every_set(cheapest: &Cheapest<'_>) -> Vec<Vec<usize>> {
+    let entries = cheapest.entries;
+    let may_be = |set: &Vec<usize>| {
+        let all_stay = (0..entries.len()).all(|at| !entries[at].stays || set.contains(&at));
+        all_stay && set.windows(2).all(|ends| cheapest.are_apart(ends[0], ends[1]))
+    };
+    let set = |bits: usize| (0..entries.len()).filter(|at| bits >> at & 1 == 1).collect();
+    (0..1usize << entries.len()).map(set).filter(may_be).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn no_set_at_all_is_cheaper(
+        count in 3usize..12,
+        staying in prop::collection::vec(0usize..12, 0..3),
+        apart in prop::sample::select(&[1.0, 1.5, 3.0][..]),
+        price in 0.01..400.0,
+    ) {
+        let (chords, entries) = (chords(count), entries(count, &staying));
+        let cheapest = Cheapest { chords: &chords, entries: &entries, apart };
+        let set = cheapest.set(price, usize::MAX);
+        let found = cost(&cheapest, &set.kept, price);
+        let least = every_set(&cheapest).iter().map(|set| cost(&cheapest, set, price)).fold(f64::INFINITY, f64::min);
+        prop_assert!(found <= least + 1e-9, "{} {}", found, least);
+        prop_assert!(every_set(&cheapest).contains(&set.kept));
+        prop_assert_eq!(set.over_limit, 0);
+    }
+
+    #[test]
+    fn a_limit_is_met_exactly_and_the_rest_is_counted(
+        count in 12usize..80,
+        most in 0usize..30,
+        price in prop_oneof![Just(0.0), 0.01..60.0],
+    ) {
+        let (chords, entries) = (chords(count), entries(count, &[7, 10]));
+        let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.5 };
+        let free = cheapest.found(&cheapest.set(price, usize::MAX).kept);
+        let set = cheapest.set(price, most);
+        prop_assert_eq!(cheapest.found(&set.kept), most.min(free));
+        let worth_more = if price > 0.0 { free.saturating_sub(most) } else { 0 };
+        prop_assert_eq!(set.over_limit, worth_more);
+        prop_assert!([0, 7, 10, count - 1].iter().all(|stays| set.kept.contains(stays)));
+        let pairs = set.kept.windows(2);
+        prop_assert!(pairs.clone().all(|ends| cheapest.are_apart(ends[0], ends[1])));
+    }
+}
+
+#[test]
+fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
+    let chords = chords(3000);
+    let far = [0, 10, 2900, 2999].map(|frame| Entry {
+        frame: Frame(frame),
+        instant: 2 * frame,
+        stays: frame == 0 || frame == 2999,
+    });
+    assert!(5000 > chords.reach());
+    let cheapest = Cheapest { chords: &chords, entries: &far, apart: 1.0 };
+    let kept = cheapest.set(1.0, usize::MAX).kept;
+    assert_eq!((kept.first(), kept.last()), (Some(&0), Some(&3)));
+    let none = cheapest.set(1.0, 0);
+    assert_eq!(none.kept, [0, 3], "so few that no known chord is long enough");
+}
+
+#[test]
+fn what_a_key_saves_is_what_is_lost_without_it() {
+    let (chords, entries) = (chords(40), entries(40, &[20]));
+    let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
+    let kept = [0, 9, 20, 31, 39];
+    let saves = cheapest.saves(&kept);
+    assert_eq!([saves[0], saves[2], saves[4]], [f64::INFINITY; 3], "they stay");
+    let all = cost(&cheapest, &kept, 0.0);
+    assert!((saves[1] - (cost(&cheapest, &[0, 20, 31, 39], 0.0) - all)).abs() < 1e-9);
+    assert!((saves[3] - (cost(&cheapest, &[0, 9, 20, 39], 0.0) - all)).abs() < 1e-9);
+}
+
+#[test]
+fn a_dearer_key_is_worth_more_koma_of_error() {
+    let (chords, entries) = (chords(120), entries(120, &[]));
+    let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
+    let counts =
+        [1.0, 10.0, 100.0, 1e3, 1e4].map(|price| cheapest.set(price, usize::MAX).kept.len());
+    assert!(counts.is_sorted_by(|a, b| a > b), "{counts:?}");
+}

@@ -1,0 +1,160 @@
+//! Chords (弦): what is lost when the body goes straight from one posture to another.
+
+use crate::keys::Reference;
+use crate::keys::postures::Postures;
+use crate::motion::Clip;
+use crate::time::{Clock, Frame};
+
+/// Pairs of instants that are kept at once: a gigabyte would hold 60 times as many.
+const PAIRS: usize = 1 << 21;
+
+/// Koma from one instant to the next.
+pub(super) const STEP: f64 = 0.5;
+
+/// Seconds between two keys up to which every pair is known, however long the clip.
+const LEAST_REACH: f64 = 4.0;
+
+/// The loss of every chord up to some length.
+///
+/// What is lost between two instants is the squared distance of the postures between them from the
+/// straight way, summed over koma: %² of the body's height times koma. With a·b known for each pair, all
+/// of it comes from running sums, so that a pair costs one scalar product however long it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chords {
+    postures: Postures,
+    /// Where the instants stand in the clip.
+    clock: Clock,
+    /// The most instants from one end of a known chord to the other.
+    reach: usize,
+    /// Instants × reach: the loss from each instant to the first, second … after it.
+    losses: Vec<f64>,
+}
+
+impl Chords {
+    /// The chords of a clip between instants half a koma of its reference apart. `own` is how much each joint counts
+    /// beside its bones: 0 or more, one of them above.
+    pub fn of(clip: &Clip, reference: &Reference, own: &[f64]) -> Self {
+        let clock = clip.clock(reference.clock().koma_rate / STEP);
+        let postures = Postures::of(clip, clock, reference.height(), own);
+        let len = postures.len();
+        let least = (LEAST_REACH * clock.koma_rate).ceil() as usize;
+        let reach = (PAIRS / len.max(1)).max(least).min(len.saturating_sub(1));
+        let mut chords = Self { postures, clock, reach, losses: Vec::new() };
+        chords.losses = chords.products();
+        chords.sum_up();
+        chords
+    }
+
+    /// The instant nearest to a frame.
+    pub(super) fn instant(&self, frame: Frame) -> usize {
+        self.clock.koma_from_place(frame.0 as f64).min(self.len().saturating_sub(1))
+    }
+
+    /// Where the instants stand in the clip.
+    pub(super) fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// The body at each instant.
+    pub(super) fn postures(&self) -> &Postures {
+        &self.postures
+    }
+
+    /// Number of instants.
+    pub(super) fn len(&self) -> usize {
+        self.postures.len()
+    }
+
+    /// The most instants from one end of a known chord to the other.
+    pub(super) fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// What is lost from one instant to a later one within reach.
+    #[inline]
+    pub(super) fn known(&self, from: usize, to: usize) -> f64 {
+        self.losses[from * self.reach + (to - from - 1)]
+    }
+
+    /// What is lost from one instant to a later one, however far.
+    pub(super) fn loss(&self, from: usize, to: usize) -> f64 {
+        if to <= from {
+            return 0.0;
+        }
+        if to - from <= self.reach { self.known(from, to) } else { self.far(from, to) }
+    }
+
+    /// The same from the words, instant by instant.
+    fn far(&self, from: usize, to: usize) -> f64 {
+        let (a, b) = (self.postures.row(from), self.postures.row(to));
+        let off = |instant: usize| {
+            let share = (instant - from) as f64 / (to - from) as f64;
+            let row = self.postures.row(instant).iter().zip(a).zip(b);
+            row.map(|((own, a), b)| (own - (a + share * (b - a))).powi(2)).sum::<f64>()
+        };
+        STEP * (from + 1..to).map(off).sum::<f64>()
+    }
+
+    /// The scalar product of each pair, where its loss will be.
+    fn products(&self) -> Vec<f64> {
+        let mut products = vec![0.0; self.len() * self.reach];
+        for (from, row) in products.chunks_exact_mut(self.reach.max(1)).enumerate() {
+            let own = self.postures.row(from);
+            for (product, to) in row.iter_mut().zip(from + 1..self.len()) {
+                *product = dot(own, self.postures.row(to));
+            }
+        }
+        products
+    }
+
+    /// Makes losses of the products. Seen from its begin a chord needs the sums of a·p and of those
+    /// times the distance from a over the postures p inside, and the same seen from its end: the
+    /// former grow with each end, the latter with each begin.
+    fn sum_up(&mut self) {
+        let len = self.len();
+        let squares: Vec<f64> =
+            (0..len).map(|at| self.postures.row(at)).map(|row| dot(row, row)).collect();
+        let until: Vec<f64> = std::iter::once(0.0)
+            .chain(squares.iter().scan(0.0, |sum, square| {
+                *sum += square;
+                Some(*sum)
+            }))
+            .collect();
+        let mut from_end = vec![(0.0, 0.0); len];
+        for from in (0..len).rev() {
+            let mut from_begin = (0.0, 0.0);
+            let row = &mut self.losses[from * self.reach..(from + 1) * self.reach];
+            for (value, to) in row.iter_mut().zip(from + 1..len) {
+                let (product, n) = (*value, (to - from) as f64);
+                let inside = until[to] - until[from + 1];
+                let (begin, end) = (from_begin, from_end[to]);
+                let cross = begin.0 - begin.1 / n + end.0 - end.1 / n;
+                let of_ends =
+                    (squares[from] + squares[to]) * (n - 1.0) * (2.0 * n - 1.0) / (6.0 * n);
+                let both = product * (n * n - 1.0) / (3.0 * n);
+                *value = STEP * (inside - 2.0 * cross + of_ends + both).max(0.0);
+                from_begin.0 += product;
+                from_begin.1 += n * product;
+                from_end[to].0 += product;
+                from_end[to].1 += n * product;
+            }
+        }
+    }
+}
+
+/// Four sums side by side, so that the compiler keeps them in one register.
+#[inline]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a.zip(b) {
+        for lane in 0..4 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,172 @@
+//! Postures (姿勢): the body at each half koma as a row of numbers, so that the distance of two rows is
+//! how far two poses are apart.
+//!
+//! The rows are of the [`Mannequin`] and not of the rig, and turned with the body's heading: on a body
+//! that spins all frames are alike but for the way it faces, and which of them is a key must not hang
+//! on where the room's axes point.
+
+mod heading;
+
+use std::array;
+
+use glam::DVec3;
+
+use crate::keys::points::Points;
+use crate::motion::lanes::{LANES, LaneVec, wide};
+use crate::motion::mannequin::{BONES, Mannequin, POINTS, Stand};
+use crate::motion::rig::Rig;
+use crate::motion::sampler::LanePose;
+use crate::motion::{Axis, Clip, Landmarks, Point};
+use crate::time::Clock;
+
+/// How far a turn of the body by one radian counts as moved, in heights of the body: half a hip's width
+/// or so. Without it a spin would have no keys of its own, and with much more of it little else.
+const GIRTH: f64 = 0.075;
+
+/// The body at evenly spaced instants.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Postures {
+    columns: usize,
+    /// Instants × columns, in % of the body's height.
+    rows: Vec<f64>,
+}
+
+impl Postures {
+    /// The body at each koma of a clock; `height` is the body's in the file's unit, and `own` how much
+    /// each joint counts beside its bones.
+    ///
+    /// The squared distance of two rows is the mean squared way of the points, weighed by their bones,
+    /// plus the squared way of the pelvis and of the heading. A body that is no person's is taken by its
+    /// own points, where they are in the world.
+    pub(super) fn of(clip: &Clip, clock: Clock, height: f64, own: &[f64]) -> Self {
+        let instants = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+        let landmarks = Landmarks::of(clip);
+        match Mannequin::of(clip, &landmarks) {
+            Some(mannequin) => of_person(clip, clock, instants, &mannequin, landmarks.up, own),
+            None => of_points(clip, clock, instants, height, own),
+        }
+    }
+
+    /// Number of instants.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len() / self.columns
+    }
+
+    /// How fast the posture changes into each instant from the second on, in % of the body's height a
+    /// second.
+    pub(super) fn speeds(&self, instants_a_second: f64) -> Vec<f64> {
+        let way = |at: usize| {
+            let steps = self.row(at).iter().zip(self.row(at - 1));
+            steps.map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt()
+        };
+        (1..self.len()).map(|at| instants_a_second * way(at)).collect()
+    }
+
+    /// The body at an instant.
+    pub(super) fn row(&self, instant: usize) -> &[f64] {
+        &self.rows[instant * self.columns..(instant + 1) * self.columns]
+    }
+}
+
+/// Pelvis and heading besides the points.
+const COLUMNS: usize = 3 * POINTS + 3 + 1;
+
+fn of_person(
+    clip: &Clip,
+    clock: Clock,
+    instants: usize,
+    mannequin: &Mannequin,
+    up: Axis,
+    own: &[f64],
+) -> Postures {
+    let scales = scales(mannequin, own);
+    let mut rows = vec![0.0; instants * COLUMNS];
+    let mut across = Vec::with_capacity(instants);
+    each_pose(clip, clock, instants, |instant, pose, lane| {
+        let place = |point: Point| {
+            let joint = point.joint.0;
+            pose.translations[joint].lane(lane) + pose.rotations[joint].lane(lane) * point.offset
+        };
+        let stand = mannequin.stand(place);
+        across.push(stand.across.map(|way| upright(way, up)));
+        write(&stand, &scales, up, &mut rows[instant * COLUMNS..(instant + 1) * COLUMNS]);
+    });
+    let headings = heading::headings(&across);
+    for (row, heading) in rows.chunks_exact_mut(COLUMNS).zip(headings) {
+        let (sin, cos) = heading.sin_cos();
+        for point in row[..3 * POINTS].chunks_exact_mut(3) {
+            (point[0], point[2]) =
+                (cos * point[0] + sin * point[2], cos * point[2] - sin * point[0]);
+        }
+        row[COLUMNS - 1] = 100.0 * GIRTH * heading;
+    }
+    Postures { columns: COLUMNS, rows }
+}
+
+/// What a height of the body is worth at each point, in %.
+fn scales(mannequin: &Mannequin, own: &[f64]) -> [f64; POINTS] {
+    let joints = mannequin.joints();
+    let weights: [f64; POINTS] = array::from_fn(|point| BONES[point] * own[joints[point]]);
+    let all: f64 = weights.iter().sum();
+    // Where nothing that a mannequin has counts, all of it does.
+    let weights = if all > 0.0 { weights.map(|weight| weight / all) } else { BONES };
+    weights.map(|weight| 100.0 * weight.sqrt())
+}
+
+fn write(stand: &Stand, scales: &[f64; POINTS], up: Axis, row: &mut [f64]) {
+    let (points, rest) = row.split_at_mut(3 * POINTS);
+    for ((column, point), scale) in points.chunks_exact_mut(3).zip(stand.points).zip(scales) {
+        column.copy_from_slice(&(*scale * upright(point, up)).to_array());
+    }
+    rest[..3].copy_from_slice(&(100.0 * upright(stand.pelvis, up)).to_array());
+}
+
+/// A direction in axes of which Y is up.
+fn upright(way: DVec3, up: Axis) -> DVec3 {
+    if up == Axis::Z { DVec3::new(way.x, way.z, -way.y) } else { way }
+}
+
+fn of_points(clip: &Clip, clock: Clock, instants: usize, height: f64, own: &[f64]) -> Postures {
+    let points = Points::of(clip.skeleton(), own);
+    let columns = 3 * points.len();
+    let mut rows = vec![0.0; instants * columns];
+    let scale = if height > 0.0 { 100.0 / height } else { 0.0 };
+    let mut positions = vec![LaneVec::default(); points.len()];
+    each_pose(clip, clock, instants, |instant, pose, lane| {
+        if lane == 0 {
+            points.placed(pose, &mut positions);
+        }
+        let row = rows[instant * columns..(instant + 1) * columns].chunks_exact_mut(3);
+        for ((column, position), weight) in row.zip(&positions).zip(points.weights()) {
+            let way = scale * weight.sqrt() * position.lane(lane);
+            column.copy_from_slice(&way.to_array());
+        }
+    });
+    Postures { columns, rows }
+}
+
+/// Places the body at every koma of a clock: the instant, the poses of its block, and its lane of it.
+fn each_pose(
+    clip: &Clip,
+    clock: Clock,
+    instants: usize,
+    mut each: impl FnMut(usize, &LanePose, usize),
+) {
+    let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
+    for block in 0..instants.div_ceil(LANES) {
+        let place = |lane: usize| clock.place_from_koma((LANES * block + lane).min(instants - 1));
+        wide(
+            #[inline(always)]
+            || {
+                pose.take_places(clip, &rig, array::from_fn(place));
+                pose.place(&rig);
+            },
+        );
+        for (lane, instant) in (LANES * block..instants).take(LANES).enumerate() {
+            each(instant, &pose, lane);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,111 @@
+//! Settings with room for so many found keys.
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::{Key, Origin};
+use crate::pipeline::Engine;
+use crate::recipe::Recipe;
+
+/// Prices among which one is looked for, in % of body height.
+const PRICES: (f64, f64) = (0.01, 1000.0);
+
+/// Halvings of that span: two prices that are nearer to each other part nothing.
+const HALVINGS: usize = 20;
+
+/// A recipe with so many found keys, or as many as there are: a number a second and, where fewer are worth
+/// their price, no price.
+pub(crate) fn with_found(
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &Edits,
+    count: usize,
+) -> Result<Recipe, Error> {
+    let seconds = seconds(engine, recipe);
+    let mut roomy = recipe.clone();
+    roomy.keys.per_second = per_second(count, seconds);
+    if found(engine, &roomy, edits)? < count {
+        roomy.keys.min_price = 0.0;
+    }
+    Ok(roomy)
+}
+
+/// The same keys by a price alone where one parts them from the others, else the recipe as it is.
+///
+/// A price says what a key is worth whatever the clip's length, and leaves nothing over a limit.
+pub(super) fn by_price(
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &Edits,
+) -> Result<Recipe, Error> {
+    let count = found(engine, recipe, edits)?;
+    let mut priced = recipe.clone();
+    priced.keys.per_second = f64::INFINITY;
+    let mut at = |price: f64| {
+        priced.keys.min_price = price;
+        Ok::<_, Error>((found(engine, &priced, edits)?, priced.clone()))
+    };
+    let (mut low, mut high) = PRICES;
+    for _ in 0..HALVINGS {
+        let price = (low * high).sqrt();
+        let there = at(price)?.0;
+        if there != count {
+            *if there > count { &mut low } else { &mut high } = price;
+            continue;
+        }
+        for decimals in 0..6 {
+            let scale = 10_f64.powi(decimals);
+            let (there, short) = at((price * scale).round() / scale)?;
+            if there == count && short.keys.min_price > 0.0 {
+                return Ok(short);
+            }
+        }
+        return Ok(at(price)?.1);
+    }
+    Ok(recipe.clone())
+}
+
+/// How many keys of a recipe are there because they are worth it.
+pub(super) fn found(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
+    let (_, layer) = engine.find_keys(recipe, edits)?;
+    let is_found = |key: &&Key| key.origin == Origin::Found;
+    Ok(layer.keys.iter().filter(is_found).count())
+}
+
+/// Seconds that a sheet of the clip lasts.
+fn seconds(engine: &Engine, recipe: &Recipe) -> f64 {
+    let clip = engine.clip();
+    clip.rate().koma_from_frames(clip.len(), recipe.rate) as f64 / recipe.rate
+}
+
+/// The limit of the fewest digits that lets through exactly so many.
+fn per_second(count: usize, seconds: f64) -> f64 {
+    let allowed = |limit: f64| limit > 0.0 && (limit * seconds).floor() == count as f64;
+    let limit = (count as f64 + 0.5) / seconds;
+    let rounded = |decimals| {
+        let scale = 10_f64.powi(decimals);
+        (limit * scale).floor() / scale
+    };
+    (0..=15).map(rounded).find(|short| allowed(*short)).unwrap_or(limit)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn a_limit_has_no_more_digits_than_it_takes() {
+        assert_eq!(per_second(24, 10.0), 2.4);
+        assert_eq!(per_second(9, 3.8), 2.5);
+        assert_eq!(per_second(0, 4.0), 0.1);
+    }
+
+    proptest! {
+        #[test]
+        fn a_limit_lets_through_exactly_so_many(count in 0usize..3000, koma in 1usize..30_000) {
+            let seconds = koma as f64 / 24.0;
+            prop_assert_eq!((per_second(count, seconds) * seconds).floor(), count as f64);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! One motion, one set of keys: they follow the motion and not the rig, the rate or the noise.
+
+use genga::edits::Edits;
+use genga::keys::Matching;
+use genga::motion::{Clip, EndSite, Joint, JointId, Landmarks, Skeleton};
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use genga::study::Noise;
+use genga::time::{Frame, FrameRate};
+use glam::DVec3;
+
+use crate::clips;
+use crate::rerig::Rerig;
+
+/// Hundredths of a koma: fine enough to compare keys of clips of different rates.
+const FINE: f64 = 100.0;
+
+/// Where the default recipe's keys are, in hundredths of a koma.
+fn keys(clip: &Clip, per_second: f64) -> Vec<Frame> {
+    let mut recipe = Recipe::default();
+    recipe.keys.per_second = per_second;
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let (_, layer) = engine.find_keys(&recipe, &Edits::default()).unwrap();
+    let fine = |frame: Frame| FINE * (frame.0 - clip.first().0) as f64 * 24.0 / clip.rate().fps();
+    layer.keys.iter().map(|key| Frame(fine(key.frame).round() as usize)).collect()
+}
+
+/// How far the keys of two clips agree within a koma (F1).
+fn agreement(clip: &Clip, other: &Clip) -> f64 {
+    Matching::between(&keys(clip, 4.5), &keys(other, 4.5), FINE + 1.0).kept()
+}
+
+/// How far the keys of the real clips agree with those of what is made of them, in the mean; the names of those
+/// that agree least are in the message where it is too little.
+fn agree_on_real_clips(least: f64, other: impl Fn(&Clip) -> Clip) {
+    let mut found = Vec::new();
+    for path in clips::real() {
+        let clip = clips::read(&path);
+        found.push((agreement(&clip, &other(&clip)), clips::name(&path)));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mean = found.iter().map(|(share, _)| share).sum::<f64>() / found.len().max(1) as f64;
+    assert!(found.is_empty() || mean >= least, "{mean:.3}: {:?}", &found[..4.min(found.len())]);
+}
+
+#[test]
+fn the_same_take_in_two_rigs_has_the_same_keys() {
+    let takes = ["cmu-05_11-dance-pirouette", "threejs-pirouette"];
+    let paths = clips::real();
+    let find =
+        |name| paths.iter().find(|path| clips::name(path) == name).map(|path| clips::read(path));
+    let [Some(one), Some(other)] = takes.map(find) else { return };
+    let mut all = 0.0;
+    let limits = [3.5, 4.0, 4.5, 5.0, 6.0, f64::INFINITY];
+    for limit in limits {
+        let matching = Matching::between(&keys(&one, limit), &keys(&other, limit), FINE + 1.0);
+        assert!(matching.kept() > 0.8, "{limit} a second: {}", matching.kept());
+        all += matching.kept();
+    }
+    assert!(all / limits.len() as f64 >= 0.9, "{}", all / limits.len() as f64);
+    assert!(agreement(&one, &other) >= 0.9);
+}
+
+#[test]
+fn joints_more_on_every_bone_change_no_key() {
+    agree_on_real_clips(0.99, |clip| with_joints(clip, &Halves));
+}
+
+#[test]
+fn fingers_move_few_keys() {
+    agree_on_real_clips(0.9, |clip| with_joints(clip, &Fingers::of(clip)));
+}
+
+#[test]
+fn another_rest_pose_order_and_unit_move_no_key() {
+    let rerig = Rerig { first_order: 4, other_axes: true, scale: 2.54 };
+    agree_on_real_clips(1.0, |clip| rerig.of(clip));
+}
+
+#[test]
+fn another_rate_moves_few_keys() {
+    agree_on_real_clips(0.9, every_other_frame);
+}
+
+#[test]
+fn a_little_noise_moves_few_keys() {
+    agree_on_real_clips(0.9, |clip| Noise { degrees: 0.1, seed: 1 }.on(clip));
+}
+
+/// The clip at half its rate, or as it is where that would be less than a frame a koma.
+fn every_other_frame(clip: &Clip) -> Clip {
+    let fps = clip.rate().fps() / 2.0;
+    if fps < 24.0 {
+        return clip.clone();
+    }
+    let rows: Vec<f64> = clip.rows().step_by(2).flatten().copied().collect();
+    let rate = FrameRate::new(fps).unwrap();
+    Clip::new(clip.skeleton().clone(), rate, Frame(0), clip.len().div_ceil(2), rows).unwrap()
+}
+
+/// Joints without channels that another rig of the same body has.
+trait More {
+    /// Whether the bone to a joint has one in its middle.
+    fn halves(&self, joint: JointId) -> bool;
+    /// What hangs on a joint besides: chains of bones, from the joint on.
+    fn hang(&self, joint: JointId) -> Vec<[DVec3; 3]>;
+}
+
+struct Halves;
+
+impl More for Halves {
+    fn halves(&self, _: JointId) -> bool {
+        true
+    }
+
+    fn hang(&self, _: JointId) -> Vec<[DVec3; 3]> {
+        vec![]
+    }
+}
+
+/// Four fingers and a thumb on each hand.
+struct Fingers {
+    wrists: Vec<JointId>,
+    length: f64,
+}
+
+impl Fingers {
+    fn of(clip: &Clip) -> Self {
+        let landmarks = Landmarks::of(clip);
+        let wrists = landmarks.wrists.iter().map(|wrist| wrist.joint).collect();
+        Self { wrists, length: 0.03 * landmarks.height }
+    }
+}
+
+impl More for Fingers {
+    fn halves(&self, _: JointId) -> bool {
+        false
+    }
+
+    fn hang(&self, joint: JointId) -> Vec<[DVec3; 3]> {
+        if !self.wrists.contains(&joint) {
+            return vec![];
+        }
+        let finger = |at: i32| {
+            let spread = DVec3::new(f64::from(at - 2), 0.3 * f64::from(at), 1.0);
+            [1.5, 1.0, 0.8].map(|bone| self.length * bone * spread.normalize())
+        };
+        (0..5).map(finger).collect()
+    }
+}
+
+/// The clip in a rig that has more joints; the others move as they did.
+fn with_joints(clip: &Clip, more: &impl More) -> Clip {
+    let mut joints: Vec<Joint> = Vec::new();
+    let mut places = Vec::new();
+    let channels = clip.skeleton().channels();
+    let still = |parent: usize, offset: DVec3| Joint {
+        name: format!("more.{parent}"),
+        parent: Some(JointId(parent)),
+        offset,
+        channels: vec![],
+        first_channel: channels,
+        end_sites: vec![],
+    };
+    for (id, joint) in clip.skeleton().iter() {
+        let mut joint = joint.clone();
+        let is_still = joint
+            .channels
+            .iter()
+            .all(|channel| !matches!(channel, genga::motion::Channel::Position(_)));
+        joint.parent = joint.parent.map(|parent| JointId(places[parent.0]));
+        if let Some(parent) = joint.parent
+            && more.halves(id)
+            && is_still
+        {
+            joints.push(still(parent.0, joint.offset / 2.0));
+            joint.parent = Some(JointId(joints.len() - 1));
+            joint.offset /= 2.0;
+        }
+        joints.push(joint);
+        places.push(joints.len() - 1);
+        for [knuckle, middle, tip] in more.hang(id) {
+            joints.push(still(places[id.0], knuckle));
+            joints.push(still(joints.len() - 1, middle));
+            let finger = joints.last_mut().unwrap();
+            finger.end_sites.push(EndSite { name: "Site".into(), offset: tip });
+        }
+    }
+    let values = clip.rows().flatten().copied().collect();
+    Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), values).unwrap()
+}
