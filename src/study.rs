@@ -16,6 +16,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 
+use crate::keys::Merge;
 use crate::recipe::Recipe;
 use crate::signal::{Reading, Steady, Turn, TurnKind};
 use crate::time::Frame;
@@ -34,7 +35,8 @@ pub fn table_1_recipe() -> Recipe {
     let mut recipe = Recipe::default();
     recipe.turns.reading = Reading::Literal;
     recipe.turns.steady = Steady::Acceleration(300.0);
-    // The paper knows no limit to what it finds.
+    // In the paper turns of joints are the keys, and there is no limit to what is found.
+    recipe.keys.merge = Merge::Union;
     recipe.keys.per_second = f64::INFINITY;
     recipe
 }

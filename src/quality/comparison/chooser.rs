@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Merge, Origin, Rank};
+use crate::keys::{Origin, Rank};
 use crate::motion::Clip;
 use crate::pipeline::Engine;
 use crate::quality::baselines::{
@@ -140,7 +140,6 @@ fn most(counts: &[usize]) -> usize {
 fn by_joints(rate: f64) -> Recipe {
     let mut recipe = table_1_recipe();
     recipe.rate = rate;
-    recipe.keys.merge = Merge::Union;
     recipe.keys.rank = Rank::Strength;
     recipe.keys.rest = 0.0;
     recipe
