@@ -1,0 +1,149 @@
+//! The transport (再生): play, step, scrub, loop, flip, and from which side it is seen.
+
+use egui::{Align2, Button, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use super::keyboard::Command;
+use super::player::Player;
+use super::shown::Shown;
+use super::viewport::{Seen, Standard, Viewport};
+
+/// Shows the buttons and the scrub bar.
+pub(super) fn show(
+    ui: &mut Ui,
+    shown: &Shown<'_>,
+    player: &Player,
+    viewport: &Viewport,
+    commands: &mut Vec<Command>,
+) {
+    ui.add_space(2.0);
+    ui.horizontal(|ui| {
+        steps(ui, shown, player, commands);
+        ui.separator();
+        sides(ui, shown, viewport, commands);
+    });
+    scrub(ui, shown, player, commands);
+}
+
+fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
+    let words = shown.words;
+    let mut button = |ui: &mut Ui, sign: &str, english, japanese, command: Command| {
+        let name = words.say(english, japanese);
+        if ui.button(sign).on_hover_text(name).accessible_name(name).clicked() {
+            commands.push(command);
+        }
+    };
+    button(ui, "⏮", "Genga before", "前の原画", Command::Genga(-1));
+    button(ui, "◀", "Koma before", "前のコマ", Command::Koma(-1));
+    match player.is_playing() {
+        true => button(ui, "⏸", "Stop", "停止", Command::Play),
+        false => button(ui, "▶", "Play", "再生", Command::Play),
+    }
+    button(ui, "▶", "Next koma", "次のコマ", Command::Koma(1));
+    button(ui, "⏭", "Next genga", "次の原画", Command::Genga(1));
+    let (at, length) = (shown.at + 1, shown.column.length);
+    let rate = shown.column.clock.koma_rate;
+    let seconds = shown.at as f64 / rate;
+    ui.monospace(match words.is_japanese() {
+        true => format!("コマ {at:>4} / {length}  {seconds:>6.2} 秒"),
+        false => format!("koma {at:>4} / {length}  {seconds:>6.2} s"),
+    });
+    if player.range.is_some() {
+        button(ui, "✖", "Play all", "全部を再生", Command::LoopAll);
+    }
+}
+
+fn sides(ui: &mut Ui, shown: &Shown<'_>, viewport: &Viewport, commands: &mut Vec<Command>) {
+    let words = shown.words;
+    let seen = [
+        (Seen::Both, words.say("Both", "並べて")),
+        (Seen::Source, words.say("Source", "素材")),
+        (Seen::Result, words.say("Result", "結果")),
+    ];
+    for (which, name) in seen {
+        if ui.add(Button::selectable(viewport.seen == which, name)).clicked() {
+            commands.push(Command::See(which));
+        }
+    }
+    ui.separator();
+    for (side, name) in [
+        (Standard::Front, words.say("Front", "正面")),
+        (Standard::Side, words.say("Side", "側面")),
+        (Standard::Top, words.say("Top", "真上")),
+        (Standard::ThreeQuarter, words.say("Three-quarter", "斜め")),
+    ] {
+        let is_so = viewport.orbit.standard() == Some(side);
+        if ui.add(Button::selectable(is_so, name)).clicked() {
+            commands.push(Command::Look(side));
+        }
+    }
+    ui.separator();
+    let onion = words.say("Onion skin", "オニオンスキン");
+    if ui.add(Button::selectable(viewport.onion, onion)).clicked() {
+        commands.push(Command::Onion);
+    }
+    let trails = words.say("Trails", "軌跡");
+    if ui.add(Button::selectable(viewport.trails, trails)).clicked() {
+        commands.push(Command::Trails);
+    }
+}
+
+/// Height of the scrub bar.
+const HEIGHT: f32 = 22.0;
+
+/// The whole sheet as a bar: a line a genga, the play head, what is played.
+fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
+    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
+    let response = ui.interact(rect, Id::unique("scrub"), Sense::click_and_drag());
+    let column = &shown.column;
+    let inside = rect.shrink2(vec2(6.0, 3.0));
+    let wide = inside.width() / column.length.max(1) as f32;
+    let x = |koma: usize| inside.min.x + wide * koma as f32;
+    if let Some(at) =
+        response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on())
+    {
+        let koma = ((at.x - inside.min.x) / wide).floor().max(0.0) as usize;
+        commands.push(Command::Go(koma.min(column.length - 1)));
+    }
+    let (painter, look) = (ui.painter_at(rect), &shown.look);
+    painter.rect_filled(inside, 3.0, look.ground);
+    let played = player.played(column.length);
+    if player.range.is_some() {
+        let played = Rect::from_x_y_ranges(x(played.start)..=x(played.end), inside.y_range());
+        painter.rect_filled(played, 3.0, look.chosen);
+    }
+    for cell in &column.cells {
+        let color = look.of_role(cell.drawing.role);
+        let (high, stroke) = match cell.drawing.role.is_kept() {
+            true => (1.0, Stroke::new(1.5, color)),
+            false => (0.4, Stroke::new(1.0, color)),
+        };
+        let top = inside.max.y - high * inside.height();
+        painter.vline(x(cell.koma), top..=inside.max.y, stroke);
+    }
+    let now = x(shown.at);
+    let head = Rect::from_min_max(pos2(now, rect.min.y), pos2(now + wide.max(3.0), rect.max.y));
+    painter.rect_stroke(head, 2.0, Stroke::new(2.0, look.playhead), egui::StrokeKind::Outside);
+    if response.has_focus() {
+        painter.rect_stroke(inside, 3.0, Stroke::new(1.0, look.playhead), egui::StrokeKind::Inside);
+    }
+    let name = shown.words.say("Play head", "再生位置");
+    let (at, length) = (shown.at + 1, column.length);
+    response.widget_info(|| WidgetInfo {
+        value: Some(at as f64),
+        current_text_value: Some(format!("{at} / {length}")),
+        ..WidgetInfo::labeled(Role::Slider, true, name)
+    });
+    let second = column.clock.koma_rate.round().max(1.0) as usize;
+    for koma in (second..column.length).step_by(second) {
+        let at = pos2(x(koma) + 2.0, inside.min.y);
+        if wide * second as f32 > 24.0 {
+            painter.text(
+                at,
+                Align2::LEFT_TOP,
+                format!("{}", koma / second),
+                FontId::proportional(9.0),
+                look.faint,
+            );
+        }
+    }
+}
