@@ -19,6 +19,7 @@ mod desk;
 mod document;
 mod help;
 mod history;
+mod icon;
 mod key_menu;
 mod keyboard;
 mod knobs;

@@ -5,6 +5,7 @@ use std::path::Path;
 use egui::{Align, Button, Color32, Frame, Layout, RichText, TextEdit, Ui};
 
 use super::counts::Counts;
+use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::look::Look;
 use super::take::Take;
@@ -64,7 +65,7 @@ fn switches(ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
         commands.push(Command::Help);
     }
     let theme = words.say("Light or dark", "明るい・暗い画面");
-    if ui.button("◐").on_hover_text(theme).accessible_name(theme).clicked() {
+    if icon::button(ui, Icon::Theme, theme).clicked() {
         commands.push(Command::Theme);
     }
     let (name, accessible) = match words.language {
@@ -97,8 +98,8 @@ pub(super) fn message(
     let color = if message.is_failure { look.genga } else { look.playhead };
     stripe(ui, color, |ui| {
         ui.label(&message.text);
-        if ui.small_button("✖").accessible_name(words.say("Close the message", "閉じる")).clicked()
-        {
+        let close = words.say("Close the message", "閉じる");
+        if icon::button(ui, Icon::Cross, close).clicked() {
             commands.push(Command::Dismiss);
         }
     });

@@ -3,6 +3,7 @@
 use egui::{CollapsingHeader, RichText, Ui};
 
 use super::corrections::Correction;
+use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::shown::Shown;
 use crate::keys::{Key, Origin};
@@ -49,7 +50,7 @@ fn row(
 ) {
     ui.horizontal(|ui| {
         let name = format!("{}: {what}", shown.words.say("Take back", "取り消す"));
-        if ui.small_button("✖").on_hover_text(&name).accessible_name(name).clicked() {
+        if icon::button(ui, Icon::Cross, &name).clicked() {
             commands.push(Command::Correct(back));
         }
         if ui.link(what.trim()).clicked()

@@ -7,6 +7,7 @@ pub(super) mod presets;
 use egui::{Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, SliderClamping, Ui};
 
 use self::presets::PRESETS;
+use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::shown::Shown;
 use super::words::Words;
@@ -111,8 +112,8 @@ impl Knobs {
             ui.name_inputs(knob.name, |ui| control(ui, knob, value, &mut set));
             if is_own {
                 let back = words.say("Back to the default", "初期値に戻す");
-                let response = ui.small_button("↺").on_hover_text(format!("{back}: {default}"));
-                if response.accessible_name(format!("{back}: {}", knob.name)).clicked() {
+                let name = format!("{back}: {} ({default})", knob.name);
+                if icon::button(ui, Icon::Back, &name).clicked() {
                     set(default.clone());
                 }
             }

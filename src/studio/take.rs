@@ -48,8 +48,8 @@ impl Take {
         let recipe = recipe.map_or_else(|| beside(path, ".genga.toml"), Path::to_owned);
         let saved = read(desk, &recipe)?.unwrap_or_default();
         let left = read(desk, &beside(path, AUTOSAVE)).ok().flatten();
-        let scene = Scene::of(&opened.clip);
         let mut engine = Engine::new(opened.clip).map_err(|error| error.to_string())?;
+        let scene = Scene::of(engine.clip());
         engine
             .run(&saved.recipe, &saved.edits)
             .map_err(|error| format!("{}: {error}", recipe.display()))?;

@@ -2,6 +2,7 @@
 
 use egui::{Align2, Button, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::player::Player;
 use super::shown::Shown;
@@ -26,20 +27,20 @@ pub(super) fn show(
 
 fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
     let words = shown.words;
-    let mut button = |ui: &mut Ui, sign: &str, english, japanese, command: Command| {
+    let mut button = |ui: &mut Ui, sign: Icon, english, japanese, command: Command| {
         let name = words.say(english, japanese);
-        if ui.button(sign).on_hover_text(name).accessible_name(name).clicked() {
+        if icon::button(ui, sign, name).clicked() {
             commands.push(command);
         }
     };
-    button(ui, "⏮", "Genga before", "前の原画", Command::Genga(-1));
-    button(ui, "◀", "Koma before", "前のコマ", Command::Koma(-1));
+    button(ui, Icon::Skip { is_back: true }, "Genga before", "前の原画", Command::Genga(-1));
+    button(ui, Icon::Step { is_back: true }, "Koma before", "前のコマ", Command::Koma(-1));
     match player.is_playing() {
-        true => button(ui, "⏸", "Stop", "停止", Command::Play),
-        false => button(ui, "▶", "Play", "再生", Command::Play),
+        true => button(ui, Icon::Stop, "Stop", "停止", Command::Play),
+        false => button(ui, Icon::Play, "Play", "再生", Command::Play),
     }
-    button(ui, "▶", "Next koma", "次のコマ", Command::Koma(1));
-    button(ui, "⏭", "Next genga", "次の原画", Command::Genga(1));
+    button(ui, Icon::Step { is_back: false }, "Next koma", "次のコマ", Command::Koma(1));
+    button(ui, Icon::Skip { is_back: false }, "Next genga", "次の原画", Command::Genga(1));
     let (at, length) = (shown.at + 1, shown.column.length);
     let rate = shown.column.clock.koma_rate;
     let seconds = shown.at as f64 / rate;
@@ -48,7 +49,7 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         false => format!("koma {at:>4} / {length}  {seconds:>6.2} s"),
     });
     if player.range.is_some() {
-        button(ui, "✖", "Play all", "全部を再生", Command::LoopAll);
+        button(ui, Icon::Cross, "Play all", "全部を再生", Command::LoopAll);
     }
 }
 

@@ -19,25 +19,29 @@ pub(crate) struct Soft(pub(crate) Rc<RefCell<Textures>>);
 
 impl TestRenderer for Soft {
     fn handle_delta(&mut self, delta: &mut TexturesDelta) {
-        let TexturesDelta { set, free } = mem::take(delta);
+        let (set, free) = (mem::take(&mut delta.set), mem::take(&mut delta.free));
         let textures = &mut self.0.borrow_mut().0;
-        for (id, change) in set {
-            let ImageData::Color(image) = change.image;
-            match (change.pos, textures.get_mut(&id)) {
-                (Some([left, top]), Some(whole)) => {
-                    for row in 0..image.size[1] {
-                        let from = row * image.size[0];
-                        let to = (top + row) * whole.size[0] + left;
-                        let pixels = &image.pixels[from..from + image.size[0]];
-                        whole.pixels[to..to + image.size[0]].copy_from_slice(pixels);
-                    }
+        for (id, changes) in set {
+            for change in changes {
+                let ImageData::Color(image) = change.image;
+                match (change.pos, textures.get_mut(&id)) {
+                    (Some(corner), Some(whole)) => put(&image, corner, whole),
+                    _ => drop(textures.insert(id, (*image).clone())),
                 }
-                _ => drop(textures.insert(id, (*image).clone())),
             }
         }
         for id in free {
             textures.remove(&id);
         }
+    }
+}
+
+/// Puts an image into a larger one.
+fn put(image: &ColorImage, [left, top]: [usize; 2], whole: &mut ColorImage) {
+    let [wide, high] = image.size;
+    for row in 0..high {
+        let to = (top + row) * whole.size[0] + left;
+        whole.pixels[to..to + wide].copy_from_slice(&image.pixels[row * wide..(row + 1) * wide]);
     }
 }
 

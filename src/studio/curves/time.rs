@@ -52,6 +52,9 @@ impl Window {
 
     /// Comes nearer to a place, which stays where it is.
     fn zoom(&mut self, place: f64, factor: f64) {
+        if factor == 1.0 {
+            return;
+        }
         let factor = 1.0 / factor.clamp(0.01, 100.0);
         let length = ((self.to - self.from) * factor)
             .clamp(FEWEST, (self.whole.1 - self.whole.0).max(FEWEST));
