@@ -48,7 +48,7 @@ pub(crate) mod parts {
     pub(crate) use super::points::Posing;
     pub(crate) use super::stage::{Stage, fitting};
     pub(crate) use super::style::{
-        END, FAINT, FILTERED, GENGA, GENGA_LINE, GRID, INK, LEFT, PAPER, RAW, RIGHT, WALL,
+        END, FAINT, FILTERED, GENGA, GENGA_LINE, INK, LEFT, PAPER, RAW, RIGHT, WALL,
     };
     pub(crate) use super::view::View;
 }

@@ -195,7 +195,7 @@ impl Studio {
             },
         );
         Panel::bottom("transport").resizable(false).show_separator_line(false).show(ui, |ui| {
-            transport::show(ui, &shown, &self.player, &self.viewport, commands);
+            transport::show(ui, &shown, &self.player, commands);
         });
         CentralPanel::no_frame().show(ui, |ui| self.viewport.show(ui, &shown, commands));
     }
@@ -222,7 +222,7 @@ impl Studio {
         let (breakdown, ..) = take.results();
         self.curves = Curves::of(breakdown.filtered.movers_first(breakdown.clip.skeleton()));
         self.player = Player::default();
-        self.viewport = Viewport::default();
+        self.viewport = Viewport::of(&take.scene);
         self.timesheet = Timesheet::default();
         self.key_panel = KeyPanel::default();
         (self.held, self.before, self.message) = (None, None, None);
@@ -233,11 +233,13 @@ impl Studio {
     fn settle(&mut self, ui: &Ui) {
         let is_held = ui.input(|input| input.pointer.any_down());
         let Some(take) = &mut self.take else { return };
-        if take.wanted != *take.document() {
-            ui.ctx().request_repaint();
-        }
-        if let Err(error) = take.renew(is_held) {
-            self.message = Some(Message { text: error.to_string(), is_failure: true });
+        match take.renew(is_held) {
+            Ok(false) => {}
+            Ok(true) => ui.ctx().request_repaint(),
+            Err(error) => {
+                self.message = Some(Message { text: error.to_string(), is_failure: true });
+                ui.ctx().request_repaint();
+            }
         }
         take.history.settle(&take.wanted, is_held);
         if is_held {

@@ -23,7 +23,7 @@ pub(crate) const INK: RGBColor = RGBColor(34, 37, 43);
 /// Words of less weight.
 pub(crate) const FAINT: RGBColor = RGBColor(104, 110, 118);
 /// Lines to read values by.
-pub(crate) const GRID: RGBColor = RGBColor(228, 231, 234);
+pub(super) const GRID: RGBColor = RGBColor(228, 231, 234);
 /// A curve as measured.
 pub(crate) const RAW: RGBColor = RGBColor(184, 190, 197);
 /// A curve after the low pass.

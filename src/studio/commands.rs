@@ -88,6 +88,7 @@ impl Studio {
             | Command::Look(_)
             | Command::Fit
             | Command::Zoom(_)
+            | Command::Follow
             | Command::Onion
             | Command::Trails => self.look(&command),
             Command::ToggleKey | Command::Lock | Command::Nudge(_) | Command::NudgeFrame(_) => {
@@ -168,9 +169,14 @@ impl Studio {
                 viewport.seen = if is_result { Seen::Source } else { Seen::Result };
             }
             Command::See(seen) => viewport.seen = *seen,
-            Command::Look(side) => viewport.orbit = Orbit::from(*side),
+            Command::Look(side) => {
+                let follows = viewport.orbit.follows;
+                viewport.orbit = Orbit::from(*side);
+                viewport.orbit.follows = follows;
+            }
             Command::Fit => viewport.orbit.fit(),
             Command::Zoom(factor) => viewport.orbit.zoom_by(*factor),
+            Command::Follow => viewport.orbit.follows = !viewport.orbit.follows,
             Command::Onion => viewport.onion = !viewport.onion,
             _ => viewport.trails = !viewport.trails,
         }

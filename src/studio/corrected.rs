@@ -27,8 +27,13 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
         }
         for moved in &edits.moves {
             let name = moved.name.as_deref().unwrap_or_default();
-            let what =
-                format!("{} {} → {} {name}", words.say("moved", "移動"), moved.from, moved.to);
+            let what = format!(
+                "{} {} {} {} {name}",
+                words.say("moved", "移動"),
+                moved.from,
+                words.say("to", "→"),
+                moved.to
+            );
             let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
             row(ui, &what, Some(moved.to), back, shown, commands);
         }
@@ -48,12 +53,13 @@ fn row(
     shown: &Shown<'_>,
     commands: &mut Vec<Command>,
 ) {
+    let what = what.trim();
     ui.horizontal(|ui| {
         let name = format!("{}: {what}", shown.words.say("Take back", "取り消す"));
         if icon::button(ui, Icon::Cross, &name).clicked() {
             commands.push(Command::Correct(back));
         }
-        if ui.link(what.trim()).clicked()
+        if ui.link(what).clicked()
             && let Some(frame) = at
         {
             commands.push(Command::Go(shown.column.clock.koma_from_place(frame.0 as f64)));

@@ -15,6 +15,7 @@ use super::player::Player;
 use super::shown::Shown;
 use crate::keys::Key;
 use crate::motion::JointId;
+use crate::time::Frame;
 
 /// Width of the list of joints.
 const LIST: f32 = 170.0;
@@ -32,7 +33,7 @@ pub(super) struct Curves {
     order: Vec<JointId>,
     search: String,
     window: Window,
-    held: Option<Key>,
+    held: Option<(Key, Frame)>,
     asked: Option<Key>,
 }
 
@@ -93,7 +94,7 @@ impl Curves {
             away(a).total_cmp(&away(b))
         });
         if response.drag_started_by(egui::PointerButton::Primary) {
-            self.held = nearest.cloned();
+            self.held = nearest.map(|key| (key.clone(), key.frame));
         }
         if response.secondary_clicked() {
             self.asked = nearest.cloned();
@@ -102,12 +103,15 @@ impl Curves {
         let koma =
             |place: f64| shown.column.clock.koma_from_place(place).min(shown.column.length - 1);
         let is_primary = response.clicked() || response.dragged_by(egui::PointerButton::Primary);
-        if let Some(key) = self.held.as_ref().filter(|_| response.dragged()) {
-            commands.push(Command::Drag(key.clone(), frame));
-            commands.push(Command::Go(koma(frame.0 as f64)));
+        if let Some((key, last)) = self.held.as_mut().filter(|_| response.dragged()) {
+            commands.extend(shown.go(koma(frame.0 as f64)));
+            if *last != frame {
+                *last = frame;
+                commands.push(Command::Drag(key.clone(), frame));
+            }
         } else if is_primary || response.secondary_clicked() {
             let place = nearest.map_or(frame, |key| key.frame);
-            commands.push(Command::Go(koma(place.0 as f64)));
+            commands.extend(shown.go(koma(place.0 as f64)));
         }
         if response.drag_stopped() {
             self.held = None;

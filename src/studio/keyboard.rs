@@ -39,6 +39,7 @@ pub(super) enum Command {
     Fit,
     /// Nearer or further.
     Zoom(f32),
+    Follow,
     Onion,
     Trails,
     /// A key at the play head, or none.
@@ -163,13 +164,14 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::Num0, Command::Fit, "show all of it", "全体を表示"),
     key(NONE, Key::Plus, Command::Zoom(1.2), "nearer", "近づく"),
     key(NONE, Key::Minus, Command::Zoom(1.0 / 1.2), "further", "離れる"),
+    key(NONE, Key::C, Command::Follow, "camera follows the body", "カメラが体を追う"),
     key(NONE, Key::G, Command::Onion, "onion skin", "オニオンスキン"),
     key(NONE, Key::T, Command::Trails, "trails of the chosen joints", "選んだ関節の軌跡"),
     key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
     key(NONE, Key::L, Command::Lock, "lock the genga here, or unlock it", "原画を固定・解除"),
     key(NONE, Key::N, Command::FocusName, "name the genga here", "原画に名前"),
     key(NONE, Key::D, Command::Theme, "light, dark", "明るい・暗い画面"),
-    key(NONE, Key::J, Command::Language, "日本語", "English"),
+    key(NONE, Key::J, Command::Language, "Japanese labels", "英語表示"),
     key(NONE, Key::Questionmark, Command::Help, "this list", "この一覧"),
     key(NONE, Key::F1, Command::Help, "this list", "この一覧"),
     key(NONE, Key::Escape, Command::Dismiss, "close what is open", "閉じる"),

@@ -52,7 +52,7 @@ impl Look {
             end: of(parts::END),
             ink: of(parts::INK),
             faint: of(parts::FAINT),
-            grid: of(parts::GRID),
+            grid: Color32::from_rgb(218, 222, 226),
             raw: of(parts::RAW),
             filtered: of(parts::FILTERED),
             left: of(parts::LEFT),

@@ -15,6 +15,9 @@ const LOOKS: usize = 240;
 /// Metres from one line on the floor to the next.
 const CELL: f64 = 0.5;
 
+/// A way that is far, in heights of the body.
+const FAR: f64 = 2.0;
+
 /// What all views of a clip share.
 #[derive(Debug, Clone)]
 pub(super) struct Scene {
@@ -64,6 +67,17 @@ impl Scene {
             Camera::Side => self.side,
             Camera::ThreeQuarter | Camera::Auto => self.three_quarter,
         }
+    }
+
+    /// Whether the body goes so far that it would be small in a view of all of it.
+    pub(super) fn goes_far(&self) -> bool {
+        let wide = |axis: DVec3| {
+            let along = self.reached.iter().map(|point| point.dot(axis));
+            let start = (f64::INFINITY, f64::NEG_INFINITY);
+            let (low, high) = along.fold(start, |(low, high), at| (low.min(at), high.max(at)));
+            high - low
+        };
+        wide(self.front.right).max(wide(self.side.right)) > FAR * self.figure.height
     }
 
     /// The point of the floor under another.

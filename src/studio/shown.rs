@@ -2,6 +2,7 @@
 
 use super::column::Column;
 use super::document::Document;
+use super::keyboard::Command;
 use super::look::Look;
 use super::scene::Scene;
 use super::words::Words;
@@ -25,6 +26,12 @@ pub(super) struct Shown<'a> {
 }
 
 impl Shown<'_> {
+    /// To a koma, if the play head is elsewhere.
+    pub(super) fn go(&self, koma: usize) -> Option<Command> {
+        let koma = koma.min(self.column.length.saturating_sub(1));
+        (koma != self.at).then_some(Command::Go(koma))
+    }
+
     /// The source frame nearest to a place, within the clip.
     pub(super) fn frame(&self, place: f64) -> Frame {
         let clip = self.breakdown.clip;

@@ -88,10 +88,11 @@ impl Take {
 
     /// Makes the results again if something else is wanted. A clip that takes long waits for the hand.
     ///
-    /// What the chain refuses is not wanted any longer, and everything stays as it was.
-    pub(super) fn renew(&mut self, is_held: bool) -> Result<(), Error> {
+    /// What the chain refuses is not wanted any longer, and everything stays as it was. Says whether there are
+    /// other results.
+    pub(super) fn renew(&mut self, is_held: bool) -> Result<bool, Error> {
         if self.wanted == self.document || is_held && self.is_slow {
-            return Ok(());
+            return Ok(false);
         }
         let begin = Instant::now();
         match self.engine.run(&self.wanted.recipe, &self.wanted.edits) {
@@ -102,7 +103,7 @@ impl Take {
             }
         }
         self.is_slow = begin.elapsed().as_secs_f64() > QUICK;
-        Ok(())
+        Ok(true)
     }
 
     pub(super) fn counts(&mut self) -> Counts {

@@ -11,6 +11,7 @@ use super::key_menu;
 use super::keyboard::Command;
 use super::shown::Shown;
 use crate::keys::{Key, Origin};
+use crate::time::Frame;
 
 /// Height of a koma.
 const ROW: f32 = 17.0;
@@ -26,8 +27,8 @@ const THIN: usize = 6;
 /// What a hand holds on the sheet.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Timesheet {
-    /// The key that is dragged.
-    held: Option<Key>,
+    /// The key that is dragged, and where it was last.
+    held: Option<(Key, Frame)>,
     /// The key whose menu is open.
     asked: Option<Key>,
     /// The koma that was last brought into view.
@@ -90,7 +91,7 @@ impl Timesheet {
             return;
         };
         if response.drag_started() {
-            self.held = key(at).cloned();
+            self.held = key(at).map(|key| (key.clone(), key.frame));
         }
         if response.secondary_clicked() {
             self.asked = key(at).cloned();
@@ -100,10 +101,14 @@ impl Timesheet {
             || response.secondary_clicked();
         if is_held {
             self.followed = Some(koma(at));
-            commands.push(Command::Go(koma(at)));
+            commands.extend(shown.go(koma(at)));
         }
-        if let Some(key) = self.held.as_ref().filter(|_| response.dragged()) {
-            commands.push(Command::Drag(key.clone(), shown.frame_of_koma(koma(at))));
+        let to = shown.frame_of_koma(koma(at));
+        if let Some((key, last)) =
+            self.held.as_mut().filter(|(_, last)| response.dragged() && *last != to)
+        {
+            *last = to;
+            commands.push(Command::Drag(key.clone(), to));
         }
         if response.drag_stopped() {
             self.held = None;
@@ -235,9 +240,6 @@ fn why(cell: &Cell<'_>, shown: &Shown<'_>) -> String {
     let why = &cell.drawing.why;
     if why.omitted_before > 0 {
         reasons.push(format!("{} {}", words.say("left out", "中無し"), why.omitted_before));
-    }
-    if why.held_for > 0 {
-        reasons.push(format!("{} {}", words.say("held over", "コマ撮り"), why.held_for));
     }
     if reasons.is_empty() {
         reasons.extend(why.voters.first().cloned());

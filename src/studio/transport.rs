@@ -1,27 +1,16 @@
-//! The transport (再生): play, step, scrub, loop, flip, and from which side it is seen.
+//! The transport (再生): play, step, scrub, loop.
 
-use egui::{Align2, Button, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::player::Player;
 use super::shown::Shown;
-use super::viewport::{Seen, Standard, Viewport};
 
 /// Shows the buttons and the scrub bar.
-pub(super) fn show(
-    ui: &mut Ui,
-    shown: &Shown<'_>,
-    player: &Player,
-    viewport: &Viewport,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
     ui.add_space(2.0);
-    ui.horizontal(|ui| {
-        steps(ui, shown, player, commands);
-        ui.separator();
-        sides(ui, shown, viewport, commands);
-    });
+    ui.horizontal(|ui| steps(ui, shown, player, commands));
     scrub(ui, shown, player, commands);
 }
 
@@ -53,41 +42,6 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
     }
 }
 
-fn sides(ui: &mut Ui, shown: &Shown<'_>, viewport: &Viewport, commands: &mut Vec<Command>) {
-    let words = shown.words;
-    let seen = [
-        (Seen::Both, words.say("Both", "並べて")),
-        (Seen::Source, words.say("Source", "素材")),
-        (Seen::Result, words.say("Result", "結果")),
-    ];
-    for (which, name) in seen {
-        if ui.add(Button::selectable(viewport.seen == which, name)).clicked() {
-            commands.push(Command::See(which));
-        }
-    }
-    ui.separator();
-    for (side, name) in [
-        (Standard::Front, words.say("Front", "正面")),
-        (Standard::Side, words.say("Side", "側面")),
-        (Standard::Top, words.say("Top", "真上")),
-        (Standard::ThreeQuarter, words.say("Three-quarter", "斜め")),
-    ] {
-        let is_so = viewport.orbit.standard() == Some(side);
-        if ui.add(Button::selectable(is_so, name)).clicked() {
-            commands.push(Command::Look(side));
-        }
-    }
-    ui.separator();
-    let onion = words.say("Onion skin", "オニオンスキン");
-    if ui.add(Button::selectable(viewport.onion, onion)).clicked() {
-        commands.push(Command::Onion);
-    }
-    let trails = words.say("Trails", "軌跡");
-    if ui.add(Button::selectable(viewport.trails, trails)).clicked() {
-        commands.push(Command::Trails);
-    }
-}
-
 /// Height of the scrub bar.
 const HEIGHT: f32 = 22.0;
 
@@ -103,7 +57,7 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on())
     {
         let koma = ((at.x - inside.min.x) / wide).floor().max(0.0) as usize;
-        commands.push(Command::Go(koma.min(column.length - 1)));
+        commands.extend(shown.go(koma));
     }
     let (painter, look) = (ui.painter_at(rect), &shown.look);
     painter.rect_filled(inside, 3.0, look.ground);

@@ -4,11 +4,15 @@ mod body;
 mod floor;
 mod ghosts;
 mod orbit;
+mod sides;
 mod trails;
+
+use glam::DVec3;
 
 use egui::{Align2, FontId, Id, PointerButton, Rect, Response, Role, Sense, Ui, Vec2, pos2, vec2};
 
 use super::keyboard::Command;
+use super::scene::Scene;
 use super::shown::Shown;
 use crate::plot::parts::{Posing, Stage};
 use crate::sheet::Source;
@@ -48,9 +52,21 @@ impl Default for Viewport {
 const GAP: f32 = 6.0;
 
 impl Viewport {
+    /// Begins with a scene: where the body goes far, the view goes with it.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut viewport = Self::default();
+        viewport.orbit.follows = scene.goes_far();
+        viewport
+    }
+
     /// Draws both halves and takes what the hand does to them.
     pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        ui.horizontal(|ui| {
+            ui.add_space(6.0);
+            sides::show(ui, shown, self, commands);
+        });
         let whole = ui.available_rect_before_wrap();
+        let anchor = self.anchor(shown);
         let half = vec2(0.5 * (whole.width() - GAP), whole.height());
         let halves: &[(Seen, Rect)] = match self.seen {
             Seen::Both => &[
@@ -63,11 +79,18 @@ impl Viewport {
             let id = Id::unique(("viewport", *seen == Seen::Source));
             let response = ui.interact(*rect, id, Sense::click_and_drag());
             self.handle(ui, &response, shown, commands);
-            self.draw(ui, *rect, *seen, shown);
+            self.draw(ui, *rect, *seen, anchor, shown);
             let name = self.heading(*seen, shown);
             response.widget_info(|| egui::WidgetInfo::labeled(Role::Canvas, true, &name));
         }
         ui.advance_cursor_after_rect(whole);
+    }
+
+    /// What a view that follows has in its middle: the body of the source, as it is a smooth way.
+    fn anchor(&self, shown: &Shown<'_>) -> DVec3 {
+        let place = shown.column.clock.place_from_koma(shown.at);
+        let root = Posing::of(shown.breakdown.clip).points(Source::At(place))[0];
+        shown.scene.on_floor(root) + shown.scene.up * (0.5 * shown.scene.figure.height)
     }
 
     fn handle(
@@ -96,11 +119,11 @@ impl Viewport {
         }
     }
 
-    fn draw(&self, ui: &Ui, rect: Rect, seen: Seen, shown: &Shown<'_>) {
+    fn draw(&self, ui: &Ui, rect: Rect, seen: Seen, anchor: DVec3, shown: &Shown<'_>) {
         let painter = ui.painter_at(rect);
         let look = &shown.look;
         painter.rect_filled(rect, 4.0, look.ground);
-        let stage = self.orbit.stage(shown.scene, rect);
+        let stage = self.orbit.stage(shown.scene, rect, anchor);
         let mut posing = Posing::of(shown.breakdown.clip);
         floor::draw(&painter, &stage, shown);
         let source = match seen {
@@ -169,7 +192,7 @@ fn position((x, y): (f64, f64)) -> egui::Pos2 {
 }
 
 /// Where a point of the world comes in the window.
-fn placed(stage: &Stage, point: glam::DVec3) -> egui::Pos2 {
+fn placed(stage: &Stage, point: DVec3) -> egui::Pos2 {
     position(stage.place(point))
 }
 

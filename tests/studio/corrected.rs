@@ -54,7 +54,7 @@ fn a_key_is_set_and_taken_back_on_the_keyboard() {
     table.go(43);
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.pins(), [42], "koma 43 shows frame 42");
-    table.harness.get_by_label_contains("locked 42");
+    table.harness.get_by_label("Take back: locked 42");
     table.tap(Modifiers::NONE, Key::K);
     assert!(table.edits().is_empty());
     table.tap(Modifiers::COMMAND, Key::Z);

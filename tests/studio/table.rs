@@ -29,6 +29,16 @@ pub(crate) struct Table {
     pub(crate) soft: Soft,
 }
 
+/// Draws into all of the window, as the shell does: the harness leaves a margin.
+fn whole_window(ui: &mut egui::Ui, studio: &mut Studio) {
+    let window = ui.ctx().content_rect();
+    let builder = egui::UiBuilder::new().max_rect(window);
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(window);
+        studio.ui(ui);
+    });
+}
+
 impl Table {
     /// With a kick on it.
     pub(crate) fn with_kick() -> Self {
@@ -54,7 +64,7 @@ impl Table {
             Language::Japanese => builder.with_context_setup(crate::pictures::with_japanese),
             Language::English => builder,
         };
-        let harness = builder.build_ui_state(|ui, studio: &mut Studio| studio.ui(ui), studio);
+        let harness = builder.build_ui_state(whole_window, studio);
         Self { harness, desk, soft }
     }
 

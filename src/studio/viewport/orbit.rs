@@ -24,6 +24,8 @@ pub(in crate::studio) enum Standard {
 const TILT: f64 = 0.2;
 /// A full turn of the view for so many points of the window.
 const TURN: f64 = std::f64::consts::TAU / 720.0;
+/// Width and height of what a view that follows shows, in heights of the body.
+const NEAR: (f64, f64) = (1.5, 1.5);
 /// How much of a view the motion fills.
 const FILLED: f64 = 0.86;
 
@@ -38,6 +40,8 @@ pub(in crate::studio) struct Orbit {
     zoom: f64,
     /// Right and up, in the file's unit.
     pan: (f64, f64),
+    /// Whether it goes along with the body.
+    pub(in crate::studio) follows: bool,
 }
 
 impl Default for Orbit {
@@ -53,7 +57,7 @@ impl From<Standard> for Orbit {
             Standard::Top => std::f64::consts::FRAC_PI_2,
             Standard::ThreeQuarter => TILT,
         };
-        Self { standard, yaw: 0.0, pitch, zoom: 1.0, pan: (0.0, 0.0) }
+        Self { standard, yaw: 0.0, pitch, zoom: 1.0, pan: (0.0, 0.0), follows: false }
     }
 }
 
@@ -102,10 +106,14 @@ impl Orbit {
     }
 
     /// The stage that fills a part of the window.
-    pub(super) fn stage(&self, scene: &Scene, rect: Rect) -> Stage {
+    pub(super) fn stage(&self, scene: &Scene, rect: Rect, anchor: DVec3) -> Stage {
         let view = self.view(scene);
         let (left, right, low, high) = reach(&view, scene);
-        let origin = (0.5 * (left + right) + self.pan.0, 0.5 * (low + high) + self.pan.1);
+        let middle = match self.follows {
+            true => (view.see(anchor).0, view.see(anchor).1),
+            false => (0.5 * (left + right), 0.5 * (low + high)),
+        };
+        let origin = (middle.0 + self.pan.0, middle.1 + self.pan.1);
         let scale = self.scale(&view, scene, rect);
         let middle = rect.center();
         let at = (f64::from(middle.x), f64::from(middle.y));
@@ -114,9 +122,13 @@ impl Orbit {
 
     /// Points of the window for a unit of the file.
     fn scale(&self, view: &View, scene: &Scene, rect: Rect) -> f64 {
-        let (left, right, low, high) = reach(view, scene);
         let room = (f64::from(rect.width()) * FILLED, f64::from(rect.height()) * FILLED);
-        fitting((right - left, high - low), room) * self.zoom
+        let (left, right, low, high) = reach(view, scene);
+        let size = match self.follows {
+            true => (NEAR.0 * scene.figure.height, NEAR.1 * scene.figure.height),
+            false => (right - left, high - low),
+        };
+        fitting(size, room) * self.zoom
     }
 }
 

@@ -33,9 +33,16 @@ pub(super) fn draw(
     let dots = dots(seen, shown);
     let poses = posing.all(dots.iter().map(|dot| dot.source));
     for joint in shown.joints {
-        let places: Vec<Pos2> = poses.iter().map(|pose| placed(stage, pose[joint.0])).collect();
+        let point = turned(stage, joint.0);
+        let places: Vec<Pos2> = poses.iter().map(|pose| placed(stage, pose[point])).collect();
         path(painter, &places, &dots, shown);
     }
+}
+
+/// What a joint turns: the end of its own bone. The joint itself stays where it is when it turns.
+fn turned(stage: &Stage, joint: usize) -> usize {
+    let bone = stage.figure.bones.iter().find(|bone| bone.from == joint);
+    bone.map_or(joint, |bone| bone.to)
 }
 
 fn dots(seen: Seen, shown: &Shown<'_>) -> Vec<Dot> {
