@@ -197,7 +197,10 @@ impl Studio {
         Panel::bottom("transport").resizable(false).show_separator_line(false).show(ui, |ui| {
             transport::show(ui, &shown, &self.player, commands);
         });
-        CentralPanel::no_frame().show(ui, |ui| self.viewport.show(ui, &shown, commands));
+        let frame = Frame::central_panel(ui.style()).inner_margin(0);
+        CentralPanel::default()
+            .frame(frame)
+            .show(ui, |ui| self.viewport.show(ui, &shown, commands));
     }
 
     /// What comes from outside: a clip that was read, files that were dropped.

@@ -63,12 +63,24 @@ mod shell {
             .with_min_inner_size([900.0, 600.0]);
         let options = eframe::NativeOptions { viewport, ..eframe::NativeOptions::default() };
         let shell = Shell { studio, title: String::new() };
-        eframe::run_native("genga", options, Box::new(|_| Ok(Box::new(shell)))).map_err(|error| {
-            let message = format!(
-                "the window could not be opened: {error}; genga run and --set do the same work without one"
-            );
-            Failure::CouldNot(message)
-        })
+        let window = eframe::run_native("genga", options, Box::new(|_| Ok(Box::new(shell))));
+        window.map_err(|error| Failure::CouldNot(no_window(&error)))
+    }
+
+    /// Why there is no window, and the way on.
+    fn no_window(error: &eframe::Error) -> String {
+        let why = match error {
+            eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => {
+                "there is no screen to open it on".to_owned()
+            }
+            eframe::Error::Wgpu(_) => {
+                "no graphics driver, neither Vulkan nor OpenGL, can draw it".to_owned()
+            }
+            other => other.to_string(),
+        };
+        format!(
+            "the window could not be opened: {why}; genga run with --set and --pin does the same work without one"
+        )
     }
 
     /// Says of a slip of the hand at once, and not in a window.

@@ -60,7 +60,7 @@ impl Curves {
         let response = ui.interact(rect, Id::unique("curves"), Sense::click_and_drag());
         let clip = shown.breakdown.clip;
         self.window.fit((clip.first().0 as f64, clip.last().0 as f64));
-        let inside = rect.with_min_x(rect.min.x + VALUES).shrink2(vec2(8.0, 0.0));
+        let inside = rect.with_min_x(rect.min.x + VALUES).shrink2(vec2(12.0, 0.0));
         self.window.handle(ui, &response, inside);
         let time = self.window.scale(inside);
         let top = Rect::from_min_size(inside.min, vec2(inside.width(), ruler::HEIGHT));
@@ -142,8 +142,7 @@ impl Curves {
                 Rect::from_min_size(corner, vec2(below.width(), high)).shrink2(vec2(0.0, 3.0));
             lane::draw(&painter, rect, *joint, time, shown);
         }
+        painter.vline(place(shown.at), inside.y_range(), Stroke::new(2.0, look.playhead));
         ruler::draw(&painter, top, inside.max.y, time, shown);
-        let now = place(shown.at);
-        painter.vline(now, inside.y_range(), Stroke::new(2.0, look.playhead));
     }
 }

@@ -1,6 +1,6 @@
 //! What can be done to a key, as a menu and as a small panel.
 
-use egui::{Slider, TextEdit, Ui};
+use egui::{RichText, Slider, TextEdit, Ui};
 
 use super::corrections::Correction;
 use super::keyboard::Command;
@@ -74,7 +74,7 @@ impl KeyPanel {
             });
         });
         if !words.is_japanese() {
-            ui.small(cell.drawing.why.to_string());
+            ui.label(RichText::new(cell.drawing.why.to_string()).size(11.0).weak());
         }
         ui.horizontal_wrapped(|ui| show(ui, key, words, commands));
         self.name(ui, key, words, commands);

@@ -110,6 +110,10 @@ impl Knobs {
             });
             help(label.response, knob, default, words);
             ui.name_inputs(knob.name, |ui| control(ui, knob, value, &mut set));
+            let unit = short(knob);
+            if !unit.is_empty() {
+                ui.label(RichText::new(unit).size(10.5).weak());
+            }
             if is_own {
                 let back = words.say("Back to the default", "初期値に戻す");
                 let name = format!("{back}: {} ({default})", knob.name);
@@ -221,6 +225,18 @@ fn named(section: Option<&'static str>, words: Words) -> (&'static str, bool) {
     }
 }
 
+/// A unit in as few letters as a row has room for. Those with a button for the unit need none.
+fn short(knob: &Knob) -> String {
+    let Kind::Number { .. } = knob.kind else { return String::new() };
+    let unit = knob.unit.split(',').next().unwrap_or_default();
+    let word = unit.split(' ').next().unwrap_or_default();
+    match unit.strip_suffix(" a second") {
+        _ if word.starts_with(|letter: char| letter.is_ascii_digit()) => String::new(),
+        Some(_) => format!("{word}/s"),
+        None => word.into(),
+    }
+}
+
 /// What a knob is called.
 fn label(knob: &Knob, words: Words) -> String {
     if words.is_japanese() {
@@ -232,4 +248,26 @@ fn label(knob: &Knob, words: Words) -> String {
         first.make_ascii_uppercase();
     }
     label
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_said_in_a_word() {
+        let short = |name| short(Knob::find(name).unwrap());
+        assert_eq!(short("rate"), "koma/s");
+        assert_eq!(short("keys.min_price"), "%");
+        assert_eq!(short("keys.rest"), "%/s");
+        assert_eq!(short("keys.per_second"), "keys/s");
+        assert_eq!(short("spacing.weight"), "");
+        assert_eq!(short("filter.width"), "", "its button says it");
+    }
+
+    #[test]
+    fn a_label_is_the_field_in_words() {
+        let words = Words { language: Default::default(), has_japanese: false };
+        assert_eq!(label(Knob::find("omission.naka_nashi").unwrap(), words), "Naka nashi");
+    }
 }

@@ -15,6 +15,8 @@ use crate::time::Frame;
 
 /// Height of a koma.
 const ROW: f32 = 17.0;
+/// Room over the first koma, so that its circle is whole.
+const PAD: f32 = 3.0;
 /// Where the middle of the column stands.
 const MIDDLE: f32 = 62.0;
 /// Where the words begin.
@@ -50,8 +52,8 @@ impl Timesheet {
         ScrollArea::vertical().id_salt("timesheet").auto_shrink(false).show_viewport(
             ui,
             |ui, seen| {
-                ui.set_height(high);
-                let top = ui.min_rect().min;
+                ui.set_height(high + PAD);
+                let top = ui.min_rect().min + vec2(0.0, PAD);
                 let rect = Rect::from_min_size(top, vec2(ui.available_width(), high));
                 let response = ui.interact(rect, Id::unique("timesheet"), Sense::click_and_drag());
                 self.handle(&response, rect, shown, commands);

@@ -115,7 +115,7 @@ fn a_key_is_dragged_over_the_curves() {
     table.tap(Modifiers::NONE, Key::L);
     let [frame] = table.pins()[..] else { panic!("{:?}", table.pins()) };
     let curves = table.canvas("Speed curves");
-    let (left, right) = (curves.min.x + 48.0, curves.max.x - 8.0);
+    let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
     let place = |frame: usize| left + (right - left) * frame as f32 / 91.0;
     let number = |frame: usize| pos2(place(frame), curves.min.y + 25.0);
     table.drag(number(frame), number(frame + 2));

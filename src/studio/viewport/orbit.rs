@@ -25,7 +25,7 @@ const TILT: f64 = 0.2;
 /// A full turn of the view for so many points of the window.
 const TURN: f64 = std::f64::consts::TAU / 720.0;
 /// Width and height of what a view that follows shows, in heights of the body.
-const NEAR: (f64, f64) = (1.5, 1.5);
+const NEAR: (f64, f64) = (1.2, 1.35);
 /// How much of a view the motion fills.
 const FILLED: f64 = 0.86;
 
