@@ -100,7 +100,8 @@ impl KeyPanel {
         if response.has_focus() {
             self.typed = Some((key.clone(), text));
         } else if let Some((typed, text)) = self.typed.take()
-            && text.trim() != typed.name.clone().unwrap_or_default()
+            && text.trim() != typed.name.as_deref().unwrap_or_default()
+            && !ui.input(|input| input.key_down(egui::Key::Escape))
         {
             commands.push(Command::Correct(Correction::Name(typed, text)));
         }

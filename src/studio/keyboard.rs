@@ -1,6 +1,6 @@
 //! Commands (操作), and the keys that give them. The list that `?` shows is made from this table.
 
-use egui::{Key, KeyboardShortcut, Modifiers, Ui};
+use egui::{Event, Key, KeyboardShortcut, Modifiers, TextEdit, Ui};
 
 use super::corrections::Correction;
 use super::viewport::{Seen, Standard};
@@ -181,22 +181,38 @@ pub(super) const BINDINGS: &[Binding] = &[
 const OF_WIDGETS: [Key; 6] =
     [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::Space, Key::Enter];
 
-/// The commands of the keys that were pressed, once for each press.
+/// The commands of the keys that were pressed, once for each press and in their order: a slow frame may have
+/// several. What is typed into a field is left to it.
 pub(super) fn pressed(ui: &Ui) -> Vec<Command> {
-    let is_typing = ui.ctx().egui_wants_keyboard_input();
-    let has_focus = ui.memory(|memory| memory.focused().is_some());
-    let is_free = |binding: &&Binding| {
-        let is_plain = !binding.modifiers.command;
-        !(is_typing && is_plain
-            || has_focus && binding.modifiers.is_none() && OF_WIDGETS.contains(&binding.key))
+    let focused = ui.memory(|memory| memory.focused());
+    let is_typing = focused.is_some_and(|id| TextEdit::load_state(ui.ctx(), id).is_some());
+    let is_free = |binding: &Binding| {
+        let is_of_widget = binding.modifiers.is_none() && OF_WIDGETS.contains(&binding.key);
+        match focused {
+            None => true,
+            Some(_) if is_typing => binding.modifiers.command || binding.key == Key::Escape,
+            Some(_) => !is_of_widget,
+        }
     };
     let mut commands = Vec::new();
-    for binding in BINDINGS.iter().filter(is_free) {
-        let count =
-            ui.input_mut(|input| input.count_and_consume_key(binding.modifiers, binding.key));
-        commands.extend(std::iter::repeat_n(binding.command.clone(), count));
-    }
+    ui.input_mut(|input| {
+        input.events.retain(|event| {
+            let command = command_of(event, is_free);
+            let is_kept = command.is_none();
+            commands.extend(command);
+            is_kept
+        });
+    });
     commands
+}
+
+/// What a press of a key asks for.
+fn command_of(event: &Event, is_free: impl Fn(&Binding) -> bool) -> Option<Command> {
+    let Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let is_meant =
+        |binding: &&Binding| binding.key == *key && modifiers.matches_logically(binding.modifiers);
+    let binding = BINDINGS.iter().find(is_meant).filter(|binding| is_free(binding))?;
+    Some(binding.command.clone())
 }
 
 #[cfg(test)]

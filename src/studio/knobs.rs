@@ -110,7 +110,7 @@ impl Knobs {
             });
             help(label.response, knob, default, words);
             ui.name_inputs(knob.name, |ui| control(ui, knob, value, &mut set));
-            let unit = short(knob);
+            let unit = short(knob, words);
             if !unit.is_empty() {
                 ui.label(RichText::new(unit).size(10.5).weak());
             }
@@ -226,15 +226,17 @@ fn named(section: Option<&'static str>, words: Words) -> (&'static str, bool) {
 }
 
 /// A unit in as few letters as a row has room for. Those with a button for the unit need none.
-fn short(knob: &Knob) -> String {
+fn short(knob: &Knob, words: Words) -> String {
     let Kind::Number { .. } = knob.kind else { return String::new() };
     let unit = knob.unit.split(',').next().unwrap_or_default();
-    let word = unit.split(' ').next().unwrap_or_default();
-    match unit.strip_suffix(" a second") {
-        _ if word.starts_with(|letter: char| letter.is_ascii_digit()) => String::new(),
-        Some(_) => format!("{word}/s"),
-        None => word.into(),
-    }
+    let word = match unit.split(' ').next().unwrap_or_default() {
+        "koma" => words.say("koma", "コマ"),
+        "keys" | "drawings" => words.say("drawings", "枚"),
+        "%" => "%",
+        _ => return String::new(),
+    };
+    let per = if unit.ends_with(" a second") { words.say("/s", "/秒") } else { "" };
+    format!("{word}{per}")
 }
 
 /// What a knob is called.
@@ -256,11 +258,12 @@ mod tests {
 
     #[test]
     fn a_unit_is_said_in_a_word() {
-        let short = |name| short(Knob::find(name).unwrap());
+        let words = Words { language: Default::default(), has_japanese: false };
+        let short = |name| short(Knob::find(name).unwrap(), words);
         assert_eq!(short("rate"), "koma/s");
         assert_eq!(short("keys.min_price"), "%");
         assert_eq!(short("keys.rest"), "%/s");
-        assert_eq!(short("keys.per_second"), "keys/s");
+        assert_eq!(short("keys.per_second"), "drawings/s");
         assert_eq!(short("spacing.weight"), "");
         assert_eq!(short("filter.width"), "", "its button says it");
     }

@@ -137,6 +137,17 @@ fn a_name_is_taken_on_when_the_field_is_left() {
 }
 
 #[test]
+fn a_name_that_is_given_up_is_not_taken_on() {
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::ArrowDown);
+    table.tap(Modifiers::NONE, Key::N);
+    table.harness.get_by_label("Name of the genga").type_text("contact");
+    table.harness.run();
+    table.tap(Modifiers::NONE, Key::Escape);
+    assert!(table.edits().is_empty());
+}
+
+#[test]
 fn a_key_gets_a_spacing_weight_of_its_own() {
     let mut table = Table::with_kick();
     table.go(43);

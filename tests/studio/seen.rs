@@ -44,6 +44,33 @@ fn arrows_step_by_koma_drawing_and_genga() {
 }
 
 #[test]
+fn keys_that_come_in_one_frame_are_taken_in_their_order() {
+    let mut table = Table::with_kick();
+    table.press(Key::End);
+    for key in [Key::Home, Key::ArrowRight, Key::ArrowRight] {
+        table.harness.input_mut().events.push(egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    table.harness.run();
+    assert_eq!(table.koma(), 3);
+}
+
+#[test]
+fn a_slider_that_was_turned_leaves_the_letters_to_the_studio() {
+    let mut table = Table::with_kick();
+    let role = egui::accesskit::Role::Slider;
+    table.harness.get_by_role_and_label(role, "spacing.weight").click();
+    table.harness.run();
+    table.press(Key::F1);
+    table.harness.get_by_label("flip source and result");
+}
+
+#[test]
 fn it_plays_in_time_and_stops() {
     let mut table = Table::with_kick();
     table.press(Key::Space);

@@ -10,7 +10,8 @@ use crate::table::Table;
 fn a_slider_sets_its_knob_and_a_drag_is_one_step() {
     let mut table = Table::with_kick();
     let before = table.recipe().clone();
-    let slider = table.harness.get_all_by_label("spacing.weight").next().unwrap().rect();
+    let slider =
+        table.harness.get_by_role_and_label(egui::accesskit::Role::Slider, "spacing.weight").rect();
     table.harness.drag_at(slider.left_center() + egui::vec2(30.0, 0.0));
     for step in 4..8 {
         table.harness.hover_at(slider.left_center() + egui::vec2(10.0 * step as f32, 0.0));
