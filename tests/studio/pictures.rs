@@ -1,6 +1,6 @@
 //! What the studio looks like: pictures that are those of the documentation.
 //!
-//! `GENGA_PICTURES=write cargo test --features studio --test studio` makes them again.
+//! `GENGA_PICTURES=write cargo test --features studio-tests --test studio` makes them again.
 
 use std::path::Path;
 use std::sync::Arc;
