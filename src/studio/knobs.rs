@@ -231,7 +231,8 @@ fn short(knob: &Knob, words: Words) -> String {
     let unit = knob.unit.split(',').next().unwrap_or_default();
     let word = match unit.split(' ').next().unwrap_or_default() {
         "koma" => words.say("koma", "コマ"),
-        "keys" | "drawings" => words.say("drawings", "枚"),
+        "keys" => words.say("genga", "枚"),
+        "drawings" => words.say("drawings", "枚"),
         "%" => "%",
         _ => return String::new(),
     };
@@ -263,7 +264,7 @@ mod tests {
         assert_eq!(short("rate"), "koma/s");
         assert_eq!(short("keys.min_price"), "%");
         assert_eq!(short("keys.rest"), "%/s");
-        assert_eq!(short("keys.per_second"), "drawings/s");
+        assert_eq!(short("keys.per_second"), "genga/s");
         assert_eq!(short("spacing.weight"), "");
         assert_eq!(short("filter.width"), "", "its button says it");
     }
