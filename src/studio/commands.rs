@@ -21,12 +21,15 @@ impl Studio {
         self.message = None;
     }
 
-    /// Turns a knob of the clip on the table, as a slider does; what it makes is shown after the next frame.
+    /// Turns a knob of the clip on the table, as a slider does, and makes the results again; the next frame
+    /// shows them.
     ///
     /// # Errors
-    /// Those of [`Recipe::set`].
+    /// Those of [`Recipe::set`] and of the chain.
     pub fn turn(&mut self, knob: &str, value: &str) -> Result<(), Error> {
-        self.take.iter_mut().try_for_each(|take| take.wanted.recipe.set(knob, value))
+        let Some(take) = &mut self.take else { return Ok(()) };
+        take.wanted.recipe.set(knob, value)?;
+        take.renew(false).map(drop)
     }
 
     /// Opens a recipe for the clip on the table, or a clip.

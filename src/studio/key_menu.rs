@@ -111,7 +111,7 @@ impl KeyPanel {
 /// The spacing weight from this key on.
 fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let words = shown.words;
-    let label = words.say("Own spacing (tsume)", "この原画の詰め");
+    let label = words.say("Own spacing weight", "この原画の詰め");
     let mut is_own = key.weight.is_some();
     if ui.checkbox(&mut is_own, label).changed() {
         let weight = is_own.then_some(shown.wanted.recipe.spacing.weight);

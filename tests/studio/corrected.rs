@@ -153,7 +153,7 @@ fn a_key_gets_a_spacing_weight_of_its_own() {
     table.go(43);
     table.tap(Modifiers::NONE, Key::K);
     let weight = table.recipe().spacing.weight;
-    table.harness.get_all_by_label("Own spacing (tsume)").next().unwrap().click();
+    table.harness.get_all_by_label("Own spacing weight").next().unwrap().click();
     table.harness.run();
     assert_eq!(table.edits().pins[0].weight, Some(weight));
 }
