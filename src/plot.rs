@@ -18,6 +18,8 @@ mod hierarchy;
 mod images;
 mod onion;
 mod page;
+#[cfg(feature = "studio")]
+pub(crate) mod parts;
 #[cfg(feature = "cli")]
 mod pixels;
 mod points;
@@ -40,18 +42,6 @@ mod xsheet;
 
 #[cfg(test)]
 mod tests;
-
-/// What the studio draws with too, so that a figure is one thing everywhere.
-#[cfg(feature = "studio")]
-pub(crate) mod parts {
-    pub(crate) use super::figure::{Drawn, Figure};
-    pub(crate) use super::points::Posing;
-    pub(crate) use super::stage::{Stage, fitting};
-    pub(crate) use super::style::{
-        END, FAINT, FILTERED, GENGA, GENGA_LINE, INK, LEFT, PAPER, RAW, RIGHT, WALL,
-    };
-    pub(crate) use super::view::View;
-}
 
 pub use camera::Camera;
 pub use contact::ContactSheet;
