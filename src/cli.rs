@@ -4,6 +4,8 @@ mod args;
 mod asked;
 mod compare;
 mod deliver;
+#[cfg(feature = "studio")]
+pub mod disk;
 mod eval;
 mod failure;
 mod inspect;
@@ -14,9 +16,11 @@ mod pages;
 mod pictures;
 mod pins;
 mod recipe;
+mod results;
 mod run;
 mod source;
 mod stale;
+mod studio;
 mod study;
 mod table;
 mod targets;
@@ -36,6 +40,7 @@ pub fn main() -> ExitCode {
     let words = Words::new(args.quiet);
     let done = match args.command {
         Command::Run(args) => run::run(&args, &words),
+        Command::Studio(args) => studio::run(args),
         Command::Deliver(args) => deliver::run(&args, &words),
         Command::Keys(args) => keys::run(&args, &words),
         Command::Omit(args) => omit::run(&args, &words),

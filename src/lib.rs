@@ -24,7 +24,8 @@
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
 //! result; [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
-//! what comes out. `cli` is the program; it uses this library and nothing else.
+//! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; both use this
+//! library and nothing else.
 //!
 //! # Example
 //!
@@ -80,6 +81,8 @@ pub mod quality;
 pub mod recipe;
 pub mod sheet;
 pub mod signal;
+#[cfg(feature = "studio")]
+pub mod studio;
 pub mod study;
 pub mod target;
 pub mod time;

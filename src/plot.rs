@@ -18,6 +18,8 @@ mod hierarchy;
 mod images;
 mod onion;
 mod page;
+#[cfg(feature = "studio")]
+pub(crate) mod parts;
 #[cfg(feature = "cli")]
 mod pixels;
 mod points;

@@ -130,10 +130,8 @@ impl Recipe {
     /// Every setting with its value, in the words of [`Recipe::set`]: all knobs, and the weights of joints
     /// that have one.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let knobs = KNOBS.iter().map(|knob| {
-            let value = self.get(knob.name).expect("every knob has a value");
-            (knob.name.to_owned(), value)
-        });
+        let table = self.table();
+        let knobs = KNOBS.iter().map(|knob| (knob.name.to_owned(), value_in(&table, knob)));
         let weights = self.keys.weights.0.iter();
         let weights =
             weights.map(|(joint, weight)| (format!("{WEIGHTS}{joint}"), weight.to_string()));
@@ -145,13 +143,7 @@ impl Recipe {
     /// # Errors
     /// [`Error::Setting`] when there is no such knob.
     pub fn get(&self, name: &str) -> Result<String, Error> {
-        let (section, field) = Knob::find(name)?.path();
-        let table = self.table();
-        let value = match section {
-            None => table.get(field),
-            Some(section) => table.get(section).and_then(|section| section.get(field)),
-        };
-        Ok(value.map_or_else(|| "none".into(), text_from_value))
+        Ok(value_in(&self.table(), Knob::find(name)?))
     }
 
     /// A recipe and corrections from TOML. Settings that are not named keep their defaults.
@@ -264,6 +256,16 @@ impl File {
 #[derive(Serialize)]
 struct Corrections<'a> {
     edits: &'a Edits,
+}
+
+/// A knob's value as text.
+fn value_in(table: &Table, knob: &Knob) -> String {
+    let (section, field) = knob.path();
+    let value = match section {
+        None => table.get(field),
+        Some(section) => table.get(section).and_then(|section| section.get(field)),
+    };
+    value.map_or_else(|| "none".into(), text_from_value)
 }
 
 /// The TOML value that a word on the command line means.

@@ -7,6 +7,7 @@ mod turns;
 
 use nalgebra::DMatrix;
 
+use crate::motion::{JointId, Skeleton};
 use crate::time::{Frame, FrameRate};
 
 pub use contact::{Contact, ContactFinder, Limb};
@@ -69,8 +70,20 @@ impl Signals {
     }
 
     /// One joint's values, frame after frame.
-    pub fn joint(&self, joint: crate::motion::JointId) -> &[f64] {
+    pub fn joint(&self, joint: JointId) -> &[f64] {
         let frames = self.frames();
         &self.values.as_slice()[joint.0 * frames..(joint.0 + 1) * frames]
+    }
+
+    /// The joints by how much they carry through the world, the most first: the length of what hangs on
+    /// them times their mean speed.
+    pub fn movers_first(&self, skeleton: &Skeleton) -> Vec<JointId> {
+        let carried = |(joint, reach): (usize, f64)| {
+            let joint = JointId(joint);
+            (joint, reach * self.joint(joint).iter().map(|speed| speed.abs()).sum::<f64>())
+        };
+        let mut joints: Vec<_> = skeleton.reaches().into_iter().enumerate().map(carried).collect();
+        joints.sort_by(|a, b| b.1.total_cmp(&a.1));
+        joints.into_iter().map(|(joint, _)| joint).collect()
     }
 }

@@ -38,6 +38,8 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// The whole chain: key tables, timesheet, limited motion and pictures into a folder.
     Run(RunArgs),
+    /// The window: see the motion, turn the knobs, correct the keys, export.
+    Studio(StudioArgs),
     /// A sheet again, edited or not, in the formats that are asked for.
     Deliver(DeliverArgs),
     /// The key table as CSV.
@@ -74,7 +76,7 @@ pub(super) struct ClipArgs {
 }
 
 /// Which part of a clip, and how it is read.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Default, ClapArgs)]
 pub(super) struct Part {
     /// Keep a T-pose that was put in front of the motion.
     #[arg(long)]
@@ -87,7 +89,7 @@ pub(super) struct Part {
 }
 
 /// How a clip is read.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Default, ClapArgs)]
 pub(super) struct Reading {
     /// The frame rate, whatever the file says.
     #[arg(long, value_name = "N", value_parser = rate)]
@@ -160,7 +162,7 @@ pub(super) struct TargetArgs {
 }
 
 /// What both commands that write formats take.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Default, ClapArgs)]
 pub(super) struct FormatArgs {
     /// A BVH with these rows: the formats bvh and bvh-keys by other words.
     #[arg(long, value_name = "ROWS")]
@@ -202,6 +204,20 @@ pub(super) struct RunArgs {
     /// The folder for the results [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+#[cfg_attr(not(feature = "studio"), allow(dead_code, reason = "this build has no studio"))]
+pub(super) struct StudioArgs {
+    /// The motion, a BVH file; without one the window waits for a file to be dropped on it.
+    #[arg(value_name = "CLIP.bvh")]
+    pub(super) clip: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) part: Part,
+    /// A recipe with its corrections [default: CLIP.genga.toml beside the clip, where a save of the studio
+    /// goes].
+    #[arg(long, value_name = "R.toml", requires = "clip")]
+    pub(super) recipe: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::io;
-use crate::motion::{Clip, JointId};
+use crate::motion::Clip;
 use crate::pipeline::Breakdown;
 use crate::plot::{self, SkeletonPlot, SpeedPlot, SsdPlot};
 use crate::sheet::Sheet;
@@ -18,22 +18,9 @@ pub(super) fn speed(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
     let kept = breakdown.sheet.layers[0].drawings.iter().filter(|drawing| drawing.role.is_kept());
     let keys: Vec<Frame> =
         kept.map(|drawing| Frame(drawing.source.place().round() as usize)).collect();
-    let order = movers_first(breakdown);
     let Breakdown { speed, filtered, turns, .. } = breakdown;
+    let order = filtered.movers_first(breakdown.clip.skeleton());
     Ok(SpeedPlot::default().draw(&names, speed, filtered, turns, &keys, &order)?)
-}
-
-/// Joints by how much they carry through the world: the length of what hangs on them times their mean
-/// speed.
-fn movers_first(breakdown: &Breakdown<'_>) -> Vec<JointId> {
-    let reaches = breakdown.clip.skeleton().reaches();
-    let carries = |joint: &JointId| -> f64 {
-        reaches[joint.0]
-            * breakdown.filtered.joint(*joint).iter().map(|speed| speed.abs()).sum::<f64>()
-    };
-    let mut joints: Vec<JointId> = (0..reaches.len()).map(JointId).collect();
-    joints.sort_by(|a, b| carries(b).total_cmp(&carries(a)));
-    joints
 }
 
 /// The movement into each koma before and after omission, an SVG or a PNG by the name as well.

@@ -5,18 +5,13 @@ use std::path::{Path, PathBuf};
 use super::args::RunArgs;
 use super::asked::{Asked, Written};
 use super::failure::Failure;
+use super::results::{ALWAYS, OWN, RECIPE, Results};
 use super::words::{Words, counted};
-use super::{io, pictures, pins, source, targets};
-use crate::deliver::sheet_json::MadeWith;
-use crate::deliver::{Cut, Report};
+use super::{io, pins, source, targets};
+use crate::deliver::Report;
 use crate::edits::Edits;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
-
-/// What a run writes whether or not it is asked for: formats, and files of its own.
-const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
-const OWN: [&str; 3] = ["speed.svg", RECIPE, "report.json"];
-const RECIPE: &str = "recipe.toml";
 
 /// A recipe that is used in its place and is not as genga writes it is somebody's text, with comments that
 /// the settings do not hold. A run after an edit is how a recipe is tuned, so it is kept and not refused.
@@ -46,33 +41,21 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let unmoved = pins::unmoved(&edits, &breakdown);
     let notes = source.notes.iter().map(ToString::to_string);
     let notes = notes.chain(marked).chain(short).chain(unmoved);
-    let mut report = Report::of(&breakdown, notes.collect());
-    let cut = Cut {
+    let results = Results {
         name: &name,
         clip_file: &io::file_name(&args.clip.clip),
-        clip: breakdown.clip,
-        sheet: breakdown.sheet,
-        spaced: Some(breakdown.spaced),
-        made_with: Some(&MadeWith::of(&recipe, &edits, breakdown.sheet)),
+        breakdown: &breakdown,
+        recipe: &recipe,
+        edits: &edits,
+        notes: notes.collect(),
+        kept: kept(args, &folder.join(RECIPE), (&recipe, &edits)),
     };
-    report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));
-    let settings = recipe.write(&edits);
-    let kept = kept(args, &folder.join(RECIPE), (&recipe, &edits));
-    report.notes.extend(kept.map(str::to_owned));
-    let mut bundle = io::Bundle::begin(&folder)?;
-    let Written { mut files, stale } = asked.write(&cut, &mut bundle)?;
-    bundle.add("speed.svg", pictures::speed(&breakdown)?)?;
-    if kept.is_none() {
-        bundle.add(RECIPE, settings)?;
-    }
-    bundle.add("report.json", json(&report)?)?;
-    bundle.finish()?;
+    let (report, Written { files, stale }) = results.write(&mut asked, &folder)?;
     drop(working);
     summary(words, &name, &report);
     let shortfalls = breakdown.omission.shortfalls();
     shortfalls.for_each(|reason| words.say(format_args!("note        {reason}")));
     stale.iter().for_each(|stale| words.say(format_args!("note        {stale}")));
-    files.extend(OWN.map(str::to_owned));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     Ok(())
 }
@@ -106,12 +89,6 @@ fn kept(args: &RunArgs, file: &Path, used: (&Recipe, &Edits)) -> Option<&'static
         Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),
         _ => Some(KEPT_WITHOUT),
     }
-}
-
-fn json(report: &Report) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(report)
-        .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
-    Ok(text + "\n")
 }
 
 /// The folder that is asked for, or one beside the work with the clip's name.

@@ -44,7 +44,7 @@ impl Camera {
     }
 
     /// The view of some poses of a clip, each the positions of its joints and then of its tips.
-    pub(super) fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
+    pub(crate) fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
         let first = poses.first().map_or(&[][..], Vec::as_slice);
         let up = Stature::of(clip).up.unit();
         let front = facing(clip.skeleton(), first, up);

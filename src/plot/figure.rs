@@ -9,7 +9,7 @@ use crate::plot::style;
 use crate::plot::view::View;
 
 impl BodySide {
-    pub(super) fn color(self) -> RGBColor {
+    pub(crate) fn color(self) -> RGBColor {
         match self {
             Self::Left => style::LEFT,
             Self::Right => style::RIGHT,
@@ -20,40 +20,40 @@ impl BodySide {
 
 /// A line from one point of a pose to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Bone {
-    pub(super) from: usize,
-    pub(super) to: usize,
-    pub(super) side: BodySide,
+pub(crate) struct Bone {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    pub(crate) side: BodySide,
 }
 
 /// What all figures of a clip have in common. A pose is its points: the joints, then the tips.
 #[derive(Debug, Clone)]
-pub(super) struct Figure {
-    pub(super) bones: Vec<Bone>,
+pub(crate) struct Figure {
+    pub(crate) bones: Vec<Bone>,
     /// The joint of the head and the point that ends it.
-    pub(super) head: Option<(usize, usize)>,
+    pub(crate) head: Option<(usize, usize)>,
     /// The body's height in units of the file, as it stands in the first pose.
-    pub(super) height: f64,
+    pub(crate) height: f64,
 }
 
 /// A bone on paper, in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stroke {
-    pub(super) from: Point,
-    pub(super) to: Point,
-    pub(super) width: f64,
-    pub(super) side: BodySide,
+pub(crate) struct Stroke {
+    pub(crate) from: Point,
+    pub(crate) to: Point,
+    pub(crate) width: f64,
+    pub(crate) side: BodySide,
 }
 
 /// A figure on paper, in px.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Drawn {
+pub(crate) struct Drawn {
     /// From the far to the near.
-    pub(super) strokes: Vec<Stroke>,
+    pub(crate) strokes: Vec<Stroke>,
     /// Middle and radius of the ring that is the head, in front of everything.
-    pub(super) head: Option<(Point, f64)>,
+    pub(crate) head: Option<(Point, f64)>,
     /// What there is of a body without bones.
-    pub(super) dot: Option<Point>,
+    pub(crate) dot: Option<Point>,
 }
 
 /// The figure height in px that the widths of the lines are made for.
@@ -61,7 +61,7 @@ const MADE_FOR: f64 = 170.0;
 
 impl Figure {
     /// The figure of a skeleton that stands in a first pose, of which `up` is up.
-    pub(super) fn of(skeleton: &Skeleton, first: &[DVec3], up: DVec3) -> Self {
+    pub(crate) fn of(skeleton: &Skeleton, first: &[DVec3], up: DVec3) -> Self {
         let mut bones = Vec::new();
         for (joint, data) in skeleton.iter() {
             if let Some(parent) = data.parent {
@@ -84,13 +84,13 @@ impl Figure {
     }
 
     /// The radius of the head in units of the file.
-    pub(super) fn head_radius(&self, pose: &[DVec3]) -> f64 {
+    pub(crate) fn head_radius(&self, pose: &[DVec3]) -> f64 {
         let length = self.head.map_or(0.0, |(joint, end)| (pose[end] - pose[joint]).length());
         (0.55 * length).clamp(0.045 * self.height, 0.085 * self.height)
     }
 
     /// A pose on paper: `at` says where a point comes, `scale` is px for a unit of the file.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &self,
         pose: &[DVec3],
         view: &View,

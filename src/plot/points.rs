@@ -6,19 +6,19 @@ use crate::motion::{Body, Clip, DrawnPose};
 use crate::sheet::Source;
 
 /// Turns sources into poses: the joints in their order, then the tips in the order of their joints.
-pub(super) struct Posing<'a> {
+pub(crate) struct Posing<'a> {
     drawn: DrawnPose<'a>,
     body: Body,
 }
 
 impl<'a> Posing<'a> {
     /// For a clip of at least one frame.
-    pub(super) fn of(clip: &'a Clip) -> Self {
+    pub(crate) fn of(clip: &'a Clip) -> Self {
         Self { drawn: DrawnPose::of(clip), body: Body::new(clip.skeleton()) }
     }
 
     /// The points of a drawing, in the file's unit.
-    pub(super) fn points(&mut self, source: Source) -> Vec<DVec3> {
+    pub(crate) fn points(&mut self, source: Source) -> Vec<DVec3> {
         self.drawn.take(source);
         let skeleton = self.drawn.clip().skeleton();
         let mut points = vec![DVec3::ZERO; skeleton.len()];
@@ -31,7 +31,7 @@ impl<'a> Posing<'a> {
     }
 
     /// The points of several drawings.
-    pub(super) fn all(&mut self, sources: impl IntoIterator<Item = Source>) -> Vec<Vec<DVec3>> {
+    pub(crate) fn all(&mut self, sources: impl IntoIterator<Item = Source>) -> Vec<Vec<DVec3>> {
         sources.into_iter().map(|source| self.points(source)).collect()
     }
 }

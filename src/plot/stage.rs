@@ -8,16 +8,16 @@ use crate::plot::view::View;
 
 /// The box round everything that is shown, seen from one side, in units of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bounds {
-    pub(super) left: f64,
-    pub(super) right: f64,
-    pub(super) floor: f64,
-    pub(super) top: f64,
+pub(crate) struct Bounds {
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    pub(crate) floor: f64,
+    pub(crate) top: f64,
 }
 
 impl Bounds {
     /// Round some poses, with room for a head and for the thickness of lines.
-    pub(super) fn of<'a>(
+    pub(crate) fn of<'a>(
         figure: &Figure,
         view: &View,
         poses: impl IntoIterator<Item = &'a Vec<DVec3>>,
@@ -42,33 +42,33 @@ impl Bounds {
         bounds
     }
 
-    pub(super) fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         self.right - self.left
     }
 
     #[cfg(feature = "cli")]
-    pub(super) fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.top - self.floor
     }
 }
 
 /// A camera with a scale, and the point of the world that stands at a point of the picture.
 #[derive(Debug, Clone)]
-pub(super) struct Stage {
-    pub(super) figure: Figure,
-    pub(super) view: View,
+pub(crate) struct Stage {
+    pub(crate) figure: Figure,
+    pub(crate) view: View,
     /// px for a unit of the file.
-    pub(super) scale: f64,
+    pub(crate) scale: f64,
     /// Right and up of what stands at [`Stage::at`], in units of the file.
-    pub(super) origin: (f64, f64),
+    pub(crate) origin: (f64, f64),
     /// A point of the picture, in px.
-    pub(super) at: Point,
+    pub(crate) at: Point,
 }
 
 impl Stage {
     /// The stage on which a box fills as much of a picture as it can: in the middle, on the floor.
     #[cfg(feature = "cli")]
-    pub(super) fn filling(
+    pub(crate) fn filling(
         figure: Figure,
         view: View,
         bounds: &Bounds,
@@ -81,19 +81,19 @@ impl Stage {
     }
 
     /// Where a point of the world comes.
-    pub(super) fn place(&self, point: DVec3) -> Point {
+    pub(crate) fn place(&self, point: DVec3) -> Point {
         let (right, up, _) = self.view.see(point);
         let (x, y) = self.at;
         (x + (right - self.origin.0) * self.scale, y - (up - self.origin.1) * self.scale)
     }
 
     /// A pose in its place.
-    pub(super) fn draw(&self, pose: &[DVec3]) -> Drawn {
+    pub(crate) fn draw(&self, pose: &[DVec3]) -> Drawn {
         self.figure.draw(pose, &self.view, self.scale, |point| self.place(point))
     }
 
     /// A pose with its middle over a point on the floor, wherever it is in the world.
-    pub(super) fn draw_over(&self, pose: &[DVec3], at: Point) -> Drawn {
+    pub(crate) fn draw_over(&self, pose: &[DVec3], at: Point) -> Drawn {
         let (left, right) = self.view.sides(pose);
         let origin = (0.5 * (left + right), self.origin.1);
         Self { origin, at, ..self.clone() }.draw(pose)
@@ -101,13 +101,13 @@ impl Stage {
 }
 
 /// px for a unit, so that a box fits into another; bodies without any size are not blown up.
-pub(super) fn fitting((width, height): (f64, f64), room: (f64, f64)) -> f64 {
+pub(crate) fn fitting((width, height): (f64, f64), room: (f64, f64)) -> f64 {
     let scale = (room.0 / width.max(1e-9)).min(room.1 / height.max(1e-9));
     if scale.is_finite() && width.max(height) > 1e-9 { scale } else { 1.0 }
 }
 
 /// The largest width of any pose and the largest height over a common floor, in units of the file.
-pub(super) fn largest(
+pub(crate) fn largest(
     figure: &Figure,
     view: &View,
     poses: &[Vec<DVec3>],

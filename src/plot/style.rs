@@ -9,31 +9,31 @@ use crate::error::Error;
 use crate::sheet::Role;
 
 /// Keys (原画).
-pub(super) const GENGA: RGBColor = RGBColor(200, 50, 16);
+pub(crate) const GENGA: RGBColor = RGBColor(200, 50, 16);
 /// Lines through a picture at the keys, behind what is drawn there.
-pub(super) const GENGA_LINE: RGBColor = RGBColor(232, 158, 138);
+pub(crate) const GENGA_LINE: RGBColor = RGBColor(232, 158, 138);
 /// Walls (壁).
-pub(super) const WALL: RGBColor = RGBColor(0, 104, 176);
+pub(crate) const WALL: RGBColor = RGBColor(0, 104, 176);
 /// Inbetweens (中割り).
-pub(super) const INBETWEEN: RGBColor = RGBColor(150, 156, 163);
+pub(crate) const INBETWEEN: RGBColor = RGBColor(150, 156, 163);
 /// First and last drawing.
-pub(super) const END: RGBColor = RGBColor(48, 52, 60);
+pub(crate) const END: RGBColor = RGBColor(48, 52, 60);
 /// Words and axes.
-pub(super) const INK: RGBColor = RGBColor(34, 37, 43);
+pub(crate) const INK: RGBColor = RGBColor(34, 37, 43);
 /// Words of less weight.
-pub(super) const FAINT: RGBColor = RGBColor(104, 110, 118);
+pub(crate) const FAINT: RGBColor = RGBColor(104, 110, 118);
 /// Lines to read values by.
 pub(super) const GRID: RGBColor = RGBColor(228, 231, 234);
 /// A curve as measured.
-pub(super) const RAW: RGBColor = RGBColor(184, 190, 197);
+pub(crate) const RAW: RGBColor = RGBColor(184, 190, 197);
 /// A curve after the low pass.
-pub(super) const FILTERED: RGBColor = RGBColor(44, 48, 56);
+pub(crate) const FILTERED: RGBColor = RGBColor(44, 48, 56);
 /// Limbs of the left side.
-pub(super) const LEFT: RGBColor = WALL;
+pub(crate) const LEFT: RGBColor = WALL;
 /// Limbs of the right side.
-pub(super) const RIGHT: RGBColor = RGBColor(222, 130, 0);
+pub(crate) const RIGHT: RGBColor = RGBColor(222, 130, 0);
 /// The paper.
-pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
+pub(crate) const PAPER: RGBColor = RGBColor(255, 255, 255);
 
 /// Fonts, best first.
 pub(super) const FONTS: &str = "\"Noto Sans CJK JP\", \"Hiragino Sans\", \"Yu Gothic\", sans-serif";

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 /// An orthographic view: what is right, up and near in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct View {
-    pub(super) right: DVec3,
-    pub(super) up: DVec3,
-    pub(super) near: DVec3,
+pub(crate) struct View {
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+    pub(crate) near: DVec3,
 }
 
 /// The share of the body's height that a way has to reach to be walked rather than swayed.
@@ -18,7 +18,7 @@ impl View {
     ///
     /// To the right lies the horizontal direction of the largest movement: of the root where it goes
     /// somewhere, otherwise of the joints about their means. A walk goes from left to right.
-    pub(super) fn of(up: DVec3, poses: &[Vec<DVec3>]) -> Self {
+    pub(crate) fn of(up: DVec3, poses: &[Vec<DVec3>]) -> Self {
         let first = poses.first().map_or(&[][..], Vec::as_slice);
         // Both cross products turn from `right` over `up` to `near`.
         let (a, b) = if up == DVec3::Z { (DVec3::X, DVec3::Y) } else { (DVec3::Z, DVec3::X) };
@@ -40,17 +40,17 @@ impl View {
     }
 
     /// The view from a level direction.
-    pub(super) fn from(up: DVec3, near: DVec3) -> Self {
+    pub(crate) fn from(up: DVec3, near: DVec3) -> Self {
         Self { right: up.cross(near), up, near }
     }
 
     /// Right, up and near of a point.
-    pub(super) fn see(&self, point: DVec3) -> (f64, f64, f64) {
+    pub(crate) fn see(&self, point: DVec3) -> (f64, f64, f64) {
         (point.dot(self.right), point.dot(self.up), point.dot(self.near))
     }
 
     /// The leftmost and the rightmost of some points.
-    pub(super) fn sides(&self, pose: &[DVec3]) -> (f64, f64) {
+    pub(crate) fn sides(&self, pose: &[DVec3]) -> (f64, f64) {
         let start = (f64::INFINITY, f64::NEG_INFINITY);
         pose.iter().fold(start, |(low, high), point| {
             let x = self.see(*point).0;
@@ -60,7 +60,7 @@ impl View {
 }
 
 /// The size of the box round some points.
-pub(super) fn extent(points: &[DVec3]) -> DVec3 {
+pub(crate) fn extent(points: &[DVec3]) -> DVec3 {
     let low = points.iter().copied().reduce(DVec3::min);
     let high = points.iter().copied().reduce(DVec3::max);
     low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)

@@ -34,8 +34,9 @@ const FILES: [(&str, &str); 11] = [
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 11] = [
+const SUBCOMMANDS: [&str; 12] = [
     "run",
+    "studio",
     "deliver",
     "keys",
     "omit",
@@ -677,6 +678,17 @@ fn completions_and_the_manual_name_every_subcommand() {
     let recipe = place.done("recipe");
     for knob in genga::recipe::KNOBS {
         assert!(recipe.contains(&format!("{} = ", knob.path().1)), "{}", knob.name);
+    }
+}
+
+#[test]
+fn the_studio_says_how_to_get_it_or_why_it_does_not_open() {
+    let place = Place::new();
+    if cfg!(feature = "studio") {
+        assert!(place.refused(1, "studio none.bvh").contains("none.bvh: there is no such file"));
+        assert!(place.refused(2, "studio -").contains("give a file, not stdin"));
+    } else {
+        assert!(place.refused(1, "studio none.bvh").contains("--features studio"));
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::clips::here;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
-const ROOMS: [&[&str]; 13] = [
+const ROOMS: [&[&str]; 14] = [
     &["error", "time", "sheet", "edits"],
     &["motion"],
     &["signal"],
@@ -19,6 +19,7 @@ const ROOMS: [&[&str]; 13] = [
     &["quality"],
     &["plot"],
     &["deliver"],
+    &["studio"],
     &["cli"],
 ];
 

@@ -1,0 +1,93 @@
+//! What a turned knob costs until the picture has changed, without a window: `cargo bench --features studio
+//! --bench studio`.
+//!
+//! One round is the chain from that knob on, and the frame that shows the result with its triangles, in a window of
+//! 1440 × 900. A frame at 60 Hz has 16.7 ms.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use divan::Bencher;
+use egui::{Context, Pos2, RawInput, Rect, vec2};
+use genga::studio::{Desk, Export, Language, Opened, Studio};
+
+#[path = "common/body.rs"]
+mod body;
+
+const FRAMES: [usize; 3] = [129, 5_000, 20_000];
+
+fn main() {
+    divan::main();
+}
+
+/// A desk with one clip, made here.
+struct Made(usize);
+
+impl Desk for Made {
+    fn open(&self, _: &Path) -> Result<Opened, String> {
+        Ok(Opened { clip: body::swinging(self.0), notes: vec![] })
+    }
+
+    fn read(&self, _: &Path) -> Result<Option<String>, String> {
+        Ok(None)
+    }
+
+    fn write(&self, _: &Path, _: &str) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn remove(&self, _: &Path) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn export(&self, _: &Path, _: &Export<'_>) -> Result<Vec<String>, String> {
+        Ok(vec![])
+    }
+}
+
+/// Draws a frame, and gives the number of its triangles' corners.
+fn frame(context: &Context, studio: &mut Studio) -> usize {
+    let screen = Rect::from_min_size(Pos2::ZERO, vec2(1440.0, 900.0));
+    let input = RawInput { screen_rect: Some(screen), ..RawInput::default() };
+    let mut output = context.run_ui(input, |ui| studio.ui(ui));
+    output.textures_delta.clear();
+    let drawn = context.tessellate(output.shapes, output.pixels_per_point);
+    drawn.len()
+}
+
+/// Turns a knob to and fro.
+fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]) {
+    let context = Context::default();
+    let mut studio = Studio::new(Arc::new(Made(frames)), Language::English);
+    studio.open(Path::new("made.bvh"), None);
+    while studio.document().is_none() {
+        frame(&context, &mut studio);
+        thread::sleep(Duration::from_millis(5));
+    }
+    let mut turn = 0;
+    bencher.bench_local(|| {
+        turn += 1;
+        studio.turn(knob, values[turn % 2]).expect("a value of the knob");
+        frame(&context, &mut studio)
+    });
+}
+
+/// From the smoothing on, the longest way.
+#[divan::bench(args = FRAMES, sample_count = 40)]
+fn filter_width_turned(bencher: Bencher<'_, '_>, frames: usize) {
+    turned(bencher, frames, "filter.width", ["0.1s", "0.11s"]);
+}
+
+/// From the choice of keys on.
+#[divan::bench(args = FRAMES, sample_count = 40)]
+fn min_price_turned(bencher: Bencher<'_, '_>, frames: usize) {
+    turned(bencher, frames, "keys.min_price", ["3", "3.1"]);
+}
+
+/// From spacing on.
+#[divan::bench(args = FRAMES, sample_count = 40)]
+fn spacing_turned(bencher: Bencher<'_, '_>, frames: usize) {
+    turned(bencher, frames, "spacing.weight", ["0.3", "0.31"]);
+}

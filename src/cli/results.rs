@@ -1,0 +1,70 @@
+//! What a run writes into its folder.
+
+use std::path::Path;
+
+use super::asked::{Asked, Written};
+use super::failure::Failure;
+use super::{io, pictures};
+use crate::deliver::sheet_json::MadeWith;
+use crate::deliver::{Cut, Report};
+use crate::edits::Edits;
+use crate::pipeline::Breakdown;
+use crate::recipe::Recipe;
+
+/// The formats that are written whether or not they are asked for.
+pub(super) const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
+/// Files that are no format.
+pub(super) const OWN: [&str; 3] = ["speed.svg", RECIPE, "report.json"];
+/// The settings and corrections of the run.
+pub(super) const RECIPE: &str = "recipe.toml";
+
+/// The results of a run, to be written.
+pub(super) struct Results<'a> {
+    pub(super) name: &'a str,
+    pub(super) clip_file: &'a str,
+    pub(super) breakdown: &'a Breakdown<'a>,
+    pub(super) recipe: &'a Recipe,
+    pub(super) edits: &'a Edits,
+    /// What a person should know.
+    pub(super) notes: Vec<String>,
+    /// Why the recipe in the folder stays as it is; none where it is written.
+    pub(super) kept: Option<&'static str>,
+}
+
+impl Results<'_> {
+    /// Writes them with what else is asked for: all files, or none.
+    pub(super) fn write(
+        self,
+        asked: &mut Asked,
+        folder: &Path,
+    ) -> Result<(Report, Written), Failure> {
+        let Self { breakdown, recipe, edits, .. } = self;
+        let mut report = Report::of(breakdown, self.notes);
+        let cut = Cut {
+            name: self.name,
+            clip_file: self.clip_file,
+            clip: breakdown.clip,
+            sheet: breakdown.sheet,
+            spaced: Some(breakdown.spaced),
+            made_with: Some(&MadeWith::of(recipe, edits, breakdown.sheet)),
+        };
+        report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));
+        report.notes.extend(self.kept.map(str::to_owned));
+        let mut bundle = io::Bundle::begin(folder)?;
+        let mut written = asked.write(&cut, &mut bundle)?;
+        bundle.add("speed.svg", pictures::speed(breakdown)?)?;
+        if self.kept.is_none() {
+            bundle.add(RECIPE, recipe.write(edits))?;
+        }
+        bundle.add("report.json", json(&report)?)?;
+        bundle.finish()?;
+        written.files.extend(OWN.map(str::to_owned));
+        Ok((report, written))
+    }
+}
+
+fn json(report: &Report) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(report)
+        .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
+    Ok(text + "\n")
+}

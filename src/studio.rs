@@ -1,0 +1,265 @@
+//! **Tune** (調整する): the window in which a person sees the motion, turns knobs and corrects keys.
+//!
+//! It knows egui and no shell: [`Studio::ui`] draws into whatever it is given, and what it wants of the world
+//! outside it asks of a [`Desk`]. A person's decisions are one [`Document`], the recipe file; all the rest is
+//! made of it and the clip, and never stored.
+//!
+//! A file here is what is on screen: `viewport`, `transport`, `timesheet`, `curves`, `knobs`, `bar`. They read
+//! one `Shown` a frame, change nothing but how they look, and say what a hand wants as a `Command`, the same
+//! that keys give.
+
+mod bar;
+mod column;
+mod commands;
+mod corrected;
+mod corrections;
+mod counts;
+mod curves;
+mod desk;
+mod document;
+mod help;
+mod history;
+mod icon;
+mod key_menu;
+mod keyboard;
+mod knobs;
+mod look;
+mod opening;
+mod player;
+mod scene;
+mod shown;
+mod take;
+mod timesheet;
+mod transport;
+mod viewport;
+mod welcome;
+mod words;
+
+use std::sync::Arc;
+
+use egui::{CentralPanel, Frame, Panel, Ui};
+
+use bar::{Deed, FileField, Message};
+use column::Column;
+use counts::Counts;
+use curves::Curves;
+use key_menu::KeyPanel;
+use keyboard::Command;
+use knobs::Knobs;
+use look::Look;
+use opening::Opening;
+use player::Player;
+use shown::Shown;
+use take::Take;
+use timesheet::Timesheet;
+use viewport::Viewport;
+use words::Words;
+
+pub use desk::{Desk, Export, Opened};
+pub use document::Document;
+pub use words::Language;
+
+/// The studio: a clip on the table, and everything a person looks at it with.
+pub struct Studio {
+    desk: Arc<dyn Desk>,
+    language: Language,
+    take: Option<Take>,
+    opening: Option<Opening>,
+    message: Option<Message>,
+    file: FileField,
+    is_help_open: bool,
+    player: Player,
+    viewport: Viewport,
+    timesheet: Timesheet,
+    curves: Curves,
+    knobs: Knobs,
+    key_panel: KeyPanel,
+    /// The document when a hand took hold of a key.
+    held: Option<Document>,
+    /// The counts when a hand took hold of anything.
+    before: Option<Counts>,
+}
+
+impl Studio {
+    /// A studio with nothing on the table.
+    pub fn new(desk: Arc<dyn Desk>, language: Language) -> Self {
+        Self {
+            desk,
+            language,
+            take: None,
+            opening: None,
+            message: None,
+            file: FileField::default(),
+            is_help_open: false,
+            player: Player::default(),
+            viewport: Viewport::default(),
+            timesheet: Timesheet::default(),
+            curves: Curves::default(),
+            knobs: Knobs::default(),
+            key_panel: KeyPanel::default(),
+            held: None,
+            before: None,
+        }
+    }
+
+    /// The document of the clip on the table.
+    pub fn document(&self) -> Option<&Document> {
+        self.take.as_ref().map(Take::document)
+    }
+
+    /// Whether a clip is being read.
+    pub fn is_opening(&self) -> bool {
+        self.opening.is_some()
+    }
+
+    /// What the window is called: the clip, with a star while something is not saved.
+    pub fn title(&self) -> String {
+        let name = |take: &Take| {
+            format!("{}{} – genga", take.name(), if take.is_changed() { " *" } else { "" })
+        };
+        self.take.as_ref().map_or_else(|| "genga".into(), name)
+    }
+
+    /// Draws everything, and does what hand and keyboard ask for.
+    pub fn ui(&mut self, ui: &mut Ui) {
+        let words = Words::of(self.language, ui.ctx());
+        let look = Look::of(ui.theme());
+        self.receive(ui);
+        let mut commands = keyboard::pressed(ui);
+        let frame = Frame::side_top_panel(ui.style());
+        Panel::top("bar").frame(frame).show(ui, |ui| {
+            bar::show(ui, self.take.as_mut(), self.before, words, &mut commands);
+            self.stripes(ui, &look, words, &mut commands);
+        });
+        match self.take {
+            Some(_) => self.table(ui, look, words, &mut commands),
+            None => welcome::show(ui, &look, words, &mut commands),
+        }
+        help::show(ui, &mut self.is_help_open, words);
+        for command in commands {
+            self.act(ui, command);
+        }
+        self.settle(ui);
+    }
+
+    /// What lies under the bar: a field for files, what is read, what went wrong, what was left.
+    fn stripes(&mut self, ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
+        if self.file.is_open
+            && let Some(deed) = self.file.show(ui, self.take.is_some(), words)
+        {
+            self.with_file(deed);
+        }
+        if let Some(opening) = &self.opening {
+            opening.show(ui, words);
+        }
+        if let Some(message) = &self.message {
+            bar::message(ui, message, look, words, commands);
+        }
+        if self.take.as_ref().is_some_and(|take| take.left.is_some()) {
+            bar::recovery(ui, look, words, commands);
+        }
+    }
+
+    fn with_file(&mut self, deed: Deed) {
+        let path = self.file.path().to_owned();
+        self.file.is_open = false;
+        match deed {
+            Deed::Open => self.open_any(&path),
+            Deed::SaveAs => self.save_as(&path),
+        }
+    }
+
+    /// The clip with its panels.
+    fn table(&mut self, ui: &mut Ui, look: Look, words: Words, commands: &mut Vec<Command>) {
+        let Some(take) = &mut self.take else { return };
+        let (breakdown, scene, wanted) = take.results();
+        let column = Column::of(&breakdown);
+        let now = ui.input(|input| input.time);
+        if let Some(wait) = self.player.advance(now, column.clock.koma_rate, column.length) {
+            ui.ctx().request_repaint_after_secs(wait as f32);
+        }
+        let (at, joints) = (self.player.at, &self.curves.chosen.clone());
+        let shown = Shown { breakdown, column, scene, wanted, joints, at, look, words };
+        Panel::left("knobs").default_size(306.0).size_range(250.0..=460.0).show(ui, |ui| {
+            self.knobs.show(ui, &shown, commands);
+        });
+        Panel::right("sheet").default_size(236.0).size_range(170.0..=420.0).show(ui, |ui| {
+            self.key_panel.show(ui, &shown, commands);
+            ui.separator();
+            self.timesheet.show(ui, &shown, commands);
+        });
+        Panel::bottom("curves").default_size(236.0).size_range(120.0..=640.0).resizable(true).show(
+            ui,
+            |ui| {
+                self.curves.show(ui, &shown, &self.player, commands);
+            },
+        );
+        Panel::bottom("transport").resizable(false).show_separator_line(false).show(ui, |ui| {
+            transport::show(ui, &shown, &self.player, commands);
+        });
+        let frame = Frame::central_panel(ui.style()).inner_margin(0);
+        CentralPanel::default()
+            .frame(frame)
+            .show(ui, |ui| self.viewport.show(ui, &shown, commands));
+    }
+
+    /// What comes from outside: a clip that was read, files that were dropped.
+    fn receive(&mut self, ui: &Ui) {
+        match self.opening.take().map(Opening::look) {
+            None => {}
+            Some(opening::Look::Waiting(opening)) => {
+                self.opening = Some(opening);
+                ui.ctx().request_repaint_after_secs(0.05);
+            }
+            Some(opening::Look::Done(Ok(take))) => self.put_on_table(*take),
+            Some(opening::Look::Done(Err(text))) => self.fail(text),
+        }
+        let dropped =
+            ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        if let Some(path) = dropped {
+            self.open_any(&path);
+        }
+    }
+
+    fn put_on_table(&mut self, mut take: Take) {
+        let (breakdown, ..) = take.results();
+        self.curves = Curves::of(breakdown.filtered.movers_first(breakdown.clip.skeleton()));
+        self.player = Player::default();
+        self.viewport = Viewport::of(&take.scene);
+        self.timesheet = Timesheet::default();
+        self.key_panel = KeyPanel::default();
+        (self.held, self.before, self.message) = (None, None, None);
+        self.take = Some(take);
+    }
+
+    /// At the end of a frame: results, history, what is kept in case of a crash.
+    fn settle(&mut self, ui: &Ui) {
+        let is_held = ui.input(|input| input.pointer.any_down());
+        let Some(take) = &mut self.take else { return };
+        match take.renew(is_held) {
+            Ok(false) => {}
+            Ok(true) => ui.ctx().request_repaint(),
+            Err(error) => {
+                self.message = Some(Message { text: error.to_string(), is_failure: true });
+                ui.ctx().request_repaint();
+            }
+        }
+        take.history.settle(&take.wanted, is_held);
+        if is_held {
+            self.before = self.before.or_else(|| Some(take.counts()));
+            return;
+        }
+        (self.held, self.before) = (None, None);
+        if let Err(text) = take.autosave(&*self.desk) {
+            self.fail(text);
+        }
+    }
+
+    fn fail(&mut self, text: String) {
+        self.message = Some(Message { text, is_failure: true });
+    }
+
+    fn say(&mut self, text: String) {
+        self.message = Some(Message { text, is_failure: false });
+    }
+}

@@ -1,0 +1,176 @@
+//! The bar on top (ツールバー): files, undo, what the clip costs, how it looks.
+
+use std::path::Path;
+
+use egui::{Align, Button, Color32, Frame, Layout, RichText, TextEdit, Ui};
+
+use super::counts::Counts;
+use super::icon::{self, Icon};
+use super::keyboard::Command;
+use super::look::Look;
+use super::take::Take;
+use super::words::{Language, Words};
+
+/// Shows the buttons, the counts and the switches.
+pub(super) fn show(
+    ui: &mut Ui,
+    take: Option<&mut Take>,
+    before: Option<Counts>,
+    words: Words,
+    commands: &mut Vec<Command>,
+) {
+    ui.horizontal(|ui| {
+        let mut button = |ui: &mut Ui, is_enabled, name: &str, command: Command| {
+            if ui.add_enabled(is_enabled, Button::new(name)).clicked() {
+                commands.push(command);
+            }
+        };
+        let is_open = take.is_some();
+        button(ui, true, words.say("Open", "開く"), Command::OpenFile);
+        button(ui, is_open, words.say("Save", "保存"), Command::Save);
+        button(ui, is_open, words.say("Export", "書き出し"), Command::Export);
+        ui.separator();
+        let can = |can: fn(&Take) -> bool| take.as_deref().is_some_and(can);
+        let (can_undo, can_redo) = (
+            can(|take| take.history.can_undo(&take.wanted)),
+            can(|take| take.history.can_redo(&take.wanted)),
+        );
+        button(ui, can_undo, words.say("Undo", "元に戻す"), Command::Undo);
+        button(ui, can_redo, words.say("Redo", "やり直す"), Command::Redo);
+        ui.separator();
+        if let Some(take) = take {
+            let changed = if take.is_changed() { " *" } else { "" };
+            let name = RichText::new(format!("{}{changed}", take.name())).strong();
+            let response = ui.label(name);
+            response.on_hover_text(notes(take));
+            let counts = take.counts();
+            for (what, count) in counts.words(&before.unwrap_or(counts), words) {
+                ui.weak(what);
+                ui.label(count);
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| switches(ui, words, commands));
+    });
+}
+
+/// The file, its recipe, and what the reader said.
+fn notes(take: &Take) -> String {
+    let files = [take.path.display().to_string(), take.recipe.display().to_string()];
+    files.into_iter().chain(take.notes.iter().cloned()).collect::<Vec<_>>().join("\n")
+}
+
+fn switches(ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
+    let help = words.say("Keys", "キー一覧");
+    if ui.button("?").on_hover_text(help).accessible_name(help).clicked() {
+        commands.push(Command::Help);
+    }
+    let theme = words.say("Light or dark", "明るい・暗い画面");
+    if icon::button(ui, Icon::Theme, theme).clicked() {
+        commands.push(Command::Theme);
+    }
+    let (name, accessible) = match words.language {
+        Language::Japanese => ("English", "English"),
+        Language::English if words.has_japanese => ("日本語", "日本語"),
+        Language::English => ("Japanese", "Japanese"),
+    };
+    let button = ui.add_enabled(words.has_japanese, Button::new(name));
+    let button = button.on_disabled_hover_text("No font with Japanese letters is installed.");
+    if button.accessible_name(accessible).clicked() {
+        commands.push(Command::Language);
+    }
+}
+
+/// What a person is told.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Message {
+    pub(super) text: String,
+    pub(super) is_failure: bool,
+}
+
+/// Shows a message until it is closed.
+pub(super) fn message(
+    ui: &mut Ui,
+    message: &Message,
+    look: &Look,
+    words: Words,
+    commands: &mut Vec<Command>,
+) {
+    let color = if message.is_failure { look.genga } else { look.playhead };
+    stripe(ui, color, |ui| {
+        ui.label(&message.text);
+        let close = words.say("Close the message", "閉じる");
+        if icon::button(ui, Icon::Cross, close).clicked() {
+            commands.push(Command::Dismiss);
+        }
+    });
+}
+
+/// Offers what an earlier session left.
+pub(super) fn recovery(ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
+    stripe(ui, look.genga, |ui| {
+        ui.label(words.say(
+            "An earlier session left corrections that were not saved.",
+            "前回保存されなかった修正があります。",
+        ));
+        if ui.button(words.say("Recover", "復元する")).clicked() {
+            commands.push(Command::Recover);
+        }
+        if ui.button(words.say("Discard", "捨てる")).clicked() {
+            commands.push(Command::Discard);
+        }
+    });
+}
+
+fn stripe(ui: &mut Ui, color: Color32, add: impl FnOnce(&mut Ui)) {
+    let frame = Frame::new().inner_margin(6).fill(color.gamma_multiply(0.22)).corner_radius(4);
+    frame.show(ui, |ui| ui.horizontal(add));
+}
+
+/// The field for the name of a file, which is opened or saved to.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FileField {
+    pub(super) is_open: bool,
+    pub(super) text: String,
+    pub(super) wants_focus: bool,
+}
+
+/// What is to be done with a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Deed {
+    Open,
+    SaveAs,
+}
+
+impl FileField {
+    /// Shows the field. Gives what is to be done with the file that is named.
+    pub(super) fn show(&mut self, ui: &mut Ui, can_save: bool, words: Words) -> Option<Deed> {
+        let mut deed = None;
+        ui.horizontal(|ui| {
+            let hint = words.say("clip.bvh or recipe.toml", "clip.bvh または recipe.toml");
+            let field = TextEdit::singleline(&mut self.text).desired_width(460.0).hint_text(hint);
+            let field = ui.add(field).accessible_name(words.say("File", "ファイル"));
+            if std::mem::take(&mut self.wants_focus) {
+                field.request_focus();
+            }
+            let is_entered =
+                field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            let is_named = !self.text.trim().is_empty();
+            if (ui.add_enabled(is_named, Button::new(words.say("Open it", "開く"))).clicked()
+                || is_entered)
+                && is_named
+            {
+                deed = Some(Deed::Open);
+            }
+            let save = Button::new(words.say("Save recipe as", "レシピを別名で保存"));
+            if ui.add_enabled(is_named && can_save, save).clicked() {
+                deed = Some(Deed::SaveAs);
+            }
+        });
+        deed
+    }
+
+    /// The file that is named.
+    pub(super) fn path(&self) -> &Path {
+        Path::new(self.text.trim())
+    }
+}

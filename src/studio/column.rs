@@ -1,0 +1,89 @@
+//! A column of the sheet (セル) as it is looked things up in.
+
+use crate::keys::Key;
+use crate::pipeline::Breakdown;
+use crate::sheet::{Drawing, Layer, Source};
+use crate::time::Clock;
+
+/// An exposure with everything that is known of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell<'a> {
+    pub(super) drawing: &'a Drawing,
+    /// Index of the drawing in its layer.
+    pub(super) index: usize,
+    /// Its number among the kept drawings, from 1; none for inbetweens.
+    pub(super) genga: Option<usize>,
+    /// The koma it begins on, from 0.
+    pub(super) koma: usize,
+    /// Koma on screen.
+    pub(super) held: usize,
+    /// The key that it draws; none for inbetweens and ends.
+    pub(super) key: Option<&'a Key>,
+}
+
+/// The first column of a sheet, exposure after exposure.
+#[derive(Debug, Clone)]
+pub(super) struct Column<'a> {
+    pub(super) cells: Vec<Cell<'a>>,
+    pub(super) clock: Clock,
+    /// Koma of the column.
+    pub(super) length: usize,
+}
+
+impl<'a> Column<'a> {
+    pub(super) fn of(breakdown: &Breakdown<'a>) -> Self {
+        let layer: &'a Layer = &breakdown.sheet.layers[0];
+        let numbers = layer.genga_numbers();
+        let cells: Vec<Cell<'a>> = layer
+            .timed()
+            .map(|(koma, exposure)| {
+                let index = exposure.drawing;
+                let drawing = &layer.drawings[index];
+                let key = key_at(&breakdown.keys.keys, drawing.source);
+                Cell { drawing, index, genga: numbers[index], koma, held: exposure.koma, key }
+            })
+            .collect();
+        Self { cells, clock: breakdown.clock, length: layer.length() }
+    }
+
+    /// Which exposure is on screen at a koma.
+    pub(super) fn at(&self, koma: usize) -> usize {
+        self.cells.partition_point(|cell| cell.koma <= koma).saturating_sub(1)
+    }
+
+    /// The exposure on screen at a koma.
+    pub(super) fn cell(&self, koma: usize) -> &Cell<'a> {
+        &self.cells[self.at(koma)]
+    }
+
+    /// The koma on which the exposure begins that is some exposures on from a koma; `wanted` says which count.
+    pub(super) fn step(&self, koma: usize, by: isize, wanted: impl Fn(&Cell<'_>) -> bool) -> usize {
+        let begins = self.cells.iter().filter(|cell| wanted(cell)).map(|cell| cell.koma);
+        let mut after: Vec<usize> = if by > 0 {
+            begins.filter(|begin| *begin > koma).collect()
+        } else {
+            begins.filter(|begin| *begin < koma).collect()
+        };
+        if by < 0 {
+            after.reverse();
+        }
+        let last = after.last().copied().unwrap_or(koma);
+        after.get(by.unsigned_abs() - 1).copied().unwrap_or(last)
+    }
+
+    /// The key that is meant at a koma: the one that stands there, else the one whose drawing is shown.
+    pub(super) fn key(&self, koma: usize) -> Option<&'a Key> {
+        let cell = self.cell(koma);
+        let stands_here = |cell: &&Cell<'a>| {
+            cell.key.is_some_and(|key| self.clock.koma_from_place(key.frame.0 as f64) == koma)
+        };
+        self.cells.iter().find(stands_here).and_then(|cell| cell.key).or(cell.key)
+    }
+}
+
+/// The key that a drawing shows.
+fn key_at(keys: &[Key], source: Source) -> Option<&Key> {
+    let Source::At(place) = source else { return None };
+    let at = keys.binary_search_by(|key| (key.frame.0 as f64).total_cmp(&place)).ok()?;
+    keys.get(at)
+}

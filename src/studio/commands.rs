@@ -1,0 +1,266 @@
+//! What is done when a hand or a key asks for it.
+
+use std::path::Path;
+
+use egui::{Theme, Ui};
+
+use super::column::Column;
+use super::corrections::Correction;
+use super::keyboard::Command;
+use super::opening::Opening;
+use super::viewport::{Orbit, Seen};
+use super::{Language, Studio};
+use crate::error::Error;
+use crate::keys::{Key, Origin};
+use crate::recipe::Recipe;
+
+impl Studio {
+    /// Opens a clip, with a recipe or with the one that was saved beside it. It is read on a thread of its own.
+    pub fn open(&mut self, clip: &Path, recipe: Option<&Path>) {
+        self.opening = Some(Opening::begin(&self.desk, clip, recipe));
+        self.message = None;
+    }
+
+    /// Turns a knob of the clip on the table, as a slider does, and makes the results again; the next frame
+    /// shows them.
+    ///
+    /// # Errors
+    /// Those of [`Recipe::set`] and of the chain.
+    pub fn turn(&mut self, knob: &str, value: &str) -> Result<(), Error> {
+        let Some(take) = &mut self.take else { return Ok(()) };
+        take.wanted.recipe.set(knob, value)?;
+        take.renew(false).map(drop)
+    }
+
+    /// Opens a recipe for the clip on the table, or a clip.
+    pub(super) fn open_any(&mut self, path: &Path) {
+        let is_recipe = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+        match &mut self.take {
+            Some(take) if is_recipe => {
+                if let Err(text) = take.open_recipe(&*self.desk, path) {
+                    self.fail(text);
+                }
+            }
+            None if is_recipe => self.fail("Open a clip first: a recipe is for one.".into()),
+            _ => self.open(path, None),
+        }
+    }
+
+    pub(super) fn save_as(&mut self, path: &Path) {
+        if let Some(take) = &mut self.take {
+            take.recipe = path.to_owned();
+        }
+        self.save();
+    }
+
+    fn save(&mut self) {
+        let Some(take) = &mut self.take else { return };
+        match take.save(&*self.desk) {
+            Ok(()) => {
+                let recipe = take.recipe.display().to_string();
+                self.say(format!("saved {recipe}"));
+            }
+            Err(text) => self.fail(text),
+        }
+    }
+
+    fn export(&mut self) {
+        let Some(take) = &mut self.take else { return };
+        let folder = take.folder();
+        match take.export(&*self.desk, &folder) {
+            Ok(files) => self.say(format!("{}: {}", folder.display(), files.join(" "))),
+            Err(text) => self.fail(text),
+        }
+    }
+
+    /// Does what a command says.
+    pub(super) fn act(&mut self, ui: &Ui, command: Command) {
+        match command {
+            Command::Play
+            | Command::Koma(_)
+            | Command::Drawing(_)
+            | Command::Genga(_)
+            | Command::First
+            | Command::Last
+            | Command::Go(_)
+            | Command::LoopFrom
+            | Command::LoopTo
+            | Command::LoopAll => self.go(ui, &command),
+            Command::Flip
+            | Command::See(_)
+            | Command::Look(_)
+            | Command::Fit
+            | Command::Zoom(_)
+            | Command::Follow
+            | Command::Onion
+            | Command::Trails => self.look(&command),
+            Command::ToggleKey | Command::Lock | Command::Nudge(_) | Command::NudgeFrame(_) => {
+                self.correct_here(&command);
+            }
+            Command::Correct(_)
+            | Command::Drag(..)
+            | Command::Set(..)
+            | Command::Preset(_)
+            | Command::Defaults
+            | Command::Undo
+            | Command::Redo => self.change(command),
+            Command::FocusName => self.key_panel.wants_focus = true,
+            Command::Save => self.save(),
+            Command::Export => self.export(),
+            Command::OpenFile => {
+                self.file.is_open = !self.file.is_open;
+                self.file.wants_focus = self.file.is_open;
+            }
+            Command::Recover => self.take.iter_mut().for_each(super::Take::recover),
+            Command::Discard => self.discard(),
+            Command::Theme => {
+                let other = if ui.theme() == Theme::Dark { Theme::Light } else { Theme::Dark };
+                ui.ctx().set_theme(other);
+            }
+            Command::Language => {
+                self.language = match self.language {
+                    Language::English => Language::Japanese,
+                    Language::Japanese => Language::English,
+                };
+            }
+            Command::Help => self.is_help_open = !self.is_help_open,
+            Command::Dismiss => {
+                ui.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
+                (self.message, self.is_help_open, self.file.is_open) = (None, false, false);
+            }
+        }
+        ui.ctx().request_repaint();
+    }
+
+    fn discard(&mut self) {
+        let Some(take) = &mut self.take else { return };
+        if let Err(text) = take.forget(&*self.desk) {
+            self.fail(text);
+        }
+    }
+
+    /// Moves the play head.
+    fn go(&mut self, ui: &Ui, command: &Command) {
+        let Some(take) = &mut self.take else { return };
+        let (breakdown, ..) = take.results();
+        let column = Column::of(&breakdown);
+        let (player, length) = (&mut self.player, column.length);
+        let at = player.at;
+        let now = ui.input(|input| input.time);
+        match command {
+            Command::Play => player.toggle(now, length),
+            Command::Koma(by) => player.stop_at(at.saturating_add_signed(*by), length),
+            Command::Drawing(by) => player.stop_at(column.step(at, *by, |_| true), length),
+            Command::Genga(by) => {
+                player.stop_at(column.step(at, *by, |cell| cell.genga.is_some()), length);
+            }
+            Command::First => player.stop_at(0, length),
+            Command::Last => player.stop_at(length, length),
+            Command::Go(koma) => player.go(*koma, length, now),
+            Command::LoopFrom => player.mark(true, length),
+            Command::LoopTo => player.mark(false, length),
+            _ => player.range = None,
+        }
+    }
+
+    /// Changes how the figures are looked at.
+    fn look(&mut self, command: &Command) {
+        let viewport = &mut self.viewport;
+        match command {
+            Command::Flip => {
+                let is_result = viewport.seen == Seen::Result;
+                viewport.seen = if is_result { Seen::Source } else { Seen::Result };
+            }
+            Command::See(seen) => viewport.seen = *seen,
+            Command::Look(side) => {
+                let follows = viewport.orbit.follows;
+                viewport.orbit = Orbit::from(*side);
+                viewport.orbit.follows = follows;
+            }
+            Command::Fit => viewport.orbit.fit(),
+            Command::Zoom(factor) => viewport.orbit.zoom_by(*factor),
+            Command::Follow => viewport.orbit.follows = !viewport.orbit.follows,
+            Command::Onion => viewport.onion = !viewport.onion,
+            _ => viewport.trails = !viewport.trails,
+        }
+    }
+
+    /// Corrects the key at the play head.
+    fn correct_here(&mut self, command: &Command) {
+        let Some(take) = &mut self.take else { return };
+        let at = self.player.at;
+        let (breakdown, ..) = take.results();
+        let column = Column::of(&breakdown);
+        let clip = breakdown.clip;
+        let frame = |place: f64| {
+            crate::time::Frame((place.round() as usize).clamp(clip.first().0, clip.last().0))
+        };
+        let key = column.key(at).cloned();
+        let is_here = |key: &Key| column.clock.koma_from_place(key.frame.0 as f64) == at;
+        let correction = match (command, key) {
+            (Command::ToggleKey, Some(key)) if is_here(&key) => match key.origin {
+                Origin::Found | Origin::Rest => Correction::Forbid(key),
+                _ => Correction::TakeBack(key),
+            },
+            (Command::ToggleKey, _) => Correction::Pin(frame(column.clock.place_from_koma(at))),
+            (Command::Lock, Some(key)) => match key.origin {
+                Origin::Found | Origin::Rest => Correction::Lock(key),
+                _ => Correction::TakeBack(key),
+            },
+            (Command::Nudge(by), Some(key)) => {
+                let way = *by as f64 * column.clock.frames_in_koma();
+                let to = frame(key.frame.0 as f64 + way);
+                Correction::Move(key, to)
+            }
+            (Command::NudgeFrame(by), Some(key)) => {
+                let to = frame(key.frame.0.saturating_add_signed(*by) as f64);
+                Correction::Move(key, to)
+            }
+            _ => return,
+        };
+        if let Correction::Move(_, to) = &correction {
+            let koma = column.clock.koma_from_place(to.0 as f64);
+            self.player.stop_at(koma, column.length);
+        }
+        self.change(Command::Correct(correction));
+    }
+
+    /// Changes the document.
+    fn change(&mut self, command: Command) {
+        let Some(take) = &mut self.take else { return };
+        let wanted = &mut take.wanted;
+        let changed = match command {
+            Command::Correct(correction) => {
+                wanted.edits = correction.on(&wanted.edits);
+                Ok(())
+            }
+            Command::Drag(key, to) => {
+                let before = self.held.get_or_insert_with(|| wanted.clone());
+                wanted.edits = Correction::Move(key, to).on(&before.edits);
+                Ok(())
+            }
+            Command::Set(knob, value) => wanted.recipe.set(knob, &value),
+            Command::Preset(settings) => {
+                settings.iter().try_for_each(|(knob, value)| wanted.recipe.set(knob, value))
+            }
+            Command::Defaults => {
+                wanted.recipe = Recipe::default();
+                Ok(())
+            }
+            Command::Undo => {
+                let before = take.history.undo(wanted);
+                *wanted = before.unwrap_or_else(|| wanted.clone());
+                Ok(())
+            }
+            _ => {
+                let after = take.history.redo(wanted);
+                *wanted = after.unwrap_or_else(|| wanted.clone());
+                Ok(())
+            }
+        };
+        match changed {
+            Ok(()) => self.message = None,
+            Err(error) => self.fail(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! The list of corrections (修正の一覧): every one there is, to go to or to take back.
+
+use egui::{CollapsingHeader, RichText, Ui};
+
+use super::corrections::Correction;
+use super::icon::{self, Icon};
+use super::keyboard::Command;
+use super::shown::Shown;
+use crate::keys::{Key, Origin};
+use crate::time::Frame;
+
+/// Shows the list; nothing where nothing was corrected.
+pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let (edits, words) = (&shown.wanted.edits, shown.words);
+    let count = edits.pins.len() + edits.moves.len() + edits.forbidden.len();
+    if count == 0 {
+        return;
+    }
+    let title = format!("{} ({count})", words.say("Corrections", "修正"));
+    let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt("corrections");
+    header.default_open(true).show_unindented(ui, |ui| {
+        for pin in &edits.pins {
+            let name = pin.name.as_deref().unwrap_or_default();
+            let what = format!("{} {} {name}", words.say("locked", "固定"), pin.frame);
+            let back = Correction::TakeBack(key(pin.frame, Origin::Pinned));
+            row(ui, &what, Some(pin.frame), back, shown, commands);
+        }
+        for moved in &edits.moves {
+            let name = moved.name.as_deref().unwrap_or_default();
+            let what = format!(
+                "{} {} {} {} {name}",
+                words.say("moved", "移動"),
+                moved.from,
+                words.say("to", "→"),
+                moved.to
+            );
+            let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
+            row(ui, &what, Some(moved.to), back, shown, commands);
+        }
+        for range in &edits.forbidden {
+            let what = format!("{} {range}", words.say("no genga", "原画にしない"));
+            let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
+            row(ui, &what, at, Correction::Allow(*range), shown, commands);
+        }
+    });
+}
+
+fn row(
+    ui: &mut Ui,
+    what: &str,
+    at: Option<Frame>,
+    back: Correction,
+    shown: &Shown<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let what = what.trim();
+    ui.horizontal(|ui| {
+        let name = format!("{}: {what}", shown.words.say("Take back", "取り消す"));
+        if icon::button(ui, Icon::Cross, &name).clicked() {
+            commands.push(Command::Correct(back));
+        }
+        if ui.link(what).clicked()
+            && let Some(frame) = at
+        {
+            commands.push(Command::Go(shown.column.clock.koma_from_place(frame.0 as f64)));
+        }
+    });
+}
+
+/// A key as a correction knows it: by frame and origin.
+fn key(frame: Frame, origin: Origin) -> Key {
+    let (voters, weight, name) = (Vec::new(), None, None);
+    Key { frame, strength: 1.0, price: f64::INFINITY, voters, weight, name, origin }
+}

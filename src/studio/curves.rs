@@ -1,0 +1,148 @@
+//! The curves (速度のグラフ): how fast chosen joints are, before and after the filter, with their keys and
+//! walls, under the numbers of the genga. Keys are corrected here frame by frame.
+
+mod joints;
+mod lane;
+mod ruler;
+mod time;
+
+use egui::{Id, Panel, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
+
+use self::time::Window;
+use super::key_menu;
+use super::keyboard::Command;
+use super::player::Player;
+use super::shown::Shown;
+use crate::keys::Key;
+use crate::motion::JointId;
+use crate::time::Frame;
+
+/// Width of the list of joints.
+const LIST: f32 = 170.0;
+/// Room for the values at the left of the curves.
+const VALUES: f32 = 40.0;
+/// How near a hand has to be to a number to hold it.
+const NEAR: f32 = 10.0;
+
+/// Which joints are shown, and which part of the clip.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Curves {
+    /// The joints whose curves and trails are drawn.
+    pub(super) chosen: Vec<JointId>,
+    /// All joints, those that move most first.
+    order: Vec<JointId>,
+    search: String,
+    window: Window,
+    held: Option<(Key, Frame)>,
+    asked: Option<Key>,
+}
+
+impl Curves {
+    /// Begins with a clip whose joints move in this order.
+    pub(super) fn of(order: Vec<JointId>) -> Self {
+        let chosen = order.iter().take(2).copied().collect();
+        Self { chosen, order, ..Self::default() }
+    }
+
+    /// Shows the list of joints and the curves.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        shown: &Shown<'_>,
+        player: &Player,
+        commands: &mut Vec<Command>,
+    ) {
+        let list = Panel::left("joints").exact_size(LIST).resizable(false);
+        list.show(ui, |ui| {
+            joints::show(ui, shown, &self.order, &mut self.search, &mut self.chosen)
+        });
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.interact(rect, Id::unique("curves"), Sense::click_and_drag());
+        let clip = shown.breakdown.clip;
+        self.window.fit((clip.first().0 as f64, clip.last().0 as f64));
+        let inside = rect.with_min_x(rect.min.x + VALUES).shrink2(vec2(12.0, 0.0));
+        self.window.handle(ui, &response, inside);
+        let time = self.window.scale(inside);
+        let top = Rect::from_min_size(inside.min, vec2(inside.width(), ruler::HEIGHT));
+        self.handle(&response, top, &time, shown, commands);
+        self.draw(ui, (rect, inside, top), &time, shown, player);
+        let name = shown.words.say("Speed curves", "速度のグラフ");
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
+        response.context_menu(|ui| match &self.asked {
+            Some(key) => key_menu::show(ui, key, shown.words, commands),
+            None => key_menu::show_none(ui, shown, commands),
+        });
+        ui.advance_cursor_after_rect(rect);
+    }
+
+    fn handle(
+        &mut self,
+        response: &Response,
+        top: Rect,
+        time: &time::Scale,
+        shown: &Shown<'_>,
+        commands: &mut Vec<Command>,
+    ) {
+        let Some(at) = response.interact_pointer_pos() else {
+            self.held = None;
+            return;
+        };
+        let near =
+            |key: &&Key| (time.x(key.frame.0 as f64) - at.x).abs() < NEAR && at.y < top.max.y;
+        let nearest = shown.breakdown.keys.keys.iter().filter(near).min_by(|a, b| {
+            let away = |key: &Key| (time.x(key.frame.0 as f64) - at.x).abs();
+            away(a).total_cmp(&away(b))
+        });
+        if response.drag_started_by(egui::PointerButton::Primary) {
+            self.held = nearest.map(|key| (key.clone(), key.frame));
+        }
+        if response.secondary_clicked() {
+            self.asked = nearest.cloned();
+        }
+        let frame = shown.frame(time.place(at.x));
+        let koma =
+            |place: f64| shown.column.clock.koma_from_place(place).min(shown.column.length - 1);
+        let is_primary = response.clicked() || response.dragged_by(egui::PointerButton::Primary);
+        if let Some((key, last)) = self.held.as_mut().filter(|_| response.dragged()) {
+            commands.extend(shown.go(koma(frame.0 as f64)));
+            if *last != frame {
+                *last = frame;
+                commands.push(Command::Drag(key.clone(), frame));
+            }
+        } else if is_primary || response.secondary_clicked() {
+            let place = nearest.map_or(frame, |key| key.frame);
+            commands.extend(shown.go(koma(place.0 as f64)));
+        }
+        if response.drag_stopped() {
+            self.held = None;
+        }
+    }
+
+    fn draw(
+        &self,
+        ui: &Ui,
+        (rect, inside, top): (Rect, Rect, Rect),
+        time: &time::Scale,
+        shown: &Shown<'_>,
+        player: &Player,
+    ) {
+        let (painter, look) = (ui.painter_at(rect), &shown.look);
+        painter.rect_filled(rect, 0.0, look.paper);
+        let place = |koma: usize| time.x(shown.column.clock.place_from_koma(koma));
+        if let Some(range) = &player.range {
+            let played = place(range.start)..=place(range.end);
+            painter.rect_filled(Rect::from_x_y_ranges(played, inside.y_range()), 0.0, look.chosen);
+        }
+        let below = inside.with_min_y(top.max.y);
+        let count = self.chosen.len().max(1) as f32;
+        let high = below.height() / count;
+        for (at, joint) in self.chosen.iter().enumerate() {
+            let corner = below.min + vec2(0.0, high * at as f32);
+            let rect =
+                Rect::from_min_size(corner, vec2(below.width(), high)).shrink2(vec2(0.0, 3.0));
+            lane::draw(&painter, rect, *joint, time, shown);
+        }
+        painter.vline(place(shown.at), inside.y_range(), Stroke::new(2.0, look.playhead));
+        ruler::draw(&painter, top, inside.max.y, time, shown);
+    }
+}

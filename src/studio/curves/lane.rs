@@ -1,0 +1,123 @@
+//! The curve of one joint: as measured, filtered, with its keys and walls.
+
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+
+use super::time::Scale;
+use crate::motion::JointId;
+use crate::signal::{Turn, TurnKind};
+use crate::studio::shown::Shown;
+
+/// How far a raw peak may stand out over the filtered curve.
+const OVER: f64 = 1.6;
+
+/// Draws a lane.
+pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, shown: &Shown<'_>) {
+    let look = &shown.look;
+    let breakdown = &shown.breakdown;
+    let (raw, filtered) = (breakdown.speed.joint(joint), breakdown.filtered.joint(joint));
+    let (low, high) = range(raw, filtered);
+    let y = |value: f64| {
+        let share = (value - low) / (high - low);
+        rect.max.y - (share as f32 * rect.height()).clamp(0.0, rect.height())
+    };
+    painter.hline(rect.x_range(), y(0.0), Stroke::new(1.0, look.grid));
+    let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
+    let first = breakdown.speed.first.0;
+    for (values, color, width) in [(raw, look.raw, 1.0), (filtered, look.filtered, 1.8)] {
+        let line = points(values, first, time, rect, y);
+        clipped.add(Shape::line(line, Stroke::new(width, color)));
+    }
+    for turn in &breakdown.turns[joint.0] {
+        let place = turn.frame.0 as f64;
+        if place >= time.from && place <= time.to {
+            let at = pos2(time.x(place), y(filtered[turn.frame.0 - first]));
+            mark(&clipped, at, turn, look.genga, look.wall, look.paper);
+        }
+    }
+    values(painter, rect, (low, high), joint, shown);
+}
+
+/// From which value to which a lane goes.
+fn range(raw: &[f64], filtered: &[f64]) -> (f64, f64) {
+    let bounds = |values: &[f64]| {
+        let wider = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+        values.iter().fold((0.0, 0.0), wider)
+    };
+    let (whole, most) = (bounds(filtered), bounds(raw));
+    let low = most.0.max(OVER * whole.0).min(whole.0);
+    let high = most.1.min(OVER * whole.1).max(whole.1);
+    if high > low { (low, high) } else { (0.0, 1.0) }
+}
+
+/// The curve in view. Where a point of the window has many frames, it has the lowest and the highest of them.
+fn points(
+    values: &[f64],
+    first: usize,
+    time: &Scale,
+    rect: Rect,
+    y: impl Fn(f64) -> f32,
+) -> Vec<Pos2> {
+    let row = |place: f64| (place - first as f64).max(0.0) as usize;
+    let (from, to) = (row(time.from.floor()), (row(time.to.ceil()) + 1).min(values.len()));
+    let Some(seen) = values.get(from..to).filter(|seen| !seen.is_empty()) else { return vec![] };
+    let place = |at: usize, value: f64| pos2(time.x((first + from + at) as f64), y(value));
+    let bunch = (seen.len() as f32 / rect.width().max(1.0)).floor() as usize;
+    if bunch < 2 {
+        return seen.iter().enumerate().map(|(at, value)| place(at, *value)).collect();
+    }
+    let extremes = |(bunched, values): (usize, &[f64])| {
+        let at = |value: f64| place(bunched * bunch, value);
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // In the order in which they come, so that the line does not go back.
+        if values[0] <= values[values.len() - 1] {
+            [at(low), at(high)]
+        } else {
+            [at(high), at(low)]
+        }
+    };
+    seen.chunks(bunch).enumerate().flat_map(extremes).collect()
+}
+
+fn mark(painter: &Painter, at: Pos2, turn: &Turn, key: Color32, wall: Color32, paper: Color32) {
+    match turn.kind {
+        TurnKind::Key => drop(painter.circle(at, 3.6, key, Stroke::new(1.0, paper))),
+        TurnKind::Wall => {
+            let corners = [vec2(0.0, -4.6), vec2(4.2, 3.2), vec2(-4.2, 3.2)];
+            let corners = corners.map(|way| at + way).to_vec();
+            painter.add(Shape::convex_polygon(corners, wall, Stroke::new(1.0, paper)));
+        }
+    }
+}
+
+/// The joint's name and the highest value.
+fn values(painter: &Painter, rect: Rect, (_, high): (f64, f64), joint: JointId, shown: &Shown<'_>) {
+    let (look, unit) = (&shown.look, shown.breakdown.filtered.unit);
+    let name = &shown.breakdown.clip.skeleton().joints[joint.0].name;
+    let galley = painter.layout_no_wrap(name.clone(), FontId::proportional(12.0), look.ink);
+    let at = rect.min + vec2(4.0, 2.0);
+    painter.rect_filled(
+        Rect::from_min_size(at, galley.size()).expand(2.0),
+        2.0,
+        look.paper.gamma_multiply(0.85),
+    );
+    painter.galley(at, galley, look.ink);
+    let number = (high * unit.for_people()).round();
+    let font = FontId::proportional(10.0);
+    let left = rect.min.x - 4.0;
+    painter.text(pos2(left, rect.min.y), Align2::RIGHT_TOP, number, font.clone(), look.faint);
+    painter.text(pos2(left, rect.min.y + 11.0), Align2::RIGHT_TOP, unit.symbol(), font, look.faint);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lane_shows_all_of_the_filtered_curve_and_so_much_of_the_raw() {
+        assert_eq!(range(&[1.0, 9.0], &[1.0, 2.0]), (0.0, 3.2));
+        assert_eq!(range(&[1.0, 2.5], &[1.0, 2.0]), (0.0, 2.5));
+        assert_eq!(range(&[0.0], &[0.0]), (0.0, 1.0), "what is still has a lane too");
+        assert_eq!(range(&[-3.0, 1.0], &[-2.0, 1.0]), (-3.0, 1.0));
+    }
+}

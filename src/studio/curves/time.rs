@@ -1,0 +1,128 @@
+//! The part of a clip that is in view, and where its frames come.
+
+use egui::{PointerButton, Rangef, Rect, Response, Ui};
+
+/// The fewest frames that can be looked at.
+const FEWEST: f64 = 4.0;
+
+/// Which part of a clip is in view, as places.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Window {
+    from: f64,
+    to: f64,
+    /// The first and the last place there are.
+    whole: (f64, f64),
+}
+
+impl Window {
+    /// Looks at a clip; at all of it when it is another than before.
+    pub(super) fn fit(&mut self, whole: (f64, f64)) {
+        if self.whole != whole {
+            *self = Self { from: whole.0, to: whole.1.max(whole.0 + 1.0), whole };
+        }
+    }
+
+    /// Takes what a hand does: the wheel zooms round the pointer, sideways and with the second button it
+    /// moves, a double click shows all.
+    pub(super) fn handle(&mut self, ui: &Ui, response: &Response, rect: Rect) {
+        if response.double_clicked() {
+            (self.from, self.to) = (self.whole.0, self.whole.1.max(self.whole.0 + 1.0));
+        }
+        let a_point = (self.to - self.from) / f64::from(rect.width().max(1.0));
+        if response.dragged_by(PointerButton::Secondary)
+            || response.dragged_by(PointerButton::Middle)
+        {
+            self.shift(-f64::from(response.drag_delta().x) * a_point);
+        }
+        if !response.contains_pointer() {
+            return;
+        }
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        self.shift(-f64::from(scroll.x) * a_point);
+        if let Some(at) = ui.input(|input| input.pointer.hover_pos()) {
+            let place = self.scale(rect).place(at.x);
+            self.zoom(place, f64::from(pinch * (scroll.y * 0.004).exp()));
+        }
+    }
+
+    fn shift(&mut self, by: f64) {
+        let by = by.clamp(self.whole.0 - self.from, (self.whole.1 - self.to).max(0.0));
+        (self.from, self.to) = (self.from + by, self.to + by);
+    }
+
+    /// Comes nearer to a place, which stays where it is.
+    fn zoom(&mut self, place: f64, factor: f64) {
+        if factor == 1.0 {
+            return;
+        }
+        let factor = 1.0 / factor.clamp(0.01, 100.0);
+        let length = ((self.to - self.from) * factor)
+            .clamp(FEWEST, (self.whole.1 - self.whole.0).max(FEWEST));
+        let share = ((place - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        let highest = (self.whole.1 - length).max(self.whole.0);
+        self.from = (place - share * length).clamp(self.whole.0, highest);
+        self.to = self.from + length;
+    }
+
+    pub(super) fn scale(&self, rect: Rect) -> Scale {
+        Scale { from: self.from, to: self.to, x: rect.x_range() }
+    }
+}
+
+/// Places and where they come in the window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    x: Rangef,
+}
+
+impl Scale {
+    pub(super) fn x(&self, place: f64) -> f32 {
+        let share = (place - self.from) / (self.to - self.from);
+        self.x.min + share as f32 * self.x.span()
+    }
+
+    pub(super) fn place(&self, x: f32) -> f64 {
+        self.from + f64::from((x - self.x.min) / self.x.span()) * (self.to - self.from)
+    }
+
+    /// Whole numbers that are in view, so far apart that `room` points lie between them.
+    pub(super) fn ticks(&self, room: f32) -> impl Iterator<Item = f64> + use<> {
+        let least = (self.to - self.from) * f64::from(room / self.x.span().max(1.0));
+        let power = 10f64.powf(least.max(1.0).log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0].map(|times| times * power);
+        let step = step.into_iter().find(|step| *step >= least).unwrap_or(10.0 * power);
+        let (first, last) = ((self.from / step).ceil(), (self.to / step).floor());
+        (0..=(last - first).max(-1.0) as i64).map(move |at| (first + at as f64) * step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    #[test]
+    fn a_place_stays_under_the_pointer_and_the_view_within_the_clip() {
+        let mut window = Window::default();
+        window.fit((10.0, 110.0));
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(200.0, 50.0));
+        window.zoom(60.0, 2.0);
+        assert_eq!((window.from, window.to), (35.0, 85.0));
+        assert_eq!(window.scale(rect).x(60.0), 100.0);
+        assert_eq!(window.scale(rect).place(100.0), 60.0);
+        window.shift(1000.0);
+        assert_eq!((window.from, window.to), (60.0, 110.0));
+        window.zoom(110.0, 1e-9);
+        assert_eq!((window.from, window.to), (10.0, 110.0));
+    }
+
+    #[test]
+    fn ticks_are_round_and_not_too_close() {
+        let window = Window { from: 0.0, to: 100.0, whole: (0.0, 100.0) };
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(300.0, 50.0));
+        let ticks: Vec<f64> = window.scale(rect).ticks(50.0).collect();
+        assert_eq!(ticks, [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]);
+    }
+}

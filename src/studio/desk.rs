@@ -1,0 +1,66 @@
+//! The desk (机): what the studio asks of the world outside. It has no files of its own, so that it can be
+//! tried without a disk, and on a full one.
+
+use std::path::Path;
+
+use crate::edits::Edits;
+use crate::motion::Clip;
+use crate::pipeline::Breakdown;
+use crate::recipe::Recipe;
+
+/// Files, as a program has them. Whatever fails is said in one plain sentence.
+pub trait Desk: Send + Sync {
+    /// Reads a motion.
+    ///
+    /// # Errors
+    /// Why it is none, with the place in the file.
+    fn open(&self, clip: &Path) -> Result<Opened, String>;
+
+    /// The text of a file; none where there is no such file.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    fn read(&self, path: &Path) -> Result<Option<String>, String>;
+
+    /// Writes a file whole or not at all.
+    ///
+    /// # Errors
+    /// Why it cannot be written. What was there before still is.
+    fn write(&self, path: &Path, text: &str) -> Result<(), String>;
+
+    /// Takes a file away. One that is not there is no failure.
+    ///
+    /// # Errors
+    /// Why it is still there.
+    fn remove(&self, path: &Path) -> Result<(), String>;
+
+    /// Writes everything that a run writes into a folder. Gives the names of the files.
+    ///
+    /// # Errors
+    /// Why it cannot be written. The folder is as it was before.
+    fn export(&self, folder: &Path, export: &Export<'_>) -> Result<Vec<String>, String>;
+}
+
+/// A motion that was read.
+#[derive(Debug)]
+pub struct Opened {
+    /// The motion, without a T-pose in front of it.
+    pub clip: Clip,
+    /// What a person should know about the file, as sentences.
+    pub notes: Vec<String>,
+}
+
+/// What is exported.
+#[derive(Debug, Clone, Copy)]
+pub struct Export<'a> {
+    /// The clip's file, as it was opened.
+    pub clip: &'a Path,
+    /// Every result.
+    pub breakdown: &'a Breakdown<'a>,
+    /// The settings it was made with.
+    pub recipe: &'a Recipe,
+    /// The corrections it was made with.
+    pub edits: &'a Edits,
+    /// What the reader said of the file.
+    pub notes: &'a [String],
+}

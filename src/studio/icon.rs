@@ -1,0 +1,95 @@
+//! Signs on buttons, drawn and not written: no font has to have them.
+
+use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
+
+/// A sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Icon {
+    Play,
+    Stop,
+    /// A step back, or on.
+    Step {
+        is_back: bool,
+    },
+    /// As far as a bar.
+    Skip {
+        is_back: bool,
+    },
+    /// Closes or takes away.
+    Cross,
+    /// Back to how it was.
+    Back,
+    /// A disc, half of it dark.
+    Theme,
+}
+
+/// The side of a button.
+const SIDE: f32 = 22.0;
+
+/// A button with a sign, and its name for the mouse and the screen reader.
+pub(super) fn button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
+    let side = if matches!(icon, Icon::Cross | Icon::Back) { 16.0 } else { SIDE };
+    let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
+    let visuals = ui.style().interact(&response);
+    let painter = ui.painter();
+    painter.rect(
+        rect,
+        visuals.corner_radius,
+        visuals.weak_bg_fill,
+        visuals.bg_stroke,
+        StrokeKind::Inside,
+    );
+    draw(painter, icon, rect.shrink(0.26 * side), visuals.fg_stroke.color);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    response.on_hover_text(name)
+}
+
+fn draw(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
+    let stroke = Stroke::new(1.6, ink);
+    // A point of the sign: 0 and 1 are its edges.
+    let at = |x: f32, y: f32| rect.min + vec2(x, y) * rect.size();
+    let flip = |is_back: bool, x: f32| if is_back { 1.0 - x } else { x };
+    let arrow = |is_back: bool, tip: f32| {
+        let corners = [(0.1, 0.0), (tip, 0.5), (0.1, 1.0)];
+        let corners = corners.map(|(x, y)| at(flip(is_back, x), y)).to_vec();
+        painter.add(Shape::convex_polygon(corners, ink, Stroke::NONE));
+    };
+    match icon {
+        Icon::Play => arrow(false, 1.0),
+        Icon::Stop => drop(painter.rect_filled(rect, 1.0, ink)),
+        Icon::Step { is_back } => {
+            let way = [(0.2, 0.0), (0.8, 0.5), (0.2, 1.0)];
+            let way: Vec<Pos2> = way.map(|(x, y)| at(flip(is_back, x), y)).to_vec();
+            painter.line(way, stroke);
+        }
+        Icon::Skip { is_back } => {
+            arrow(is_back, 0.8);
+            let x = flip(is_back, 0.92);
+            painter.line_segment([at(x, 0.0), at(x, 1.0)], stroke);
+        }
+        Icon::Cross => {
+            painter.line_segment([at(0.0, 0.0), at(1.0, 1.0)], stroke);
+            painter.line_segment([at(0.0, 1.0), at(1.0, 0.0)], stroke);
+        }
+        Icon::Back => {
+            let turn = |step: i32| {
+                let angle = 0.9 * std::f32::consts::PI + step as f32 * 0.42;
+                rect.center() + 0.5 * rect.width() * vec2(angle.cos(), angle.sin())
+            };
+            painter.line((0..12).map(turn).collect(), stroke);
+            let tip = turn(0);
+            let head = [vec2(-2.8, -1.4), vec2(2.8, -1.4), vec2(0.0, 2.6)].map(|way| tip + way);
+            painter.add(Shape::convex_polygon(head.to_vec(), ink, Stroke::NONE));
+        }
+        Icon::Theme => {
+            let (middle, radius) = (rect.center(), 0.5 * rect.width());
+            painter.circle_stroke(middle, radius, stroke);
+            let half = |step: i32| {
+                let angle = (step as f32 / 12.0 - 0.5) * std::f32::consts::PI;
+                middle + radius * vec2(angle.cos(), angle.sin())
+            };
+            let half: Vec<Pos2> = (0..=12).map(half).collect();
+            painter.add(Shape::convex_polygon(half, ink, Stroke::NONE));
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! What can be done to a key, as a menu and as a small panel.
+
+use egui::{RichText, Slider, TextEdit, Ui};
+
+use super::corrections::Correction;
+use super::keyboard::Command;
+use super::shown::Shown;
+use super::words::Words;
+use crate::keys::{Key, Origin};
+
+/// The menu of a key.
+pub(super) fn show(ui: &mut Ui, key: &Key, words: Words, commands: &mut Vec<Command>) {
+    for (name, correction) in choices(key, words) {
+        if ui.button(name).clicked() {
+            commands.push(Command::Correct(correction));
+            ui.close();
+        }
+    }
+}
+
+/// The menu of a koma without a key.
+pub(super) fn show_none(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    if ui.button(shown.words.say("Genga here", "ここを原画に")).clicked() {
+        commands.push(Command::Correct(Correction::Pin(shown.frame_of_koma(shown.at))));
+        ui.close();
+    }
+}
+
+/// What can be done to a key at once.
+fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
+    let forbid =
+        (words.say("No genga here", "ここは原画にしない"), Correction::Forbid(key.clone()));
+    let take_back = Correction::TakeBack(key.clone());
+    match key.origin {
+        Origin::Found | Origin::Rest => {
+            vec![(words.say("Lock", "固定"), Correction::Lock(key.clone())), forbid]
+        }
+        Origin::Pinned => vec![(words.say("Unlock", "固定を解除"), take_back), forbid],
+        Origin::Moved { .. } => vec![(words.say("Move back", "元の位置へ"), take_back), forbid],
+    }
+}
+
+/// The panel of the key at the play head.
+#[derive(Debug, Clone, Default)]
+pub(super) struct KeyPanel {
+    /// The name as it is typed, and of which key.
+    typed: Option<(Key, String)>,
+    /// Whether the field for the name is to have the keyboard.
+    pub(super) wants_focus: bool,
+}
+
+impl KeyPanel {
+    /// Shows the key, or that there is none.
+    pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let words = shown.words;
+        let cell = shown.column.cell(shown.at);
+        let Some(key) = shown.column.key(shown.at) else {
+            self.wants_focus = false;
+            let what = match cell.genga {
+                Some(_) => words.say("End of the clip", "クリップの端"),
+                None => words.say("Inbetween", "中割り"),
+            };
+            ui.strong(what);
+            show_none(ui, shown, commands);
+            return;
+        };
+        ui.horizontal(|ui| {
+            let number = cell.genga.map_or_else(String::new, |number| number.to_string());
+            ui.strong(format!("{} {number}", words.say("Genga", "原画")));
+            let frame = key.frame;
+            ui.weak(match words.is_japanese() {
+                true => format!("フレーム {frame}"),
+                false => format!("frame {frame}"),
+            });
+        });
+        if !words.is_japanese() {
+            ui.label(RichText::new(cell.drawing.why.to_string()).size(11.0).weak());
+        }
+        ui.horizontal_wrapped(|ui| show(ui, key, words, commands));
+        self.name(ui, key, words, commands);
+        weight(ui, key, shown, commands);
+    }
+
+    /// The field for the name. It is taken on when it is left, so that undo takes back a name and no letter.
+    fn name(&mut self, ui: &mut Ui, key: &Key, words: Words, commands: &mut Vec<Command>) {
+        let own = key.name.clone().unwrap_or_default();
+        let is_of_this = self.typed.as_ref().is_some_and(|(typed, _)| typed.frame == key.frame);
+        let mut text = match &self.typed {
+            Some((_, text)) if is_of_this => text.clone(),
+            _ => own.clone(),
+        };
+        let field = TextEdit::singleline(&mut text)
+            .id_salt("key name")
+            .desired_width(f32::INFINITY)
+            .hint_text(words.say("name", "名前"));
+        let response = ui.add(field).accessible_name(words.say("Name of the genga", "原画の名前"));
+        if std::mem::take(&mut self.wants_focus) {
+            response.request_focus();
+        }
+        if response.has_focus() {
+            self.typed = Some((key.clone(), text));
+        } else if let Some((typed, text)) = self.typed.take()
+            && text.trim() != typed.name.as_deref().unwrap_or_default()
+            && !ui.input(|input| input.key_down(egui::Key::Escape))
+        {
+            commands.push(Command::Correct(Correction::Name(typed, text)));
+        }
+    }
+}
+
+/// The spacing weight from this key on.
+fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let words = shown.words;
+    let label = words.say("Own spacing weight", "この原画の詰め");
+    let mut is_own = key.weight.is_some();
+    if ui.checkbox(&mut is_own, label).changed() {
+        let weight = is_own.then_some(shown.wanted.recipe.spacing.weight);
+        commands.push(Command::Correct(Correction::Weight(key.clone(), weight)));
+    }
+    if let Some(mut weight) = key.weight {
+        let slider = Slider::new(&mut weight, 0.0..=0.95).fixed_decimals(2);
+        if ui.add(slider).accessible_name(label).changed() {
+            commands.push(Command::Correct(Correction::Weight(key.clone(), Some(weight))));
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Commands (操作), and the keys that give them. The list that `?` shows is made from this table.
+
+use egui::{Event, Key, KeyboardShortcut, Modifiers, TextEdit, Ui};
+
+use super::corrections::Correction;
+use super::viewport::{Seen, Standard};
+use super::words::Words;
+use crate::keys;
+use crate::time::Frame;
+
+/// What a hand asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Command {
+    /// Plays or stops.
+    Play,
+    /// So many koma on.
+    Koma(isize),
+    /// So many drawings on.
+    Drawing(isize),
+    /// So many genga on.
+    Genga(isize),
+    First,
+    Last,
+    /// To a koma.
+    Go(usize),
+    /// What is played begins here.
+    LoopFrom,
+    /// What is played ends here.
+    LoopTo,
+    /// All is played.
+    LoopAll,
+    /// From source to result and back.
+    Flip,
+    /// Source, result or both.
+    See(Seen),
+    /// From a standard side.
+    Look(Standard),
+    /// All of the motion fits into the view.
+    Fit,
+    /// Nearer or further.
+    Zoom(f32),
+    Follow,
+    Onion,
+    Trails,
+    /// A key at the play head, or none.
+    ToggleKey,
+    /// The key at the play head stays, or may go again.
+    Lock,
+    /// The key at the play head is drawn so many koma later.
+    Nudge(isize),
+    /// The same in source frames.
+    NudgeFrame(isize),
+    /// Gives a name to the key at the play head.
+    FocusName,
+    /// A correction.
+    Correct(Correction),
+    /// A key is held and is over a frame.
+    Drag(keys::Key, Frame),
+    /// A knob and its value.
+    Set(&'static str, String),
+    /// Several knobs.
+    Preset(&'static [(&'static str, &'static str)]),
+    /// All knobs as they come.
+    Defaults,
+    Undo,
+    Redo,
+    Save,
+    /// Opens or closes the field for a file's name.
+    OpenFile,
+    Export,
+    /// Takes what an earlier session left.
+    Recover,
+    /// Throws it away.
+    Discard,
+    /// Light or dark.
+    Theme,
+    Language,
+    /// The list of keys.
+    Help,
+    /// Closes what is open.
+    Dismiss,
+}
+
+/// A key and what it does.
+pub(super) struct Binding {
+    pub(super) modifiers: Modifiers,
+    pub(super) key: Key,
+    pub(super) command: Command,
+    english: &'static str,
+    japanese: &'static str,
+}
+
+impl Binding {
+    /// What it does.
+    pub(super) fn what(&self, words: Words) -> &'static str {
+        words.say(self.english, self.japanese)
+    }
+
+    /// How its keys are written here.
+    pub(super) fn keys(&self, ui: &Ui) -> String {
+        ui.ctx().format_shortcut(&KeyboardShortcut::new(self.modifiers, self.key))
+    }
+}
+
+const fn key(
+    modifiers: Modifiers,
+    key: Key,
+    command: Command,
+    english: &'static str,
+    japanese: &'static str,
+) -> Binding {
+    Binding { modifiers, key, command, english, japanese }
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const ALT: Modifiers = Modifiers::ALT;
+const COMMAND: Modifiers = Modifiers::COMMAND;
+const ALT_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::ALT };
+const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// Every key. Those with more modifiers come first: a key alone takes what is left.
+pub(super) const BINDINGS: &[Binding] = &[
+    key(COMMAND_SHIFT, Key::Z, Command::Redo, "redo", "やり直す"),
+    key(COMMAND, Key::Y, Command::Redo, "redo", "やり直す"),
+    key(COMMAND, Key::Z, Command::Undo, "undo", "元に戻す"),
+    key(COMMAND, Key::S, Command::Save, "save the recipe", "レシピを保存"),
+    key(COMMAND, Key::O, Command::OpenFile, "open a clip or a recipe", "クリップかレシピを開く"),
+    key(COMMAND, Key::E, Command::Export, "export everything", "すべて書き出す"),
+    key(
+        ALT_SHIFT,
+        Key::ArrowLeft,
+        Command::NudgeFrame(-1),
+        "key a source frame earlier",
+        "原画を1フレーム前へ",
+    ),
+    key(
+        ALT_SHIFT,
+        Key::ArrowRight,
+        Command::NudgeFrame(1),
+        "key a source frame later",
+        "原画を1フレーム後へ",
+    ),
+    key(ALT, Key::ArrowLeft, Command::Nudge(-1), "key a koma earlier", "原画を1コマ前へ"),
+    key(ALT, Key::ArrowRight, Command::Nudge(1), "key a koma later", "原画を1コマ後へ"),
+    key(SHIFT, Key::ArrowLeft, Command::Drawing(-1), "drawing before", "前の動画"),
+    key(SHIFT, Key::ArrowRight, Command::Drawing(1), "next drawing", "次の動画"),
+    key(NONE, Key::ArrowLeft, Command::Koma(-1), "koma before", "前のコマ"),
+    key(NONE, Key::ArrowRight, Command::Koma(1), "next koma", "次のコマ"),
+    key(NONE, Key::ArrowUp, Command::Genga(-1), "genga before", "前の原画"),
+    key(NONE, Key::ArrowDown, Command::Genga(1), "next genga", "次の原画"),
+    key(NONE, Key::Home, Command::First, "first koma", "最初のコマ"),
+    key(NONE, Key::End, Command::Last, "last koma", "最後のコマ"),
+    key(NONE, Key::Space, Command::Play, "play, stop", "再生・停止"),
+    key(NONE, Key::I, Command::LoopFrom, "play from here", "ここから再生"),
+    key(NONE, Key::O, Command::LoopTo, "play to here", "ここまで再生"),
+    key(NONE, Key::P, Command::LoopAll, "play all", "全部を再生"),
+    key(NONE, Key::F, Command::Flip, "flip source and result", "素材と結果を切り替え"),
+    key(NONE, Key::B, Command::See(Seen::Both), "both side by side", "並べて表示"),
+    key(NONE, Key::Num1, Command::Look(Standard::Front), "from the front", "正面から"),
+    key(NONE, Key::Num2, Command::Look(Standard::Side), "from the side", "側面から"),
+    key(NONE, Key::Num3, Command::Look(Standard::Top), "from above", "真上から"),
+    key(NONE, Key::Num4, Command::Look(Standard::ThreeQuarter), "three-quarter", "斜めから"),
+    key(NONE, Key::Num0, Command::Fit, "show all of it", "全体を表示"),
+    key(NONE, Key::Plus, Command::Zoom(1.2), "nearer", "近づく"),
+    key(NONE, Key::Minus, Command::Zoom(1.0 / 1.2), "further", "離れる"),
+    key(NONE, Key::C, Command::Follow, "camera follows the body", "カメラが体を追う"),
+    key(NONE, Key::G, Command::Onion, "onion skin", "オニオンスキン"),
+    key(NONE, Key::T, Command::Trails, "trails of the chosen joints", "選んだ関節の軌跡"),
+    key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
+    key(NONE, Key::L, Command::Lock, "lock the genga here, or unlock it", "原画を固定・解除"),
+    key(NONE, Key::N, Command::FocusName, "name the genga here", "原画に名前"),
+    key(NONE, Key::D, Command::Theme, "light, dark", "明るい・暗い画面"),
+    key(NONE, Key::J, Command::Language, "Japanese labels", "英語表示"),
+    key(NONE, Key::Questionmark, Command::Help, "this list", "この一覧"),
+    key(NONE, Key::F1, Command::Help, "this list", "この一覧"),
+    key(NONE, Key::Escape, Command::Dismiss, "close what is open", "閉じる"),
+];
+
+/// Keys that a widget with the focus has a use for itself.
+const OF_WIDGETS: [Key; 6] =
+    [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::Space, Key::Enter];
+
+/// The commands of the keys that were pressed, once for each press and in their order: a slow frame may have
+/// several. What is typed into a field is left to it.
+pub(super) fn pressed(ui: &Ui) -> Vec<Command> {
+    let focused = ui.memory(|memory| memory.focused());
+    let is_typing = focused.is_some_and(|id| TextEdit::load_state(ui.ctx(), id).is_some());
+    let is_free = |binding: &Binding| {
+        let is_of_widget = binding.modifiers.is_none() && OF_WIDGETS.contains(&binding.key);
+        match focused {
+            None => true,
+            Some(_) if is_typing => binding.modifiers.command || binding.key == Key::Escape,
+            Some(_) => !is_of_widget,
+        }
+    };
+    let mut commands = Vec::new();
+    ui.input_mut(|input| {
+        input.events.retain(|event| {
+            let command = command_of(event, is_free);
+            let is_kept = command.is_none();
+            commands.extend(command);
+            is_kept
+        });
+    });
+    commands
+}
+
+/// What a press of a key asks for.
+fn command_of(event: &Event, is_free: impl Fn(&Binding) -> bool) -> Option<Command> {
+    let Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let is_meant =
+        |binding: &&Binding| binding.key == *key && modifiers.matches_logically(binding.modifiers);
+    let binding = BINDINGS.iter().find(is_meant).filter(|binding| is_free(binding))?;
+    Some(binding.command.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_does_two_things_and_a_key_alone_comes_after_those_with_modifiers() {
+        for (at, binding) in BINDINGS.iter().enumerate() {
+            for before in &BINDINGS[..at] {
+                if before.key == binding.key {
+                    assert_ne!(before.modifiers, binding.modifiers, "{:?}", binding.key);
+                    assert!(!before.modifiers.is_none(), "{:?} would take the other", before.key);
+                }
+            }
+        }
+    }
+}

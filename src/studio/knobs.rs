@@ -1,0 +1,277 @@
+//! The knobs (調整): every setting of the recipe as a slider or a choice, made from
+//! [`KNOBS`](crate::recipe::KNOBS).
+
+mod measured;
+pub(super) mod presets;
+
+use egui::{Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, SliderClamping, Ui};
+
+use self::presets::PRESETS;
+use super::icon::{self, Icon};
+use super::keyboard::Command;
+use super::shown::Shown;
+use super::words::Words;
+use crate::recipe::{KNOBS, Kind, Knob, Recipe};
+
+/// Koma a drawing that are offered; a recipe may have others.
+const ON: [&str; 8] = ["1", "2", "3", "4", "1-2", "1-3", "2-3", "2-4"];
+/// Width of the labels.
+const LABEL: f32 = 108.0;
+
+/// The values of all knobs as text. They are made again only when the recipe has changed.
+#[derive(Debug, Clone)]
+pub(super) struct Knobs {
+    of: Recipe,
+    values: Vec<String>,
+    defaults: Vec<String>,
+}
+
+impl Default for Knobs {
+    fn default() -> Self {
+        let of = Recipe::default();
+        Self { values: texts(&of), defaults: texts(&of), of }
+    }
+}
+
+fn texts(recipe: &Recipe) -> Vec<String> {
+    let settings = recipe.settings().into_iter().map(|(_, value)| value);
+    settings.take(KNOBS.len()).collect()
+}
+
+impl Knobs {
+    /// Shows presets and, section by section, the knobs.
+    pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let recipe = &shown.wanted.recipe;
+        if self.of != *recipe {
+            (self.of, self.values) = (recipe.clone(), texts(recipe));
+        }
+        let words = shown.words;
+        ScrollArea::vertical().id_salt("knobs").auto_shrink(false).show(ui, |ui| {
+            ui.spacing_mut().slider_width = 92.0;
+            self.presets(ui, words, commands);
+            for section in sections() {
+                let (name, is_open) = named(section, words);
+                let header = CollapsingHeader::new(RichText::new(name).strong());
+                header.id_salt(("section", section)).default_open(is_open).show_unindented(
+                    ui,
+                    |ui| {
+                        for (at, knob) in KNOBS.iter().enumerate() {
+                            if knob.path().0 == section {
+                                self.row(ui, at, knob, words, commands);
+                            }
+                        }
+                    },
+                );
+            }
+            super::corrected::show(ui, shown, commands);
+        });
+    }
+
+    fn presets(&self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
+        ui.horizontal_wrapped(|ui| {
+            for preset in PRESETS {
+                let name = words.say(preset.english, preset.japanese);
+                let value = |name: &str| {
+                    let at = KNOBS.iter().position(|knob| knob.name == name);
+                    at.map_or("", |at| &self.values[at])
+                };
+                let is_so = preset.settings.iter().all(|(knob, wanted)| value(knob) == *wanted);
+                if ui.add(Button::selectable(is_so, name)).clicked() {
+                    commands.push(Command::Preset(preset.settings));
+                }
+            }
+            let name = words.say("Defaults", "初期値");
+            if ui.add(Button::selectable(self.values == self.defaults, name)).clicked() {
+                commands.push(Command::Defaults);
+            }
+        });
+        ui.separator();
+    }
+
+    fn row(
+        &self,
+        ui: &mut Ui,
+        at: usize,
+        knob: &'static Knob,
+        words: Words,
+        commands: &mut Vec<Command>,
+    ) {
+        let (value, default) = (&self.values[at], &self.defaults[at]);
+        let name = label(knob, words);
+        let mut set = |text: String| commands.push(Command::Set(knob.name, text));
+        ui.horizontal(|ui| {
+            let is_own = value != default;
+            let text = RichText::new(&name);
+            let text = if is_own { text.strong() } else { text };
+            let text = egui::Label::new(text).truncate();
+            let label = ui.scope(|ui| {
+                ui.set_width(LABEL);
+                ui.add(text)
+            });
+            help(label.response, knob, default, words);
+            ui.name_inputs(knob.name, |ui| control(ui, knob, value, &mut set));
+            let unit = short(knob, words);
+            if !unit.is_empty() {
+                ui.label(RichText::new(unit).size(10.5).weak());
+            }
+            if is_own {
+                let back = words.say("Back to the default", "初期値に戻す");
+                let name = format!("{back}: {} ({default})", knob.name);
+                if icon::button(ui, Icon::Back, &name).clicked() {
+                    set(default.clone());
+                }
+            }
+        });
+    }
+}
+
+/// What a knob does, where the mouse rests on its name.
+fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
+    response.on_hover_ui(|ui| {
+        ui.set_max_width(320.0);
+        ui.strong(knob.name);
+        if words.has_japanese {
+            ui.label(knob.japanese);
+        }
+        ui.label(knob.help);
+        ui.weak(knob.takes());
+        ui.weak(format!("{} {default}", words.say("default", "初期値")));
+    });
+}
+
+/// The control that a kind of knob has. It gives the text that [`Recipe::set`] takes.
+fn control(ui: &mut Ui, knob: &'static Knob, value: &str, set: &mut impl FnMut(String)) {
+    match knob.kind {
+        Kind::Number { min, max, whole, optional } => {
+            number(ui, knob, value, (min, max, whole, optional), set);
+        }
+        Kind::Span | Kind::Amount | Kind::Band => measured::show(ui, knob, value, set),
+        Kind::On => choice(ui, knob, value, &ON, set),
+        Kind::Choice(choices) => choice(ui, knob, value, choices, set),
+        Kind::Flag => {
+            let mut is_on = value == "true";
+            if ui.checkbox(&mut is_on, "").accessible_name(knob.name).changed() {
+                set(is_on.to_string());
+            }
+        }
+    }
+}
+
+fn number(
+    ui: &mut Ui,
+    knob: &Knob,
+    value: &str,
+    (min, max, whole, optional): (f64, f64, bool, bool),
+    set: &mut impl FnMut(String),
+) {
+    let mut is_set = value != "none";
+    if optional && ui.checkbox(&mut is_set, "").accessible_name(knob.name).changed() {
+        set(if is_set { min.to_string() } else { "none".into() });
+    }
+    if !is_set {
+        return;
+    }
+    // A limit that is none is shown as it is, at the end of the slider.
+    let mut number = value.parse().unwrap_or(min);
+    let slider = Slider::new(&mut number, min..=max).clamping(SliderClamping::Never);
+    let slider = if whole { slider.integer() } else { slider.max_decimals(2) };
+    if ui.add(slider).accessible_name(knob.name).changed() {
+        set(written(number));
+    }
+}
+
+fn choice(
+    ui: &mut Ui,
+    knob: &'static Knob,
+    value: &str,
+    choices: &[&str],
+    set: &mut impl FnMut(String),
+) {
+    let shown = value.replace('_', " ");
+    let combo = ComboBox::from_id_salt(knob.name).selected_text(shown).width(128.0);
+    let combo = combo.show_ui(ui, |ui| {
+        for choice in choices {
+            if ui.selectable_label(value == *choice, choice.replace('_', " ")).clicked() {
+                set((*choice).to_owned());
+            }
+        }
+    });
+    combo.response.accessible_name(knob.name);
+}
+
+/// A number as a person would write it: a slider stands on no more than thousandths.
+fn written(number: f64) -> String {
+    ((number * 1000.0).round() / 1000.0).to_string()
+}
+
+/// The sections in their order, each once.
+fn sections() -> Vec<Option<&'static str>> {
+    let mut sections: Vec<_> = KNOBS.iter().map(|knob| knob.path().0).collect();
+    sections.dedup();
+    sections
+}
+
+/// What a section is called, and whether it is open at first: those that an animator turns are.
+fn named(section: Option<&'static str>, words: Words) -> (&'static str, bool) {
+    match section {
+        None => (words.say("Sheet", "シート"), false),
+        Some("speed") => (words.say("Speed", "速さ"), false),
+        Some("filter") => (words.say("Smoothing", "ローパスフィルタ"), true),
+        Some("turns") => (words.say("Turns of joints", "部位の動きの変わり目"), false),
+        Some("keys") => (words.say("Genga", "原画"), true),
+        Some("spacing") => (words.say("Inbetweens", "中割りと詰め"), true),
+        Some("omission") => (words.say("Left out and held", "中無しとコマ撮り"), true),
+        Some(other) => (other, false),
+    }
+}
+
+/// A unit in as few letters as a row has room for. Those with a button for the unit need none.
+fn short(knob: &Knob, words: Words) -> String {
+    let Kind::Number { .. } = knob.kind else { return String::new() };
+    let unit = knob.unit.split(',').next().unwrap_or_default();
+    let word = match unit.split(' ').next().unwrap_or_default() {
+        "koma" => words.say("koma", "コマ"),
+        "keys" => words.say("genga", "枚"),
+        "drawings" => words.say("drawings", "枚"),
+        "%" => "%",
+        _ => return String::new(),
+    };
+    let per = if unit.ends_with(" a second") { words.say("/s", "/秒") } else { "" };
+    format!("{word}{per}")
+}
+
+/// What a knob is called.
+fn label(knob: &Knob, words: Words) -> String {
+    if words.is_japanese() {
+        return knob.japanese.into();
+    }
+    let (_, field) = knob.path();
+    let mut label = field.replace('_', " ");
+    if let Some(first) = label.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    label
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_said_in_a_word() {
+        let words = Words { language: Default::default(), has_japanese: false };
+        let short = |name| short(Knob::find(name).unwrap(), words);
+        assert_eq!(short("rate"), "koma/s");
+        assert_eq!(short("keys.min_price"), "%");
+        assert_eq!(short("keys.rest"), "%/s");
+        assert_eq!(short("keys.per_second"), "genga/s");
+        assert_eq!(short("spacing.weight"), "");
+        assert_eq!(short("filter.width"), "", "its button says it");
+    }
+
+    #[test]
+    fn a_label_is_the_field_in_words() {
+        let words = Words { language: Default::default(), has_japanese: false };
+        assert_eq!(label(Knob::find("omission.naka_nashi").unwrap(), words), "Naka nashi");
+    }
+}

@@ -1,0 +1,97 @@
+//! Knobs that are measured in one of two units: frames or seconds, a count or a share.
+
+use egui::{Button, Slider, SliderClamping, Ui};
+
+use super::written;
+use crate::recipe::{Kind, Knob};
+
+/// A unit as it stands behind the number, and how far a slider goes in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Scale {
+    suffix: &'static str,
+    most: f64,
+    is_whole: bool,
+}
+
+const SECONDS: Scale = Scale { suffix: "s", most: 1.0, is_whole: false };
+const FRAMES: Scale = Scale { suffix: "", most: 60.0, is_whole: true };
+const PERCENT: Scale = Scale { suffix: "%", most: 100.0, is_whole: false };
+const COUNT: Scale = Scale { suffix: "", most: 60.0, is_whole: true };
+const ACCELERATION: Scale = Scale { suffix: "", most: 1000.0, is_whole: false };
+
+/// The two units of a kind.
+fn scales(kind: Kind) -> [Scale; 2] {
+    match kind {
+        Kind::Span => [SECONDS, FRAMES],
+        Kind::Band => [PERCENT, ACCELERATION],
+        _ => [PERCENT, COUNT],
+    }
+}
+
+/// What the unit of a scale is called on its button.
+fn symbol(scale: Scale, kind: Kind) -> &'static str {
+    match kind {
+        Kind::Span if scale.suffix.is_empty() => "fr",
+        Kind::Band if scale.suffix.is_empty() => "°/s²",
+        _ if scale.suffix.is_empty() => "×",
+        _ => scale.suffix,
+    }
+}
+
+/// A value as number and unit; a fraction (`1/3`) as percent.
+fn read(value: &str, kind: Kind) -> (f64, Scale) {
+    let [with, without] = scales(kind);
+    let number = |text: &str| text.trim().parse().unwrap_or(0.0);
+    match (value.strip_suffix(with.suffix), value.split_once('/')) {
+        (Some(text), _) => (number(text), with),
+        (None, Some((taken, parts))) => (100.0 * number(taken) / number(parts), with),
+        // A share that is no whole percentage is written as a bare fraction of 1.
+        (None, None) if kind == Kind::Amount && value.contains('.') => {
+            (100.0 * number(value), with)
+        }
+        (None, None) => (number(value), without),
+    }
+}
+
+/// A slider, and a button that takes the other unit.
+pub(super) fn show(ui: &mut Ui, knob: &Knob, value: &str, set: &mut impl FnMut(String)) {
+    let (mut number, scale) = read(value, knob.kind);
+    let slider = Slider::new(&mut number, 0.0..=scale.most).clamping(SliderClamping::Never);
+    let slider = if scale.is_whole { slider.integer() } else { slider.max_decimals(2) };
+    if ui.add(slider).accessible_name(knob.name).changed() {
+        set(format!("{}{}", written(number), scale.suffix));
+    }
+    let unit = ui.add(Button::new(symbol(scale, knob.kind)).small());
+    let unit = unit.on_hover_text(knob.takes());
+    if unit.accessible_name(format!("unit of {}", knob.name)).clicked() {
+        let [a, b] = scales(knob.kind);
+        let other = if scale == a { b } else { a };
+        // The other unit has no common measure without the clip: it begins in the middle of what is usual.
+        let share = (number / scale.most).clamp(0.0, 1.0);
+        let number = share * other.most;
+        let number = if other.is_whole { number.round() } else { number };
+        set(format!("{}{}", written(number), other.suffix));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_read_with_its_unit() {
+        for (kind, value, number, scale) in [
+            (Kind::Span, "0.2s", 0.2, SECONDS),
+            (Kind::Span, "20", 20.0, FRAMES),
+            (Kind::Amount, "4%", 4.0, PERCENT),
+            (Kind::Amount, "4", 4.0, COUNT),
+            (Kind::Amount, "1/4", 25.0, PERCENT),
+            (Kind::Amount, "0.1234567", 12.34567, PERCENT),
+            (Kind::Band, "100", 100.0, ACCELERATION),
+            (Kind::Band, "5%", 5.0, PERCENT),
+        ] {
+            let (found, unit) = read(value, kind);
+            assert!((found - number).abs() < 1e-12 && unit == scale, "{value}: {found} {unit:?}");
+        }
+    }
+}

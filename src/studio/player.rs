@@ -1,0 +1,107 @@
+//! The player (再生): which koma is looked at, and how it goes on by itself.
+
+use std::ops::Range;
+
+/// Where the play head stands.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Player {
+    /// The koma that is shown, from 0.
+    pub(super) at: usize,
+    /// The koma that are played again and again; all where there is none.
+    pub(super) range: Option<Range<usize>>,
+    /// Since when it plays, in seconds, and from which koma.
+    playing: Option<(f64, usize)>,
+}
+
+impl Player {
+    pub(super) fn is_playing(&self) -> bool {
+        self.playing.is_some()
+    }
+
+    /// Plays, or stops.
+    pub(super) fn toggle(&mut self, now: f64, length: usize) {
+        self.playing = match self.playing {
+            Some(_) => None,
+            None => {
+                let range = self.played(length);
+                if !range.contains(&self.at) {
+                    self.at = range.start;
+                }
+                Some((now, self.at))
+            }
+        };
+    }
+
+    /// Goes to a koma of a sheet. What plays goes on from there.
+    pub(super) fn go(&mut self, koma: usize, length: usize, now: f64) {
+        self.at = koma.min(length.saturating_sub(1));
+        self.playing = self.playing.map(|_| (now, self.at));
+    }
+
+    /// Stops and goes to a koma.
+    pub(super) fn stop_at(&mut self, koma: usize, length: usize) {
+        self.playing = None;
+        self.go(koma, length, 0.0);
+    }
+
+    /// The koma that are played of a sheet of a length.
+    pub(super) fn played(&self, length: usize) -> Range<usize> {
+        let range = self.range.clone().unwrap_or(0..length);
+        let end = range.end.min(length);
+        if range.start < end { range.start..end } else { 0..length }
+    }
+
+    /// Goes on as far as time has. Gives the seconds until the next koma; none when nothing plays.
+    pub(super) fn advance(&mut self, now: f64, koma_rate: f64, length: usize) -> Option<f64> {
+        self.at = self.at.min(length.saturating_sub(1));
+        let (since, from) = self.playing?;
+        let range = self.played(length);
+        let gone = ((now - since) * koma_rate).max(0.0);
+        let koma = from.saturating_sub(range.start) + gone.floor() as usize;
+        self.at = range.start + koma % range.len().max(1);
+        Some((gone.floor() + 1.0 - gone) / koma_rate)
+    }
+
+    /// Begins what is played here, or ends it here.
+    pub(super) fn mark(&mut self, is_begin: bool, length: usize) {
+        let range = self.played(length);
+        let range = if is_begin { self.at..range.end } else { range.start..self.at + 1 };
+        let whole = range == (0..length);
+        self.range = (!whole && range.start < range.end).then_some(range);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_plays_a_koma_after_another_and_begins_again() {
+        let mut player = Player { at: 2, ..Player::default() };
+        player.toggle(10.0, 4);
+        for (now, koma) in [(10.0, 2), (10.04, 2), (10.05, 3), (10.09, 0), (10.13, 1)] {
+            let wait = player.advance(now, 24.0, 4).unwrap();
+            assert_eq!(player.at, koma, "{now}");
+            assert!(wait > 0.0 && wait <= 1.0 / 24.0, "{wait}");
+        }
+        player.toggle(10.2, 4);
+        assert_eq!((player.advance(11.0, 24.0, 4), player.at), (None, 1));
+    }
+
+    #[test]
+    fn a_range_is_played_alone_and_a_sheet_that_got_shorter_is_played_whole() {
+        let mut player = Player { at: 3, ..Player::default() };
+        player.mark(true, 10);
+        player.at = 5;
+        player.mark(false, 10);
+        assert_eq!(player.range, Some(3..6));
+        player.at = 0;
+        player.toggle(0.0, 10);
+        player.advance(3.01 / 24.0, 24.0, 10);
+        assert_eq!(player.at, 3, "from its begin, and once round");
+        assert_eq!(player.played(2), 0..2);
+        player.at = 0;
+        player.mark(true, 6);
+        assert_eq!(player.range, None, "all is no range");
+    }
+}

@@ -1,0 +1,46 @@
+//! What is shown (表示): everything that the panels of one frame read, and none of them changes.
+
+use super::column::Column;
+use super::document::Document;
+use super::keyboard::Command;
+use super::look::Look;
+use super::scene::Scene;
+use super::words::Words;
+use crate::motion::JointId;
+use crate::pipeline::Breakdown;
+use crate::time::Frame;
+
+/// A look at the results from one koma.
+pub(super) struct Shown<'a> {
+    pub(super) breakdown: Breakdown<'a>,
+    pub(super) column: Column<'a>,
+    pub(super) scene: &'a Scene,
+    /// What is asked for: of a clip that takes long not yet what the results are made of.
+    pub(super) wanted: &'a Document,
+    /// The joints whose curves and trails are drawn.
+    pub(super) joints: &'a [JointId],
+    /// The koma of the play head.
+    pub(super) at: usize,
+    pub(super) look: Look,
+    pub(super) words: Words,
+}
+
+impl Shown<'_> {
+    /// To a koma, if the play head is elsewhere.
+    pub(super) fn go(&self, koma: usize) -> Option<Command> {
+        let koma = koma.min(self.column.length.saturating_sub(1));
+        (koma != self.at).then_some(Command::Go(koma))
+    }
+
+    /// The source frame nearest to a place, within the clip.
+    pub(super) fn frame(&self, place: f64) -> Frame {
+        let clip = self.breakdown.clip;
+        let frame = place.round().max(0.0) as usize;
+        Frame(frame.clamp(clip.first().0, clip.last().0))
+    }
+
+    /// The source frame nearest to a koma, within the clip.
+    pub(super) fn frame_of_koma(&self, koma: usize) -> Frame {
+        self.frame(self.column.clock.place_from_koma(koma))
+    }
+}

@@ -1,0 +1,104 @@
+//! The transport (再生): play, step, scrub, loop.
+
+use egui::{Align2, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use super::icon::{self, Icon};
+use super::keyboard::Command;
+use super::player::Player;
+use super::shown::Shown;
+
+/// Shows the buttons and the scrub bar.
+pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
+    ui.add_space(2.0);
+    ui.horizontal(|ui| steps(ui, shown, player, commands));
+    scrub(ui, shown, player, commands);
+}
+
+fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
+    let words = shown.words;
+    let mut button = |ui: &mut Ui, sign: Icon, english, japanese, command: Command| {
+        let name = words.say(english, japanese);
+        if icon::button(ui, sign, name).clicked() {
+            commands.push(command);
+        }
+    };
+    button(ui, Icon::Skip { is_back: true }, "Genga before", "前の原画", Command::Genga(-1));
+    button(ui, Icon::Step { is_back: true }, "Koma before", "前のコマ", Command::Koma(-1));
+    match player.is_playing() {
+        true => button(ui, Icon::Stop, "Stop", "停止", Command::Play),
+        false => button(ui, Icon::Play, "Play", "再生", Command::Play),
+    }
+    button(ui, Icon::Step { is_back: false }, "Next koma", "次のコマ", Command::Koma(1));
+    button(ui, Icon::Skip { is_back: false }, "Next genga", "次の原画", Command::Genga(1));
+    let (at, length) = (shown.at + 1, shown.column.length);
+    let rate = shown.column.clock.koma_rate;
+    let seconds = shown.at as f64 / rate;
+    ui.monospace(match words.is_japanese() {
+        true => format!("コマ {at:>4} / {length}  {seconds:>6.2} 秒"),
+        false => format!("koma {at:>4} / {length}  {seconds:>6.2} s"),
+    });
+    if player.range.is_some() {
+        button(ui, Icon::Cross, "Play all", "全部を再生", Command::LoopAll);
+    }
+}
+
+/// Height of the scrub bar.
+const HEIGHT: f32 = 22.0;
+
+/// The whole sheet as a bar: a line a genga, the play head, what is played.
+fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
+    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
+    let response = ui.interact(rect, Id::unique("scrub"), Sense::click_and_drag());
+    let column = &shown.column;
+    let inside = rect.shrink2(vec2(6.0, 3.0));
+    let wide = inside.width() / column.length.max(1) as f32;
+    let x = |koma: usize| inside.min.x + wide * koma as f32;
+    if let Some(at) =
+        response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on())
+    {
+        let koma = ((at.x - inside.min.x) / wide).floor().max(0.0) as usize;
+        commands.extend(shown.go(koma));
+    }
+    let (painter, look) = (ui.painter_at(rect), &shown.look);
+    painter.rect_filled(inside, 3.0, look.ground);
+    let played = player.played(column.length);
+    if player.range.is_some() {
+        let played = Rect::from_x_y_ranges(x(played.start)..=x(played.end), inside.y_range());
+        painter.rect_filled(played, 3.0, look.chosen);
+    }
+    for cell in &column.cells {
+        let color = look.of_role(cell.drawing.role);
+        let (high, stroke) = match cell.drawing.role.is_kept() {
+            true => (1.0, Stroke::new(1.5, color)),
+            false => (0.4, Stroke::new(1.0, color)),
+        };
+        let top = inside.max.y - high * inside.height();
+        painter.vline(x(cell.koma), top..=inside.max.y, stroke);
+    }
+    let now = x(shown.at);
+    let head = Rect::from_min_max(pos2(now, rect.min.y), pos2(now + wide.max(3.0), rect.max.y));
+    painter.rect_stroke(head, 2.0, Stroke::new(2.0, look.playhead), egui::StrokeKind::Outside);
+    if response.has_focus() {
+        painter.rect_stroke(inside, 3.0, Stroke::new(1.0, look.playhead), egui::StrokeKind::Inside);
+    }
+    let name = shown.words.say("Play head", "再生位置");
+    let (at, length) = (shown.at + 1, column.length);
+    response.widget_info(|| WidgetInfo {
+        value: Some(at as f64),
+        current_text_value: Some(format!("{at} / {length}")),
+        ..WidgetInfo::labeled(Role::Slider, true, name)
+    });
+    let second = column.clock.koma_rate.round().max(1.0) as usize;
+    for koma in (second..column.length).step_by(second) {
+        let at = pos2(x(koma) + 2.0, inside.min.y);
+        if wide * second as f32 > 24.0 {
+            painter.text(
+                at,
+                Align2::LEFT_TOP,
+                format!("{}", koma / second),
+                FontId::proportional(9.0),
+                look.faint,
+            );
+        }
+    }
+}

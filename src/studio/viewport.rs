@@ -1,0 +1,202 @@
+//! The viewport (画面): the source and the result as stick figures, side by side or one over the other.
+
+mod body;
+mod floor;
+mod ghosts;
+mod orbit;
+mod sides;
+mod trails;
+
+use glam::DVec3;
+
+use egui::{Align2, FontId, Id, PointerButton, Rect, Response, Role, Sense, Ui, Vec2, pos2, vec2};
+
+use super::keyboard::Command;
+use super::scene::Scene;
+use super::shown::Shown;
+use crate::plot::parts::{Posing, Stage};
+use crate::sheet::Source;
+
+pub(super) use orbit::{Orbit, Standard};
+
+/// Which of the two is seen.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// Both, side by side.
+    #[default]
+    Both,
+    /// The motion as it was captured.
+    Source,
+    /// What the sheet shows.
+    Result,
+}
+
+/// What a person looks at, and how.
+#[derive(Debug, Clone)]
+pub(super) struct Viewport {
+    pub(super) orbit: Orbit,
+    pub(super) seen: Seen,
+    /// Whether the neighbouring drawings shine through.
+    pub(super) onion: bool,
+    /// Whether chosen joints leave trails.
+    pub(super) trails: bool,
+}
+
+impl Default for Viewport {
+    fn default() -> Self {
+        Self { orbit: Orbit::default(), seen: Seen::Both, onion: false, trails: true }
+    }
+}
+
+/// Room between the two halves.
+const GAP: f32 = 6.0;
+
+impl Viewport {
+    /// Begins with a scene: where the body goes far, the view goes with it.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut viewport = Self::default();
+        viewport.orbit.follows = scene.goes_far();
+        viewport
+    }
+
+    /// Draws both halves and takes what the hand does to them.
+    pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        ui.horizontal(|ui| {
+            ui.add_space(6.0);
+            sides::show(ui, shown, self, commands);
+        });
+        let whole = ui.available_rect_before_wrap();
+        let anchor = self.anchor(shown);
+        let half = vec2(0.5 * (whole.width() - GAP), whole.height());
+        let halves: &[(Seen, Rect)] = match self.seen {
+            Seen::Both => &[
+                (Seen::Source, Rect::from_min_size(whole.min, half)),
+                (Seen::Result, Rect::from_min_size(whole.min + vec2(half.x + GAP, 0.0), half)),
+            ],
+            alone => &[(alone, whole)],
+        };
+        for (seen, rect) in halves {
+            let id = Id::unique(("viewport", *seen == Seen::Source));
+            let response = ui.interact(*rect, id, Sense::click_and_drag());
+            self.handle(ui, &response, shown, commands);
+            self.draw(ui, *rect, *seen, anchor, shown);
+            let name = self.heading(*seen, shown);
+            response.widget_info(|| egui::WidgetInfo::labeled(Role::Canvas, true, &name));
+        }
+        ui.advance_cursor_after_rect(whole);
+    }
+
+    /// What a view that follows has in its middle: the body of the source, as it is a smooth way.
+    fn anchor(&self, shown: &Shown<'_>) -> DVec3 {
+        let place = shown.column.clock.place_from_koma(shown.at);
+        let root = Posing::of(shown.breakdown.clip).points(Source::At(place))[0];
+        shown.scene.on_floor(root) + shown.scene.up * (0.5 * shown.scene.figure.height)
+    }
+
+    fn handle(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        shown: &Shown<'_>,
+        commands: &mut Vec<Command>,
+    ) {
+        let way = response.drag_delta();
+        let is_pan = ui.input(|input| input.modifiers.shift)
+            || response.dragged_by(PointerButton::Secondary)
+            || response.dragged_by(PointerButton::Middle);
+        if response.dragged() && is_pan {
+            self.orbit.pan(way, shown.scene, response.rect);
+        } else if response.dragged() {
+            self.orbit.turn(way);
+        }
+        if response.double_clicked() {
+            commands.push(Command::Fit);
+        }
+        if response.contains_pointer() {
+            let (scroll, pinch) =
+                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            self.orbit.zoom_by(pinch * (scroll * 0.004).exp());
+        }
+    }
+
+    fn draw(&self, ui: &Ui, rect: Rect, seen: Seen, anchor: DVec3, shown: &Shown<'_>) {
+        let painter = ui.painter_at(rect);
+        let look = &shown.look;
+        painter.rect_filled(rect, 4.0, look.ground);
+        let stage = self.orbit.stage(shown.scene, rect, anchor);
+        let mut posing = Posing::of(shown.breakdown.clip);
+        floor::draw(&painter, &stage, shown);
+        let source = match seen {
+            Seen::Source => Source::At(shown.column.clock.place_from_koma(shown.at)),
+            _ => shown.column.cell(shown.at).drawing.source,
+        };
+        let pose = posing.points(source);
+        floor::shadow(&painter, &stage, &pose, shown);
+        if self.onion {
+            ghosts::draw(&painter, &stage, &mut posing, seen, shown);
+        }
+        body::draw(&painter, &stage.draw(&pose), body::Inks::Sides, look);
+        if self.trails {
+            trails::draw(&painter, &stage, &mut posing, seen, shown);
+        }
+        let at = rect.min + vec2(10.0, 8.0);
+        painter.text(
+            at,
+            Align2::LEFT_TOP,
+            self.heading(seen, shown),
+            FontId::proportional(14.0),
+            look.ink,
+        );
+        let at = pos2(rect.min.x + 10.0, rect.max.y - 8.0);
+        let standing = standing(seen, shown);
+        painter.text(at, Align2::LEFT_BOTTOM, standing, FontId::proportional(12.0), look.faint);
+    }
+
+    fn heading(&self, seen: Seen, shown: &Shown<'_>) -> String {
+        let words = shown.words;
+        match seen {
+            Seen::Source => words.say("Source", "素材").into(),
+            _ => words.say("Result", "結果").into(),
+        }
+    }
+}
+
+/// What stands at the play head, in words.
+fn standing(seen: Seen, shown: &Shown<'_>) -> String {
+    let (words, column) = (shown.words, &shown.column);
+    if seen == Seen::Source {
+        let place = column.clock.place_from_koma(shown.at);
+        let frame = (place * 10.0).round() / 10.0;
+        return match words.is_japanese() {
+            true => format!("素材フレーム {frame}"),
+            false => format!("source frame {frame}"),
+        };
+    }
+    let cell = column.cell(shown.at);
+    let number = match (cell.genga, words.is_japanese()) {
+        (Some(number), true) => format!("原画 {number}"),
+        (Some(number), false) => format!("genga {number}"),
+        (None, true) => "中割り".into(),
+        (None, false) => "inbetween".into(),
+    };
+    let (drawing, since, held) = (cell.index + 1, shown.at - cell.koma + 1, cell.held);
+    match words.is_japanese() {
+        true => format!("動画 {drawing} · {number} · {since}/{held}コマ目"),
+        false => format!("drawing {drawing} · {number} · koma {since} of {held}"),
+    }
+}
+
+/// A point of the stage as a point of the window.
+fn position((x, y): (f64, f64)) -> egui::Pos2 {
+    pos2(x as f32, y as f32)
+}
+
+/// Where a point of the world comes in the window.
+fn placed(stage: &Stage, point: DVec3) -> egui::Pos2 {
+    position(stage.place(point))
+}
+
+/// How far apart two points of the window are drawn for the same koma: nothing is drawn twice in one place.
+fn is_apart(a: egui::Pos2, b: egui::Pos2) -> bool {
+    (a - b).length_sq() > Vec2::splat(0.5).length_sq()
+}

@@ -1,0 +1,55 @@
+//! The floor: lines half a metre apart, and the shadow of the body on it.
+
+use egui::{Painter, Stroke};
+use glam::DVec3;
+
+use super::{body, placed};
+use crate::plot::parts::Stage;
+use crate::studio::scene::Scene;
+use crate::studio::shown::Shown;
+
+/// More lines than this in one direction are no help.
+const MOST: f64 = 60.0;
+
+/// Draws the lines under everything that the motion reaches, and a cell further.
+pub(super) fn draw(painter: &Painter, stage: &Stage, shown: &Shown<'_>) {
+    let scene = shown.scene;
+    let (a, b) = axes(scene);
+    let span = |axis: DVec3| {
+        let along = scene.reached.iter().map(|point| point.dot(axis));
+        let start = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = along.fold(start, |(low, high), at| (low.min(at), high.max(at)));
+        (low, high)
+    };
+    let (across, along) = (span(a), span(b));
+    let widest = (across.1 - across.0).max(along.1 - along.0);
+    let cell = scene.cell * (widest / (scene.cell * MOST)).ceil().max(1.0);
+    let lines = |(low, high): (f64, f64)| ((low / cell).floor() - 1.0, (high / cell).ceil() + 1.0);
+    let (across, along) = (lines(across), lines(along));
+    let stroke = Stroke::new(1.0, shown.look.grid);
+    let point =
+        |x: f64, y: f64| placed(stage, a * (x * cell) + b * (y * cell) + scene.up * scene.floor);
+    let mut at = across.0;
+    while at <= across.1 {
+        painter.line_segment([point(at, along.0), point(at, along.1)], stroke);
+        at += 1.0;
+    }
+    let mut at = along.0;
+    while at <= along.1 {
+        painter.line_segment([point(across.0, at), point(across.1, at)], stroke);
+        at += 1.0;
+    }
+}
+
+/// Draws what of a pose falls on the floor from straight above.
+pub(super) fn shadow(painter: &Painter, stage: &Stage, pose: &[DVec3], shown: &Shown<'_>) {
+    let flat: Vec<DVec3> = pose.iter().map(|point| shown.scene.on_floor(*point)).collect();
+    let mut drawn = stage.draw(&flat);
+    drawn.head = None;
+    body::draw(painter, &drawn, body::Inks::One(shown.look.shadow, 1.0), &shown.look);
+}
+
+/// Two level axes.
+fn axes(scene: &Scene) -> (DVec3, DVec3) {
+    if scene.up == DVec3::Z { (DVec3::X, DVec3::Y) } else { (DVec3::X, DVec3::Z) }
+}

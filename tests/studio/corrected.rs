@@ -1,0 +1,173 @@
+//! Keys by hand: on the keyboard, on the sheet, over the curves.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Pos2, Rect, pos2};
+use egui_kittest::kittest::Queryable;
+use genga::time::Frame;
+
+use crate::table::Table;
+
+/// The height of a koma on the sheet.
+const ROW: f32 = 17.0;
+
+impl Table {
+    fn tap(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.harness.run();
+    }
+
+    /// To a koma, from 1, by the keyboard.
+    fn go(&mut self, koma: usize) {
+        self.tap(Modifiers::NONE, Key::Home);
+        (1..koma).for_each(|_| self.harness.key_press(Key::ArrowRight));
+        self.harness.run();
+    }
+
+    fn canvas(&self, name: &str) -> Rect {
+        self.harness.get_by_role_and_label(Role::Canvas, name).rect()
+    }
+
+    fn drag(&mut self, from: Pos2, to: Pos2) {
+        self.harness.hover_at(from);
+        self.harness.drag_at(from);
+        self.harness.run();
+        for step in 1..=6 {
+            self.harness.hover_at(from + (to - from) * (step as f32 / 6.0));
+            self.harness.run();
+        }
+        self.harness.drop_at(to);
+        self.harness.run();
+    }
+
+    fn pins(&self) -> Vec<usize> {
+        self.edits().pins.iter().map(|pin| pin.frame.0).collect()
+    }
+
+    fn moves(&self) -> Vec<(usize, usize)> {
+        self.edits().moves.iter().map(|moved| (moved.from.0, moved.to.0)).collect()
+    }
+}
+
+#[test]
+fn a_key_is_set_and_taken_back_on_the_keyboard() {
+    let mut table = Table::with_kick();
+    table.go(43);
+    table.tap(Modifiers::NONE, Key::K);
+    assert_eq!(table.pins(), [42], "koma 43 shows frame 42");
+    table.harness.get_by_label("Take back: locked 42");
+    table.tap(Modifiers::NONE, Key::K);
+    assert!(table.edits().is_empty());
+    table.tap(Modifiers::COMMAND, Key::Z);
+    assert_eq!(table.pins(), [42]);
+}
+
+#[test]
+fn a_found_key_is_locked_moved_and_forbidden_on_the_keyboard() {
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::ArrowDown);
+    table.tap(Modifiers::NONE, Key::L);
+    let [frame] = table.pins()[..] else { panic!("{:?}", table.pins()) };
+    table.tap(Modifiers::NONE, Key::L);
+    assert!(table.edits().is_empty());
+    table.tap(Modifiers::ALT, Key::ArrowRight);
+    assert_eq!(table.moves(), [(frame, frame + 1)]);
+    table.tap(Modifiers::ALT, Key::ArrowLeft);
+    assert!(table.edits().is_empty(), "it is where it was");
+    table.tap(Modifiers::NONE, Key::K);
+    assert_eq!(table.edits().forbidden.len(), 1);
+    table.harness.get_by_label_contains("Take back: no genga").click();
+    table.harness.run();
+    assert!(table.edits().is_empty());
+}
+
+#[test]
+fn corrections_survive_another_recipe() {
+    let mut table = Table::with_kick();
+    table.go(43);
+    table.tap(Modifiers::NONE, Key::K);
+    table.harness.get_by_label("On threes").click();
+    table.harness.run();
+    assert_eq!(table.pins(), [42]);
+    table.harness.get_by_label_contains("frame 42");
+}
+
+#[test]
+fn a_key_is_dragged_on_the_sheet_in_one_step() {
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::ArrowDown);
+    let koma = table.harness.state().title();
+    assert_eq!(koma, "kick – genga", "nothing is changed yet");
+    table.tap(Modifiers::NONE, Key::L);
+    let [frame] = table.pins()[..] else { panic!("{:?}", table.pins()) };
+    table.tap(Modifiers::COMMAND, Key::Z);
+    let sheet = table.canvas("Timesheet");
+    let row = |koma: usize| pos2(sheet.min.x + 62.0, sheet.min.y + ROW * (koma as f32 + 0.5));
+    table.drag(row(frame), row(frame + 2));
+    assert_eq!(table.moves(), [(frame, frame + 2)]);
+    table.tap(Modifiers::COMMAND, Key::Z);
+    assert!(table.edits().is_empty(), "the whole drag was one step");
+}
+
+#[test]
+fn a_key_is_dragged_over_the_curves() {
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::ArrowDown);
+    table.tap(Modifiers::NONE, Key::L);
+    let [frame] = table.pins()[..] else { panic!("{:?}", table.pins()) };
+    let curves = table.canvas("Speed curves");
+    let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
+    let place = |frame: usize| left + (right - left) * frame as f32 / 91.0;
+    let number = |frame: usize| pos2(place(frame), curves.min.y + 25.0);
+    table.drag(number(frame), number(frame + 2));
+    assert_eq!(table.pins(), [frame + 2], "a pin moves as a pin");
+}
+
+#[test]
+fn a_name_is_taken_on_when_the_field_is_left() {
+    let mut table = Table::with_kick();
+    table.go(43);
+    table.tap(Modifiers::NONE, Key::K);
+    table.tap(Modifiers::NONE, Key::N);
+    table.harness.get_by_label("Name of the genga").type_text("contact");
+    table.harness.run();
+    assert_eq!(table.edits().pins[0].name, None, "not with every letter");
+    table.tap(Modifiers::NONE, Key::Enter);
+    assert_eq!(table.edits().pins[0].name.as_deref(), Some("contact"));
+    assert_eq!(table.edits().pins[0].frame, Frame(42));
+}
+
+#[test]
+fn a_name_that_is_given_up_is_not_taken_on() {
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::ArrowDown);
+    table.tap(Modifiers::NONE, Key::N);
+    table.harness.get_by_label("Name of the genga").type_text("contact");
+    table.harness.run();
+    table.tap(Modifiers::NONE, Key::Escape);
+    assert!(table.edits().is_empty());
+}
+
+#[test]
+fn a_key_gets_a_spacing_weight_of_its_own() {
+    let mut table = Table::with_kick();
+    table.go(43);
+    table.tap(Modifiers::NONE, Key::K);
+    let weight = table.recipe().spacing.weight;
+    table.harness.get_all_by_label("Own spacing weight").next().unwrap().click();
+    table.harness.run();
+    assert_eq!(table.edits().pins[0].weight, Some(weight));
+}
+
+#[test]
+fn what_the_chain_refuses_is_said_and_undone() {
+    let mut table = Table::with_kick();
+    for frame in [42, 43] {
+        table.go(frame + 1);
+        table.tap(Modifiers::NONE, Key::K);
+    }
+    let before = table.edits().clone();
+    assert_eq!(table.pins(), [42, 43]);
+    table.tap(Modifiers::ALT, Key::ArrowLeft);
+    table.harness.get_by_label_contains("pinned or moved to twice");
+    assert_eq!(*table.edits(), before);
+}

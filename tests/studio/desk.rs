@@ -1,0 +1,58 @@
+//! Files in memory.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use genga::cli::disk::Disk;
+use genga::studio::{Desk, Export, Opened};
+
+/// Reads clips from the disk, and has all other files in memory.
+#[derive(Default)]
+pub(crate) struct Memory {
+    pub(crate) files: Mutex<BTreeMap<PathBuf, String>>,
+    /// What every write says instead of writing.
+    pub(crate) is_full: Mutex<bool>,
+    disk: Disk,
+}
+
+impl Memory {
+    /// The text of a file; none where there is none.
+    pub(crate) fn text(&self, path: &Path) -> Option<String> {
+        self.files.lock().unwrap().get(path).cloned()
+    }
+}
+
+impl Desk for Memory {
+    fn open(&self, clip: &Path) -> Result<Opened, String> {
+        self.disk.open(clip)
+    }
+
+    fn read(&self, path: &Path) -> Result<Option<String>, String> {
+        Ok(self.text(path))
+    }
+
+    fn write(&self, path: &Path, text: &str) -> Result<(), String> {
+        if *self.is_full.lock().unwrap() {
+            return Err(format!("{}: no space left", path.display()));
+        }
+        self.files.lock().unwrap().insert(path.to_owned(), text.to_owned());
+        Ok(())
+    }
+
+    fn remove(&self, path: &Path) -> Result<(), String> {
+        self.files.lock().unwrap().remove(path);
+        Ok(())
+    }
+
+    fn export(&self, folder: &Path, export: &Export<'_>) -> Result<Vec<String>, String> {
+        self.disk.export(folder, export)
+    }
+}
+
+impl Memory {
+    /// Puts a file there.
+    pub(crate) fn write_text(&self, path: &Path, text: &str) {
+        self.files.lock().unwrap().insert(path.to_owned(), text.to_owned());
+    }
+}

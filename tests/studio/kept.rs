@@ -1,0 +1,161 @@
+//! Saved, opened, recovered, exported.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use egui::{Key, Modifiers, Theme};
+use egui_kittest::kittest::Queryable;
+use genga::recipe::Recipe;
+use genga::studio::Language;
+
+use crate::desk::Memory;
+use crate::table::{Table, sample};
+
+/// A file that was dropped on the window.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+impl Table {
+    fn drop_file(&mut self, path: &Path) {
+        let dropped = Arc::new(Dropped(path.to_owned()));
+        self.harness.input_mut().dropped_files.push(dropped);
+        self.wait();
+    }
+
+    fn pin_contact(&mut self) {
+        self.harness.key_press(Key::Home);
+        (0..42).for_each(|_| self.harness.key_press(Key::ArrowRight));
+        self.harness.key_press(Key::K);
+        self.harness.run();
+        assert_eq!(self.edits().pins.len(), 1);
+    }
+}
+
+fn save(table: &mut Table) {
+    table.harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    table.harness.run();
+}
+
+#[test]
+fn a_save_is_a_recipe_that_the_command_line_reads_and_the_next_session_opens() {
+    let mut table = Table::with_kick();
+    table.pin_contact();
+    table.harness.get_by_label("On threes").click();
+    table.harness.run();
+    assert_eq!(table.harness.state().title(), "kick * – genga");
+    save(&mut table);
+    assert_eq!(table.harness.state().title(), "kick – genga");
+    let saved = table.desk.text(&sample("kick.genga.toml")).unwrap();
+    let (recipe, edits) = Recipe::parse(&saved).unwrap();
+    assert_eq!((&recipe, &edits), (table.recipe(), table.edits()));
+    let again =
+        Table::with(&sample("kick.bvh"), Arc::clone(&table.desk), Language::English, Theme::Light);
+    assert_eq!((again.recipe(), again.edits()), (&recipe, &edits));
+}
+
+#[test]
+fn what_was_not_saved_is_kept_and_offered_again() {
+    let autosave = sample("kick.genga-autosave.toml");
+    let mut table = Table::with_kick();
+    assert_eq!(table.desk.text(&autosave), None);
+    table.pin_contact();
+    assert!(table.desk.text(&autosave).unwrap().contains("frame = 42"));
+    let desk = Arc::clone(&table.desk);
+    drop(table);
+    let mut again =
+        Table::with(&sample("kick.bvh"), Arc::clone(&desk), Language::English, Theme::Light);
+    assert!(again.edits().is_empty());
+    again.harness.get_by_label("Recover").click();
+    again.harness.run();
+    assert_eq!(again.edits().pins.len(), 1);
+    assert!(again.harness.query_by_label("Recover").is_none());
+    save(&mut again);
+    assert_eq!(desk.text(&autosave), None, "what is saved needs no second copy");
+}
+
+#[test]
+fn what_was_left_can_be_thrown_away() {
+    let autosave = sample("kick.genga-autosave.toml");
+    let desk: Arc<Memory> = Arc::default();
+    desk.files.lock().unwrap().insert(autosave.clone(), "[spacing]\non = 3\n".into());
+    let mut table =
+        Table::with(&sample("kick.bvh"), Arc::clone(&desk), Language::English, Theme::Light);
+    table.harness.get_by_label("Discard").click();
+    table.harness.run();
+    assert_eq!(desk.text(&autosave), None);
+    assert_eq!(*table.recipe(), Recipe::default());
+}
+
+#[test]
+fn a_full_disk_is_said_and_nothing_is_lost() {
+    let mut table = Table::with_kick();
+    *table.desk.is_full.lock().unwrap() = true;
+    table.pin_contact();
+    table.harness.get_by_label_contains("no space left");
+    save(&mut table);
+    table.harness.get_by_label_contains("kick.genga.toml: no space left");
+    assert_eq!(table.harness.state().title(), "kick * – genga", "it is not saved");
+    *table.desk.is_full.lock().unwrap() = false;
+    save(&mut table);
+    assert!(table.desk.text(&sample("kick.genga.toml")).unwrap().contains("frame = 42"));
+}
+
+#[test]
+fn a_clip_is_opened_by_dropping_it_and_a_bad_one_leaves_the_other() {
+    let mut table = Table::empty(Arc::default(), Language::English, Theme::Dark);
+    table.drop_file(&sample("swing.bvh"));
+    assert_eq!(table.harness.state().title(), "swing – genga");
+    let place = tempfile::tempdir().unwrap();
+    let bad = place.path().join("bad.bvh");
+    std::fs::write(&bad, "HIERARCHY\nROOT").unwrap();
+    table.drop_file(&bad);
+    table.harness.get_by_label_contains("bad.bvh:2:");
+    assert_eq!(table.harness.state().title(), "swing – genga");
+}
+
+#[test]
+fn a_recipe_is_opened_by_its_name() {
+    let mut table = Table::with_kick();
+    let path = Path::new("/recipes/threes.toml");
+    table.desk.write_text(path, "[spacing]\non = 3\n");
+    table.harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    table.harness.run();
+    table.harness.get_by_label("File").type_text("/recipes/threes.toml");
+    table.harness.run();
+    table.harness.get_by_label("Open it").click();
+    table.harness.run();
+    assert_eq!(table.recipe().get("spacing.on").unwrap(), "3");
+    save(&mut table);
+    assert!(table.desk.text(path).unwrap().contains("on = 3"));
+}
+
+#[test]
+fn an_export_is_what_a_run_writes() {
+    let place = tempfile::tempdir().unwrap();
+    let clip = place.path().join("kick.bvh");
+    std::fs::copy(sample("kick.bvh"), &clip).unwrap();
+    let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
+    table.harness.get_by_label("Export").click();
+    table.harness.run();
+    let folder = place.path().join("kick-genga");
+    for file in ["sheet.json", "keys.csv", "limited.bvh", "recipe.toml", "report.json", "speed.svg"]
+    {
+        assert!(folder.join(file).is_file(), "{file}");
+    }
+    // A sheet that was edited by hand is spared, as by a run.
+    let sheet = std::fs::read_to_string(folder.join("sheet.json")).unwrap();
+    std::fs::write(folder.join("sheet.json"), sheet.replace("\"koma\": 2", "\"koma\": 3")).unwrap();
+    table.harness.get_by_label("Export").click();
+    table.harness.run();
+    table.harness.get_by_label_contains("is not as a run wrote it");
+}

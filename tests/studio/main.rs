@@ -1,0 +1,14 @@
+//! The studio without a window: every control by its name, every key, and pictures of it.
+//!
+//! The harness fails a test by itself where a letter has no glyph or a control has no name.
+
+#![allow(clippy::unwrap_used, reason = "a test")]
+
+mod corrected; // keys by hand: on the keyboard, on the sheet, over the curves
+mod desk; // files in memory, and a disk that is full
+mod kept; // saved, opened, recovered, exported
+mod pictures; // what it looks like
+mod seen; // play, step, loop, flip, look from a side
+mod soft; // a renderer without a graphics card
+mod table; // a studio with a clip on the table
+mod turned; // knobs and presets, undone and redone
