@@ -1,4 +1,4 @@
-//! The real clips, each run with the defaults and with the two other merges.
+//! The real clips, each run with the defaults and with the other merges.
 
 use std::fs;
 
@@ -11,8 +11,8 @@ use genga::sheet::{Role, Sheet};
 
 use crate::{Outcome, root};
 
-/// The three merges, the default among them.
-pub(crate) const MERGES: [&str; 3] = ["vote", "sum", "union"];
+/// All merges, the default among them.
+pub(crate) const MERGES: [&str; 4] = ["vote", "sum", "union", "every"];
 
 /// A clip and what the chain makes of it.
 pub(crate) struct Take {

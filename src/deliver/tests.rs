@@ -76,7 +76,11 @@ pub(crate) fn wave() -> Clip {
 
 pub(crate) fn recipe() -> Recipe {
     let mut recipe = Recipe::default();
-    recipe.set("omission.naka_nashi", "2").unwrap();
+    for (knob, value) in
+        [("omission.naka_nashi", "2"), ("keys.min_price", "2.5"), ("keys.per_second", "4.5")]
+    {
+        recipe.set(knob, value).unwrap();
+    }
     recipe
 }
 

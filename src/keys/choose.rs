@@ -55,17 +55,17 @@ pub struct Choose {
     /// By what keys are ranked. Default: `price`.
     pub rank: Rank,
     /// What a key costs, in % of body height: it must save an error so large for an eighth of a second;
-    /// 0 or more, default 2.5. Raised, small gestures lose their keys first. It counts when ranked by
+    /// 0 or more, default 3. Raised, small gestures lose their keys first. It counts when ranked by
     /// price.
     pub min_price: f64,
     /// The speed below which the whole body rests, in % of its height a second (the posture's: pelvis,
-    /// heading, and root mean square over the other points); 0 or more, default 12, 0 for no rests. Both ends of a rest of half a second or more
+    /// heading, and root mean square over the other points); 0 or more, default 15, 0 for no rests. Both ends of a rest of half a second or more
     /// are keys whatever they save. Raised, slow gestures count as rests.
     pub rest: f64,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
     pub min_strength: f64,
-    /// Found keys a second at the most; pins and the ends of rests come on top. Above 0, default 4.5,
+    /// Found keys a second at the most; pins and the ends of rests come on top. Above 0, default 6,
     /// `inf` for no limit. Where more would be worth it the price is raised until they fit: lowered, it
     /// takes those that save least.
     pub per_second: f64,
@@ -81,10 +81,10 @@ impl Default for Choose {
             merge: Merge::Every,
             reach: Span::Seconds(0.08),
             rank: Rank::Price,
-            min_price: 2.5,
-            rest: 12.0,
+            min_price: 3.0,
+            rest: 15.0,
             min_strength: 0.0,
-            per_second: 4.5,
+            per_second: 6.0,
             weights: JointWeights::default(),
         }
     }

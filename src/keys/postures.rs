@@ -53,13 +53,15 @@ impl Postures {
     }
 
     /// How fast the posture changes into each instant from the second on, in % of the body's height a
-    /// second.
+    /// second: over a whole koma, as what trembles from one half of it to the next is no movement.
     pub(super) fn speeds(&self, instants_a_second: f64) -> Vec<f64> {
-        let way = |at: usize| {
-            let steps = self.row(at).iter().zip(self.row(at - 1));
-            steps.map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt()
+        let speed = |at: usize| {
+            let before = at.saturating_sub(2);
+            let steps = self.row(at).iter().zip(self.row(before));
+            let way = steps.map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt();
+            instants_a_second * way / (at - before) as f64
         };
-        (1..self.len()).map(|at| instants_a_second * way(at)).collect()
+        (1..self.len()).map(speed).collect()
     }
 
     /// The body at an instant.

@@ -154,6 +154,7 @@ fn drawings_never_cost_keys_that_were_asked_for() {
 fn a_fixed_number_of_inbetweens_gives_way_where_no_number_will_do() {
     let mut engine = engine("kuroda-pitch");
     let mut recipe = Recipe::default();
+    (recipe.keys.min_price, recipe.keys.per_second) = (2.5, 4.5);
     recipe.spacing.on = On::every(1);
     recipe.spacing.inbetweens = Some(0);
     recipe.omission.keep_length = false;

@@ -15,10 +15,10 @@ use crate::rerig::Rerig;
 /// Hundredths of a koma: fine enough to compare keys of clips of different rates.
 const FINE: f64 = 100.0;
 
-/// Where the default recipe's keys are, in hundredths of a koma.
-fn keys(clip: &Clip, per_second: f64) -> Vec<Frame> {
+/// Where the default recipe's keys are at a price, in hundredths of a koma.
+fn keys(clip: &Clip, min_price: f64) -> Vec<Frame> {
     let mut recipe = Recipe::default();
-    recipe.keys.per_second = per_second;
+    recipe.keys.min_price = min_price;
     let mut engine = Engine::new(clip.clone()).unwrap();
     let (_, layer) = engine.find_keys(&recipe, &Edits::default()).unwrap();
     let fine = |frame: Frame| FINE * (frame.0 - clip.first().0) as f64 * 24.0 / clip.rate().fps();
@@ -27,7 +27,8 @@ fn keys(clip: &Clip, per_second: f64) -> Vec<Frame> {
 
 /// How far the keys of two clips agree within a koma (F1).
 fn agreement(clip: &Clip, other: &Clip) -> f64 {
-    Matching::between(&keys(clip, 4.5), &keys(other, 4.5), FINE + 1.0).kept()
+    let [one, two] = [clip, other].map(|clip| keys(clip, Recipe::default().keys.min_price));
+    Matching::between(&one, &two, FINE + 1.0).kept()
 }
 
 /// How far the keys of the real clips agree with those of what is made of them, in the mean; the names of those
@@ -50,15 +51,18 @@ fn the_same_take_in_two_rigs_has_the_same_keys() {
     let find =
         |name| paths.iter().find(|path| clips::name(path) == name).map(|path| clips::read(path));
     let [Some(one), Some(other)] = takes.map(find) else { return };
-    let mut all = 0.0;
-    let limits = [3.5, 4.0, 4.5, 5.0, 6.0, f64::INFINITY];
-    for limit in limits {
-        let matching = Matching::between(&keys(&one, limit), &keys(&other, limit), FINE + 1.0);
-        assert!(matching.kept() > 0.8, "{limit} a second: {}", matching.kept());
-        all += matching.kept();
-    }
-    assert!(all / limits.len() as f64 >= 0.9, "{}", all / limits.len() as f64);
-    assert!(agreement(&one, &other) >= 0.9);
+    // Both were cut from one take and number its frames alike.
+    let later = FINE * (other.first().0 - one.first().0) as f64 * 24.0 / one.rate().fps();
+    let agreement = |price: f64| {
+        let shift = |frame: &Frame| Frame(frame.0 + later.round() as usize);
+        let of_other: Vec<Frame> = keys(&other, price).iter().map(shift).collect();
+        Matching::between(&keys(&one, price), &of_other, FINE + 1.0).kept()
+    };
+    let prices = [2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5];
+    let all = prices.map(agreement);
+    assert!(all.iter().all(|share| *share > 0.75), "{all:?}");
+    assert!(all.iter().sum::<f64>() / prices.len() as f64 >= 0.9, "{all:?}");
+    assert!(agreement(Recipe::default().keys.min_price) >= 0.9, "{all:?}");
 }
 
 #[test]

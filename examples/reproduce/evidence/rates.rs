@@ -1,4 +1,4 @@
-//! How much is drawn: the rates of every clip, and the three merges side by side.
+//! How much is drawn: the rates of every clip, and the merges side by side.
 
 use crate::Outcome;
 use crate::evidence::events::{self, Event};
