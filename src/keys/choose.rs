@@ -59,8 +59,9 @@ pub struct Choose {
     /// price.
     pub min_price: f64,
     /// The speed below which the whole body rests, in % of its height a second (the posture's: pelvis,
-    /// heading, and root mean square over the other points); 0 or more, default 15, 0 for no rests. Both ends of a rest of half a second or more
-    /// are keys whatever they save. Raised, slow gestures count as rests.
+    /// heading, and root mean square over the other points); 0 or more, default 15, 0 for no rests.
+    /// Both ends of a rest of half a second or more are keys whatever they save. Raised, slow gestures
+    /// count as rests.
     pub rest: f64,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
