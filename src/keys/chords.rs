@@ -12,7 +12,7 @@ const PAIRS: usize = 1 << 21;
 pub(super) const STEP: f64 = 0.5;
 
 /// Seconds between two keys up to which every pair is known, however long the clip.
-const LEAST_REACH: f64 = 4.0;
+const LEAST_REACH: f64 = 2.0;
 
 /// The loss of every chord up to some length.
 ///
@@ -26,8 +26,9 @@ pub struct Chords {
     clock: Clock,
     /// The most instants from one end of a known chord to the other.
     reach: usize,
-    /// Instants × reach: the loss from each instant to the first, second … after it.
-    losses: Vec<f64>,
+    /// Instants × reach: the loss from each instant to the first, second … after it. Seven digits of a
+    /// sum of squares are more than any motion has, and half the memory.
+    losses: Vec<f32>,
 }
 
 impl Chords {
@@ -39,8 +40,7 @@ impl Chords {
         let len = postures.len();
         let least = (LEAST_REACH * clock.koma_rate).ceil() as usize;
         let reach = (PAIRS / len.max(1)).max(least).min(len.saturating_sub(1));
-        let mut chords = Self { postures, clock, reach, losses: Vec::new() };
-        chords.losses = chords.products();
+        let mut chords = Self { postures, clock, reach, losses: vec![0.0; len * reach] };
         chords.sum_up();
         chords
     }
@@ -73,7 +73,7 @@ impl Chords {
     /// What is lost from one instant to a later one within reach.
     #[inline]
     pub(super) fn known(&self, from: usize, to: usize) -> f64 {
-        self.losses[from * self.reach + (to - from - 1)]
+        f64::from(self.losses[from * self.reach + (to - from - 1)])
     }
 
     /// What is lost from one instant to a later one, however far.
@@ -95,19 +95,7 @@ impl Chords {
         STEP * (from + 1..to).map(off).sum::<f64>()
     }
 
-    /// The scalar product of each pair, where its loss will be.
-    fn products(&self) -> Vec<f64> {
-        let mut products = vec![0.0; self.len() * self.reach];
-        for (from, row) in products.chunks_exact_mut(self.reach.max(1)).enumerate() {
-            let own = self.postures.row(from);
-            for (product, to) in row.iter_mut().zip(from + 1..self.len()) {
-                *product = dot(own, self.postures.row(to));
-            }
-        }
-        products
-    }
-
-    /// Makes losses of the products. Seen from its begin a chord needs the sums of a·p and of those
+    /// Finds every loss within reach. Seen from its begin a chord needs the sums of a·p and of those
     /// times the distance from a over the postures p inside, and the same seen from its end: the
     /// former grow with each end, the latter with each begin.
     fn sum_up(&mut self) {
@@ -123,16 +111,17 @@ impl Chords {
         let mut from_end = vec![(0.0, 0.0); len];
         for from in (0..len).rev() {
             let mut from_begin = (0.0, 0.0);
+            let own = self.postures.row(from);
             let row = &mut self.losses[from * self.reach..(from + 1) * self.reach];
-            for (value, to) in row.iter_mut().zip(from + 1..len) {
-                let (product, n) = (*value, (to - from) as f64);
+            for (loss, to) in row.iter_mut().zip(from + 1..len) {
+                let (product, n) = (dot(own, self.postures.row(to)), (to - from) as f64);
                 let inside = until[to] - until[from + 1];
                 let (begin, end) = (from_begin, from_end[to]);
                 let cross = begin.0 - begin.1 / n + end.0 - end.1 / n;
                 let of_ends =
                     (squares[from] + squares[to]) * (n - 1.0) * (2.0 * n - 1.0) / (6.0 * n);
                 let both = product * (n * n - 1.0) / (3.0 * n);
-                *value = STEP * (inside - 2.0 * cross + of_ends + both).max(0.0);
+                *loss = (STEP * (inside - 2.0 * cross + of_ends + both).max(0.0)) as f32;
                 from_begin.0 += product;
                 from_begin.1 += n * product;
                 from_end[to].0 += product;
