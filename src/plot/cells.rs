@@ -12,21 +12,21 @@ use crate::sheet::{Drawing, Exposure, Layer, Sheet};
 
 /// A drawing on screen.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cell<'a> {
-    pub(super) drawing: &'a Drawing,
+pub(crate) struct Cell<'a> {
+    pub(crate) drawing: &'a Drawing,
     /// Its index in the layer.
-    pub(super) index: usize,
+    pub(crate) index: usize,
     /// The number of a kept drawing among the kept, from 1, as in the key table.
-    pub(super) genga: Option<usize>,
+    pub(crate) genga: Option<usize>,
     /// The koma it begins on, from 0.
-    pub(super) koma: usize,
+    pub(crate) koma: usize,
     /// Koma on screen.
-    pub(super) held: usize,
+    pub(crate) held: usize,
 }
 
 impl Cell<'_> {
     /// The number in the CELL column, from 1.
-    pub(super) fn number(&self) -> usize {
+    pub(crate) fn number(&self) -> usize {
         self.index + 1
     }
 
@@ -64,7 +64,7 @@ impl Cell<'_> {
 }
 
 /// The exposures of a layer, labelled.
-pub(super) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
+pub(crate) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
     let numbers = layer.genga_numbers();
     let cell = |(koma, exposure): (usize, Exposure)| {
         let index = exposure.drawing;

@@ -1,5 +1,6 @@
 //! What the studio draws with too, so that a figure is one thing everywhere.
 
+pub(crate) use super::cells::{Cell, cells};
 pub(crate) use super::figure::{Drawn, Figure};
 pub(crate) use super::points::Posing;
 pub(crate) use super::stage::{Stage, fitting};

@@ -15,6 +15,8 @@ pub struct Knob {
     pub unit: &'static str,
     /// What it does, in a sentence or two.
     pub help: &'static str,
+    /// The same in Japanese.
+    pub japanese_help: &'static str,
 }
 
 /// What a knob takes.
@@ -61,6 +63,7 @@ pub const KNOBS: &[Knob] = &[
         kind: number(2.0, 60.0),
         unit: "koma a second",
         help: "Koma a second of the sheet: 24 in film and TV animation.",
+        japanese_help: "シートの毎秒コマ数。映画やテレビアニメは24。",
     },
     Knob {
         name: "speed.measure",
@@ -69,6 +72,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         help: "How fast a joint is: its rotation against its parent, its way through the world, both, \
                or the signed change of its own rotation angle (for studies).",
+        japanese_help: "部位の速さの測り方。親に対する回転、空間での移動、その両方、\
+                        または自身の回転角の符号つき変化（研究用）。",
     },
     Knob {
         name: "filter.kind",
@@ -76,6 +81,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Choice(&["box", "gaussian", "ideal", "butterworth"]),
         unit: "",
         help: "How the speeds are smoothed.",
+        japanese_help: "速さをならす方法。",
     },
     Knob {
         name: "filter.width",
@@ -83,6 +89,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Span,
         unit: "source frames or seconds",
         help: "How wide the smoothing is. Wider finds fewer keys and blurs quick double actions.",
+        japanese_help: "ならす幅。広いほど原画は減り、素早い二段の動きはぼやける。",
     },
     Knob {
         name: "turns.reading",
@@ -91,6 +98,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         help: "What a turn is: every rest and slowing has its end and its start (event), or the first \
                paper to the letter (literal), which loses the ends of movements.",
+        japanese_help: "動きの変わり目の読み方。止まりや減速ごとに終わりと始まりを取る (event) か、\
+                        第一論文の文言どおり (literal) で、この場合は動き終わりが失われる。",
     },
     Knob {
         name: "turns.steady",
@@ -98,6 +107,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Band,
         unit: "°/s², or a share of the joint's own 95th percentile (\"5%\")",
         help: "Accelerations up to this count as none. Raised, slow gestures lose their keys.",
+        japanese_help: "この加速度までは等速とみなす。上げると、ゆっくりした芝居の原画がなくなる。",
     },
     Knob {
         name: "turns.persistence",
@@ -105,6 +115,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Span,
         unit: "source frames or seconds",
         help: "How long a change must last to count. Longer finds fewer keys.",
+        japanese_help: "変化がどれだけ続けば数えるか。長いほど原画は減る。",
     },
     Knob {
         name: "turns.side",
@@ -113,6 +124,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         help: "Where it must last, in the literal reading: after the turn, on both sides of it, or after \
                it with every step rising.",
+        japanese_help: "literal のとき、どちら側で続けばよいか。変わり目の後、前後の両方、\
+                        または後で毎フレーム速くなり続けること。",
     },
     Knob {
         name: "keys.merge",
@@ -121,6 +134,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         help: "What may be a key: every moment, a turn of any joint (union), what joints elect that vote \
                with the length of what hangs on them, or turns of their speeds added up (sum).",
+        japanese_help: "原画の候補。すべての瞬間 (every)、いずれかの部位の変わり目 (union)、\
+                        先につながる長さを票とする部位の投票 (vote)、速さの合計の変わり目 (sum)。",
     },
     Knob {
         name: "keys.reach",
@@ -129,6 +144,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "source frames or seconds",
         help: "How far a joint's vote carries: longer joins turns that lie further apart into one key. With \
                union it decides which of two turns nearer than a koma stays.",
+        japanese_help: "部位の票が届く範囲。長いほど離れた変わり目が一枚の原画にまとまる。union では、\
+                        1コマより近い二つの変わり目のどちらを残すかを決める。",
     },
     Knob {
         name: "keys.rank",
@@ -137,6 +154,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         help: "What decides between keys: what they save together at a price a drawing, or how many joints \
                turn.",
+        japanese_help: "原画どうしの選び方。一枚の値段に対して全体で減る誤差か、\
+                        変わり目となる部位の多さか。",
     },
     Knob {
         name: "keys.min_price",
@@ -145,6 +164,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "% of body height",
         help: "What a key costs: it must save an error so large for an eighth of a second. Higher keeps \
                fewer; small gestures go first.",
+        japanese_help: "原画一枚の値段。これだけの誤差を8分の1秒のあいだ減らす原画だけが残る。\
+                        上げると原画は減り、小さな芝居から消える。",
     },
     Knob {
         name: "keys.rest",
@@ -152,6 +173,7 @@ pub const KNOBS: &[Knob] = &[
         kind: number(0.0, 60.0),
         unit: "% of body height a second",
         help: "Slower than this for half a second, the whole body rests: both ends of a rest are keys.",
+        japanese_help: "全身がこれより遅い状態が半秒続けば止めとみなし、その両端を原画にする。",
     },
     Knob {
         name: "keys.min_strength",
@@ -159,6 +181,7 @@ pub const KNOBS: &[Knob] = &[
         kind: number(0.0, 1.0),
         unit: "share of all votes, for sum the depth of the valley",
         help: "How strong a key must be at the least.",
+        japanese_help: "原画に最低限必要な強さ。",
     },
     Knob {
         name: "keys.per_second",
@@ -167,6 +190,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "keys a second, inf for no limit",
         help: "That many found keys at the most; pins and ends of rests come on top. Where more are worth it \
                the price rises until they fit.",
+        japanese_help: "見つける原画の毎秒の上限。固定した原画と止めの両端は別に数える。\
+                        超えるときは収まるまで値段が上がる。",
     },
     Knob {
         name: "spacing.on",
@@ -175,6 +200,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "koma, 1 (ones) or more, or the fewest and the most (\"1-3\")",
         help: "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes. 1-3 chooses for each \
                interval: fast on ones, slow on threes (打ち分け).",
+        japanese_help: "何コマごとに絵を置くか。1は1コマ打ち、2は2コマ打ち、3は3コマ打ち。\
+                        1-3 は区間ごとに選び、速いところは1コマ、遅いところは3コマ（打ち分け）。",
     },
     Knob {
         name: "spacing.step",
@@ -183,6 +210,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "% of body height",
         help: "Where spacing.on is a range: how far the body may go from one drawing to the next. More \
                puts more of the motion on threes.",
+        japanese_help: "spacing.on が範囲のとき、次の絵までに体が動いてよい量。\
+                        大きいほど3コマ打ちが増える。",
     },
     Knob {
         name: "spacing.inbetweens",
@@ -190,6 +219,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Number { min: 0.0, max: 12.0, whole: true, optional: true },
         unit: "drawings, or none",
         help: "A fixed number of inbetweens between two keys instead.",
+        japanese_help: "コマ打ちの代わりに、原画のあいだの中割りを決まった枚数にする。",
     },
     Knob {
         name: "spacing.weight",
@@ -198,6 +228,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "0 (even) to below 1",
         help: "How far inbetweens crowd towards their key (spacing, 詰め). More makes the middle of a \
                movement snap.",
+        japanese_help: "中割りを近い原画にどれだけ寄せるか（詰め）。大きいほど動きの真ん中が飛び、\
+                        メリハリが出る。",
     },
     Knob {
         name: "spacing.max_shift",
@@ -205,6 +237,7 @@ pub const KNOBS: &[Knob] = &[
         kind: number(0.0, 6.0),
         unit: "koma",
         help: "How far an inbetween may be taken from its own time.",
+        japanese_help: "中割りを本来の時刻からどれだけずらしてよいか。",
     },
     Knob {
         name: "spacing.source",
@@ -212,6 +245,8 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Choice(&["sample", "blend"]),
         unit: "",
         help: "What an inbetween shows: the performer's own arc, or a blend of the two keys alone.",
+        japanese_help: "中割りに何を描くか。演者の実際の軌道 (sample) か、\
+                        前後の原画だけを混ぜたもの (blend) か。",
     },
     Knob {
         name: "omission.naka_nashi",
@@ -220,6 +255,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "drawings, or a share of the koma (at most 6)",
         help: "How many inbetweens of the fastest movement are left out (naka-nashi). More than about 6 \
                in one action and it jumps.",
+        japanese_help: "いちばん速い動きの中割りを何枚抜くか（中無し）。\
+                        一つの動きで6枚ほどを超えると飛んで見える。",
     },
     Knob {
         name: "omission.koma_dori",
@@ -228,6 +265,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "drawings, or a share of the drawings",
         help: "How many inbetweens of the slowest movement are held over (koma-dori). More stills small \
                movements.",
+        japanese_help: "いちばん遅い動きの中割りを何枚止めに変えるか（コマ撮り）。\
+                        多いほど小さな動きが止まる。",
     },
     Knob {
         name: "omission.max_hold",
@@ -236,6 +275,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "koma",
         help: "How long a drawing may stay because others were left out, though never less than two \
                drawings' time (4 koma on twos). Longer freezes the body.",
+        japanese_help: "抜いた分、一枚をどこまで長く見せてよいか。\
+                        ただし絵二枚分（2コマ打ちなら4コマ）を下回らない。長いほど体が固まる。",
     },
     Knob {
         name: "omission.keep_length",
@@ -243,6 +284,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Flag,
         unit: "",
         help: "Whether the koma of left-out drawings are given to their neighbours.",
+        japanese_help: "抜いた絵のコマを前後の絵に渡し、尺を保つかどうか。",
     },
     Knob {
         name: "omission.all_at_once",
@@ -250,6 +292,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Flag,
         unit: "",
         help: "Leave out the fastest drawings all at once instead of one by one: weaker, for comparison.",
+        japanese_help: "速い絵を一枚ずつでなく一度に抜く。効果は弱く、比較のためのもの。",
     },
     Knob {
         name: "omission.order",
@@ -257,6 +300,7 @@ pub const KNOBS: &[Knob] = &[
         kind: Kind::Choice(&["naka_nashi_first", "koma_dori_first"]),
         unit: "",
         help: "Which of the two comes first; it hardly matters.",
+        japanese_help: "どちらを先にするか。結果はほとんど変わらない。",
     },
 ];
 

@@ -1,24 +1,27 @@
 //! A column of the sheet (セル) as it is looked things up in.
 
+use std::ops::Deref;
+
 use crate::keys::Key;
 use crate::pipeline::Breakdown;
-use crate::sheet::{Drawing, Layer, Source};
+use crate::plot::parts;
+use crate::sheet::{Layer, Source};
 use crate::time::Clock;
 
-/// An exposure with everything that is known of it.
+/// A cell as pictures know it, and the key behind it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell<'a> {
-    pub(super) drawing: &'a Drawing,
-    /// Index of the drawing in its layer.
-    pub(super) index: usize,
-    /// Its number among the kept drawings, from 1; none for inbetweens.
-    pub(super) genga: Option<usize>,
-    /// The koma it begins on, from 0.
-    pub(super) koma: usize,
-    /// Koma on screen.
-    pub(super) held: usize,
+    on_paper: parts::Cell<'a>,
     /// The key that it draws; none for inbetweens and ends.
     pub(super) key: Option<&'a Key>,
+}
+
+impl<'a> Deref for Cell<'a> {
+    type Target = parts::Cell<'a>;
+
+    fn deref(&self) -> &parts::Cell<'a> {
+        &self.on_paper
+    }
 }
 
 /// The first column of a sheet, exposure after exposure.
@@ -33,16 +36,11 @@ pub(super) struct Column<'a> {
 impl<'a> Column<'a> {
     pub(super) fn of(breakdown: &Breakdown<'a>) -> Self {
         let layer: &'a Layer = &breakdown.sheet.layers[0];
-        let numbers = layer.genga_numbers();
-        let cells: Vec<Cell<'a>> = layer
-            .timed()
-            .map(|(koma, exposure)| {
-                let index = exposure.drawing;
-                let drawing = &layer.drawings[index];
-                let key = key_at(&breakdown.keys.keys, drawing.source);
-                Cell { drawing, index, genga: numbers[index], koma, held: exposure.koma, key }
-            })
-            .collect();
+        let with_key = |on_paper: parts::Cell<'a>| {
+            let key = key_at(&breakdown.keys.keys, on_paper.drawing.source);
+            Cell { on_paper, key }
+        };
+        let cells = parts::cells(layer).into_iter().map(with_key).collect();
         Self { cells, clock: breakdown.clock, length: layer.length() }
     }
 

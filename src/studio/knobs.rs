@@ -133,8 +133,11 @@ fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
         if words.has_japanese {
             ui.label(knob.japanese);
         }
-        ui.label(knob.help);
-        ui.weak(knob.takes());
+        ui.label(words.say(knob.help, knob.japanese_help));
+        // Units are said in Japanese by the row; the words of a choice are those of the recipe.
+        if !words.is_japanese() || matches!(knob.kind, Kind::Choice(_)) {
+            ui.weak(knob.takes());
+        }
         ui.weak(format!("{} {default}", words.say("default", "初期値")));
     });
 }

@@ -179,7 +179,7 @@ fn standing(seen: Seen, shown: &Shown<'_>) -> String {
         (None, true) => "中割り".into(),
         (None, false) => "inbetween".into(),
     };
-    let (drawing, since, held) = (cell.index + 1, shown.at - cell.koma + 1, cell.held);
+    let (drawing, since, held) = (cell.number(), shown.at - cell.koma + 1, cell.held);
     match words.is_japanese() {
         true => format!("動画 {drawing} · {number} · {since}/{held}コマ目"),
         false => format!("drawing {drawing} · {number} · koma {since} of {held}"),

@@ -11,6 +11,7 @@ pub(super) const NOISE: Knob = Knob {
     kind: Kind::Number { min: 0.0, max: 10.0, whole: false, optional: false },
     unit: "degrees",
     help: "Gaussian noise on every rotation channel of the clip, as a standard deviation.",
+    japanese_help: "クリップのすべての回転に加えるガウスノイズの標準偏差。",
 };
 
 /// Which noise of that strength.
@@ -20,6 +21,7 @@ pub(super) const SEED: Knob = Knob {
     kind: Kind::Number { min: 0.0, max: 1e9, whole: true, optional: false },
     unit: "a whole number",
     help: "Another number is another noise of the same strength.",
+    japanese_help: "数を変えると、同じ強さの別のノイズになる。",
 };
 
 /// Noise (ノイズ) that a study adds to every rotation channel of a clip, frame by frame and each
