@@ -41,15 +41,15 @@ const BETWEEN: f64 = 20.0;
 const OWN: RGBColor = style::WALL;
 
 /// A layer koma by koma.
-struct Moves {
+pub(crate) struct Moves {
     /// SSD into each koma; 0 into the first and where a drawing is held.
-    ssd: Vec<f64>,
+    pub(crate) ssd: Vec<f64>,
     /// The koma on which each exposure begins.
     begins: Vec<usize>,
 }
 
 impl Moves {
-    fn of(clip: &Clip, layer: &Layer) -> Self {
+    pub(crate) fn of(clip: &Clip, layer: &Layer) -> Self {
         let stills = Stills::of(clip, layer);
         let drawings: Vec<usize> = layer.koma().collect();
         let ssd = drawings.windows(2).map(|pair| stills.ssd(pair[0], pair[1]));
@@ -57,7 +57,7 @@ impl Moves {
         Self { ssd: [0.0].into_iter().chain(ssd).collect(), begins }
     }
 
-    fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.ssd.iter().copied().fold(0.0, f64::max)
     }
 }

@@ -10,6 +10,7 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::JointId;
 use crate::motion::lanes::wide;
 use crate::signal::Signals;
 use crate::time::{Frame, Span};
@@ -150,6 +151,17 @@ impl TurnFinder {
             )
         };
         joints.map(turns).collect()
+    }
+
+    /// Of each step of a joint, from its row to the next, whether it is steady (等速): what the dead band
+    /// takes for no acceleration. One fewer than there are frames.
+    pub fn steady_steps(&self, filtered: &Signals, joint: JointId) -> Vec<bool> {
+        if filtered.frames() < 2 {
+            return vec![];
+        }
+        let mut scan = Scan::new(self, filtered, 0.0);
+        scan.read_signs(filtered.joint(joint));
+        scan.signs.iter().map(|sign| sign.is_eq()).collect()
     }
 
     /// M in whole frames; in the `event` reading no more than the clip has, as frames beyond the clip

@@ -104,6 +104,7 @@ impl Studio {
             | Command::Defaults
             | Command::Undo
             | Command::Redo => self.change(command),
+            Command::Movement => self.curves.movement = !self.curves.movement,
             Command::FocusName => self.key_panel.wants_focus = true,
             Command::Save => self.save(),
             Command::Export => self.export(),

@@ -1,8 +1,10 @@
 //! The curves (速度のグラフ): how fast chosen joints are, before and after the filter, with their keys and
-//! walls, under the numbers of the genga. Keys are corrected here frame by frame.
+//! walls, and how far the body moves into each koma, under the numbers of the genga. Keys are corrected here frame
+//! by frame.
 
 mod joints;
 mod lane;
+mod movement;
 mod ruler;
 mod time;
 
@@ -29,6 +31,8 @@ const NEAR: f32 = 10.0;
 pub(super) struct Curves {
     /// The joints whose curves and trails are drawn.
     pub(super) chosen: Vec<JointId>,
+    /// Whether the movement into each koma is drawn.
+    pub(super) movement: bool,
     /// All joints, those that move most first.
     order: Vec<JointId>,
     search: String,
@@ -41,7 +45,7 @@ impl Curves {
     /// Begins with a clip whose joints move in this order.
     pub(super) fn of(order: Vec<JointId>) -> Self {
         let chosen = order.iter().take(2).copied().collect();
-        Self { chosen, order, ..Self::default() }
+        Self { chosen, movement: true, order, ..Self::default() }
     }
 
     /// Shows the list of joints and the curves.
@@ -54,6 +58,8 @@ impl Curves {
     ) {
         let list = Panel::left("joints").exact_size(LIST).resizable(false);
         list.show(ui, |ui| {
+            let name = shown.words.say("Movement (SSD)", "動きの大きさ (SSD)");
+            ui.checkbox(&mut self.movement, name);
             joints::show(ui, shown, &self.order, &mut self.search, &mut self.chosen)
         });
         let rect = ui.available_rect_before_wrap();
@@ -134,13 +140,17 @@ impl Curves {
             painter.rect_filled(Rect::from_x_y_ranges(played, inside.y_range()), 0.0, look.chosen);
         }
         let below = inside.with_min_y(top.max.y);
-        let count = self.chosen.len().max(1) as f32;
-        let high = below.height() / count;
-        for (at, joint) in self.chosen.iter().enumerate() {
+        let count = self.chosen.len() + usize::from(self.movement);
+        let high = below.height() / count.max(1) as f32;
+        let lane = |at: usize| {
             let corner = below.min + vec2(0.0, high * at as f32);
-            let rect =
-                Rect::from_min_size(corner, vec2(below.width(), high)).shrink2(vec2(0.0, 3.0));
-            lane::draw(&painter, rect, *joint, time, shown);
+            Rect::from_min_size(corner, vec2(below.width(), high)).shrink2(vec2(0.0, 3.0))
+        };
+        for (at, joint) in self.chosen.iter().enumerate() {
+            lane::draw(&painter, lane(at), *joint, time, shown);
+        }
+        if self.movement {
+            movement::draw(&painter, lane(self.chosen.len()), time, shown);
         }
         painter.vline(place(shown.at), inside.y_range(), Stroke::new(2.0, look.playhead));
         ruler::draw(&painter, top, inside.max.y, time, shown);

@@ -42,6 +42,8 @@ pub(super) enum Command {
     Follow,
     Onion,
     Trails,
+    /// How far the body moves into each koma.
+    Movement,
     /// A key at the play head, or none.
     ToggleKey,
     /// The key at the play head stays, or may go again.
@@ -167,6 +169,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::C, Command::Follow, "camera follows the body", "カメラが体を追う"),
     key(NONE, Key::G, Command::Onion, "onion skin", "オニオンスキン"),
     key(NONE, Key::T, Command::Trails, "trails of the chosen joints", "選んだ関節の軌跡"),
+    key(NONE, Key::M, Command::Movement, "movement into each koma", "動きの大きさ"),
     key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
     key(NONE, Key::L, Command::Lock, "lock the genga here, or unlock it", "原画を固定・解除"),
     key(NONE, Key::N, Command::FocusName, "name the genga here", "原画に名前"),

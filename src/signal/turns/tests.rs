@@ -4,7 +4,6 @@ use nalgebra::DMatrix;
 use proptest::prelude::*;
 
 use super::*;
-use crate::motion::JointId;
 use crate::motion::bvh::{self, sample};
 use crate::signal::{FilterKind, LowPass, Spectrum, Speed, Unit};
 use crate::time::FrameRate;
@@ -226,6 +225,19 @@ fn a_joint_that_does_not_change_has_no_turns() {
             assert_eq!(found, (vec![], vec![]));
         }
     }
+}
+
+#[test]
+fn a_step_is_steady_where_its_acceleration_lies_in_the_band() {
+    let steady = |band, speeds: &[f64]| {
+        let speeds = signals(10.0, Unit::Length, &[vec![0.0; speeds.len()], speeds.to_vec()]);
+        finder(Reading::Event, band, 1.0).steady_steps(&speeds, JointId(1))
+    };
+    let speeds = [0.0, 2.0, 3.0, 3.0, 2.0, 0.0];
+    assert_eq!(steady(10.0, &speeds), [false, true, true, true, false]);
+    assert_eq!(steady(0.0, &speeds), [false, false, true, false, false]);
+    assert_eq!(steady(0.0, &[1.0]), []);
+    assert_eq!(steady(0.0, &[]), []);
 }
 
 #[test]

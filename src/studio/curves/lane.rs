@@ -1,10 +1,13 @@
-//! The curve of one joint: as measured, filtered, with its keys and walls.
+//! The curve of one joint: as measured, filtered, with its keys and walls, over a band where it counts as steady.
+
+use std::ops::Range;
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use super::time::Scale;
 use crate::motion::JointId;
 use crate::signal::{Turn, TurnKind};
+use crate::studio::look::Look;
 use crate::studio::shown::Shown;
 
 /// How far a raw peak may stand out over the filtered curve.
@@ -20,6 +23,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, 
         let share = (value - low) / (high - low);
         rect.max.y - (share as f32 * rect.height()).clamp(0.0, rect.height())
     };
+    steady(painter, rect, joint, time, shown);
     painter.hline(rect.x_range(), y(0.0), Stroke::new(1.0, look.grid));
     let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     let first = breakdown.speed.first.0;
@@ -35,6 +39,32 @@ pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, 
         }
     }
     values(painter, rect, (low, high), joint, shown);
+}
+
+/// Shades where the joint neither speeds up nor slows down (等速): only what is not shaded can turn.
+fn steady(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, shown: &Shown<'_>) {
+    let filtered = shown.breakdown.filtered;
+    let steps = shown.wanted.recipe.turns.steady_steps(filtered, joint);
+    let x = |row: usize| time.x((filtered.first.0 + row) as f64);
+    for run in runs(&steps) {
+        let (left, right) = (x(run.start).max(rect.min.x), x(run.end).min(rect.max.x));
+        // What is thinner than this would be a grey haze in a long clip.
+        if right - left >= 0.5 {
+            let band = Rect::from_x_y_ranges(left..=right, rect.y_range());
+            painter.rect_filled(band, 0.0, shown.look.steady);
+        }
+    }
+}
+
+/// The stretches that are so, as the rows from which to which they go.
+fn runs(steps: &[bool]) -> Vec<Range<usize>> {
+    let mut at = 0;
+    let stretch = |same: &[bool]| {
+        let begin = at;
+        at += same.len();
+        same[0].then_some(begin..at)
+    };
+    steps.chunk_by(|a, b| a == b).filter_map(stretch).collect()
 }
 
 /// From which value to which a lane goes.
@@ -93,15 +123,7 @@ fn mark(painter: &Painter, at: Pos2, turn: &Turn, key: Color32, wall: Color32, p
 /// The joint's name and the highest value.
 fn values(painter: &Painter, rect: Rect, (_, high): (f64, f64), joint: JointId, shown: &Shown<'_>) {
     let (look, unit) = (&shown.look, shown.breakdown.filtered.unit);
-    let name = &shown.breakdown.clip.skeleton().joints[joint.0].name;
-    let galley = painter.layout_no_wrap(name.clone(), FontId::proportional(12.0), look.ink);
-    let at = rect.min + vec2(4.0, 2.0);
-    painter.rect_filled(
-        Rect::from_min_size(at, galley.size()).expand(2.0),
-        2.0,
-        look.paper.gamma_multiply(0.85),
-    );
-    painter.galley(at, galley, look.ink);
+    title(painter, rect, &shown.breakdown.clip.skeleton().joints[joint.0].name, look);
     let number = (high * unit.for_people()).round();
     let font = FontId::proportional(10.0);
     let left = rect.min.x - 4.0;
@@ -109,9 +131,25 @@ fn values(painter: &Painter, rect: Rect, (_, high): (f64, f64), joint: JointId, 
     painter.text(pos2(left, rect.min.y + 11.0), Align2::RIGHT_TOP, unit.symbol(), font, look.faint);
 }
 
+/// What a lane shows, in its upper left corner.
+pub(super) fn title(painter: &Painter, rect: Rect, name: &str, look: &Look) {
+    let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(12.0), look.ink);
+    let at = rect.min + vec2(4.0, 2.0);
+    let paper = Rect::from_min_size(at, galley.size()).expand(2.0);
+    painter.rect_filled(paper, 2.0, look.paper.gamma_multiply(0.85));
+    painter.galley(at, galley, look.ink);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_band_goes_from_the_first_row_of_its_steps_to_the_row_behind_them() {
+        assert_eq!(runs(&[true, true, false, true]), [0..2, 3..4]);
+        assert_eq!(runs(&[false]), []);
+        assert_eq!(runs(&[]), []);
+    }
 
     #[test]
     fn a_lane_shows_all_of_the_filtered_curve_and_so_much_of_the_raw() {
