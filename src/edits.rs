@@ -1,6 +1,7 @@
 //! A person's corrections. They are anchored to source frames, so that a recompute keeps them.
 
 mod forbidden;
+mod hold;
 mod marks;
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +11,7 @@ use crate::sheet::is_default;
 use crate::time::Frame;
 
 pub use forbidden::Forbidden;
+pub use hold::Hold;
 pub use marks::{Move, Pin};
 
 /// What a person wants in spite of what was found.
@@ -24,6 +26,9 @@ pub struct Edits {
     /// Keys that are found near one frame and drawn at another instead.
     #[serde(skip_serializing_if = "is_default")]
     pub moves: Vec<Move>,
+    /// Drawings that stay on screen longer or shorter than was found.
+    #[serde(skip_serializing_if = "is_default")]
+    pub holds: Vec<Hold>,
     /// Whether pins and moved keys are the only keys; default no.
     #[serde(skip_serializing_if = "is_default")]
     pub only_pins: bool,
@@ -40,13 +45,17 @@ impl Edits {
     /// # Errors
     /// [`Error::Edits`] when a frame lies outside `first..=last` (of forbidden ones all), is pinned and
     /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
-    /// not in [0, 1); and when pins are to be the only keys and there are none.
+    /// not in [0, 1); when a drawing is held twice or for no koma; and when pins are to be the only keys and there are
+    /// none.
     pub fn validate(&self, first: Frame, last: Frame) -> Result<(), Error> {
         let clip = Frames { first, last };
         self.pins.iter().try_for_each(|pin| self.check_pin(pin, clip))?;
         self.forbidden.iter().try_for_each(|forbidden| check_forbidden(*forbidden, clip))?;
         for (at, moved) in self.moves.iter().enumerate() {
             self.check_move(moved, &self.moves[..at], clip)?;
+        }
+        for (at, hold) in self.holds.iter().enumerate() {
+            check_hold(*hold, &self.holds[..at], clip)?;
         }
         if self.only_pins && self.pins.is_empty() && self.moves.is_empty() {
             return wrong("pins are to be the only keys, and there is no pin: pin a frame");
@@ -102,6 +111,19 @@ fn check_forbidden(forbidden: Forbidden, clip: Frames) -> Result<(), Error> {
         ));
     }
     Ok(())
+}
+
+fn check_hold(hold: Hold, before: &[Hold], clip: Frames) -> Result<(), Error> {
+    let Hold { frame, koma } = hold;
+    if !clip.has(frame) {
+        wrong(format!("held frame {frame} is not in the clip, which has frames {clip}"))
+    } else if koma == 0 {
+        wrong(format!("the drawing of frame {frame} is held for 0 koma: 1 at the least"))
+    } else if before.iter().any(|other| other.frame == frame) {
+        wrong(format!("the drawing of frame {frame} is held twice: hold it once"))
+    } else {
+        Ok(())
+    }
 }
 
 fn check_weight(what: &str, pin: &Pin) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::edits::Edits;
+use crate::edits::{Edits, Hold};
 use crate::error::Error;
 use crate::keys::{
     self, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Reconstruction,
@@ -13,7 +13,7 @@ use crate::recipe::Recipe;
 use crate::sheet::Sheet;
 use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
-use crate::timing::{Omitted, Pace, Report, Spaced, Stills};
+use crate::timing::{Omitted, Pace, Report, Spaced, Stills, with_holds};
 
 #[cfg(test)]
 mod tests;
@@ -38,7 +38,7 @@ pub struct Engine {
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
     omitted: Stage<(crate::timing::Omission, usize), Omitted>,
-    sheets: Stage<f64, [Sheet; 2]>,
+    sheets: Stage<(f64, Vec<Hold>), [Sheet; 2]>,
 }
 
 type CandidateSettings = (keys::Choose, TurnFinder, LowPass, f64);
@@ -112,7 +112,7 @@ impl Engine {
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         let keys_made = self.find(recipe, edits)?;
         let clock = self.clip.clock(recipe.rate);
-        self.time(recipe, clock, keys_made)?;
+        self.time(recipe, edits, clock, keys_made)?;
         Ok(self.breakdown(clock))
     }
 
@@ -260,7 +260,9 @@ impl Engine {
 
     /// The keys and walls of the layer.
     fn choose(&mut self, recipe: &Recipe, edits: &Edits, candidates_made: Made) -> Made {
-        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
+        // Holds come after everything else.
+        let of_keys = Edits { holds: vec![], ..edits.clone() };
+        let settings = (recipe.keys.clone(), of_keys, recipe.rate);
         let mut keys = std::mem::take(&mut self.keys);
         let made = keys.renew(candidates_made, &settings, || {
             let judges =
@@ -272,8 +274,14 @@ impl Engine {
         made
     }
 
-    /// The sheet, before and after omission.
-    fn time(&mut self, recipe: &Recipe, clock: Clock, keys_made: Made) -> Result<(), Error> {
+    /// The sheet, before and after omission and what a person holds.
+    fn time(
+        &mut self,
+        recipe: &Recipe,
+        edits: &Edits,
+        clock: Clock,
+        keys_made: Made,
+    ) -> Result<(), Error> {
         let clip = &*self.clip;
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let keys = self.keys.output();
@@ -291,8 +299,9 @@ impl Engine {
         let made =
             self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))?;
         let omitted = &self.omitted.output().layer;
-        self.sheets.renew(made, &recipe.rate, || {
-            [layer, omitted].map(|layer| Sheet { clock, layers: vec![layer.clone()] })
+        self.sheets.renew(made, &(recipe.rate, edits.holds.clone()), || {
+            let held = with_holds(omitted, layer, &edits.holds, clock);
+            [layer.clone(), held].map(|layer| Sheet { clock, layers: vec![layer] })
         });
         Ok(())
     }

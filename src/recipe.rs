@@ -304,7 +304,7 @@ fn located(text: &str, error: &toml::de::Error) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edits::{Move, Pin};
+    use crate::edits::{Hold, Move, Pin};
     use crate::time::Frame;
 
     #[test]
@@ -350,6 +350,7 @@ mod tests {
             pins: vec![pin],
             forbidden: vec!["7".parse().unwrap(), "20..30".parse().unwrap()],
             moves: vec![Move::parse("41:42:hit@0.2").unwrap()],
+            holds: vec![Hold::parse("60:4").unwrap()],
             only_pins: true,
         };
         let text = recipe.write(&edits);

@@ -138,9 +138,12 @@ pub struct Why {
     /// Drawings just before it that naka-nashi left out.
     #[serde(skip_serializing_if = "is_default")]
     pub omitted_before: usize,
-    /// Drawings after it that koma-dori replaced by it.
+    /// Drawings after it that koma-dori, or a person's hold, replaced by it.
     #[serde(skip_serializing_if = "is_default")]
     pub held_for: usize,
+    /// Whether a person set how long it stays.
+    #[serde(skip_serializing_if = "is_default")]
+    pub hold_set: bool,
 }
 
 /// What says nothing is not written.
@@ -180,7 +183,11 @@ impl fmt::Display for Why {
         };
         count(self.omitted_before, "drawing", "left out before it (naka-nashi)");
         count(self.lengthened, "koma", "given to it (naka-nashi)");
-        count(self.held_for, "drawing", "held over (koma-dori)");
+        let by = if self.hold_set { "held over" } else { "held over (koma-dori)" };
+        count(self.held_for, "drawing", by);
+        if self.hold_set {
+            reasons.push("stays as long as was set by hand".into());
+        }
         f.write_str(&reasons.join("; "))
     }
 }

@@ -18,6 +18,7 @@ mod curves;
 mod desk;
 mod document;
 mod help;
+mod here;
 mod history;
 mod icon;
 mod key_menu;

@@ -1,8 +1,9 @@
 //! **Time** (時間を割る): spacing (詰め) puts drawings on the sheet, naka-nashi (中無し) and koma-dori
-//! (コマ撮り) leave some out.
+//! (コマ撮り) leave some out, and a person holds what they want held.
 
 mod amount;
 mod gauge;
+mod holds;
 mod koma_dori;
 mod naka_nashi;
 mod omission;
@@ -15,8 +16,9 @@ mod tournament;
 
 pub use amount::Amount;
 pub use gauge::{Gauge, Packing, fraction};
+pub use holds::with_holds;
 pub use omission::{Omission, Omitted, Order};
 pub use on::{On, Pace};
 pub use report::{Gone, Report, Shortfall, StageReport};
-pub use spacing::{InbetweenSource, Spaced, Spacing};
+pub use spacing::{InbetweenSource, Pull, Spaced, Spacing};
 pub use stills::Stills;

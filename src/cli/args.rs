@@ -131,6 +131,9 @@ pub(super) struct Corrections {
     /// Keys that are found near one frame and drawn at another instead: --move 41:42,80:84:hit@0.2
     #[arg(long = "move", value_name = "FROM:TO[:NAME][@WEIGHT],…", value_delimiter = ',')]
     pub(super) moves: Vec<String>,
+    /// Drawings, each by the source frame it shows, and for how many koma they stay: --hold 42:4,60:1
+    #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',')]
+    pub(super) holds: Vec<String>,
     /// Keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
     /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
     #[arg(long, value_name = "FILE")]

@@ -6,7 +6,7 @@ use super::args::{ClipArgs, Corrections, Part, Reading, Settings};
 use super::failure::Failure;
 use super::io;
 use super::words::Words;
-use crate::edits::{Edits, Forbidden, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
 use crate::recipe::Recipe;
@@ -123,6 +123,11 @@ pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> 
         let moved = Move::parse(moved).map_err(|error| wrongly("move", error))?;
         edits.moves.retain(|other| other.from != moved.from);
         edits.moves.push(moved);
+    }
+    for hold in &args.holds {
+        let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
+        edits.holds.retain(|other| other.frame != hold.frame);
+        edits.holds.push(hold);
     }
     edits.only_pins = args.only_pins.unwrap_or(edits.only_pins);
     Ok((recipe, edits))

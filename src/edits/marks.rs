@@ -73,7 +73,8 @@ impl Move {
     }
 }
 
-fn frame_of(text: &str, expected: &str, whole: &str) -> Result<Frame, Error> {
+/// A frame's number; `expected` says what `whole` should have been.
+pub(super) fn frame_of(text: &str, expected: &str, whole: &str) -> Result<Frame, Error> {
     let message = || format!("expected {expected}, found \"{whole}\"");
     text.trim().parse().map(Frame).map_err(|_| Error::Edits { message: message() })
 }

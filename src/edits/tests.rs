@@ -42,7 +42,7 @@ fn a_pin_must_lie_in_the_clip_and_not_be_forbidden() {
 fn a_move_is_from_one_frame_of_the_clip_to_another_that_is_free() {
     let check = |texts: &[&str], pin: &[&str], not: &[&str]| {
         let (pins, forbidden) = (pins(pin), forbidden(not));
-        said(Edits { moves: moves(texts), pins, forbidden, only_pins: false })
+        said(Edits { moves: moves(texts), pins, forbidden, ..Edits::default() })
     };
     assert_eq!(check(&["5:9", "6:5:top@0.5"], &["7"], &["6", "5..9"]), "");
     assert!(check(&["4:6"], &[], &[]).contains("frame 4 of the move 4:6 is not in the clip"));
@@ -52,6 +52,23 @@ fn a_move_is_from_one_frame_of_the_clip_to_another_that_is_free() {
     assert!(check(&["6:7"], &["6"], &[]).contains("pinned and moved at once: pin 7 instead"));
     assert!(check(&["6:7"], &[], &["7"]).contains("frame 7 is forbidden"));
     assert!(check(&["6:7@1"], &[], &[]).contains("weight of moved-to frame 7"));
+}
+
+#[test]
+fn a_hold_is_of_a_frame_of_the_clip_for_a_koma_at_least() {
+    let check = |texts: &[&str]| {
+        let holds = texts.iter().map(|text| Hold::parse(text).unwrap()).collect();
+        said(Edits { holds, ..Edits::default() })
+    };
+    assert_eq!(check(&["5:1", "9: 40"]), "");
+    assert!(check(&["4:2"]).contains("held frame 4 is not in the clip, which has frames 5 to 9"));
+    assert!(check(&["10:2"]).contains("held frame 10"));
+    assert!(check(&["6:0"]).contains("frame 6 is held for 0 koma: 1 at the least"));
+    assert!(check(&["6:2", "6:3"]).contains("frame 6 is held twice"));
+    for wrong in ["", "6", "6:", ":2", "6:two", "6:-1", "6:2:3"] {
+        let said = Hold::parse(wrong).unwrap_err().to_string();
+        assert!(said.contains("FRAME:KOMA"), "{wrong}: {said}");
+    }
 }
 
 #[test]

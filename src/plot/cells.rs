@@ -44,6 +44,9 @@ impl Cell<'_> {
             Some(name) => reasons.push(name.to_owned()),
             None => {}
         }
+        if why.hold_set {
+            reasons.push("hold 止め".to_owned());
+        }
         if why.omitted_before > 0 {
             reasons.push(format!("中無し {}", why.omitted_before));
         }

@@ -2,11 +2,12 @@
 
 use std::ops::Deref;
 
+use crate::edits::{Edits, Hold};
 use crate::keys::Key;
 use crate::pipeline::Breakdown;
 use crate::plot::parts;
 use crate::sheet::{Layer, Source};
-use crate::time::Clock;
+use crate::time::{Clock, Frame};
 
 /// A cell as pictures know it, and the key behind it.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +15,17 @@ pub(super) struct Cell<'a> {
     on_paper: parts::Cell<'a>,
     /// The key that it draws; none for inbetweens and ends.
     pub(super) key: Option<&'a Key>,
+}
+
+impl Cell<'_> {
+    /// The source frame by which a hold of it is known: that of the hold it has, else the one it shows.
+    pub(super) fn hold_frame(&self, edits: &Edits) -> Frame {
+        let place = self.drawing.source.place();
+        let away = |hold: &&Hold| (hold.frame.0 as f64 - place).abs();
+        let holds = edits.holds.iter().filter(|_| self.drawing.why.hold_set);
+        let own = holds.min_by(|a, b| away(a).total_cmp(&away(b)));
+        own.map_or(Frame(place.round().max(0.0) as usize), |hold| hold.frame)
+    }
 }
 
 impl<'a> Deref for Cell<'a> {

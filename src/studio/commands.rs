@@ -6,12 +6,12 @@ use egui::{Theme, Ui};
 
 use super::column::Column;
 use super::corrections::Correction;
+use super::here::Here;
 use super::keyboard::Command;
 use super::opening::Opening;
 use super::viewport::{Orbit, Seen};
 use super::{Language, Studio};
 use crate::error::Error;
-use crate::keys::{Key, Origin};
 use crate::recipe::Recipe;
 
 impl Studio {
@@ -94,11 +94,14 @@ impl Studio {
             | Command::Follow
             | Command::Onion
             | Command::Trails => self.look(&command),
-            Command::ToggleKey | Command::Lock | Command::Nudge(_) | Command::NudgeFrame(_) => {
-                self.correct_here(&command);
-            }
+            Command::ToggleKey
+            | Command::Lock
+            | Command::Nudge(_)
+            | Command::NudgeFrame(_)
+            | Command::Hold(_)
+            | Command::Crowd(_) => self.correct_here(&command),
             Command::Correct(_)
-            | Command::Drag(..)
+            | Command::Drag(_)
             | Command::Set(..)
             | Command::Preset(_)
             | Command::Defaults
@@ -186,39 +189,14 @@ impl Studio {
         }
     }
 
-    /// Corrects the key at the play head.
+    /// Corrects the key at the play head, or how long its drawing stays.
     fn correct_here(&mut self, command: &Command) {
         let Some(take) = &mut self.take else { return };
         let at = self.player.at;
-        let (breakdown, ..) = take.results();
+        let (breakdown, _, wanted) = take.results();
         let column = Column::of(&breakdown);
-        let clip = breakdown.clip;
-        let frame = |place: f64| {
-            crate::time::Frame((place.round() as usize).clamp(clip.first().0, clip.last().0))
-        };
-        let key = column.key(at).cloned();
-        let is_here = |key: &Key| column.clock.koma_from_place(key.frame.0 as f64) == at;
-        let correction = match (command, key) {
-            (Command::ToggleKey, Some(key)) if is_here(&key) => match key.origin {
-                Origin::Found | Origin::Rest => Correction::Forbid(key),
-                _ => Correction::TakeBack(key),
-            },
-            (Command::ToggleKey, _) => Correction::Pin(frame(column.clock.place_from_koma(at))),
-            (Command::Lock, Some(key)) => match key.origin {
-                Origin::Found | Origin::Rest => Correction::Lock(key),
-                _ => Correction::TakeBack(key),
-            },
-            (Command::Nudge(by), Some(key)) => {
-                let way = *by as f64 * column.clock.frames_in_koma();
-                let to = frame(key.frame.0 as f64 + way);
-                Correction::Move(key, to)
-            }
-            (Command::NudgeFrame(by), Some(key)) => {
-                let to = frame(key.frame.0.saturating_add_signed(*by) as f64);
-                Correction::Move(key, to)
-            }
-            _ => return,
-        };
+        let here = Here { clip: breakdown.clip, column: &column, wanted, at };
+        let Some(correction) = here.correction(command) else { return };
         if let Correction::Move(_, to) = &correction {
             let koma = column.clock.koma_from_place(to.0 as f64);
             self.player.stop_at(koma, column.length);
@@ -235,9 +213,9 @@ impl Studio {
                 wanted.edits = correction.on(&wanted.edits);
                 Ok(())
             }
-            Command::Drag(key, to) => {
+            Command::Drag(correction) => {
                 let before = self.held.get_or_insert_with(|| wanted.clone());
-                wanted.edits = Correction::Move(key, to).on(&before.edits);
+                wanted.edits = correction.on(&before.edits);
                 Ok(())
             }
             Command::Set(knob, value) => wanted.recipe.set(knob, &value),

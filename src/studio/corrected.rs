@@ -12,7 +12,8 @@ use crate::time::Frame;
 /// Shows the list; nothing where nothing was corrected.
 pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let (edits, words) = (&shown.wanted.edits, shown.words);
-    let count = edits.pins.len() + edits.moves.len() + edits.forbidden.len();
+    let keys = edits.pins.len() + edits.moves.len() + edits.forbidden.len();
+    let count = keys + edits.holds.len();
     if count == 0 {
         return;
     }
@@ -41,6 +42,12 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
             let what = format!("{} {range}", words.say("no genga", "原画にしない"));
             let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
             row(ui, &what, at, Correction::Allow(*range), shown, commands);
+        }
+        for hold in &edits.holds {
+            let koma = shown.words.say("koma", "コマ");
+            let what = format!("{} {}: {} {koma}", words.say("held", "止め"), hold.frame, hold.koma);
+            let back = Correction::LetGo(hold.frame);
+            row(ui, &what, Some(hold.frame), back, shown, commands);
         }
     });
 }

@@ -1,10 +1,10 @@
-//! Corrections (修正) of keys, as a hand makes them: each is a change of the [`Edits`].
+//! Corrections (修正) of keys and holds, as a hand makes them: each is a change of the [`Edits`].
 
-use crate::edits::{Edits, Forbidden, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
-/// A correction of one key.
+/// A correction of one key, or of how long a drawing stays.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Correction {
     /// A key where there is none.
@@ -23,6 +23,10 @@ pub(super) enum Correction {
     Weight(Key, Option<f64>),
     /// What was forbidden is not any more.
     Allow(Forbidden),
+    /// The drawing of a frame stays for so many koma.
+    Hold(Frame, usize),
+    /// It stays as long as was found.
+    LetGo(Frame),
 }
 
 impl Correction {
@@ -48,6 +52,8 @@ impl Correction {
                 None => own_pin(&mut edits, key).weight = *weight,
             },
             Self::Allow(range) => edits.forbidden.retain(|other| other != range),
+            Self::Hold(frame, koma) => hold(&mut edits, *frame, *koma),
+            Self::LetGo(frame) => edits.holds.retain(|hold| hold.frame != *frame),
         }
         edits
     }
@@ -92,6 +98,12 @@ fn move_to(edits: &mut Edits, key: &Key, to: Frame) {
         edits.moves.push(Move { from: key.frame, to, name: None, weight: None });
         edits.moves.sort_by_key(|moved| moved.from);
     }
+}
+
+fn hold(edits: &mut Edits, frame: Frame, koma: usize) {
+    edits.holds.retain(|hold| hold.frame != frame);
+    edits.holds.push(Hold { frame, koma });
+    edits.holds.sort_by_key(|hold| hold.frame);
 }
 
 /// The move that put a key where it is.
@@ -154,6 +166,15 @@ mod tests {
         let edits = Correction::Pin(Frame(9)).on(&Edits::default());
         let edits = Correction::Move(key(9, Origin::Pinned), Frame(12)).on(&edits);
         assert_eq!((edits.pins[0].frame, edits.moves.len()), (Frame(12), 0));
+    }
+
+    #[test]
+    fn a_drawing_is_held_held_otherwise_and_let_go() {
+        let edits = Correction::Hold(Frame(42), 4).on(&Edits::default());
+        let edits = on(&edits, &[Correction::Hold(Frame(7), 3), Correction::Hold(Frame(42), 2)]);
+        assert_eq!(edits.holds, ["7:3", "42:2"].map(|text| Hold::parse(text).unwrap()));
+        let edits = on(&edits, &[Correction::LetGo(Frame(7)), Correction::LetGo(Frame(42))]);
+        assert_eq!(edits, Edits::default());
     }
 
     #[test]

@@ -1,30 +1,28 @@
 //! The curves (速度のグラフ): how fast chosen joints are, before and after the filter, with their keys and
-//! walls, and how far the body moves into each koma, under the numbers of the genga. Keys are corrected here frame
-//! by frame.
+//! walls, and how far the body moves into each koma, under the numbers of the genga and the dots of the inbetweens.
+//! Keys are corrected here frame by frame, and inbetweens pulled towards them.
 
+mod hand;
 mod joints;
 mod lane;
 mod movement;
 mod ruler;
 mod time;
 
-use egui::{Id, Panel, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Id, Panel, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
+use self::hand::Hand;
 use self::time::Window;
 use super::key_menu;
 use super::keyboard::Command;
 use super::player::Player;
 use super::shown::Shown;
-use crate::keys::Key;
 use crate::motion::JointId;
-use crate::time::Frame;
 
 /// Width of the list of joints.
 const LIST: f32 = 170.0;
 /// Room for the values at the left of the curves.
 const VALUES: f32 = 40.0;
-/// How near a hand has to be to a number to hold it.
-const NEAR: f32 = 10.0;
 
 /// Which joints are shown, and which part of the clip.
 #[derive(Debug, Clone, Default)]
@@ -37,8 +35,7 @@ pub(super) struct Curves {
     order: Vec<JointId>,
     search: String,
     window: Window,
-    held: Option<(Key, Frame)>,
-    asked: Option<Key>,
+    hand: Hand,
 }
 
 impl Curves {
@@ -70,58 +67,15 @@ impl Curves {
         self.window.handle(ui, &response, inside);
         let time = self.window.scale(inside);
         let top = Rect::from_min_size(inside.min, vec2(inside.width(), ruler::HEIGHT));
-        self.handle(&response, top, &time, shown, commands);
+        self.hand.handle(&response, top, &time, shown, commands);
         self.draw(ui, (rect, inside, top), &time, shown, player);
         let name = shown.words.say("Speed curves", "速度のグラフ");
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
-        response.context_menu(|ui| match &self.asked {
+        response.context_menu(|ui| match &self.hand.asked {
             Some(key) => key_menu::show(ui, key, shown.words, commands),
             None => key_menu::show_none(ui, shown, commands),
         });
         ui.advance_cursor_after_rect(rect);
-    }
-
-    fn handle(
-        &mut self,
-        response: &Response,
-        top: Rect,
-        time: &time::Scale,
-        shown: &Shown<'_>,
-        commands: &mut Vec<Command>,
-    ) {
-        let Some(at) = response.interact_pointer_pos() else {
-            self.held = None;
-            return;
-        };
-        let near =
-            |key: &&Key| (time.x(key.frame.0 as f64) - at.x).abs() < NEAR && at.y < top.max.y;
-        let nearest = shown.breakdown.keys.keys.iter().filter(near).min_by(|a, b| {
-            let away = |key: &Key| (time.x(key.frame.0 as f64) - at.x).abs();
-            away(a).total_cmp(&away(b))
-        });
-        if response.drag_started_by(egui::PointerButton::Primary) {
-            self.held = nearest.map(|key| (key.clone(), key.frame));
-        }
-        if response.secondary_clicked() {
-            self.asked = nearest.cloned();
-        }
-        let frame = shown.frame(time.place(at.x));
-        let koma =
-            |place: f64| shown.column.clock.koma_from_place(place).min(shown.column.length - 1);
-        let is_primary = response.clicked() || response.dragged_by(egui::PointerButton::Primary);
-        if let Some((key, last)) = self.held.as_mut().filter(|_| response.dragged()) {
-            commands.extend(shown.go(koma(frame.0 as f64)));
-            if *last != frame {
-                *last = frame;
-                commands.push(Command::Drag(key.clone(), frame));
-            }
-        } else if is_primary || response.secondary_clicked() {
-            let place = nearest.map_or(frame, |key| key.frame);
-            commands.extend(shown.go(koma(place.0 as f64)));
-        }
-        if response.drag_stopped() {
-            self.held = None;
-        }
     }
 
     fn draw(

@@ -5,8 +5,6 @@ use egui::{Event, Key, KeyboardShortcut, Modifiers, TextEdit, Ui};
 use super::corrections::Correction;
 use super::viewport::{Seen, Standard};
 use super::words::Words;
-use crate::keys;
-use crate::time::Frame;
 
 /// What a hand asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,12 +50,16 @@ pub(super) enum Command {
     Nudge(isize),
     /// The same in source frames.
     NudgeFrame(isize),
+    /// The drawing at the play head stays so many koma longer.
+    Hold(isize),
+    /// The inbetweens of the key at the play head crowd so much closer to it.
+    Crowd(f64),
     /// Gives a name to the key at the play head.
     FocusName,
     /// A correction.
     Correct(Correction),
-    /// A key is held and is over a frame.
-    Drag(keys::Key, Frame),
+    /// A correction in the making: what was there when the hand took hold is corrected so.
+    Drag(Correction),
     /// A knob and its value.
     Set(&'static str, String),
     /// Several knobs.
@@ -172,6 +174,10 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::M, Command::Movement, "movement into each koma", "動きの大きさ"),
     key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
     key(NONE, Key::L, Command::Lock, "lock the genga here, or unlock it", "原画を固定・解除"),
+    key(NONE, Key::OpenBracket, Command::Hold(-1), "hold a koma shorter", "止めを1コマ短く"),
+    key(NONE, Key::CloseBracket, Command::Hold(1), "hold a koma longer", "止めを1コマ長く"),
+    key(NONE, Key::Comma, Command::Crowd(-0.05), "inbetweens away from the genga", "詰めを弱く"),
+    key(NONE, Key::Period, Command::Crowd(0.05), "inbetweens closer to the genga", "詰めを強く"),
     key(NONE, Key::N, Command::FocusName, "name the genga here", "原画に名前"),
     key(NONE, Key::D, Command::Theme, "light, dark", "明るい・暗い画面"),
     key(NONE, Key::J, Command::Language, "Japanese labels", "英語表示"),

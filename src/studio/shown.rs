@@ -39,6 +39,13 @@ impl Shown<'_> {
         Frame(frame.clamp(clip.first().0, clip.last().0))
     }
 
+    /// The koma on which the drawing of a place stood before anything was left out.
+    pub(super) fn spaced_koma(&self, place: f64) -> Option<usize> {
+        let layer = &self.breakdown.spaced.layers[0];
+        let is_it = |drawing: usize| layer.drawings[drawing].source.place() == place;
+        layer.timed().find(|(_, shown)| is_it(shown.drawing)).map(|(koma, _)| koma)
+    }
+
     /// The source frame nearest to a koma, within the clip.
     pub(super) fn frame_of_koma(&self, koma: usize) -> Frame {
         self.frame(self.column.clock.place_from_koma(koma))

@@ -1,12 +1,13 @@
 //! The timesheet (タイムシート): a column that runs down, with circled genga numbers, marks for inbetweens and
-//! lines for holds. It follows the play head, and keys are corrected on it.
+//! lines for holds. It follows the play head; keys are corrected on it, and holds by their ends.
 
 use egui::{
-    Align2, Color32, FontId, Id, Painter, Pos2, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, CursorIcon, FontId, Id, Painter, PointerButton, Pos2, Rect, Response, Role,
+    ScrollArea, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::column::Cell;
+use super::corrections::Correction;
 use super::key_menu;
 use super::keyboard::Command;
 use super::shown::Shown;
@@ -26,11 +27,22 @@ const CIRCLE: f32 = 8.0;
 /// Koma between two thin lines, as on printed sheets.
 const THIN: usize = 6;
 
-/// What a hand holds on the sheet.
+/// How near a hand has to be to the end of a hold.
+const NEAR_END: f32 = 3.5;
+
+/// What a hand holds.
+#[derive(Debug, Clone)]
+enum Held {
+    /// A key, and the frame that it was last over.
+    Key(Key, Frame),
+    /// The end of a drawing by its frame, the koma on which that begins, and its last length.
+    End { frame: Frame, begin: usize, koma: usize },
+}
+
+/// The sheet, as it is looked at and worked on.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Timesheet {
-    /// The key that is dragged, and where it was last.
-    held: Option<(Key, Frame)>,
+    held: Option<Held>,
     /// The key whose menu is open.
     asked: Option<Key>,
     /// The koma that was last brought into view.
@@ -81,36 +93,30 @@ impl Timesheet {
         shown: &Shown<'_>,
         commands: &mut Vec<Command>,
     ) {
-        let column = &shown.column;
-        let koma =
-            |at: Pos2| (((at.y - rect.min.y) / ROW).max(0.0) as usize).min(column.length - 1);
-        let key = |at: Pos2| {
-            let cell = column.cell(koma(at));
-            cell.key.filter(|_| cell.koma == koma(at))
-        };
+        if response.hover_pos().is_some_and(|at| ending(at, rect, shown).is_some()) {
+            response.ctx.set_cursor_icon(CursorIcon::ResizeVertical);
+        }
         let Some(at) = response.interact_pointer_pos() else {
             self.held = None;
             return;
         };
-        if response.drag_started() {
-            self.held = key(at).map(|key| (key.clone(), key.frame));
+        if response.drag_started_by(PointerButton::Primary) {
+            let origin = response.ctx.input(|input| input.pointer.press_origin());
+            self.held = grasped(origin.unwrap_or(at), rect, shown);
         }
         if response.secondary_clicked() {
-            self.asked = key(at).cloned();
+            self.asked = key(at, rect, shown).cloned();
         }
         let is_held = response.is_pointer_button_down_on()
             || response.clicked()
             || response.secondary_clicked();
-        if is_held {
-            self.followed = Some(koma(at));
-            commands.extend(shown.go(koma(at)));
+        if is_held && !matches!(self.held, Some(Held::End { .. })) {
+            let koma = koma(at, rect, shown);
+            self.followed = Some(koma);
+            commands.extend(shown.go(koma));
         }
-        let to = shown.frame_of_koma(koma(at));
-        if let Some((key, last)) =
-            self.held.as_mut().filter(|(_, last)| response.dragged() && *last != to)
-        {
-            *last = to;
-            commands.push(Command::Drag(key.clone(), to));
+        if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
+            commands.extend(held.follow(at, rect, shown).map(Command::Drag));
         }
         if response.drag_stopped() {
             self.held = None;
@@ -129,6 +135,57 @@ impl Timesheet {
             ui.scroll_to_rect(row, Some(egui::Align::Center));
         }
     }
+}
+
+impl Held {
+    /// What brings it under the hand, when that has come to another koma.
+    fn follow(&mut self, at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Correction> {
+        match self {
+            Self::Key(key, last) => {
+                let to = shown.frame_of_koma(koma(at, rect, shown));
+                let is_new = std::mem::replace(last, to) != to;
+                is_new.then(|| Correction::Move(key.clone(), to))
+            }
+            Self::End { frame, begin, koma } => {
+                let line = ((at.y - rect.min.y) / ROW).round().max(0.0) as usize;
+                let wanted = line.saturating_sub(*begin).max(1);
+                let is_new = std::mem::replace(koma, wanted) != wanted;
+                is_new.then(|| Correction::Hold(*frame, wanted))
+            }
+        }
+    }
+}
+
+/// What a hand takes that comes down there.
+fn grasped(at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Held> {
+    if let Some(cell) = ending(at, rect, shown) {
+        let frame = cell.hold_frame(&shown.wanted.edits);
+        return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
+    }
+    key(at, rect, shown).map(|key| Held::Key(key.clone(), key.frame))
+}
+
+/// The koma that is there.
+fn koma(at: Pos2, rect: Rect, shown: &Shown<'_>) -> usize {
+    (((at.y - rect.min.y) / ROW).max(0.0) as usize).min(shown.column.length - 1)
+}
+
+/// The key whose number is there.
+fn key<'a>(at: Pos2, rect: Rect, shown: &Shown<'a>) -> Option<&'a Key> {
+    let koma = koma(at, rect, shown);
+    let cell = shown.column.cell(koma);
+    cell.key.filter(|_| cell.koma == koma)
+}
+
+/// The drawing that ends there; the last one ends with the sheet.
+fn ending<'a, 'b>(at: Pos2, rect: Rect, shown: &'b Shown<'a>) -> Option<&'b Cell<'a>> {
+    let lines = (at.y - rect.min.y) / ROW;
+    let line = lines.round();
+    let is_near = (lines - line).abs() * ROW <= NEAR_END && line >= 1.0;
+    let is_end = |cell: &&Cell<'_>| cell.koma + cell.held == line as usize;
+    let ends = (line as usize) < shown.column.length;
+    let cell = (is_near && ends).then(|| shown.column.cell(line as usize - 1));
+    cell.filter(is_end)
 }
 
 /// The koma in view.
@@ -191,15 +248,18 @@ fn draw_cell(painter: &Painter, corner: Pos2, cell: &Cell<'_>, shown: &Shown<'_>
     if cell.held > 1 {
         let end = middle.y + ROW * (cell.held as f32 - 0.7);
         let begin = middle.y + if cell.genga.is_some() { CIRCLE + 1.0 } else { 5.0 };
-        painter.vline(middle.x, begin..=end, Stroke::new(1.4, look.faint));
-        painter.hline(middle.x - 3.0..=middle.x + 3.0, end, Stroke::new(1.4, look.faint));
+        let (width, color) =
+            if cell.drawing.why.hold_set { (2.2, look.genga) } else { (1.4, look.faint) };
+        painter.vline(middle.x, begin..=end, Stroke::new(width, color));
+        painter.hline(middle.x - 3.0..=middle.x + 3.0, end, Stroke::new(width, color));
     }
     match cell.genga {
         Some(number) => badge(painter, middle, number, color, cell.key, look.paper),
         None => drop(painter.circle_filled(middle, 2.6, color)),
     }
     let words = why(cell, shown);
-    let ink = if cell.key.is_some_and(|key| key.origin.is_set()) { look.genga } else { look.faint };
+    let is_set = cell.key.is_some_and(|key| key.origin.is_set()) || cell.drawing.why.hold_set;
+    let ink = if is_set { look.genga } else { look.faint };
     let at = pos2(corner.x + WORDS, middle.y);
     painter.text(at, Align2::LEFT_CENTER, words, FontId::proportional(11.0), ink);
 }
@@ -240,6 +300,9 @@ fn why(cell: &Cell<'_>, shown: &Shown<'_>) -> String {
         }
     }
     let why = &cell.drawing.why;
+    if why.hold_set {
+        reasons.push(format!("{} {}", words.say("held", "止め"), cell.held));
+    }
     if why.omitted_before > 0 {
         reasons.push(format!("{} {}", words.say("left out", "中無し"), why.omitted_before));
     }

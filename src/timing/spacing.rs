@@ -1,13 +1,16 @@
 //! Spacing (詰め): inbetweens between keys, even in time, crowded towards the keys in what they show
 //! [KT11 §3.4].
 
+mod interval;
+
 use serde::{Deserialize, Serialize};
 
+use self::interval::Interval;
 use crate::error::Error;
-use crate::keys::{Key, LayerKeys, Origin, Wall};
+use crate::keys::{Key, LayerKeys, Origin};
 use crate::motion::Skeleton;
 use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
-use crate::time::Clock;
+use crate::time::{Clock, Frame};
 use crate::timing::on::{On, Pace};
 
 /// What an inbetween shows.
@@ -69,6 +72,15 @@ pub struct Spaced {
     pub layer: Layer,
     /// Inbetweens asked for that did not fit between their keys.
     pub did_not_fit: usize,
+}
+
+/// What a hand asks for that pulls an inbetween towards a key or away from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pull {
+    /// The key on whose side the inbetween stands.
+    pub key: Frame,
+    /// The spacing weight of that key with which the inbetween is where the hand is; 0 to 0.95.
+    pub weight: f64,
 }
 
 /// A drawing that stands at a koma of its own: a key or an end.
@@ -143,6 +155,27 @@ impl Spacing {
             .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
             .collect();
         Spaced { layer: Layer { name: "A".into(), drawings, exposures }, did_not_fit }
+    }
+
+    /// The weight of a key that takes the inbetween of a koma to a place, or as near as `max_shift` lets it.
+    ///
+    /// `koma` counts on the sheet before anything was left out, which has `length` koma. None where no inbetween can
+    /// stand, in the very middle of its interval, and on the side of an end of the clip that is no key.
+    pub fn pulled(
+        &self,
+        layer: &LayerKeys,
+        clock: Clock,
+        length: usize,
+        koma: usize,
+        place: f64,
+    ) -> Option<Pull> {
+        let stations = stations(&layer.keys, clock, length);
+        let after = stations.partition_point(|station| station.koma <= koma);
+        let (from, to) = (stations.get(after.checked_sub(1)?)?, stations.get(after)?);
+        let interval = Interval::new(self, from, to, &layer.walls, clock);
+        let (side, weight) = interval.weight_at(koma, place)?;
+        let key = [from, to][side].key?;
+        Some(Pull { key: key.frame, weight })
     }
 
     /// The koma on which inbetweens stand between two koma.
@@ -227,82 +260,6 @@ impl<'a> Station<'a> {
         if key.origin.is_set() {
             self.place = key.frame.0 as f64;
         }
-    }
-}
-
-/// The time between two neighbouring stations and the rule of its spacing.
-struct Interval {
-    koma: [usize; 2],
-    places: [f64; 2],
-    weights: [f64; 2],
-    /// The strongest wall strictly between the two, if there is one.
-    wall: Option<f64>,
-    /// In frames.
-    max_shift: f64,
-    source: InbetweenSource,
-}
-
-impl Interval {
-    fn new(
-        spacing: &Spacing,
-        from: &Station<'_>,
-        to: &Station<'_>,
-        walls: &[Wall],
-        clock: Clock,
-    ) -> Self {
-        let begin = walls.partition_point(|wall| wall.frame.0 as f64 <= from.place);
-        let before_next = |wall: &&Wall| (wall.frame.0 as f64) < to.place;
-        // `reduce` with a strict comparison keeps the earlier of two equals.
-        let wall = walls[begin..]
-            .iter()
-            .take_while(before_next)
-            .reduce(|a, b| if b.strength > a.strength { b } else { a });
-        let weight = |station: &Station<'_>| {
-            station.key.and_then(|key| key.weight).unwrap_or(spacing.weight)
-        };
-        Self {
-            koma: [from.koma, to.koma],
-            places: [from.place, to.place],
-            weights: [weight(from), weight(to)],
-            wall: wall.map(|wall| wall.frame.0 as f64),
-            max_shift: spacing.max_shift * clock.frames_in_koma(),
-            source: spacing.source,
-        }
-    }
-
-    fn inbetween(&self, koma: usize) -> Drawing {
-        let [from, to] = self.places;
-        let place = self.place(koma);
-        let source = match self.source {
-            InbetweenSource::Sample => Source::At(place),
-            InbetweenSource::Blend => {
-                Source::Between { from, to, share: (place - from) / (to - from) }
-            }
-        };
-        Drawing { source, role: Role::Inbetween, why: Why::default() }
-    }
-
-    /// Where in the source an inbetween on that koma is taken from: drawn towards the key on its side.
-    /// The side is that of the nearer key, or before and after the wall where there is one.
-    fn place(&self, koma: usize) -> f64 {
-        let [from, to] = self.places;
-        let share = (koma - self.koma[0]) as f64 / (self.koma[1] - self.koma[0]) as f64;
-        let even = from + share * (to - from);
-        let side = match self.wall {
-            Some(wall) if (even - wall).abs() < 1e-9 => 0.0,
-            Some(wall) => even - wall,
-            None => share - 0.5,
-        };
-        let shifted = if side < 0.0 {
-            share * (1.0 - self.weights[0])
-        } else if side > 0.0 {
-            1.0 - (1.0 - share) * (1.0 - self.weights[1])
-        } else {
-            share
-        };
-        // Bounded about the even place, and not about the koma's own instant: a key may stand half a
-        // koma off its instant, and the bound must not push an inbetween past it.
-        (from + shifted * (to - from)).clamp(even - self.max_shift, even + self.max_shift)
     }
 }
 

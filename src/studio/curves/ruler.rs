@@ -1,4 +1,5 @@
-//! The ruler over the curves: frames, and the numbers of the genga with their lines.
+//! The ruler over the curves: frames, the numbers of the genga with their lines, and the inbetweens between them: how
+//! they crowd is their spacing (詰め).
 
 use egui::{Align2, FontId, Painter, Rect, Stroke, pos2};
 
@@ -19,6 +20,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, sho
         let at = pos2(time.x(frame), rect.min.y);
         painter.text(at, Align2::CENTER_TOP, frame, FontId::proportional(10.0), look.faint);
     }
+    inbetweens(painter, rect, time, shown);
     let mut last = f32::NEG_INFINITY;
     for cell in &shown.column.cells {
         let (Some(number), Source::At(place)) = (cell.genga, cell.drawing.source) else { continue };
@@ -35,5 +37,15 @@ pub(super) fn draw(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, sho
         }
         badge(painter, middle, number, color, cell.key, look.paper);
         last = x;
+    }
+}
+
+/// A dot where each inbetween is taken from.
+fn inbetweens(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
+    for cell in shown.column.cells.iter().filter(|cell| cell.genga.is_none()) {
+        let at = pos2(time.x(cell.drawing.source.place()), rect.max.y - 11.0);
+        if rect.x_range().contains(at.x) {
+            painter.circle_filled(at, 2.6, shown.look.inbetween);
+        }
     }
 }

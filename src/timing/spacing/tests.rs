@@ -1,7 +1,8 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::time::{Frame, FrameRate};
+use crate::keys::Wall;
+use crate::time::FrameRate;
 
 fn clock(fps: f64) -> Clock {
     Clock { first: Frame(0), frame_rate: FrameRate::new(fps).unwrap(), koma_rate: 24.0 }
@@ -174,6 +175,21 @@ fn a_fast_interval_is_on_ones_and_a_slow_one_on_threes() {
 }
 
 #[test]
+fn what_is_no_inbetween_of_a_key_cannot_be_pulled() {
+    let (spacing, layer) = (Spacing::default(), layer(&[10], &[]));
+    let pulled = |koma, place| spacing.pulled(&layer, clock(24.0), 21, koma, place);
+    assert_eq!(pulled(8, 8.0), Some(Pull { key: Frame(10), weight: 0.0 }));
+    assert_eq!(pulled(8, 9.0), Some(Pull { key: Frame(10), weight: 0.5 }));
+    assert_eq!(pulled(8, 30.0), Some(Pull { key: Frame(10), weight: 0.95 }), "not quite the key");
+    assert_eq!(pulled(8, 3.0).map(|pull| pull.weight), Some(0.0), "not away from it");
+    assert_eq!(pulled(2, 1.0), None, "the clip's end is no key");
+    assert_eq!(pulled(5, 4.0), None, "the middle");
+    for koma in [0, 10, 20, 21, 99] {
+        assert_eq!(pulled(koma, 10.5), None, "koma {koma}");
+    }
+}
+
+#[test]
 fn short_sheets_are_ends_alone() {
     for koma in 0..3 {
         let layer = place(&Spacing::default(), &layer(&[], &[]), 24.0, koma);
@@ -183,6 +199,35 @@ fn short_sheets_are_ends_alone() {
 }
 
 proptest! {
+    #[test]
+    fn an_inbetween_stands_where_a_hand_pulls_it_once_its_key_has_that_weight(
+        keys in prop::collection::btree_set(10usize..290, 1..6),
+        walls in prop::collection::btree_set(1usize..299, 0..6),
+        on in 1usize..4,
+        max_shift in 0.5f64..9.0,
+        share in 0.1f64..1.0,
+    ) {
+        let spacing = Spacing { on: On::every(on), max_shift, ..Spacing::default() };
+        let keys: Vec<_> = keys.into_iter().collect();
+        let walls: Vec<_> = walls.into_iter().collect();
+        let (mut layer, koma) = (layer(&keys, &walls), 300);
+        let even = place(&Spacing { weight: 0.0, ..spacing.clone() }, &layer, 24.0, koma);
+        for (at, (begin, shown)) in even.timed().enumerate() {
+            let before = even.drawings[shown.drawing].source.place();
+            let Some(pull) = spacing.pulled(&layer, clock(24.0), koma, begin, before) else { continue };
+            prop_assert_eq!(pull.weight, 0.0, "where it is even");
+            let key = pull.key.0 as f64;
+            let nearest = before + (key - before).clamp(-max_shift, max_shift);
+            let hand = nearest + share * (before - nearest);
+            let asked = spacing.pulled(&layer, clock(24.0), koma, begin, hand).unwrap();
+            prop_assert_eq!(asked.key, pull.key);
+            let own = layer.keys.iter().position(|key| key.frame == pull.key).unwrap();
+            layer.keys[own].weight = Some(asked.weight);
+            let after = place(&spacing, &layer, 24.0, koma).drawings[at].source.place();
+            prop_assert!((after - hand).abs() < 1e-9, "{} for {}", after, hand);
+        }
+    }
+
     #[test]
     fn places_never_cross_and_genga_keep_their_frames(
         keys in prop::collection::btree_set(1usize..299, 0..20),

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::edits::{Edits, Forbidden, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
 use crate::sheet::{Drawing, Exposure, Layer, Sheet, Why};
 use crate::time::{Clock, Frame, FrameRate};
 
@@ -27,10 +27,11 @@ fn why() -> impl Strategy<Value = Why> {
     let words = prop::collection::vec(any::<String>(), 0..3);
     let value = || prop::option::of(prop_oneof![Just(0.0), -1e300..1e300, 0.0..1e-300, 0.0..100.0]);
     let counts = prop::array::uniform3(0..4usize);
+    let flags = any::<(bool, bool)>();
     let pinned = prop::option::of(any::<String>());
     let moved = prop::option::of(0..999usize);
-    (words, pinned, moved, any::<bool>(), value(), value(), counts).prop_map(
-        |(voters, pinned, moved_from, rest, strength, price, counts)| Why {
+    (words, pinned, moved, flags, value(), value(), counts).prop_map(
+        |(voters, pinned, moved_from, (rest, hold_set), strength, price, counts)| Why {
             voters,
             pinned,
             moved_from,
@@ -40,6 +41,7 @@ fn why() -> impl Strategy<Value = Why> {
             lengthened: counts[0],
             omitted_before: counts[1],
             held_for: counts[2],
+            hold_set,
         },
     )
 }
@@ -79,11 +81,16 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
         prop::collection::vec(any::<(u32, u16)>().prop_map(|(from, more)| range(from, more)), 0..3);
     let moves = prop::collection::vec(any::<(u32, u32)>().prop_map(moved), 0..3);
     let pins = prop::collection::vec(pin, 0..3);
-    (recipe, pins, forbidden, moves, any::<bool>()).prop_map(
-        |(recipe, pins, forbidden, moves, only_pins)| MadeWith {
+    let hold = |(frame, koma): (u32, u32)| Hold {
+        frame: Frame(frame as usize),
+        koma: koma as usize,
+    };
+    let holds = prop::collection::vec(any::<(u32, u32)>().prop_map(hold), 0..3);
+    (recipe, pins, forbidden, moves, holds, any::<bool>()).prop_map(
+        |(recipe, pins, forbidden, moves, holds, only_pins)| MadeWith {
             recipe,
             layers: "7".repeat(pins.len()),
-            edits: Edits { pins, forbidden, moves, only_pins },
+            edits: Edits { pins, forbidden, moves, holds, only_pins },
         },
     )
 }

@@ -1,0 +1,72 @@
+//! What a key on the keyboard corrects at the play head (再生位置).
+
+use super::column::Column;
+use super::corrections::Correction;
+use super::document::Document;
+use super::keyboard::Command;
+use crate::keys::{Key, Origin};
+use crate::motion::Clip;
+use crate::time::Frame;
+
+/// The most that a weight is set to by hand: at 1 all inbetweens would be the key itself.
+pub(super) const MOST_WEIGHT: f64 = 0.95;
+
+/// What is at the play head.
+pub(super) struct Here<'a> {
+    pub(super) clip: &'a Clip,
+    pub(super) column: &'a Column<'a>,
+    pub(super) wanted: &'a Document,
+    /// The koma of the play head.
+    pub(super) at: usize,
+}
+
+impl Here<'_> {
+    /// The correction that a command asks for; none where there is nothing to correct.
+    pub(super) fn correction(&self, command: &Command) -> Option<Correction> {
+        let column = self.column;
+        let key = column.key(self.at).cloned();
+        Some(match (command, key) {
+            (Command::ToggleKey, Some(key)) if self.is_here(&key) => match key.origin {
+                Origin::Found | Origin::Rest => Correction::Forbid(key),
+                _ => Correction::TakeBack(key),
+            },
+            (Command::ToggleKey, _) => {
+                Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
+            }
+            (Command::Lock, Some(key)) => match key.origin {
+                Origin::Found | Origin::Rest => Correction::Lock(key),
+                _ => Correction::TakeBack(key),
+            },
+            (Command::Nudge(by), Some(key)) => {
+                let way = *by as f64 * column.clock.frames_in_koma();
+                let to = self.frame(key.frame.0 as f64 + way);
+                Correction::Move(key, to)
+            }
+            (Command::NudgeFrame(by), Some(key)) => {
+                let to = self.frame(key.frame.0.saturating_add_signed(*by) as f64);
+                Correction::Move(key, to)
+            }
+            (Command::Crowd(by), Some(key)) => {
+                let weight = key.weight.unwrap_or(self.wanted.recipe.spacing.weight) + by;
+                let weight = (weight * 100.0).round() / 100.0;
+                Correction::Weight(key, Some(weight.clamp(0.0, MOST_WEIGHT)))
+            }
+            (Command::Hold(by), _) => {
+                let cell = column.cell(self.at);
+                let koma = cell.held.saturating_add_signed(*by).max(1);
+                Correction::Hold(cell.hold_frame(&self.wanted.edits), koma)
+            }
+            _ => return None,
+        })
+    }
+
+    fn is_here(&self, key: &Key) -> bool {
+        self.column.clock.koma_from_place(key.frame.0 as f64) == self.at
+    }
+
+    /// The source frame nearest to a place, within the clip.
+    fn frame(&self, place: f64) -> Frame {
+        let (first, last) = (self.clip.first().0, self.clip.last().0);
+        Frame((place.round() as usize).clamp(first, last))
+    }
+}

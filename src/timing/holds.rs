@@ -1,0 +1,159 @@
+//! Holds (止め) that a person sets, after everything else was left out.
+
+use std::cmp::Ordering;
+
+use crate::edits::Hold;
+use crate::sheet::{Drawing, Exposure, Layer};
+use crate::time::Clock;
+
+/// How near a drawing has to be to the frame of its hold, in koma.
+const NEAR: f64 = 2.0;
+
+/// The layer with the holds of a person: every one as [`Hold`] says.
+///
+/// `layer` shows each drawing once, in order, and its drawings are some of those of `spaced`, the layer before anything
+/// was left out; so are those of the result, which is as long and has its kept drawings on the same koma.
+pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -> Layer {
+    if holds.is_empty() {
+        return layer.clone();
+    }
+    let mut row = Row::of(layer, spaced);
+    for hold in holds {
+        if let Some(cell) = row.nearest(hold.frame.0 as f64, clock) {
+            row.cells[cell].asked = Some(hold.koma.max(1));
+        }
+    }
+    // From the first on: what a hold takes from the next drawing, that one's own hold gets back.
+    let mut cell = 0;
+    while cell < row.cells.len() {
+        if let Some(koma) = row.cells[cell].asked {
+            row.hold(cell, koma);
+        }
+        cell += 1;
+    }
+    row.into_layer(&layer.name)
+}
+
+/// A drawing on screen.
+struct Cell {
+    drawing: Drawing,
+    koma: usize,
+    /// For how many koma a person wants it.
+    asked: Option<usize>,
+}
+
+/// The drawings of a layer in their order.
+struct Row<'a> {
+    cells: Vec<Cell>,
+    spaced: &'a Layer,
+}
+
+impl<'a> Row<'a> {
+    fn of(layer: &Layer, spaced: &'a Layer) -> Self {
+        let cell = |shown: &Exposure| Cell {
+            drawing: layer.drawings[shown.drawing].clone(),
+            koma: shown.koma,
+            asked: None,
+        };
+        Self { cells: layer.exposures.iter().map(cell).collect(), spaced }
+    }
+
+    fn place(&self, cell: usize) -> f64 {
+        self.cells[cell].drawing.source.place()
+    }
+
+    /// The drawing nearest to a place; none where there is none near it.
+    fn nearest(&self, place: f64, clock: Clock) -> Option<usize> {
+        let away = |cell: usize| (self.place(cell) - place).abs();
+        let nearest = (0..self.cells.len()).min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+        (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest)
+    }
+
+    /// The next drawing that stays on its koma; the number of drawings at the end.
+    fn next_kept(&self, cell: usize) -> usize {
+        let after = self.cells.iter().skip(cell + 1);
+        let is_kept = |cell: &Cell| cell.drawing.role.is_kept();
+        cell + 1 + after.take_while(|cell| !is_kept(cell)).count()
+    }
+
+    /// Holds a drawing for so many koma.
+    fn hold(&mut self, cell: usize, koma: usize) {
+        let why = &mut self.cells[cell].drawing.why;
+        (why.hold_set, why.lengthened) = (true, 0);
+        match koma.cmp(&self.cells[cell].koma) {
+            Ordering::Greater => self.lengthen(cell, koma),
+            Ordering::Less => self.shorten(cell, koma),
+            Ordering::Equal => {}
+        }
+    }
+
+    /// Takes koma from the inbetweens after it, as far as there are any.
+    fn lengthen(&mut self, cell: usize, koma: usize) {
+        let mut missing = koma - self.cells[cell].koma;
+        while missing > 0 && self.next_kept(cell) > cell + 1 {
+            let next = &mut self.cells[cell + 1];
+            let taken = missing.min(next.koma);
+            next.koma -= taken;
+            missing -= taken;
+            self.cells[cell].koma += taken;
+            if self.cells[cell + 1].koma == 0 {
+                let why = self.cells.remove(cell + 1).drawing.why;
+                // What was left out round a covered drawing is under the hold too.
+                self.cells[cell].drawing.why.held_for +=
+                    why.omitted_before + 1 + why.held_for;
+            }
+        }
+    }
+
+    /// Gives koma to a drawing that was left out after it, else to the next inbetween.
+    fn shorten(&mut self, cell: usize, koma: usize) {
+        let freed = self.cells[cell].koma - koma;
+        if let Some((at, drawing)) = self.left_out(cell, koma) {
+            self.come_back(cell, at, Cell { drawing, koma: freed, asked: None });
+        } else if self.next_kept(cell) > cell + 1 {
+            self.cells[cell + 1].koma += freed;
+        } else {
+            return;
+        }
+        self.cells[cell].koma = koma;
+    }
+
+    /// Of the drawings that were left out after one the nearest in time to what its hold gives free, and which of
+    /// them it is.
+    fn left_out(&self, cell: usize, koma: usize) -> Option<(usize, Drawing)> {
+        let begin: usize = self.cells[..cell].iter().map(|cell| cell.koma).sum();
+        let (from, to) = (self.place(cell), self.cells.get(cell + 1).map(|_| self.place(cell + 1))?);
+        let between = self.spaced.timed().filter(|(_, shown)| {
+            let place = self.spaced.drawings[shown.drawing].source.place();
+            from + SAME < place && place < to - SAME
+        });
+        let nearest = between.enumerate().min_by_key(|(_, (own, _))| own.abs_diff(begin + koma));
+        nearest.map(|(at, (_, shown))| (at, self.spaced.drawings[shown.drawing].clone()))
+    }
+
+    /// Puts a drawing back behind another, and shares out what was said of those that were left out between.
+    fn come_back(&mut self, cell: usize, at: usize, mut back: Cell) {
+        let held = self.cells[cell].drawing.why.held_for;
+        let all = held + self.cells[cell + 1].drawing.why.omitted_before;
+        let after = all.saturating_sub(at + 1);
+        let held_after = held.saturating_sub(at + 1);
+        self.cells[cell].drawing.why.held_for = held.min(at);
+        back.drawing.why.omitted_before = at.saturating_sub(held);
+        back.drawing.why.held_for = held_after;
+        self.cells[cell + 1].drawing.why.omitted_before = after - held_after;
+        self.cells.insert(cell + 1, back);
+    }
+
+    fn into_layer(self, name: &str) -> Layer {
+        let koma = self.cells.iter().map(|cell| cell.koma);
+        let exposures = koma.enumerate().map(|(drawing, koma)| Exposure { drawing, koma }).collect();
+        let drawings = self.cells.into_iter().map(|cell| cell.drawing).collect();
+        Layer { name: name.into(), drawings, exposures }
+    }
+}
+
+/// Places nearer than this, in frames, are one.
+const SAME: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,114 @@
+//! The time between two neighbouring keys, and where its inbetweens are taken from.
+
+use super::{InbetweenSource, Spacing, Station};
+use crate::keys::Wall;
+use crate::sheet::{Drawing, Role, Source, Why};
+use crate::time::Clock;
+
+/// The most that a hand can pull: at 1 all inbetweens would be the key itself.
+const MOST_WEIGHT: f64 = 0.95;
+
+/// The time between two neighbouring stations and the rule of its spacing.
+pub(super) struct Interval {
+    koma: [usize; 2],
+    places: [f64; 2],
+    weights: [f64; 2],
+    /// The strongest wall strictly between the two, if there is one.
+    wall: Option<f64>,
+    /// In frames.
+    max_shift: f64,
+    source: InbetweenSource,
+}
+
+impl Interval {
+    pub(super) fn new(
+        spacing: &Spacing,
+        from: &Station<'_>,
+        to: &Station<'_>,
+        walls: &[Wall],
+        clock: Clock,
+    ) -> Self {
+        let begin = walls.partition_point(|wall| wall.frame.0 as f64 <= from.place);
+        let before_next = |wall: &&Wall| (wall.frame.0 as f64) < to.place;
+        // `reduce` with a strict comparison keeps the earlier of two equals.
+        let wall = walls[begin..]
+            .iter()
+            .take_while(before_next)
+            .reduce(|a, b| if b.strength > a.strength { b } else { a });
+        let weight = |station: &Station<'_>| {
+            station.key.and_then(|key| key.weight).unwrap_or(spacing.weight)
+        };
+        Self {
+            koma: [from.koma, to.koma],
+            places: [from.place, to.place],
+            weights: [weight(from), weight(to)],
+            wall: wall.map(|wall| wall.frame.0 as f64),
+            max_shift: spacing.max_shift * clock.frames_in_koma(),
+            source: spacing.source,
+        }
+    }
+
+    pub(super) fn inbetween(&self, koma: usize) -> Drawing {
+        let [from, to] = self.places;
+        let place = self.place(koma);
+        let source = match self.source {
+            InbetweenSource::Sample => Source::At(place),
+            InbetweenSource::Blend => {
+                Source::Between { from, to, share: (place - from) / (to - from) }
+            }
+        };
+        Drawing { source, role: Role::Inbetween, why: Why::default() }
+    }
+
+    /// Where in the source an inbetween on that koma is taken from: drawn towards the key on its side.
+    fn place(&self, koma: usize) -> f64 {
+        let [from, to] = self.places;
+        let share = self.share(koma);
+        let shifted = match self.side(share) {
+            Some(0) => share * (1.0 - self.weights[0]),
+            Some(_) => 1.0 - (1.0 - share) * (1.0 - self.weights[1]),
+            None => share,
+        };
+        self.bounded(from + shifted * (to - from), share)
+    }
+
+    /// The weight with which an inbetween on that koma is taken from a place, and whose it is: 0 for the key before,
+    /// 1 for the key after. None on a key, in the middle, and where both show one place.
+    pub(super) fn weight_at(&self, koma: usize, place: f64) -> Option<(usize, f64)> {
+        let [from, to] = self.places;
+        let share = self.share(koma);
+        let side = self.side(share)?;
+        let (key, even) = ([from, to][side], self.even(share));
+        let left = (self.bounded(place, share) - key) / (even - key);
+        (even != key).then_some((side, (1.0 - left).clamp(0.0, MOST_WEIGHT)))
+    }
+
+    /// How much of the time has gone, 0 to 1.
+    fn share(&self, koma: usize) -> f64 {
+        (koma - self.koma[0]) as f64 / (self.koma[1] - self.koma[0]) as f64
+    }
+
+    /// The place without any weight.
+    fn even(&self, share: f64) -> f64 {
+        let [from, to] = self.places;
+        from + share * (to - from)
+    }
+
+    /// The side is that of the nearer key, or before and after the wall where there is one; none in the middle.
+    fn side(&self, share: f64) -> Option<usize> {
+        let even = self.even(share);
+        let side = match self.wall {
+            Some(wall) if (even - wall).abs() < 1e-9 => 0.0,
+            Some(wall) => even - wall,
+            None => share - 0.5,
+        };
+        (side != 0.0).then_some(usize::from(side > 0.0))
+    }
+
+    /// Bounded about the even place, and not about the koma's own instant: a key may stand half a koma off its
+    /// instant, and the bound must not push an inbetween past it.
+    fn bounded(&self, place: f64, share: f64) -> f64 {
+        let even = self.even(share);
+        place.clamp(even - self.max_shift, even + self.max_shift)
+    }
+}
