@@ -42,7 +42,12 @@ impl Desk for Made {
         Ok(())
     }
 
-    fn export(&self, _: &Path, _: &Export<'_>) -> Result<Vec<String>, String> {
+    fn export(
+        &self,
+        _: &Path,
+        _: &Export<'_>,
+        _: &dyn Fn(&str),
+    ) -> Result<Vec<String>, String> {
         Ok(vec![])
     }
 }

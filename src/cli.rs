@@ -5,6 +5,8 @@ mod asked;
 mod compare;
 mod deliver;
 #[cfg(feature = "studio")]
+mod dialog;
+#[cfg(feature = "studio")]
 pub mod disk;
 mod eval;
 mod failure;
@@ -15,6 +17,8 @@ mod omit;
 mod pages;
 mod pictures;
 mod pins;
+#[cfg(feature = "studio")]
+mod recent;
 mod recipe;
 mod results;
 mod run;

@@ -104,6 +104,11 @@ impl Engine {
         &self.clip
     }
 
+    /// The motion, to be kept beyond this engine.
+    pub fn shared_clip(&self) -> Arc<Clip> {
+        Arc::clone(&self.clip)
+    }
+
     /// Runs the chain as far as it has to be run again.
     ///
     /// # Errors

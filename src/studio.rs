@@ -17,6 +17,9 @@ mod counts;
 mod curves;
 mod desk;
 mod document;
+mod errand;
+mod exporting;
+mod file_field;
 mod help;
 mod here;
 mod history;
@@ -25,6 +28,7 @@ mod key_menu;
 mod keyboard;
 mod knobs;
 mod look;
+mod map;
 mod opening;
 mod player;
 mod scene;
@@ -36,18 +40,23 @@ mod viewport;
 mod welcome;
 mod words;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
-use bar::{Deed, FileField, Message};
+use bar::Message;
 use column::Column;
 use counts::Counts;
 use curves::Curves;
+use errand::Errand;
+use exporting::Exporting;
+use file_field::FileField;
 use key_menu::KeyPanel;
 use keyboard::Command;
 use knobs::Knobs;
 use look::Look;
+use map::Map;
 use opening::Opening;
 use player::Player;
 use shown::Shown;
@@ -66,6 +75,11 @@ pub struct Studio {
     language: Language,
     take: Option<Take>,
     opening: Option<Opening>,
+    exporting: Option<Exporting>,
+    /// The dialog of the system for a file.
+    choosing: Option<Errand<Option<PathBuf>>>,
+    /// The clips that were opened last.
+    recent: Vec<PathBuf>,
     message: Option<Message>,
     file: FileField,
     is_help_open: bool,
@@ -74,6 +88,7 @@ pub struct Studio {
     timesheet: Timesheet,
     curves: Curves,
     knobs: Knobs,
+    map: Map,
     key_panel: KeyPanel,
     /// The document when a hand took hold of a key.
     held: Option<Document>,
@@ -85,10 +100,13 @@ impl Studio {
     /// A studio with nothing on the table.
     pub fn new(desk: Arc<dyn Desk>, language: Language) -> Self {
         Self {
+            recent: desk.recent(),
             desk,
             language,
             take: None,
             opening: None,
+            exporting: None,
+            choosing: None,
             message: None,
             file: FileField::default(),
             is_help_open: false,
@@ -97,6 +115,7 @@ impl Studio {
             timesheet: Timesheet::default(),
             curves: Curves::default(),
             knobs: Knobs::default(),
+            map: Map::default(),
             key_panel: KeyPanel::default(),
             held: None,
             before: None,
@@ -111,6 +130,16 @@ impl Studio {
     /// Whether a clip is being read.
     pub fn is_opening(&self) -> bool {
         self.opening.is_some()
+    }
+
+    /// Whether results are being written.
+    pub fn is_exporting(&self) -> bool {
+        self.exporting.is_some()
+    }
+
+    /// Whether the map of the smoothing is being made.
+    pub fn is_mapping(&self) -> bool {
+        self.map.is_waiting()
     }
 
     /// What the window is called: the clip, with a star while something is not saved.
@@ -129,12 +158,13 @@ impl Studio {
         let mut commands = keyboard::pressed(ui);
         let frame = Frame::side_top_panel(ui.style());
         Panel::top("bar").frame(frame).show(ui, |ui| {
-            bar::show(ui, self.take.as_mut(), self.before, words, &mut commands);
+            let is_exporting = self.exporting.is_some();
+            bar::show(ui, self.take.as_mut(), self.before, is_exporting, words, &mut commands);
             self.stripes(ui, &look, words, &mut commands);
         });
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
-            None => welcome::show(ui, &look, words, &mut commands),
+            None => welcome::show(ui, &look, &self.recent, words, &mut commands),
         }
         help::show(ui, &mut self.is_help_open, words);
         for command in commands {
@@ -145,28 +175,20 @@ impl Studio {
 
     /// What lies under the bar: a field for files, what is read, what went wrong, what was left.
     fn stripes(&mut self, ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
-        if self.file.is_open
-            && let Some(deed) = self.file.show(ui, self.take.is_some(), words)
-        {
-            self.with_file(deed);
+        if self.file.is_open {
+            self.file.show(ui, self.take.is_some(), &self.recent, words, commands);
         }
         if let Some(opening) = &self.opening {
             opening.show(ui, words);
+        }
+        if let Some(exporting) = &self.exporting {
+            exporting.show(ui, words);
         }
         if let Some(message) = &self.message {
             bar::message(ui, message, look, words, commands);
         }
         if self.take.as_ref().is_some_and(|take| take.left.is_some()) {
             bar::recovery(ui, look, words, commands);
-        }
-    }
-
-    fn with_file(&mut self, deed: Deed) {
-        let path = self.file.path().to_owned();
-        self.file.is_open = false;
-        match deed {
-            Deed::Open => self.open_any(&path),
-            Deed::SaveAs => self.save_as(&path),
         }
     }
 
@@ -182,7 +204,7 @@ impl Studio {
         let (at, joints) = (self.player.at, &self.curves.chosen.clone());
         let shown = Shown { breakdown, column, scene, wanted, joints, at, look, words };
         Panel::left("knobs").default_size(306.0).size_range(250.0..=460.0).show(ui, |ui| {
-            self.knobs.show(ui, &shown, commands);
+            self.knobs.show(ui, &mut self.map, &shown, commands);
         });
         Panel::right("sheet").default_size(236.0).size_range(170.0..=420.0).show(ui, |ui| {
             self.key_panel.show(ui, &shown, commands);
@@ -204,16 +226,37 @@ impl Studio {
             .show(ui, |ui| self.viewport.show(ui, &shown, commands));
     }
 
-    /// What comes from outside: a clip that was read, files that were dropped.
+    /// What comes from outside: a clip that was read, results that were written, files that were chosen or dropped.
     fn receive(&mut self, ui: &Ui) {
-        match self.opening.take().map(Opening::look) {
-            None => {}
-            Some(opening::Look::Waiting(opening)) => {
-                self.opening = Some(opening);
-                ui.ctx().request_repaint_after_secs(0.05);
+        if let Some(read) = self.opening.as_ref().and_then(Opening::look) {
+            self.opening = None;
+            match read {
+                Ok(take) => self.put_on_table(take),
+                Err(text) => self.fail(text),
             }
-            Some(opening::Look::Done(Ok(take))) => self.put_on_table(*take),
-            Some(opening::Look::Done(Err(text))) => self.fail(text),
+        }
+        if let Some(written) = self.exporting.as_ref().and_then(Exporting::look) {
+            self.exporting = None;
+            match written {
+                Ok(text) => self.say(text),
+                Err(text) => self.fail(text),
+            }
+        }
+        match self.choosing.as_ref().map(Errand::look) {
+            Some(errand::Look::Done(chosen)) => {
+                self.choosing = None;
+                chosen.into_iter().for_each(|path| self.open_any(&path));
+            }
+            Some(errand::Look::BrokeOff) => self.choosing = None,
+            Some(errand::Look::Waiting) | None => {}
+        }
+        self.map.receive();
+        let is_waiting = self.opening.is_some()
+            || self.exporting.is_some()
+            || self.choosing.is_some()
+            || self.map.is_waiting();
+        if is_waiting {
+            ui.ctx().request_repaint_after_secs(0.05);
         }
         let dropped =
             ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
@@ -229,6 +272,9 @@ impl Studio {
         self.viewport = Viewport::of(&take.scene);
         self.timesheet = Timesheet::default();
         self.key_panel = KeyPanel::default();
+        self.map.forget();
+        self.desk.remember(&take.path);
+        self.recent = self.desk.recent();
         (self.held, self.before, self.message) = (None, None, None);
         self.take = Some(take);
     }
@@ -246,6 +292,9 @@ impl Studio {
             }
         }
         take.history.settle(&take.wanted, is_held);
+        if !is_held {
+            self.map.renew(take);
+        }
         if is_held {
             self.before = self.before.or_else(|| Some(take.counts()));
             return;

@@ -111,14 +111,16 @@ impl Asked {
         self.named.contains(&name)
     }
 
-    /// Writes every file, one made after the other.
+    /// Writes every file, one made after the other, and tells of which format it is about to write.
     pub(super) fn write(
         &self,
         cut: &Cut<'_>,
         bundle: &mut io::Bundle<'_>,
+        tell: &dyn Fn(&str),
     ) -> Result<Written, Failure> {
         let (mut files, mut left) = (Vec::new(), Vec::new());
         for format in &self.formats {
+            tell(format.name);
             let mut names = Vec::new();
             format.write(cut, &self.settings, &mut |name, bytes| {
                 names.push(name.to_owned());

@@ -40,7 +40,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     };
     asked.settle(&cut)?.iter().for_each(|note| words.say(note));
     let mut bundle = io::Bundle::begin(&folder)?;
-    let written = asked.write(&cut, &mut bundle)?;
+    let written = asked.write(&cut, &mut bundle, &|_| {})?;
     bundle.finish()?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use super::args::{FormatArgs, Part};
 use super::asked::Asked;
 use super::failure::Failure;
+use super::recent::Recent;
 use super::results::{ALWAYS, OWN, Results};
-use super::{io, source};
+use super::{dialog, io, source};
 use crate::studio::{Desk, Export, Opened};
 
 /// Files on a disk.
@@ -16,12 +17,13 @@ use crate::studio::{Desk, Export, Opened};
 pub struct Disk {
     /// The clip that the command line names, and which part of it is meant.
     named: Option<(PathBuf, Part)>,
+    recent: Recent,
 }
 
 impl Disk {
-    /// A disk with a clip of which a part is meant.
+    /// A disk with a clip of which a part is meant, and the list of what was opened last.
     pub(super) fn with(clip: Option<PathBuf>, part: Part) -> Self {
-        Self { named: clip.map(|clip| (clip, part)) }
+        Self { named: clip.map(|clip| (clip, part)), recent: Recent::of_person() }
     }
 }
 
@@ -55,13 +57,35 @@ impl Desk for Disk {
         }
     }
 
-    fn export(&self, folder: &Path, export: &Export<'_>) -> Result<Vec<String>, String> {
-        written(folder, export).map_err(said)
+    fn export(
+        &self,
+        folder: &Path,
+        export: &Export<'_>,
+        tell: &dyn Fn(&str),
+    ) -> Result<Vec<String>, String> {
+        written(folder, export, tell).map_err(said)
+    }
+
+    fn choose(&self) -> Option<PathBuf> {
+        dialog::choose()
+    }
+
+    fn recent(&self) -> Vec<PathBuf> {
+        self.recent.clips()
+    }
+
+    fn remember(&self, clip: &Path) {
+        // A list that cannot be written is worth no word.
+        drop(self.recent.remember(clip));
     }
 }
 
 /// Writes what a run writes, and spares what a run spares.
-fn written(folder: &Path, export: &Export<'_>) -> Result<Vec<String>, Failure> {
+fn written(
+    folder: &Path,
+    export: &Export<'_>,
+    tell: &dyn Fn(&str),
+) -> Result<Vec<String>, Failure> {
     let mut asked = Asked::new("deliver", &[], &ALWAYS, &FormatArgs::default())?;
     let name = io::stem(export.clip);
     asked.spare("motion", export.clip, folder, &name)?;
@@ -75,6 +99,7 @@ fn written(folder: &Path, export: &Export<'_>) -> Result<Vec<String>, Failure> {
         edits: export.edits,
         notes: export.notes.to_vec(),
         kept: None,
+        tell,
     };
     let (_, written) = results.write(&mut asked, folder)?;
     Ok(written.files)

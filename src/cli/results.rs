@@ -29,6 +29,8 @@ pub(super) struct Results<'a> {
     pub(super) notes: Vec<String>,
     /// Why the recipe in the folder stays as it is; none where it is written.
     pub(super) kept: Option<&'static str>,
+    /// Who is told what is being written.
+    pub(super) tell: &'a dyn Fn(&str),
 }
 
 impl Results<'_> {
@@ -51,7 +53,8 @@ impl Results<'_> {
         report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));
         report.notes.extend(self.kept.map(str::to_owned));
         let mut bundle = io::Bundle::begin(folder)?;
-        let mut written = asked.write(&cut, &mut bundle)?;
+        let mut written = asked.write(&cut, &mut bundle, self.tell)?;
+        (self.tell)("speed.svg");
         bundle.add("speed.svg", pictures::speed(breakdown)?)?;
         if self.kept.is_none() {
             bundle.add(RECIPE, recipe.write(edits))?;

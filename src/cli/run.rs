@@ -49,6 +49,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         edits: &edits,
         notes: notes.collect(),
         kept: kept(args, &folder.join(RECIPE), (&recipe, &edits)),
+        tell: &|_| {},
     };
     let (report, Written { files, stale }) = results.write(&mut asked, &folder)?;
     drop(working);

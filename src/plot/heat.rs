@@ -290,7 +290,8 @@ fn unit(axis: &Axis) -> &str {
     axis.scale().map_or("", |(_, unit)| unit)
 }
 
-fn color(share: f64) -> RGBColor {
+/// The colour of a share, 0 to 1: the darker the more.
+pub(crate) fn color(share: f64) -> RGBColor {
     if share < 0.5 {
         style::mixed(FEW, HALF, 2.0 * share)
     } else {

@@ -2,6 +2,7 @@
 
 pub(crate) use super::cells::{Cell, cells};
 pub(crate) use super::figure::{Drawn, Figure};
+pub(crate) use super::heat::color as heat;
 pub(crate) use super::points::Posing;
 pub(crate) use super::ssd::Moves;
 pub(crate) use super::stage::{Stage, fitting};

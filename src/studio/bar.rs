@@ -1,8 +1,6 @@
 //! The bar on top (ツールバー): files, undo, what the clip costs, how it looks.
 
-use std::path::Path;
-
-use egui::{Align, Button, Color32, Frame, Layout, RichText, TextEdit, Ui};
+use egui::{Align, Button, Color32, Frame, Layout, RichText, Ui};
 
 use super::counts::Counts;
 use super::icon::{self, Icon};
@@ -16,6 +14,7 @@ pub(super) fn show(
     ui: &mut Ui,
     take: Option<&mut Take>,
     before: Option<Counts>,
+    is_exporting: bool,
     words: Words,
     commands: &mut Vec<Command>,
 ) {
@@ -28,7 +27,8 @@ pub(super) fn show(
         let is_open = take.is_some();
         button(ui, true, words.say("Open", "開く"), Command::OpenFile);
         button(ui, is_open, words.say("Save", "保存"), Command::Save);
-        button(ui, is_open, words.say("Export", "書き出し"), Command::Export);
+        let can_export = is_open && !is_exporting;
+        button(ui, can_export, words.say("Export", "書き出し"), Command::Export);
         ui.separator();
         let can = |can: fn(&Take) -> bool| take.as_deref().is_some_and(can);
         let (can_undo, can_redo) = (
@@ -124,53 +124,4 @@ pub(super) fn recovery(ui: &mut Ui, look: &Look, words: Words, commands: &mut Ve
 fn stripe(ui: &mut Ui, color: Color32, add: impl FnOnce(&mut Ui)) {
     let frame = Frame::new().inner_margin(6).fill(color.gamma_multiply(0.22)).corner_radius(4);
     frame.show(ui, |ui| ui.horizontal(add));
-}
-
-/// The field for the name of a file, which is opened or saved to.
-#[derive(Debug, Clone, Default)]
-pub(super) struct FileField {
-    pub(super) is_open: bool,
-    pub(super) text: String,
-    pub(super) wants_focus: bool,
-}
-
-/// What is to be done with a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Deed {
-    Open,
-    SaveAs,
-}
-
-impl FileField {
-    /// Shows the field. Gives what is to be done with the file that is named.
-    pub(super) fn show(&mut self, ui: &mut Ui, can_save: bool, words: Words) -> Option<Deed> {
-        let mut deed = None;
-        ui.horizontal(|ui| {
-            let hint = words.say("clip.bvh or recipe.toml", "clip.bvh または recipe.toml");
-            let field = TextEdit::singleline(&mut self.text).desired_width(460.0).hint_text(hint);
-            let field = ui.add(field).accessible_name(words.say("File", "ファイル"));
-            if std::mem::take(&mut self.wants_focus) {
-                field.request_focus();
-            }
-            let is_entered =
-                field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-            let is_named = !self.text.trim().is_empty();
-            if (ui.add_enabled(is_named, Button::new(words.say("Open it", "開く"))).clicked()
-                || is_entered)
-                && is_named
-            {
-                deed = Some(Deed::Open);
-            }
-            let save = Button::new(words.say("Save recipe as", "レシピを別名で保存"));
-            if ui.add_enabled(is_named && can_save, save).clicked() {
-                deed = Some(Deed::SaveAs);
-            }
-        });
-        deed
-    }
-
-    /// The file that is named.
-    pub(super) fn path(&self) -> &Path {
-        Path::new(self.text.trim())
-    }
 }

@@ -1,11 +1,14 @@
 //! What is done when a hand or a key asks for it.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use egui::{Theme, Ui};
 
 use super::column::Column;
 use super::corrections::Correction;
+use super::errand::Errand;
+use super::exporting::Exporting;
 use super::here::Here;
 use super::keyboard::Command;
 use super::opening::Opening;
@@ -46,7 +49,7 @@ impl Studio {
         }
     }
 
-    pub(super) fn save_as(&mut self, path: &Path) {
+    fn save_as(&mut self, path: &Path) {
         if let Some(take) = &mut self.take {
             take.recipe = path.to_owned();
         }
@@ -64,13 +67,17 @@ impl Studio {
         }
     }
 
+    /// Writes what a run writes. One export at a time: the next would write the same files.
     fn export(&mut self) {
-        let Some(take) = &mut self.take else { return };
-        let folder = take.folder();
-        match take.export(&*self.desk, &folder) {
-            Ok(files) => self.say(format!("{}: {}", folder.display(), files.join(" "))),
-            Err(text) => self.fail(text),
+        if let (Some(take), None) = (&self.take, &self.exporting) {
+            self.message = None;
+            self.exporting = Some(Exporting::begin(&self.desk, take.parcel()));
         }
+    }
+
+    fn choose(&mut self) {
+        let desk = Arc::clone(&self.desk);
+        self.choosing.get_or_insert_with(|| Errand::begin(move || desk.choose()));
     }
 
     /// Does what a command says.
@@ -107,6 +114,7 @@ impl Studio {
             | Command::Defaults
             | Command::Undo
             | Command::Redo => self.change(command),
+            Command::Map => self.map.toggle(),
             Command::Movement => self.curves.movement = !self.curves.movement,
             Command::FocusName => self.key_panel.wants_focus = true,
             Command::Save => self.save(),
@@ -115,6 +123,15 @@ impl Studio {
                 self.file.is_open = !self.file.is_open;
                 self.file.wants_focus = self.file.is_open;
             }
+            Command::Open(path) => {
+                self.file.is_open = false;
+                self.open_any(&path);
+            }
+            Command::SaveAs(path) => {
+                self.file.is_open = false;
+                self.save_as(&path);
+            }
+            Command::Choose => self.choose(),
             Command::Recover => self.take.iter_mut().for_each(super::Take::recover),
             Command::Discard => self.discard(),
             Command::Theme => {

@@ -1,7 +1,7 @@
 //! The desk (机): what the studio asks of the world outside. It has no files of its own, so that it can be
 //! tried without a disk, and on a full one.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::edits::Edits;
 use crate::motion::Clip;
@@ -34,11 +34,31 @@ pub trait Desk: Send + Sync {
     /// Why it is still there.
     fn remove(&self, path: &Path) -> Result<(), String>;
 
-    /// Writes everything that a run writes into a folder. Gives the names of the files.
+    /// Writes everything that a run writes into a folder, on a thread of its own, and tells what it is about to write.
+    /// Gives the names of the files.
     ///
     /// # Errors
     /// Why it cannot be written. The folder is as it was before.
-    fn export(&self, folder: &Path, export: &Export<'_>) -> Result<Vec<String>, String>;
+    fn export(
+        &self,
+        folder: &Path,
+        export: &Export<'_>,
+        tell: &dyn Fn(&str),
+    ) -> Result<Vec<String>, String>;
+
+    /// Lets the person choose a clip or a recipe in a dialog of the system, on a thread of its own. None when they
+    /// choose none, and where there is no such dialog, as on a desk that says nothing else.
+    fn choose(&self) -> Option<PathBuf> {
+        None
+    }
+
+    /// The clips that were opened last, the newest first; none on a desk that remembers nothing.
+    fn recent(&self) -> Vec<PathBuf> {
+        vec![]
+    }
+
+    /// Remembers a clip as the newest.
+    fn remember(&self, _clip: &Path) {}
 }
 
 /// A motion that was read.

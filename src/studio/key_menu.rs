@@ -1,8 +1,9 @@
 //! What can be done to a key, as a menu and as a small panel.
 
-use egui::{RichText, Slider, TextEdit, Ui};
+use egui::{DragValue, RichText, Slider, TextEdit, Ui};
 
 use super::corrections::Correction;
+use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::shown::Shown;
 use super::words::Words;
@@ -40,6 +41,9 @@ fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
     }
 }
 
+/// How long a drawing may be asked to stay: two seconds, as a sheet is turned by then.
+const LONGEST: usize = 48;
+
 /// The panel of the key at the play head.
 #[derive(Debug, Clone, Default)]
 pub(super) struct KeyPanel {
@@ -62,6 +66,7 @@ impl KeyPanel {
             };
             ui.strong(what);
             show_none(ui, shown, commands);
+            hold(ui, shown, commands);
             return;
         };
         ui.horizontal(|ui| {
@@ -79,6 +84,7 @@ impl KeyPanel {
         ui.horizontal_wrapped(|ui| show(ui, key, words, commands));
         self.name(ui, key, words, commands);
         weight(ui, key, shown, commands);
+        hold(ui, shown, commands);
     }
 
     /// The field for the name. It is taken on when it is left, so that undo takes back a name and no letter.
@@ -123,4 +129,24 @@ fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>
             commands.push(Command::Correct(Correction::Weight(key.clone(), Some(weight))));
         }
     }
+}
+
+/// How long the drawing at the play head stays.
+fn hold(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let (words, cell) = (shown.words, shown.column.cell(shown.at));
+    let frame = cell.hold_frame(&shown.wanted.edits);
+    ui.horizontal(|ui| {
+        let label = words.say("Hold", "止め");
+        ui.label(label);
+        let mut koma = cell.held;
+        let value = DragValue::new(&mut koma).range(1..=LONGEST).speed(0.1);
+        let value = ui.add(value.suffix(words.say(" koma", "コマ"))).accessible_name(label);
+        if value.changed() {
+            commands.push(Command::Correct(Correction::Hold(frame, koma)));
+        }
+        let back = words.say("Back to the hold that was found", "止めを元に戻す");
+        if cell.drawing.why.hold_set && icon::button(ui, Icon::Back, back).clicked() {
+            commands.push(Command::Correct(Correction::LetGo(frame)));
+        }
+    });
 }

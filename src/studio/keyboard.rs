@@ -1,5 +1,7 @@
 //! Commands (操作), and the keys that give them. The list that `?` shows is made from this table.
 
+use std::path::PathBuf;
+
 use egui::{Event, Key, KeyboardShortcut, Modifiers, TextEdit, Ui};
 
 use super::corrections::Correction;
@@ -42,6 +44,8 @@ pub(super) enum Command {
     Trails,
     /// How far the body moves into each koma.
     Movement,
+    /// The map of what is found with other settings of the smoothing.
+    Map,
     /// A key at the play head, or none.
     ToggleKey,
     /// The key at the play head stays, or may go again.
@@ -71,6 +75,12 @@ pub(super) enum Command {
     Save,
     /// Opens or closes the field for a file's name.
     OpenFile,
+    /// Opens a clip, or a recipe for the one on the table.
+    Open(PathBuf),
+    /// Saves the recipe under another name.
+    SaveAs(PathBuf),
+    /// Lets the person choose a file in a dialog of the system.
+    Choose,
     Export,
     /// Takes what an earlier session left.
     Recover,
@@ -129,6 +139,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(COMMAND, Key::Y, Command::Redo, "redo", "やり直す"),
     key(COMMAND, Key::Z, Command::Undo, "undo", "元に戻す"),
     key(COMMAND, Key::S, Command::Save, "save the recipe", "レシピを保存"),
+    key(COMMAND_SHIFT, Key::O, Command::Choose, "choose a file", "ファイルを選ぶ"),
     key(COMMAND, Key::O, Command::OpenFile, "open a clip or a recipe", "クリップかレシピを開く"),
     key(COMMAND, Key::E, Command::Export, "export everything", "すべて書き出す"),
     key(
@@ -171,6 +182,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::C, Command::Follow, "camera follows the body", "カメラが体を追う"),
     key(NONE, Key::G, Command::Onion, "onion skin", "オニオンスキン"),
     key(NONE, Key::T, Command::Trails, "trails of the chosen joints", "選んだ関節の軌跡"),
+    key(NONE, Key::H, Command::Map, "map of the smoothing", "表1の地図"),
     key(NONE, Key::M, Command::Movement, "movement into each koma", "動きの大きさ"),
     key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
     key(NONE, Key::L, Command::Lock, "lock the genga here, or unlock it", "原画を固定・解除"),

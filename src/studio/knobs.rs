@@ -9,6 +9,7 @@ use egui::{Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, Sli
 use self::presets::PRESETS;
 use super::icon::{self, Icon};
 use super::keyboard::Command;
+use super::map::Map;
 use super::shown::Shown;
 use super::words::Words;
 use crate::recipe::{KNOBS, Kind, Knob, Recipe};
@@ -40,7 +41,13 @@ fn texts(recipe: &Recipe) -> Vec<String> {
 
 impl Knobs {
     /// Shows presets and, section by section, the knobs.
-    pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        map: &mut Map,
+        shown: &Shown<'_>,
+        commands: &mut Vec<Command>,
+    ) {
         let recipe = &shown.wanted.recipe;
         if self.of != *recipe {
             (self.of, self.values) = (recipe.clone(), texts(recipe));
@@ -62,6 +69,9 @@ impl Knobs {
                         }
                     },
                 );
+                if section == Some("turns") {
+                    map.show(ui, shown, commands);
+                }
             }
             super::corrected::show(ui, shown, commands);
         });

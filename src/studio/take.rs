@@ -2,14 +2,17 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::counts::Counts;
-use super::desk::{Desk, Export};
+use super::desk::Desk;
 use super::document::Document;
+use super::exporting::Parcel;
 use super::history::History;
 use super::scene::Scene;
 use crate::error::Error;
+use crate::motion::Clip;
 use crate::pipeline::{Breakdown, Engine};
 
 /// Seconds a run may take and still be made again while something is dragged.
@@ -162,18 +165,20 @@ impl Take {
         desk.remove(&beside(&self.path, AUTOSAVE))
     }
 
-    /// The folder that an export goes to, unless another is named.
-    pub(super) fn folder(&self) -> PathBuf {
-        self.path.with_file_name(format!("{}-genga", self.name()))
+    /// All results as they are now, to be written elsewhere than on the table.
+    pub(super) fn parcel(&self) -> Parcel {
+        Parcel {
+            clip: self.path.clone(),
+            folder: self.path.with_file_name(format!("{}-genga", self.name())),
+            document: self.document.clone(),
+            notes: self.notes.clone(),
+            engine: self.engine.clone(),
+        }
     }
 
-    /// Writes all results.
-    pub(super) fn export(&mut self, desk: &dyn Desk, folder: &Path) -> Result<Vec<String>, String> {
-        let Document { recipe, edits } = &self.document;
-        let breakdown = self.engine.run(recipe, edits).map_err(|error| error.to_string())?;
-        let notes = &self.notes;
-        let export = Export { clip: &self.path, breakdown: &breakdown, recipe, edits, notes };
-        desk.export(folder, &export)
+    /// The clip, for whoever looks at it on a thread of their own.
+    pub(super) fn clip(&self) -> Arc<Clip> {
+        self.engine.shared_clip()
     }
 }
 

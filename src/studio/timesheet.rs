@@ -1,18 +1,19 @@
 //! The timesheet (タイムシート): a column that runs down, with circled genga numbers, marks for inbetweens and
 //! lines for holds. It follows the play head; keys are corrected on it, and holds by their ends.
 
+mod hand;
+
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Id, Painter, PointerButton, Pos2, Rect, Response, Role,
-    ScrollArea, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Id, Painter, Pos2, Rect, Role, ScrollArea, Sense, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
+use self::hand::Hand;
 use super::column::Cell;
-use super::corrections::Correction;
 use super::key_menu;
 use super::keyboard::Command;
 use super::shown::Shown;
 use crate::keys::{Key, Origin};
-use crate::time::Frame;
 
 /// Height of a koma.
 const ROW: f32 = 17.0;
@@ -27,24 +28,10 @@ const CIRCLE: f32 = 8.0;
 /// Koma between two thin lines, as on printed sheets.
 const THIN: usize = 6;
 
-/// How near a hand has to be to the end of a hold.
-const NEAR_END: f32 = 3.5;
-
-/// What a hand holds.
-#[derive(Debug, Clone)]
-enum Held {
-    /// A key, and the frame that it was last over.
-    Key(Key, Frame),
-    /// The end of a drawing by its frame, the koma on which that begins, and its last length.
-    End { frame: Frame, begin: usize, koma: usize },
-}
-
 /// The sheet, as it is looked at and worked on.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Timesheet {
-    held: Option<Held>,
-    /// The key whose menu is open.
-    asked: Option<Key>,
+    hand: Hand,
     /// The koma that was last brought into view.
     followed: Option<usize>,
 }
@@ -68,7 +55,10 @@ impl Timesheet {
                 let top = ui.min_rect().min + vec2(0.0, PAD);
                 let rect = Rect::from_min_size(top, vec2(ui.available_width(), high));
                 let response = ui.interact(rect, Id::unique("timesheet"), Sense::click_and_drag());
-                self.handle(&response, rect, shown, commands);
+                if let Some(koma) = self.hand.handle(&response, rect, shown, commands) {
+                    self.followed = Some(koma);
+                    commands.extend(shown.go(koma));
+                }
                 let rows = rows(seen, shown.column.length);
                 draw(ui, rect, rows, shown);
                 self.follow(ui, rect, seen, shown);
@@ -78,49 +68,12 @@ impl Timesheet {
                     current_text_value: Some(at.clone()),
                     ..WidgetInfo::labeled(Role::Canvas, true, name)
                 });
-                response.context_menu(|ui| match &self.asked {
+                response.context_menu(|ui| match &self.hand.asked {
                     Some(key) => key_menu::show(ui, key, words, commands),
                     None => key_menu::show_none(ui, shown, commands),
                 });
             },
         );
-    }
-
-    fn handle(
-        &mut self,
-        response: &Response,
-        rect: Rect,
-        shown: &Shown<'_>,
-        commands: &mut Vec<Command>,
-    ) {
-        if response.hover_pos().is_some_and(|at| ending(at, rect, shown).is_some()) {
-            response.ctx.set_cursor_icon(CursorIcon::ResizeVertical);
-        }
-        let Some(at) = response.interact_pointer_pos() else {
-            self.held = None;
-            return;
-        };
-        if response.drag_started_by(PointerButton::Primary) {
-            let origin = response.ctx.input(|input| input.pointer.press_origin());
-            self.held = grasped(origin.unwrap_or(at), rect, shown);
-        }
-        if response.secondary_clicked() {
-            self.asked = key(at, rect, shown).cloned();
-        }
-        let is_held = response.is_pointer_button_down_on()
-            || response.clicked()
-            || response.secondary_clicked();
-        if is_held && !matches!(self.held, Some(Held::End { .. })) {
-            let koma = koma(at, rect, shown);
-            self.followed = Some(koma);
-            commands.extend(shown.go(koma));
-        }
-        if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
-            commands.extend(held.follow(at, rect, shown).map(Command::Drag));
-        }
-        if response.drag_stopped() {
-            self.held = None;
-        }
     }
 
     /// Brings the play head into view when it has left it.
@@ -135,57 +88,6 @@ impl Timesheet {
             ui.scroll_to_rect(row, Some(egui::Align::Center));
         }
     }
-}
-
-impl Held {
-    /// What brings it under the hand, when that has come to another koma.
-    fn follow(&mut self, at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Correction> {
-        match self {
-            Self::Key(key, last) => {
-                let to = shown.frame_of_koma(koma(at, rect, shown));
-                let is_new = std::mem::replace(last, to) != to;
-                is_new.then(|| Correction::Move(key.clone(), to))
-            }
-            Self::End { frame, begin, koma } => {
-                let line = ((at.y - rect.min.y) / ROW).round().max(0.0) as usize;
-                let wanted = line.saturating_sub(*begin).max(1);
-                let is_new = std::mem::replace(koma, wanted) != wanted;
-                is_new.then(|| Correction::Hold(*frame, wanted))
-            }
-        }
-    }
-}
-
-/// What a hand takes that comes down there.
-fn grasped(at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Held> {
-    if let Some(cell) = ending(at, rect, shown) {
-        let frame = cell.hold_frame(&shown.wanted.edits);
-        return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
-    }
-    key(at, rect, shown).map(|key| Held::Key(key.clone(), key.frame))
-}
-
-/// The koma that is there.
-fn koma(at: Pos2, rect: Rect, shown: &Shown<'_>) -> usize {
-    (((at.y - rect.min.y) / ROW).max(0.0) as usize).min(shown.column.length - 1)
-}
-
-/// The key whose number is there.
-fn key<'a>(at: Pos2, rect: Rect, shown: &Shown<'a>) -> Option<&'a Key> {
-    let koma = koma(at, rect, shown);
-    let cell = shown.column.cell(koma);
-    cell.key.filter(|_| cell.koma == koma)
-}
-
-/// The drawing that ends there; the last one ends with the sheet.
-fn ending<'a, 'b>(at: Pos2, rect: Rect, shown: &'b Shown<'a>) -> Option<&'b Cell<'a>> {
-    let lines = (at.y - rect.min.y) / ROW;
-    let line = lines.round();
-    let is_near = (lines - line).abs() * ROW <= NEAR_END && line >= 1.0;
-    let is_end = |cell: &&Cell<'_>| cell.koma + cell.held == line as usize;
-    let ends = (line as usize) < shown.column.length;
-    let cell = (is_near && ends).then(|| shown.column.cell(line as usize - 1));
-    cell.filter(is_end)
 }
 
 /// The koma in view.

@@ -13,6 +13,10 @@ pub(crate) struct Memory {
     pub(crate) files: Mutex<BTreeMap<PathBuf, String>>,
     /// What every write says instead of writing.
     pub(crate) is_full: Mutex<bool>,
+    /// What is chosen in the next dialog.
+    pub(crate) chosen: Mutex<Option<PathBuf>>,
+    /// The clips that were opened, the newest first.
+    pub(crate) opened: Mutex<Vec<PathBuf>>,
     disk: Disk,
 }
 
@@ -45,8 +49,27 @@ impl Desk for Memory {
         Ok(())
     }
 
-    fn export(&self, folder: &Path, export: &Export<'_>) -> Result<Vec<String>, String> {
-        self.disk.export(folder, export)
+    fn export(
+        &self,
+        folder: &Path,
+        export: &Export<'_>,
+        tell: &dyn Fn(&str),
+    ) -> Result<Vec<String>, String> {
+        self.disk.export(folder, export, tell)
+    }
+
+    fn choose(&self) -> Option<PathBuf> {
+        self.chosen.lock().unwrap().take()
+    }
+
+    fn recent(&self) -> Vec<PathBuf> {
+        self.opened.lock().unwrap().clone()
+    }
+
+    fn remember(&self, clip: &Path) {
+        let mut opened = self.opened.lock().unwrap();
+        opened.retain(|other| other != clip);
+        opened.insert(0, clip.to_owned());
     }
 }
 

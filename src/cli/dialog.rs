@@ -1,0 +1,72 @@
+//! The dialog of the system for a file to open.
+
+use std::path::PathBuf;
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
+use std::thread::{self, Thread};
+
+use rfd::AsyncFileDialog;
+
+/// The file that a person chooses; none when they choose none, and where the system has no dialog. It waits for them.
+pub(super) fn choose() -> Option<PathBuf> {
+    let dialog = AsyncFileDialog::new()
+        .add_filter("BVH", &["bvh", "BVH"])
+        .add_filter("genga", &["toml"]);
+    waited(dialog.pick_file()).map(|file| file.path().to_owned())
+}
+
+/// Wakes a thread.
+struct Woken(Thread);
+
+impl Wake for Woken {
+    fn wake(self: Arc<Self>) {
+        self.0.unpark();
+    }
+}
+
+/// What a future gives; the thread sleeps until it is there.
+fn waited<T>(future: impl Future<Output = T>) -> T {
+    let mut future = pin!(future);
+    let waker = Waker::from(Arc::new(Woken(thread::current())));
+    loop {
+        match future.as_mut().poll(&mut Context::from_waker(&waker)) {
+            Poll::Ready(done) => return done,
+            Poll::Pending => thread::park(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+
+    /// Is there once another thread has said so.
+    struct Later(std::sync::mpsc::Receiver<u8>, std::sync::mpsc::Sender<Waker>);
+
+    impl Future for Later {
+        type Output = u8;
+
+        fn poll(self: std::pin::Pin<&mut Self>, context: &mut Context<'_>) -> Poll<u8> {
+            self.0.try_recv().map_or_else(
+                |_| {
+                    self.1.send(context.waker().clone()).unwrap();
+                    Poll::Pending
+                },
+                Poll::Ready,
+            )
+        }
+    }
+
+    #[test]
+    fn a_thread_sleeps_until_it_is_woken() {
+        let ((say, said), (give, wakers)) = (channel(), channel::<Waker>());
+        thread::spawn(move || {
+            let waker = wakers.recv().unwrap();
+            say.send(42).unwrap();
+            waker.wake();
+        });
+        assert_eq!(waited(Later(said, give)), 42);
+    }
+}

@@ -1,0 +1,119 @@
+//! The hand on the sheet (手): it takes a genga by its number, a drawing by its end, and else the play head.
+
+use egui::{CursorIcon, PointerButton, Pos2, Rect, Response};
+
+use super::ROW;
+use crate::keys::Key;
+use crate::studio::column::Cell;
+use crate::studio::corrections::Correction;
+use crate::studio::keyboard::Command;
+use crate::studio::shown::Shown;
+use crate::time::Frame;
+
+/// How near a hand has to be to the end of a hold.
+const NEAR_END: f32 = 3.5;
+
+/// What a hand holds.
+#[derive(Debug, Clone)]
+enum Held {
+    /// A key, and the frame that it was last over.
+    Key(Key, Frame),
+    /// The end of a drawing by its frame, the koma on which that begins, and its last length.
+    End { frame: Frame, begin: usize, koma: usize },
+}
+
+/// A hand on the sheet.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Hand {
+    held: Option<Held>,
+    /// The key whose menu is open.
+    pub(super) asked: Option<Key>,
+}
+
+impl Hand {
+    /// Takes what the hand does to the column in `rect`. Gives the koma that it brings the play head to.
+    pub(super) fn handle(
+        &mut self,
+        response: &Response,
+        rect: Rect,
+        shown: &Shown<'_>,
+        commands: &mut Vec<Command>,
+    ) -> Option<usize> {
+        if response.hover_pos().is_some_and(|at| ending(at, rect, shown).is_some()) {
+            response.ctx.set_cursor_icon(CursorIcon::ResizeVertical);
+        }
+        let Some(at) = response.interact_pointer_pos() else {
+            self.held = None;
+            return None;
+        };
+        if response.drag_started_by(PointerButton::Primary) {
+            let origin = response.ctx.input(|input| input.pointer.press_origin());
+            self.held = grasped(origin.unwrap_or(at), rect, shown);
+        }
+        if response.secondary_clicked() {
+            self.asked = key(at, rect, shown).cloned();
+        }
+        if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
+            commands.extend(held.follow(at, rect, shown).map(Command::Drag));
+        }
+        let is_down = response.is_pointer_button_down_on()
+            || response.clicked()
+            || response.secondary_clicked();
+        let is_of_end = matches!(self.held, Some(Held::End { .. }));
+        if response.drag_stopped() {
+            self.held = None;
+        }
+        (is_down && !is_of_end).then(|| koma(at, rect, shown))
+    }
+}
+
+impl Held {
+    /// What brings it under the hand, when that has come to another koma.
+    fn follow(&mut self, at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Correction> {
+        match self {
+            Self::Key(key, last) => {
+                let to = shown.frame_of_koma(koma(at, rect, shown));
+                let is_new = std::mem::replace(last, to) != to;
+                is_new.then(|| Correction::Move(key.clone(), to))
+            }
+            Self::End { frame, begin, koma } => {
+                let line = ((at.y - rect.min.y) / ROW).round().max(0.0) as usize;
+                let wanted = line.saturating_sub(*begin).max(1);
+                let is_new = std::mem::replace(koma, wanted) != wanted;
+                is_new.then(|| Correction::Hold(*frame, wanted))
+            }
+        }
+    }
+}
+
+/// What a hand takes that comes down there.
+fn grasped(at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Held> {
+    if let Some(cell) = ending(at, rect, shown) {
+        let frame = cell.hold_frame(&shown.wanted.edits);
+        return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
+    }
+    key(at, rect, shown).map(|key| Held::Key(key.clone(), key.frame))
+}
+
+/// The koma that is there.
+fn koma(at: Pos2, rect: Rect, shown: &Shown<'_>) -> usize {
+    (((at.y - rect.min.y) / ROW).max(0.0) as usize).min(shown.column.length - 1)
+}
+
+/// The key whose number is there.
+fn key<'a>(at: Pos2, rect: Rect, shown: &Shown<'a>) -> Option<&'a Key> {
+    let koma = koma(at, rect, shown);
+    let cell = shown.column.cell(koma);
+    cell.key.filter(|_| cell.koma == koma)
+}
+
+/// The drawing that ends there; the last one ends with the sheet.
+fn ending<'a, 'b>(at: Pos2, rect: Rect, shown: &'b Shown<'a>) -> Option<&'b Cell<'a>> {
+    let lines = (at.y - rect.min.y) / ROW;
+    let line = lines.round();
+    let is_near = (lines - line).abs() * ROW <= NEAR_END && line >= 1.0;
+    let is_end = |cell: &&Cell<'_>| cell.koma + cell.held == line as usize;
+    let ends = (line as usize) < shown.column.length;
+    let cell = (is_near && ends).then(|| shown.column.cell(line as usize - 1));
+    cell.filter(is_end)
+}
