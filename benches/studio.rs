@@ -42,12 +42,7 @@ impl Desk for Made {
         Ok(())
     }
 
-    fn export(
-        &self,
-        _: &Path,
-        _: &Export<'_>,
-        _: &dyn Fn(&str),
-    ) -> Result<Vec<String>, String> {
+    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Vec<String>, String> {
         Ok(vec![])
     }
 }

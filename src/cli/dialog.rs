@@ -10,9 +10,8 @@ use rfd::AsyncFileDialog;
 
 /// The file that a person chooses; none when they choose none, and where the system has no dialog. It waits for them.
 pub(super) fn choose() -> Option<PathBuf> {
-    let dialog = AsyncFileDialog::new()
-        .add_filter("BVH", &["bvh", "BVH"])
-        .add_filter("genga", &["toml"]);
+    let dialog =
+        AsyncFileDialog::new().add_filter("BVH", &["bvh", "BVH"]).add_filter("genga", &["toml"]);
     waited(dialog.pick_file()).map(|file| file.path().to_owned())
 }
 

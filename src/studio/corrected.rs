@@ -45,7 +45,8 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
         }
         for hold in &edits.holds {
             let koma = shown.words.say("koma", "コマ");
-            let what = format!("{} {}: {} {koma}", words.say("held", "止め"), hold.frame, hold.koma);
+            let what =
+                format!("{} {}: {} {koma}", words.say("held", "止め"), hold.frame, hold.koma);
             let back = Correction::LetGo(hold.frame);
             row(ui, &what, Some(hold.frame), back, shown, commands);
         }

@@ -43,7 +43,7 @@ impl FileField {
         }
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let name = self.text.trim();
-        let mut button = |ui: &mut Ui, is_enabled, label: &str| {
+        let button = |ui: &mut Ui, is_enabled, label: &str| {
             ui.add_enabled(is_enabled, Button::new(label)).clicked()
         };
         let is_named = !name.is_empty();
@@ -51,7 +51,8 @@ impl FileField {
         if is_asked || is_entered && is_named {
             commands.push(Command::Open(PathBuf::from(name)));
         }
-        if button(ui, is_named && can_save, words.say("Save recipe as", "レシピを別名で保存")) {
+        if button(ui, is_named && can_save, words.say("Save recipe as", "レシピを別名で保存"))
+        {
             commands.push(Command::SaveAs(PathBuf::from(name)));
         }
         if button(ui, true, words.say("Choose…", "選ぶ…")) {

@@ -204,9 +204,8 @@ impl Cells<'_> {
     /// The cell under a point; the nearest one for a hand that has left the map.
     fn under(&self, at: Pos2) -> (usize, usize) {
         let share = (at - self.inside.min) / self.inside.size();
-        let index = |share: f32, count: usize| {
-            ((share * count as f32).max(0.0) as usize).min(count - 1)
-        };
+        let index =
+            |share: f32, count: usize| ((share * count as f32).max(0.0) as usize).min(count - 1);
         (index(share.x, self.x.len()), index(1.0 - share.y, self.y.len()))
     }
 
@@ -224,7 +223,8 @@ impl Cells<'_> {
             response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on())
         {
             let (x, y) = self.under(at);
-            for (knob, value) in [(WIDTH, &self.x.values()[x]), (PERSISTENCE, &self.y.values()[y])] {
+            for (knob, value) in [(WIDTH, &self.x.values()[x]), (PERSISTENCE, &self.y.values()[y])]
+            {
                 if recipe.get(knob).is_ok_and(|own| own != *value) {
                     commands.push(Command::Set(knob, value.clone()));
                 }

@@ -26,7 +26,8 @@ pub(super) fn show(
             let what = words.say("Drop a BVH clip here", "ここにBVHファイルをドロップ");
             ui.label(RichText::new(what).size(24.0).color(look.ink));
             ui.add_space(12.0);
-            if ui.add(Button::new(words.say("Choose a file…", "ファイルを選ぶ…"))).clicked() {
+            if ui.add(Button::new(words.say("Choose a file…", "ファイルを選ぶ…"))).clicked()
+            {
                 commands.push(Command::Choose);
             }
             let name = words.say("or open one by its name", "またはファイル名で開く");

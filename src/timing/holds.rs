@@ -99,8 +99,7 @@ impl<'a> Row<'a> {
             if self.cells[cell + 1].koma == 0 {
                 let why = self.cells.remove(cell + 1).drawing.why;
                 // What was left out round a covered drawing is under the hold too.
-                self.cells[cell].drawing.why.held_for +=
-                    why.omitted_before + 1 + why.held_for;
+                self.cells[cell].drawing.why.held_for += why.omitted_before + 1 + why.held_for;
             }
         }
     }
@@ -122,7 +121,8 @@ impl<'a> Row<'a> {
     /// them it is.
     fn left_out(&self, cell: usize, koma: usize) -> Option<(usize, Drawing)> {
         let begin: usize = self.cells[..cell].iter().map(|cell| cell.koma).sum();
-        let (from, to) = (self.place(cell), self.cells.get(cell + 1).map(|_| self.place(cell + 1))?);
+        let (from, to) =
+            (self.place(cell), self.cells.get(cell + 1).map(|_| self.place(cell + 1))?);
         let between = self.spaced.timed().filter(|(_, shown)| {
             let place = self.spaced.drawings[shown.drawing].source.place();
             from + SAME < place && place < to - SAME
@@ -146,7 +146,8 @@ impl<'a> Row<'a> {
 
     fn into_layer(self, name: &str) -> Layer {
         let koma = self.cells.iter().map(|cell| cell.koma);
-        let exposures = koma.enumerate().map(|(drawing, koma)| Exposure { drawing, koma }).collect();
+        let exposures =
+            koma.enumerate().map(|(drawing, koma)| Exposure { drawing, koma }).collect();
         let drawings = self.cells.into_iter().map(|cell| cell.drawing).collect();
         Layer { name: name.into(), drawings, exposures }
     }

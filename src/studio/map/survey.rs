@@ -106,7 +106,9 @@ mod tests {
     #[test]
     fn a_value_stands_between_its_neighbours_and_at_the_ends_of_the_axis() {
         let axis = Axis::new(WIDTH, "0.1s,0.2s,0.4s").unwrap();
-        for (value, at) in [("0.1s", 0.0), ("0.3s", 1.5), ("0.4s", 2.0), ("0.01s", 0.0), ("9s", 2.0)] {
+        for (value, at) in
+            [("0.1s", 0.0), ("0.3s", 1.5), ("0.4s", 2.0), ("0.01s", 0.0), ("9s", 2.0)]
+        {
             assert!((place(&axis, value).unwrap() - at).abs() < 1e-9, "{value}");
         }
         assert_eq!(place(&axis, "12"), None, "frames are no seconds");

@@ -30,7 +30,13 @@ fn spaced(drawings: usize, genga: &[usize]) -> Layer {
 /// The layer without some inbetweens, which the drawing before them holds over.
 fn without(spaced: &Layer, gone: &[usize]) -> Layer {
     let mut row = Row::of(spaced, spaced);
-    for drawing in gone.iter().rev().filter(|at| !row.cells[**at].drawing.role.is_kept()).copied().collect::<Vec<_>>() {
+    for drawing in gone
+        .iter()
+        .rev()
+        .filter(|at| !row.cells[**at].drawing.role.is_kept())
+        .copied()
+        .collect::<Vec<_>>()
+    {
         let Cell { koma, drawing: covered, .. } = row.cells.remove(drawing);
         row.cells[drawing - 1].koma += koma;
         row.cells[drawing - 1].drawing.why.held_for += 1 + covered.why.held_for;
@@ -45,9 +51,8 @@ fn held(layer: &Layer, spaced: &Layer, holds: &[&str]) -> Layer {
 
 /// The frame of each drawing and its koma.
 fn row(layer: &Layer) -> Vec<(usize, usize)> {
-    let cell = |shown: &Exposure| {
-        (layer.drawings[shown.drawing].source.place() as usize, shown.koma)
-    };
+    let cell =
+        |shown: &Exposure| (layer.drawings[shown.drawing].source.place() as usize, shown.koma);
     layer.exposures.iter().map(cell).collect()
 }
 

@@ -81,10 +81,8 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
         prop::collection::vec(any::<(u32, u16)>().prop_map(|(from, more)| range(from, more)), 0..3);
     let moves = prop::collection::vec(any::<(u32, u32)>().prop_map(moved), 0..3);
     let pins = prop::collection::vec(pin, 0..3);
-    let hold = |(frame, koma): (u32, u32)| Hold {
-        frame: Frame(frame as usize),
-        koma: koma as usize,
-    };
+    let hold =
+        |(frame, koma): (u32, u32)| Hold { frame: Frame(frame as usize), koma: koma as usize };
     let holds = prop::collection::vec(any::<(u32, u32)>().prop_map(hold), 0..3);
     (recipe, pins, forbidden, moves, holds, any::<bool>()).prop_map(
         |(recipe, pins, forbidden, moves, holds, only_pins)| MadeWith {
