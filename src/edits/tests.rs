@@ -150,8 +150,10 @@ proptest! {
         pins in prop::collection::vec((0..99usize, prop::option::of("[a-z]{1,5}"), prop::option::of(0.0..1.0)), 0..4),
         ranges in prop::collection::vec((0..99usize, 1..9usize), 0..4),
         moves in prop::collection::vec((0..99usize, 0..99usize, prop::option::of("[a-z]{1,5}")), 0..4),
+        holds in prop::collection::vec((0..99usize, 1..9usize), 0..4),
         only_pins in any::<bool>(),
     ) {
+        let hold = |(frame, koma)| Hold { frame: Frame(frame), koma };
         let pin = |(frame, name, weight)| Pin { frame: Frame(frame), name, weight };
         let range = |(from, length)| Forbidden { from: Frame(from), past: Frame(from + length) };
         let moved = |(from, to, name)| Move { from: Frame(from), to: Frame(to), name, weight: None };
@@ -159,6 +161,7 @@ proptest! {
             pins: pins.into_iter().map(pin).collect(),
             forbidden: ranges.into_iter().map(range).collect(),
             moves: moves.into_iter().map(moved).collect(),
+            holds: holds.into_iter().map(hold).collect(),
             only_pins,
         };
         let text = toml::to_string(&edits).unwrap();

@@ -171,3 +171,76 @@ fn what_the_chain_refuses_is_said_and_undone() {
     table.harness.get_by_label_contains("pinned or moved to twice");
     assert_eq!(*table.edits(), before);
 }
+
+#[test]
+fn a_hold_is_made_longer_and_shorter_by_its_end_in_one_step() {
+    let mut table = Table::with_kick();
+    let sheet = table.canvas("Timesheet");
+    let line = |koma: usize| pos2(sheet.min.x + 62.0, sheet.min.y + ROW * koma as f32);
+    // The first drawing is on screen for four koma, and inbetweens follow.
+    table.drag(line(4), line(7));
+    let holds = |table: &Table| -> Vec<(usize, usize)> {
+        table.edits().holds.iter().map(|hold| (hold.frame.0, hold.koma)).collect()
+    };
+    assert_eq!(holds(&table), [(0, 7)]);
+    table.drag(line(7), line(2));
+    assert_eq!(holds(&table), [(0, 2)]);
+    table.tap(Modifiers::COMMAND, Key::Z);
+    assert_eq!(holds(&table), [(0, 7)], "a drag is one step");
+    table.harness.get_by_label("Back to the hold that was found").click();
+    table.harness.run();
+    assert!(table.edits().is_empty());
+}
+
+#[test]
+fn a_hold_is_set_on_the_keyboard_and_survives_another_recipe() {
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::CloseBracket);
+    table.tap(Modifiers::NONE, Key::CloseBracket);
+    table.tap(Modifiers::NONE, Key::OpenBracket);
+    assert_eq!(table.edits().holds.len(), 1);
+    assert_eq!(table.edits().holds[0].koma, 5);
+    table.harness.get_by_label("On threes").click();
+    table.harness.run();
+    table.harness.get_by_label("held 0: 5 koma");
+    table.harness.get_by_label("Take back: held 0: 5 koma").click();
+    table.harness.run();
+    assert!(table.edits().is_empty());
+}
+
+#[test]
+fn an_inbetween_is_pulled_towards_its_genga() {
+    let mut table = Table::with_kick();
+    // On ones there are inbetweens in plenty.
+    for (knob, value) in [("omission.koma_dori", "0"), ("omission.naka_nashi", "0")] {
+        table.harness.state_mut().turn(knob, value).unwrap();
+    }
+    table.harness.run();
+    let own = table.recipe().spacing.weight;
+    let curves = table.canvas("Speed curves");
+    let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
+    let at = |place: f64| {
+        pos2(left + (right - left) * (place / 91.0) as f32, curves.min.y + 25.0)
+    };
+    // The last inbetween before the first genga, on frame 13: koma 12 of 13, drawn towards it by 0.3.
+    let place = 13.0 - (1.0 - own);
+    table.drag(at(place), at(12.6));
+    let [pin] = &table.edits().pins[..] else { panic!("{:?}", table.edits()) };
+    let weight = pin.weight.unwrap();
+    assert_eq!(pin.frame, Frame(13));
+    assert!((weight - 0.6).abs() < 0.06, "{weight}");
+    table.tap(Modifiers::COMMAND, Key::Z);
+    assert!(table.edits().is_empty(), "a drag is one step");
+}
+
+#[test]
+fn inbetweens_crowd_closer_on_the_keyboard() {
+    let mut table = Table::with_kick();
+    let own = table.recipe().spacing.weight;
+    table.tap(Modifiers::NONE, Key::ArrowDown);
+    table.tap(Modifiers::NONE, Key::Period);
+    table.tap(Modifiers::NONE, Key::Period);
+    table.tap(Modifiers::NONE, Key::Comma);
+    let weight = table.edits().pins[0].weight.unwrap();
+    assert!((weight - own - 0.05).abs() < 1e-9, "{weight}");
+}

@@ -146,7 +146,9 @@ fn an_export_is_what_a_run_writes() {
     std::fs::copy(sample("kick.bvh"), &clip).unwrap();
     let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
     table.harness.get_by_label("Export").click();
-    table.harness.run();
+    table.harness.step();
+    assert!(table.harness.state().is_exporting(), "it does not wait for the disk");
+    table.rest();
     let folder = place.path().join("kick-genga");
     for file in ["sheet.json", "keys.csv", "limited.bvh", "recipe.toml", "report.json", "speed.svg"]
     {
@@ -156,6 +158,54 @@ fn an_export_is_what_a_run_writes() {
     let sheet = std::fs::read_to_string(folder.join("sheet.json")).unwrap();
     std::fs::write(folder.join("sheet.json"), sheet.replace("\"koma\": 2", "\"koma\": 3")).unwrap();
     table.harness.get_by_label("Export").click();
-    table.harness.run();
+    table.rest();
     table.harness.get_by_label_contains("is not as a run wrote it");
+}
+
+#[test]
+fn the_work_goes_on_while_results_are_written() {
+    let mut table = Table::with_kick();
+    let hold = Arc::clone(&table.desk);
+    let writing = hold.is_writing.lock().unwrap();
+    table.harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    table.harness.step();
+    table.harness.step();
+    let name = "exporting to";
+    table.harness.get_by_label_contains(name);
+    let button = table.harness.get_by_label("Export");
+    assert!(egui_kittest::kittest::NodeT::accesskit_node(&button).is_disabled());
+    table.harness.key_press(Key::K);
+    table.harness.step();
+    table.harness.step();
+    assert!(!table.edits().is_empty(), "a key was set meanwhile");
+    drop(writing);
+    table.rest();
+    assert!(table.harness.query_by_label_contains(name).is_none());
+    let written = hold.exported.lock().unwrap();
+    assert!(written[0].is_empty(), "what was there when the export began");
+}
+
+#[test]
+fn a_clip_is_chosen_in_a_dialog_and_offered_again() {
+    let desk: Arc<Memory> = Arc::default();
+    *desk.chosen.lock().unwrap() = Some(sample("swing.bvh"));
+    let mut table = Table::empty(Arc::clone(&desk), Language::English, Theme::Light);
+    table.harness.get_by_label("Choose a file…").click();
+    for _ in 0..400 {
+        table.harness.step();
+        if table.harness.state().is_opening() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    table.wait();
+    assert_eq!(table.harness.state().title(), "swing – genga");
+    let again = Table::with(&sample("kick.bvh"), Arc::clone(&desk), Language::English, Theme::Light);
+    assert_eq!(*desk.opened.lock().unwrap(), [sample("kick.bvh"), sample("swing.bvh")]);
+    drop(again);
+    let mut empty = Table::empty(desk, Language::English, Theme::Light);
+    empty.harness.get_by_label("swing.bvh").click();
+    empty.harness.step();
+    empty.wait();
+    assert_eq!(empty.harness.state().title(), "swing – genga");
 }

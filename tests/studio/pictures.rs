@@ -88,11 +88,22 @@ fn by_night_with_the_neighbours_and_from_the_side_it_looks_as_it_did() {
 }
 
 #[test]
+fn in_japanese_with_the_map_it_looks_as_it_did() {
+    let mut table =
+        Table::with(&sample("kick.bvh"), Arc::default(), Language::Japanese, Theme::Light);
+    table.press_all(&[Key::ArrowDown; 7]);
+    table.press_all(&[Key::H]);
+    table.harness.run_steps(8);
+    table.rest();
+    compare("studio-map", &table.picture());
+}
+
+#[test]
 fn corrected_it_looks_as_it_did() {
     let mut table = Table::with_kick();
     table.press_all(&[Key::ArrowDown, Key::ArrowDown, Key::L, Key::ArrowDown, Key::K]);
     table.press_all(&[Key::ArrowRight; 4]);
-    table.press_all(&[Key::K]);
+    table.press_all(&[Key::K, Key::Home, Key::CloseBracket, Key::CloseBracket]);
     compare("studio-corrected", &table.picture());
 }
 

@@ -142,3 +142,18 @@ fn the_list_of_keys_opens_and_closes() {
     table.press(Key::Escape);
     assert!(table.harness.query_by_label("flip source and result").is_none());
 }
+
+#[test]
+fn the_movement_lane_is_a_checkbox_and_a_key() {
+    let mut table = Table::with_kick();
+    let is_on = |table: &Table| {
+        let box_of = table.harness.get_by_label("Movement (SSD)");
+        box_of.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    assert!(is_on(&table));
+    table.press(Key::M);
+    assert!(!is_on(&table));
+    table.harness.get_by_label("Movement (SSD)").click();
+    table.harness.run();
+    assert!(is_on(&table));
+}

@@ -81,6 +81,20 @@ impl Table {
         panic!("the clip was not read");
     }
 
+    /// Until nothing is done in the background.
+    pub(crate) fn rest(&mut self) {
+        for _ in 0..4000 {
+            self.harness.step();
+            let studio = self.harness.state();
+            if !studio.is_exporting() && !studio.is_mapping() {
+                self.harness.run();
+                return;
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
+        panic!("what was begun did not end");
+    }
+
     pub(crate) fn recipe(&self) -> &Recipe {
         &self.harness.state().document().unwrap().recipe
     }

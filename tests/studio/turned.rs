@@ -85,3 +85,39 @@ fn a_length_of_time_takes_frames_or_seconds() {
     table.harness.run();
     assert!(!table.recipe().get("filter.width").unwrap().ends_with('s'));
 }
+
+#[test]
+fn a_hand_on_the_map_turns_both_knobs_in_one_step_and_the_map_is_the_same() {
+    let mut table = Table::with_kick();
+    let before = table.recipe().clone();
+    table.harness.key_press(Key::H);
+    table.harness.run_steps(8);
+    table.rest();
+    let canvas = |table: &Table| {
+        let role = egui::accesskit::Role::Canvas;
+        table.harness.get_by_role_and_label(role, "Map of the smoothing").rect()
+    };
+    let map = canvas(&table);
+    // The cells begin 40 points from the left and end 30 from below.
+    let cell = |x: f32, y: f32| {
+        let (wide, high) = ((map.width() - 46.0) / 10.0, (map.height() - 34.0) / 10.0);
+        map.left_bottom() + egui::vec2(40.0 + (x + 0.5) * wide, -30.0 - (y + 0.5) * high)
+    };
+    table.harness.drag_at(cell(3.0, 1.0));
+    table.harness.run();
+    table.harness.hover_at(cell(5.0, 7.0));
+    table.harness.run();
+    assert_eq!(table.recipe().get("filter.width").unwrap(), "0.3s", "while it is dragged");
+    table.harness.drop_at(cell(5.0, 7.0));
+    table.harness.run();
+    let own = ["filter.width", "turns.persistence"].map(|knob| table.recipe().get(knob).unwrap());
+    assert_eq!(own, ["0.3s", "0.2s"]);
+    assert!(!table.harness.state().is_mapping(), "the map is the same");
+    table.harness.get_by_label("Undo").click();
+    table.harness.run();
+    assert_eq!(*table.recipe(), before, "the whole drag was one step");
+    table.harness.state_mut().turn("filter.kind", "gaussian").unwrap();
+    table.harness.step();
+    assert!(table.harness.state().is_mapping(), "another filter has another map");
+    table.rest();
+}

@@ -81,10 +81,15 @@ fn from_a_shorter_hold_a_drawing_that_was_left_out_comes_back() {
     let all = spaced(6, &[4]);
     let layer = without(&all, &[1, 2, 3]);
     assert_eq!(row(&layer), [(0, 8), (32, 2), (40, 2)]);
-    let back = held(&layer, &all, &["0:3"]);
-    assert_eq!(row(&back), [(0, 3), (16, 5), (32, 2), (40, 2)], "the one whose koma are nearest");
-    let held_for: Vec<usize> = back.drawings.iter().map(|drawing| drawing.why.held_for).collect();
-    assert_eq!(held_for, [1, 1, 0, 0], "one of the others is under each");
+    let back = |koma| {
+        let back = held(&layer, &all, &[&format!("0:{koma}")]);
+        let held_for = back.drawings.iter().map(|drawing| drawing.why.held_for);
+        (row(&back), held_for.collect::<Vec<_>>())
+    };
+    let nearest = vec![(0, 4), (16, 4), (32, 2), (40, 2)];
+    assert_eq!(back(4), (nearest, vec![1, 1, 0, 0]), "one of the others is under each");
+    let earlier = vec![(0, 3), (8, 5), (32, 2), (40, 2)];
+    assert_eq!(back(3), (earlier, vec![0, 2, 0, 0]), "of two as near the one that was on screen");
 }
 
 #[test]
