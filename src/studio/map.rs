@@ -186,7 +186,8 @@ impl Cells<'_> {
             let at = pos2(self.inside.min.x - 4.0, self.middle(0.0, at as f64).y);
             painter.text(at, Align2::RIGHT_CENTER, value, font.clone(), look.faint);
         }
-        let name = shown.words.say("→ width   ↑ persistence", "→ 適用範囲   ↑ 連続フレーム数");
+        let name =
+            shown.words.say("across: width, up: persistence", "横: 適用範囲　縦: 連続フレーム数");
         let at = pos2(self.inside.center().x, self.inside.max.y + 15.0);
         painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(10.5), look.faint);
     }
@@ -196,8 +197,9 @@ impl Cells<'_> {
         let recipe = &shown.wanted.recipe;
         let place = |axis: &Axis| survey::place(axis, &recipe.get(axis.name()).ok()?);
         if let Some((x, y)) = place(self.x).zip(place(self.y)) {
-            let stroke = Stroke::new(1.6, Color32::WHITE);
-            painter.circle(self.middle(x, y), 5.0, shown.look.genga, stroke);
+            // A ring, so that the number in it can be read.
+            painter.circle_stroke(self.middle(x, y), 8.5, Stroke::new(4.0, Color32::WHITE));
+            painter.circle_stroke(self.middle(x, y), 8.5, Stroke::new(2.2, shown.look.genga));
         }
     }
 

@@ -219,9 +219,7 @@ fn an_inbetween_is_pulled_towards_its_genga() {
     let own = table.recipe().spacing.weight;
     let curves = table.canvas("Speed curves");
     let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
-    let at = |place: f64| {
-        pos2(left + (right - left) * (place / 91.0) as f32, curves.min.y + 25.0)
-    };
+    let at = |place: f64| pos2(left + (right - left) * (place / 91.0) as f32, curves.min.y + 25.0);
     // The last inbetween before the first genga, on frame 13: koma 12 of 13, drawn towards it by 0.3.
     let place = 13.0 - (1.0 - own);
     table.drag(at(place), at(12.6));

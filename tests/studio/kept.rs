@@ -200,7 +200,8 @@ fn a_clip_is_chosen_in_a_dialog_and_offered_again() {
     }
     table.wait();
     assert_eq!(table.harness.state().title(), "swing – genga");
-    let again = Table::with(&sample("kick.bvh"), Arc::clone(&desk), Language::English, Theme::Light);
+    let again =
+        Table::with(&sample("kick.bvh"), Arc::clone(&desk), Language::English, Theme::Light);
     assert_eq!(*desk.opened.lock().unwrap(), [sample("kick.bvh"), sample("swing.bvh")]);
     drop(again);
     let mut empty = Table::empty(desk, Language::English, Theme::Light);

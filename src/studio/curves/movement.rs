@@ -37,7 +37,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_
     }
     painter.hline(rect.x_range(), rect.max.y, Stroke::new(1.0, look.grid));
     lane::title(painter, rect, shown.words.say("Movement √SSD", "動きの大きさ √SSD"), look);
-    let number = (most * 10.0).round() / 10.0;
+    let number = if most < 10.0 { (most * 10.0).round() / 10.0 } else { most.round() };
     let at = rect.min - vec2(4.0, 0.0);
     painter.text(at, Align2::RIGHT_TOP, number, FontId::proportional(10.0), look.faint);
 }

@@ -46,9 +46,9 @@ impl Hand {
             self.held = None;
             return None;
         };
+        let origin = response.ctx.input(|input| input.pointer.press_origin()).unwrap_or(at);
         if response.drag_started_by(PointerButton::Primary) {
-            let origin = response.ctx.input(|input| input.pointer.press_origin());
-            self.held = grasped(origin.unwrap_or(at), rect, shown);
+            self.held = grasped(origin, rect, shown);
         }
         if response.secondary_clicked() {
             self.asked = key(at, rect, shown).cloned();
@@ -56,14 +56,17 @@ impl Hand {
         if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
             commands.extend(held.follow(at, rect, shown).map(Command::Drag));
         }
-        let is_down = response.is_pointer_button_down_on()
-            || response.clicked()
-            || response.secondary_clicked();
-        let is_of_end = matches!(self.held, Some(Held::End { .. }));
+        // A hand that comes down on an end may be about to drag it: only a click is meant for the play head.
+        let is_of_end = match &self.held {
+            Some(held) => matches!(held, Held::End { .. }),
+            None => ending(origin, rect, shown).is_some(),
+        };
+        let is_down = response.is_pointer_button_down_on() && !is_of_end;
         if response.drag_stopped() {
             self.held = None;
         }
-        (is_down && !is_of_end).then(|| koma(at, rect, shown))
+        let goes = is_down || response.clicked() || response.secondary_clicked();
+        goes.then(|| koma(at, rect, shown))
     }
 }
 
