@@ -83,6 +83,7 @@ pub struct Studio {
     message: Option<Message>,
     file: FileField,
     is_help_open: bool,
+    bar_height: f32,
     player: Player,
     viewport: Viewport,
     timesheet: Timesheet,
@@ -110,6 +111,7 @@ impl Studio {
             message: None,
             file: FileField::default(),
             is_help_open: false,
+            bar_height: 0.0,
             player: Player::default(),
             viewport: Viewport::default(),
             timesheet: Timesheet::default(),
@@ -157,11 +159,16 @@ impl Studio {
         self.receive(ui);
         let mut commands = keyboard::pressed(ui);
         let frame = Frame::side_top_panel(ui.style());
-        Panel::top("bar").frame(frame).show(ui, |ui| {
+        let bar = Panel::top("bar").frame(frame).show(ui, |ui| {
             let is_exporting = self.exporting.is_some();
             bar::show(ui, self.take.as_mut(), self.before, is_exporting, words, &mut commands);
             self.stripes(ui, &look, words, &mut commands);
         });
+        // A panel that has grown is as high as before for a frame, and what it has more is not drawn.
+        let height = bar.response.rect.height();
+        if std::mem::replace(&mut self.bar_height, height) != height {
+            ui.ctx().request_discard("the bar has another height");
+        }
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
             None => welcome::show(ui, &look, &self.recent, words, &mut commands),

@@ -240,7 +240,8 @@ impl Cells<'_> {
             current_text_value: Some(own.join(" × ")),
             ..WidgetInfo::labeled(Role::Canvas, true, name)
         });
-        if let Some(at) = response.hover_pos().filter(|at| self.inside.contains(*at)) {
+        let rests = |at: &Pos2| self.inside.contains(*at) && !response.is_pointer_button_down_on();
+        if let Some(at) = response.hover_pos().filter(rests) {
             let (x, y) = self.under(at);
             let value = values[x * self.y.len() + y].round();
             let cell = format!("{} × {}: {value} {what}", self.x.values()[x], self.y.values()[y]);

@@ -13,6 +13,9 @@ use crate::studio::shown::Shown;
 /// How far a raw peak may stand out over the filtered curve.
 const OVER: f64 = 1.6;
 
+/// Points across that a band has at the least.
+const THIN: f32 = 2.0;
+
 /// Draws a lane.
 pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, shown: &Shown<'_>) {
     let look = &shown.look;
@@ -48,8 +51,8 @@ fn steady(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, shown: &S
     let x = |row: usize| time.x((filtered.first.0 + row) as f64);
     for run in runs(&steps) {
         let (left, right) = (x(run.start).max(rect.min.x), x(run.end).min(rect.max.x));
-        // What is thinner than this would be a grey haze in a long clip.
-        if right - left >= 0.5 {
+        // What is thinner would be a grey haze over a long clip.
+        if right - left >= THIN {
             let band = Rect::from_x_y_ranges(left..=right, rect.y_range());
             painter.rect_filled(band, 0.0, shown.look.steady);
         }
