@@ -92,7 +92,10 @@ fn corrections(step: usize) -> Edits {
     let pin = |frame: usize| Pin::parse(&format!("{frame}:by hand")).unwrap();
     match step % 4 {
         0 => Edits::default(),
-        1 => Edits { pins: vec![pin(20 + step % 100)], ..Edits::default() },
+        1 => {
+            let holds = vec![Hold { frame: Frame(20 + step % 100), koma: 1 + step % 7 }];
+            Edits { pins: vec![pin(20 + step % 100)], holds, ..Edits::default() }
+        }
         2 => Edits { pins: vec![pin(60)], forbidden: not(&[70, 90]), ..Edits::default() },
         _ => Edits { forbidden: not(&[20 + step % 100]), ..Edits::default() },
     }
@@ -139,6 +142,19 @@ fn an_engine_that_forgot_what_it_could_runs_on_as_before() {
         sheet(engine.run(&recipe, &edits).unwrap()),
         sheet(fresh.run(&recipe, &edits).unwrap())
     );
+}
+
+#[test]
+fn a_hold_changes_the_sheet_and_nothing_that_is_found() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let (recipe, none) = (Recipe::default(), Edits::default());
+    let before = run(&mut engine, &recipe, &none);
+    let held = Edits { holds: vec![Hold { frame: Frame(20), koma: 1 }], ..Edits::default() };
+    let after = run(&mut engine, &recipe, &held);
+    assert_ne!(after.sheets[1], before.sheets[1]);
+    assert!(after.sheets[1].layers[0].drawings[0].why.hold_set);
+    assert!(Result { sheets: before.sheets.clone(), ..after } == before);
+    assert!(run(&mut engine, &recipe, &none) == before);
 }
 
 #[test]

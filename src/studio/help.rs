@@ -25,9 +25,11 @@ pub(super) fn show(ui: &Ui, is_open: &mut bool, words: Words) {
         ui.separator();
         ui.label(words.say(
             "Mouse: drag a view to turn it, with Shift or the right button to move it, the wheel zooms. \
-             Drag a number on the timesheet or over the curves to move a genga; the right button has more.",
+             Drag a number on the timesheet or over the curves to move a genga, the end of a hold on the timesheet to \
+             lengthen it, the dot of an inbetween over the curves to pull it; the right button has more.",
             "マウス: 画面をドラッグで回転、Shift か右ボタンで移動、ホイールで拡大。\
-             シートやグラフの番号をドラッグで原画を移動、右クリックでメニュー。",
+             シートやグラフの番号をドラッグで原画を移動、シートの止めの端で長さを、\
+             グラフの中割りの点で詰めを変える。右クリックでメニュー。",
         ));
     });
 }

@@ -158,7 +158,7 @@ fn frames(table: &str) -> Vec<String> {
 #[test]
 fn keys_are_pinned_forbidden_moved_and_named_and_the_recipe_keeps_it_all() {
     let place = Place::new();
-    let corrections = "--pin 42:contact@0.7 --forbid 60,10..16 --move 79:81:land@0.1";
+    let corrections = "--pin 42:contact@0.7 --forbid 60,10..16 --move 79:81:land@0.1 --hold 0:6";
     let before = frames(&place.done("keys data/kick.bvh"));
     assert!(["41", "79"].iter().all(|frame| before.contains(&(*frame).to_owned())), "{before:?}");
     place.done(&format!("run data/kick.bvh --out a {corrections}"));
@@ -178,6 +178,7 @@ fn keys_are_pinned_forbidden_moved_and_named_and_the_recipe_keeps_it_all() {
         "[edits]\nforbidden = [60, \"10..16\"]",
         "[[edits.pins]]\nframe = 42\nname = \"contact\"\nweight = 0.7",
         "[[edits.moves]]\nfrom = 79\nto = 81\nname = \"land\"\nweight = 0.1",
+        "[[edits.holds]]\nframe = 0\nkoma = 6",
         "# 原画の選び方",
     ] {
         assert!(recipe.contains(line), "{line} is not in\n{recipe}");
@@ -208,6 +209,23 @@ fn an_own_weight_crowds_the_inbetweens_of_that_key_alone() {
     let (plain, own) = (places(""), places("@0.9"));
     assert_ne!(plain, own);
     assert_eq!(plain, places("@0.3"), "the recipe's weight");
+}
+
+#[test]
+fn a_held_drawing_stays_as_long_as_was_asked_and_genga_on_their_koma() {
+    let place = Place::new();
+    let sheet = |hold: &str| {
+        place.done(&format!("run data/kick.bvh --out o {hold}"));
+        let table = |name: &str| fs::read_to_string(place.path(name)).unwrap();
+        let genga = column(&table("o/keys.csv"), "koma_first");
+        (genga, column(&table("o/drawings.csv"), "koma_count"))
+    };
+    let (genga, found) = sheet("");
+    for koma in ["1", "6"] {
+        let (same, held) = sheet(&format!("--hold 0:{koma}"));
+        assert_eq!(same, genga);
+        assert_eq!(held[0], koma, "{found:?}");
+    }
 }
 
 #[test]
@@ -343,6 +361,9 @@ fn wrong_corrections_are_refused_with_the_way_out() {
         (2, "--move 41:92", "frame 92 of the move 41:92 is not in the clip"),
         (2, "--move 41:41", "moved to where it is"),
         (2, "--move 42:43 --pin 42", "frame 42 is pinned and moved at once: pin 43 instead"),
+        (2, "--hold 41", "--hold: expected FRAME:KOMA, two whole numbers, found \"41\""),
+        (2, "--hold 41:0", "the drawing of frame 41 is held for 0 koma: 1 at the least"),
+        (2, "--hold 92:2", "held frame 92 is not in the clip, which has frames 0 to 91"),
         (2, "--only-pins", "there is no pin: pin a frame"),
         (2, "--recipe r.toml", "\"9..2\" has no frame in it"),
         (2, "--recipe half.toml", "2:13: expected a frame (150) or a range (\"120..140\")"),
