@@ -6,6 +6,8 @@ use super::corrections::Correction;
 use super::icon::{self, Icon};
 use super::keyboard::Command;
 use super::shown::Shown;
+use super::words::Words;
+use crate::edits::Pin;
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
@@ -21,20 +23,15 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
     let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt("corrections");
     header.default_open(true).show_unindented(ui, |ui| {
         for pin in &edits.pins {
-            let name = pin.name.as_deref().unwrap_or_default();
-            let what = format!("{} {} {name}", words.say("locked", "固定"), pin.frame);
+            let what = format!("{} {}", words.say("locked", "固定"), pin.frame);
+            let what = with_mark(what, pin, words);
             let back = Correction::TakeBack(key(pin.frame, Origin::Pinned));
             row(ui, &what, Some(pin.frame), back, shown, commands);
         }
         for moved in &edits.moves {
-            let name = moved.name.as_deref().unwrap_or_default();
-            let what = format!(
-                "{} {} {} {} {name}",
-                words.say("moved", "移動"),
-                moved.from,
-                words.say("to", "→"),
-                moved.to
-            );
+            let (from, to) = (moved.from, moved.to);
+            let (moves, arrow) = (words.say("moved", "移動"), words.say("to", "→"));
+            let what = with_mark(format!("{moves} {from} {arrow} {to}"), &moved.pin(), words);
             let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
             row(ui, &what, Some(moved.to), back, shown, commands);
         }
@@ -51,6 +48,14 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
             row(ui, &what, Some(hold.frame), back, shown, commands);
         }
     });
+}
+
+/// With the name and the spacing weight that a person gave.
+fn with_mark(what: String, pin: &Pin, words: Words) -> String {
+    let name = pin.name.as_ref().map(|name| format!(" {name}")).unwrap_or_default();
+    let spacing = words.say("spacing", "詰め");
+    let weight = pin.weight.map(|weight| format!(", {spacing} {weight:.2}")).unwrap_or_default();
+    what + &name + &weight
 }
 
 fn row(

@@ -110,9 +110,11 @@ impl Binding {
         words.say(self.english, self.japanese)
     }
 
-    /// How its keys are written here.
+    /// How its keys are written here: as on the keyboard, and arrows by their names, of which no font need have signs.
     pub(super) fn keys(&self, ui: &Ui) -> String {
-        ui.ctx().format_shortcut(&KeyboardShortcut::new(self.modifiers, self.key))
+        let written = ui.ctx().format_shortcut(&KeyboardShortcut::new(self.modifiers, self.key));
+        let sign = Some(self.key.symbol_or_name()).filter(|sign| sign.is_ascii());
+        sign.map_or(written.clone(), |sign| written.replace(self.key.name(), sign))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The smallest clips with any recipe: a clear error or a sensible sheet, never a panic.
 
 use genga::deliver::{self, Drawings, Report, Rows};
-use genga::edits::{Edits, Forbidden, Move, Pin};
+use genga::edits::{Edits, Forbidden, Hold, Move, Pin};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use genga::pipeline::{Breakdown, Engine};
 use genga::plot::{PoseRow, SheetPlot, SpeedPlot, XSheet};
@@ -136,6 +136,7 @@ proptest! {
         pin in prop::option::of(any::<prop::sample::Index>()),
         forbidden in prop::option::of((7..20usize, 1..4usize)),
         moved in prop::option::of((7..20usize, 7..20usize)),
+        held in prop::option::of((7..20usize, 1..9usize)),
         only_pins in prop::bool::weighted(0.1),
     ) {
         let recipe = recipe(&settings);
@@ -143,10 +144,12 @@ proptest! {
         let pins = pinned.map(|frame| Pin { frame, name: None, weight: Some(0.9) });
         let range = |(from, length)| Forbidden { from: Frame(from), past: Frame(from + length) };
         let move_to = |(from, to)| Move { from: Frame(from), to: Frame(to), name: None, weight: None };
+        let hold = |(frame, koma)| Hold { frame: Frame(frame), koma };
         let edits = Edits {
             pins: pins.into_iter().collect(),
             forbidden: forbidden.map(range).into_iter().collect(),
             moves: moved.map(move_to).into_iter().collect(),
+            holds: held.map(hold).into_iter().collect(),
             only_pins,
         };
         let mut engine = Engine::new(clip).unwrap();
