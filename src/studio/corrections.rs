@@ -173,8 +173,9 @@ mod tests {
         let edits = Correction::Hold(Frame(42), 4).on(&Edits::default());
         let edits = on(&edits, &[Correction::Hold(Frame(7), 3), Correction::Hold(Frame(42), 2)]);
         assert_eq!(edits.holds, ["7:3", "42:2"].map(|text| Hold::parse(text).unwrap()));
-        let edits = on(&edits, &[Correction::LetGo(Frame(7)), Correction::LetGo(Frame(42))]);
-        assert_eq!(edits, Edits::default());
+        let edits = Correction::LetGo(Frame(7)).on(&edits);
+        assert_eq!(edits.holds, [Hold::parse("42:2").unwrap()]);
+        assert_eq!(Correction::LetGo(Frame(42)).on(&edits), Edits::default());
     }
 
     #[test]
