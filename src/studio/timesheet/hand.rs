@@ -83,7 +83,7 @@ impl Held {
                 let line = ((at.y - rect.min.y) / ROW).round().max(0.0) as usize;
                 let wanted = line.saturating_sub(*begin).max(1);
                 let is_new = std::mem::replace(koma, wanted) != wanted;
-                is_new.then(|| Correction::Hold(*frame, wanted))
+                is_new.then_some(Correction::Hold(*frame, wanted))
             }
         }
     }
