@@ -4,7 +4,7 @@
 //! outside it asks of a [`Desk`]. A person's decisions are one [`Document`], the recipe file; all the rest is
 //! made of it and the clip, and never stored.
 //!
-//! A file here is what is on screen: `viewport`, `transport`, `timesheet`, `curves`, `knobs`, `bar`. They read
+//! A file here is what is on screen: `viewport`, `transport`, `timesheet`, `curves`, `knobs`, `map`, `bar`. They read
 //! one `Shown` a frame, change nothing but how they look, and say what a hand wants as a `Command`, the same
 //! that keys give.
 
@@ -91,7 +91,7 @@ pub struct Studio {
     knobs: Knobs,
     map: Map,
     key_panel: KeyPanel,
-    /// The document when a hand took hold of a key.
+    /// The document when a hand took hold of what it corrects.
     held: Option<Document>,
     /// The counts when a hand took hold of anything.
     before: Option<Counts>,
