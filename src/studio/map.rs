@@ -119,13 +119,8 @@ impl Map {
         painter.rect_filled(inside, 2.0, look.ground);
         let grid = match &self.made {
             Some((_, Ok(grid))) => grid,
-            made => {
-                let failed = made.as_ref().and_then(|(_, grid)| grid.as_ref().err());
-                let text = failed.map_or("…", String::as_str);
-                let font = FontId::proportional(12.0);
-                painter.text(inside.center(), Align2::CENTER_CENTER, text, font, look.faint);
-                return;
-            }
+            Some((_, Err(text))) => return instead(&painter, inside, text, look.faint),
+            None => return instead(&painter, inside, "…", look.faint),
         };
         let Some(y) = &grid.y else { return };
         let cells = Cells { x: &grid.x, y, inside };
@@ -135,8 +130,15 @@ impl Map {
         cells.draw(&painter, &values, strength);
         cells.values(&painter, shown);
         cells.dot(&painter, shown);
-        cells.take(response, &values, self.measure, shown, commands);
+        cells.turn(&response, shown, commands);
+        cells.tell(response, &values, self.measure, shown);
     }
+}
+
+/// Words where there is no map.
+fn instead(painter: &Painter, inside: Rect, text: &str, color: Color32) {
+    let font = FontId::proportional(12.0);
+    painter.text(inside.center(), Align2::CENTER_CENTER, text, font, color);
 }
 
 /// Where the cells stand.
@@ -211,29 +213,21 @@ impl Cells<'_> {
         (index(share.x, self.x.len()), index(1.0 - share.y, self.y.len()))
     }
 
-    /// Says what is under the mouse, and turns both knobs where a hand comes down.
-    fn take(
-        &self,
-        response: Response,
-        values: &[f64],
-        measure: Measure,
-        shown: &Shown<'_>,
-        commands: &mut Vec<Command>,
-    ) {
-        let recipe = &shown.wanted.recipe;
-        if let Some(at) =
-            response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on())
-        {
-            let (x, y) = self.under(at);
-            for (knob, value) in [(WIDTH, &self.x.values()[x]), (PERSISTENCE, &self.y.values()[y])]
-            {
-                if recipe.get(knob).is_ok_and(|own| own != *value) {
-                    commands.push(Command::Set(knob, value.clone()));
-                }
+    /// Turns both knobs where a hand comes down.
+    fn turn(&self, response: &Response, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let at = response.interact_pointer_pos();
+        let Some(at) = at.filter(|_| response.is_pointer_button_down_on()) else { return };
+        let (x, y) = self.under(at);
+        for (knob, value) in [(WIDTH, &self.x.values()[x]), (PERSISTENCE, &self.y.values()[y])] {
+            if shown.wanted.recipe.get(knob).is_ok_and(|own| own != *value) {
+                commands.push(Command::Set(knob, value.clone()));
             }
         }
-        let (english, japanese) = measure.words();
-        let what = shown.words.say(english, japanese);
+    }
+
+    /// Says where the recipe stands, and what is under the mouse while it rests.
+    fn tell(&self, response: Response, values: &[f64], measure: Measure, shown: &Shown<'_>) {
+        let recipe = &shown.wanted.recipe;
         let own = [WIDTH, PERSISTENCE].map(|knob| recipe.get(knob).unwrap_or_default());
         let name = shown.words.say("Map of the smoothing", "表1の地図");
         response.widget_info(|| WidgetInfo {
@@ -244,6 +238,8 @@ impl Cells<'_> {
         if let Some(at) = response.hover_pos().filter(rests) {
             let (x, y) = self.under(at);
             let value = values[x * self.y.len() + y].round();
+            let (english, japanese) = measure.words();
+            let what = shown.words.say(english, japanese);
             let cell = format!("{} × {}: {value} {what}", self.x.values()[x], self.y.values()[y]);
             response.on_hover_text_at_pointer(cell);
         }
