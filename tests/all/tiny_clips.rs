@@ -148,6 +148,7 @@ proptest! {
             forbidden: forbidden.map(range).into_iter().collect(),
             moves: moved.map(move_to).into_iter().collect(),
             only_pins,
+            ..Edits::default()
         };
         let mut engine = Engine::new(clip).unwrap();
         match engine.run(&recipe, &edits) {
