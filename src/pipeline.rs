@@ -226,7 +226,8 @@ impl Engine {
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.of(self.clip.skeleton())?;
         if parts.len() > 1 {
-            self.height.renew(Made::CLIP, &recipe.rate, || Reference::of(&self.clip, clock).height());
+            self.height
+                .renew(Made::CLIP, &recipe.rate, || Reference::of(&self.clip, clock).height());
         }
         self.columns.resize_with(parts.len().max(self.columns.len()), Column::default);
         self.measure(recipe)

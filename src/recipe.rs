@@ -352,7 +352,10 @@ mod tests {
         let mut recipe = Recipe::default();
         for (name, value) in [
             ("rate", "25"),
-            ("layers", r#"[{ name = "A", joints = ["Hips"] }, { name = "腕", joints = ["*Arm*"] }]"#),
+            (
+                "layers",
+                r#"[{ name = "A", joints = ["Hips"] }, { name = "腕", joints = ["*Arm*"] }]"#,
+            ),
             ("root", "ones"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),

@@ -102,9 +102,10 @@ fn add(
 pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
     let layers: Vec<_> = breakdown.layers().collect();
     let of_all = edits.moves.iter().map(|moved| (moved, None));
-    let of_one = edits.layers.iter().flat_map(|(name, own)| {
-        own.moves.iter().map(move |moved| (moved, Some(name.as_str())))
-    });
+    let of_one = edits
+        .layers
+        .iter()
+        .flat_map(|(name, own)| own.moves.iter().map(move |moved| (moved, Some(name.as_str()))));
     let said = of_all.chain(of_one).filter_map(|(moved, name)| {
         let meant = layers.iter().filter(|own| name.is_none_or(|name| own.layer.name == name));
         let keys: Vec<&[Key]> = meant.map(|own| own.keys.keys.as_slice()).collect();

@@ -77,9 +77,8 @@ impl Edits {
             None => Ok(()),
             Some(name) => {
                 let there = names.join(", ");
-                let message = format!(
-                    "there is no layer {name} to correct; there is {there} (see --layers)"
-                );
+                let message =
+                    format!("there is no layer {name} to correct; there is {there} (see --layers)");
                 Err(Error::Edits { message })
             }
         }

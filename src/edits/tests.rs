@@ -61,11 +61,8 @@ fn with_layer_b(all: &[&str], own: LayerEdits) -> Edits {
 
 #[test]
 fn a_layer_has_the_corrections_of_all_and_its_own() {
-    let own = LayerEdits {
-        pins: pins(&["8:top"]),
-        forbidden: forbidden(&["6"]),
-        moves: moves(&["9:5"]),
-    };
+    let own =
+        LayerEdits { pins: pins(&["8:top"]), forbidden: forbidden(&["6"]), moves: moves(&["9:5"]) };
     let edits = with_layer_b(&["7"], own);
     let of_b = edits.of_layer("B");
     assert_eq!(of_b.pins, pins(&["7", "8:top"]));

@@ -184,11 +184,7 @@ impl Column {
 }
 
 /// What is known of the joints once their turns are found.
-fn joints<'a>(
-    voices: &'a Voices,
-    measured: &Measured<'a>,
-    recipe: &'a Recipe,
-) -> JointTurns<'a> {
+fn joints<'a>(voices: &'a Voices, measured: &Measured<'a>, recipe: &'a Recipe) -> JointTurns<'a> {
     JointTurns {
         filtered: measured.filtered,
         turns: voices.turns.as_deref().unwrap_or(measured.turns),

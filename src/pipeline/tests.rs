@@ -4,9 +4,9 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::edits::{Forbidden, Move, Pin};
+use crate::keys::{self, Origin};
 use crate::motion::bvh;
 use crate::motion::lanes::narrow;
-use crate::keys::{self, Origin};
 use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
 use crate::timing::On;
@@ -340,9 +340,8 @@ fn a_correction_of_one_layer_leaves_the_others_alone() {
     let layers = recipe(&[("layers", "limbs")]);
     let mut engine = Engine::new(clip.clone()).unwrap();
     let free = run(&mut engine, &layers, &Edits::default());
-    let is_free = |frame: &usize| {
-        free.layers[1].keys.iter().all(|key| key.frame.0.abs_diff(*frame) > 3)
-    };
+    let is_free =
+        |frame: &usize| free.layers[1].keys.iter().all(|key| key.frame.0.abs_diff(*frame) > 3);
     let frame = (30..110).find(is_free).unwrap();
     let mut edits = Edits::default();
     edits.pins_of(Some("B")).push(Pin::parse(&format!("{frame}:here")).unwrap());
@@ -366,7 +365,8 @@ fn layers_that_come_and_go_give_what_a_fresh_engine_gives() {
     let arms = r#"[{ name = "A", joints = ["Hips"] }, { name = "arms", joints = ["*Arm*"] }]"#;
     let back = r#"[{ name = "arms", joints = ["*Arm*"] }, { name = "A", joints = ["Hips"] }]"#;
     for layers in ["limbs", "body", arms, "joints", back, "limbs"] {
-        for (knob, value) in [("root", "ones"), ("keys.weights.LeftArm", "3"), ("spacing.on", "3")] {
+        for (knob, value) in [("root", "ones"), ("keys.weights.LeftArm", "3"), ("spacing.on", "3")]
+        {
             let recipe = recipe(&[("layers", layers), (knob, value)]);
             engine.find_keys(&recipe, &none).unwrap();
             let used = run(&mut engine, &recipe, &none);
@@ -376,7 +376,10 @@ fn layers_that_come_and_go_give_what_a_fresh_engine_gives() {
     let once = recipe(&[("layers", "limbs")]);
     let sheet = engine.run_once(&once, &none).unwrap().sheet.clone();
     assert_eq!(sheet, fresh(&clip, &once, &none).sheets[1]);
-    assert!(run(&mut engine, &once, &none) == fresh(&clip, &once, &none), "forgotten and made again");
+    assert!(
+        run(&mut engine, &once, &none) == fresh(&clip, &once, &none),
+        "forgotten and made again"
+    );
 }
 
 #[test]

@@ -57,7 +57,8 @@ impl Slip {
                 [contact.koma.start(), contact.koma.end()].map(|koma| clock.place_from_koma(*koma));
             let own = |koma: &usize| (begin..=end).contains(&place(contact, *koma));
             let koma: Vec<usize> = contact.koma.clone().filter(own).collect();
-            let foot = |figure: &Figure<'_>| percent * figure.position(contact.point).reject_from(up);
+            let foot =
+                |figure: &Figure<'_>| percent * figure.position(contact.point).reject_from(up);
             slips.extend(furthest(koma.iter().map(|koma| {
                 show(figure, *koma);
                 foot(figure)

@@ -142,7 +142,10 @@ impl Spacing {
             .enumerate()
             .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
             .collect();
-        Spaced { layer: Layer { name: "A".into(), joints: vec![], drawings, exposures }, did_not_fit }
+        Spaced {
+            layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
+            did_not_fit,
+        }
     }
 
     /// The koma on which inbetweens stand between two koma.

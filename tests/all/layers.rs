@@ -45,7 +45,8 @@ fn on_real_clips_every_joint_is_in_one_layer_and_has_its_drawing_s_numbers() {
             for joint in own {
                 let columns = joint.first_channel..joint.first_channel + joint.channels.len();
                 for koma in (0..result.len()).map(Frame) {
-                    let [both, one] = [&result, &alone].map(|clip| &clip.row(koma)[columns.clone()]);
+                    let [both, one] =
+                        [&result, &alone].map(|clip| &clip.row(koma)[columns.clone()]);
                     assert_eq!(both, one, "{name}: {} on koma {}", joint.name, koma.0 + 1);
                 }
             }
@@ -98,6 +99,14 @@ fn each_layer_is_a_column_of_every_table_and_sheet() {
         assert_eq!(found, letters, "{file}");
     }
     assert_eq!(column(&read("remap.csv"), "koma").len(), 5 * 92);
+    let drawings = read("drawings.csv");
+    let leads = column(&drawings, "lead_joint").into_iter().zip(column(&drawings, "column"));
+    let of_b: BTreeSet<String> = leads
+        .filter(|(_, own)| own == "B")
+        .map(|(lead, _)| lead)
+        .filter(|lead| !lead.is_empty())
+        .collect();
+    assert!(!of_b.is_empty() && of_b.iter().all(|lead| lead.starts_with("Left")), "{of_b:?}");
     let report: serde_json::Value = serde_json::from_str(&read("report.json")).unwrap();
     assert_eq!(report["layers"].as_array().unwrap().len(), 5);
     assert!(read("kick_douga.xdts").contains(r#""names":["A","B","C","D","E"]"#));
@@ -132,9 +141,13 @@ fn what_cannot_be_split_says_what_would_be_right() {
     let place = Place::new();
     fs::write(place.path("twice.toml"), "[[layers]]\nname = \"A\"\njoints = [\"Left*\"]\n[[layers]]\nname = \"B\"\njoints = [\"*Arm\"]\n").unwrap();
     fs::write(place.path("none.toml"), "[[layers]]\nname = \"A\"\njoints = []\n").unwrap();
-    fs::write(place.path("tail.toml"), "[[layers]]\nname = \"A\"\njoints = [\"LeftAmr\"]\n").unwrap();
+    fs::write(place.path("tail.toml"), "[[layers]]\nname = \"A\"\njoints = [\"LeftAmr\"]\n")
+        .unwrap();
     for (asked, answer) in [
-        ("--layers limb", "expected body, limbs, joints or a file of layers; there is no file limb"),
+        (
+            "--layers limb",
+            "expected body, limbs, joints or a file of layers; there is no file limb",
+        ),
         ("--layers twice.toml", "layers.B: LeftArm is in layer A already; a joint is of one layer"),
         ("--layers none.toml", "layers.A: has no joint; name some, or take the layer away"),
         ("--layers tail.toml", "layers.A: the clip has no joint LeftAmr; did you mean LeftArm?"),

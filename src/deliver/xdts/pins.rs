@@ -49,7 +49,8 @@ pub fn pins(
             );
             return Err(Error::Edits { message });
         }
-        let place = kept_on(sheet, &column.name, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
+        let place =
+            kept_on(sheet, &column.name, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
         let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
         let Mark::Drawing(number) = &cell.mark else { unreachable!("only drawings are keys") };
         // A pin is written FRAME:NAME,… on the command line.

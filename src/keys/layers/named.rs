@@ -67,7 +67,8 @@ pub(super) fn split(layers: &[NamedLayer], skeleton: &Skeleton) -> Result<Vec<Pa
         let own = layer_of.iter().enumerate().filter(move |(_, of)| of.unwrap_or(0) == layer);
         own.map(|(joint, _)| JointId(joint)).collect()
     };
-    let part = |(at, layer): (usize, &NamedLayer)| Part { name: layer.name.clone(), joints: joints(at) };
+    let part =
+        |(at, layer): (usize, &NamedLayer)| Part { name: layer.name.clone(), joints: joints(at) };
     Ok(layers.iter().enumerate().map(part).collect())
 }
 
@@ -78,9 +79,8 @@ fn fitting(pattern: &str, layer: &NamedLayer, skeleton: &Skeleton) -> Result<Vec
     if let Some(joint) = names().position(|name| name == pattern) {
         return Ok(vec![joint]);
     }
-    let found: Vec<usize> = (0..skeleton.len())
-        .filter(|joint| fits(pattern, &skeleton.joints[*joint].name))
-        .collect();
+    let found: Vec<usize> =
+        (0..skeleton.len()).filter(|joint| fits(pattern, &skeleton.joints[*joint].name)).collect();
     if found.is_empty() {
         let hint = nearest(pattern, names()).unwrap_or_default();
         let message = format!("the clip has no joint {pattern}; did you mean {hint}?");

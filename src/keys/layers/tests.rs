@@ -107,7 +107,10 @@ fn layers_that_cannot_be_say_what_would_be_right() {
     assert!(error(&[("A", &["LeftHnad"])]).ends_with("did you mean LeftHand?"));
     assert!(error(&[("A", &["*Tail*"])]).starts_with("layers.A: the clip has no joint *Tail*"));
     let twice = error(&[("A", &["Left*"]), ("B", &["*Arm"])]);
-    assert!(twice.starts_with("layers.B: Left") && twice.contains("is in layer A already"), "{twice}");
+    assert!(
+        twice.starts_with("layers.B: Left") && twice.contains("is in layer A already"),
+        "{twice}"
+    );
     assert!(error(&[("A", &["Hips"]), ("A", &["Head"])]).contains("two layers are called A"));
     for name in ["", " ", "a/b", "a:b", "a@b", "a,b"] {
         assert!(error(&[(name, &["Hips"])]).contains("is no name of a layer"), "{name}");
@@ -126,7 +129,9 @@ fn a_body_without_limbs_is_not_split_into_them() {
 fn a_file_is_a_list_as_in_a_recipe() {
     let text = "[[layers]]\nname = \"A\"\njoints = [\"Hips\"]\n\n[[layers]]\nname = \"B\"\njoints = [\"*Arm\"]\n";
     assert_eq!(Layers::parse(text).unwrap(), named(&[("A", &["Hips"]), ("B", &["*Arm"])]));
-    for wrong in ["", "layers = 3", "[[layers]]\nname = \"A\"\n", "[[layers]]\nname = \"A\"\njoint = []\n"] {
+    for wrong in
+        ["", "layers = 3", "[[layers]]\nname = \"A\"\n", "[[layers]]\nname = \"A\"\njoint = []\n"]
+    {
         let error = Layers::parse(wrong).unwrap_err().to_string();
         assert!(error.starts_with("layers: "), "{error}");
     }
@@ -144,8 +149,8 @@ proptest! {
         for frame in [0, 7, clip.len() - 1].map(|row| Frame(clip.first().0 + row)) {
             own.take_frame(&clip, frame);
             found.take_frame(&part, frame);
-            for joint in 0..joints {
-                let expected = if moves[joint] { &own } else { &first };
+            for (joint, moves) in moves.iter().enumerate() {
+                let expected = if *moves { &own } else { &first };
                 prop_assert_eq!(found.rotations[joint], expected.rotations[joint]);
                 prop_assert_eq!(found.translations[joint], expected.translations[joint]);
             }

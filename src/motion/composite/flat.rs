@@ -1,6 +1,6 @@
 //! Several columns of drawings as one.
 
-use crate::sheet::{Drawing, Exposure, Layer, Role, Source};
+use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
 
 /// A column that has a drawing wherever one of some layers has a new one, and for each of its drawings
 /// what each of the layers shows. Its length is that of the longest.
@@ -21,14 +21,17 @@ pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
     };
     let mut sources = Vec::with_capacity(begins.len());
     for (&begin, end) in begins.iter().zip(ends) {
-        let shown: Vec<(usize, &Drawing)> =
-            layers.iter().zip(&columns).map(|(layer, column)| shown(layer, column, begin)).collect();
+        let shown: Vec<(usize, &Drawing)> = layers
+            .iter()
+            .zip(&columns)
+            .map(|(layer, column)| shown(layer, column, begin))
+            .collect();
         sources.push(shown.iter().map(|(_, drawing)| drawing.source).collect());
         let new = shown.iter().filter(|(first, _)| *first == begin).map(|(_, drawing)| *drawing);
         // Of equals the first: `min_by_key` takes it.
         let lead = new.min_by_key(|drawing| rank(drawing.role)).expect("some layer begins here");
         flat.exposures.push(Exposure { drawing: flat.drawings.len(), koma: end - begin });
-        flat.drawings.push(lead.clone());
+        flat.drawings.push(Drawing { why: of_all(&lead.why), ..*lead });
     }
     (flat, sources)
 }
@@ -38,6 +41,11 @@ fn shown<'a>(layer: &'a Layer, column: &[(usize, Exposure)], koma: usize) -> (us
     let after = column.partition_point(|(begin, _)| *begin <= koma);
     let (begin, exposure) = column[after - 1];
     (begin, &layer.drawings[exposure.drawing])
+}
+
+/// Why a drawing is there. What was left out before it or held by it was so in its own layer alone.
+fn of_all(why: &Why) -> Why {
+    Why { lengthened: 0, omitted_before: 0, held_for: 0, ..why.clone() }
 }
 
 /// Which of several drawings gives theirs its name.

@@ -16,7 +16,7 @@ fn layer(name: &str, joints: &[&str], shown: &[(f64, Role, usize)]) -> Layer {
     let drawing = |(place, role, _): &(f64, Role, usize)| Drawing {
         source: Source::At(*place),
         role: *role,
-        why: Why::default(),
+        why: Why { omitted_before: 1, lengthened: 2, held_for: 3, ..Why::default() },
     };
     let exposure =
         |(drawing, (_, _, koma)): (usize, &(f64, Role, usize))| Exposure { drawing, koma: *koma };
@@ -60,7 +60,15 @@ fn several_layers_have_a_drawing_wherever_one_of_them_has_a_new_one() {
     let roles: Vec<Role> = flat.drawings.iter().map(|drawing| drawing.role).collect();
     assert_eq!(roles, [End, Genga, Inbetween, Genga, Genga]);
     let places: Vec<f64> = flat.drawings.iter().map(|drawing| drawing.source.place()).collect();
-    assert_eq!(places, [0.0, 7.0, 10.0, 22.0, 20.5], "the place of the drawing that gives the role");
+    assert_eq!(
+        places,
+        [0.0, 7.0, 10.0, 22.0, 20.5],
+        "the place of the drawing that gives the role"
+    );
+    assert!(
+        flat.drawings.iter().all(|drawing| drawing.why == Why::default()),
+        "of their layer alone"
+    );
     let parts: Vec<Vec<f64>> = composite
         .drawings
         .iter()
