@@ -31,7 +31,7 @@ fn layer(name: &str, joints: &[&str], shown: &[(f64, Role, usize)]) -> Layer {
 fn two_layers(clip: &Clip) -> Sheet {
     use Role::{End, Genga, Inbetween};
     let body = [(0.0, End, 4), (10.0, Inbetween, 4), (20.5, Genga, 4)];
-    let arm = [(0.0, End, 2), (7.0, Genga, 2), (8.0, Inbetween, 3), (22.0, Genga, 2)];
+    let arm = [(0.0, End, 2), (7.0, Genga, 2), (8.0, Genga, 4), (22.0, Inbetween, 2)];
     let layers =
         vec![layer("A", &[], &body), layer("B", &["LeftArm", "LeftForeArm", "LeftHand"], &arm)];
     Sheet::new(clip.clock(24.0), layers)
@@ -54,11 +54,11 @@ fn several_layers_have_a_drawing_wherever_one_of_them_has_a_new_one() {
     let composite = Composite::of(&clip, &sheet).unwrap();
     let flat = composite.layer();
     let begins: Vec<usize> = flat.timed().map(|(begin, _)| begin).collect();
-    assert_eq!(begins, [0, 2, 4, 7, 8]);
+    assert_eq!(begins, [0, 2, 4, 8]);
     assert_eq!((flat.name.as_str(), flat.length()), ("A-B", 12));
-    use Role::{End, Genga, Inbetween};
+    use Role::{End, Genga};
     let roles: Vec<Role> = flat.drawings.iter().map(|drawing| drawing.role).collect();
-    assert_eq!(roles, [End, Genga, Inbetween, Genga, Genga]);
+    assert_eq!(roles, [End, Genga, Genga, Genga], "one of theirs is");
     let places: Vec<f64> = flat.drawings.iter().map(|drawing| drawing.source.place()).collect();
     assert_eq!(
         places,
@@ -74,8 +74,7 @@ fn several_layers_have_a_drawing_wherever_one_of_them_has_a_new_one() {
         .iter()
         .map(|sources| sources.iter().map(|source| source.place()).collect())
         .collect();
-    let last = [20.5, 22.0];
-    assert_eq!(parts, [[0.0, 0.0], [0.0, 7.0], [10.0, 8.0], [10.0, 22.0], last], "B stays");
+    assert_eq!(parts, [[0.0, 0.0], [0.0, 7.0], [10.0, 8.0], [20.5, 22.0]]);
 }
 
 #[test]
