@@ -106,7 +106,10 @@ impl Column {
         let settings = (recipe.rate, measured.height);
         let made = self.reference.renew(self.motion.made, &settings, || {
             let own = Reference::weighted(clip, clip.clock(recipe.rate), judged);
-            measured.height.map_or(own.clone(), |height| own.beside(height))
+            match measured.height {
+                None => own,
+                Some(height) => own.beside(height),
+            }
         });
         let reference = self.reference.output();
         self.chords.renew(made, &(), || Chords::of_part(clip, measured.clip, reference, judged));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::keys::JointWeights;
 use crate::keys::layers::Part;
-use crate::motion::Clip;
+use crate::motion::{Clip, Skeleton};
 
 /// The motion of a layer: its joints move, all others stay as in the clip's first frame.
 ///
@@ -33,14 +33,7 @@ impl PartMotion {
         }
         let mut moves = vec![false; skeleton.len()];
         part.joints.iter().for_each(|joint| moves[joint.0] = true);
-        let mut carried = moves.clone();
-        for (joint, data) in skeleton.iter() {
-            carried[joint.0] |= data.parent.is_some_and(|parent| carried[parent.0]);
-        }
-        let only = |counts: &[bool]| -> Vec<f64> {
-            own.iter().zip(counts).map(|(own, counts)| if *counts { *own } else { 0.0 }).collect()
-        };
-        let heard = only(&moves);
+        let heard = only(&own, &moves);
         if heard.iter().all(|weight| *weight == 0.0) {
             let name = &part.name;
             let message = format!(
@@ -48,6 +41,21 @@ impl PartMotion {
             );
             return Err(Error::setting("keys.weights", message));
         }
-        Ok(Self { judged: only(&carried), heard, clip: Arc::new(clip.with_others_still(&moves)) })
+        let judged = only(&own, &carried(skeleton, &moves));
+        Ok(Self { judged, heard, clip: Arc::new(clip.with_others_still(&moves)) })
     }
+}
+
+/// Weights of some joints, and 0 for all others.
+fn only(own: &[f64], counts: &[bool]) -> Vec<f64> {
+    own.iter().zip(counts).map(|(own, counts)| if *counts { *own } else { 0.0 }).collect()
+}
+
+/// Some joints and all that hang on them.
+fn carried(skeleton: &Skeleton, joints: &[bool]) -> Vec<bool> {
+    let mut carried = joints.to_vec();
+    for (joint, data) in skeleton.iter() {
+        carried[joint.0] |= data.parent.is_some_and(|parent| carried[parent.0]);
+    }
+    carried
 }
