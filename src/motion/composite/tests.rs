@@ -60,11 +60,7 @@ fn several_layers_have_a_drawing_wherever_one_of_them_has_a_new_one() {
     let roles: Vec<Role> = flat.drawings.iter().map(|drawing| drawing.role).collect();
     assert_eq!(roles, [End, Genga, Genga, Genga], "one of theirs is");
     let places: Vec<f64> = flat.drawings.iter().map(|drawing| drawing.source.place()).collect();
-    assert_eq!(
-        places,
-        [0.0, 7.0, 10.0, 22.0, 20.5],
-        "the place of the drawing that gives the role"
-    );
+    assert_eq!(places, [0.0, 7.0, 8.0, 20.5], "of the drawing that gives the role");
     assert!(
         flat.drawings.iter().all(|drawing| drawing.why == Why::default()),
         "of their layer alone"
