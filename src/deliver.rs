@@ -35,7 +35,7 @@ pub use limited_bvh::{keys_bvh, limited_bvh};
 pub use marked::{pins_from_sheet, pins_from_table};
 pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;
-pub use report::Report;
+pub use report::{LayerReport, Report};
 pub use settings::{CsvSettings, Settings};
 pub use study::study_csv;
 pub use turns::turns_csv;

@@ -2,7 +2,10 @@
 
 mod forbidden;
 mod hold;
+mod layer;
 mod marks;
+
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +15,7 @@ use crate::time::Frame;
 
 pub use forbidden::Forbidden;
 pub use hold::Hold;
+pub use layer::{LayerEdits, layer_of};
 pub use marks::{Move, Pin};
 
 /// What a person wants in spite of what was found.
@@ -32,6 +36,9 @@ pub struct Edits {
     /// Whether pins and moved keys are the only keys; default no.
     #[serde(skip_serializing_if = "is_default")]
     pub only_pins: bool,
+    /// Corrections of one layer alone, by its name; all others are of every layer.
+    #[serde(skip_serializing_if = "layer::say_nothing")]
+    pub layers: BTreeMap<String, LayerEdits>,
 }
 
 impl Edits {
@@ -49,6 +56,21 @@ impl Edits {
     /// none.
     pub fn validate(&self, first: Frame, last: Frame) -> Result<(), Error> {
         let clip = Frames { first, last };
+        self.check(clip)?;
+        self.layers.keys().try_for_each(|name| self.of_layer(name).check(clip))?;
+        if self.only_pins && !self.have_pins() {
+            return wrong("pins are to be the only keys, and there is no pin: pin a frame");
+        }
+        Ok(())
+    }
+
+    fn have_pins(&self) -> bool {
+        let of_layer = |edits: &LayerEdits| !(edits.pins.is_empty() && edits.moves.is_empty());
+        let of_all = !(self.pins.is_empty() && self.moves.is_empty());
+        of_all || self.layers.values().any(of_layer)
+    }
+
+    fn check(&self, clip: Frames) -> Result<(), Error> {
         self.pins.iter().try_for_each(|pin| self.check_pin(pin, clip))?;
         self.forbidden.iter().try_for_each(|forbidden| check_forbidden(*forbidden, clip))?;
         for (at, moved) in self.moves.iter().enumerate() {
@@ -56,9 +78,6 @@ impl Edits {
         }
         for (at, hold) in self.holds.iter().enumerate() {
             check_hold(*hold, &self.holds[..at], clip)?;
-        }
-        if self.only_pins && self.pins.is_empty() && self.moves.is_empty() {
-            return wrong("pins are to be the only keys, and there is no pin: pin a frame");
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 pub mod bvh;
 mod channels;
 mod clip;
+mod composite;
 mod drawn;
 mod kinematics;
 pub mod landmarks;
@@ -16,8 +17,10 @@ mod stature;
 
 pub use channels::RowWriter;
 pub use clip::Clip;
+pub(crate) use composite::{Composite, CompositeRows, PosedComposite};
 pub(crate) use drawn::DrawnPose;
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
+pub(crate) use landmarks::below;
 pub use landmarks::{Foot, Landmarks, Point};
 pub(crate) use side::{BodySide, plain_name};
 pub use skeleton::{Axis, Channel, EndSite, Joint, JointId, Skeleton};

@@ -1,22 +1,25 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
+mod column;
+mod stage;
+#[cfg(test)]
+mod tests;
+
 use std::sync::Arc;
 
 use crate::edits::{Edits, Hold};
 use crate::error::Error;
-use crate::keys::{
-    self, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Reconstruction,
-    Reference,
-};
+use crate::keys::{Candidates, LayerKeys, Layers, Part, Reconstruction, Reference};
 use crate::motion::Clip;
 use crate::recipe::Recipe;
-use crate::sheet::Sheet;
+use crate::sheet::{RootMotion, Sheet};
 use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
-use crate::timing::{Omitted, Pace, Report, Spaced, Stills, with_holds};
+use crate::timing::{Report, with_holds};
 
-#[cfg(test)]
-mod tests;
+pub use column::LayerBreakdown;
+use column::{Column, Measured};
+use stage::{Made, Stage};
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
 /// starts again at the first stage whose input changed. A clone shares what was made so far.
@@ -29,19 +32,16 @@ pub struct Engine {
     /// The turns whatever the persistence, and those that it confirms.
     turning: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
     turns: Stage<Span, Vec<Vec<Turn>>>,
-    /// How much each joint counts, and the turns of those that do.
-    voices: Stage<JointWeights, Voices>,
-    candidates: Stage<CandidateSettings, Candidates>,
-    reference: Stage<(f64, JointWeights), Reference>,
-    chords: Stage<(f64, JointWeights), Chords>,
-    keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
-    spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
-    stills: Stage<(), Stills>,
-    omitted: Stage<(crate::timing::Omission, usize), Omitted>,
-    sheets: Stage<(f64, Vec<Hold>), [Sheet; 2]>,
+    parts: Stage<Layers, Vec<Part>>,
+    /// The height of the whole body, beside which its parts are judged.
+    height: Stage<f64, f64>,
+    /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
+    columns: Vec<Column>,
+    sheets: Stage<SheetSettings, [Sheet; 2]>,
 }
 
-type CandidateSettings = (keys::Choose, TurnFinder, LowPass, f64);
+/// Rate, root, what a person holds, and which outputs of the layers.
+type SheetSettings = (f64, RootMotion, Vec<Hold>, Vec<Made>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
@@ -56,7 +56,8 @@ pub struct Breakdown<'a> {
     pub filtered: &'a Signals,
     /// Confirmed keys and walls of each joint, by frame.
     pub turns: &'a [Vec<Turn>],
-    /// What the joints say together, before it was asked what a key is worth.
+    /// What the joints say together, before it was asked what a key is worth; of the first layer, as the
+    /// next two and `omission`. [`Breakdown::layers`] has them all.
     pub candidates: &'a Candidates,
     /// Keys and walls of the layer.
     pub keys: &'a LayerKeys,
@@ -68,6 +69,14 @@ pub struct Breakdown<'a> {
     pub sheet: &'a Sheet,
     /// What was left out, and what could not be.
     pub omission: &'a Report,
+    columns: &'a [Column],
+}
+
+impl<'a> Breakdown<'a> {
+    /// What was found and decided for each layer of the sheet.
+    pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
+        self.columns.iter().map(Column::breakdown)
+    }
 }
 
 impl Engine {
@@ -87,14 +96,9 @@ impl Engine {
             filtered: Stage::default(),
             turning: Stage::default(),
             turns: Stage::default(),
-            voices: Stage::default(),
-            candidates: Stage::default(),
-            reference: Stage::default(),
-            chords: Stage::default(),
-            keys: Stage::default(),
-            spaced: Stage::default(),
-            stills: Stage::default(),
-            omitted: Stage::default(),
+            parts: Stage::default(),
+            height: Stage::default(),
+            columns: Vec::new(),
             sheets: Stage::default(),
         })
     }
@@ -115,10 +119,7 @@ impl Engine {
     /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold, and when two
     /// pins fall on one koma.
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
-        let keys_made = self.find(recipe, edits)?;
-        let clock = self.clip.clock(recipe.rate);
-        self.time(recipe, edits, clock, keys_made)?;
-        Ok(self.breakdown(clock))
+        self.make(recipe, edits, |_| {})
     }
 
     /// [`Engine::run`] for the last time: what only another run would use is forgotten.
@@ -126,28 +127,50 @@ impl Engine {
     /// # Errors
     /// Those of [`Engine::run`].
     pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
-        let clock = self.run(recipe, edits)?.clock;
+        // One layer after the other, so that what is large is there for one of them at a time.
+        self.make(recipe, edits, Column::forget)?;
         self.turning.forget();
-        self.reference.forget();
-        self.chords.forget();
-        self.stills.forget();
-        Ok(self.breakdown(clock))
+        Ok(self.breakdown(recipe))
     }
 
-    fn breakdown(&self, clock: Clock) -> Breakdown<'_> {
+    /// Runs the chain, layer by layer; `done` is called with each that is done.
+    fn make(
+        &mut self,
+        recipe: &Recipe,
+        edits: &Edits,
+        done: impl Fn(&mut Column),
+    ) -> Result<Breakdown<'_>, Error> {
+        let turns_made = self.check_and_measure(recipe, edits)?;
+        let clock = self.clip.clock(recipe.rate);
+        let (measured, parts, columns) = self.layers(turns_made);
+        let mut made = Vec::with_capacity(parts.len());
+        for (part, column) in parts.iter().zip(columns) {
+            column.take(measured.clip, part, &recipe.keys.weights)?;
+            let keys = column.find(&measured, recipe, &edits.of_layer(&part.name));
+            made.push(column.time((measured.clip, part), recipe, clock, keys)?);
+            done(column);
+        }
+        self.sheet(recipe, &edits.holds, clock, made);
+        Ok(self.breakdown(recipe))
+    }
+
+    fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
         let [spaced, sheet] = self.sheets.output();
+        let columns = &self.columns[..sheet.layers.len()];
+        let LayerBreakdown { candidates, keys, did_not_fit, omission, .. } = columns[0].breakdown();
         Breakdown {
             clip: &self.clip,
-            clock,
+            clock: self.clip.clock(recipe.rate),
             speed: self.speed.output().unfiltered(),
             filtered: self.filtered.output(),
             turns: self.turns.output(),
-            candidates: self.candidates.output(),
-            keys: self.keys.output(),
-            did_not_fit: self.spaced.output().did_not_fit,
+            candidates,
+            keys,
+            did_not_fit,
             spaced,
             sheet,
-            omission: &self.omitted.output().report,
+            omission,
+            columns,
         }
     }
 
@@ -161,7 +184,7 @@ impl Engine {
         Ok(self.turns.output())
     }
 
-    /// Runs the chain up to the keys: every joint's turns, and the keys of the layer.
+    /// Runs the chain up to the keys: every joint's turns, and the keys of the first layer.
     ///
     /// # Errors
     /// Those of [`Engine::run`].
@@ -171,10 +194,10 @@ impl Engine {
         edits: &Edits,
     ) -> Result<(&[Vec<Turn>], &LayerKeys), Error> {
         self.find(recipe, edits)?;
-        Ok((self.turns.output(), self.keys.output()))
+        Ok((self.turns.output(), self.columns[0].keys()))
     }
 
-    /// How far off the body is when nothing but the keys of a recipe is left.
+    /// How far off the body, or the first of its layers, is when nothing but the keys of a recipe is left.
     ///
     /// # Errors
     /// Those of [`Engine::run`].
@@ -184,26 +207,48 @@ impl Engine {
         edits: &Edits,
     ) -> Result<Reconstruction, Error> {
         self.find(recipe, edits)?;
-        let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
-        Ok(Reconstruction::of(&self.clip, self.reference.output(), &keys))
+        Ok(self.columns[0].reconstruction())
     }
 
-    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
-        let turns = self.check_and_measure(recipe, edits)?;
-        let candidates = self.merge(recipe, turns);
-        Ok(self.choose(recipe, edits, candidates))
+    /// The keys of the first layer.
+    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
+        let turns_made = self.check_and_measure(recipe, edits)?;
+        let (measured, parts, columns) = self.layers(turns_made);
+        columns[0].take(measured.clip, &parts[0], &recipe.keys.weights)?;
+        columns[0].find(&measured, recipe, &edits.of_layer(&parts[0].name));
+        Ok(())
     }
 
     fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
-        one_pin_a_koma(edits, self.clip.clock(recipe.rate))?;
-        let weights = &recipe.keys.weights;
         // What is wrong with them is said before the work.
-        let own = weights.of(self.clip.skeleton())?;
-        let turns = self.measure(recipe)?;
-        let (clip, found) = (&*self.clip, self.turns.output());
-        Ok(self.voices.renew(turns, weights, || Voices::of(clip, own, found)))
+        self.parts.refresh(Made::CLIP, &recipe.layers, || recipe.layers.split(&self.clip))?;
+        let parts = self.parts.output();
+        let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+        edits.check_layers(&names)?;
+        let clock = self.clip.clock(recipe.rate);
+        names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
+        recipe.keys.weights.of(self.clip.skeleton())?;
+        if parts.len() > 1 {
+            self.height
+                .renew(Made::CLIP, &recipe.rate, || Reference::of(&self.clip, clock).height());
+        }
+        self.columns.resize_with(parts.len().max(self.columns.len()), Column::default);
+        self.measure(recipe)
+    }
+
+    /// What was measured of the whole body, its parts, and their stages.
+    fn layers(&mut self, turns_made: Made) -> (Measured<'_>, &[Part], &mut [Column]) {
+        let parts = self.parts.output();
+        let measured = Measured {
+            clip: &self.clip,
+            filtered: self.filtered.output(),
+            turns: self.turns.output(),
+            made: turns_made,
+            height: (parts.len() > 1).then(|| *self.height.output()),
+        };
+        (measured, parts, &mut self.columns[..parts.len()])
     }
 
     /// Speeds, smoothed, and where they turn.
@@ -226,113 +271,18 @@ impl Engine {
         Ok(self.turns.renew(made, &persistence, confirm))
     }
 
-    /// What is known of the joints once their turns are found.
-    fn joints<'a>(&'a self, recipe: &'a Recipe) -> JointTurns<'a> {
-        JointTurns {
-            filtered: self.filtered.output(),
-            turns: self.voices.output().turns.as_deref().unwrap_or(self.turns.output()),
-            finder: &recipe.turns,
-            delay: recipe.filter.delay(self.clip.rate()),
-            weights: &self.voices.output().weights,
-            apart: self.clip.clock(recipe.rate).frames_in_koma(),
-        }
-    }
-
-    /// The candidates for keys, and what they are judged against.
-    fn merge(&mut self, recipe: &Recipe, turns_made: Made) -> Made {
-        // What is asked of the ranked list does not change the candidates.
-        let merging = keys::Choose {
-            min_price: 0.0,
-            rest: 0.0,
-            per_second: f64::INFINITY,
-            ..recipe.keys.clone()
-        };
-        let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let mut candidates = std::mem::take(&mut self.candidates);
-        let make = || recipe.keys.candidates(&self.joints(recipe));
-        let made = candidates.renew(turns_made, &settings, make);
-        self.candidates = candidates;
-        let clip = &*self.clip;
-        let settings = (recipe.rate, recipe.keys.weights.clone());
-        let own = &self.voices.output().own;
-        self.reference.renew(Made::CLIP, &settings, || {
-            Reference::weighted(clip, clip.clock(recipe.rate), own)
-        });
-        let reference = self.reference.output();
-        self.chords.renew(Made::CLIP, &settings, || Chords::of(clip, reference, own));
-        made
-    }
-
-    /// The keys and walls of the layer.
-    fn choose(&mut self, recipe: &Recipe, edits: &Edits, candidates_made: Made) -> Made {
-        // Holds come after everything else.
-        let of_keys = Edits { holds: vec![], ..edits.clone() };
-        let settings = (recipe.keys.clone(), of_keys, recipe.rate);
-        let mut keys = std::mem::take(&mut self.keys);
-        let made = keys.renew(candidates_made, &settings, || {
-            let judges =
-                Judges { reference: self.reference.output(), chords: self.chords.output() };
-            let candidates = self.candidates.output();
-            recipe.keys.choose(&self.clip, judges, candidates, &self.joints(recipe), edits)
-        });
-        self.keys = keys;
-        made
-    }
-
     /// The sheet, before and after omission and what a person holds.
-    fn time(
-        &mut self,
-        recipe: &Recipe,
-        edits: &Edits,
-        clock: Clock,
-        keys_made: Made,
-    ) -> Result<(), Error> {
-        let clip = &*self.clip;
-        let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-        let keys = self.keys.output();
-        let reference = self.reference.output();
-        let made = self.spaced.renew(keys_made, &(recipe.spacing.clone(), recipe.rate), || {
-            let spacing = &recipe.spacing;
-            let pace = if spacing.on.is_fixed() { Pace::default() } else { Pace::of(reference) };
-            spacing.place(keys, clip.skeleton(), clock, koma, &pace)
+    fn sheet(&mut self, recipe: &Recipe, holds: &[Hold], clock: Clock, made: Vec<Made>) {
+        let columns = &self.columns[..made.len()];
+        let settings = (recipe.rate, recipe.root, holds.to_vec(), made);
+        self.sheets.renew(Made::CLIP, &settings, || {
+            let held = |column: LayerBreakdown<'_>| {
+                let held = with_holds(column.layer, column.spaced, holds, clock);
+                (column.spaced.clone(), held)
+            };
+            let (spaced, layers) = columns.iter().map(Column::breakdown).map(held).unzip();
+            [spaced, layers].map(|layers| Sheet { clock, layers, root: recipe.root })
         });
-        let layer = &self.spaced.output().layer;
-        let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
-        let stills = self.stills.output();
-        let on = recipe.spacing.on.most;
-        let settings = (recipe.omission, on);
-        let made =
-            self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))?;
-        let omitted = &self.omitted.output().layer;
-        self.sheets.renew(made, &(recipe.rate, edits.holds.clone()), || {
-            let held = with_holds(omitted, layer, &edits.holds, clock);
-            [layer.clone(), held].map(|layer| Sheet { clock, layers: vec![layer] })
-        });
-        Ok(())
-    }
-}
-
-/// How much each joint counts when keys are chosen.
-#[derive(Debug)]
-struct Voices {
-    /// What a person says of each joint, 1 where they say nothing.
-    own: Vec<f64>,
-    /// The same times what hangs on it: the weight of its vote.
-    weights: Vec<f64>,
-    /// The turns without those of joints that have no say; none where all have.
-    turns: Option<Vec<Vec<Turn>>>,
-}
-
-impl Voices {
-    fn of(clip: &Clip, own: Vec<f64>, turns: &[Vec<Turn>]) -> Self {
-        let weights = keys::weights(clip);
-        let weights = weights.iter().zip(&own).map(|(by_bones, own)| by_bones * own).collect();
-        let heard = |(turns, own): (&Vec<Turn>, &f64)| {
-            if *own > 0.0 { turns.clone() } else { Vec::new() }
-        };
-        let some_are_mute = own.contains(&0.0);
-        let turns = some_are_mute.then(|| turns.iter().zip(&own).map(heard).collect());
-        Self { own, weights, turns }
     }
 }
 
@@ -356,68 +306,5 @@ fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
             };
             Err(Error::Edits { message })
         }
-    }
-}
-
-/// Which of its outputs a stage holds, so that the next stage knows whether it has used that one. A
-/// run may end after any stage: whether a stage did something *in this run* would not tell.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct Made(u64);
-
-impl Made {
-    /// The clip never changes.
-    const CLIP: Self = Self(0);
-}
-
-/// A stage's last output with the input and the settings that made it.
-#[derive(Debug)]
-struct Stage<Settings, Output> {
-    last: Option<Arc<(Made, Settings, Output)>>,
-    made: Made,
-}
-
-impl<Settings, Output> Clone for Stage<Settings, Output> {
-    fn clone(&self) -> Self {
-        Self { last: self.last.clone(), made: self.made }
-    }
-}
-
-impl<Settings, Output> Default for Stage<Settings, Output> {
-    fn default() -> Self {
-        Self { last: None, made: Made::default() }
-    }
-}
-
-impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
-    /// Makes the output again if its input or its settings changed. Says which output it holds now.
-    fn refresh(
-        &mut self,
-        input: Made,
-        settings: &Settings,
-        make: impl FnOnce() -> Result<Output, Error>,
-    ) -> Result<Made, Error> {
-        let is_fresh =
-            self.last.as_deref().is_some_and(|(from, with, _)| *from == input && with == settings);
-        if !is_fresh {
-            // Forgotten first: should `make` fail, a later run must not take the old output for the new.
-            self.last = None;
-            self.last = Some(Arc::new((input, settings.clone(), make()?)));
-            self.made = Made(self.made.0 + 1);
-        }
-        Ok(self.made)
-    }
-
-    /// [`Stage::refresh`] for a stage that cannot fail.
-    fn renew(&mut self, input: Made, settings: &Settings, make: impl FnOnce() -> Output) -> Made {
-        self.refresh(input, settings, || Ok(make())).expect("this stage cannot fail")
-    }
-
-    /// Drops the output; asked for again, it is made again.
-    fn forget(&mut self) {
-        self.last = None;
-    }
-
-    fn output(&self) -> &Output {
-        &self.last.as_ref().expect("the stage was run before its output is asked for").2
     }
 }

@@ -8,7 +8,8 @@ use toml::{Table, Value};
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::Choose;
+use crate::keys::{Choose, Layers};
+use crate::sheet::RootMotion;
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
@@ -37,6 +38,14 @@ const ABOUT_WEIGHTS: &str = "\
 pub struct Recipe {
     /// Koma a second of the sheet, 2 to 1000; default 24.
     pub rate: f64,
+    /// The layers (セル) of the sheet, each with its own keys, spacing and omission. Default: one, the
+    /// whole body. More of them let hands and feet hold their own time, and the body falls apart a little:
+    /// on a koma not all of it is from one instant.
+    pub layers: Layers,
+    /// What carries the body through the room while a drawing is held. Default: its drawings. From the
+    /// source, `ones`, the travel is smooth, and feet that stand slide as far as the body goes while
+    /// their drawing is held.
+    pub root: RootMotion,
     /// How fast a joint is.
     pub speed: Speed,
     /// How its speed is smoothed.
@@ -55,6 +64,8 @@ impl Default for Recipe {
     fn default() -> Self {
         Self {
             rate: KOMA_RATE,
+            layers: Layers::default(),
+            root: RootMotion::default(),
             speed: Speed::default(),
             filter: LowPass::default(),
             turns: TurnFinder::default(),
@@ -74,6 +85,7 @@ impl Recipe {
         if !KOMA_RATES.contains(&self.rate) {
             return Err(Error::setting("rate", "must be 2 to 1000 koma a second; 24 is usual"));
         }
+        self.layers.validate()?;
         self.speed.validate()?;
         self.filter.validate()?;
         self.turns.validate()?;
@@ -230,6 +242,8 @@ impl Recipe {
 #[serde(default, deny_unknown_fields)]
 struct File {
     rate: Option<f64>,
+    layers: Layers,
+    root: RootMotion,
     speed: Speed,
     filter: LowPass,
     turns: TurnFinder,
@@ -243,6 +257,8 @@ impl File {
     fn recipe(&self) -> Recipe {
         Recipe {
             rate: self.rate.unwrap_or(KOMA_RATE),
+            layers: self.layers.clone(),
+            root: self.root,
             speed: self.speed.clone(),
             filter: self.filter.clone(),
             turns: self.turns.clone(),
@@ -268,8 +284,12 @@ fn value_in(table: &Table, knob: &Knob) -> String {
     value.map_or_else(|| "none".into(), text_from_value)
 }
 
-/// The TOML value that a word on the command line means.
+/// The TOML value that a word on the command line means; in brackets it is a list.
 fn value_from_text(text: &str) -> Value {
+    let list = || toml::from_str::<Table>(&format!("list = {text}")).ok()?.remove("list");
+    if let Some(list) = text.starts_with('[').then(list).flatten() {
+        return list;
+    }
     match text {
         "true" => Value::Boolean(true),
         "false" => Value::Boolean(false),
@@ -304,7 +324,7 @@ fn located(text: &str, error: &toml::de::Error) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edits::{Hold, Move, Pin};
+    use crate::edits::{Hold, LayerEdits, Move, Pin};
     use crate::time::Frame;
 
     #[test]
@@ -332,6 +352,11 @@ mod tests {
         let mut recipe = Recipe::default();
         for (name, value) in [
             ("rate", "25"),
+            (
+                "layers",
+                r#"[{ name = "A", joints = ["Hips"] }, { name = "腕", joints = ["*Arm*"] }]"#,
+            ),
+            ("root", "ones"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),
             ("turns.steady", "5%"),
@@ -346,12 +371,18 @@ mod tests {
             assert_ne!(recipe, before, "{name} is not its default");
         }
         let pin = Pin { weight: Some(0.5), ..Pin::parse("150:top").unwrap() };
+        let of_arm = LayerEdits {
+            pins: vec![Pin::parse("60:wave").unwrap()],
+            forbidden: vec!["9".parse().unwrap()],
+            ..LayerEdits::default()
+        };
         let edits = Edits {
             pins: vec![pin],
             forbidden: vec!["7".parse().unwrap(), "20..30".parse().unwrap()],
             moves: vec![Move::parse("41:42:hit@0.2").unwrap()],
             holds: vec![Hold::parse("60:4").unwrap()],
             only_pins: true,
+            layers: [("B".to_owned(), of_arm)].into(),
         };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");
@@ -378,6 +409,8 @@ mod tests {
         let mut error = |name, value| recipe.set(name, value).unwrap_err().to_string();
         assert!(error("filter.widht", "1").contains("filter.width"), "the nearest name is offered");
         assert!(error("filter.kind", "blur").contains("box, gaussian, ideal, butterworth"));
+        assert!(error("layers", "limb").contains("one of body, limbs, joints, found \"limb\""));
+        assert!(error("layers", "[]").contains("the list has no layer"));
         assert!(error("spacing.on", "0").contains("1 (ones)"));
         assert!(error("spacing.on", "two").contains("spacing.on"));
         for rate in ["-1", "0.9", "1001", "nan"] {

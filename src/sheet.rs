@@ -2,6 +2,7 @@
 //!
 //! Plain data: everything that is handed over is a function of (clip, sheet).
 
+use std::collections::HashMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,21 @@ pub struct Sheet {
     pub clock: Clock,
     /// Layers (セル), back to front: column A first.
     pub layers: Vec<Layer>,
+    /// What carries the body through the room while a drawing is held.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub root: RootMotion,
+}
+
+/// What carries the body through the room (移動) from koma to koma.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RootMotion {
+    /// Its drawings: the body stays where its drawing has it for as long as that is held.
+    #[default]
+    Drawings,
+    /// The source, on ones (1コマ打ち): a held drawing slides on with the travel of the performer. Only
+    /// where the body is follows, not how it is turned.
+    Ones,
 }
 
 /// A group of joints with a column of its own on the sheet (セル).
@@ -27,6 +43,10 @@ pub struct Sheet {
 pub struct Layer {
     /// The column's name: A, B, C ….
     pub name: String,
+    /// The names of its joints. Those that no layer names are of the first one; of a single layer that
+    /// names none all are.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub joints: Vec<String>,
     /// Drawings in the order of their source places.
     pub drawings: Vec<Drawing>,
     /// What is on screen, koma after koma.
@@ -144,6 +164,14 @@ pub struct Why {
     /// Whether a person set how long it stays.
     #[serde(skip_serializing_if = "is_default")]
     pub hold_set: bool,
+}
+
+/// The usual name of a column: A to Z, then AA, AB ….
+pub(crate) fn column_name(column: usize) -> String {
+    let letter = char::from(b'A' + (column % 26) as u8);
+    let mut name = if column < 26 { String::new() } else { column_name(column / 26 - 1) };
+    name.push(letter);
+    name
 }
 
 /// What says nothing is not written.
@@ -279,16 +307,33 @@ impl Layer {
 }
 
 impl Sheet {
-    /// Checks that every exposure shows a drawing that its layer has, for a koma at least, and that no
-    /// layer has more than a million koma.
+    /// A sheet of some layers, whose drawings carry the body.
+    pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
+        Self { clock, layers, root: RootMotion::default() }
+    }
+
+    /// Checks that every exposure shows a drawing that its layer has, for a koma at least, that no
+    /// layer has more than a million koma, and that no joint is of two.
     ///
     /// # Errors
     /// [`Error::Sheet`] naming the first layer of which that is not so.
     pub fn check(&self) -> Result<(), Error> {
-        self.layers.iter().try_fold(0, |before, layer| layer.check(before)).map(drop)
+        self.layers.iter().try_fold(0, |before, layer| layer.check(before))?;
+        let mut layer_of = HashMap::new();
+        for layer in &self.layers {
+            for joint in &layer.joints {
+                if let Some(other) = layer_of.insert(joint, &layer.name) {
+                    let name = &layer.name;
+                    return Err(Error::sheet(format!(
+                        "layer {name}: {joint} is in layer {other} already; a joint is of one layer"
+                    )));
+                }
+            }
+        }
+        Ok(())
     }
 
-    /// The first layer, of which one body's motion and its pictures are made.
+    /// The first layer, to which every joint belongs that no other names.
     ///
     /// # Errors
     /// [`Error::Sheet`] as [`Sheet::check`], and when there is no such layer or it has no koma.
@@ -313,10 +358,11 @@ impl Sheet {
         };
         let layer = Layer {
             name: "A".into(),
+            joints: vec![],
             drawings: (0..koma).map(drawing).collect(),
             exposures: (0..koma).map(|drawing| Exposure { drawing, koma: 1 }).collect(),
         };
-        Self { clock, layers: vec![layer] }
+        Self::new(clock, vec![layer])
     }
 }
 
@@ -349,6 +395,20 @@ mod tests {
         let places: Vec<_> = layer.shown().map(|drawing| drawing.source.place()).collect();
         assert_eq!(places, [0.0, 10.0, 15.0]);
         assert_eq!((layer.count(Role::End), layer.count(Role::Inbetween)), (2, 1));
+    }
+
+    #[test]
+    fn a_joint_is_of_one_layer() {
+        let mut sheet = Sheet::on_ones(clock(), 2);
+        let mut arm = Layer { name: "B".into(), ..sheet.layers[0].clone() };
+        arm.joints = vec!["Hand".into(), "Arm".into()];
+        sheet.layers.push(arm.clone());
+        assert!(sheet.check().is_ok());
+        sheet.layers.push(Layer { name: "C".into(), joints: vec!["Arm".into()], ..arm });
+        let error = sheet.check().unwrap_err().to_string();
+        assert_eq!(error, "layer C: Arm is in layer B already; a joint is of one layer");
+        sheet.layers[2].joints = vec!["Foot".into(), "Foot".into()];
+        assert!(sheet.check().is_err(), "nor is it twice of the same");
     }
 
     #[test]

@@ -15,6 +15,7 @@ use std::fmt;
 
 use crate::edits::Edits;
 use crate::error::Error;
+use crate::keys::Layers;
 use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 use crate::sheet::{Layer, Role};
@@ -89,6 +90,11 @@ pub fn meet(
 }
 
 fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
+    if let ([first, ..], true) = (targets, recipe.layers != Layers::Body) {
+        let message = "is asked of the whole body as one layer; find its settings with layers = \"body\" first, \
+                       and give them to the layers";
+        return Err(Error::setting(first.name(), message));
+    }
     for (at, target) in targets.iter().enumerate() {
         if targets[..at].iter().any(|other| other.name() == target.name()) {
             return Err(Error::setting(target.name(), "is asked for twice"));

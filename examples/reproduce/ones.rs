@@ -65,7 +65,7 @@ impl Ones {
         let koma = layer.koma().map(|drawing| self.sheet.clock.koma_from_place(place(drawing)));
         let shown: Vec<usize> = koma.collect();
         let peak = largest(&self.steps(&shown));
-        let sheet = Sheet { clock: self.sheet.clock, layers: vec![layer] };
+        let sheet = Sheet::new(self.sheet.clock, vec![layer]);
         Ok(Done { sheet, report: omitted.report, shown, peak })
     }
 }

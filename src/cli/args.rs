@@ -121,9 +121,11 @@ pub(super) struct Settings {
 pub(super) struct Corrections {
     #[command(flatten)]
     pub(super) settings: Settings,
+    #[command(flatten)]
+    pub(super) layers: LayerArgs,
     /// Frames that are keys whatever is found, with a name and a spacing weight of their own if you like:
-    /// --pin 12,150:wrist-top,180@0.5,200:hit@0
-    #[arg(long, value_name = "FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    /// --pin 12,150:wrist-top,180@0.5,200:hit@0. Of one layer alone: B/150, with forbid and move as well.
+    #[arg(long, value_name = "[LAYER/]FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
     pub(super) pin: Vec<String>,
     /// Frames near which no key may be found, and ranges without their last frame: --forbid 12,120..140
     #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
@@ -145,6 +147,19 @@ pub(super) struct Corrections {
     /// The column of that file [default: the only one, or A].
     #[arg(long, value_name = "NAME", requires = "pin_from")]
     pub(super) pin_column: Option<String>,
+}
+
+/// The cels of the sheet, over the recipe.
+#[derive(Debug, ClapArgs)]
+pub(super) struct LayerArgs {
+    /// Layers (セル) with keys and timing of their own: body (one), limbs (trunk with head A, arms B and C, legs D and
+    /// E), joints (one for each that moves), or a TOML file of [[layers]] with name and joints.
+    #[arg(long, value_name = "body|limbs|joints|FILE")]
+    pub(super) layers: Option<String>,
+    /// What carries the body through the room: drawings, or ones, by which a held drawing slides on with the
+    /// source (移動を1コマで).
+    #[arg(long, value_name = "drawings|ones")]
+    pub(super) root_on: Option<String>,
 }
 
 /// What the sheet is to be, instead of the settings that make it so.

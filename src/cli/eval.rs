@@ -25,7 +25,10 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     clip.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
     read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
     if let [first, _, ..] = &file.sheet.layers[..] {
-        words.say(format_args!("of several layers only the first is judged: {}", first.name));
+        words.say(format_args!(
+            "of several layers what is on screen is judged together, keys and pace by the first: {}",
+            first.name
+        ));
     }
     let outside = |keys: &Vec<_>| keys.iter().filter(|frame| !clip.contains(**frame)).count();
     if let Some(count) = reference.as_ref().map(outside).filter(|count| *count > 0) {

@@ -26,7 +26,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
         omission(args).apply(&ones.layers[0], &stills, 1)?
     };
     let took = started.elapsed();
-    let sheet = Sheet { clock: ones.clock, layers: vec![layer] };
+    let sheet = Sheet::new(ones.clock, vec![layer]);
     let motion = deliver::limited_bvh(&clip, &sheet)?;
     if let Some(path) = &args.sheet {
         io::write(path, deliver::sheet_csv(&sheet)?.as_bytes())?;

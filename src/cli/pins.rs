@@ -10,9 +10,9 @@ use super::failure::Failure;
 use super::io;
 use super::words::counted;
 use crate::deliver::{pins_from_sheet, pins_from_table, sheet_json};
-use crate::edits::{Edits, Pin};
+use crate::edits::{Edits, Move, Pin};
 use crate::error::Error;
-use crate::keys::Origin;
+use crate::keys::{Key, Origin};
 use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 
@@ -51,7 +51,8 @@ pub(super) fn marked(
         }
     };
     let count = marked.pins.len();
-    let pinned = add(marked.pins, engine, recipe, edits);
+    let layer = layer(&marked.column, engine, recipe)?;
+    let pinned = add(marked.pins, layer, engine, recipe, edits);
     let mut notes = vec![format!(
         "pinned from {}: {} of column {}",
         name.display(),
@@ -66,40 +67,70 @@ pub(super) fn marked(
     Ok(notes)
 }
 
-/// Adds pins on koma that have none. Gives how many.
-fn add(pins: Vec<Pin>, engine: &Engine, recipe: &Recipe, edits: &mut Edits) -> usize {
-    let clock = engine.clip().clock(recipe.rate);
-    let koma = |frame: crate::time::Frame| clock.koma_from_place(frame.0 as f64);
-    let before = edits.pins.len();
-    for pin in pins {
-        let own = koma(pin.frame);
-        let moved = edits.moves.iter().map(|moved| moved.to);
-        let mut taken = edits.pins.iter().map(|pin| pin.frame).chain(moved);
-        if !taken.any(|frame| koma(frame) == own) {
-            edits.pins.push(pin);
-        }
-    }
-    edits.pins.len() - before
+/// The layer that a column's keys are for: of several the one of that name, else all.
+fn layer<'a>(column: &'a str, engine: &Engine, recipe: &Recipe) -> Result<Option<&'a str>, Error> {
+    let parts = recipe.layers.split(engine.clip())?;
+    let is_one = parts.len() > 1 && parts.iter().any(|part| part.name == column);
+    Ok(is_one.then_some(column))
 }
 
-/// A sentence for each move that found nothing to move.
+/// Adds pins to a layer, or to all, on koma that have none. Gives how many.
+fn add(
+    pins: Vec<Pin>,
+    layer: Option<&str>,
+    engine: &Engine,
+    recipe: &Recipe,
+    edits: &mut Edits,
+) -> usize {
+    let clock = engine.clip().clock(recipe.rate);
+    let koma = |frame: crate::time::Frame| clock.koma_from_place(frame.0 as f64);
+    let mut added = 0;
+    for pin in pins {
+        let own = koma(pin.frame);
+        let there = layer.map_or_else(|| edits.clone(), |name| edits.of_layer(name));
+        let moved = there.moves.iter().map(|moved| moved.to);
+        let mut taken = there.pins.iter().map(|pin| pin.frame).chain(moved);
+        if !taken.any(|frame| koma(frame) == own) {
+            edits.pins_of(layer).push(pin);
+            added += 1;
+        }
+    }
+    added
+}
+
+/// A sentence for each move that found nothing to move, in any of the layers it is for.
 pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
-    let keys = &breakdown.keys.keys;
-    let is_moved = |from| keys.iter().any(|key| key.origin == Origin::Moved { from });
-    let idle = edits.moves.iter().filter(|moved| !is_moved(moved.from));
-    let said = idle.map(|moved| {
-        let (from, to) = (moved.from, moved.to);
-        let after = keys.partition_point(|key| key.frame < from);
-        let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
-        let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
-        let nearest = match round.as_slice() {
-            [] => String::new(),
-            [only] => format!(" (the nearest is at {only})"),
-            both => format!(" (the nearest are at {})", both.join(" and ")),
-        };
-        format!("no key is found at frame {from}{nearest}, so none was moved to {to}; --pin {to} makes one there")
+    let layers: Vec<_> = breakdown.layers().collect();
+    let of_all = edits.moves.iter().map(|moved| (moved, None));
+    let of_one = edits
+        .layers
+        .iter()
+        .flat_map(|(name, own)| own.moves.iter().map(move |moved| (moved, Some(name.as_str()))));
+    let said = of_all.chain(of_one).filter_map(|(moved, name)| {
+        let meant = layers.iter().filter(|own| name.is_none_or(|name| own.layer.name == name));
+        let keys: Vec<&[Key]> = meant.map(|own| own.keys.keys.as_slice()).collect();
+        let is_moved = |key: &Key| key.origin == Origin::Moved { from: moved.from };
+        let is_idle = !keys.iter().any(|keys| keys.iter().any(is_moved));
+        is_idle.then(|| unmoved_one(moved, name, keys.first().copied().unwrap_or_default()))
     });
     said.collect()
+}
+
+/// That there was no key to move, and where the nearest are.
+fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
+    let (from, to) = (moved.from, moved.to);
+    let after = keys.partition_point(|key| key.frame < from);
+    let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
+    let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
+    let nearest = match round.as_slice() {
+        [] => String::new(),
+        [only] => format!(" (the nearest is at {only})"),
+        both => format!(" (the nearest are at {})", both.join(" and ")),
+    };
+    let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
+    format!(
+        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
+    )
 }
 
 /// Refuses to write over the marked file: a person's work is in it.

@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::results::{ALWAYS, OWN, RECIPE, Results};
 use super::words::{Words, counted};
 use super::{io, pins, source, targets};
-use crate::deliver::Report;
+use crate::deliver::{LayerReport, Report};
 use crate::edits::Edits;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
@@ -54,8 +54,11 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let (report, Written { files, stale }) = results.write(&mut asked, &folder)?;
     drop(working);
     summary(words, &name, &report);
-    let shortfalls = breakdown.omission.shortfalls();
-    shortfalls.for_each(|reason| words.say(format_args!("note        {reason}")));
+    for layer in breakdown.layers() {
+        let of = if report.layers.is_empty() { "" } else { &format!("{}: ", layer.layer.name) };
+        let shortfalls = layer.omission.shortfalls();
+        shortfalls.for_each(|reason| words.say(format_args!("note        {of}{reason}")));
+    }
     stale.iter().for_each(|stale| words.say(format_args!("note        {stale}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     Ok(())
@@ -110,6 +113,37 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         "{cut}: {frames} frames at {frame_rate} fps, {joints} joints, {seconds:.2} s"
     ));
     report.notes.iter().for_each(|note| words.say(format_args!("note        {note}")));
+    if report.layers.is_empty() {
+        of_body(words, report);
+    } else {
+        words.say(format_args!("sheet       シート     {koma} koma"));
+        report.layers.iter().for_each(|layer| words.say(of_layer(layer)));
+    }
+    if report.inbetweens_that_did_not_fit > 0 {
+        let count = report.inbetweens_that_did_not_fit;
+        words.say(format_args!("note        {count} inbetweens did not fit between their keys"));
+    }
+}
+
+/// A layer in a line.
+fn of_layer(layer: &LayerReport) -> String {
+    let LayerReport { name, joints, genga, longest_hold, .. } = layer;
+    let drawings = counted(layer.drawings, "drawing");
+    let first = joints.first().map_or("", String::as_str);
+    let others = match joints.len() {
+        0 | 1 => String::new(),
+        count => format!(" and {} more", count - 1),
+    };
+    format!(
+        "layer       セル       {name}: {genga} genga, {drawings}, {:.1} a second, longest hold {longest_hold} koma \
+         ({first}{others})",
+        layer.drawings_per_second
+    )
+}
+
+/// The figures of a sheet of one layer.
+fn of_body(words: &Words, report: &Report) {
+    let koma = report.koma;
     words.say(format_args!(
         "genga       原画       {} and both ends, {:.1} a second",
         report.genga, report.genga_per_second
@@ -135,8 +169,4 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         "held        コマ撮り   {} of {} by koma-dori, where it is slowest",
         omission.koma_dori_done, omission.koma_dori_asked
     ));
-    if report.inbetweens_that_did_not_fit > 0 {
-        let count = report.inbetweens_that_did_not_fit;
-        words.say(format_args!("note        {count} inbetweens did not fit between their keys"));
-    }
 }

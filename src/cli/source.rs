@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{ClipArgs, Corrections, Part, Reading, Settings};
+use super::args::{ClipArgs, Corrections, LayerArgs, Part, Reading, Settings};
 use super::failure::Failure;
 use super::io;
 use super::words::Words;
-use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin, layer_of};
 use crate::error::{Error, Warning};
+use crate::keys::Layers;
 use crate::motion::{Clip, bvh};
 use crate::recipe::Recipe;
 use crate::time::Frame;
@@ -104,25 +105,32 @@ pub(super) fn recipe(args: &Settings, default: Recipe) -> Result<(Recipe, Edits)
 
 /// The recipe and corrections of a run: those of the settings, and those of the command line on top.
 pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> {
-    let (recipe, mut edits) = recipe(&args.settings, Recipe::default())?;
-    for pin in &args.pin {
-        let pin = Pin::parse(pin).map_err(|error| wrongly("pin", error))?;
+    let (mut recipe, mut edits) = recipe(&args.settings, Recipe::default())?;
+    split(&args.layers, &mut recipe)?;
+    for text in &args.pin {
+        let (layer, text) = layer_of(text);
+        let pin = Pin::parse(text).map_err(|error| wrongly("pin", error))?;
+        let pins = edits.pins_of(layer);
         // A pin given again says more about the same frame.
-        edits.pins.retain(|other| other.frame != pin.frame);
-        edits.pins.push(pin);
+        pins.retain(|other| other.frame != pin.frame);
+        pins.push(pin);
     }
-    for frames in &args.forbid {
-        let frames: Forbidden = frames
+    for text in &args.forbid {
+        let (layer, text) = layer_of(text);
+        let frames: Forbidden = text
             .parse()
             .map_err(|message| Failure::AskedWrongly(format!("--forbid: {message}")))?;
-        if !edits.forbidden.contains(&frames) {
-            edits.forbidden.push(frames);
+        let forbidden = edits.forbidden_of(layer);
+        if !forbidden.contains(&frames) {
+            forbidden.push(frames);
         }
     }
-    for moved in &args.moves {
-        let moved = Move::parse(moved).map_err(|error| wrongly("move", error))?;
-        edits.moves.retain(|other| other.from != moved.from);
-        edits.moves.push(moved);
+    for text in &args.moves {
+        let (layer, text) = layer_of(text);
+        let moved = Move::parse(text).map_err(|error| wrongly("move", error))?;
+        let moves = edits.moves_of(layer);
+        moves.retain(|other| other.from != moved.from);
+        moves.push(moved);
     }
     for hold in &args.holds {
         let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
@@ -131,6 +139,35 @@ pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> 
     }
     edits.only_pins = args.only_pins.unwrap_or(edits.only_pins);
     Ok((recipe, edits))
+}
+
+/// The layers and the root that are asked for, on top of a recipe.
+fn split(args: &LayerArgs, recipe: &mut Recipe) -> Result<(), Failure> {
+    match args.layers.as_deref() {
+        None => {}
+        Some(word @ ("body" | "limbs" | "joints")) => recipe.set("layers", word)?,
+        Some(file) => recipe.layers = layers_of_file(Path::new(file))?,
+    }
+    if let Some(word) = &args.root_on {
+        recipe.set("root", word)?;
+    }
+    Ok(())
+}
+
+fn layers_of_file(path: &Path) -> Result<Layers, Failure> {
+    if !io::is_stream(path) && !path.exists() {
+        let message = format!(
+            "--layers: expected body, limbs, joints or a file of layers; there is no file {}",
+            path.display()
+        );
+        return Err(Failure::AskedWrongly(message));
+    }
+    let name = io::named(path);
+    let wrong = |reason: &dyn std::fmt::Display| {
+        Failure::AskedWrongly(format!("--layers: {}: {reason}", name.display()))
+    };
+    let text = String::from_utf8(io::read(path)?).map_err(|_| wrong(&"is not UTF-8"))?;
+    Layers::parse(&text).map_err(|error| wrong(&error))
 }
 
 fn wrongly(option: &str, error: Error) -> Failure {

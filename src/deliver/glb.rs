@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::error::Error;
-use crate::motion::{Axis, Clip, Stature, Unit};
-use crate::sheet::{Layer, Sheet};
+use crate::motion::{Axis, Clip, Composite, Stature, Unit};
+use crate::sheet::Sheet;
 use binary::Binary;
 use bones::Bones;
 
@@ -103,7 +103,7 @@ impl Glb {
         Err(Error::setting("glb.scale", message))
     }
 
-    /// The motion of a sheet's first layer as the bytes of a `.glb`.
+    /// The motion of a sheet as the bytes of a `.glb`, all layers on one another.
     ///
     /// Nodes stand in the order of joints and have their names, then follow the End Sites as `NAME_end`.
     /// A pose is the one that `limited.bvh` has on the same koma.
@@ -115,12 +115,12 @@ impl Glb {
     pub fn write(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<u8>, Error> {
         self.validate()?;
         clip.check_size()?;
-        let layer = sheet.first_layer()?;
+        let composite = Composite::of(clip, sheet)?;
         let space = self.space(clip);
         let bones = Bones::of(clip.skeleton(), space)?;
         let mut binary = Binary::default();
         let mut document = self.scene(&bones, &mut binary);
-        document["animations"] = animations(clip, sheet, layer, space, &mut binary);
+        document["animations"] = animations(&composite, sheet, space, &mut binary);
         Ok(binary.into_glb(document))
     }
 
@@ -162,13 +162,13 @@ const GENERATOR: &str = concat!("genga ", env!("CARGO_PKG_VERSION"));
 
 /// Both animations, or the first alone where no drawing is a key.
 fn animations(
-    clip: &Clip,
+    composite: &Composite<'_>,
     sheet: &Sheet,
-    layer: &Layer,
     space: Space,
     binary: &mut Binary,
 ) -> Value {
-    let poses = animation::Poses::of(clip, layer, space);
+    let layer = composite.layer();
+    let poses = animation::Poses::of(composite, space);
     let write = |name: &str, shown: &[animation::Shown], binary: &mut Binary| {
         poses.animation(name, shown, layer, sheet.clock.koma_rate, binary)
     };

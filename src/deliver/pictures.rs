@@ -19,18 +19,10 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
     SheetPlot::default().draw(cut.sheet, cut.spaced, Some(&steps))
 }
 
-/// The kept drawings of the first layer as poses in a row (SVG).
+/// The kept drawings as poses in a row (SVG), all layers on one another.
 ///
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] when it cannot be drawn.
 pub fn poses(cut: &Cut<'_>) -> Result<String, Error> {
-    let layer = cut.sheet.first_layer()?;
-    let numbers = layer.genga_numbers();
-    let kept = layer.timed().filter_map(|(koma, exposure)| {
-        let drawing = &layer.drawings[exposure.drawing];
-        let label = format!("{} · koma {}", numbers[exposure.drawing]?, koma + 1);
-        Some((drawing.source.place(), label, drawing.role))
-    });
-    let poses: Vec<_> = kept.collect();
-    PoseRow::default().draw(cut.clip, &poses)
+    PoseRow::default().draw_kept(cut.clip, cut.sheet)
 }

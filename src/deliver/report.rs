@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::pipeline::Breakdown;
+use crate::pipeline::{Breakdown, LayerBreakdown};
 use crate::sheet::Role;
-use crate::study;
+use crate::{study, timing};
 
 /// The figures of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -47,8 +47,31 @@ pub struct Report {
     pub inbetweens_that_did_not_fit: usize,
     /// What was left out.
     pub omission: Omission,
+    /// The layers, where there are several; candidates, genga, drawings and what was left out are then those
+    /// of the first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<LayerReport>,
     /// What a person should know, as sentences.
     pub notes: Vec<String>,
+}
+
+/// The figures of one of several layers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LayerReport {
+    /// Its name, that of the column.
+    pub name: String,
+    /// Its joints.
+    pub joints: Vec<String>,
+    /// Key drawings, the ends not counted.
+    pub genga: usize,
+    /// Drawings.
+    pub drawings: usize,
+    /// Drawings a second.
+    pub drawings_per_second: f64,
+    /// Koma of the longest exposure.
+    pub longest_hold: usize,
+    /// What was left out.
+    pub omission: Omission,
 }
 
 /// Key turns of all joints.
@@ -73,6 +96,33 @@ pub struct Omission {
     pub koma_dori_done: usize,
 }
 
+impl From<&timing::Report> for Omission {
+    fn from(report: &timing::Report) -> Self {
+        Self {
+            naka_nashi_asked: report.naka_nashi.asked,
+            naka_nashi_done: report.naka_nashi.done,
+            koma_dori_asked: report.koma_dori.asked,
+            koma_dori_done: report.koma_dori.done,
+        }
+    }
+}
+
+/// The figures of each layer; none of a single one.
+fn layers(breakdown: &Breakdown<'_>) -> Vec<LayerReport> {
+    let report = |LayerBreakdown { layer, omission, .. }: LayerBreakdown<'_>| LayerReport {
+        name: layer.name.clone(),
+        joints: layer.joints.clone(),
+        genga: layer.count(Role::Genga),
+        drawings: layer.shown().count(),
+        drawings_per_second: layer.shown().count() as f64 * breakdown.clock.koma_rate
+            / layer.length() as f64,
+        longest_hold: layer.longest_hold(),
+        omission: omission.into(),
+    };
+    let layers = breakdown.layers();
+    if layers.len() > 1 { layers.map(report).collect() } else { Vec::new() }
+}
+
 impl Report {
     /// The figures of a breakdown; `notes` are the reader's and the program's own words.
     pub fn of(breakdown: &Breakdown<'_>, notes: Vec<String>) -> Self {
@@ -80,7 +130,6 @@ impl Report {
         let koma = layer.length();
         let koma_rate = breakdown.clock.koma_rate;
         let per_second = |count: usize| count as f64 * koma_rate / koma as f64;
-        let omission = breakdown.omission;
         Self {
             frames: breakdown.clip.len(),
             first_frame: breakdown.clip.first().0,
@@ -103,12 +152,8 @@ impl Report {
             longest_hold: layer.longest_hold(),
             held_koma: layer.held_koma(),
             inbetweens_that_did_not_fit: breakdown.did_not_fit,
-            omission: Omission {
-                naka_nashi_asked: omission.naka_nashi.asked,
-                naka_nashi_done: omission.naka_nashi.done,
-                koma_dori_asked: omission.koma_dori.asked,
-                koma_dori_done: omission.koma_dori.done,
-            },
+            omission: breakdown.omission.into(),
+            layers: layers(breakdown),
             notes,
         }
     }

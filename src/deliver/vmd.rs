@@ -17,8 +17,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::deliver::csv_table;
 use crate::error::{Error, Warning};
-use crate::motion::{Clip, JointId, Skeleton};
-use crate::sheet::{Layer, Sheet};
+use crate::motion::{Clip, Composite, JointId, Skeleton};
+use crate::sheet::{Exposure, Sheet};
 use bones::{Model, Side};
 pub use map::BoneMap;
 use map::Found;
@@ -123,7 +123,7 @@ impl Vmd {
         Ok(())
     }
 
-    /// The motion of a sheet's first layer for a model with MMD's standard bones.
+    /// The motion of a sheet for a model with MMD's standard bones, all layers on one another.
     ///
     /// MMD has no steps: where a drawing stays, its pose is written again on the frame before the next.
     ///
@@ -133,7 +133,7 @@ impl Vmd {
     /// fall on one frame.
     pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
         self.validate()?;
-        let layer = sheet.first_layer()?;
+        let composite = Composite::of(clip, sheet)?;
         if clip.is_empty() {
             return Err(Error::clip("the clip has no frame: there is no pose to write"));
         }
@@ -142,11 +142,11 @@ impl Vmd {
         let found = map.find(clip.skeleton())?;
         let source = Source::of(clip, &map, &found);
         let stance = Stance::of(&source, self.arm_angle.to_radians());
-        let mut retarget = Retarget::new(clip, &map.model, &source, &stance, self.leg);
+        let mut retarget = Retarget::new(&composite, &map.model, &source, &stance, self.leg);
         let (model, _) = cut(&self.model)?;
         let report = report(clip.skeleton(), &map.model, &found, retarget.scale);
         let notes = self.notes(clip, sheet)?;
-        let keys = keys(layer, &frames, &mut retarget)?;
+        let keys = keys(&composite, &frames, &mut retarget)?;
         let ik_off = ik_off(&map.model, &found);
         Ok(VmdMade { motion: VmdMotion { model, keys, ik_off }, report, notes })
     }
@@ -204,13 +204,20 @@ impl Frames {
     }
 }
 
-/// Every bone on the first frame of each drawing, and on the last where that is another.
-fn keys(layer: &Layer, frames: &Frames, retarget: &mut Retarget<'_>) -> Result<Vec<VmdKey>, Error> {
+/// Every bone on the first frame of each drawing, and on the last where that is another. Where a held
+/// drawing slides, the centre has a key on every koma besides.
+fn keys(
+    composite: &Composite<'_>,
+    frames: &Frames,
+    retarget: &mut Retarget<'_>,
+) -> Result<Vec<VmdKey>, Error> {
+    let layer = composite.layer();
     let bones = retarget.bones();
+    let slides = composite.slides() && retarget.has_center();
     let mut before = vec![DQuat::IDENTITY; bones.len()];
     let mut keys = Vec::with_capacity(2 * bones.len() * layer.exposures.len());
     for (begin, exposure) in layer.timed() {
-        let mut pose = retarget.take(layer.drawings[exposure.drawing].source);
+        let mut pose = retarget.take(exposure.drawing, begin);
         for (local, before) in pose.iter_mut().zip(&mut before) {
             // q and −q are one rotation, but between the two MMD would turn the long way round.
             if local.rotation.dot(*before) < 0.0 {
@@ -219,13 +226,42 @@ fn keys(layer: &Layer, frames: &Frames, retarget: &mut Retarget<'_>) -> Result<V
             *before = local.rotation;
         }
         let (first, last) = (frames.of(begin)?, frames.of(begin + exposure.koma)? - 1);
-        let held = (last > first).then_some(last);
-        for frame in [Some(first), held].into_iter().flatten() {
-            let posed = bones.iter().zip(&pose);
-            keys.extend(posed.map(|(bone, local)| retarget.key(*bone, frame, *local)));
+        keys.extend(posed(retarget, &bones, &pose, first));
+        let held = usize::from(slides)..bones.len() * usize::from(last > first);
+        if !held.is_empty() {
+            keys.extend(posed(retarget, &bones[held.clone()], &pose[held], last));
+        }
+        if slides {
+            keys.extend(slide(retarget, exposure, begin, frames)?);
         }
     }
+    keys.sort_by_key(|key| key.frame);
     Ok(keys)
+}
+
+/// Keys of some bones on a frame.
+fn posed<'a>(
+    retarget: &'a Retarget<'_>,
+    bones: &'a [usize],
+    pose: &'a [Local],
+    frame: u32,
+) -> impl Iterator<Item = VmdKey> + 'a {
+    bones.iter().zip(pose).map(move |(bone, local)| retarget.key(*bone, frame, *local))
+}
+
+/// Keys of the centre on the koma after the first of an exposure.
+fn slide(
+    retarget: &mut Retarget<'_>,
+    exposure: Exposure,
+    begin: usize,
+    frames: &Frames,
+) -> Result<Vec<VmdKey>, Error> {
+    let center = retarget.bones()[0];
+    let key = |koma: usize| {
+        let local = retarget.take(exposure.drawing, koma)[0];
+        Ok(retarget.key(center, frames.of(koma)?, local))
+    };
+    (begin + 1..begin + exposure.koma).map(key).collect()
 }
 
 impl Retarget<'_> {

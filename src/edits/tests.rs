@@ -54,6 +54,49 @@ fn a_move_is_from_one_frame_of_the_clip_to_another_that_is_free() {
     assert!(check(&["6:7@1"], &[], &[]).contains("weight of moved-to frame 7"));
 }
 
+/// Corrections of all layers, and of layer B.
+fn with_layer_b(all: &[&str], own: LayerEdits) -> Edits {
+    Edits { pins: pins(all), layers: [("B".to_owned(), own)].into(), ..Edits::default() }
+}
+
+#[test]
+fn a_layer_has_the_corrections_of_all_and_its_own() {
+    let own =
+        LayerEdits { pins: pins(&["8:top"]), forbidden: forbidden(&["6"]), moves: moves(&["9:5"]) };
+    let edits = with_layer_b(&["7"], own);
+    let of_b = edits.of_layer("B");
+    assert_eq!(of_b.pins, pins(&["7", "8:top"]));
+    assert_eq!((of_b.forbidden, of_b.moves), (forbidden(&["6"]), moves(&["9:5"])));
+    assert_eq!(edits.of_layer("A"), Edits { pins: pins(&["7"]), ..Edits::default() });
+    assert!(edits.check_layers(&["A", "B"]).is_ok());
+    let error = edits.check_layers(&["A"]).unwrap_err().to_string();
+    assert_eq!(error, "edits: there is no layer B to correct; there is A (see --layers)");
+}
+
+#[test]
+fn what_contradicts_itself_in_one_layer_is_refused() {
+    let of_b = |texts: &[&str], not: &[&str]| LayerEdits {
+        pins: pins(texts),
+        forbidden: forbidden(not),
+        ..LayerEdits::default()
+    };
+    assert_eq!(said(with_layer_b(&[], of_b(&["7"], &["8"]))), "");
+    assert!(said(with_layer_b(&["7"], of_b(&[], &["7"]))).contains("pinned and forbidden"));
+    assert!(said(with_layer_b(&[], of_b(&["99"], &[]))).contains("frame 99 is not in the clip"));
+    let alone = |own| Edits { only_pins: true, ..with_layer_b(&[], own) };
+    assert_eq!(said(alone(of_b(&["7"], &[]))), "", "the others have none");
+    assert!(said(alone(of_b(&[], &["7"]))).contains("there is no pin"));
+}
+
+#[test]
+fn a_layer_stands_before_a_stroke() {
+    assert_eq!(layer_of("B/150:top@0.5"), (Some("B"), "150:top@0.5"));
+    assert_eq!(layer_of("腕 /120..140"), (Some("腕"), "120..140"));
+    for plain in ["150", "150:a/b", "150@1/2", "41:42:x/7"] {
+        assert_eq!(layer_of(plain), (None, plain));
+    }
+}
+
 #[test]
 fn a_hold_is_of_a_frame_of_the_clip_for_a_koma_at_least() {
     let check = |texts: &[&str]| {
@@ -163,7 +206,15 @@ proptest! {
             moves: moves.into_iter().map(moved).collect(),
             holds: holds.into_iter().map(hold).collect(),
             only_pins,
+            layers: BTreeMap::new(),
         };
+        let own = LayerEdits {
+            pins: edits.pins.clone(),
+            forbidden: edits.forbidden.clone(),
+            moves: edits.moves.clone(),
+        };
+        let own = Some(own).filter(|own| *own != LayerEdits::default());
+        let edits = Edits { layers: own.map(|own| ("B".into(), own)).into_iter().collect(), ..edits };
         let text = toml::to_string(&edits).unwrap();
         prop_assert_eq!(&toml::from_str::<Edits>(&text).unwrap(), &edits, "{}", text);
         let json = serde_json::to_string(&edits).unwrap();

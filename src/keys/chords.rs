@@ -35,8 +35,14 @@ impl Chords {
     /// The chords of a clip between instants half a koma of its reference apart. `own` is how much each joint counts
     /// beside its bones: 0 or more, one of them above.
     pub fn of(clip: &Clip, reference: &Reference, own: &[f64]) -> Self {
-        let clock = clip.clock(reference.clock().koma_rate / STEP);
-        let postures = Postures::of(clip, clock, reference.height(), own);
+        Self::of_part(clip, clip, reference, own)
+    }
+
+    /// The same of a part of the body, which alone moves in `part`; what the body is like is seen in the
+    /// whole clip.
+    pub(crate) fn of_part(part: &Clip, whole: &Clip, reference: &Reference, own: &[f64]) -> Self {
+        let clock = part.clock(reference.clock().koma_rate / STEP);
+        let postures = Postures::of(part, whole, clock, reference.height(), own);
         let len = postures.len();
         let least = (LEAST_REACH * clock.koma_rate).ceil() as usize;
         let reach = (PAIRS / len.max(1)).max(least).min(len.saturating_sub(1));

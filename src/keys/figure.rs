@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::keys::Reference;
 use crate::motion::landmarks::Point;
-use crate::motion::{Body, Clip, DrawnPose};
+use crate::motion::{Body, Clip, DrawnPose, Pose};
 use crate::sheet::Source;
 
 /// A body that takes on the pose of one drawing after the other, measured over the points that keys are
@@ -42,9 +42,17 @@ impl<'a> Figure<'a> {
     /// Takes on the pose of a drawing.
     pub fn take(&mut self, source: Source) {
         self.drawn.take(source);
-        let joints = self.drawn.clip().skeleton().len();
-        self.body.place(self.drawn.pose(), &mut self.positions[..joints]);
-        self.reference.points().place_still(&self.body, &mut self.positions);
+        Self::place(self.reference, self.drawn.pose(), &mut self.body, &mut self.positions);
+    }
+
+    /// Takes on a pose.
+    pub(crate) fn stand(&mut self, pose: &Pose) {
+        Self::place(self.reference, pose, &mut self.body, &mut self.positions);
+    }
+
+    fn place(reference: &Reference, pose: &Pose, body: &mut Body, positions: &mut [DVec3]) {
+        body.place(pose, &mut positions[..pose.rotations.len()]);
+        reference.points().place_still(body, positions);
     }
 
     /// Where the joints and the tips of the bones stand in the world, in the file's unit.

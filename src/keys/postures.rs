@@ -33,15 +33,16 @@ pub(super) struct Postures {
 
 impl Postures {
     /// The body at each koma of a clock; `height` is the body's in the file's unit, and `own` how much
-    /// each joint counts beside its bones.
+    /// each joint counts beside its bones. Its limbs are found in `whole`, the same clip or one in which
+    /// more joints move.
     ///
     /// The squared distance of two rows is the mean squared way of the points, weighed by their bones,
     /// plus the squared way of the pelvis and of the heading. A body that is no person's is taken by its
     /// own points, where they are in the world.
-    pub(super) fn of(clip: &Clip, clock: Clock, height: f64, own: &[f64]) -> Self {
+    pub(super) fn of(clip: &Clip, whole: &Clip, clock: Clock, height: f64, own: &[f64]) -> Self {
         let instants = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-        let landmarks = Landmarks::of(clip);
-        match Mannequin::of(clip, &landmarks) {
+        let landmarks = Landmarks::of(whole);
+        match Mannequin::of(whole, &landmarks) {
             Some(mannequin) => of_person(clip, clock, instants, &mannequin, landmarks.up, own),
             None => of_points(clip, clock, instants, height, own),
         }

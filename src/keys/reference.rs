@@ -63,6 +63,12 @@ impl Reference {
         Self { clock, koma, points, positions, height }
     }
 
+    /// The same beside a body of that height, in the file's unit: a part in which little moves has none of
+    /// its own.
+    pub(crate) fn beside(self, height: f64) -> Self {
+        Self { height, ..self }
+    }
+
     /// Where its koma stand.
     pub fn clock(&self) -> Clock {
         self.clock

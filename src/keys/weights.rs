@@ -79,7 +79,7 @@ fn knob(name: &str) -> String {
 }
 
 /// Whether a pattern stands for a name; a name that has a `*` or `?` of its own fits itself.
-fn fits(pattern: &str, name: &str) -> bool {
+pub(super) fn fits(pattern: &str, name: &str) -> bool {
     pattern == name
         || matches(&pattern.chars().collect::<Vec<_>>(), &name.chars().collect::<Vec<_>>())
 }

@@ -138,6 +138,41 @@ impl Clip {
         (self.first.0..self.first.0 + self.frames).contains(&frame.0)
     }
 
+    /// Which joints move: those with a channel whose value changes.
+    pub(crate) fn moving_joints(&self) -> Vec<bool> {
+        let changes = self.changing_channels();
+        let columns = |joint: &Joint| {
+            let first = joint.first_channel;
+            first..first + joint.channels.len()
+        };
+        self.skeleton.joints.iter().map(|joint| changes[columns(joint)].contains(&true)).collect()
+    }
+
+    /// Which columns of the table are not the same in every row.
+    pub(crate) fn changing_channels(&self) -> Vec<bool> {
+        let mut changes = vec![false; self.skeleton.channels()];
+        for (row, next) in self.rows().zip(self.rows().skip(1)) {
+            for (changes, (value, next)) in changes.iter_mut().zip(row.iter().zip(next)) {
+                *changes |= value != next;
+            }
+        }
+        changes
+    }
+
+    /// The same motion of some joints, all others as they are in the first frame.
+    pub(crate) fn with_others_still(&self, moves: &[bool]) -> Self {
+        let mut clip = self.clone();
+        let Some(first) = self.rows().next() else { return clip };
+        let channels = self.skeleton.channels();
+        for (joint, _) in self.skeleton.joints.iter().zip(moves).filter(|(_, moves)| !**moves) {
+            let columns = joint.first_channel..joint.first_channel + joint.channels.len();
+            for row in clip.values.chunks_exact_mut(channels.max(1)) {
+                row[columns.clone()].copy_from_slice(&first[columns.clone()]);
+            }
+        }
+        clip
+    }
+
     /// The clock of a sheet of this clip: koma 0 shows its first frame.
     pub fn clock(&self, koma_rate: f64) -> Clock {
         Clock { first: self.first, frame_rate: self.rate, koma_rate }

@@ -199,7 +199,7 @@ pub(super) fn lengths(skeleton: &Skeleton) -> Vec<f64> {
 }
 
 /// A joint and all that hangs on it.
-pub(super) fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usize> {
     let mut is_below = vec![false; skeleton.len()];
     for (joint, data) in skeleton.joints.iter().enumerate().skip(top) {
         is_below[joint] = joint == top || data.parent.is_some_and(|parent| is_below[parent.0]);

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use crate::motion::landmarks::{above, below, lengths};
-use crate::motion::{Clip, EndSite, JointId, Landmarks, Point, Skeleton};
+use crate::motion::{BodySide, Clip, EndSite, JointId, Landmarks, Point, Skeleton};
 
 /// Points of a mannequin besides its pelvis: neck, head, and of each side shoulder, elbow, wrist,
 /// fingertips, hip, knee, ankle and toes.
@@ -112,6 +112,18 @@ impl Mannequin {
             joints[4..].copy_from_slice(&limb(&self.legs[side]));
         }
         joints
+    }
+
+    /// Where the limbs begin: left and right shoulder, left and right hip, as far as names tell a side.
+    pub(crate) fn limb_tops(&self, skeleton: &Skeleton) -> [usize; 4] {
+        let left_first = |limbs: &[Limb; 2]| {
+            let tops = [&limbs[0], &limbs[1]].map(|limb| limb.upper.joint.0);
+            let is = |at: usize, side| BodySide::of(&skeleton.joints[tops[at]].name) == side;
+            let is_turned = is(0, BodySide::Right) || is(1, BodySide::Left);
+            if is_turned { [tops[1], tops[0]] } else { tops }
+        };
+        let ([a, b], [c, d]) = (left_first(&self.arms), left_first(&self.legs));
+        [a, b, c, d]
     }
 
     /// The mannequin in the pose of the rig; `place` says where a point of the rig stands in the world.

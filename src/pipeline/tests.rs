@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::edits::{Forbidden, Move, Pin};
+use crate::keys::{self, Origin};
 use crate::motion::bvh;
 use crate::motion::lanes::narrow;
 use crate::recipe::{KNOBS, Kind, Knob};
@@ -41,6 +42,13 @@ fn values(knob: &Knob) -> Vec<String> {
     values
 }
 
+/// A recipe with some settings changed.
+fn recipe(settings: &[(&str, &str)]) -> Recipe {
+    let mut recipe = Recipe::default();
+    settings.iter().for_each(|(name, value)| recipe.set(name, value).unwrap());
+    recipe
+}
+
 /// What two runs are compared by: everything that is made.
 #[derive(Debug, PartialEq)]
 struct Result {
@@ -50,6 +58,7 @@ struct Result {
     candidates: Candidates,
     keys: LayerKeys,
     did_not_fit: usize,
+    layers: Vec<LayerKeys>,
     sheets: [Sheet; 2],
     omission: Report,
 }
@@ -63,6 +72,7 @@ fn run(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result {
         candidates: breakdown.candidates.clone(),
         keys: breakdown.keys.clone(),
         did_not_fit: breakdown.did_not_fit,
+        layers: breakdown.layers().map(|layer| layer.keys.clone()).collect(),
         sheets: [breakdown.spaced.clone(), breakdown.sheet.clone()],
         omission: breakdown.omission.clone(),
     }
@@ -288,6 +298,113 @@ fn two_pins_on_one_koma_are_refused_and_never_lost() {
     let breakdown = engine.run(&recipe, &pins(&[60, 61])).unwrap();
     let pinned = |drawing: &&crate::sheet::Drawing| drawing.why.pinned.is_some();
     assert_eq!(breakdown.sheet.layers[0].drawings.iter().filter(pinned).count(), 2);
+}
+
+#[test]
+fn a_layer_of_all_joints_is_the_body() {
+    let clip = pitch();
+    let none = Edits::default();
+    let body = fresh(&clip, &Recipe::default(), &none);
+    for all in [r#"[{ name = "A", joints = ["*"] }]"#, r#"[{ name = "A", joints = ["Hips"] }]"#] {
+        assert!(fresh(&clip, &recipe(&[("layers", all)]), &none) == body, "{all}");
+    }
+}
+
+#[test]
+fn each_layer_has_keys_for_what_its_own_joints_do() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let breakdown = engine.run(&recipe(&[("layers", "limbs")]), &Edits::default()).unwrap();
+    let names: Vec<&str> = breakdown.sheet.layers.iter().map(|layer| &layer.name[..]).collect();
+    assert_eq!(names, ["A", "B", "C", "D", "E"]);
+    let mut timings = Vec::new();
+    for LayerBreakdown { keys, layer, spaced, .. } in breakdown.layers() {
+        let own = |joint: &crate::motion::JointId| {
+            layer.joints.contains(&clip.skeleton().joints[joint.0].name)
+        };
+        assert!(keys.keys.len() > 2, "{}: {:?}", layer.name, keys.keys);
+        assert!(keys.keys.iter().flat_map(|key| &key.voters).all(own), "{}", layer.name);
+        assert_eq!((layer.length(), spaced.length()), (100, 100));
+        timings.push(layer.exposures.clone());
+    }
+    timings.dedup();
+    assert_eq!(timings.len(), 5, "each has its own timing");
+    let mut joints: Vec<&String> =
+        breakdown.sheet.layers.iter().flat_map(|layer| &layer.joints).collect();
+    joints.sort_unstable();
+    joints.dedup();
+    assert_eq!(joints.len(), clip.skeleton().len());
+}
+
+#[test]
+fn a_limb_that_does_not_move_has_no_keys_however_the_body_goes() {
+    let clip = pitch();
+    let layers = recipe(&[("layers", "limbs")]);
+    let limbs = layers.layers.split(&clip).unwrap();
+    let mut moves = vec![true; clip.skeleton().len()];
+    limbs[2].joints.iter().for_each(|joint| moves[joint.0] = false);
+    let mut engine = Engine::new(clip.with_others_still(&moves)).unwrap();
+    let breakdown = engine.run(&layers, &Edits::default()).unwrap();
+    let keys: Vec<usize> = breakdown.layers().map(|layer| layer.keys.keys.len()).collect();
+    assert_eq!(keys[2], 0, "{keys:?}");
+    assert!(keys[0] > 2, "{keys:?}");
+}
+
+#[test]
+fn a_correction_of_one_layer_leaves_the_others_alone() {
+    let clip = pitch();
+    let layers = recipe(&[("layers", "limbs")]);
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let free = run(&mut engine, &layers, &Edits::default());
+    let is_free =
+        |frame: &usize| free.layers[1].keys.iter().all(|key| key.frame.0.abs_diff(*frame) > 3);
+    let frame = (30..110).find(is_free).unwrap();
+    let mut edits = Edits::default();
+    edits.pins_of(Some("B")).push(Pin::parse(&format!("{frame}:here")).unwrap());
+    let pinned = run(&mut engine, &layers, &edits);
+    assert!(pinned == fresh(&clip, &layers, &edits));
+    for layer in [0, 2, 3, 4] {
+        assert_eq!(pinned.sheets[1].layers[layer], free.sheets[1].layers[layer]);
+    }
+    let is_pinned = |key: &keys::Key| key.frame == Frame(frame) && key.origin == Origin::Pinned;
+    assert!(pinned.layers[1].keys.iter().any(is_pinned));
+    let error = engine.run(&Recipe::default(), &edits).unwrap_err().to_string();
+    assert_eq!(error, "edits: there is no layer B to correct; there is A (see --layers)");
+    assert!(run(&mut engine, &layers, &edits) == pinned);
+}
+
+#[test]
+fn layers_that_come_and_go_give_what_a_fresh_engine_gives() {
+    let clip = pitch();
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let none = Edits::default();
+    let arms = r#"[{ name = "A", joints = ["Hips"] }, { name = "arms", joints = ["*Arm*"] }]"#;
+    let back = r#"[{ name = "arms", joints = ["*Arm*"] }, { name = "A", joints = ["Hips"] }]"#;
+    for layers in ["limbs", "body", arms, "joints", back, "limbs"] {
+        for (knob, value) in [("root", "ones"), ("keys.weights.LeftArm", "3"), ("spacing.on", "3")]
+        {
+            let recipe = recipe(&[("layers", layers), (knob, value)]);
+            engine.find_keys(&recipe, &none).unwrap();
+            let used = run(&mut engine, &recipe, &none);
+            assert!(used == fresh(&clip, &recipe, &none), "{layers} {knob}");
+        }
+    }
+    let once = recipe(&[("layers", "limbs")]);
+    let sheet = engine.run_once(&once, &none).unwrap().sheet.clone();
+    assert_eq!(sheet, fresh(&clip, &once, &none).sheets[1]);
+    assert!(
+        run(&mut engine, &once, &none) == fresh(&clip, &once, &none),
+        "forgotten and made again"
+    );
+}
+
+#[test]
+fn a_layer_without_a_say_is_refused_by_its_name() {
+    let mut engine = Engine::new(pitch()).unwrap();
+    let arms = r#"[{ name = "A", joints = ["Hips"] }, { name = "arm", joints = ["LeftArm"] }]"#;
+    let mute = recipe(&[("layers", arms), ("keys.weights.LeftArm", "0")]);
+    let error = engine.run(&mute, &Edits::default()).unwrap_err().to_string();
+    assert!(error.starts_with("keys.weights: every joint of layer arm has 0"), "{error}");
 }
 
 #[test]

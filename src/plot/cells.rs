@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::motion::Clip;
-use crate::plot::points::Posing;
+use crate::motion::{Clip, Composite};
+use crate::plot::points::Showing;
 use crate::plot::style;
 use crate::sheet::{Drawing, Exposure, Layer, Sheet};
 
@@ -77,20 +77,35 @@ pub(crate) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
     layer.timed().map(cell).collect()
 }
 
-/// The layer that pictures show, the first, after a look at whether it can be shown.
+/// What figures show, all layers on one another, after a look at whether it can be shown.
 ///
 /// # Errors
-/// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] when there is no frame or no joint, or
-/// a place is none.
+/// [`Error::Sheet`] as [`Sheet::first_layer`], and for a joint that is not there; [`Error::Picture`] when
+/// there is no frame or no joint, or a place is none.
+pub(super) fn composed<'a>(clip: &'a Clip, sheet: &'a Sheet) -> Result<Composite<'a>, Error> {
+    check(clip, &sheet.layers)?;
+    Composite::of(clip, sheet)
+}
+
+/// The layer that curves show, the first, after the same look.
+///
+/// # Errors
+/// Those of [`composed`].
 pub(super) fn shown<'a>(clip: &Clip, sheet: &'a Sheet) -> Result<&'a Layer, Error> {
+    check(clip, &sheet.layers)?;
+    sheet.first_layer()
+}
+
+fn check(clip: &Clip, layers: &[Layer]) -> Result<(), Error> {
     if clip.is_empty() || clip.skeleton().is_empty() {
         return Err(style::cannot("a clip without frames or joints has no pose to draw"));
     }
-    let layer = sheet.first_layer()?;
-    if !layer.drawings.iter().all(|drawing| drawing.source.place().is_finite()) {
-        return Err(style::cannot("a drawing's place in the source must be a number"));
+    let mut drawings = layers.iter().flat_map(|layer| &layer.drawings);
+    if drawings.all(|drawing| drawing.source.place().is_finite()) {
+        Ok(())
+    } else {
+        Err(style::cannot("a drawing's place in the source must be a number"))
     }
-    Ok(layer)
 }
 
 /// The beginning of a layer: its first koma, `most` of them, and the drawings up to the last that is seen
@@ -105,12 +120,23 @@ pub(super) fn beginning(layer: &Layer, most: usize) -> Cow<'_, Layer> {
         .collect();
     let drawings = exposures.iter().map(|exposure| exposure.drawing + 1).max().unwrap_or(0);
     let drawings = layer.drawings[..drawings].to_vec();
-    Cow::Owned(Layer { name: layer.name.clone(), drawings, exposures })
+    let (name, joints) = (layer.name.clone(), layer.joints.clone());
+    Cow::Owned(Layer { name, joints, drawings, exposures })
 }
 
-/// The points of every drawing of a layer.
-pub(super) fn drawn_poses(clip: &Clip, layer: &Layer) -> Vec<Vec<DVec3>> {
-    Posing::of(clip).all(layer.drawings.iter().map(|drawing| drawing.source))
+/// The points of the first drawings of a composite, as each is first on screen.
+pub(super) fn drawn_poses(composite: &Composite<'_>, drawings: usize) -> Vec<Vec<DVec3>> {
+    let mut showing = Showing::of(composite);
+    let first = composite.first_koma().into_iter().take(drawings).enumerate();
+    first.map(|(drawing, koma)| showing.points(drawing, koma)).collect()
+}
+
+/// The points of what is on screen koma by koma, where that is not the same for all koma of a drawing.
+pub(super) fn sliding_poses(composite: &Composite<'_>, koma: usize) -> Option<Vec<Vec<DVec3>>> {
+    let mut showing = Showing::of(composite);
+    let drawings = composite.layer().koma().take(koma).enumerate();
+    let poses = drawings.map(|(koma, drawing)| showing.points(drawing, koma));
+    composite.slides().then(|| poses.collect())
 }
 
 /// A length of time as a sheet has it: seconds + koma.

@@ -8,7 +8,7 @@ use crate::motion::Clip;
 use crate::plot::axis::number;
 use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
-use crate::plot::cells::{Cell, cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::cells::{Cell, cells, composed, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
@@ -72,8 +72,9 @@ impl ContactSheet {
     /// nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
-        let layer = shown(clip, sheet)?;
-        let poses = drawn_poses(clip, layer);
+        let composite = composed(clip, sheet)?;
+        let layer = composite.layer();
+        let poses = drawn_poses(&composite, layer.drawings.len());
         let mut cards = cells(layer);
         cards.retain(|cell| self.inbetweens || cell.genga.is_some());
         if cards.is_empty() {

@@ -4,9 +4,11 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{BodySide, Clip};
+use crate::motion::{BodySide, Clip, Composite};
 use crate::plot::camera::Camera;
-use crate::plot::cells::{beginning, cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::cells::{
+    beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
+};
 use crate::plot::figure::Figure;
 use crate::plot::points::Posing;
 use crate::plot::stage::Bounds;
@@ -65,6 +67,9 @@ struct Take<'a> {
     drawings: Vec<Shown>,
     /// A pose a koma: x, y, z of each point, in steps.
     source: Vec<Vec<i32>>,
+    /// The result so, where a held drawing slides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sliding: Option<Vec<Vec<i32>>>,
 }
 
 #[derive(Serialize)]
@@ -95,8 +100,9 @@ impl FlipBook {
     /// sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
-        let layer = beginning(shown(clip, sheet)?, self.most);
-        let take = self.take(cut, clip, sheet, &layer);
+        let composite = composed(clip, sheet)?;
+        let layer = beginning(composite.layer(), self.most);
+        let take = self.take(cut, &composite, sheet, &layer);
         let take =
             serde_json::to_string(&take).map_err(|error| style::cannot(error.to_string()))?;
         // Inside a script no text may end it; in JSON a < can only be part of a text.
@@ -110,11 +116,19 @@ impl FlipBook {
         Ok(fill(PAGE, &filled))
     }
 
-    fn take<'a>(&'a self, cut: &'a str, clip: &Clip, sheet: &Sheet, layer: &'a Layer) -> Take<'a> {
+    fn take<'a>(
+        &'a self,
+        cut: &'a str,
+        composite: &Composite<'_>,
+        sheet: &Sheet,
+        layer: &'a Layer,
+    ) -> Take<'a> {
+        let clip = composite.clip();
         let koma = layer.length();
         let place = |koma| Source::At(sheet.clock.place_from_koma(koma));
         let source = Posing::of(clip).all((0..koma).map(place));
-        let result = drawn_poses(clip, layer);
+        let result = drawn_poses(composite, layer.drawings.len());
+        let sliding = sliding_poses(composite, koma);
         let views = Camera::ALL.map(|camera| (camera.word(), camera.view(clip, &source)));
         let auto = views[3].1;
         let figure = Figure::of(clip.skeleton(), &source[0], auto.up);
@@ -146,6 +160,7 @@ impl FlipBook {
                 })
                 .collect(),
             source: source.iter().map(|pose| steps.all(pose)).collect(),
+            sliding: sliding.map(|poses| poses.iter().map(|pose| steps.all(pose)).collect()),
         }
     }
 }

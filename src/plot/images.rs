@@ -3,12 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::Clip;
+use crate::motion::{Clip, Composite};
 use crate::plot::camera::Camera;
-use crate::plot::cells::{drawn_poses, shown};
+use crate::plot::cells::{composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};
-use crate::plot::points::Posing;
+use crate::plot::points::Showing;
 use crate::plot::stage::{Bounds, Stage};
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};
@@ -69,16 +69,16 @@ impl NumberedImages {
         mut take: impl FnMut(&str, Vec<u8>) -> Result<(), E>,
     ) -> Result<(), E> {
         self.validate()?;
-        let layer = shown(clip, sheet)?;
-        let stage = self.stage(clip, sheet)?;
+        let composite = composed(clip, sheet)?;
+        let stage = self.stage(&composite);
         let backdrop = Pixels::of(&self.backdrop(&stage))?;
         let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
         let mut pixels = backdrop.clone();
-        let mut posing = Posing::of(clip);
-        let name: String = layer.name.chars().map(plain).collect();
-        for (at, drawing) in layer.drawings.iter().enumerate() {
+        let mut showing = Showing::of(&composite);
+        let name: String = composite.layer().name.chars().map(plain).collect();
+        for (at, koma) in composite.first_koma().into_iter().enumerate() {
             pixels.copy(&backdrop);
-            pixels.figure(&stage.draw(&posing.points(drawing.source)), Inks::Sides);
+            pixels.figure(&stage.draw(&showing.points(at, koma)), Inks::Sides);
             if self.marks {
                 let (x, y) = self.inside(0.99 - SAFE);
                 digits.write(&mut pixels, at + 1, (x, y));
@@ -93,15 +93,16 @@ impl NumberedImages {
         (share * f64::from(self.width), share * f64::from(self.height))
     }
 
-    fn stage(&self, clip: &Clip, sheet: &Sheet) -> Result<Stage, Error> {
-        let poses = drawn_poses(clip, shown(clip, sheet)?);
+    fn stage(&self, composite: &Composite<'_>) -> Stage {
+        let clip = composite.clip();
+        let poses = drawn_poses(composite, composite.layer().drawings.len());
         let view = self.camera.view(clip, &poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let bounds = Bounds::of(&figure, &view, &poses);
         let (wide, high) = self.inside(1.0 - 4.0 * SAFE);
         let (width, height) = self.inside(1.0);
         let floor = (1.0 - 2.0 * SAFE) * height;
-        Ok(Stage::filling(figure, view, &bounds, (0.5 * width, floor), (wide, high)))
+        Stage::filling(figure, view, &bounds, (0.5 * width, floor), (wide, high))
     }
 
     /// What all images have behind the figure.

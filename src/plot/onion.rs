@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
-use crate::plot::cells::{Cell, cells, drawn_poses, shown};
+use crate::plot::cells::{Cell, cells, composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::stage::{Bounds, Stage, fitting};
@@ -64,8 +64,9 @@ impl OnionSkin {
     /// nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
-        let layer = shown(clip, sheet)?;
-        let poses = drawn_poses(clip, layer);
+        let composite = composed(clip, sheet)?;
+        let layer = composite.layer();
+        let poses = drawn_poses(&composite, layer.drawings.len());
         let view = self.camera.view(clip, &poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let cells = cells(layer);

@@ -8,11 +8,12 @@ use crate::motion::{BodySide, Clip};
 use crate::plot::axis::number;
 use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::cells::{Cell, cells, composed};
 use crate::plot::figure::Figure;
-use crate::plot::points::Posing;
+use crate::plot::points::{Posing, Showing};
 use crate::plot::style;
 use crate::plot::view::View;
-use crate::sheet::{Role, Source};
+use crate::sheet::{Role, Sheet, Source};
 
 /// Stick figures (棒人間) of some drawings, side by side, on one floor and of one scale.
 ///
@@ -76,16 +77,46 @@ impl PoseRow {
         if clip.is_empty() || clip.skeleton().is_empty() {
             return Err(style::cannot("a clip without frames or joints has no pose to draw"));
         }
-        if frames.is_empty() {
-            return Err(style::cannot("no pose to draw"));
-        }
         if !frames.iter().all(|(place, ..)| place.is_finite()) {
             return Err(style::cannot("a pose's place in the source must be a number"));
         }
-        let (all, frames) = (frames.len(), &frames[..frames.len().min(self.most)]);
-        let poses = Posing::of(clip).all(frames.iter().map(|frame| Source::At(frame.0)));
-        let mut figures = Row::of(clip, &poses);
-        let (widest, tallest) = figures.size(&poses);
+        let shown = frames.iter().take(self.most);
+        let poses = Posing::of(clip).all(shown.map(|frame| Source::At(frame.0)));
+        self.row(clip, frames, &poses)
+    }
+
+    /// Draws the genga and ends of a sheet as SVG, all layers on one another, numbered as in the key table.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing to show.
+    pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+        self.validate()?;
+        let composite = composed(clip, sheet)?;
+        let mut kept = cells(composite.layer());
+        kept.retain(|cell| cell.genga.is_some());
+        let frame = |cell: &Cell<'_>| {
+            let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
+            (cell.drawing.source.place(), label, cell.drawing.role)
+        };
+        let mut showing = Showing::of(&composite);
+        let shown = kept.iter().take(self.most);
+        let poses: Vec<_> = shown.map(|cell| showing.points(cell.index, cell.koma)).collect();
+        self.row(clip, &kept.iter().map(frame).collect::<Vec<_>>(), &poses)
+    }
+
+    /// The row of some poses, the first of those that have a label.
+    fn row(
+        &self,
+        clip: &Clip,
+        frames: &[(f64, String, Role)],
+        poses: &[Vec<DVec3>],
+    ) -> Result<String, Error> {
+        if poses.is_empty() {
+            return Err(style::cannot("no pose to draw"));
+        }
+        let (all, frames) = (frames.len(), &frames[..poses.len()]);
+        let mut figures = Row::of(clip, poses);
+        let (widest, tallest) = figures.size(poses);
         let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;
         figures.scale =
             (f64::from(self.figure_height) / tallest.max(1e-9)).min(room / widest.max(1e-9));

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::camera::Camera;
-use crate::plot::cells::shown;
+use crate::plot::cells::composed;
 use crate::plot::style;
 use crate::sheet::Sheet;
 
@@ -79,10 +79,11 @@ impl Preview {
         file: impl Write,
     ) -> Result<usize, Error> {
         self.validate()?;
-        let layer = shown(clip, sheet)?;
+        let composite = composed(clip, sheet)?;
+        let layer = composite.layer();
         let koma = layer.length().min(self.most);
         let palette = Palette::new();
-        let mut scene = Scene::new(self, cut, clip, sheet, layer, koma)?;
+        let mut scene = Scene::new(self, cut, &composite, sheet, koma)?;
         let mut movie = Movie::begin(file, (self.width, self.height), &palette)?;
         for (at, drawing) in layer.koma().take(koma).enumerate() {
             let pixels = scene.draw(at, drawing);

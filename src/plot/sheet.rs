@@ -133,8 +133,13 @@ fn counts(layer: &Layer, koma_rate: f64) -> String {
     let (koma, drawings) = (layer.length(), layer.shown().count());
     let seconds = koma as f64 / koma_rate;
     let a_second = if koma == 0 { 0.0 } else { drawings as f64 / seconds };
+    let joints = match layer.joints.as_slice() {
+        [] => String::new(),
+        [only] => format!("  ·  {only}"),
+        [first, others @ ..] => format!("  ·  {first} and {} more", others.len()),
+    };
     format!(
-        "{}:  {koma} koma ({seconds:.1} s)  ·  {drawings} drawings  ·  {} genga  ·  {a_second:.1} drawings a second  ·  longest hold {} koma",
+        "{}:  {koma} koma ({seconds:.1} s)  ·  {drawings} drawings  ·  {} genga  ·  {a_second:.1} drawings a second  ·  longest hold {} koma{joints}",
         layer.name,
         layer.count(Role::Genga),
         layer.longest_hold()

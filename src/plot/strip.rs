@@ -7,7 +7,9 @@ use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
-use crate::plot::cells::{Cell, beginning, cells, drawn_poses, seconds_and_koma, shown};
+use crate::plot::cells::{
+    Cell, beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
+};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::points::Posing;
@@ -82,20 +84,24 @@ impl Strip {
     /// to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
-        let whole = shown(clip, sheet)?;
+        let composite = composed(clip, sheet)?;
+        let whole = composite.layer();
         let layer = &*beginning(whole, self.most);
-        let result = drawn_poses(clip, layer);
+        let result = drawn_poses(&composite, layer.drawings.len());
+        let sliding = sliding_poses(&composite, self.most);
         let place = |koma| sheet.clock.place_from_koma(koma);
         let koma = layer.length();
         let source = Posing::of(clip).all((0..koma).map(|koma| Source::At(place(koma))));
         let cells = cells(layer);
-        let (stage, in_line, column) = self.stage(clip, &source, &result);
+        let all = sliding.as_ref().unwrap_or(&result);
+        let (stage, in_line, column) = self.stage(clip, &source, all);
         let lines = koma.div_ceil(in_line);
         let passed = passed_over(&cells, (0..koma).map(place), sheet.clock.frames_in_koma());
         let drawing = Lines {
             stage,
             source,
             result,
+            sliding,
             cells,
             passed,
             koma_rate: sheet.clock.koma_rate,
@@ -155,7 +161,10 @@ fn passed_over(cells: &[Cell<'_>], places: impl Iterator<Item = f64>, koma: f64)
 struct Lines<'a> {
     stage: Stage,
     source: Vec<Vec<DVec3>>,
+    /// A pose a drawing.
     result: Vec<Vec<DVec3>>,
+    /// A pose a koma, where a held drawing slides.
+    sliding: Option<Vec<Vec<DVec3>>>,
     cells: Vec<Cell<'a>>,
     passed: Vec<bool>,
     koma_rate: f64,
@@ -222,8 +231,8 @@ impl Lines<'_> {
 
     /// A drawing below, its repeats, its bracket and the gap before it.
     fn exposure(&self, svg: &mut Svg, cell: &Cell<'_>, koma: std::ops::Range<usize>, floor: f64) {
-        let pose = &self.result[cell.index];
         for at in koma.clone() {
+            let pose = self.sliding.as_ref().map_or(&self.result[cell.index], |poses| &poses[at]);
             let inks = if at == cell.koma { Inks::Sides } else { Inks::Faded(REPEATED) };
             let middle = self.x(at) + 0.5 * self.column;
             svg.figure(&self.stage.draw_over(pose, (middle, floor)), inks);

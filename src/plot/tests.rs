@@ -277,11 +277,12 @@ fn sheet() -> Sheet {
     let koma = [1, 2, 3, 1, 1].into_iter().enumerate();
     let layer = Layer {
         name: "A".into(),
+        joints: vec![],
         drawings: drawings.collect(),
         exposures: koma.map(|(drawing, koma)| Exposure { drawing, koma }).collect(),
     };
     let clock = Clock { first: Frame(0), frame_rate: rate(120.0), koma_rate: 24.0 };
-    Sheet { clock, layers: vec![layer] }
+    Sheet::new(clock, vec![layer])
 }
 
 /// Bars of a colour on the sheet: all rectangles but the one of the legend.
@@ -376,7 +377,7 @@ fn degenerate_sheets_give_a_picture_or_an_error() {
             assert!(!svg.contains("NaN"));
         }
     }
-    let bare = Sheet { clock, layers: vec![] };
+    let bare = Sheet::new(clock, vec![]);
     assert!(plot.draw(&bare, None, None).is_ok());
     assert!(plot.draw(&sheet(), Some(&bare), None).is_ok());
     let mut wrong = sheet();

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::keys::{Figure, Reconstruction, Reference};
-use crate::motion::Clip;
+use crate::motion::{Clip, Composite};
 use crate::quality::holds::Pops;
 use crate::quality::{Slip, Timing, shown};
 use crate::sheet::{Role, Sheet};
@@ -67,47 +67,42 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// Measures a sheet of a clip; of several layers the first. `reference` are keys by source frame,
+    /// Measures a sheet of a clip. What is on screen is judged with all layers on one another and the root
+    /// as the sheet has it, keys and pace by the first layer. `reference` are keys by source frame,
     /// `tolerance` says in koma how far a key may be from one of them. Genga are compared by the frames
     /// nearest to them, not by koma. Neither the ends of the clip nor reference keys on them count: both
     /// drawings are there whatever is found.
     ///
     /// # Errors
-    /// [`Error::Sheet`] as [`Sheet::check`], without a layer, and when the sheet shows what is not in the
-    /// clip or is not as long; [`Error::Clip`] for a clip without motion.
+    /// [`Error::Sheet`] as [`Sheet::first_layer`], and where a layer has a joint that the clip has not;
+    /// [`Error::Clip`] for a clip without motion.
     pub fn of(
         clip: &Clip,
         sheet: &Sheet,
         reference: Option<&[Frame]>,
         tolerance: f64,
     ) -> Result<Self, Error> {
-        sheet.check()?;
         if clip.is_empty() || clip.skeleton().is_empty() {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
-        let layer = sheet.layers.first().ok_or_else(|| Error::sheet("the sheet has no layer"))?;
+        let composite = Composite::of(clip, sheet)?;
+        let layer = sheet.first_layer()?;
         let source = Reference::of(clip, sheet.clock);
         let genga = layer.shown().filter(|drawing| drawing.role == Role::Genga);
         let genga = frames(clip, genga.map(|drawing| drawing.source.place()));
-        let on_screen: Vec<_> =
-            layer.koma().map(|drawing| layer.drawings[drawing].source).collect();
+        let on_screen: Vec<usize> = composite.layer().koma().collect();
         let koma = on_screen.len().min(source.koma());
         let mut figure = Figure::of(clip, &source);
         let contacts = ContactFinder::default().find(clip, sheet.clock);
-        let held = |koma: usize| on_screen[koma.min(on_screen.len() - 1)];
         let made = shown::slerped(clip, sheet.clock, &genga);
         Ok(Self {
             pace: pace(sheet),
             keys: Off::of(Reconstruction::of(clip, &source, &genga).errors),
-            shown: Off::of(shown::errors(&mut figure, &on_screen[..koma])),
+            shown: Off::of(shown::errors(&mut figure, &composite, &on_screen[..koma])),
             keys_slip: Slip::of(&mut figure, sheet.clock, &contacts, &made),
-            shown_slip: if koma > 0 {
-                Slip::of(&mut figure, sheet.clock, &contacts, held)
-            } else {
-                Slip::default()
-            },
+            shown_slip: shown::slip(&mut figure, sheet.clock, &contacts, &composite, &on_screen),
             hand_contacts: contacts.iter().filter(|contact| contact.limb == Limb::Hand).count(),
-            pops: shown::pops(&mut figure, layer, sheet.clock.koma_rate),
+            pops: shown::pops(&mut figure, &composite, sheet.clock.koma_rate),
             timing: reference.map(|keys| timing(clip, sheet, &genga, keys, tolerance)),
         })
     }
@@ -169,10 +164,11 @@ mod tests {
         let exposures = exposures.map(|(drawing, (_, koma))| Exposure { drawing, koma: *koma });
         let layer = Layer {
             name: "A".into(),
+            joints: vec![],
             drawings: drawings.collect(),
             exposures: exposures.collect(),
         };
-        Sheet { clock: clip.clock(24.0), layers: vec![layer] }
+        Sheet::new(clip.clock(24.0), vec![layer])
     }
 
     fn clip() -> Clip {
@@ -231,7 +227,7 @@ mod tests {
     #[test]
     fn a_sheet_without_a_layer_and_a_clip_without_motion_are_refused() {
         let clip = clip();
-        let none = Sheet { clock: clip.clock(24.0), layers: vec![] };
+        let none = Sheet::new(clip.clock(24.0), vec![]);
         assert!(Evaluation::of(&clip, &none, None, 1.0).is_err());
         let empty = swing(&[]);
         let sheet = sheet(&clip, &[(0.0, 12), (12.0, 1)]);

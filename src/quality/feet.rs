@@ -36,21 +36,37 @@ impl Slip {
         contacts: &[Contact],
         shown: impl Fn(usize) -> Source,
     ) -> Self {
+        let place = |_: &Contact, koma| shown(koma).place();
+        Self::of_poses(figure, clock, contacts, place, |figure, koma| figure.take(shown(koma)))
+    }
+
+    /// The same of poses: `show` makes the figure stand as it is shown at a koma, and `place` is the
+    /// instant of the source that the foot of a contact is of there.
+    pub(super) fn of_poses(
+        figure: &mut Figure<'_>,
+        clock: Clock,
+        contacts: &[Contact],
+        place: impl Fn(&Contact, usize) -> f64,
+        mut show: impl FnMut(&mut Figure<'_>, usize),
+    ) -> Self {
         let up = Stature::of(figure.clip()).up.unit();
         let percent = 100.0 / figure.height();
         let (mut slips, mut in_source) = (Vec::new(), Vec::new());
         for contact in contacts.iter().filter(|contact| contact.limb == Limb::Foot) {
             let [begin, end] =
                 [contact.koma.start(), contact.koma.end()].map(|koma| clock.place_from_koma(*koma));
-            let own = |source: &Source| (begin..=end).contains(&source.place());
-            let koma: Vec<usize> = contact.koma.clone().filter(|koma| own(&shown(*koma))).collect();
-            let mut place = |source| {
-                figure.take(source);
-                percent * figure.position(contact.point).reject_from(up)
-            };
-            slips.extend(furthest(koma.iter().map(|koma| place(shown(*koma)))));
-            let source = |koma: &usize| Source::At(clock.place_from_koma(*koma));
-            in_source.extend(furthest(koma.iter().map(|koma| place(source(koma)))));
+            let own = |koma: &usize| (begin..=end).contains(&place(contact, *koma));
+            let koma: Vec<usize> = contact.koma.clone().filter(own).collect();
+            let foot =
+                |figure: &Figure<'_>| percent * figure.position(contact.point).reject_from(up);
+            slips.extend(furthest(koma.iter().map(|koma| {
+                show(figure, *koma);
+                foot(figure)
+            })));
+            in_source.extend(furthest(koma.iter().map(|koma| {
+                figure.take(Source::At(clock.place_from_koma(*koma)));
+                foot(figure)
+            })));
         }
         Self {
             contacts: slips.len(),

@@ -1,39 +1,71 @@
 //! What is on screen koma by koma.
 
 use crate::keys::{Figure, with_ends};
-use crate::motion::Clip;
+use crate::motion::{Clip, Composite, PosedComposite};
+use crate::quality::Slip;
 use crate::quality::holds::Pops;
-use crate::sheet::{Layer, Role, Source};
+use crate::sheet::{Role, Source};
+use crate::signal::Contact;
 use crate::time::{Clock, Frame};
 
-/// How far the drawing of each koma is from the source there, in % of body height.
-pub(super) fn errors(figure: &mut Figure<'_>, shown: &[Source]) -> Vec<f64> {
-    let mut taken: Option<Source> = None;
-    let mut error = |(koma, source): (usize, Source)| {
+/// How far what is on screen on each koma is from the source there, in % of body height.
+pub(super) fn errors(
+    figure: &mut Figure<'_>,
+    composite: &Composite<'_>,
+    drawings: &[usize],
+) -> Vec<f64> {
+    let mut posed = PosedComposite::of(composite);
+    let mut taken = None;
+    let mut error = |(koma, drawing): (usize, usize)| {
         // A drawing stays for some koma.
-        if taken != Some(source) {
-            figure.take(source);
-            taken = Some(source);
+        if composite.slides() || taken.replace(drawing) != Some(drawing) {
+            posed.take(drawing, koma);
+            figure.stand(posed.pose());
         }
         figure.off(koma)
     };
-    shown.iter().copied().enumerate().map(&mut error).collect()
+    drawings.iter().copied().enumerate().map(&mut error).collect()
 }
 
-/// The pops of a layer. The drawing of the clip's end is there whatever stands before it, so the step
-/// into it is none.
-pub(super) fn pops(figure: &mut Figure<'_>, layer: &Layer, koma_rate: f64) -> Pops {
+/// How far feet slide on screen; `drawings` are those of each koma, of the last of them for all after it.
+pub(super) fn slip(
+    figure: &mut Figure<'_>,
+    clock: Clock,
+    contacts: &[Contact],
+    composite: &Composite<'_>,
+    drawings: &[usize],
+) -> Slip {
+    let mut posed = PosedComposite::of(composite);
+    let drawing = |koma: usize| drawings[koma.min(drawings.len() - 1)];
+    let place =
+        |contact: &Contact, koma| composite.source(drawing(koma), contact.point.joint.0).place();
+    Slip::of_poses(figure, clock, contacts, place, |figure, koma| {
+        posed.take(drawing(koma), koma);
+        figure.stand(posed.pose());
+    })
+}
+
+/// The pops of what is on screen. The drawing of the clip's end is there whatever stands before it, so the
+/// step into it is none.
+pub(super) fn pops(figure: &mut Figure<'_>, composite: &Composite<'_>, koma_rate: f64) -> Pops {
+    let layer = composite.layer();
     let is_end = |drawing: usize| layer.drawings[drawing].role == Role::End;
     let exposures = match layer.exposures.split_last() {
         Some((last, rest)) if is_end(last.drawing) => rest,
         _ => &layer.exposures,
     };
+    let mut posed = PosedComposite::of(composite);
     let mut steps = Vec::new();
     let mut before = Vec::new();
-    for (at, exposure) in exposures.iter().enumerate() {
-        figure.take(layer.drawings[exposure.drawing].source);
+    for (at, (begin, exposure)) in layer.timed().take(exposures.len()).enumerate() {
+        posed.take(exposure.drawing, begin);
+        figure.stand(posed.pose());
         if at > 0 {
             steps.push(figure.apart(&before));
+        }
+        if composite.slides() {
+            posed.take(exposure.drawing, begin + exposure.koma - 1);
+            figure.stand(posed.pose());
         }
         before.clear();
         before.extend_from_slice(figure.positions());

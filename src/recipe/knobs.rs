@@ -66,6 +66,23 @@ pub const KNOBS: &[Knob] = &[
         japanese_help: "シートの毎秒コマ数。映画やテレビアニメは24。",
     },
     Knob {
+        name: "layers",
+        japanese: "セル分け",
+        kind: Kind::Choice(&["body", "limbs", "joints"]),
+        unit: "",
+        help: "The layers of the sheet, each with keys and timing of its own: the whole body, trunk and each \
+               limb, or every joint that moves. A recipe may name them too: \
+               [{ name = \"A\", joints = [\"Hips\", \"*Arm*\"] }].",
+    },
+    Knob {
+        name: "root",
+        japanese: "移動",
+        kind: Kind::Choice(&["drawings", "ones"]),
+        unit: "",
+        help: "What carries the body through the room: its drawings, or the source on ones, so that held \
+               drawings slide on (1コマ打ち).",
+    },
+    Knob {
         name: "speed.measure",
         japanese: "速さの測り方",
         kind: Kind::Choice(&["rotation", "displacement", "combined", "angle"]),

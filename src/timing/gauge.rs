@@ -30,7 +30,7 @@ const FRACTIONS: [(f64, &str); 13] = [
 pub struct Gauge {
     /// The exposure of the first, as an index into [`Layer::exposures`].
     pub first: usize,
-    /// The joint that travels furthest between the two: the gauge is measured along its path.
+    /// The joint of the layer that travels furthest between the two: the gauge is measured along its path.
     pub joint: JointId,
     /// How far each exposure from the first to the second has come, from 0 to 1, never falling.
     pub shares: Vec<f64>,
@@ -56,6 +56,7 @@ impl Gauge {
     /// When the layer shows a drawing that it does not have.
     pub fn of(clip: &Clip, layer: &Layer) -> Vec<Self> {
         let stills = Stills::of(clip, layer);
+        let joints = own_joints(clip, layer);
         let drawings: Vec<usize> = layer.exposures.iter().map(|shown| shown.drawing).collect();
         let kept: Vec<usize> = (0..drawings.len())
             .filter(|at| layer.drawings[drawings[*at]].role != Role::Inbetween)
@@ -63,7 +64,7 @@ impl Gauge {
         kept.windows(2)
             .filter_map(|pair| {
                 let path = &drawings[pair[0]..=pair[1]];
-                let (joint, whole) = furthest(&stills, path, clip.skeleton().len())?;
+                let (joint, whole) = furthest(&stills, path, &joints)?;
                 let ways = steps(&stills, path, joint).scan(0.0, |way, step| {
                     *way += step;
                     Some(*way / whole)
@@ -128,10 +129,19 @@ pub fn fraction(share: f64) -> &'static str {
     nearest.map_or("", |fraction| fraction.1)
 }
 
+/// The joints that a layer names, all where it names none.
+fn own_joints(clip: &Clip, layer: &Layer) -> Vec<usize> {
+    let joints = clip.skeleton().joints.iter().enumerate();
+    let is_own = |name: &String| layer.joints.is_empty() || layer.joints.contains(name);
+    joints.filter(|(_, data)| is_own(&data.name)).map(|(joint, _)| joint).collect()
+}
+
 /// The joint with the longest path over some drawings, and that length; none where nothing moves.
-fn furthest(stills: &Stills, path: &[usize], joints: usize) -> Option<(usize, f64)> {
-    (0..joints)
-        .map(|joint| (joint, steps(stills, path, joint).sum::<f64>()))
+fn furthest(stills: &Stills, path: &[usize], joints: &[usize]) -> Option<(usize, f64)> {
+    let way = |joint: &usize| (*joint, steps(stills, path, *joint).sum::<f64>());
+    joints
+        .iter()
+        .map(way)
         .reduce(|a, b| if b.1 > a.1 { b } else { a })
         .filter(|(_, whole)| *whole > 0.0)
 }

@@ -154,7 +154,10 @@ impl Spacing {
             .enumerate()
             .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
             .collect();
-        Spaced { layer: Layer { name: "A".into(), drawings, exposures }, did_not_fit }
+        Spaced {
+            layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
+            did_not_fit,
+        }
     }
 
     /// The weight of a key that takes the inbetween of a koma to a place, or as near as `max_shift` lets it.

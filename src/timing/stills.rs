@@ -186,6 +186,7 @@ mod tests {
         let drawing = |&source| Drawing { source, role: Role::Inbetween, why: Why::default() };
         Layer {
             name: "A".into(),
+            joints: vec![],
             drawings: sources.iter().map(drawing).collect(),
             exposures: vec![],
         }

@@ -119,6 +119,7 @@ impl<'a> Strip<'a> {
     pub(super) fn into_layer(self, layer: &Layer) -> Layer {
         let mut left = Layer {
             name: layer.name.clone(),
+            joints: layer.joints.clone(),
             drawings: Vec::with_capacity(self.drawings),
             exposures: Vec::with_capacity(self.drawings),
         };

@@ -6,7 +6,9 @@ mod clips; // where clips come from
 mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found
 #[cfg(feature = "cli")]
-mod judged; // sheets judged, and methods side by side
+mod judged;
+#[cfg(feature = "cli")]
+mod layers; // layers with timing of their own, and a root on ones // sheets judged, and methods side by side
 mod lead_ins; // the same lead-in in every dialect and at every rate
 mod lies; // files that say what is not so end fast
 mod lying_files; // how such files are made

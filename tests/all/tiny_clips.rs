@@ -89,8 +89,7 @@ fn is_sensible(breakdown: &Breakdown, recipe: &Recipe) {
     if recipe.omission.keep_length {
         assert_eq!(sheet.length(), koma);
     }
-    for sheet in [spaced, sheet] {
-        let layer = &sheet.layers[0];
+    for layer in spaced.layers.iter().chain(&sheet.layers) {
         let places: Vec<f64> =
             layer.drawings.iter().map(|drawing| drawing.source.place()).collect();
         assert!(places.is_sorted_by(|a, b| a < b), "{places:?}");
@@ -151,6 +150,7 @@ proptest! {
             moves: moved.map(move_to).into_iter().collect(),
             holds: held.map(hold).into_iter().collect(),
             only_pins,
+            ..Edits::default()
         };
         let mut engine = Engine::new(clip).unwrap();
         match engine.run(&recipe, &edits) {

@@ -86,5 +86,5 @@ fn cropped(sheet: &Sheet, begin: usize) -> Sheet {
     let exposures = layer.timed().filter_map(part).collect();
     let mut clock = sheet.clock;
     clock.first.0 = sheet.clock.place_from_koma(begin).round() as usize;
-    Sheet { clock, layers: vec![Layer { exposures, ..layer.clone() }] }
+    Sheet::new(clock, vec![Layer { exposures, ..layer.clone() }])
 }

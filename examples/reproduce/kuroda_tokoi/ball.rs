@@ -97,7 +97,7 @@ fn sheet(clip: &Clip, weight: f64, walls: &[Frame]) -> Sheet {
     let keys = LayerKeys { keys: Vec::new(), walls, over_limit: 0 };
     let clock = clip.clock(KOMA_RATE);
     let spaced = spacing.place(&keys, clip.skeleton(), clock, KOMA, &Pace::default());
-    Sheet { clock, layers: vec![spaced.layer] }
+    Sheet::new(clock, vec![spaced.layer])
 }
 
 #[cfg(test)]

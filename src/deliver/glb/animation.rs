@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::Space;
 use super::binary::{Binary, Use};
 use super::bones::floats;
-use crate::motion::{Clip, RowWriter, local_rotation, local_translation};
+use crate::motion::{Composite, CompositeRows, local_rotation, local_translation};
 use crate::sheet::{Layer, Source};
 
 /// A drawing that an animation shows, and from which koma until before which.
@@ -57,17 +57,20 @@ pub(super) struct Poses {
     translated: Vec<usize>,
     /// The same of rotations.
     rotated: Vec<usize>,
+    /// Where joints are that are on ones whatever is held: one translation a koma.
+    sliding: Vec<(usize, Vec<[f32; 3]>)>,
 }
 
 impl Poses {
     /// The poses as `limited.bvh` has them.
-    pub(super) fn of(clip: &Clip, layer: &Layer, space: Space) -> Self {
-        let joints = &clip.skeleton().joints;
-        let mut row = vec![0.0; clip.skeleton().channels()];
-        let mut writer = RowWriter::new(clip);
-        let mut locals = Vec::with_capacity(layer.drawings.len() * joints.len());
-        for drawing in &layer.drawings {
-            writer.write(drawing.source, &mut row);
+    pub(super) fn of(composite: &Composite<'_>, space: Space) -> Self {
+        let joints = &composite.clip().skeleton().joints;
+        let mut row = vec![0.0; composite.clip().skeleton().channels()];
+        let mut rows = CompositeRows::of(composite);
+        let first_koma = composite.first_koma();
+        let mut locals = Vec::with_capacity(first_koma.len() * joints.len());
+        for (drawing, koma) in first_koma.into_iter().enumerate() {
+            rows.write(drawing, koma, &mut row);
             locals.extend(joints.iter().map(|joint| Local {
                 translation: floats(space.position(local_translation(joint, &row))),
                 rotation: quaternion(space.rotation(local_rotation(joint, &row))),
@@ -88,7 +91,9 @@ impl Poses {
             // glTF has no animation without a channel: a body that stays at rest is held there.
             translated.push(0);
         }
-        Self { locals, joints: joints.len(), translated, rotated }
+        let sliding = sliding(composite, space);
+        translated.retain(|joint| sliding.iter().all(|(other, _)| other != joint));
+        Self { locals, joints: joints.len(), translated, rotated, sliding }
     }
 
     /// An animation of some drawings, with a key at the end of the last: without it the last drawing
@@ -103,19 +108,28 @@ impl Poses {
     ) -> Value {
         let closing = shown.last().into_iter();
         let times = shown.iter().map(|shown| shown.begin).chain(closing.map(|last| last.end));
-        let times: Vec<[f32; 1]> = times.map(|koma| [(koma as f64 / koma_rate) as f32]).collect();
+        let second = |koma: usize| [(koma as f64 / koma_rate) as f32];
+        let times: Vec<[f32; 1]> = times.map(second).collect();
         let times = binary.add_bounded(Use::Data, "SCALAR", &times);
         let mut tracks = Vec::new();
         for &joint in &self.translated {
             let values: Vec<_> = self.track(joint, shown).map(|local| local.translation).collect();
-            tracks.push((joint, "translation", binary.add(Use::Data, "VEC3", &values)));
+            tracks.push((joint, "translation", times, binary.add(Use::Data, "VEC3", &values)));
         }
         for &joint in &self.rotated {
             let values = continuous(self.track(joint, shown).map(|local| local.rotation));
-            tracks.push((joint, "rotation", binary.add(Use::Data, "VEC4", &values)));
+            tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
         }
-        let sampler = |(_, _, values): &(usize, &str, usize)| json!({ "input": times, "interpolation": "STEP", "output": values });
-        let channel = |(sampler, (node, path, _)): (usize, &(usize, &str, usize))| json!({ "sampler": sampler, "target": { "node": node, "path": path } });
+        if let [(_, koma), ..] = self.sliding.as_slice() {
+            let times: Vec<[f32; 1]> = (0..koma.len()).map(second).collect();
+            let times = binary.add_bounded(Use::Data, "SCALAR", &times);
+            for (joint, values) in &self.sliding {
+                tracks.push((*joint, "translation", times, binary.add(Use::Data, "VEC3", values)));
+            }
+        }
+        type Track = (usize, &'static str, usize, usize);
+        let sampler = |(_, _, times, values): &Track| json!({ "input": times, "interpolation": "STEP", "output": values });
+        let channel = |(sampler, (node, path, ..)): (usize, &Track)| json!({ "sampler": sampler, "target": { "node": node, "path": path } });
         json!({
             "name": name,
             "channels": tracks.iter().enumerate().map(channel).collect::<Vec<_>>(),
@@ -129,6 +143,27 @@ impl Poses {
         let drawings = shown.iter().chain(shown.last()).map(|shown| shown.drawing);
         drawings.map(move |drawing| self.locals[drawing * self.joints + joint])
     }
+}
+
+/// The joints that are on ones, and where they are on each koma, the last once more.
+fn sliding(composite: &Composite<'_>, space: Space) -> Vec<(usize, Vec<[f32; 3]>)> {
+    let skeleton = composite.clip().skeleton();
+    let mut sliding: Vec<(usize, Vec<[f32; 3]>)> =
+        composite.travellers().iter().map(|joint| (*joint, Vec::new())).collect();
+    if sliding.is_empty() {
+        return sliding;
+    }
+    let mut row = vec![0.0; skeleton.channels()];
+    let mut rows = CompositeRows::of(composite);
+    for (koma, drawing) in composite.layer().koma().enumerate() {
+        rows.write(drawing, koma, &mut row);
+        for (joint, places) in &mut sliding {
+            let place = local_translation(&skeleton.joints[*joint], &row);
+            places.push(floats(space.position(place)));
+        }
+    }
+    sliding.iter_mut().for_each(|(_, places)| places.extend(places.last().copied()));
+    sliding
 }
 
 /// What stands on which koma, in the words of `sheet.json`: koma, drawings and source frames from 0.

@@ -99,6 +99,24 @@ fn every_koma_stands_where_limited_bvh_has_it() {
 }
 
 #[test]
+fn layers_and_a_root_on_ones_stand_where_limited_bvh_has_them() {
+    for settings in
+        [[("layers", "limbs"), ("root", "drawings")], [("layers", "limbs"), ("root", "ones")]]
+    {
+        let (clip, sheet) = made("kick", &settings);
+        assert_eq!(sheet.layers.len(), 5);
+        check_positions(&clip, &sheet, &Glb::default());
+    }
+    let (clip, sheet) = made("kick", &[("root", "ones")]);
+    check_positions(&clip, &sheet, &Glb::default());
+    let read = read(&clip, &sheet);
+    let own_times =
+        read.samplers(0).iter().filter(|own| own["input"] != read.samplers(0)[0]["input"]);
+    let times: Vec<usize> = own_times.map(|own| read.floats(&own["input"]).len()).collect();
+    assert_eq!(times, [93], "the root alone, a key a koma and one that closes");
+}
+
+#[test]
 fn joints_of_fewer_axes_stand_where_limited_bvh_has_them_too() {
     let (clip, mut sheet) = chain(&["a", "b", "c"], 9);
     let drawings = &mut sheet.layers[0].drawings;

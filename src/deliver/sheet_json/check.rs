@@ -1,7 +1,7 @@
 //! What a sheet must be, whether it is written or read.
 
 use super::{MadeOf, SheetFile};
-use crate::error::Error;
+use crate::error::{Error, nearest};
 use crate::recipe::KOMA_RATES;
 use crate::sheet::{Source, Why};
 
@@ -23,6 +23,7 @@ impl SheetFile {
         koma_rate(clock.koma_rate).map_err(Error::sheet)?;
         for layer in &self.sheet.layers {
             let named = |message: String| Error::sheet(format!("layer {}: {message}", layer.name));
+            joints(&layer.joints, &self.clip).map_err(named)?;
             for drawing in &layer.drawings {
                 source(drawing.source, &self.clip).map_err(named)?;
                 let Why { strength, price, .. } = drawing.why;
@@ -41,6 +42,18 @@ pub(super) fn koma_rate(rate: f64) -> Result<(), String> {
     let wrong =
         || format!("fps is {rate}; a sheet has {least} to {most} koma a second, 24 is usual");
     KOMA_RATES.contains(&rate).then_some(()).ok_or_else(wrong)
+}
+
+/// Whether the clip has some joints.
+pub(super) fn joints(joints: &[String], clip: &MadeOf) -> Result<(), String> {
+    let names = || clip.joints.iter().map(String::as_str);
+    match joints.iter().find(|joint| !names().any(|name| name == **joint)) {
+        None => Ok(()),
+        Some(joint) => {
+            let hint = nearest(joint, names()).unwrap_or_default();
+            Err(format!("the clip has no joint {joint}; did you mean {hint}?"))
+        }
+    }
 }
 
 /// Whether a pose can be taken from the clip.

@@ -2,7 +2,7 @@
 
 use super::layer::LayerLines;
 use crate::motion::{Axis, Channel, Clip, Skeleton};
-use crate::sheet::Layer;
+use crate::sheet::{RootMotion, Sheet};
 
 /// FNV-1a of 64 bits over 64-bit words.
 struct Digest(u64);
@@ -51,12 +51,16 @@ pub(super) fn motion(clip: &Clip) -> String {
     digest.text()
 }
 
-/// Names, drawings and exposures, as they are written.
-pub(super) fn layers(layers: &[Layer]) -> String {
+/// Names, joints, drawings and exposures, as they are written, and a root that does not go with its
+/// drawings.
+pub(super) fn sheet(sheet: &Sheet) -> String {
     let mut digest = Digest::new();
-    for layer in layers {
+    for layer in &sheet.layers {
         let text = serde_json::to_string(&LayerLines::of(layer)).expect("a layer is plain data");
         text.bytes().for_each(|byte| digest.word(u64::from(byte)));
+    }
+    if sheet.root == RootMotion::Ones {
+        digest.word(1);
     }
     digest.text()
 }

@@ -8,6 +8,8 @@ use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why, is_default};
 #[derive(Debug, Serialize)]
 pub(super) struct LayerLines {
     name: String,
+    #[serde(skip_serializing_if = "is_default")]
+    joints: Vec<String>,
     drawings: Vec<DrawingLine>,
     exposures: Vec<Exposure>,
 }
@@ -34,6 +36,7 @@ impl LayerLines {
         let drawings = layer.drawings.iter().enumerate();
         Self {
             name: layer.name.clone(),
+            joints: layer.joints.clone(),
             drawings: drawings.map(|(number, drawing)| DrawingLine::of(number, drawing)).collect(),
             exposures: layer.exposures.clone(),
         }

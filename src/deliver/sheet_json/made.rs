@@ -28,7 +28,7 @@ pub struct MadeWith {
 impl MadeWith {
     /// The record of a run and the sheet that it made.
     pub fn of(recipe: &Recipe, edits: &Edits, sheet: &Sheet) -> Self {
-        let layers = digest::layers(&sheet.layers);
+        let layers = digest::sheet(sheet);
         let recipe = recipe.settings().into_iter().collect();
         Self { recipe, edits: edits.clone(), layers }
     }

@@ -37,6 +37,8 @@ struct Written<'a> {
     #[serde(borrow)]
     made_with: Option<&'a RawValue>,
     #[serde(borrow)]
+    root: Option<&'a RawValue>,
+    #[serde(borrow)]
     layers: Vec<&'a RawValue>,
 }
 
@@ -44,6 +46,8 @@ struct Written<'a> {
 #[serde(deny_unknown_fields, expecting = "a layer {\"name\", \"drawings\", \"exposures\"}")]
 struct WrittenLayer<'a> {
     name: String,
+    #[serde(default)]
+    joints: Vec<String>,
     #[serde(borrow)]
     drawings: Vec<&'a RawValue>,
     #[serde(borrow)]
@@ -78,13 +82,14 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let mut length = 0;
     let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip, &mut length));
     let layers = layers.collect::<Result<_, _>>()?;
+    let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let made_with: Option<MadeWith> = written.made_with.map(|raw| text.value(raw)).transpose()?;
     let file = SheetFile {
         cut: written.cut,
         genga: written.genga,
         clip,
         made_with,
-        sheet: Sheet { clock, layers },
+        sheet: Sheet { clock, layers, root },
     };
     file.check()?;
     Ok(file)
@@ -119,6 +124,7 @@ fn layer(
     length: &mut usize,
 ) -> Result<Layer, Error> {
     let written: WrittenLayer<'_> = text.value(raw)?;
+    check::joints(&written.joints, clip).map_err(|message| text.error(raw, message))?;
     let mut numbers = HashMap::new();
     let mut drawings = Vec::with_capacity(written.drawings.len());
     for raw in written.drawings {
@@ -145,5 +151,5 @@ fn layer(
         *length = exposure.after(*length).map_err(|message| text.error(raw, message))?;
         exposures.push(exposure);
     }
-    Ok(Layer { name: written.name, drawings, exposures })
+    Ok(Layer { name: written.name, joints: written.joints, drawings, exposures })
 }

@@ -78,7 +78,9 @@ fn an_edited_sheet_is_known_and_stays_known_when_it_is_written_again() {
         ("\"role\": \"genga\"", "\"role\": \"inbetween\""),
         ("\"frame\": 25", "\"frame\": 26"),
         ("\"name\": \"A\"", "\"name\": \"B\""),
-        ("    \"layers\": \"", "    \"layers\": \"0"),
+        ("\n    \"layers\": \"", "\n    \"layers\": \"0"),
+        ("\n  \"layers\": [", "\n  \"root\": \"ones\",\n  \"layers\": ["),
+        ("\"name\": \"A\",", "\"name\": \"A\", \"joints\": [\"Hips\"],"),
     ] {
         assert!(text().contains(line), "{line}");
         let file = read(text().replacen(line, edited, 1).as_bytes()).unwrap();

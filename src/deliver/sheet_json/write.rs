@@ -8,6 +8,7 @@ use super::lines::Lines;
 use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::deliver::Cut;
 use crate::error::Error;
+use crate::sheet::{RootMotion, is_default};
 
 /// The sheet of a cut as `sheet.json`.
 ///
@@ -28,6 +29,8 @@ struct Written<'a> {
     clip: &'a MadeOf,
     #[serde(skip_serializing_if = "Option::is_none")]
     made_with: Option<&'a MadeWith>,
+    #[serde(skip_serializing_if = "is_default")]
+    root: RootMotion,
     layers: Vec<LayerLines>,
 }
 
@@ -43,11 +46,11 @@ impl SheetFile {
         }
     }
 
-    /// Whether the layers are those that were made. A sheet that does not say how it was made may be a
+    /// Whether layers and root are those that were made. A sheet that does not say how it was made may be a
     /// person's work, and is not.
     pub fn is_as_made(&self) -> bool {
         let made = self.made_with.as_ref();
-        made.is_some_and(|made| made.layers == digest::layers(&self.sheet.layers))
+        made.is_some_and(|made| made.layers == digest::sheet(&self.sheet))
     }
 
     /// The file: tidy, and the same bytes for the same sheet.
@@ -65,6 +68,7 @@ impl SheetFile {
             frame_base: 0,
             clip: &self.clip,
             made_with: self.made_with.as_ref(),
+            root: self.sheet.root,
             layers: self.sheet.layers.iter().map(LayerLines::of).collect(),
         };
         let mut bytes = Vec::new();

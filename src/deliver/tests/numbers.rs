@@ -23,10 +23,11 @@ fn edited(clip: &Clip) -> Sheet {
     shown.insert(1, 7);
     let layer = Layer {
         name: "A".into(),
+        joints: vec![],
         drawings: (0..INBETWEENS + 300).map(drawing).collect(),
         exposures: shown.into_iter().map(|drawing| Exposure { drawing, koma: 6 }).collect(),
     };
-    Sheet { clock: clip.clock(24.0), layers: vec![layer] }
+    Sheet::new(clip.clock(24.0), vec![layer])
 }
 
 fn cut<'a>(clip: &'a Clip, sheet: &'a Sheet) -> Cut<'a> {

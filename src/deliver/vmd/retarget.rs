@@ -8,9 +8,9 @@ use super::bones::{Model, Part};
 use super::source::Source;
 use super::stance::Stance;
 use crate::motion::{
-    Body, Clip, JointId, Pose, RowWriter, Stature, Unit, local_rotation, local_translation,
+    Body, Clip, Composite, CompositeRows, JointId, Pose, Stature, Unit, local_rotation,
+    local_translation,
 };
-use crate::sheet;
 
 /// MMD units in a metre by custom, for a clip without legs to measure.
 const UNITS_IN_METRE: f64 = 12.5;
@@ -26,7 +26,7 @@ struct Driven {
 pub(super) struct Retarget<'a> {
     clip: &'a Clip,
     model: &'a Model,
-    writer: RowWriter<'a>,
+    rows: CompositeRows<'a>,
     row: Vec<f64>,
     pose: Pose,
     body: Body,
@@ -50,12 +50,13 @@ pub(super) struct Local {
 impl<'a> Retarget<'a> {
     /// `leg` is the model's, from where it begins to the ankle, in MMD units.
     pub(super) fn new(
-        clip: &'a Clip,
+        composite: &'a Composite<'a>,
         model: &'a Model,
         source: &Source<'_>,
         stance: &Stance,
         leg: f64,
     ) -> Self {
+        let clip = composite.clip();
         let skeleton = clip.skeleton();
         let driven = |bone: usize| {
             if model.bones[bone].part == Part::Center {
@@ -67,7 +68,7 @@ impl<'a> Retarget<'a> {
         Self {
             clip,
             model,
-            writer: RowWriter::new(clip),
+            rows: CompositeRows::of(composite),
             row: vec![0.0; skeleton.channels()],
             pose: Pose::rest(skeleton),
             body: Body::new(skeleton),
@@ -90,9 +91,14 @@ impl<'a> Retarget<'a> {
         center.into_iter().chain(self.driven.iter().map(|driven| driven.bone)).collect()
     }
 
-    /// The pose of a drawing, one entry for each of [`Retarget::bones`].
-    pub(super) fn take(&mut self, source: sheet::Source) -> Vec<Local> {
-        self.writer.write(source, &mut self.row);
+    /// Whether the first of [`Retarget::bones`] is the centre (センター), which alone goes through the room.
+    pub(super) fn has_center(&self) -> bool {
+        self.center.is_some()
+    }
+
+    /// The pose of a drawing on a koma, one entry for each of [`Retarget::bones`].
+    pub(super) fn take(&mut self, drawing: usize, koma: usize) -> Vec<Local> {
+        self.rows.write(drawing, koma, &mut self.row);
         for (index, joint) in self.clip.skeleton().joints.iter().enumerate() {
             self.pose.rotations[index] = local_rotation(joint, &self.row);
             self.pose.translations[index] = local_translation(joint, &self.row);

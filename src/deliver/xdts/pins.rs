@@ -49,7 +49,8 @@ pub fn pins(
             );
             return Err(Error::Edits { message });
         }
-        let place = kept_on(sheet, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
+        let place =
+            kept_on(sheet, &column.name, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
         let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
         let Mark::Drawing(number) = &cell.mark else { unreachable!("only drawings are keys") };
         // A pin is written FRAME:NAME,… on the command line.
@@ -59,9 +60,11 @@ pub fn pins(
     marked_keys(column, numbered).into_iter().map(pin).collect()
 }
 
-/// The place of the kept drawing that begins on a koma, if one does.
-fn kept_on(sheet: &Sheet, koma: usize) -> Option<f64> {
-    let layer = sheet.layers.first()?;
+/// The place of the kept drawing that begins on a koma in the layer of that name, or in the first, if one
+/// does.
+fn kept_on(sheet: &Sheet, column: &str, koma: usize) -> Option<f64> {
+    let named = sheet.layers.iter().find(|layer| layer.name == column);
+    let layer = named.or(sheet.layers.first())?;
     let (_, shown) = layer.timed().find(|(begin, _)| *begin == koma)?;
     let drawing = &layer.drawings[shown.drawing];
     drawing.role.is_kept().then(|| drawing.source.place())

@@ -1,9 +1,9 @@
 //! XDTS as a sheet of columns, tolerant of what programs in use write.
 
 use super::file::{Entry, Header, Root, TimeTable};
-use super::write::letters;
 use super::{BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SIGNATURE, TDTS_SIGNATURE};
 use crate::error::Error;
+use crate::sheet::column_name;
 
 /// The cels of an XDTS or TDTS file: its first time table, field 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -118,7 +118,7 @@ fn exchange(header: Option<Header>, table: TimeTable) -> Exchange {
     let names: Vec<String> =
         headers.filter(|header| header.field_id == CELS).flat_map(|header| header.names).collect();
     let name = |track: usize| match names.get(track).map(|name| name.trim()) {
-        None | Some("") => letters(track),
+        None | Some("") => column_name(track),
         Some(name) => name.into(),
     };
     let fields = table.fields.into_iter().filter(|field| field.field_id == CELS);

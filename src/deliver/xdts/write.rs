@@ -8,7 +8,7 @@ use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 use super::file::{Datum, Entry, Field, Header, Names, Root, TimeTable, Track};
 use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE};
 use crate::error::Error;
-use crate::sheet::{Layer, Sheet};
+use crate::sheet::{Layer, Sheet, column_name};
 
 /// A sheet as XDTS version 5.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -107,18 +107,10 @@ fn name(track: usize, name: &str) -> String {
             .is_some_and(|rest| matches!(rest.as_bytes(), [digit] if digit.is_ascii_digit()))
     };
     match name.trim() {
-        "" => letters(track),
+        "" => column_name(track),
         name if is_sound(name) => format!("cel_{name}"),
         name => name.into(),
     }
-}
-
-/// The usual name of a column: A to Z, then AA, AB ….
-pub(super) fn letters(track: usize) -> String {
-    let letter = char::from(b'A' + (track % 26) as u8);
-    let mut name = if track < 26 { String::new() } else { letters(track / 26 - 1) };
-    name.push(letter);
-    name
 }
 
 /// The numbers of cut and scene, of 1 to 4 digits as the format wants them; none when the name has no

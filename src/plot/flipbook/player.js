@@ -67,7 +67,8 @@ function resultSkins() {
 function draw() {
   const drawing = drawingOf(state.koma);
   drawStage("source", take.source[state.koma], state.onion ? sourceSkins() : []);
-  drawStage("result", take.drawings[drawing].pose, state.onion ? resultSkins() : []);
+  const slides = take.sliding && !state.keys;
+  drawStage("result", slides ? take.sliding[state.koma] : take.drawings[drawing].pose, state.onion ? resultSkins() : []);
   drawBars(by("bars"), take, state.koma, colors);
   drawColumn(by("column"), take, cellOf, state.koma, colors);
   say(drawing);

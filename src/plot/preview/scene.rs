@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use super::Preview;
 use crate::error::Error;
-use crate::motion::Clip;
+use crate::motion::Composite;
 use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{Cell, cells, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};
-use crate::plot::points::Posing;
+use crate::plot::points::{Posing, Showing};
 use crate::plot::stage::{Bounds, Stage};
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};
@@ -28,6 +28,7 @@ const FAR: f64 = 1.6;
 /// Everything that stays the same, and the pixels that change.
 pub(super) struct Scene<'a> {
     posing: Posing<'a>,
+    showing: Showing<'a>,
     clock: Clock,
     layer: &'a Layer,
     /// Source and result.
@@ -47,19 +48,20 @@ impl<'a> Scene<'a> {
     pub(super) fn new(
         preview: &Preview,
         cut: &str,
-        clip: &'a Clip,
-        sheet: &'a Sheet,
-        layer: &'a Layer,
+        composite: &'a Composite<'a>,
+        sheet: &Sheet,
         koma: usize,
     ) -> Result<Self, Error> {
         let size = (f64::from(preview.width), f64::from(preview.height));
-        let (stage, follows) = stage(preview, clip, layer, size);
+        let (clip, layer) = (composite.clip(), composite.layer());
+        let (stage, follows) = stage(preview, composite, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
         let cells = cells(layer);
         let backdrop = Pixels::of(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
             posing: Posing::of(clip),
+            showing: Showing::of(composite),
             clock: sheet.clock,
             layer,
             stages,
@@ -78,11 +80,8 @@ impl<'a> Scene<'a> {
     pub(super) fn draw(&mut self, koma: usize, drawing: usize) -> &Pixels {
         self.pixels.copy(&self.backdrop);
         let source = Source::At(self.clock.place_from_koma(koma));
-        for (panel, source) in [source, self.layer.drawings[drawing].source].into_iter().enumerate()
-        {
-            let pose = self.posing.points(source);
-            self.figure(panel, &pose);
-        }
+        let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
+        poses.iter().enumerate().for_each(|(panel, pose)| self.figure(panel, pose));
         let (width, height) = self.size;
         let is_kept = self.layer.drawings[drawing].role.is_kept();
         let digits = if is_kept { &self.genga } else { &self.plain };
@@ -124,8 +123,9 @@ impl<'a> Scene<'a> {
 }
 
 /// The stage of one panel, its middle yet to be set, and whether the camera goes along.
-fn stage(preview: &Preview, clip: &Clip, layer: &Layer, size: (f64, f64)) -> (Stage, bool) {
-    let poses = drawn_poses(clip, layer);
+fn stage(preview: &Preview, composite: &Composite<'_>, size: (f64, f64)) -> (Stage, bool) {
+    let clip = composite.clip();
+    let poses = drawn_poses(composite, composite.layer().drawings.len());
     let view = preview.camera.view(clip, &poses);
     let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
     let bounds = Bounds::of(&figure, &view, &poses);

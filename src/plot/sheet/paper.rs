@@ -15,6 +15,8 @@ const TALL: f64 = 46.0;
 const SHORT: f64 = 25.0;
 const KOMA: f64 = 30.0;
 const BETWEEN_LINES: f64 = 20.0;
+/// What is before a layer's omission must not seem to be of the layer above.
+const BETWEEN_BANDS: f64 = 18.0;
 /// Lanes for the numbers of kept drawings at most.
 const LANES: usize = 3;
 
@@ -84,7 +86,8 @@ impl Paper<'_> {
 
     pub(super) fn line_height(&self) -> f64 {
         let bands: f64 = self.bands.iter().map(|band| self.band_height(band)).sum();
-        SECONDS + self.ssd_height() + bands + KOMA + BETWEEN_LINES
+        let between = BETWEEN_BANDS * self.bands.len().saturating_sub(1) as f64;
+        SECONDS + self.ssd_height() + bands + between + KOMA + BETWEEN_LINES
     }
 
     /// The left edge of a koma's slot.
@@ -104,7 +107,12 @@ impl Paper<'_> {
             self.ssd(canvas, &ssd[begin.min(end)..end], y + SSD)?;
             y += self.ssd_height();
         }
-        for band in &self.bands {
+        for (at, band) in self.bands.iter().enumerate() {
+            if at > 0 {
+                let middle = y + 0.5 * BETWEEN_BANDS;
+                canvas.line((LEFT, middle), (self.x(koma), middle), style::GRID, 1.0)?;
+                y += BETWEEN_BANDS;
+            }
             self.band(canvas, band, (begin, koma), y)?;
             y += self.band_height(band);
         }

@@ -25,13 +25,14 @@ fn layer(name: &str, shown: &[(char, usize)]) -> Layer {
         |(drawing, (_, koma)): (usize, &(char, usize))| Exposure { drawing, koma: *koma };
     Layer {
         name: name.into(),
+        joints: vec![],
         drawings: shown.iter().enumerate().map(drawing).collect(),
         exposures: shown.iter().enumerate().map(exposure).collect(),
     }
 }
 
 fn sheet(layers: Vec<Layer>) -> Sheet {
-    Sheet { clock: clip().clock(24.0), layers }
+    Sheet::new(clip().clock(24.0), layers)
 }
 
 fn pages(settings: &XSheet, layers: Vec<Layer>) -> Vec<String> {

@@ -15,7 +15,7 @@ type Plan = ((i32, i32), usize, Role);
 /// A layer whose drawings' places are their numbers, and its stills.
 fn laid_out(plan: &[Plan]) -> (Layer, Stills) {
     let mut stills = Stills::new(2);
-    let mut layer = Layer { name: "A".into(), drawings: vec![], exposures: vec![] };
+    let mut layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures: vec![] };
     for (drawing, &((a, b), koma, role)) in plan.iter().enumerate() {
         stills.push(&[DVec3::X * f64::from(a), DVec3::Y * f64::from(b)]);
         let source = Source::At(drawing as f64);

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
-use crate::sheet::{Drawing, Exposure, Layer, Sheet, Why};
+use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
+use crate::sheet::{Drawing, Exposure, Layer, RootMotion, Sheet, Why};
 use crate::time::{Clock, Frame, FrameRate};
 
 const FIRST: usize = 7;
@@ -60,7 +60,7 @@ fn layer() -> impl Strategy<Value = Layer> {
                 .then(|| Exposure { drawing: drawing.index(drawings.len()), koma })
         };
         let exposures = shown.into_iter().filter_map(exposure).collect();
-        Layer { name, drawings, exposures }
+        Layer { name, joints: vec![], drawings, exposures }
     })
 }
 
@@ -85,10 +85,17 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
         |(frame, koma): (u32, u32)| Hold { frame: Frame(frame as usize), koma: koma as usize };
     let holds = prop::collection::vec(any::<(u32, u32)>().prop_map(hold), 0..3);
     (recipe, pins, forbidden, moves, holds, any::<bool>()).prop_map(
-        |(recipe, pins, forbidden, moves, holds, only_pins)| MadeWith {
-            recipe,
-            layers: "7".repeat(pins.len()),
-            edits: Edits { pins, forbidden, moves, holds, only_pins },
+        |(recipe, pins, forbidden, moves, holds, only_pins)| {
+            let digest = "7".repeat(pins.len());
+            let own = LayerEdits {
+                pins: pins.clone(),
+                forbidden: forbidden.clone(),
+                moves: moves.clone(),
+            };
+            let own = Some(own).filter(|own| only_pins && *own != LayerEdits::default());
+            let layers = own.map(|own| ("B".to_owned(), own)).into_iter().collect();
+            let edits = Edits { pins, forbidden, moves, holds, only_pins, layers };
+            MadeWith { recipe, layers: digest, edits }
         },
     )
 }
@@ -96,12 +103,24 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
 fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let rates = (0.01..1000.0, prop_oneof![Just(24.0), 2.0..1000.0]);
     let layers = prop::collection::vec(layer(), 0..4);
-    let joints = prop::collection::vec(any::<String>(), 0..4);
+    let joints = prop::collection::btree_set(any::<String>(), 0..4);
+    let joints = joints.prop_map(|joints| joints.into_iter().collect::<Vec<_>>());
     let words = prop::array::uniform2(any::<String>());
-    (rates, layers, joints, words, prop::option::of(made_with())).prop_map(
-        |((frame_rate, koma_rate), layers, joints, [cut, file], made_with)| SheetFile {
+    let root = prop::sample::select(vec![RootMotion::Drawings, RootMotion::Ones]);
+    (rates, (layers, root), joints, words, prop::option::of(made_with())).prop_map(
+        |((frame_rate, koma_rate), (layers, root), joints, [cut, file], made_with)| SheetFile {
             cut,
             genga: "0.1.0".into(),
+            made_with,
+            sheet: Sheet {
+                clock: Clock {
+                    first: Frame(FIRST),
+                    frame_rate: FrameRate::new(frame_rate).unwrap(),
+                    koma_rate,
+                },
+                layers: with_joints(layers, &joints),
+                root,
+            },
             clip: MadeOf {
                 file,
                 frame_rate,
@@ -111,17 +130,16 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
                 skeleton: "1".into(),
                 joints,
             },
-            made_with,
-            sheet: Sheet {
-                clock: Clock {
-                    first: Frame(FIRST),
-                    frame_rate: FrameRate::new(frame_rate).unwrap(),
-                    koma_rate,
-                },
-                layers,
-            },
         },
     )
+}
+
+/// The layers with a joint each, as far as there are joints.
+fn with_joints(mut layers: Vec<Layer>, joints: &[String]) -> Vec<Layer> {
+    for (layer, joint) in layers.iter_mut().zip(joints) {
+        layer.joints = vec![joint.clone()];
+    }
+    layers
 }
 
 proptest! {

@@ -12,7 +12,7 @@ use super::rests::{kick, on_ones, standing};
 use crate::edits::Edits;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
-use crate::sheet::{Exposure, Sheet};
+use crate::sheet::{Exposure, RootMotion, Sheet};
 use crate::time::KOMA_RATE;
 
 /// The motion of a clip by the default recipe.
@@ -91,6 +91,24 @@ fn a_hold_is_written_again_on_the_frame_before_the_next_key() {
     assert_eq!(head[0].rotation, head[1].rotation);
     assert_eq!(head[3].rotation, head[4].rotation);
     assert_ne!(head[1].rotation, head[2].rotation);
+}
+
+#[test]
+fn a_root_on_ones_is_the_centre_on_every_koma_and_nothing_else() {
+    let (sheet, held) = limited(kick());
+    let ones = Sheet { root: RootMotion::Ones, ..sheet.clone() };
+    let slid = Vmd::default().make(&kick(), &ones).unwrap().motion;
+    let others = |keys: &[VmdKey]| -> Vec<VmdKey> {
+        keys.iter().filter(|key| key.bone != "センター").cloned().collect()
+    };
+    assert_eq!(others(&slid.keys), others(&held.keys));
+    let center = slid.keys.iter().filter(|key| key.bone == "センター");
+    let frames: Vec<u32> = center.clone().map(|key| key.frame).collect();
+    let koma = (0..sheet.length()).map(|koma| (1.25 * koma as f64 + 0.5).floor() as u32);
+    assert_eq!(frames, koma.collect::<Vec<_>>());
+    let mut places: Vec<[f32; 3]> = center.map(|key| key.translation).collect();
+    places.dedup();
+    assert!(places.len() > sheet.layers[0].exposures.len(), "it goes on in holds");
 }
 
 #[test]

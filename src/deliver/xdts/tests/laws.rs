@@ -49,7 +49,8 @@ fn any_layer() -> impl Strategy<Value = Layer> {
             }
         };
         let exposure = |(drawing, koma)| Exposure { drawing, koma };
-        Layer { name, drawings, exposures: exposures.into_iter().map(exposure).collect() }
+        let exposures = exposures.into_iter().map(exposure).collect();
+        Layer { name, joints: vec![], drawings, exposures }
     })
 }
 

@@ -22,13 +22,14 @@ pub(super) fn layer(name: &str, roles: &str, shown: &[(usize, usize)]) -> Layer 
     };
     Layer {
         name: name.into(),
+        joints: vec![],
         drawings: roles.chars().enumerate().map(drawing).collect(),
         exposures: shown.iter().map(|&(drawing, koma)| Exposure { drawing, koma }).collect(),
     }
 }
 
 pub(super) fn sheet(layers: Vec<Layer>) -> Sheet {
-    Sheet { clock: clock(), layers }
+    Sheet::new(clock(), layers)
 }
 
 /// The cut of 24 koma that both examples of the format show: four keys, three inbetweens, none

@@ -1,0 +1,173 @@
+//! How a body is split into layers (セル分け): groups of joints with keys and a column of their own.
+
+mod named;
+mod part;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::mannequin::Mannequin;
+use crate::motion::{Clip, JointId, Landmarks, Skeleton, below};
+use crate::sheet::column_name;
+
+pub use named::NamedLayer;
+pub(crate) use part::PartMotion;
+
+/// How the body is split into layers, each with its own keys, spacing and omission.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub enum Layers {
+    /// One layer, the whole body.
+    #[default]
+    Body,
+    /// Five: trunk with head, left arm, right arm, left leg, right leg. An arm begins at the shoulder, a
+    /// leg at the hip.
+    Limbs,
+    /// One for each joint that moves. What never moves goes with the joint it hangs on.
+    Joints,
+    /// Those that a person names. A joint that none names is of the first.
+    Named(Vec<NamedLayer>),
+}
+
+/// A layer and its joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// The column's name.
+    pub name: String,
+    /// Its joints in their order; never none.
+    pub joints: Vec<JointId>,
+}
+
+impl Layers {
+    /// Checks what can be checked without a clip.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when a list has no layer, or a layer no joint or a name that is none or
+    /// another's.
+    pub fn validate(&self) -> Result<(), Error> {
+        match self {
+            Self::Named(layers) => named::validate(layers),
+            _ => Ok(()),
+        }
+    }
+
+    /// The layers of a body: together they have every joint once.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`Layers::validate`]; when a named joint is not there or is of two layers;
+    /// when a body without head, two arms and two legs is to be split into its limbs.
+    pub fn split(&self, clip: &Clip) -> Result<Vec<Part>, Error> {
+        self.validate()?;
+        let skeleton = clip.skeleton();
+        match self {
+            Self::Body => Ok(parts(vec![0; skeleton.len()])),
+            Self::Limbs => limbs(clip).map(parts),
+            Self::Joints => Ok(parts(moving(clip))),
+            Self::Named(layers) => named::split(layers, skeleton),
+        }
+    }
+
+    /// Layers from a file of their own: `[[layers]]` with `name` and `joints`, as a recipe has them.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when the file is no such list, and those of [`Layers::validate`].
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct File {
+            layers: Vec<NamedLayer>,
+        }
+        let wrong = |error: toml::de::Error| Error::setting("layers", error.to_string().trim());
+        let file: File = toml::from_str(text).map_err(wrong)?;
+        let layers = Self::Named(file.layers);
+        layers.validate()?;
+        Ok(layers)
+    }
+}
+
+/// Layers A, B, C … from the number of each joint's layer.
+fn parts(layer_of: Vec<usize>) -> Vec<Part> {
+    let layers = layer_of.iter().max().map_or(0, |last| last + 1);
+    let joints = |layer: usize| {
+        let own = layer_of.iter().enumerate().filter(|(_, of)| **of == layer);
+        own.map(|(joint, _)| JointId(joint)).collect()
+    };
+    (0..layers).map(|layer| Part { name: column_name(layer), joints: joints(layer) }).collect()
+}
+
+/// Trunk and head 0, the arms 1 and 2, the legs 3 and 4.
+fn limbs(clip: &Clip) -> Result<Vec<usize>, Error> {
+    let mannequin = Mannequin::of(clip, &Landmarks::of(clip)).ok_or_else(|| {
+        let message = "this body has no head, two arms and two legs to be seen by; name the joints of each \
+                       layer, layers = [{ name = \"A\", joints = [\"Hips\"] }], or take body";
+        Error::setting("layers", message)
+    })?;
+    let mut layer_of = vec![0; clip.skeleton().len()];
+    for (limb, top) in mannequin.limb_tops(clip.skeleton()).into_iter().enumerate() {
+        below(clip.skeleton(), top).for_each(|joint| layer_of[joint] = limb + 1);
+    }
+    Ok(layer_of)
+}
+
+/// A number for each joint that moves, and for the others that of the joint they hang on.
+fn moving(clip: &Clip) -> Vec<usize> {
+    let moves = clip.moving_joints();
+    let mut layers = 0;
+    let mut layer_of: Vec<usize> = Vec::with_capacity(moves.len());
+    for (joint, moves) in clip.skeleton().joints.iter().zip(moves) {
+        let own = layers;
+        let carrier = joint.parent.map_or(0, |parent| layer_of[parent.0]);
+        layer_of.push(if moves { own } else { carrier });
+        layers += usize::from(moves);
+    }
+    layer_of
+}
+
+impl Part {
+    /// Whether it has every joint of a body.
+    pub fn is_whole(&self, skeleton: &Skeleton) -> bool {
+        self.joints.len() == skeleton.len()
+    }
+}
+
+/// What a recipe may write: a word, or a list.
+#[derive(Serialize, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected body, limbs, joints or a list [{ name = \"A\", joints = [\"Hips\"] }]"
+)]
+enum Written {
+    Word(String),
+    List(Vec<NamedLayer>),
+}
+
+impl TryFrom<Written> for Layers {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
+        match written {
+            Written::List(layers) => Ok(Self::Named(layers)),
+            Written::Word(word) => match word.as_str() {
+                "body" => Ok(Self::Body),
+                "limbs" => Ok(Self::Limbs),
+                "joints" => Ok(Self::Joints),
+                other => Err(format!(
+                    "expected body, limbs, joints or a list of layers, found \"{other}\""
+                )),
+            },
+        }
+    }
+}
+
+impl From<Layers> for Written {
+    fn from(layers: Layers) -> Self {
+        match layers {
+            Layers::Body => Self::Word("body".into()),
+            Layers::Limbs => Self::Word("limbs".into()),
+            Layers::Joints => Self::Word("joints".into()),
+            Layers::Named(layers) => Self::List(layers),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! What keys of one layer are judged by: the motion that its own joints make.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::keys::JointWeights;
+use crate::keys::layers::Part;
+use crate::motion::{Clip, Skeleton};
+
+/// The motion of a layer: its joints move, all others stay as in the clip's first frame.
+///
+/// So a hand that is carried along by a walk has no keys for it, whatever the hips do: what counts is how
+/// a joint turns and what hangs on it, and both are the same whichever way the rest of the body stands.
+#[derive(Debug, Clone)]
+pub(crate) struct PartMotion {
+    pub(crate) clip: Arc<Clip>,
+    /// How much each joint's turns count; 0 outside the layer.
+    pub(crate) heard: Vec<f64>,
+    /// How much each joint counts where poses are compared; 0 for what the layer does not carry.
+    pub(crate) judged: Vec<f64>,
+}
+
+impl PartMotion {
+    /// The motion of a part; of the whole body it is the clip itself.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as [`JointWeights::of`], and where no joint of the part has a say.
+    pub(crate) fn of(clip: &Arc<Clip>, part: &Part, weights: &JointWeights) -> Result<Self, Error> {
+        let skeleton = clip.skeleton();
+        let own = weights.of(skeleton)?;
+        if part.is_whole(skeleton) {
+            return Ok(Self { clip: Arc::clone(clip), judged: own.clone(), heard: own });
+        }
+        let mut moves = vec![false; skeleton.len()];
+        part.joints.iter().for_each(|joint| moves[joint.0] = true);
+        let heard = only(&own, &moves);
+        if heard.iter().all(|weight| *weight == 0.0) {
+            let name = &part.name;
+            let message = format!(
+                "every joint of layer {name} has 0: leave one that has a say, or take the layer away"
+            );
+            return Err(Error::setting("keys.weights", message));
+        }
+        let judged = only(&own, &carried(skeleton, &moves));
+        Ok(Self { judged, heard, clip: Arc::new(clip.with_others_still(&moves)) })
+    }
+}
+
+/// Weights of some joints, and 0 for all others.
+fn only(own: &[f64], counts: &[bool]) -> Vec<f64> {
+    own.iter().zip(counts).map(|(own, counts)| if *counts { *own } else { 0.0 }).collect()
+}
+
+/// Some joints and all that hang on them.
+fn carried(skeleton: &Skeleton, joints: &[bool]) -> Vec<bool> {
+    let mut carried = joints.to_vec();
+    for (joint, data) in skeleton.iter() {
+        carried[joint.0] |= data.parent.is_some_and(|parent| carried[parent.0]);
+    }
+    carried
+}

@@ -1,0 +1,66 @@
+//! Several columns of drawings as one.
+
+use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
+
+/// A column that has a drawing wherever one of some layers has a new one, and for each of its drawings
+/// what each of the layers shows. Its length is that of the longest.
+pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
+    let length = layers.iter().map(|layer| layer.length()).max().unwrap_or(0);
+    let mut begins: Vec<usize> =
+        layers.iter().flat_map(|layer| layer.timed().map(|(begin, _)| begin)).collect();
+    begins.sort_unstable();
+    begins.dedup();
+    let columns: Vec<Vec<(usize, Exposure)>> =
+        layers.iter().map(|layer| layer.timed().collect()).collect();
+    let ends = begins.iter().skip(1).copied().chain(std::iter::once(length));
+    let mut flat = Layer {
+        name: name(layers),
+        joints: Vec::new(),
+        drawings: Vec::with_capacity(begins.len()),
+        exposures: Vec::with_capacity(begins.len()),
+    };
+    let mut sources = Vec::with_capacity(begins.len());
+    for (&begin, end) in begins.iter().zip(ends) {
+        let shown: Vec<(usize, &Drawing)> = layers
+            .iter()
+            .zip(&columns)
+            .map(|(layer, column)| shown(layer, column, begin))
+            .collect();
+        sources.push(shown.iter().map(|(_, drawing)| drawing.source).collect());
+        let new = shown.iter().filter(|(first, _)| *first == begin).map(|(_, drawing)| *drawing);
+        // Of equals the first: `min_by_key` takes it.
+        let lead = new.min_by_key(|drawing| rank(drawing.role)).expect("some layer begins here");
+        flat.exposures.push(Exposure { drawing: flat.drawings.len(), koma: end - begin });
+        flat.drawings.push(Drawing { why: of_all(&lead.why), ..*lead });
+    }
+    (flat, sources)
+}
+
+/// What a layer shows on a koma, and since when.
+fn shown<'a>(layer: &'a Layer, column: &[(usize, Exposure)], koma: usize) -> (usize, &'a Drawing) {
+    let after = column.partition_point(|(begin, _)| *begin <= koma);
+    let (begin, exposure) = column[after - 1];
+    (begin, &layer.drawings[exposure.drawing])
+}
+
+/// Why a drawing is there. What was left out before it or held by it was so in its own layer alone.
+fn of_all(why: &Why) -> Why {
+    Why { lengthened: 0, omitted_before: 0, held_for: 0, ..why.clone() }
+}
+
+/// Which of several drawings gives theirs its name.
+fn rank(role: Role) -> usize {
+    match role {
+        Role::Genga => 0,
+        Role::End => 1,
+        Role::Inbetween => 2,
+    }
+}
+
+/// From the first column to the last.
+fn name(layers: &[&Layer]) -> String {
+    match layers {
+        [first, .., last] => format!("{}-{}", first.name, last.name),
+        _ => layers.iter().map(|layer| layer.name.clone()).collect(),
+    }
+}

@@ -1,0 +1,54 @@
+//! A composite as rows of channel values.
+
+use super::{Composite, is_position};
+use crate::motion::RowWriter;
+use crate::sheet::Source;
+
+/// Writes what is on screen as rows of channel values, with its buffers.
+#[derive(Debug, Clone)]
+pub(crate) struct CompositeRows<'a> {
+    composite: &'a Composite<'a>,
+    writer: RowWriter<'a>,
+    /// What each part shows, and the whole body so: a layer's drawing stays while others change.
+    parts: Vec<(Option<Source>, Vec<f64>)>,
+    /// The source at a koma.
+    root: Vec<f64>,
+}
+
+impl<'a> CompositeRows<'a> {
+    /// For the drawings of a composite.
+    pub(crate) fn of(composite: &'a Composite<'a>) -> Self {
+        let row = vec![0.0; composite.clip().skeleton().channels()];
+        Self {
+            composite,
+            writer: RowWriter::new(composite.clip()),
+            parts: vec![(None, row.clone()); composite.parts()],
+            root: row,
+        }
+    }
+
+    /// Writes a drawing as it is on screen on a koma: see [`RowWriter::write`].
+    pub(crate) fn write(&mut self, drawing: usize, koma: usize, row: &mut [f64]) {
+        let composite = self.composite;
+        let sources = &composite.drawings[drawing];
+        for ((taken, own), source) in self.parts.iter_mut().zip(sources) {
+            if taken.replace(*source) != Some(*source) {
+                self.writer.write(*source, own);
+            }
+        }
+        let joints = &composite.clip().skeleton().joints;
+        for (joint, part) in joints.iter().zip(&composite.part_of) {
+            let columns = joint.first_channel..joint.first_channel + joint.channels.len();
+            row[columns.clone()].copy_from_slice(&self.parts[*part].1[columns]);
+        }
+        if composite.slides() {
+            self.writer.write(Source::At(composite.place(koma)), &mut self.root);
+            for joint in composite.travellers().iter().map(|joint| &joints[*joint]) {
+                let positions = joint.channels.iter().zip(joint.first_channel..);
+                for (_, column) in positions.filter(|(channel, _)| is_position(**channel)) {
+                    row[column] = self.root[column];
+                }
+            }
+        }
+    }
+}

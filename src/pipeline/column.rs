@@ -1,0 +1,231 @@
+//! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
+
+use std::sync::Arc;
+
+use super::stage::{Made, Stage};
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::{
+    self, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Part, PartMotion,
+    Reconstruction, Reference,
+};
+use crate::motion::{Clip, Skeleton};
+use crate::recipe::Recipe;
+use crate::sheet::Layer;
+use crate::signal::{LowPass, Signals, Turn, TurnFinder};
+use crate::time::{Clock, Frame};
+use crate::timing::{Omission, Omitted, Pace, Report, Spaced, Spacing, Stills};
+
+/// What is known of the whole body, measured once for all layers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured<'a> {
+    pub(super) clip: &'a Arc<Clip>,
+    pub(super) filtered: &'a Signals,
+    pub(super) turns: &'a [Vec<Turn>],
+    /// Which turns these are.
+    pub(super) made: Made,
+    /// The body's height in the file's unit, for a layer that is only a part of it.
+    pub(super) height: Option<f64>,
+}
+
+/// The stages of one layer, each with its last output.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Column {
+    /// The motion of its joints, and how much each counts.
+    motion: Stage<(Part, JointWeights), PartMotion>,
+    /// The turns of those that have a say, and the weight of each one's vote.
+    voices: Stage<Made, Voices>,
+    candidates: Stage<CandidateSettings, Candidates>,
+    reference: Stage<(f64, Option<f64>), Reference>,
+    chords: Stage<(), Chords>,
+    keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
+    spaced: Stage<(Spacing, f64, Part), Spaced>,
+    stills: Stage<(), Stills>,
+    omitted: Stage<(Omission, usize), Omitted>,
+}
+
+type CandidateSettings = (keys::Choose, TurnFinder, LowPass, f64);
+
+/// What was found and decided for one layer.
+#[derive(Debug, Clone, Copy)]
+pub struct LayerBreakdown<'a> {
+    /// What the joints say together, before it was asked what a key is worth.
+    pub candidates: &'a Candidates,
+    /// Keys and walls.
+    pub keys: &'a LayerKeys,
+    /// Inbetweens that were asked for and did not fit.
+    pub did_not_fit: usize,
+    /// The layer before anything was left out.
+    pub spaced: &'a Layer,
+    /// The layer on the sheet.
+    pub layer: &'a Layer,
+    /// What was left out, and what could not be.
+    pub omission: &'a Report,
+}
+
+impl Column {
+    /// Takes on a part of the body.
+    pub(super) fn take(
+        &mut self,
+        clip: &Arc<Clip>,
+        part: &Part,
+        weights: &JointWeights,
+    ) -> Result<(), Error> {
+        let settings = (part.clone(), weights.clone());
+        self.motion.refresh(Made::CLIP, &settings, || PartMotion::of(clip, part, weights))?;
+        Ok(())
+    }
+
+    /// The keys and walls of the layer.
+    pub(super) fn find(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) -> Made {
+        let voices = |motion: &PartMotion| Voices::of(measured.clip, motion, measured.turns);
+        let motion = self.motion.made;
+        let made = self.voices.renew(measured.made, &motion, || voices(self.motion.output()));
+        let made = self.merge(measured, recipe, made);
+        self.compare(measured, recipe);
+        self.choose(measured, recipe, edits, made)
+    }
+
+    /// The candidates for keys.
+    fn merge(&mut self, measured: &Measured<'_>, recipe: &Recipe, voices_made: Made) -> Made {
+        // What is asked of the ranked list does not change the candidates.
+        let merging = keys::Choose {
+            min_price: 0.0,
+            rest: 0.0,
+            per_second: f64::INFINITY,
+            ..recipe.keys.clone()
+        };
+        let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
+        let joints = joints(self.voices.output(), measured, recipe);
+        self.candidates.renew(voices_made, &settings, || recipe.keys.candidates(&joints))
+    }
+
+    /// What the candidates are judged against.
+    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let PartMotion { clip, judged, .. } = self.motion.output();
+        let settings = (recipe.rate, measured.height);
+        let made = self.reference.renew(self.motion.made, &settings, || {
+            let own = Reference::weighted(clip, clip.clock(recipe.rate), judged);
+            match measured.height {
+                None => own,
+                Some(height) => own.beside(height),
+            }
+        });
+        let reference = self.reference.output();
+        self.chords.renew(made, &(), || Chords::of_part(clip, measured.clip, reference, judged));
+    }
+
+    fn choose(
+        &mut self,
+        measured: &Measured<'_>,
+        recipe: &Recipe,
+        edits: &Edits,
+        candidates_made: Made,
+    ) -> Made {
+        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
+        let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
+        let candidates = self.candidates.output();
+        let joints = joints(self.voices.output(), measured, recipe);
+        self.keys.renew(candidates_made, &settings, || {
+            recipe.keys.choose(measured.clip, judges, candidates, &joints, edits)
+        })
+    }
+
+    /// The column, before and after omission.
+    pub(super) fn time(
+        &mut self,
+        (clip, part): (&Clip, &Part),
+        recipe: &Recipe,
+        clock: Clock,
+        keys_made: Made,
+    ) -> Result<Made, Error> {
+        let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
+        let (keys, reference) = (self.keys.output(), self.reference.output());
+        let settings = (recipe.spacing.clone(), recipe.rate, part.clone());
+        let made = self.spaced.renew(keys_made, &settings, || {
+            let spacing = &recipe.spacing;
+            let pace = if spacing.on.is_fixed() { Pace::default() } else { Pace::of(reference) };
+            named(spacing.place(keys, clip.skeleton(), clock, koma, &pace), part, clip.skeleton())
+        });
+        let layer = &self.spaced.output().layer;
+        let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
+        let stills = self.stills.output();
+        let on = recipe.spacing.on.most;
+        let settings = (recipe.omission, on);
+        self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))
+    }
+
+    /// Drops what only another run would use, and what is large.
+    pub(super) fn forget(&mut self) {
+        self.motion.forget();
+        self.reference.forget();
+        self.chords.forget();
+        self.stills.forget();
+    }
+
+    pub(super) fn breakdown(&self) -> LayerBreakdown<'_> {
+        let (spaced, omitted) = (self.spaced.output(), self.omitted.output());
+        LayerBreakdown {
+            candidates: self.candidates.output(),
+            keys: self.keys.output(),
+            did_not_fit: spaced.did_not_fit,
+            spaced: &spaced.layer,
+            layer: &omitted.layer,
+            omission: &omitted.report,
+        }
+    }
+
+    pub(super) fn keys(&self) -> &LayerKeys {
+        self.keys.output()
+    }
+
+    /// How far off the layer is when nothing but its keys is left.
+    pub(super) fn reconstruction(&self) -> Reconstruction {
+        let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
+        Reconstruction::of(&self.motion.output().clip, self.reference.output(), &keys)
+    }
+}
+
+/// What is known of the joints once their turns are found.
+fn joints<'a>(voices: &'a Voices, measured: &Measured<'a>, recipe: &'a Recipe) -> JointTurns<'a> {
+    JointTurns {
+        filtered: measured.filtered,
+        turns: voices.turns.as_deref().unwrap_or(measured.turns),
+        finder: &recipe.turns,
+        delay: recipe.filter.delay(measured.clip.rate()),
+        weights: &voices.weights,
+        apart: measured.clip.clock(recipe.rate).frames_in_koma(),
+    }
+}
+
+/// A column under the name of its layer. A layer that is the whole body need not name its joints.
+fn named(mut spaced: Spaced, part: &Part, skeleton: &Skeleton) -> Spaced {
+    spaced.layer.name.clone_from(&part.name);
+    if !part.is_whole(skeleton) {
+        let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
+        spaced.layer.joints = part.joints.iter().map(name).collect();
+    }
+    spaced
+}
+
+/// How much each joint counts when keys are chosen.
+#[derive(Debug)]
+struct Voices {
+    /// What a person says of each joint times what hangs on it: the weight of its vote.
+    weights: Vec<f64>,
+    /// The turns without those of joints that have no say; none where all have.
+    turns: Option<Vec<Vec<Turn>>>,
+}
+
+impl Voices {
+    fn of(clip: &Clip, motion: &PartMotion, turns: &[Vec<Turn>]) -> Self {
+        let (weights, own) = (keys::weights(clip), &motion.heard);
+        let weights = weights.iter().zip(own).map(|(by_bones, own)| by_bones * own).collect();
+        let heard = |(turns, own): (&Vec<Turn>, &f64)| {
+            if *own > 0.0 { turns.clone() } else { Vec::new() }
+        };
+        let some_are_mute = own.contains(&0.0);
+        let turns = some_are_mute.then(|| turns.iter().zip(own).map(heard).collect());
+        Self { weights, turns }
+    }
+}
