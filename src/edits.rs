@@ -27,6 +27,10 @@ pub struct Edits {
     /// Whether pins and moved keys are the only keys; default no.
     #[serde(skip_serializing_if = "is_default")]
     pub only_pins: bool,
+    /// Frames with which actions (動作) begin, instead of those that are found; none for those that are
+    /// found.
+    #[serde(skip_serializing_if = "is_default")]
+    pub splits: Vec<Frame>,
 }
 
 impl Edits {
@@ -40,7 +44,8 @@ impl Edits {
     /// # Errors
     /// [`Error::Edits`] when a frame lies outside `first..=last` (of forbidden ones all), is pinned and
     /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
-    /// not in [0, 1); and when pins are to be the only keys and there are none.
+    /// not in [0, 1); when pins are to be the only keys and there are none; and when an action is to begin
+    /// with the first frame, which begins one anyway, or outside.
     pub fn validate(&self, first: Frame, last: Frame) -> Result<(), Error> {
         let clip = Frames { first, last };
         self.pins.iter().try_for_each(|pin| self.check_pin(pin, clip))?;
@@ -51,7 +56,7 @@ impl Edits {
         if self.only_pins && self.pins.is_empty() && self.moves.is_empty() {
             return wrong("pins are to be the only keys, and there is no pin: pin a frame");
         }
-        Ok(())
+        self.splits.iter().try_for_each(|split| check_split(*split, clip))
     }
 
     fn check_pin(&self, pin: &Pin, clip: Frames) -> Result<(), Error> {
@@ -99,6 +104,20 @@ fn check_forbidden(forbidden: Forbidden, clip: Frames) -> Result<(), Error> {
         let be = if forbidden.is_one() { "frame" } else { "range" };
         return wrong(format!(
             "forbidden {be} {forbidden} is not in the clip, which has frames {clip}"
+        ));
+    }
+    Ok(())
+}
+
+fn check_split(split: Frame, clip: Frames) -> Result<(), Error> {
+    if split == clip.first {
+        return wrong(format!(
+            "an action begins at frame {split} anyway, the clip's first: leave it out"
+        ));
+    }
+    if !clip.has(split) {
+        return wrong(format!(
+            "frame {split}, with which an action is to begin, is not in the clip, which has frames {clip}"
         ));
     }
     Ok(())

@@ -1,11 +1,14 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
+mod stage;
+
 use std::sync::Arc;
 
+use self::stage::{Made, Stage};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Reconstruction,
+    self, Actions, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Reconstruction,
     Reference,
 };
 use crate::motion::Clip;
@@ -35,9 +38,10 @@ pub struct Engine {
     reference: Stage<(f64, JointWeights), Reference>,
     chords: Stage<(f64, JointWeights), Chords>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
+    actions: Stage<(keys::ActionFinder, f64, Vec<Frame>), Actions>,
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
-    omitted: Stage<(crate::timing::Omission, usize), Omitted>,
+    omitted: Stage<(crate::timing::Omission, usize, Vec<usize>), Omitted>,
     sheets: Stage<f64, [Sheet; 2]>,
 }
 
@@ -60,6 +64,8 @@ pub struct Breakdown<'a> {
     pub candidates: &'a Candidates,
     /// Keys and walls of the layer.
     pub keys: &'a LayerKeys,
+    /// The actions that the take consists of.
+    pub actions: &'a Actions,
     /// Inbetweens that were asked for and did not fit.
     pub did_not_fit: usize,
     /// The sheet before anything was left out.
@@ -92,6 +98,7 @@ impl Engine {
             reference: Stage::default(),
             chords: Stage::default(),
             keys: Stage::default(),
+            actions: Stage::default(),
             spaced: Stage::default(),
             stills: Stage::default(),
             omitted: Stage::default(),
@@ -139,6 +146,7 @@ impl Engine {
             turns: self.turns.output(),
             candidates: self.candidates.output(),
             keys: self.keys.output(),
+            actions: self.actions.output(),
             did_not_fit: self.spaced.output().did_not_fit,
             spaced,
             sheet,
@@ -169,6 +177,16 @@ impl Engine {
         Ok((self.turns.output(), self.keys.output()))
     }
 
+    /// Runs the chain as far as it takes to tell the actions of the take.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn find_actions(&mut self, recipe: &Recipe, edits: &Edits) -> Result<&Actions, Error> {
+        let turns = self.check_and_measure(recipe, edits)?;
+        self.merge(recipe, turns);
+        Ok(self.split(recipe, edits))
+    }
+
     /// How far off the body is when nothing but the keys of a recipe is left.
     ///
     /// # Errors
@@ -186,6 +204,7 @@ impl Engine {
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         let turns = self.check_and_measure(recipe, edits)?;
         let candidates = self.merge(recipe, turns);
+        self.split(recipe, edits);
         Ok(self.choose(recipe, edits, candidates))
     }
 
@@ -258,6 +277,16 @@ impl Engine {
         made
     }
 
+    /// The actions of the take.
+    fn split(&mut self, recipe: &Recipe, edits: &Edits) -> &Actions {
+        let settings = (recipe.actions.clone(), recipe.keys.rest, edits.splits.clone());
+        let (clip, chords) = (&*self.clip, self.chords.output());
+        let (finder, rest) = (&recipe.actions, recipe.keys.rest);
+        let find = || finder.find(clip, chords, rest, edits);
+        self.actions.renew(self.chords.made(), &settings, find);
+        self.actions.output()
+    }
+
     /// The keys and walls of the layer.
     fn choose(&mut self, recipe: &Recipe, edits: &Edits, candidates_made: Made) -> Made {
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
@@ -287,9 +316,11 @@ impl Engine {
         let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
         let stills = self.stills.output();
         let on = recipe.spacing.on.most;
-        let settings = (recipe.omission, on);
-        let made =
-            self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))?;
+        let later = self.actions.output().koma(clock);
+        let settings = (recipe.omission, on, later.clone());
+        let made = self.omitted.refresh(made, &settings, || {
+            recipe.omission.apply_by_action(layer, stills, on, &later)
+        })?;
         let omitted = &self.omitted.output().layer;
         self.sheets.renew(made, &recipe.rate, || {
             [layer, omitted].map(|layer| Sheet { clock, layers: vec![layer.clone()] })
@@ -342,68 +373,5 @@ fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
             };
             Err(Error::Edits { message })
         }
-    }
-}
-
-/// Which of its outputs a stage holds, so that the next stage knows whether it has used that one. A
-/// run may end after any stage: whether a stage did something *in this run* would not tell.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-struct Made(u64);
-
-impl Made {
-    /// The clip never changes.
-    const CLIP: Self = Self(0);
-}
-
-/// A stage's last output with the input and the settings that made it.
-#[derive(Debug)]
-struct Stage<Settings, Output> {
-    last: Option<Arc<(Made, Settings, Output)>>,
-    made: Made,
-}
-
-impl<Settings, Output> Clone for Stage<Settings, Output> {
-    fn clone(&self) -> Self {
-        Self { last: self.last.clone(), made: self.made }
-    }
-}
-
-impl<Settings, Output> Default for Stage<Settings, Output> {
-    fn default() -> Self {
-        Self { last: None, made: Made::default() }
-    }
-}
-
-impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
-    /// Makes the output again if its input or its settings changed. Says which output it holds now.
-    fn refresh(
-        &mut self,
-        input: Made,
-        settings: &Settings,
-        make: impl FnOnce() -> Result<Output, Error>,
-    ) -> Result<Made, Error> {
-        let is_fresh =
-            self.last.as_deref().is_some_and(|(from, with, _)| *from == input && with == settings);
-        if !is_fresh {
-            // Forgotten first: should `make` fail, a later run must not take the old output for the new.
-            self.last = None;
-            self.last = Some(Arc::new((input, settings.clone(), make()?)));
-            self.made = Made(self.made.0 + 1);
-        }
-        Ok(self.made)
-    }
-
-    /// [`Stage::refresh`] for a stage that cannot fail.
-    fn renew(&mut self, input: Made, settings: &Settings, make: impl FnOnce() -> Output) -> Made {
-        self.refresh(input, settings, || Ok(make())).expect("this stage cannot fail")
-    }
-
-    /// Drops the output; asked for again, it is made again.
-    fn forget(&mut self) {
-        self.last = None;
-    }
-
-    fn output(&self) -> &Output {
-        &self.last.as_ref().expect("the stage was run before its output is asked for").2
     }
 }

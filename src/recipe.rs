@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::Choose;
+use crate::keys::{ActionFinder, Choose};
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
@@ -45,6 +45,8 @@ pub struct Recipe {
     pub turns: TurnFinder,
     /// Which turns are keys of the layer.
     pub keys: Choose,
+    /// Which actions a take consists of.
+    pub actions: ActionFinder,
     /// Where inbetweens stand and what they show.
     pub spacing: Spacing,
     /// What is left out.
@@ -59,6 +61,7 @@ impl Default for Recipe {
             filter: LowPass::default(),
             turns: TurnFinder::default(),
             keys: Choose::default(),
+            actions: ActionFinder::default(),
             spacing: Spacing::default(),
             omission: Omission::default(),
         }
@@ -78,6 +81,7 @@ impl Recipe {
         self.filter.validate()?;
         self.turns.validate()?;
         self.keys.validate()?;
+        self.actions.validate()?;
         self.spacing.validate()?;
         self.omission.validate()
     }
@@ -234,6 +238,7 @@ struct File {
     filter: LowPass,
     turns: TurnFinder,
     keys: Choose,
+    actions: ActionFinder,
     spacing: Spacing,
     omission: Omission,
     edits: Edits,
@@ -247,6 +252,7 @@ impl File {
             filter: self.filter.clone(),
             turns: self.turns.clone(),
             keys: self.keys.clone(),
+            actions: self.actions.clone(),
             spacing: self.spacing.clone(),
             omission: self.omission,
         }
@@ -337,6 +343,7 @@ mod tests {
             ("turns.steady", "5%"),
             ("keys.min_price", "4.5"),
             ("keys.weights.*Hand*", "2"),
+            ("actions.shortest", "1.5s"),
             ("keys.weights.odd \"name\" = 1", "0.1"),
             ("spacing.inbetweens", "3"),
             ("omission.max_hold", "5"),
@@ -351,6 +358,7 @@ mod tests {
             forbidden: vec!["7".parse().unwrap(), "20..30".parse().unwrap()],
             moves: vec![Move::parse("41:42:hit@0.2").unwrap()],
             only_pins: true,
+            splits: vec![Frame(40), Frame(120)],
         };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");
@@ -382,7 +390,7 @@ mod tests {
         for rate in ["-1", "0.9", "1001", "nan"] {
             assert!(error("rate", rate).contains("2 to 1000"), "{rate}");
         }
-        assert!(error("omission.naka_nashi", "none").contains("share of the koma"), "0 is none");
+        assert!(error("omission.naka_nashi", "none").contains("share of its koma"), "0 is none");
         assert_eq!(recipe, Recipe::default(), "nothing was changed");
     }
 

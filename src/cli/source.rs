@@ -124,6 +124,9 @@ pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> 
         edits.moves.retain(|other| other.from != moved.from);
         edits.moves.push(moved);
     }
+    if !args.split.is_empty() {
+        edits.splits = args.split.clone();
+    }
     edits.only_pins = args.only_pins.unwrap_or(edits.only_pins);
     Ok((recipe, edits))
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::keys::{Action, Actions};
 use crate::pipeline::Breakdown;
 use crate::sheet::Role;
 use crate::study;
@@ -45,6 +46,9 @@ pub struct Report {
     pub held_koma: usize,
     /// Inbetweens asked for that did not fit between their keys.
     pub inbetweens_that_did_not_fit: usize,
+    /// The actions that the take consists of, in order; none where it is one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub actions: Vec<Action>,
     /// What was left out.
     pub omission: Omission,
     /// What a person should know, as sentences.
@@ -103,6 +107,7 @@ impl Report {
             longest_hold: layer.longest_hold(),
             held_koma: layer.held_koma(),
             inbetweens_that_did_not_fit: breakdown.did_not_fit,
+            actions: several(breakdown.actions),
             omission: Omission {
                 naka_nashi_asked: omission.naka_nashi.asked,
                 naka_nashi_done: omission.naka_nashi.done,
@@ -112,4 +117,9 @@ impl Report {
             notes,
         }
     }
+}
+
+/// The actions of a take; none for one that is whole.
+fn several(actions: &Actions) -> Vec<Action> {
+    if actions.splits().is_empty() { Vec::new() } else { actions.iter().collect() }
 }

@@ -42,7 +42,7 @@ fn a_pin_must_lie_in_the_clip_and_not_be_forbidden() {
 fn a_move_is_from_one_frame_of_the_clip_to_another_that_is_free() {
     let check = |texts: &[&str], pin: &[&str], not: &[&str]| {
         let (pins, forbidden) = (pins(pin), forbidden(not));
-        said(Edits { moves: moves(texts), pins, forbidden, only_pins: false })
+        said(Edits { moves: moves(texts), pins, forbidden, ..Edits::default() })
     };
     assert_eq!(check(&["5:9", "6:5:top@0.5"], &["7"], &["6", "5..9"]), "");
     assert!(check(&["4:6"], &[], &[]).contains("frame 4 of the move 4:6 is not in the clip"));
@@ -73,6 +73,18 @@ fn only_pins_asks_for_a_pin() {
     assert!(said(only.clone()).contains("there is no pin"));
     assert_eq!(said(Edits { pins: pins(&["7"]), ..only.clone() }), "");
     assert_eq!(said(Edits { moves: moves(&["7:8"]), ..only }), "");
+}
+
+#[test]
+fn an_action_begins_inside_the_clip() {
+    let check = |splits: &[usize]| {
+        said(Edits { splits: splits.iter().copied().map(Frame).collect(), ..Edits::default() })
+    };
+    assert_eq!(check(&[9, 6, 6]), "", "in any order, and twice is once");
+    assert!(check(&[5]).contains("begins at frame 5 anyway"));
+    for outside in [4, 10] {
+        assert!(check(&[7, outside]).contains("is not in the clip, which has frames 5 to 9"));
+    }
 }
 
 #[test]
@@ -134,6 +146,7 @@ proptest! {
         ranges in prop::collection::vec((0..99usize, 1..9usize), 0..4),
         moves in prop::collection::vec((0..99usize, 0..99usize, prop::option::of("[a-z]{1,5}")), 0..4),
         only_pins in any::<bool>(),
+        splits in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
     ) {
         let pin = |(frame, name, weight)| Pin { frame: Frame(frame), name, weight };
         let range = |(from, length)| Forbidden { from: Frame(from), past: Frame(from + length) };
@@ -143,6 +156,7 @@ proptest! {
             forbidden: ranges.into_iter().map(range).collect(),
             moves: moves.into_iter().map(moved).collect(),
             only_pins,
+            splits,
         };
         let text = toml::to_string(&edits).unwrap();
         prop_assert_eq!(&toml::from_str::<Edits>(&text).unwrap(), &edits, "{}", text);

@@ -160,13 +160,13 @@ fn another_persistence_needs_no_new_search() {
     let mut engine = Engine::new(pitch()).unwrap();
     let mut recipe = Recipe::default();
     let few = engine.find_turns(&recipe).unwrap().concat().len();
-    let searched = engine.turning.made;
+    let searched = engine.turning.made();
     recipe.set("turns.persistence", "1").unwrap();
     assert!(engine.find_turns(&recipe).unwrap().concat().len() > few);
-    assert!(engine.turning.made == searched, "the same candidates");
+    assert!(engine.turning.made() == searched, "the same candidates");
     recipe.set("turns.steady", "50").unwrap();
     engine.find_turns(&recipe).unwrap();
-    assert!(engine.turning.made != searched);
+    assert!(engine.turning.made() != searched);
 }
 
 #[test]
@@ -233,6 +233,7 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
         vec![],
         vec![("turns.reading", "literal"), ("keys.rank", "strength")],
         vec![("spacing.on", "1-3")],
+        vec![("actions.length", "1s"), ("actions.contrast", "1")],
         vec![("spacing.on", "1"), ("omission.koma_dori", "50%"), ("spacing.weight", "0.8")],
     ];
     for base in bases {

@@ -169,6 +169,35 @@ pub const KNOBS: &[Knob] = &[
                the price rises until they fit.",
     },
     Knob {
+        name: "actions.split",
+        japanese: "動作に分ける",
+        kind: Kind::Flag,
+        unit: "",
+        help: "Whether a long take is split into actions: what is left out is then counted in each of them.",
+    },
+    Knob {
+        name: "actions.length",
+        japanese: "動作の普通の長さ",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How long an action usually is: 4.4 s in the second paper. Longer makes fewer actions.",
+    },
+    Knob {
+        name: "actions.contrast",
+        japanese: "区切りの明瞭さ",
+        kind: number(1.0, 20.0),
+        unit: "times",
+        help: "How clear a split has to be: the body so many times slower than before and after (4: or half of \
+               the movement goes over to other parts). Less will do where an action would be too long.",
+    },
+    Knob {
+        name: "actions.shortest",
+        japanese: "最短の動作",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How short an action may be. Longer joins short movements with those beside them.",
+    },
+    Knob {
         name: "spacing.on",
         japanese: "何コマ打ち",
         kind: Kind::On,
@@ -217,9 +246,9 @@ pub const KNOBS: &[Knob] = &[
         name: "omission.naka_nashi",
         japanese: "中無し",
         kind: Kind::Amount,
-        unit: "drawings, or a share of the koma (at most 6)",
-        help: "How many inbetweens of the fastest movement are left out (naka-nashi). More than about 6 \
-               in one action and it jumps.",
+        unit: "drawings an action, or a share of its koma (at most 6)",
+        help: "How many inbetweens of the fastest movement are left out of each action (naka-nashi). More \
+               than about 6 in one and it jumps.",
     },
     Knob {
         name: "omission.koma_dori",

@@ -137,6 +137,7 @@ proptest! {
         forbidden in prop::option::of((7..20usize, 1..4usize)),
         moved in prop::option::of((7..20usize, 7..20usize)),
         only_pins in prop::bool::weighted(0.1),
+        split in prop::option::of(7..20usize),
     ) {
         let recipe = recipe(&settings);
         let pinned = pin.map(|pin| Frame(7 + pin.index(clip.len())));
@@ -148,6 +149,7 @@ proptest! {
             forbidden: forbidden.map(range).into_iter().collect(),
             moves: moved.map(move_to).into_iter().collect(),
             only_pins,
+            splits: split.map(Frame).into_iter().collect(),
         };
         let mut engine = Engine::new(clip).unwrap();
         match engine.run(&recipe, &edits) {

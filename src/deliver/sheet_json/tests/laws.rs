@@ -79,11 +79,12 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
         prop::collection::vec(any::<(u32, u16)>().prop_map(|(from, more)| range(from, more)), 0..3);
     let moves = prop::collection::vec(any::<(u32, u32)>().prop_map(moved), 0..3);
     let pins = prop::collection::vec(pin, 0..3);
-    (recipe, pins, forbidden, moves, any::<bool>()).prop_map(
-        |(recipe, pins, forbidden, moves, only_pins)| MadeWith {
+    let splits = prop::collection::vec(any::<u32>().prop_map(|at| Frame(at as usize)), 0..3);
+    (recipe, pins, forbidden, moves, any::<bool>(), splits).prop_map(
+        |(recipe, pins, forbidden, moves, only_pins, splits)| MadeWith {
             recipe,
             layers: "7".repeat(pins.len()),
-            edits: Edits { pins, forbidden, moves, only_pins },
+            edits: Edits { pins, forbidden, moves, only_pins, splits },
         },
     )
 }
