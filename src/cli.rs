@@ -23,6 +23,7 @@ mod recipe;
 mod results;
 mod run;
 mod source;
+mod split;
 mod stale;
 mod studio;
 mod study;
@@ -48,6 +49,7 @@ pub fn main() -> ExitCode {
         Command::Deliver(args) => deliver::run(&args, &words),
         Command::Keys(args) => keys::run(&args, &words),
         Command::Omit(args) => omit::run(&args, &words),
+        Command::Split(args) => split::run(&args, &words),
         Command::Study(args) => study::run(&args, &words),
         Command::Eval(args) => eval::run(&args, &words),
         Command::Compare(args) => compare::run(&args, &words),

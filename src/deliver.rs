@@ -2,6 +2,7 @@
 //!
 //! [`FORMATS`] lists those that can be asked for by name. A format is a row there and a file here.
 
+mod actions;
 mod comparison;
 mod cut;
 mod drawings;
@@ -24,6 +25,7 @@ mod vmd;
 pub mod xdts;
 mod xsheet;
 
+pub use actions::actions_csv;
 pub use comparison::comparison_csv;
 pub use cut::{Cut, Sink};
 pub use drawings::{Drawings, Rows};

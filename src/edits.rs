@@ -36,6 +36,10 @@ pub struct Edits {
     /// Whether pins and moved keys are the only keys; default no.
     #[serde(skip_serializing_if = "is_default")]
     pub only_pins: bool,
+    /// Frames with which actions (動作) begin, instead of those that are found; none for those that are
+    /// found.
+    #[serde(skip_serializing_if = "is_default")]
+    pub splits: Vec<Frame>,
     /// Corrections of one layer alone, by its name; all others are of every layer.
     #[serde(skip_serializing_if = "layer::say_nothing")]
     pub layers: BTreeMap<String, LayerEdits>,
@@ -52,8 +56,8 @@ impl Edits {
     /// # Errors
     /// [`Error::Edits`] when a frame lies outside `first..=last` (of forbidden ones all), is pinned and
     /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
-    /// not in [0, 1); when a drawing is held twice or for no koma; and when pins are to be the only keys and there are
-    /// none.
+    /// not in [0, 1); when a drawing is held twice or for no koma; when pins are to be the only keys and there
+    /// are none; and when an action is to begin with the first frame, which begins one anyway, or outside.
     pub fn validate(&self, first: Frame, last: Frame) -> Result<(), Error> {
         let clip = Frames { first, last };
         self.check(clip)?;
@@ -79,7 +83,7 @@ impl Edits {
         for (at, hold) in self.holds.iter().enumerate() {
             check_hold(*hold, &self.holds[..at], clip)?;
         }
-        Ok(())
+        self.splits.iter().try_for_each(|split| check_split(*split, clip))
     }
 
     fn check_pin(&self, pin: &Pin, clip: Frames) -> Result<(), Error> {
@@ -143,6 +147,20 @@ fn check_hold(hold: Hold, before: &[Hold], clip: Frames) -> Result<(), Error> {
     } else {
         Ok(())
     }
+}
+
+fn check_split(split: Frame, clip: Frames) -> Result<(), Error> {
+    if split == clip.first {
+        return wrong(format!(
+            "an action begins at frame {split} anyway, the clip's first: leave it out"
+        ));
+    }
+    if !clip.has(split) {
+        return wrong(format!(
+            "frame {split}, with which an action is to begin, is not in the clip, which has frames {clip}"
+        ));
+    }
+    Ok(())
 }
 
 fn check_weight(what: &str, pin: &Pin) -> Result<(), Error> {

@@ -4,6 +4,7 @@
 //! vote, their speeds are added, or any joint's turn is one); [`Choose`] takes of them the set that
 //! loses least at a price a drawing.
 
+mod actions;
 mod bridge;
 mod cheapest;
 mod choose;
@@ -27,6 +28,7 @@ mod weights;
 use crate::motion::JointId;
 use crate::time::Frame;
 
+pub use actions::{Action, ActionFinder, Actions, Split, SplitReason};
 pub(crate) use bridge::Bridge;
 pub use choose::{Choose, Judges, Merge, Rank};
 pub use chords::Chords;

@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use crate::edits::{Edits, Hold};
 use crate::error::Error;
-use crate::keys::{Candidates, LayerKeys, Layers, Part, Reconstruction, Reference};
+use crate::keys::{
+    ActionFinder, Actions, Candidates, LayerKeys, Layers, Part, Reconstruction, Reference,
+};
 use crate::motion::Clip;
 use crate::recipe::Recipe;
 use crate::sheet::{RootMotion, Sheet};
@@ -37,6 +39,8 @@ pub struct Engine {
     height: Stage<f64, f64>,
     /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
     columns: Vec<Column>,
+    /// The actions of the take, by the body or the first of its layers.
+    actions: Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
 }
 
@@ -61,6 +65,8 @@ pub struct Breakdown<'a> {
     pub candidates: &'a Candidates,
     /// Keys and walls of the layer.
     pub keys: &'a LayerKeys,
+    /// The actions that the take consists of.
+    pub actions: &'a Actions,
     /// Inbetweens that were asked for and did not fit.
     pub did_not_fit: usize,
     /// The sheet before anything was left out.
@@ -99,6 +105,7 @@ impl Engine {
             parts: Stage::default(),
             height: Stage::default(),
             columns: Vec::new(),
+            actions: Stage::default(),
             sheets: Stage::default(),
         })
     }
@@ -142,14 +149,20 @@ impl Engine {
     ) -> Result<Breakdown<'_>, Error> {
         let turns_made = self.check_and_measure(recipe, edits)?;
         let clock = self.clip.clock(recipe.rate);
+        let mut actions = std::mem::take(&mut self.actions);
         let (measured, parts, columns) = self.layers(turns_made);
         let mut made = Vec::with_capacity(parts.len());
-        for (part, column) in parts.iter().zip(columns) {
+        for (at, (part, column)) in parts.iter().zip(columns).enumerate() {
             column.take(measured.clip, part, &recipe.keys.weights)?;
             let keys = column.find(&measured, recipe, &edits.of_layer(&part.name));
-            made.push(column.time((measured.clip, part), recipe, clock, keys)?);
+            if at == 0 {
+                split(&mut actions, column, measured.clip, recipe, edits);
+            }
+            let later = actions.output().koma(clock);
+            made.push(column.time((measured.clip, part), recipe, clock, (keys, later))?);
             done(column);
         }
+        self.actions = actions;
         self.sheet(recipe, &edits.holds, clock, made);
         Ok(self.breakdown(recipe))
     }
@@ -166,6 +179,7 @@ impl Engine {
             turns: self.turns.output(),
             candidates,
             keys,
+            actions: self.actions.output(),
             did_not_fit,
             spaced,
             sheet,
@@ -195,6 +209,16 @@ impl Engine {
     ) -> Result<(&[Vec<Turn>], &LayerKeys), Error> {
         self.find(recipe, edits)?;
         Ok((self.turns.output(), self.columns[0].keys()))
+    }
+
+    /// Runs the chain as far as it takes to tell the actions of the take.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn find_actions(&mut self, recipe: &Recipe, edits: &Edits) -> Result<&Actions, Error> {
+        self.find(recipe, edits)?;
+        split(&mut self.actions, &self.columns[0], &self.clip, recipe, edits);
+        Ok(self.actions.output())
     }
 
     /// How far off the body, or the first of its layers, is when nothing but the keys of a recipe is left.
@@ -284,6 +308,20 @@ impl Engine {
             [spaced, layers].map(|layers| Sheet { clock, layers, root: recipe.root })
         });
     }
+}
+
+/// Splits the take into its actions, as far as they have to be found again.
+fn split(
+    actions: &mut Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
+    column: &Column,
+    clip: &Clip,
+    recipe: &Recipe,
+    edits: &Edits,
+) {
+    let (finder, rest) = (&recipe.actions, recipe.keys.rest);
+    let settings = (finder.clone(), rest, edits.splits.clone());
+    let (made, chords) = column.chords();
+    actions.renew(made, &settings, || finder.find(clip, chords, rest, edits));
 }
 
 /// A koma shows one drawing: of two pins on it, or keys moved there, one would be lost, and they survive

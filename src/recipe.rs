@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Choose, Layers};
+use crate::keys::{ActionFinder, Choose, Layers};
 use crate::sheet::RootMotion;
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
@@ -54,6 +54,8 @@ pub struct Recipe {
     pub turns: TurnFinder,
     /// Which turns are keys of the layer.
     pub keys: Choose,
+    /// Which actions a take consists of.
+    pub actions: ActionFinder,
     /// Where inbetweens stand and what they show.
     pub spacing: Spacing,
     /// What is left out.
@@ -70,6 +72,7 @@ impl Default for Recipe {
             filter: LowPass::default(),
             turns: TurnFinder::default(),
             keys: Choose::default(),
+            actions: ActionFinder::default(),
             spacing: Spacing::default(),
             omission: Omission::default(),
         }
@@ -90,6 +93,7 @@ impl Recipe {
         self.filter.validate()?;
         self.turns.validate()?;
         self.keys.validate()?;
+        self.actions.validate()?;
         self.spacing.validate()?;
         self.omission.validate()
     }
@@ -248,6 +252,7 @@ struct File {
     filter: LowPass,
     turns: TurnFinder,
     keys: Choose,
+    actions: ActionFinder,
     spacing: Spacing,
     omission: Omission,
     edits: Edits,
@@ -263,6 +268,7 @@ impl File {
             filter: self.filter.clone(),
             turns: self.turns.clone(),
             keys: self.keys.clone(),
+            actions: self.actions.clone(),
             spacing: self.spacing.clone(),
             omission: self.omission,
         }
@@ -362,6 +368,7 @@ mod tests {
             ("turns.steady", "5%"),
             ("keys.min_price", "4.5"),
             ("keys.weights.*Hand*", "2"),
+            ("actions.shortest", "1.5s"),
             ("keys.weights.odd \"name\" = 1", "0.1"),
             ("spacing.inbetweens", "3"),
             ("omission.max_hold", "5"),
@@ -383,6 +390,7 @@ mod tests {
             holds: vec![Hold::parse("60:4").unwrap()],
             only_pins: true,
             layers: [("B".to_owned(), of_arm)].into(),
+            splits: vec![Frame(40), Frame(120)],
         };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");
@@ -416,7 +424,7 @@ mod tests {
         for rate in ["-1", "0.9", "1001", "nan"] {
             assert!(error("rate", rate).contains("2 to 1000"), "{rate}");
         }
-        assert!(error("omission.naka_nashi", "none").contains("share of the koma"), "0 is none");
+        assert!(error("omission.naka_nashi", "none").contains("share of its koma"), "0 is none");
         assert_eq!(recipe, Recipe::default(), "nothing was changed");
     }
 

@@ -1,5 +1,6 @@
 //! `docs/evidence.md`: how good the keys of the defaults are on real clips.
 
+mod actions;
 mod events;
 mod laws;
 mod poses;
@@ -20,6 +21,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
         ("hits", events::summary(takes, &events)?),
         ("events", events::lists(takes, &events)?),
         ("rests", events::rests(takes, &events)?),
+        ("actions", actions::table(takes)),
         ("rigs", rigs::table(takes)?),
         ("windows", windows::table(takes)?),
         ("genga-lost", laws::table(takes)?),

@@ -4,6 +4,7 @@ use std::fs;
 
 use genga::deliver::{self, Report};
 use genga::edits::Edits;
+use genga::keys::Actions;
 use genga::motion::{Clip, bvh};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -28,6 +29,7 @@ pub(crate) struct Take {
 pub(crate) struct Run {
     pub(crate) merge: &'static str,
     pub(crate) report: Report,
+    pub(crate) actions: Actions,
     pub(crate) spaced: Sheet,
     pub(crate) sheet: Sheet,
     pub(crate) limited_bvh: String,
@@ -105,6 +107,7 @@ impl Run {
         Ok(Self {
             merge,
             report: Report::of(&breakdown, Vec::new()),
+            actions: breakdown.actions.clone(),
             spaced: breakdown.spaced.clone(),
             sheet: breakdown.sheet.clone(),
             limited_bvh: deliver::limited_bvh(breakdown.clip, breakdown.sheet)?,

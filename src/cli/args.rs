@@ -2,6 +2,7 @@
 
 mod compare;
 mod eval;
+mod split;
 
 use std::path::PathBuf;
 
@@ -11,11 +12,12 @@ use crate::deliver::FORMATS;
 use crate::error::Error;
 use crate::plot::Camera;
 use crate::study::{Axis, Measure};
-use crate::time::FrameRate;
+use crate::time::{Frame, FrameRate};
 use crate::timing::Amount;
 
 pub(super) use compare::CompareArgs;
 pub(super) use eval::EvalArgs;
+pub(super) use split::SplitArgs;
 
 /// Motion capture to Japanese limited animation.
 ///
@@ -46,6 +48,8 @@ pub(super) enum Command {
     Keys(KeysArgs),
     /// Naka-nashi and koma-dori alone, on the clip at 24 drawings a second.
     Omit(OmitArgs),
+    /// A long take as the single actions that it consists of: where they part, and a BVH of each.
+    Split(SplitArgs),
     /// What is found when one or two settings vary: the first paper's Table 1, or any knob.
     Study(StudyArgs),
     /// How good a sheet is: its drawings beside the source, its genga beside keys of your own.
@@ -136,6 +140,10 @@ pub(super) struct Corrections {
     /// Drawings, each by the source frame it shows, and for how many koma they stay: --hold 42:4,60:1
     #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',')]
     pub(super) holds: Vec<String>,
+    /// Source frames with which actions begin, instead of those that are found (see genga split): --split
+    /// 310,774
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
+    pub(super) split: Vec<Frame>,
     /// Keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
     /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
     #[arg(long, value_name = "FILE")]
@@ -466,6 +474,10 @@ fn drawings(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| wrong())
 }
 
+fn frame(text: &str) -> Result<Frame, String> {
+    text.trim().parse().map(Frame).map_err(|_| "expected a source frame, as in 310".into())
+}
+
 fn frames(text: &str) -> Result<Frames, String> {
     let number = |text: &str, open: usize| match text.trim() {
         "" => Some(open),
@@ -514,6 +526,14 @@ mod tests {
         assert!(percent("0.02").unwrap_err().contains("0.02% or 2% of"));
         for wrong in ["2%%", "%", "", "5 %x"] {
             assert!(percent(wrong).unwrap_err().contains("(5%)"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_frame_is_a_number_of_the_file() {
+        assert_eq!(frame(" 310").unwrap(), Frame(310));
+        for wrong in ["", "-1", "1.5", "10s", "a"] {
+            assert!(frame(wrong).unwrap_err().contains("as in 310"), "{wrong}");
         }
     }
 

@@ -36,6 +36,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         clip: &clip,
         sheet: &file.sheet,
         spaced: None,
+        splits: &[],
         made_with: file.made_with.as_ref(),
     };
     asked.settle(&cut)?.iter().for_each(|note| words.say(note));

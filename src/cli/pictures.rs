@@ -20,7 +20,9 @@ pub(super) fn speed(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
         kept.map(|drawing| Frame(drawing.source.place().round() as usize)).collect();
     let Breakdown { speed, filtered, turns, .. } = breakdown;
     let order = filtered.movers_first(breakdown.clip.skeleton());
-    Ok(SpeedPlot::default().draw(&names, speed, filtered, turns, &keys, &order)?)
+    let splits = breakdown.actions.splits().iter().map(|split| split.frame).collect();
+    let plot = SpeedPlot { splits, ..SpeedPlot::default() };
+    Ok(plot.draw(&names, speed, filtered, turns, &keys, &order)?)
 }
 
 /// The movement into each koma before and after omission, an SVG or a PNG by the name as well.

@@ -48,6 +48,7 @@ impl Results<'_> {
             clip: breakdown.clip,
             sheet: breakdown.sheet,
             spaced: Some(breakdown.spaced),
+            splits: &breakdown.actions.koma(breakdown.clock),
             made_with: Some(&MadeWith::of(recipe, edits, breakdown.sheet)),
         };
         report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));

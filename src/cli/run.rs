@@ -160,6 +160,15 @@ fn of_body(words: &Words, report: &Report) {
         report.drawings_per_second,
         report.longest_hold
     ));
+    if report.actions.len() > 1 {
+        let begins = report.actions[1..].iter().map(|action| action.from.to_string());
+        words.say(format_args!(
+            "actions     動作       {}, beginning with frames {} and {}",
+            report.actions.len(),
+            report.first_frame,
+            begins.collect::<Vec<_>>().join(" ")
+        ));
+    }
     let omission = &report.omission;
     words.say(format_args!(
         "left out    中無し     {} of {} by naka-nashi, where it is fastest",

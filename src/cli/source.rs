@@ -137,6 +137,9 @@ pub(super) fn corrected(args: &Corrections) -> Result<(Recipe, Edits), Failure> 
         edits.holds.retain(|other| other.frame != hold.frame);
         edits.holds.push(hold);
     }
+    if !args.split.is_empty() {
+        edits.splits = args.split.clone();
+    }
     edits.only_pins = args.only_pins.unwrap_or(edits.only_pins);
     Ok((recipe, edits))
 }

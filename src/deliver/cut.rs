@@ -21,6 +21,8 @@ pub struct Cut<'a> {
     pub sheet: &'a Sheet,
     /// The sheet before anything was left out, where it is known.
     pub spaced: Option<&'a Sheet>,
+    /// Koma from 0 with which the actions after the first begin; none where they are not known.
+    pub splits: &'a [usize],
     /// What the sheet was made with, where it is known.
     pub made_with: Option<&'a MadeWith>,
 }

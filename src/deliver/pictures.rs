@@ -16,7 +16,8 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
     let stills = Stills::of(cut.clip, &ones.layers[0]);
     let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
     let steps: Vec<f64> = (0..stills.len()).map(step).collect();
-    SheetPlot::default().draw(cut.sheet, cut.spaced, Some(&steps))
+    let plot = SheetPlot { splits: cut.splits.to_vec(), ..SheetPlot::default() };
+    plot.draw(cut.sheet, cut.spaced, Some(&steps))
 }
 
 /// The kept drawings as poses in a row (SVG), all layers on one another.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::keys::{Action, Actions};
 use crate::pipeline::{Breakdown, LayerBreakdown};
 use crate::sheet::Role;
 use crate::{study, timing};
@@ -45,6 +46,9 @@ pub struct Report {
     pub held_koma: usize,
     /// Inbetweens asked for that did not fit between their keys.
     pub inbetweens_that_did_not_fit: usize,
+    /// The actions that the take consists of, in order; none where it is one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub actions: Vec<Action>,
     /// What was left out.
     pub omission: Omission,
     /// The layers, where there are several; candidates, genga, drawings and what was left out are then those
@@ -152,9 +156,15 @@ impl Report {
             longest_hold: layer.longest_hold(),
             held_koma: layer.held_koma(),
             inbetweens_that_did_not_fit: breakdown.did_not_fit,
+            actions: several(breakdown.actions),
             omission: breakdown.omission.into(),
             layers: layers(breakdown),
             notes,
         }
     }
+}
+
+/// The actions of a take; none for one that is whole.
+fn several(actions: &Actions) -> Vec<Action> {
+    if actions.splits().is_empty() { Vec::new() } else { actions.iter().collect() }
 }

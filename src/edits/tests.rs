@@ -136,6 +136,18 @@ fn only_pins_asks_for_a_pin() {
 }
 
 #[test]
+fn an_action_begins_inside_the_clip() {
+    let check = |splits: &[usize]| {
+        said(Edits { splits: splits.iter().copied().map(Frame).collect(), ..Edits::default() })
+    };
+    assert_eq!(check(&[9, 6, 6]), "", "in any order, and twice is once");
+    assert!(check(&[5]).contains("begins at frame 5 anyway"));
+    for outside in [4, 10] {
+        assert!(check(&[7, outside]).contains("is not in the clip, which has frames 5 to 9"));
+    }
+}
+
+#[test]
 fn a_pin_is_written_as_frame_name_and_weight() {
     let pin = |text: &str| Pin::parse(text).map(|pin| (pin.frame.0, pin.name, pin.weight));
     let top = Some("left-wrist-top".to_owned());
@@ -195,6 +207,7 @@ proptest! {
         moves in prop::collection::vec((0..99usize, 0..99usize, prop::option::of("[a-z]{1,5}")), 0..4),
         holds in prop::collection::vec((0..99usize, 1..9usize), 0..4),
         only_pins in any::<bool>(),
+        splits in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
     ) {
         let hold = |(frame, koma)| Hold { frame: Frame(frame), koma };
         let pin = |(frame, name, weight)| Pin { frame: Frame(frame), name, weight };
@@ -207,6 +220,7 @@ proptest! {
             holds: holds.into_iter().map(hold).collect(),
             only_pins,
             layers: BTreeMap::new(),
+            splits,
         };
         let own = LayerEdits {
             pins: edits.pins.clone(),

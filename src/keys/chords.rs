@@ -56,6 +56,11 @@ impl Chords {
         self.clock.koma_from_place(frame.0 as f64).min(self.len().saturating_sub(1))
     }
 
+    /// The frame nearest to an instant.
+    pub(super) fn frame(&self, instant: usize) -> Frame {
+        Frame(self.clock.place_from_koma(instant).round() as usize)
+    }
+
     /// Where the instants stand in the clip.
     pub(super) fn clock(&self) -> Clock {
         self.clock

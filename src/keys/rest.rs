@@ -2,6 +2,8 @@
 //! keys whatever they save: an animator draws them to hold them, and a slow settling costs so little
 //! that no price would find them.
 
+use std::ops::RangeInclusive;
+
 use crate::keys::Chords;
 use crate::time::Frame;
 
@@ -11,31 +13,34 @@ const LEAST: f64 = 0.5;
 /// Seconds over which the speed is averaged, so that one tremble does not cut a rest in two.
 const SMOOTH: f64 = 0.125;
 
-/// The frames on which rests begin and end: the posture changes by less than `speed`, in % of the body's
-/// height a second, for at least half a second. A rest that reaches the sheet's first or last koma only
+/// The frames on which rests begin and end. A rest that reaches the sheet's first or last koma only
 /// ends or only begins.
 pub(super) fn rest_ends(chords: &Chords, speed: f64) -> Vec<Frame> {
-    let clock = chords.clock();
-    let steps = |seconds: f64| (seconds * clock.koma_rate).round() as usize;
-    let speeds = smoothed(&chords.postures().speeds(clock.koma_rate), steps(SMOOTH));
-    let least = steps(LEAST);
-    let frame = |instant: usize| Frame(clock.place_from_koma(instant).round() as usize);
-    let mut ends = Vec::new();
+    let last = chords.len().saturating_sub(1);
+    let ends = rests(chords, speed).into_iter().flat_map(|rest| [*rest.start(), *rest.end()]);
+    ends.filter(|end| (1..last).contains(end)).map(|end| chords.frame(end)).collect()
+}
+
+/// The instants from the first to the last of each rest: the posture changes by less than `speed`, in %
+/// of the body's height a second, for at least half a second.
+pub(super) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
+    let steps = |seconds: f64| (seconds * chords.clock().koma_rate).round() as usize;
+    let speeds = smoothed(&chords.postures().speeds(chords.clock().koma_rate), steps(SMOOTH));
+    let mut rests = Vec::new();
     let mut begin = 0;
     for still in speeds.chunk_by(|a, b| (*a < speed) == (*b < speed)) {
         let end = begin + still.len();
         // The speed of an instant is that of the step into it: a run of steps joins one instant more.
-        if still[0] < speed && still.len() >= least {
-            ends.extend((begin > 0).then(|| frame(begin)));
-            ends.extend((end < speeds.len()).then(|| frame(end)));
+        if still[0] < speed && still.len() >= steps(LEAST) {
+            rests.push(begin..=end);
         }
         begin = end;
     }
-    ends
+    rests
 }
 
 /// A centred mean over so many values and one more, over fewer at the ends.
-fn smoothed(values: &[f64], over: usize) -> Vec<f64> {
+pub(super) fn smoothed(values: &[f64], over: usize) -> Vec<f64> {
     let mean = |at: usize| {
         let near = &values[at.saturating_sub(over / 2)..(at + over / 2 + 1).min(values.len())];
         near.iter().sum::<f64>() / near.len() as f64

@@ -41,7 +41,7 @@ pub(super) struct Column {
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(Spacing, f64, Part), Spaced>,
     stills: Stage<(), Stills>,
-    omitted: Stage<(Omission, usize), Omitted>,
+    omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
 }
 
 type CandidateSettings = (keys::Choose, TurnFinder, LowPass, f64);
@@ -131,13 +131,13 @@ impl Column {
         })
     }
 
-    /// The column, before and after omission.
+    /// The column, before and after omission; `later` are the koma on which actions begin after the first.
     pub(super) fn time(
         &mut self,
         (clip, part): (&Clip, &Part),
         recipe: &Recipe,
         clock: Clock,
-        keys_made: Made,
+        (keys_made, later): (Made, Vec<usize>),
     ) -> Result<Made, Error> {
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let (keys, reference) = (self.keys.output(), self.reference.output());
@@ -151,8 +151,8 @@ impl Column {
         let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
         let stills = self.stills.output();
         let on = recipe.spacing.on.most;
-        let settings = (recipe.omission, on);
-        self.omitted.refresh(made, &settings, || recipe.omission.apply(layer, stills, on))
+        let omit = || recipe.omission.apply_by_action(layer, stills, on, &later);
+        self.omitted.refresh(made, &(recipe.omission, on, later.clone()), omit)
     }
 
     /// Drops what only another run would use, and what is large.
@@ -173,6 +173,11 @@ impl Column {
             layer: &omitted.layer,
             omission: &omitted.report,
         }
+    }
+
+    /// What is lost from any instant to another, and which output that is.
+    pub(super) fn chords(&self) -> (Made, &Chords) {
+        (self.chords.made, self.chords.output())
     }
 
     pub(super) fn keys(&self) -> &LayerKeys {

@@ -259,6 +259,7 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
         vec![],
         vec![("turns.reading", "literal"), ("keys.rank", "strength")],
         vec![("spacing.on", "1-3")],
+        vec![("actions.length", "1s"), ("actions.contrast", "1")],
         vec![("spacing.on", "1"), ("omission.koma_dori", "50%"), ("spacing.weight", "0.8")],
     ];
     for base in bases {

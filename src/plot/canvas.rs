@@ -8,6 +8,9 @@ use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeSty
 use crate::error::Error;
 use crate::plot::style;
 
+/// Length of a dash, and of the gap after it, in px.
+const DASH: f64 = 5.0;
+
 /// Units of the drawing library in one px. It counts in whole units, too coarse for thin lines.
 const FINE: f64 = 8.0;
 
@@ -106,6 +109,22 @@ impl Canvas<'_> {
         width: f64,
     ) -> Result<(), Error> {
         done(self.backend.draw_line(units(from), units(to), &stroke(color, width)))
+    }
+
+    /// A dashed line from the top down.
+    pub(super) fn dashes(
+        &mut self,
+        (x, top): Point,
+        bottom: f64,
+        color: RGBColor,
+        width: f64,
+    ) -> Result<(), Error> {
+        let mut y = top;
+        while y < bottom {
+            self.line((x, y), (x, (y + DASH).min(bottom)), color, width)?;
+            y += 2.0 * DASH;
+        }
+        Ok(())
     }
 
     pub(super) fn path(

@@ -21,11 +21,13 @@ pub struct SheetPlot {
     /// Koma on a line, 6 to 1440; default 144, the six seconds of a sheet of paper. More of them are
     /// thinner bars, and numbers of close genga are left out.
     pub koma_in_line: usize,
+    /// Koma from 0 with which actions (動作) begin, as dashed lines; default none.
+    pub splits: Vec<usize>,
 }
 
 impl Default for SheetPlot {
     fn default() -> Self {
-        Self { width: 1200, koma_in_line: 144 }
+        Self { width: 1200, koma_in_line: 144, splits: Vec::new() }
     }
 }
 
@@ -77,7 +79,7 @@ impl SheetPlot {
     }
 
     fn paper<'a>(
-        &self,
+        &'a self,
         sheet: &'a Sheet,
         spaced: Option<&'a Sheet>,
         ssd: Option<&'a [f64]>,
@@ -107,6 +109,7 @@ impl SheetPlot {
             bands,
             ssd,
             greatest_ssd: ssd.map_or(0.0, greatest),
+            splits: &self.splits,
             koma,
             in_line,
             koma_rate: sheet.clock.koma_rate,
@@ -124,7 +127,12 @@ impl SheetPlot {
             let text = style::fitted(&counts, style::WORDS, width);
             canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS))?;
         }
-        if self.width >= 760 { legend(canvas, f64::from(self.width), spaced) } else { Ok(()) }
+        let room = if self.splits.is_empty() { 760 } else { 1080 };
+        if self.width >= room {
+            legend(canvas, f64::from(self.width), (spaced, !self.splits.is_empty()))
+        } else {
+            Ok(())
+        }
     }
 }
 
@@ -147,7 +155,7 @@ fn counts(layer: &Layer, koma_rate: f64) -> String {
 }
 
 /// What the strokes mean, on the right of the title.
-fn legend(canvas: &mut Canvas<'_>, width: f64, spaced: bool) -> Result<(), Error> {
+fn legend(canvas: &mut Canvas<'_>, width: f64, (spaced, split): (bool, bool)) -> Result<(), Error> {
     let words = [
         "genga 原画",
         "inbetween 中割り",
@@ -155,11 +163,17 @@ fn legend(canvas: &mut Canvas<'_>, width: f64, spaced: bool) -> Result<(), Error
         "hold",
         "naka-nashi 中無し",
         "koma-dori コマ撮り",
+        "next action 区切り",
     ];
-    let words = &words[..if spaced { 6 } else { 4 }];
+    let is_shown = |at: &usize| match at {
+        0..4 => true,
+        4 | 5 => spaced,
+        _ => split,
+    };
+    let shown = || (0..words.len()).filter(is_shown).map(|at| (at, words[at]));
     let wide = |word: &str| style::text_width(word, style::WORDS) + 38.0;
-    let mut x = width - style::MARGIN - words.iter().map(|word| wide(word)).sum::<f64>() + 16.0;
-    for (at, word) in words.iter().enumerate() {
+    let mut x = width - style::MARGIN - shown().map(|(_, word)| wide(word)).sum::<f64>() + 16.0;
+    for (at, word) in shown() {
         let base = 34.0;
         match at {
             0 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::GENGA)?,
@@ -167,7 +181,8 @@ fn legend(canvas: &mut Canvas<'_>, width: f64, spaced: bool) -> Result<(), Error
             2 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::END)?,
             3 => canvas.line((x, base - 4.5), (x + 15.0, base - 4.5), style::INBETWEEN, 2.5)?,
             4 => canvas.cross((x + 9.0, base - 5.0), 4.0, style::GENGA, 1.75)?,
-            _ => canvas.ring((x + 9.0, base - 5.0), 3.25, style::FAINT, 1.25)?,
+            5 => canvas.ring((x + 9.0, base - 5.0), 3.25, style::FAINT, 1.25)?,
+            _ => canvas.dashes((x + 9.0, base - 14.0), base + 4.0, style::INK, 1.25)?,
         }
         canvas.text(word, (x + 20.0, base), Type::new(style::WORDS))?;
         x += wide(word);

@@ -27,11 +27,13 @@ pub struct SpeedPlot {
     pub joints: usize,
     /// Which curves are shown; default both, as measured and after the low pass.
     pub curves: SpeedCurves,
+    /// Source frames with which actions (動作) begin, as dashed lines; default none.
+    pub splits: Vec<Frame>,
 }
 
 impl Default for SpeedPlot {
     fn default() -> Self {
-        Self { width: 1200, height: 900, joints: 4, curves: SpeedCurves::Both }
+        Self { width: 1200, height: 900, joints: 4, curves: SpeedCurves::Both, splits: Vec::new() }
     }
 }
 
@@ -49,6 +51,8 @@ struct Shared<'a> {
     time: Scale,
     /// The layer's keys in px.
     keys: Vec<f64>,
+    /// Where actions part, in px.
+    splits: Vec<f64>,
     speed: &'a Signals,
     filtered: &'a Signals,
     curves: SpeedCurves,
@@ -114,14 +118,17 @@ impl SpeedPlot {
         let time = Scale::new((first, first + speed.frames() as f64 - 1.0), (LEFT, right));
         let mut keys: Vec<f64> = keys.iter().map(|key| time.at(key.0 as f64)).collect();
         keys.retain(|x| (LEFT..=right).contains(x));
+        let splits = self.splits.iter().map(|split| time.at(split.0 as f64));
+        let splits: Vec<f64> = splits.filter(|x| (LEFT..=right).contains(x)).collect();
         let lanes = style::lanes(&keys, 2.0 * style::BADGE + 1.0, LANES);
         let used = lanes.iter().flatten().max().map_or(0.0, |lane| *lane as f64 + 1.0);
         let top = TOP + 2.0 * style::BADGE * used;
         let bottom = height - BOTTOM;
         let step = (bottom - top + GAP) / shown.len() as f64;
-        let shared = Shared { time, keys, speed, filtered, curves: self.curves };
+        let shared = Shared { time, keys, splits, speed, filtered, curves: self.curves };
         let turns_shown: Vec<&Turn> = shown.iter().flat_map(|joint| &turns[joint.0]).collect();
-        let legend = legend::of(self.curves, &turns_shown, !shared.keys.is_empty());
+        let has = (!shared.keys.is_empty(), !shared.splits.is_empty());
+        let legend = legend::of(self.curves, &turns_shown, has);
         let panels = shown.iter().enumerate().map(|(row, &joint)| Panel {
             name: names[joint.0],
             joint,
@@ -242,6 +249,9 @@ impl Panel<'_> {
         self.value_axis(canvas, shared, &values)?;
         for &x in &shared.keys {
             canvas.line((x, self.top), (x, self.bottom), style::GENGA_LINE, 1.0)?;
+        }
+        for &x in &shared.splits {
+            canvas.dashes((x, self.top), self.bottom, style::INK, 1.25)?;
         }
         let place = |at: usize, value: f64| {
             let y = values.at(value * people).clamp(self.top, self.bottom);

@@ -389,7 +389,7 @@ fn degenerate_sheets_give_a_picture_or_an_error() {
 
 #[test]
 fn a_small_sheet_looks_as_it_did() {
-    let plot = SheetPlot { width: 400, koma_in_line: 6 };
+    let plot = SheetPlot { width: 400, koma_in_line: 6, ..SheetPlot::default() };
     insta::assert_snapshot!(plot.draw(&sheet(), None, Some(&[1.0, 4.0])).unwrap());
 }
 

@@ -73,6 +73,8 @@ pub const KNOBS: &[Knob] = &[
         help: "The layers of the sheet, each with keys and timing of its own: the whole body, trunk and each \
                limb, or every joint that moves. A recipe may name them too: \
                [{ name = \"A\", joints = [\"Hips\", \"*Arm*\"] }].",
+        japanese_help: "シートのセル分け。全身を一枚（body）、胴と手足（limbs）、動く部位ごと（joints）。\
+                        セルごとに原画とタイミングを持つ。レシピでは名前を付けて分けることもできる。",
     },
     Knob {
         name: "root",
@@ -81,6 +83,8 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         help: "What carries the body through the room: its drawings, or the source on ones, so that held \
                drawings slide on (1コマ打ち).",
+        japanese_help: "体を運ぶのは絵（drawings）か、1コマ打ちの元の動き（ones）か。\
+                        onesでは止めた絵のまま体が滑っていく。",
     },
     Knob {
         name: "speed.measure",
@@ -211,6 +215,40 @@ pub const KNOBS: &[Knob] = &[
                         超えるときは収まるまで値段が上がる。",
     },
     Knob {
+        name: "actions.split",
+        japanese: "動作に分ける",
+        kind: Kind::Flag,
+        unit: "",
+        help: "Whether a long take is split into actions: what is left out is then counted in each of them.",
+        japanese_help: "長いテイクを動作に分けるか。抜く枚数は動作ごとに数える。",
+    },
+    Knob {
+        name: "actions.length",
+        japanese: "動作の普通の長さ",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How long an action usually is: 4.4 s in the second paper. Longer makes fewer actions.",
+        japanese_help: "一つの動作の普通の長さ（第二の論文では4.4秒）。長くすると動作の数が減る。",
+    },
+    Knob {
+        name: "actions.contrast",
+        japanese: "区切りの明瞭さ",
+        kind: number(1.0, 20.0),
+        unit: "times",
+        help: "How clear a split has to be: the body so many times slower than before and after (4: or half of \
+               the movement goes over to other parts). Less will do where an action would be too long.",
+        japanese_help: "区切りがどれほどはっきりしていればよいか。前後の何分の一まで遅くなるか（4）、\
+                        または動きの半分がほかの部位へ移るか。動作が長すぎるときは、もっと弱くても区切る。",
+    },
+    Knob {
+        name: "actions.shortest",
+        japanese: "最短の動作",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How short an action may be. Longer joins short movements with those beside them.",
+        japanese_help: "動作の最短の長さ。長くすると短い動きは隣の動作に入る。",
+    },
+    Knob {
         name: "spacing.on",
         japanese: "何コマ打ち",
         kind: Kind::On,
@@ -269,11 +307,11 @@ pub const KNOBS: &[Knob] = &[
         name: "omission.naka_nashi",
         japanese: "中無し",
         kind: Kind::Amount,
-        unit: "drawings, or a share of the koma (at most 6)",
-        help: "How many inbetweens of the fastest movement are left out (naka-nashi). More than about 6 \
-               in one action and it jumps.",
-        japanese_help: "いちばん速い動きの中割りを何枚抜くか（中無し）。\
-                        一つの動きで6枚ほどを超えると飛んで見える。",
+        unit: "drawings an action, or a share of its koma (at most 6)",
+        help: "How many inbetweens of the fastest movement are left out of each action (naka-nashi). More \
+               than about 6 in one and it jumps.",
+        japanese_help: "動作ごとに、いちばん速い動きの中割りを何枚抜くか（中無し）。\
+                        一つの動作で6枚ほどを超えると飛んで見える。",
     },
     Knob {
         name: "omission.koma_dori",

@@ -232,6 +232,7 @@ fn named(section: Option<&'static str>, words: Words) -> (&'static str, bool) {
         Some("filter") => (words.say("Smoothing", "ローパスフィルタ"), true),
         Some("turns") => (words.say("Turns of joints", "部位の動きの変わり目"), false),
         Some("keys") => (words.say("Genga", "原画"), true),
+        Some("actions") => (words.say("Actions", "動作"), false),
         Some("spacing") => (words.say("Inbetweens", "中割りと詰め"), true),
         Some("omission") => (words.say("Left out and held", "中無しとコマ撮り"), true),
         Some(other) => (other, false),

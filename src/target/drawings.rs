@@ -18,6 +18,9 @@ const NEAR: f64 = 1.0 + 1e-9;
 /// Corrections of the count of koma-dori. One is enough where naka-nashi goes first.
 const MOST_CORRECTIONS: usize = 16;
 
+/// What naka-nashi may leave out of an action by a share; fewer are tried where it has to give way.
+const MOST_SPARED: usize = 6;
+
 /// So many drawings a second.
 pub(super) struct Goal {
     pub(super) per_second: f64,
@@ -91,6 +94,7 @@ impl Goal {
         match slow.excess > EXACT {
             true if self.keys_are_free => search.fewer(slow),
             true => search.climb(slow, sparser),
+            false if slow.excess < -NEAR => search.spare(slow),
             false => Ok(slow),
         }
     }
@@ -183,6 +187,22 @@ impl Search<'_> {
         recipe.omission.naka_nashi = Amount::Count(0);
         let whole = self.hold(&recipe)?;
         Ok(dense.or(whole))
+    }
+
+    /// Between two rungs of spacing: on the sparser one naka-nashi leaves fewer out of each action, and
+    /// koma-dori takes what is too much then.
+    fn spare(&mut self, from: Found) -> Result<Found, Error> {
+        let mut recipe = from.recipe.clone();
+        let mut best = from;
+        for count in (0..MOST_SPARED).rev() {
+            recipe.omission.naka_nashi = Amount::Count(count);
+            let found = self.hold(&recipe)?;
+            best = best.or(found);
+            if best.is_exact() {
+                break;
+            }
+        }
+        Ok(best)
     }
 
     /// Fewer drawings than there are with all keys on fours: fewer keys, on the first rung on which there

@@ -31,7 +31,7 @@ pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -
         }
         cell += 1;
     }
-    row.into_layer(&layer.name)
+    row.into_layer(layer)
 }
 
 /// A drawing on screen.
@@ -144,12 +144,12 @@ impl<'a> Row<'a> {
         self.cells.insert(cell + 1, back);
     }
 
-    fn into_layer(self, name: &str) -> Layer {
+    fn into_layer(self, like: &Layer) -> Layer {
         let koma = self.cells.iter().map(|cell| cell.koma);
         let exposures =
             koma.enumerate().map(|(drawing, koma)| Exposure { drawing, koma }).collect();
         let drawings = self.cells.into_iter().map(|cell| cell.drawing).collect();
-        Layer { name: name.into(), drawings, exposures }
+        Layer { name: like.name.clone(), joints: like.joints.clone(), drawings, exposures }
     }
 }
 

@@ -1,17 +1,27 @@
 //! Naka-nashi (中無し): leaving out the inbetweens of the fastest movement (KKMFT §3.2, Algorithm 1).
 
+use std::ops::Range;
+
 use crate::timing::report::Shortfall;
 use crate::timing::strip::Strip;
 use crate::timing::tournament::{OUT, Tournament};
 
 /// How the stage is to run.
 pub(super) struct NakaNashi {
-    /// Drawings to leave out; koma on a sheet on ones without genga.
-    pub(super) count: usize,
+    /// What is to be left out of each action.
+    pub(super) quotas: Vec<Quota>,
     /// Whether the koma that get free are given to other drawings.
     pub(super) keep_length: bool,
     /// Whether all are chosen by the distances at the beginning.
     pub(super) all_at_once: bool,
+}
+
+/// How much is to be left out of an action.
+pub(super) struct Quota {
+    /// The drawings of the action.
+    pub(super) drawings: Range<usize>,
+    /// Drawings to leave out; koma on a sheet on ones without genga.
+    pub(super) count: usize,
 }
 
 /// What the stage did.
@@ -26,22 +36,20 @@ pub(super) struct Taken {
 }
 
 impl NakaNashi {
-    /// Leaves drawings out, the fastest first, and gives their koma to the slowest of the interval.
+    /// How many drawings are asked for in all actions together.
+    pub(super) fn count(&self) -> usize {
+        self.quotas.iter().fold(0, |sum, quota| sum.saturating_add(quota.count))
+    }
+
+    /// Leaves drawings out, the fastest of each action first, and gives their koma to the slowest of the
+    /// interval.
     pub(super) fn run(&self, strip: &mut Strip<'_>) -> Taken {
-        if self.count == 0 {
+        if self.count() == 0 {
             return Taken::default();
         }
         let mut stage = Stage::new(self, strip);
-        while stage.taken.done < self.count {
-            match stage.fastest.best() {
-                None => stage.taken.shortfall = Some(stage.nothing_left()),
-                Some((_, 0.0)) => stage.taken.shortfall = Some(Shortfall::NoMotion),
-                Some((drawing, _)) => {
-                    stage.take_if_it_fits(drawing);
-                    continue;
-                }
-            }
-            break;
+        for quota in &self.quotas {
+            stage.fill(quota);
         }
         for interval in 0..stage.owed.len() {
             stage.settle(interval);
@@ -70,7 +78,7 @@ impl<'a, 'b> Stage<'a, 'b> {
     fn new(rules: &'a NakaNashi, strip: &'a mut Strip<'b>) -> Self {
         let count = strip.cells.len();
         let live = |drawing: &usize| strip.cells[*drawing].koma > 0;
-        let room = |range: &std::ops::Range<usize>| {
+        let room = |range: &Range<usize>| {
             range.clone().filter(live).map(|drawing| strip.room(drawing)).sum()
         };
         let speed = |drawing: usize| match &strip.cells[drawing] {
@@ -87,6 +95,24 @@ impl<'a, 'b> Stage<'a, 'b> {
             barred: vec![false; count],
             taken: Taken::default(),
             strip,
+        }
+    }
+
+    /// Leaves out of an action what is asked for, or as much as can go.
+    fn fill(&mut self, quota: &Quota) {
+        let enough = self.taken.done.saturating_add(quota.count);
+        while self.taken.done < enough {
+            let shortfall = match self.fastest.best_in(quota.drawings.clone()) {
+                None => self.nothing_left(&quota.drawings),
+                Some((_, 0.0)) => Shortfall::NoMotion,
+                Some((drawing, _)) => {
+                    self.take_if_it_fits(drawing);
+                    continue;
+                }
+            };
+            // Of several actions the first says why.
+            self.taken.shortfall.get_or_insert(shortfall);
+            break;
         }
     }
 
@@ -172,8 +198,9 @@ impl<'a, 'b> Stage<'a, 'b> {
         }
     }
 
-    fn nothing_left(&self) -> Shortfall {
-        if self.barred.contains(&true) { Shortfall::NoRoom } else { Shortfall::NoneLeft }
+    fn nothing_left(&self, drawings: &Range<usize>) -> Shortfall {
+        let any_barred = self.barred[drawings.clone()].contains(&true);
+        if any_barred { Shortfall::NoRoom } else { Shortfall::NoneLeft }
     }
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::sheet::Layer;
-use crate::timing::naka_nashi::NakaNashi;
+use crate::timing::naka_nashi::{NakaNashi, Quota};
 use crate::timing::report::{Gone, Report, StageReport};
 use crate::timing::strip::Strip;
 use crate::timing::{Amount, Stills, koma_dori};
@@ -12,7 +12,7 @@ use crate::timing::{Amount, Stills, koma_dori};
 #[cfg(test)]
 mod tests;
 
-/// A share for naka-nashi gives at most this many: beyond 4 to 6 an action no longer reads as one
+/// A share for naka-nashi gives at most this many an action: beyond 4 to 6 it no longer reads as one
 /// movement (KKMFT §4). A plain count is not capped.
 const MOST_BY_SHARE: usize = 6;
 
@@ -20,8 +20,9 @@ const MOST_BY_SHARE: usize = 6;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Omission {
-    /// Naka-nashi (中無し): inbetweens left out where the movement is fastest; a share is of the koma
-    /// and gives 6 at most. Default 4%. Raised, the movement jumps and no longer reads as one.
+    /// Naka-nashi (中無し): inbetweens left out of each action where its movement is fastest; a share is
+    /// of the action's koma and gives 6 at most. Default 4%. Raised, the movement jumps and no longer
+    /// reads as one.
     pub naka_nashi: Amount,
     /// Koma-dori (コマ撮り): inbetweens replaced by the drawing before them where the movement is
     /// smallest; a share is of the drawings there are when it begins. Default 1/3. Raised, small
@@ -92,8 +93,17 @@ impl Omission {
         Ok(())
     }
 
+    /// [`Omission::apply_by_action`] where the whole layer is one action.
+    ///
+    /// # Errors
+    /// Those of [`Omission::apply_by_action`].
+    pub fn apply(&self, layer: &Layer, stills: &Stills, on: usize) -> Result<Omitted, Error> {
+        self.apply_by_action(layer, stills, on, &[])
+    }
+
     /// Leaves drawings of a layer out: genga, pinned and end drawings stay, and with `keep_length`
-    /// they stay on their koma.
+    /// they stay on their koma. Naka-nashi goes through the actions one by one; `later` are the koma on
+    /// which each but the first begins, in order.
     ///
     /// `stills` are the positions of the layer's drawings, `on` is the sheet's spacing in koma (1 on
     /// ones). No exposure grows beyond max(`max_hold`, 2 · `on`). On ones without genga naka-nashi is
@@ -101,40 +111,78 @@ impl Omission {
     ///
     /// # Errors
     /// [`Error::Setting`] when a setting cannot be; [`Error::Clip`] unless the layer shows each of its
-    /// drawings once, in order, and there is a still for each.
-    pub fn apply(&self, layer: &Layer, stills: &Stills, on: usize) -> Result<Omitted, Error> {
+    /// drawings once, in order, there is a still for each, and the actions begin in order.
+    pub fn apply_by_action(
+        &self,
+        layer: &Layer,
+        stills: &Stills,
+        on: usize,
+        later: &[usize],
+    ) -> Result<Omitted, Error> {
         self.validate()?;
+        if !later.is_sorted() {
+            return Err(Error::clip("actions must begin one after the other: sort their koma"));
+        }
         let bound = self.max_hold.max(on.saturating_mul(2));
         let mut strip = Strip::new(layer, stills, bound, on)?;
         let mut report = Report::default();
         match self.order {
             Order::NakaNashiFirst => {
-                self.leave_out(layer, &mut strip, &mut report);
+                self.leave_out(layer, later, &mut strip, &mut report);
                 self.hold(layer, &mut strip, &mut report);
             }
             Order::KomaDoriFirst => {
                 self.hold(layer, &mut strip, &mut report);
-                self.leave_out(layer, &mut strip, &mut report);
+                self.leave_out(layer, later, &mut strip, &mut report);
             }
         }
         Ok(Omitted { layer: strip.into_layer(layer), report })
     }
 
-    fn leave_out(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut Report) {
-        let count = match self.naka_nashi {
-            Amount::Count(count) => count,
-            share => share.of(layer.length()).min(MOST_BY_SHARE),
+    fn leave_out(
+        &self,
+        layer: &Layer,
+        later: &[usize],
+        strip: &mut Strip<'_>,
+        report: &mut Report,
+    ) {
+        let stage = NakaNashi {
+            quotas: self.quotas(layer, later),
+            keep_length: self.keep_length,
+            all_at_once: self.all_at_once,
         };
-        let stage =
-            NakaNashi { count, keep_length: self.keep_length, all_at_once: self.all_at_once };
         let taken = stage.run(strip);
         report.lengthened = taken.given;
         report.naka_nashi = StageReport {
-            asked: count,
+            asked: stage.count(),
             done: taken.done,
             gone: named(layer, &taken.gone),
             shortfall: taken.shortfall,
         };
+    }
+
+    /// What naka-nashi leaves out of each action: a drawing belongs to the one in which it begins.
+    fn quotas(&self, layer: &Layer, later: &[usize]) -> Vec<Quota> {
+        let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
+        let length = layer.length();
+        let mut bounds = vec![0];
+        bounds.extend(later.iter().filter(|koma| (1..length).contains(*koma)));
+        bounds.dedup();
+        bounds.push(length);
+        let drawing = |koma: usize| begins.partition_point(|begin| *begin < koma);
+        let quota = |bounds: &[usize]| Quota {
+            drawings: drawing(bounds[0])..drawing(bounds[1]),
+            count: self.count_in(bounds[1] - bounds[0]),
+        };
+        bounds.windows(2).map(quota).collect()
+    }
+
+    /// Drawings that naka-nashi leaves out of an action of so many koma.
+    fn count_in(&self, koma: usize) -> usize {
+        match self.naka_nashi {
+            Amount::Count(count) => count,
+            share => share.of(koma).min(MOST_BY_SHARE),
+        }
     }
 
     fn hold(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut Report) {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+mod actions; // a long take as its actions
 mod clips; // where clips come from
 mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found

@@ -92,7 +92,7 @@ fn a_little_noise_moves_few_keys() {
 }
 
 /// The clip at half its rate, or as it is where that would be less than a frame a koma.
-fn every_other_frame(clip: &Clip) -> Clip {
+pub(crate) fn every_other_frame(clip: &Clip) -> Clip {
     let fps = clip.rate().fps() / 2.0;
     if fps < 24.0 {
         return clip.clone();

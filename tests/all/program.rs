@@ -34,12 +34,13 @@ const FILES: [(&str, &str); 11] = [
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 12] = [
+const SUBCOMMANDS: [&str; 13] = [
     "run",
     "studio",
     "deliver",
     "keys",
     "omit",
+    "split",
     "study",
     "eval",
     "compare",

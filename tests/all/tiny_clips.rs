@@ -137,6 +137,7 @@ proptest! {
         moved in prop::option::of((7..20usize, 7..20usize)),
         held in prop::option::of((7..20usize, 1..9usize)),
         only_pins in prop::bool::weighted(0.1),
+        split in prop::option::of(7..20usize),
     ) {
         let recipe = recipe(&settings);
         let pinned = pin.map(|pin| Frame(7 + pin.index(clip.len())));
@@ -150,6 +151,7 @@ proptest! {
             moves: moved.map(move_to).into_iter().collect(),
             holds: held.map(hold).into_iter().collect(),
             only_pins,
+            splits: split.map(Frame).into_iter().collect(),
             ..Edits::default()
         };
         let mut engine = Engine::new(clip).unwrap();

@@ -395,7 +395,7 @@ fn joints_count_as_much_as_a_person_says() {
     assert!(table("plain").contains("Hips") && !table("a").contains("Hips"), "{}", table("a"));
     let recipe = fs::read_to_string(place.path("a/recipe.toml")).unwrap();
     assert!(
-        recipe.contains("\n[keys.weights]\n\"*Hand*\" = 6.0\nHips = 0.0\n\n[spacing]\n"),
+        recipe.contains("\n[keys.weights]\n\"*Hand*\" = 6.0\nHips = 0.0\n\n[actions]\n"),
         "{recipe}"
     );
     place.done("run data/kick.bvh --out b --recipe a/recipe.toml");

@@ -38,6 +38,7 @@ fn kick() -> (Vec<Pin>, [String; 4]) {
         clip,
         sheet,
         spaced: None,
+        splits: &[],
         made_with: Some(&MadeWith::of(&recipe, &edits, sheet)),
     };
     let files = [

@@ -21,6 +21,7 @@ fn file() -> SheetFile {
         clip: breakdown.clip,
         sheet: breakdown.sheet,
         spaced: None,
+        splits: &[],
         made_with: Some(&MadeWith::of(&recipe, &edits, breakdown.sheet)),
     };
     SheetFile::of(&cut)

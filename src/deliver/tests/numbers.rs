@@ -31,7 +31,15 @@ fn edited(clip: &Clip) -> Sheet {
 }
 
 fn cut<'a>(clip: &'a Clip, sheet: &'a Sheet) -> Cut<'a> {
-    Cut { name: "wave", clip_file: "wave.bvh", clip, sheet, spaced: None, made_with: None }
+    Cut {
+        name: "wave",
+        clip_file: "wave.bvh",
+        clip,
+        sheet,
+        spaced: None,
+        splits: &[],
+        made_with: None,
+    }
 }
 
 /// The first text file of a format.

@@ -31,6 +31,7 @@ fn every_format_refuses_what_cannot_be_shown() {
             clip: &clip,
             sheet: &sheet,
             spaced: None,
+            splits: &[],
             made_with: None,
         };
         for format in FORMATS {

@@ -42,6 +42,8 @@ pub(super) struct Paper<'a> {
     pub(super) bands: Vec<Band<'a>>,
     pub(super) ssd: Option<&'a [f64]>,
     pub(super) greatest_ssd: f64,
+    /// Koma with which actions begin.
+    pub(super) splits: &'a [usize],
     pub(super) koma: usize,
     pub(super) in_line: usize,
     pub(super) koma_rate: f64,
@@ -101,6 +103,10 @@ impl Paper<'_> {
         let koma = self.in_line.min(self.koma - begin.min(self.koma));
         let bottom = top + self.line_height() - KOMA - BETWEEN_LINES;
         self.grid(canvas, (begin, koma), (top, bottom))?;
+        for split in self.splits.iter().filter(|split| (begin..begin + koma).contains(*split)) {
+            let x = self.x(split - begin);
+            canvas.dashes((x, top + SECONDS - 3.0), bottom + 9.0, style::INK, 1.25)?;
+        }
         let mut y = top + SECONDS;
         if let Some(ssd) = self.ssd {
             let end = ssd.len().min(begin + koma);

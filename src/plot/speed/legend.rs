@@ -8,7 +8,11 @@ use crate::plot::style;
 use crate::signal::{Turn, TurnKind};
 
 /// What is on the picture.
-pub(super) fn of(curves: SpeedCurves, turns: &[&Turn], has_genga: bool) -> Vec<Stroke> {
+pub(super) fn of(
+    curves: SpeedCurves,
+    turns: &[&Turn],
+    (has_genga, has_splits): (bool, bool),
+) -> Vec<Stroke> {
     let has = |kind| turns.iter().any(|turn| turn.kind == kind);
     let mut strokes = match curves {
         SpeedCurves::Both => vec![Stroke::Raw, Stroke::Filtered],
@@ -19,6 +23,7 @@ pub(super) fn of(curves: SpeedCurves, turns: &[&Turn], has_genga: bool) -> Vec<S
     strokes.extend(has(TurnKind::Key).then_some(Stroke::Key));
     strokes.extend(has(TurnKind::Wall).then_some(Stroke::Wall));
     strokes.extend(has_genga.then_some(Stroke::Genga));
+    strokes.extend(has_splits.then_some(Stroke::Split));
     strokes
 }
 
@@ -45,6 +50,7 @@ pub(super) enum Stroke {
     Key,
     Wall,
     Genga,
+    Split,
 }
 
 impl Stroke {
@@ -57,6 +63,7 @@ impl Stroke {
             Self::Key => "key 原画",
             Self::Wall => "wall 壁",
             Self::Genga => "genga of the layer ①",
+            Self::Split => "next action 区切り",
         }
     }
 
@@ -70,6 +77,7 @@ impl Stroke {
             Self::Key => canvas.disc((x, y), 4.5, style::GENGA),
             Self::Wall => canvas.triangle((x, y), 5.5, style::WALL),
             Self::Genga => canvas.line((x, y - 9.0), (x, y + 9.0), style::GENGA_LINE, 1.25),
+            Self::Split => canvas.dashes((x, y - 9.0), y + 9.0, style::INK, 1.25),
         }
     }
 }

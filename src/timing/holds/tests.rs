@@ -22,6 +22,7 @@ fn spaced(drawings: usize, genga: &[usize]) -> Layer {
     };
     Layer {
         name: "A".into(),
+        joints: vec![],
         drawings: (0..drawings).map(drawing).collect(),
         exposures: (0..drawings).map(|drawing| Exposure { drawing, koma: 2 }).collect(),
     }
@@ -41,7 +42,7 @@ fn without(spaced: &Layer, gone: &[usize]) -> Layer {
         row.cells[drawing - 1].koma += koma;
         row.cells[drawing - 1].drawing.why.held_for += 1 + covered.why.held_for;
     }
-    row.into_layer("A")
+    row.into_layer(spaced)
 }
 
 fn held(layer: &Layer, spaced: &Layer, holds: &[&str]) -> Layer {

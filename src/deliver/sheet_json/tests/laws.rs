@@ -84,8 +84,9 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
     let hold =
         |(frame, koma): (u32, u32)| Hold { frame: Frame(frame as usize), koma: koma as usize };
     let holds = prop::collection::vec(any::<(u32, u32)>().prop_map(hold), 0..3);
-    (recipe, pins, forbidden, moves, holds, any::<bool>()).prop_map(
-        |(recipe, pins, forbidden, moves, holds, only_pins)| {
+    let splits = prop::collection::vec(any::<u32>().prop_map(|at| Frame(at as usize)), 0..3);
+    (recipe, pins, forbidden, moves, holds, any::<bool>(), splits).prop_map(
+        |(recipe, pins, forbidden, moves, holds, only_pins, splits)| {
             let digest = "7".repeat(pins.len());
             let own = LayerEdits {
                 pins: pins.clone(),
@@ -94,7 +95,7 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
             };
             let own = Some(own).filter(|own| only_pins && *own != LayerEdits::default());
             let layers = own.map(|own| ("B".to_owned(), own)).into_iter().collect();
-            let edits = Edits { pins, forbidden, moves, holds, only_pins, layers };
+            let edits = Edits { pins, forbidden, moves, holds, only_pins, splits, layers };
             MadeWith { recipe, layers: digest, edits }
         },
     )

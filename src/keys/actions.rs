@@ -1,0 +1,99 @@
+//! Actions (動作): the single movements that a long take consists of, each of which an animator times by
+//! itself. They are no cuts (カット): a cut is what the camera takes in one go, and may show several.
+
+mod changes;
+mod division;
+mod finder;
+mod lulls;
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::Clip;
+use crate::time::{Clock, Frame};
+
+pub use finder::ActionFinder;
+
+/// The actions of a take: spans of frames that cover it, each frame once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Actions {
+    first: Frame,
+    past: Frame,
+    /// By frame, no frame twice.
+    splits: Vec<Split>,
+}
+
+/// An action (動作) of a take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Action {
+    /// Its first source frame.
+    pub from: Frame,
+    /// The source frame after its last.
+    pub past: Frame,
+    /// Why it begins there; none for the first, which begins with the clip.
+    pub why: Option<SplitReason>,
+}
+
+/// Where one action ends and the next begins (区切り).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Split {
+    /// The first source frame of the later action.
+    pub frame: Frame,
+    /// Why there.
+    pub why: SplitReason,
+}
+
+/// Why a take is split at a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SplitReason {
+    /// It is the middle of a rest (止め).
+    Rest,
+    /// The body is slower than before and after (緩み).
+    Lull,
+    /// Other parts of the body take over the movement (動きの変化).
+    Change,
+    /// A person wants it (指定).
+    Asked,
+}
+
+impl SplitReason {
+    /// The word for it in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::Lull => "lull",
+            Self::Change => "change",
+            Self::Asked => "asked",
+        }
+    }
+}
+
+impl Actions {
+    /// A clip split at frames inside it, in any order; of two splits at one frame the first counts.
+    pub(super) fn split(clip: &Clip, mut splits: Vec<Split>) -> Self {
+        splits.sort_by_key(|split| split.frame);
+        splits.dedup_by_key(|split| split.frame);
+        Self { first: clip.first(), past: Frame(clip.first().0 + clip.len()), splits }
+    }
+
+    /// Where they part.
+    pub fn splits(&self) -> &[Split] {
+        &self.splits
+    }
+
+    /// The actions in order; one where the take is not split.
+    pub fn iter(&self) -> impl Iterator<Item = Action> {
+        let starts = self.splits.iter().map(|split| (split.frame, Some(split.why)));
+        let pasts = self.splits.iter().map(|split| split.frame).chain([self.past]);
+        let action = |((from, why), past)| Action { from, past, why };
+        [(self.first, None)].into_iter().chain(starts).zip(pasts).map(action)
+    }
+
+    /// The koma on which each action after the first begins: the nearest to its frame.
+    pub fn koma(&self, clock: Clock) -> Vec<usize> {
+        self.splits.iter().map(|split| clock.koma_from_place(split.frame.0 as f64)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

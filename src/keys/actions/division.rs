@@ -1,0 +1,102 @@
+//! The cheapest way to divide a take.
+
+/// What the length of an action counts against how clearly it begins. Found on real clips: with less, a
+/// deep pause inside of a movement is worth a split, with more, kicks that follow each other are not.
+const OF_LENGTH: f64 = 1.5;
+
+/// A place where a take may be divided.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// Seconds from the take's begin.
+    pub(super) at: f64,
+    /// What a division there costs; below 0 it pays.
+    pub(super) price: f64,
+}
+
+/// How long the parts are to be, in seconds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lengths {
+    pub(super) usual: f64,
+    pub(super) shortest: f64,
+}
+
+impl Lengths {
+    /// What a part of a length costs: as much half as long as twice as long.
+    fn price(self, seconds: f64) -> f64 {
+        OF_LENGTH * (seconds / self.usual).ln().powi(2)
+    }
+}
+
+/// Which of the places, sorted by time, divide a take of a length so that places and parts together
+/// cost least; of equals, those with the earlier begin of the last part. No part is shorter than the
+/// shortest, unless nothing is divided.
+pub(super) fn cheapest(places: &[Place], seconds: f64, lengths: Lengths) -> Vec<usize> {
+    let (begin, end) = (Place { at: 0.0, price: 0.0 }, Place { at: seconds, price: 0.0 });
+    let all: Vec<Place> = [begin].into_iter().chain(places.iter().copied()).chain([end]).collect();
+    // The least cost of a take that ends at each place, and where its last part begins.
+    let mut best: Vec<(f64, usize)> = vec![(0.0, 0)];
+    for (at, place) in all.iter().enumerate().skip(1) {
+        let mut least = (f64::INFINITY, 0);
+        for (from, other) in all[..at].iter().enumerate() {
+            let long = place.at - other.at;
+            if long < lengths.shortest || long <= 0.0 {
+                continue;
+            }
+            let cost = best[from].0 + lengths.price(long) + place.price;
+            if cost < least.0 {
+                least = (cost, from);
+            }
+        }
+        best.push(least);
+    }
+    let mut divisions = Vec::new();
+    let mut at = best.last().map_or(0, |(_, from)| *from);
+    while at > 0 {
+        divisions.push(at - 1);
+        at = best[at].1;
+    }
+    divisions.reverse();
+    divisions
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// What a way to divide costs; none where a part is too short.
+    fn cost(chosen: &[usize], places: &[Place], seconds: f64, lengths: Lengths) -> Option<f64> {
+        let mut bounds: Vec<f64> = chosen.iter().map(|at| places[*at].at).collect();
+        bounds.insert(0, 0.0);
+        bounds.push(seconds);
+        let parts = bounds.windows(2).map(|pair| pair[1] - pair[0]);
+        let is_short = |long: &f64| *long < lengths.shortest || *long <= 0.0;
+        if !chosen.is_empty() && parts.clone().any(|long| is_short(&long)) {
+            return None;
+        }
+        let prices: f64 = chosen.iter().map(|at| places[*at].price).sum();
+        Some(prices + parts.map(|long| lengths.price(long)).sum::<f64>())
+    }
+
+    proptest! {
+        #[test]
+        fn no_other_way_to_divide_costs_less(
+            places in prop::collection::vec((0.0..12.0, -2.0..2.0), 0..9),
+            shortest in 0.0..3.0,
+        ) {
+            let mut places: Vec<Place> =
+                places.into_iter().map(|(at, price)| Place { at, price }).collect();
+            places.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let lengths = Lengths { usual: 3.0, shortest };
+            let found = cheapest(&places, 12.0, lengths);
+            let least = cost(&found, &places, 12.0, lengths).unwrap();
+            for set in 0..1usize << places.len() {
+                let chosen: Vec<usize> = (0..places.len()).filter(|at| set >> at & 1 == 1).collect();
+                if let Some(other) = cost(&chosen, &places, 12.0, lengths) {
+                    prop_assert!(least <= other + 1e-9, "{chosen:?}: {other} < {least}");
+                }
+            }
+        }
+    }
+}

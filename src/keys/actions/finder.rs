@@ -1,0 +1,116 @@
+//! Where a take is split: in rests and lulls, and where other parts of the body take over.
+
+use serde::{Deserialize, Serialize};
+
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::Chords;
+use crate::keys::actions::changes::changes;
+use crate::keys::actions::division::{Lengths, Place, cheapest};
+use crate::keys::actions::lulls::lulls;
+use crate::keys::actions::{Actions, Split, SplitReason};
+use crate::keys::rest::rests;
+use crate::motion::Clip;
+use crate::time::{Frame, Span};
+
+/// Finds the actions (動作) of a take, which KKMFT §3 cuts by hand: of all ways to split it the one with
+/// the clearest splits and the most usual lengths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ActionFinder {
+    /// Whether a take is split at all. Default yes; without it, it is one action however long.
+    pub split: bool,
+    /// How long an action usually is, frames or seconds, above 0. Default 4.4 s, the mean of the clips
+    /// of KKMFT Table 1. Raised, single movements go together into one action.
+    pub length: Span,
+    /// How clear a split has to be, 1 or more; default 4: the body is so many times slower than before and
+    /// after, or no more than half of its movement goes on in the same parts of it (a share of one by the
+    /// root of 4). Less will do where an action would be too long. Raised, movements with a short pause
+    /// between them are one action.
+    pub contrast: f64,
+    /// How short an action may be, frames or seconds. Default 1 s. A person's own splits may stand
+    /// closer. Raised, short movements go with those beside them.
+    pub shortest: Span,
+}
+
+impl Default for ActionFinder {
+    fn default() -> Self {
+        Self {
+            split: true,
+            length: Span::Seconds(4.4),
+            contrast: 4.0,
+            shortest: Span::Seconds(1.0),
+        }
+    }
+}
+
+/// A place where a take may be split, with ln of how clear it is.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    split: Split,
+    clear: f64,
+}
+
+impl ActionFinder {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first knob that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let (Span::Frames(length) | Span::Seconds(length)) = self.length;
+        if !self.length.is_length() || length <= 0.0 {
+            return Err(Error::setting("actions.length", "must be a length of time above 0"));
+        }
+        if !(self.contrast >= 1.0 && self.contrast.is_finite()) {
+            return Err(Error::setting("actions.contrast", "must be 1 or more; 4 is usual"));
+        }
+        if !self.shortest.is_length() {
+            return Err(Error::setting("actions.shortest", "must be a length of time, 0 or more"));
+        }
+        Ok(())
+    }
+
+    /// The actions of a clip: between a person's splits where there are any, else between those that are
+    /// found. `rest` is the speed below which the body rests, as [`Choose::rest`](crate::keys::Choose::rest).
+    pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, edits: &Edits) -> Actions {
+        if !edits.splits.is_empty() {
+            let asked = |frame: &Frame| Split { frame: *frame, why: SplitReason::Asked };
+            return Actions::split(clip, edits.splits.iter().map(asked).collect());
+        }
+        let splits =
+            if self.split { self.found(clip, &candidates(chords, rest)) } else { Vec::new() };
+        Actions::split(clip, splits)
+    }
+
+    /// The splits with which the take costs least.
+    fn found(&self, clip: &Clip, candidates: &[Candidate]) -> Vec<Split> {
+        let fps = clip.rate().fps();
+        let place = |candidate: &Candidate| Place {
+            at: (candidate.split.frame.0 - clip.first().0) as f64 / fps,
+            price: self.contrast.ln() - candidate.clear,
+        };
+        let places: Vec<Place> = candidates.iter().map(place).collect();
+        let seconds = |span: Span| span.frames(clip.rate()) / fps;
+        let lengths = Lengths { usual: seconds(self.length), shortest: seconds(self.shortest) };
+        let chosen = cheapest(&places, clip.len() as f64 / fps, lengths);
+        chosen.into_iter().map(|at| candidates[at].split).collect()
+    }
+}
+
+/// Every place where a take may be split, by time.
+fn candidates(chords: &Chords, rest: f64) -> Vec<Candidate> {
+    let candidate = |instant, why, clear| {
+        let split = Split { frame: chords.frame(instant), why };
+        Candidate { split, clear }
+    };
+    let rests = rests(chords, rest);
+    let lulls = lulls(chords, &rests).into_iter().map(|lull| {
+        let why = if lull.is_rest { SplitReason::Rest } else { SplitReason::Lull };
+        candidate(lull.instant, why, lull.depth)
+    });
+    let changes = changes(chords, &rests).into_iter();
+    let changes = changes.map(|(instant, clear)| candidate(instant, SplitReason::Change, clear));
+    let mut all: Vec<Candidate> = lulls.chain(changes).collect();
+    all.sort_by_key(|candidate| candidate.split.frame);
+    all
+}
