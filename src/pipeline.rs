@@ -33,7 +33,7 @@ pub struct Engine {
     voices: Stage<JointWeights, Voices>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, JointWeights), Reference>,
-    chords: Stage<(f64, JointWeights), Chords>,
+    chords: Stage<(f64, JointWeights, f64), Chords>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(crate::timing::Spacing, f64), Spaced>,
     stills: Stage<(), Stills>,
@@ -254,7 +254,10 @@ impl Engine {
             Reference::weighted(clip, clip.clock(recipe.rate), own)
         });
         let reference = self.reference.output();
-        self.chords.renew(Made::CLIP, &settings, || Chords::of(clip, reference, own));
+        let (rate, weights) = settings;
+        let span = recipe.keys.span();
+        let settings = (rate, weights, span);
+        self.chords.renew(Made::CLIP, &settings, || Chords::of(clip, reference, own, span));
         made
     }
 

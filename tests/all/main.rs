@@ -7,6 +7,7 @@ mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found
 #[cfg(feature = "cli")]
 mod judged; // sheets judged, and methods side by side
+mod known_keys; // clips made from known keys give them back
 mod lead_ins; // the same lead-in in every dialect and at every rate
 mod lies; // files that say what is not so end fast
 mod lying_files; // how such files are made
