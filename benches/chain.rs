@@ -97,7 +97,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let reference = Reference::of(clip, clock);
     watch.lap("reference");
     let own = vec![1.0; clip.skeleton().len()];
-    let chords = Chords::of(clip, &reference, &own);
+    let chords = Chords::of(clip, &reference, &own, recipe.keys.span());
     watch.lap("chords");
     let judges = Judges { reference: &reference, chords: &chords };
     let keys = recipe.keys.choose(clip, judges, &candidates, &joints, &Edits::default());

@@ -116,7 +116,7 @@ pub struct Candidate {
 /// The keys and walls of a layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerKeys {
-    /// Keys by frame, at least a koma apart; the clip's ends are not among them.
+    /// Keys by frame, found ones at least a koma apart; the clip's ends are not among them.
     pub keys: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,

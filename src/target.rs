@@ -29,7 +29,7 @@ pub enum Target {
     Keys(usize),
     /// Drawings on the sheet over its seconds: above 0, and at most a drawing a koma.
     DrawingsPerSecond(f64),
-    /// The fewest keys with which the body, slerped from key to key, is nowhere further off than so many %
+    /// Few keys with which the body, slerped from key to key, is nowhere further off than so many %
     /// of its height, above 0: at the worst koma, root mean square over its points.
     MaxError(f64),
 }
@@ -57,7 +57,7 @@ pub struct Outcome {
 /// Finds settings with which the sheet is what the targets say, or as near to it as can be.
 ///
 /// Keys are settled first, then drawings: a number of drawings never changes keys that a target asked
-/// for. A recipe that meets a target already is left as it is.
+/// for. A recipe that meets a number of keys or drawings already is left as it is.
 ///
 /// # Errors
 /// [`Error::Setting`] named as the target when it can never be met or contradicts another, and those of

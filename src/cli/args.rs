@@ -177,7 +177,7 @@ pub(super) struct TargetArgs {
     /// keys.min_price and keys.per_second.
     #[arg(long, value_name = "N", value_parser = genga, allow_negative_numbers = true)]
     pub(super) keys: Option<usize>,
-    /// The fewest keys with which the body, slerped from key to key, is nowhere further off than that share
+    /// Few keys with which the body, slerped from key to key, is nowhere further off than that share
     /// of its height: 5%; over keys.min_price and keys.per_second.
     #[arg(long, value_name = "P%", value_parser = percent, allow_negative_numbers = true, conflicts_with = "keys")]
     pub(super) max_error: Option<f64>,

@@ -16,6 +16,12 @@ const LOWEST: f64 = 1e-6;
 /// Halvings of the span of prices in the search for one: more would not tell two sets apart.
 const HALVINGS: usize = 40;
 
+/// Instants by which a key of the cheapest set may settle: two koma.
+const SETTLES: usize = 4;
+
+/// How often each key settles: its neighbours have moved since the first time.
+const SWEEPS: usize = 2;
+
 /// What may be a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Entry {
@@ -67,15 +73,50 @@ impl Cheapest<'_> {
         Set { kept, over_limit }
     }
 
+    /// Puts each key of a set that does not stay where the body is least off between its neighbours, up to
+    /// two koma away. The set is found by squares, which a little noise hardly changes and which blur the
+    /// moment of a turn; the distance itself is sharp there.
+    pub(super) fn settle(&self, kept: &mut [usize]) {
+        let home: Vec<usize> = kept.iter().map(|at| self.entries[*at].instant).collect();
+        for _ in 0..SWEEPS {
+            for at in 1..kept.len().saturating_sub(1) {
+                if !self.entries[kept[at]].stays {
+                    kept[at] = self.sharpest(kept[at - 1], kept[at], kept[at + 1], home[at]);
+                }
+            }
+        }
+    }
+
+    /// The entry near an instant between two others at which the body is least off; of equals the one that
+    /// is there, then the earlier.
+    fn sharpest(&self, before: usize, now: usize, after: usize, home: usize) -> usize {
+        let instant = |at: usize| self.entries[at].instant;
+        let off = |at: usize| {
+            self.chords.way_off(instant(before), instant(at))
+                + self.chords.way_off(instant(at), instant(after))
+        };
+        let first = self.entries.partition_point(|entry| entry.instant + SETTLES < home);
+        let end = self.entries.partition_point(|entry| entry.instant <= home + SETTLES);
+        let fits = |at: &usize| self.are_apart(before, *at) && self.are_apart(*at, after);
+        let near = (first.max(before + 1)..end.min(after)).filter(fits);
+        let others = near.map(|at| (off(at), at));
+        let least =
+            |best: (f64, usize), other: (f64, usize)| if other.0 < best.0 { other } else { best };
+        others.fold((off(now), now), least).1
+    }
+
     /// What is lost besides if one of a set is left out; infinite for those that stay.
     pub(super) fn saves(&self, kept: &[usize]) -> Vec<f64> {
-        let saved = |at: usize| match (at.checked_sub(1), kept.get(at + 1)) {
+        (0..kept.len()).map(|at| self.saves_at(kept, at)).collect()
+    }
+
+    fn saves_at(&self, kept: &[usize], at: usize) -> f64 {
+        match (at.checked_sub(1), kept.get(at + 1)) {
             (Some(before), Some(after)) if !self.entries[kept[at]].stays => {
                 self.saved(kept[before], kept[at], *after)
             }
             _ => f64::INFINITY,
-        };
-        (0..kept.len()).map(saved).collect()
+        }
     }
 
     fn saved(&self, before: usize, at: usize, after: usize) -> f64 {
@@ -131,7 +172,17 @@ impl Cheapest<'_> {
         let mut kept: Vec<usize> =
             std::iter::successors(Some(count - 1), |at| (*at > 0).then(|| before[*at])).collect();
         kept.reverse();
+        self.join(&mut kept, price);
         kept
+    }
+
+    /// Takes out what is there only because no known chord is as long as the way past it: in a rest, or
+    /// where the body hardly moves.
+    fn join(&self, kept: &mut Vec<usize>, price: f64) {
+        let mut saves = self.saves(kept);
+        while let Some(at) = least(&saves).filter(|at| saves[*at] < price) {
+            self.leave_out(kept, &mut saves, at);
+        }
     }
 
     /// The least cost of a set that ends on an entry, without its own price, and what stands before it.
@@ -145,18 +196,20 @@ impl Cheapest<'_> {
                 break;
             }
             if self.are_apart(from, to) {
-                let known = if begin < instant { self.chords.known(begin, instant) } else { 0.0 };
-                let cost = costs[from] + known;
+                let cost = costs[from] + self.loss(from, to);
                 if cost <= best.0 {
                     best = (cost, from);
                 }
             }
         }
-        if best.0 == f64::INFINITY && self.entries[to].stays {
-            // Nothing within reach may be a key: the last that may, or what stays, is further off.
+        if best.0 == f64::INFINITY {
+            // Nothing within reach may be a key: the last that may, or before what stays what stays, is
+            // further off.
             let is_way = |from: &usize| costs[*from] < f64::INFINITY && self.are_apart(*from, to);
-            let from = (staying..to).rev().find(is_way).unwrap_or(staying);
-            best = (costs[from] + self.loss(from, to), from);
+            let stays = self.entries[to].stays.then_some(staying);
+            if let Some(from) = (staying..to).rev().find(is_way).or(stays) {
+                best = (costs[from] + self.loss(from, to), from);
+            }
         }
         best
     }
@@ -183,11 +236,19 @@ impl Cheapest<'_> {
 
     /// Takes the cheapest away until there are few enough: no chord is long enough for so few.
     fn thin(&self, kept: &mut Vec<usize>, most: usize) {
+        let mut saves = self.saves(kept);
         for _ in most..self.found(kept) {
-            let saves = self.saves(kept);
-            let cheapest = (0..kept.len()).min_by(|a, b| saves[*a].total_cmp(&saves[*b]));
-            cheapest.map(|at| kept.remove(at));
+            let Some(at) = least(&saves) else { return };
+            self.leave_out(kept, &mut saves, at);
         }
+    }
+
+    /// Takes one that does not stay out of a set; what stood before it and after it are neighbours now.
+    fn leave_out(&self, kept: &mut Vec<usize>, saves: &mut Vec<f64>, at: usize) {
+        kept.remove(at);
+        saves.remove(at);
+        saves[at - 1] = self.saves_at(kept, at - 1);
+        saves[at] = self.saves_at(kept, at);
     }
 
     /// Puts the best of those left out back while there is room and they save what they cost.
@@ -207,12 +268,19 @@ impl Cheapest<'_> {
 
     /// The entry between two of a set that saves most beyond what it costs, and how much that is.
     fn best_between(&self, from: usize, to: usize, price: f64) -> Option<(usize, f64)> {
+        let whole = self.loss(from, to) - price;
         let fits = |at: &usize| self.are_apart(from, *at) && self.are_apart(*at, to);
-        let gain = |at: usize| (at, self.saved(from, at, to) - price);
+        let gain = |at: usize| (at, whole - self.loss(from, at) - self.loss(at, to));
         let is_worth_it = |(_, gain): &(usize, f64)| *gain > 0.0 || price == 0.0;
         let gains = (from + 1..to).filter(fits).map(gain).filter(is_worth_it);
         gains.reduce(|best, other| if other.1 > best.1 { other } else { best })
     }
+}
+
+/// Where least is saved, of equals the first; none in a set of which all stay.
+fn least(saves: &[f64]) -> Option<usize> {
+    let at = (0..saves.len()).min_by(|a, b| saves[*a].total_cmp(&saves[*b]))?;
+    saves[at].is_finite().then_some(at)
 }
 
 #[cfg(test)]

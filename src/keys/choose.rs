@@ -16,6 +16,10 @@ use crate::time::Span;
 /// Seconds for which a key has to save [`Choose::min_price`]: three koma of 24 a second.
 const HELD: f64 = 0.125;
 
+/// Where keys are as many a second and as cheap as these two, none is far from the next.
+const MANY: f64 = 2.0;
+const CHEAP: f64 = 4.0;
+
 /// What may be a key of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -128,6 +132,13 @@ impl Choose {
         self.weights.validate()
     }
 
+    /// How far keys may be apart, in seconds, and still be weighed against all others: where there are
+    /// many it is no use to know the loss of long chords.
+    pub fn span(&self) -> f64 {
+        let are_many = self.per_second >= MANY && self.min_price <= CHEAP;
+        if are_many { 4.0 } else { f64::INFINITY }
+    }
+
     /// The keys that are worth a drawing, with who voted for them; a person's pins among them.
     pub fn choose(
         &self,
@@ -178,7 +189,8 @@ impl Choose {
         let cheapest = Cheapest { chords, entries: &entries, apart };
         let held = HELD * reference.clock().koma_rate;
         let price = self.min_price.powi(2) * held;
-        let set = cheapest.set(price, self.most_keys(reference.seconds()));
+        let mut set = cheapest.set(price, self.most_keys(reference.seconds()));
+        cheapest.settle(&mut set.kept);
         // The clip's ends are first and last among the entries and not among the keys.
         let saves = cheapest.saves(&set.kept);
         let inner =
@@ -203,7 +215,7 @@ impl Choose {
 
     /// How many found keys a sheet of that length may have; pins and rests are not counted.
     fn most_keys(&self, seconds: f64) -> usize {
-        (self.per_second * seconds).floor() as usize
+        (self.per_second * seconds + 1e-9).floor() as usize
     }
 }
 

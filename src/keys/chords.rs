@@ -3,15 +3,20 @@
 use crate::keys::Reference;
 use crate::keys::postures::Postures;
 use crate::motion::Clip;
+use crate::motion::lanes::wide;
 use crate::time::{Clock, Frame};
 
-/// Pairs of instants that are kept at once: a gigabyte would hold 60 times as many.
+/// Pairs of instants that are kept of any clip at the most, unless its instants alone are too many: eight
+/// megabytes.
 const PAIRS: usize = 1 << 21;
 
 /// Koma from one instant to the next.
 pub(super) const STEP: f64 = 0.5;
 
-/// Seconds between two keys up to which every pair is known, however long the clip.
+/// Instants that are looked at of a chord that is not known, at the most: a longer one is not slower.
+const LOOKS: usize = 512;
+
+/// Seconds from one end of a chord to the other up to which all are known, however long the clip.
 const LEAST_REACH: f64 = 2.0;
 
 /// The loss of every chord up to some length.
@@ -32,22 +37,32 @@ pub struct Chords {
 }
 
 impl Chords {
-    /// The chords of a clip between instants half a koma of its reference apart. `own` is how much each joint counts
-    /// beside its bones: 0 or more, one of them above.
-    pub fn of(clip: &Clip, reference: &Reference, own: &[f64]) -> Self {
-        Self::of_part(clip, clip, reference, own)
+    /// The chords of a clip between instants half a koma of its reference apart, each known that is no
+    /// longer than `seconds`, 2 or more; infinite for as many as there is memory for. `own` is how much
+    /// each joint counts beside its bones: 0 or more, one of them above.
+    pub fn of(clip: &Clip, reference: &Reference, own: &[f64], seconds: f64) -> Self {
+        Self::of_part(clip, clip, reference, own, seconds)
     }
 
     /// The same of a part of the body, which alone moves in `part`; what the body is like is seen in the
     /// whole clip.
-    pub(crate) fn of_part(part: &Clip, whole: &Clip, reference: &Reference, own: &[f64]) -> Self {
+    pub(crate) fn of_part(
+        part: &Clip,
+        whole: &Clip,
+        reference: &Reference,
+        own: &[f64],
+        seconds: f64,
+    ) -> Self {
         let clock = part.clock(reference.clock().koma_rate / STEP);
         let postures = Postures::of(part, whole, clock, reference.height(), own);
         let len = postures.len();
-        let least = (LEAST_REACH * clock.koma_rate).ceil() as usize;
-        let reach = (PAIRS / len.max(1)).max(least).min(len.saturating_sub(1));
+        let [least, most] = [LEAST_REACH, seconds].map(|s| (s * clock.koma_rate).ceil() as usize);
+        let reach = (PAIRS / len.max(1)).min(most).max(least).min(len.saturating_sub(1));
         let mut chords = Self { postures, clock, reach, losses: vec![0.0; len * reach] };
-        chords.sum_up();
+        wide(
+            #[inline(always)]
+            || chords.sum_up(),
+        );
         chords
     }
 
@@ -83,11 +98,12 @@ impl Chords {
 
     /// What is lost from one instant to a later one within reach.
     #[inline]
-    pub(super) fn known(&self, from: usize, to: usize) -> f64 {
+    fn known(&self, from: usize, to: usize) -> f64 {
         f64::from(self.losses[from * self.reach + (to - from - 1)])
     }
 
     /// What is lost from one instant to a later one, however far.
+    #[inline]
     pub(super) fn loss(&self, from: usize, to: usize) -> f64 {
         if to <= from {
             return 0.0;
@@ -95,20 +111,32 @@ impl Chords {
         if to - from <= self.reach { self.known(from, to) } else { self.far(from, to) }
     }
 
-    /// The same from the words, instant by instant.
+    /// The same from the words, instant by instant; of a long chord every second, third … instant.
     fn far(&self, from: usize, to: usize) -> f64 {
-        let (a, b) = (self.postures.row(from), self.postures.row(to));
-        let off = |instant: usize| {
-            let share = (instant - from) as f64 / (to - from) as f64;
-            let row = self.postures.row(instant).iter().zip(a).zip(b);
-            row.map(|((own, a), b)| (own - (a + share * (b - a))).powi(2)).sum::<f64>()
-        };
-        STEP * (from + 1..to).map(off).sum::<f64>()
+        let step = (to - from).div_ceil(LOOKS);
+        let squares = (from + step..to).step_by(step).map(|instant| self.off(from, instant, to));
+        STEP * step as f64 * squares.sum::<f64>()
+    }
+
+    /// How far off the body is in all from one instant to a later one, in % of its height times koma. Where
+    /// the way has a corner this is least with a key on it, and near it is not nearly as small: squares
+    /// would rather be a little off everywhere.
+    pub(super) fn way_off(&self, from: usize, to: usize) -> f64 {
+        STEP * (from + 1..to).map(|instant| self.off(from, instant, to).sqrt()).sum::<f64>()
+    }
+
+    /// The squared distance of a posture from the straight way between two others, in %².
+    fn off(&self, from: usize, instant: usize, to: usize) -> f64 {
+        let share = (instant - from) as f64 / (to - from) as f64;
+        let ends = self.postures.row(from).iter().zip(self.postures.row(to));
+        let row = self.postures.row(instant).iter().zip(ends);
+        row.map(|(own, (from, to))| (own - (from + share * (to - from))).powi(2)).sum()
     }
 
     /// Finds every loss within reach. Seen from its begin a chord needs the sums of a·p and of those
     /// times the distance from a over the postures p inside, and the same seen from its end: the
     /// former grow with each end, the latter with each begin.
+    #[inline(always)]
     fn sum_up(&mut self) {
         let len = self.len();
         let squares: Vec<f64> =
@@ -143,7 +171,7 @@ impl Chords {
 }
 
 /// Four sums side by side, so that the compiler keeps them in one register.
-#[inline]
+#[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));

@@ -7,8 +7,8 @@ use crate::motion::landmarks::Point;
 use crate::motion::{Body, Clip, DrawnPose, Pose};
 use crate::sheet::Source;
 
-/// A body that takes on the pose of one drawing after the other, measured over the points that keys are
-/// priced by.
+/// A body that takes on the pose of one drawing after the other, measured over the points of
+/// its [`Reference`].
 #[derive(Debug, Clone)]
 pub struct Figure<'a> {
     reference: &'a Reference,

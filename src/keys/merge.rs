@@ -37,8 +37,12 @@ impl Choose {
             (Merge::Vote, _) => elected(kind),
             (Merge::Union | Merge::Every, _) => named(kind),
         };
+        // On the first and the last koma the clip's ends are shown, and no other drawing.
+        let koma = |row: usize| row as f64 / joints.apart;
+        let last = (koma(filtered.frames().saturating_sub(1)) + 1e-9).floor();
         let inside = |frame: Frame| {
-            frame > filtered.first && frame.0 + 1 < filtered.first.0 + filtered.frames()
+            let koma = (koma(frame.0 - filtered.first.0) + 0.5).floor();
+            0.0 < koma && koma < last
         };
         Candidates {
             keys: merged(TurnKind::Key)

@@ -42,15 +42,26 @@ impl Postures {
     pub(super) fn of(clip: &Clip, whole: &Clip, clock: Clock, height: f64, own: &[f64]) -> Self {
         let instants = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let landmarks = Landmarks::of(whole);
-        match Mannequin::of(whole, &landmarks) {
+        let mut postures = match Mannequin::of(whole, &landmarks) {
             Some(mannequin) => of_person(clip, clock, instants, &mannequin, landmarks.up, own),
             None => of_points(clip, clock, instants, height, own),
+        };
+        postures.start_at_0();
+        postures
+    }
+
+    /// Counts every column from where it is first: a body far from the middle of its world would have
+    /// large numbers, and what they lose in their last digits is movement.
+    fn start_at_0(&mut self) {
+        let first = self.rows.get(..self.columns).map(<[f64]>::to_vec).unwrap_or_default();
+        for row in self.rows.chunks_exact_mut(self.columns.max(1)) {
+            row.iter_mut().zip(&first).for_each(|(value, first)| *value -= first);
         }
     }
 
     /// Number of instants.
     pub(super) fn len(&self) -> usize {
-        self.rows.len() / self.columns
+        self.rows.len() / self.columns.max(1)
     }
 
     /// How fast the posture changes into each instant from the second on, in % of the body's height a
@@ -110,10 +121,10 @@ fn of_person(
 fn scales(mannequin: &Mannequin, own: &[f64]) -> [f64; POINTS] {
     let joints = mannequin.joints();
     let weights: [f64; POINTS] = array::from_fn(|point| BONES[point] * own[joints[point]]);
-    let all: f64 = weights.iter().sum();
     // Where nothing that a mannequin has counts, all of it does.
-    let weights = if all > 0.0 { weights.map(|weight| weight / all) } else { BONES };
-    weights.map(|weight| 100.0 * weight.sqrt())
+    let weights = if weights.iter().any(|weight| *weight > 0.0) { weights } else { BONES };
+    let all: f64 = weights.iter().sum();
+    weights.map(|weight| 100.0 * (weight / all).sqrt())
 }
 
 fn write(stand: &Stand, scales: &[f64; POINTS], up: Axis, row: &mut [f64]) {

@@ -9,8 +9,8 @@ use crate::time::Frame;
 /// between the source and the slerp from each key to the next.
 ///
 /// It is the root mean square over the body's points, joints and tips weighed by the bones that lead
-/// to them, so that another rig of the same body has nearly the same; in % of body height. It is the
-/// measure that keys are priced by, see [`Choose::min_price`](crate::keys::Choose::min_price).
+/// to them, so that another rig of the same body has nearly the same; in % of body height. Keys are
+/// chosen by what is near it and quicker, see [`Chords`](crate::keys::Chords).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reconstruction {
     /// The error at each koma of the reference, in % of body height; 0 on a key.

@@ -1,4 +1,4 @@
-//! The source koma after koma: what keys and rests are judged against.
+//! The source koma after koma: what the body made again from keys is judged against.
 
 use std::array;
 use std::ops::Range;

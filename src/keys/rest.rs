@@ -5,6 +5,7 @@
 use std::ops::RangeInclusive;
 
 use crate::keys::Chords;
+use crate::keys::postures::Postures;
 use crate::time::Frame;
 
 /// Seconds that a stillness must last to be a rest.
@@ -13,12 +14,20 @@ const LEAST: f64 = 0.5;
 /// Seconds over which the speed is averaged, so that one tremble does not cut a rest in two.
 const SMOOTH: f64 = 0.125;
 
+/// How far the body may be from the posture that it holds, beside its unrest, in % of its height.
+const NEAR: f64 = 0.2;
+
 /// The frames on which rests begin and end. A rest that reaches the sheet's first or last koma only
 /// ends or only begins.
 pub(super) fn rest_ends(chords: &Chords, speed: f64) -> Vec<Frame> {
     let last = chords.len().saturating_sub(1);
     let ends = rests(chords, speed).into_iter().flat_map(|rest| [*rest.start(), *rest.end()]);
-    ends.filter(|end| (1..last).contains(end)).map(|end| chords.frame(end)).collect()
+    let inner = ends.filter(|end| (1..last).contains(end));
+    let mut ends: Vec<Frame> = inner.map(|end| chords.frame(end)).collect();
+    // A short movement may part two rests that are held in nearly one posture.
+    ends.sort_unstable();
+    ends.dedup();
+    ends
 }
 
 /// The instants from the first to the last of each rest: the posture changes by less than `speed`, in %
@@ -32,11 +41,41 @@ pub(super) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
         let end = begin + still.len();
         // The speed of an instant is that of the step into it: a run of steps joins one instant more.
         if still[0] < speed && still.len() >= steps(LEAST) {
-            rests.push(begin..=end);
+            rests.push(held(chords.postures(), begin, end, steps(SMOOTH)));
         }
         begin = end;
     }
     rests
+}
+
+/// From when until when a body that is still keeps to the posture that it holds, itself as still as it is
+/// well within the rest: by its speed alone a rest that is come to slowly would begin before its posture
+/// is reached, and one after a quick move later. At an end of the clip it lasts.
+fn held(postures: &Postures, begin: usize, end: usize, margin: usize) -> RangeInclusive<usize> {
+    let (first, last) = (begin + margin, end - margin);
+    let posture = mean(postures, first, last);
+    let off = |at: usize| {
+        let ways = postures.row(at).iter().zip(&posture).map(|(own, held)| (own - held).powi(2));
+        ways.sum::<f64>().sqrt()
+    };
+    let unrest = (first..=last).map(off).fold(0.0, f64::max);
+    let is_held = |at: &usize| off(*at) <= unrest + NEAR;
+    let from = (0..first).rev().take_while(is_held).last().unwrap_or(first);
+    let to = (last + 1..postures.len()).take_while(is_held).last().unwrap_or(last);
+    let is_last = end + 1 == postures.len();
+    (if begin == 0 { 0 } else { from })..=(if is_last { end } else { to })
+}
+
+/// The mean of the postures from one instant to another.
+fn mean(postures: &Postures, first: usize, last: usize) -> Vec<f64> {
+    let count = (last + 1 - first) as f64;
+    let mut mean = vec![0.0; postures.row(first).len()];
+    for at in first..=last {
+        for (mean, own) in mean.iter_mut().zip(postures.row(at)) {
+            *mean += own / count;
+        }
+    }
+    mean
 }
 
 /// A centred mean over so many values and one more, over fewer at the ends.
@@ -51,12 +90,11 @@ pub(super) fn smoothed(values: &[f64], over: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::keys::Reference;
-    use crate::keys::tests::swing;
+    use crate::keys::tests::{self, swing};
     use crate::motion::Clip;
 
     fn chords(clip: &Clip) -> Chords {
-        Chords::of(clip, &Reference::of(clip, clip.clock(24.0)), &[1.0; 2])
+        tests::chords(clip, 2.0)
     }
 
     #[test]
@@ -72,8 +110,8 @@ mod tests {
         let clip = swing(&angles);
         assert_eq!(
             rest_ends(&chords(&clip), 15.0),
-            [Frame(13), Frame(30)],
-            "a koma of smoothing inside"
+            [Frame(11), Frame(31)],
+            "as long as it is held"
         );
         assert!(rest_ends(&chords(&clip), 0.0).is_empty(), "0 is no rest at all");
     }
@@ -86,9 +124,9 @@ mod tests {
         };
         let swings = (0..12).map(|frame| 5.0 * f64::from(frame));
         let last: Vec<f64> = swings.chain([55.0; 20]).collect();
-        assert_eq!(ends(&last), [Frame(13)], "it only begins");
+        assert_eq!(ends(&last), [Frame(11)], "it only begins");
         let first: Vec<f64> = last.iter().rev().copied().collect();
-        assert_eq!(ends(&first), [Frame(19)], "it only ends");
+        assert_eq!(ends(&first), [Frame(20)], "it only ends");
         assert!(ends(&[30.0; 30]).is_empty(), "a body that never moves has no end of a rest");
         assert!(ends(&[30.0; 5]).is_empty());
     }

@@ -1,3 +1,4 @@
+use crate::keys::{Chords, Reference};
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::time::{Frame, FrameRate};
 use glam::DVec3;
@@ -21,4 +22,9 @@ pub(super) fn swing(angles: &[f64]) -> Clip {
     };
     let rate = FrameRate::new(24.0).unwrap();
     Clip::new(skeleton, rate, Frame(0), angles.len(), angles.to_vec()).unwrap()
+}
+
+/// Its chords, up to so many seconds long.
+pub(super) fn chords(swing: &Clip, seconds: f64) -> Chords {
+    Chords::of(swing, &Reference::of(swing, swing.clock(24.0)), &[1.0; 2], seconds)
 }

@@ -68,9 +68,10 @@ pub struct Landmarks {
 
 impl Landmarks {
     /// Finds them. A limb ends at the first joint from the root that carries no more than 15 %
-    /// of the body's height. Of the ends the two that are lowest in the mean over the clip are the feet, the
-    /// highest is the head, and of what is left the two furthest from the root along the bones are the
-    /// hands. A body of fewer than three ends has no landmark.
+    /// of the body's height. Of the ends the two that are lowest in the mean over the clip are the feet, of
+    /// what is left the two furthest from the root along the bones are the hands, however high they are held,
+    /// and the highest of the others is the head. A body of fewer than three ends has no landmark; what
+    /// hangs on another root than most of the body, such as a sword, is not looked at.
     pub fn of(clip: &Clip) -> Self {
         let up = Stature::of(clip).up;
         let looks = Looks::at(clip, up.unit());
@@ -85,12 +86,13 @@ impl Landmarks {
         let mut feet = ends.drain(..2).collect::<Vec<_>>();
         feet.sort_unstable();
         landmarks.feet = feet.into_iter().map(|ankle| looks.foot(clip.skeleton(), ankle)).collect();
-        landmarks.head = ends.pop().map(Point::of);
         let lengths = lengths(clip.skeleton());
-        ends.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
-        ends.truncate(2);
-        ends.sort_unstable();
-        landmarks.wrists = ends.into_iter().map(Point::of).collect();
+        let mut longest = ends.clone();
+        longest.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
+        longest.truncate(2.min(ends.len() - 1));
+        landmarks.head = ends.into_iter().rfind(|end| !longest.contains(end)).map(Point::of);
+        longest.sort_unstable();
+        landmarks.wrists = longest.into_iter().map(Point::of).collect();
         landmarks
     }
 
@@ -180,8 +182,23 @@ fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     let is_end =
         |joint: &usize| reaches[*joint] <= LONGEST_END * height && skeleton.joints[*joint].turns();
     let end = |leaf: usize| above(skeleton, leaf).filter(is_end).last().unwrap_or(leaf);
-    let leaves = (0..skeleton.len()).filter(|joint| is_leaf[*joint]);
+    let body = body_root(skeleton);
+    let is_of_body = |leaf: &usize| above(skeleton, *leaf).last() == body;
+    let leaves = (0..skeleton.len()).filter(|joint| is_leaf[*joint]).filter(is_of_body);
     leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
+}
+
+/// The root of the tree with most bones by their length, of equals the first.
+fn body_root(skeleton: &Skeleton) -> Option<usize> {
+    let mut roots = Vec::with_capacity(skeleton.len());
+    let mut sizes = vec![0.0; skeleton.len()];
+    for (at, joint) in skeleton.joints.iter().enumerate() {
+        let root = joint.parent.map_or(at, |parent| roots[parent.0]);
+        roots.push(root);
+        sizes[root] += joint.parent.map_or(0.0, |_| joint.offset.length());
+    }
+    let largest = |best: usize, other: usize| if sizes[other] > sizes[best] { other } else { best };
+    roots.into_iter().reduce(largest)
 }
 
 /// A joint and all that it hangs on, up to its root.

@@ -37,7 +37,7 @@ pub(super) struct Column {
     voices: Stage<Made, Voices>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, Option<f64>), Reference>,
-    chords: Stage<(), Chords>,
+    chords: Stage<f64, Chords>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(Spacing, f64, Part), Spaced>,
     stills: Stage<(), Stills>,
@@ -112,7 +112,9 @@ impl Column {
             }
         });
         let reference = self.reference.output();
-        self.chords.renew(made, &(), || Chords::of_part(clip, measured.clip, reference, judged));
+        let span = recipe.keys.span();
+        self.chords
+            .renew(made, &span, || Chords::of_part(clip, measured.clip, reference, judged, span));
     }
 
     fn choose(

@@ -1,4 +1,4 @@
-//! A largest error: the fewest keys with which the body is nowhere further off.
+//! A largest error: few keys with which the body is nowhere further off.
 
 use super::{Outcome, Target, reasons, room};
 use crate::edits::{Edits, Forbidden};
@@ -14,7 +14,7 @@ const HIGHEST: f64 = 100.0;
 /// Each price, and each number of keys, is so many times the one before.
 const STEP: f64 = 1.09;
 
-/// Settings with the fewest keys that put the body nowhere further off than `most`, in % of its height; where
+/// Settings with few keys that put the body nowhere further off than `most`, in % of its height; where
 /// none will do, with the fewest that put it further off on the fewest koma.
 ///
 /// A key more may well put the body further off somewhere, so no bisection would be sure: settings are
@@ -87,8 +87,8 @@ fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> String {
         format!("it is further off: {}", reasons::ONLY_PINS)
     } else {
         let limits = reasons::limits(recipe, edits);
-        match recipe.keys.merge {
-            Merge::Every => format!("no keys a koma apart{limits} come nearer"),
+        match (recipe.keys.merge, recipe.keys.rank) {
+            (Merge::Every, Rank::Price) => format!("no keys a koma apart{limits} come nearer"),
             _ => format!("no key where a joint turns{limits} comes nearer"),
         }
     };

@@ -66,8 +66,10 @@ fn too_few(recipe: &Recipe, edits: &Edits) -> String {
         return reasons::ONLY_PINS.into();
     }
     let limits = reasons::limits(recipe, edits);
-    match recipe.keys.merge {
-        Merge::Every => format!("there is no room for another{limits}: keys stand a koma apart"),
+    match (recipe.keys.merge, recipe.keys.rank) {
+        (Merge::Every, Rank::Price) => {
+            format!("there is no room for another{limits}: keys stand a koma apart")
+        }
         _ => format!(
             "no joint turns at any other moment{limits}; keys.merge=every takes every moment for one, and a \
              smaller turns.steady or turns.persistence finds more turns"

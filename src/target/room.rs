@@ -2,7 +2,7 @@
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Key, Origin};
+use crate::keys::{Key, Origin, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
@@ -23,13 +23,13 @@ pub(crate) fn with_found(
     let seconds = seconds(engine, recipe);
     let mut roomy = recipe.clone();
     roomy.keys.per_second = per_second(count, seconds);
-    if found(engine, &roomy, edits)? < count {
+    if found(engine, &roomy, edits)? < count && roomy.keys.rank == Rank::Price {
         roomy.keys.min_price = 0.0;
     }
     Ok(roomy)
 }
 
-/// The same keys by a price alone where one parts them from the others, else the recipe as it is.
+/// As many keys by a price alone, where there is a price that gives as many, else the recipe as it is.
 ///
 /// A price says what a key is worth whatever the clip's length, and leaves nothing over a limit.
 pub(super) fn by_price(

@@ -7,9 +7,10 @@ mod clips; // where clips come from
 mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found
 #[cfg(feature = "cli")]
-mod judged;
+mod judged; // sheets judged, and methods side by side
+mod known_keys; // clips made from known keys give them back
 #[cfg(feature = "cli")]
-mod layers; // layers with timing of their own, and a root on ones // sheets judged, and methods side by side
+mod layers; // layers with timing of their own, and a root on ones
 mod lead_ins; // the same lead-in in every dialect and at every rate
 mod lies; // files that say what is not so end fast
 mod lying_files; // how such files are made

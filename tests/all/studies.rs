@@ -119,7 +119,7 @@ fn stability_compares_cells_and_names_the_plateau() {
         "{said}"
     );
     assert!(
-        lines[2].contains("filter.width 1 to 2, ") && lines[2].ends_with("stand on it"),
+        lines[2].contains("filter.width 1 to 3, ") && lines[2].ends_with("stand on it"),
         "{said}"
     );
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();

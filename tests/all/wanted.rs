@@ -158,9 +158,9 @@ fn frames(table: &str) -> Vec<String> {
 #[test]
 fn keys_are_pinned_forbidden_moved_and_named_and_the_recipe_keeps_it_all() {
     let place = Place::new();
-    let corrections = "--pin 42:contact@0.7 --forbid 60,10..16 --move 79:81:land@0.1 --hold 0:6";
+    let corrections = "--pin 42:contact@0.7 --forbid 60,10..16 --move 73:75:land@0.1 --hold 0:6";
     let before = frames(&place.done("keys data/kick.bvh"));
-    assert!(["41", "79"].iter().all(|frame| before.contains(&(*frame).to_owned())), "{before:?}");
+    assert!(["41", "73"].iter().all(|frame| before.contains(&(*frame).to_owned())), "{before:?}");
     place.done(&format!("run data/kick.bvh --out a {corrections}"));
     let table = fs::read_to_string(place.path("a/keys.csv")).unwrap();
     let note = |frame: &str| {
@@ -168,16 +168,16 @@ fn keys_are_pinned_forbidden_moved_and_named_and_the_recipe_keeps_it_all() {
         key.unwrap_or_else(|| panic!("no {frame} in {table}")).1
     };
     assert!(note("42").starts_with("pinned: contact"));
-    assert!(note("81").starts_with("pinned: land; moved from frame 79"), "{}", note("81"));
+    assert!(note("75").starts_with("pinned: land; moved from frame 73"), "{}", note("75"));
     for frame in frames(&table) {
         let frame: usize = frame.parse().unwrap();
-        assert!(frame != 79 && frame != 60 && !(10..16).contains(&frame), "{frame} in {table}");
+        assert!(frame != 73 && frame != 60 && !(10..16).contains(&frame), "{frame} in {table}");
     }
     let recipe = fs::read_to_string(place.path("a/recipe.toml")).unwrap();
     for line in [
         "[edits]\nforbidden = [60, \"10..16\"]",
         "[[edits.pins]]\nframe = 42\nname = \"contact\"\nweight = 0.7",
-        "[[edits.moves]]\nfrom = 79\nto = 81\nname = \"land\"\nweight = 0.1",
+        "[[edits.moves]]\nfrom = 73\nto = 75\nname = \"land\"\nweight = 0.1",
         "[[edits.holds]]\nframe = 0\nkoma = 6",
         "# 原画の選び方",
     ] {
@@ -232,13 +232,13 @@ fn a_held_drawing_stays_as_long_as_was_asked_and_genga_on_their_koma() {
 fn a_move_changes_the_key_that_is_moved_and_no_other() {
     let place = Place::new();
     let before = frames(&place.done("keys data/kick.bvh"));
-    assert!(before.contains(&"79".to_owned()), "{before:?}");
-    let moved = frames(&place.done("keys data/kick.bvh --move 79:80"));
-    let expected = before.iter().map(|frame| if frame == "79" { "80" } else { frame });
+    assert!(before.contains(&"73".to_owned()), "{before:?}");
+    let moved = frames(&place.done("keys data/kick.bvh --move 73:74"));
+    let expected = before.iter().map(|frame| if frame == "73" { "74" } else { frame });
     assert_eq!(moved, expected.collect::<Vec<_>>());
     // Beside the key there is none, though joints may turn there; and that a key is found where the move
     // ends makes no difference.
-    for beside in ["78:81", "78:79", "10:79"] {
+    for beside in ["72:75", "72:73", "10:73"] {
         let output = place.genga(&format!("keys data/kick.bvh --move {beside}"));
         assert_eq!(frames(&text(&output.stdout)), before, "{beside}");
         let said = text(&output.stderr);
@@ -247,7 +247,7 @@ fn a_move_changes_the_key_that_is_moved_and_no_other() {
             "{said}"
         );
     }
-    let said = place.refused(2, "keys data/kick.bvh --pin 20 --move 79:20");
+    let said = place.refused(2, "keys data/kick.bvh --pin 20 --move 73:20");
     assert!(said.contains("frame 20 is pinned or moved to twice: once is enough"), "{said}");
 }
 

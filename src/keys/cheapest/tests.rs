@@ -1,14 +1,13 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::keys::Reference;
-use crate::keys::tests::swing;
+use crate::keys::tests::{self, swing};
 
 /// An arm that swings to and fro ever faster.
 fn chords(koma: usize) -> Chords {
     let angle = |at: usize| 50.0 * (at as f64 * at as f64 * 0.004).sin() + at as f64;
     let clip = swing(&(0..koma).map(angle).collect::<Vec<_>>());
-    Chords::of(&clip, &Reference::of(&clip, clip.clock(24.0)), &[1.0; 2])
+    tests::chords(&clip, f64::INFINITY)
 }
 
 /// One entry a frame of 24 fps, where the chords have two instants.
@@ -79,7 +78,8 @@ proptest! {
 
 #[test]
 fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
-    let chords = chords(3000);
+    let clip = swing(&(0..3000).map(|at: i32| f64::from((at - 2900).max(0))).collect::<Vec<_>>());
+    let chords = tests::chords(&clip, f64::INFINITY);
     let far = [0, 10, 2900, 2999].map(|frame| Entry {
         frame: Frame(frame),
         instant: 2 * frame,
@@ -88,9 +88,18 @@ fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
     assert!(5000 > chords.reach());
     let cheapest = Cheapest { chords: &chords, entries: &far, apart: 1.0 };
     let kept = cheapest.set(1.0, usize::MAX).kept;
-    assert_eq!((kept.first(), kept.last()), (Some(&0), Some(&3)));
+    assert_eq!(kept, [0, 2, 3], "what comes after the gap is worth it");
     let none = cheapest.set(1.0, 0);
     assert_eq!(none.kept, [0, 3], "so few that no known chord is long enough");
+}
+
+#[test]
+fn a_body_that_hardly_moves_for_longer_than_any_chord_has_no_key() {
+    let clip = swing(&(0..500).map(|at| 0.01 * f64::from(at)).collect::<Vec<_>>());
+    let (chords, entries) = (tests::chords(&clip, 2.0), entries(500, &[]));
+    assert!(chords.reach() < 500, "some chords are not known");
+    let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
+    assert_eq!(cheapest.set(27.0, usize::MAX).kept, [0, 499], "the default price");
 }
 
 #[test]

@@ -1,12 +1,12 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::keys::tests::swing;
+use crate::keys::tests::{self, swing};
 use crate::time::FrameRate;
 
 fn chords(angles: &[f64], fps: f64) -> Chords {
     let clip = swing(angles).with_rate(FrameRate::new(fps).unwrap());
-    Chords::of(&clip, &Reference::of(&clip, clip.clock(24.0)), &[1.0; 2])
+    tests::chords(&clip, f64::INFINITY)
 }
 
 proptest! {
@@ -34,6 +34,9 @@ fn beyond_its_reach_a_chord_is_summed_instant_by_instant() {
     let [last, next] = [reach, reach + 1].map(|reach| chords.loss(from, from + reach));
     assert!((last - chords.far(from, from + reach)).abs() < 1e-6 * last);
     assert!((last..1.1 * last).contains(&next), "{last} {next}");
+    let sampled = chords.loss(0, 5 * LOOKS);
+    let all: f64 = (1..5 * LOOKS).map(|at| STEP * chords.off(0, at, 5 * LOOKS)).sum();
+    assert!((sampled - all).abs() < 0.01 * all, "{sampled} {all}");
     assert_eq!(chords.loss(5, 5), 0.0);
     assert_eq!(chords.loss(5, 6), 0.0, "nothing stands between them");
 }

@@ -13,7 +13,7 @@ pub(crate) fn wide<T>(work: impl FnOnce() -> T) -> T {
     if narrow::is_asked_for() {
         return work();
     }
-    // Not AVX-512: four lanes gain nothing by it, and eight would not fit the short bridges of `price`.
+    // Not AVX-512: four lanes gain nothing by it, and eight would not fit the few koma between two keys.
     match Level::new().as_avx2() {
         Some(avx2) => avx2.vectorize(work),
         None => work(),
