@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Reading, tolerance};
+use super::Reading;
+use super::study::tolerance;
 
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{ClipArgs, Settings, frame};
+use super::corrections::frame;
+use super::{ClipArgs, Settings};
 use crate::time::Frame;
 
 const HELP: &str = "\
