@@ -147,22 +147,18 @@ impl Engine {
         edits: &Edits,
         done: impl Fn(&mut Column),
     ) -> Result<Breakdown<'_>, Error> {
-        let turns_made = self.check_and_measure(recipe, edits)?;
+        let turns_made = self.find(recipe, edits)?;
+        self.split(recipe, edits);
         let clock = self.clip.clock(recipe.rate);
-        let mut actions = std::mem::take(&mut self.actions);
+        let later = self.actions.output().koma(clock);
         let (measured, parts, columns) = self.layers(turns_made);
         let mut made = Vec::with_capacity(parts.len());
-        for (at, (part, column)) in parts.iter().zip(columns).enumerate() {
+        for (part, column) in parts.iter().zip(columns) {
             column.take(measured.clip, part, &recipe.keys.weights)?;
             let keys = column.find(&measured, recipe, &edits.of_layer(&part.name));
-            if at == 0 {
-                split(&mut actions, column, measured.clip, recipe, edits);
-            }
-            let later = actions.output().koma(clock);
-            made.push(column.time((measured.clip, part), recipe, clock, (keys, later))?);
+            made.push(column.time((measured.clip, part), recipe, clock, (keys, &later))?);
             done(column);
         }
-        self.actions = actions;
         self.sheet(recipe, &edits.holds, clock, made);
         Ok(self.breakdown(recipe))
     }
@@ -217,7 +213,7 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn find_actions(&mut self, recipe: &Recipe, edits: &Edits) -> Result<&Actions, Error> {
         self.find(recipe, edits)?;
-        split(&mut self.actions, &self.columns[0], &self.clip, recipe, edits);
+        self.split(recipe, edits);
         Ok(self.actions.output())
     }
 
@@ -234,13 +230,21 @@ impl Engine {
         Ok(self.columns[0].reconstruction())
     }
 
-    /// The keys of the first layer.
-    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
+    /// The keys of the first layer. Says which turns they were found in.
+    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         let turns_made = self.check_and_measure(recipe, edits)?;
         let (measured, parts, columns) = self.layers(turns_made);
         columns[0].take(measured.clip, &parts[0], &recipe.keys.weights)?;
         columns[0].find(&measured, recipe, &edits.of_layer(&parts[0].name));
-        Ok(())
+        Ok(turns_made)
+    }
+
+    /// The take split into its actions, by what is lost between the instants of the first layer.
+    fn split(&mut self, recipe: &Recipe, edits: &Edits) {
+        let (finder, rest) = (&recipe.actions, recipe.keys.rest);
+        let settings = (finder.clone(), rest, edits.splits.clone());
+        let (made, chords) = self.columns[0].chords();
+        self.actions.renew(made, &settings, || finder.find(&self.clip, chords, rest, edits));
     }
 
     fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
@@ -308,20 +312,6 @@ impl Engine {
             [spaced, layers].map(|layers| Sheet { clock, layers, root: recipe.root })
         });
     }
-}
-
-/// Splits the take into its actions, as far as they have to be found again.
-fn split(
-    actions: &mut Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
-    column: &Column,
-    clip: &Clip,
-    recipe: &Recipe,
-    edits: &Edits,
-) {
-    let (finder, rest) = (&recipe.actions, recipe.keys.rest);
-    let settings = (finder.clone(), rest, edits.splits.clone());
-    let (made, chords) = column.chords();
-    actions.renew(made, &settings, || finder.find(clip, chords, rest, edits));
 }
 
 /// A koma shows one drawing: of two pins on it, or keys moved there, one would be lost, and they survive

@@ -139,7 +139,7 @@ impl Column {
         (clip, part): (&Clip, &Part),
         recipe: &Recipe,
         clock: Clock,
-        (keys_made, later): (Made, Vec<usize>),
+        (keys_made, later): (Made, &[usize]),
     ) -> Result<Made, Error> {
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let (keys, reference) = (self.keys.output(), self.reference.output());
@@ -153,8 +153,8 @@ impl Column {
         let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
         let stills = self.stills.output();
         let on = recipe.spacing.on.most;
-        let omit = || recipe.omission.apply_by_action(layer, stills, on, &later);
-        self.omitted.refresh(made, &(recipe.omission, on, later.clone()), omit)
+        let omit = || recipe.omission.apply_by_action(layer, stills, on, later);
+        self.omitted.refresh(made, &(recipe.omission, on, later.to_vec()), omit)
     }
 
     /// Drops what only another run would use, and what is large.
