@@ -45,7 +45,7 @@ printf '```\n'
 
 printf '\n## A long take\n\n'
 cargo build --locked --quiet --release
-/usr/bin/time -v target/release/genga --quiet run "$long" --out "$work/out" 2>"$work/time"
+/usr/bin/time -v "${CARGO_TARGET_DIR:-target}/release/genga" --quiet run "$long" --out "$work/out" 2>"$work/time"
 awk -v bytes="$(wc -c <"$long")" -v frames="$frames" '
   /Elapsed/ { seconds = $NF } /Maximum resident/ { peak = 1024 * $NF }
   END {

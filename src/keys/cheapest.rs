@@ -43,6 +43,15 @@ pub(super) struct Cheapest<'a> {
     pub(super) apart: f64,
 }
 
+/// The cheapest ways to the entries found so far.
+#[derive(Debug)]
+struct Ways {
+    /// What a set costs that ends on an entry; infinite where none is known.
+    costs: Vec<f64>,
+    /// What stands before the entry in that set.
+    before: Vec<usize>,
+}
+
 /// A set of entries by their place in the list.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Set {
@@ -157,20 +166,25 @@ impl Cheapest<'_> {
     /// The cheapest set at a price.
     fn at(&self, price: f64) -> Vec<usize> {
         let count = self.entries.len();
-        let (mut costs, mut before) = (vec![f64::INFINITY; count], vec![0; count]);
-        costs[0] = 0.0;
-        let mut staying = 0;
-        for to in 1..count {
-            let entry = &self.entries[to];
-            let (cost, from) = self.best_way(to, staying, &costs);
-            costs[to] = cost + if entry.stays { 0.0 } else { price };
-            before[to] = from;
-            if entry.stays {
-                staying = to;
+        let mut ways = Ways { costs: vec![f64::INFINITY; count], before: vec![0; count] };
+        ways.costs[0] = 0.0;
+        let (mut stayed, mut stays_next) = (0, 0);
+        for (at, entry) in self.entries.iter().enumerate() {
+            if ways.costs[at] == f64::INFINITY {
+                self.reach_far(at, stayed, &mut ways);
             }
+            if entry.stays {
+                let stays = |other: &usize| self.entries[*other].stays;
+                stays_next = (at + 1..count).find(stays).unwrap_or(at);
+                stayed = at;
+            } else {
+                ways.costs[at] += price;
+            }
+            self.go_on(at, stays_next, &mut ways);
         }
         let mut kept: Vec<usize> =
-            std::iter::successors(Some(count - 1), |at| (*at > 0).then(|| before[*at])).collect();
+            std::iter::successors(Some(count - 1), |at| (*at > 0).then(|| ways.before[*at]))
+                .collect();
         kept.reverse();
         self.join(&mut kept, price);
         kept
@@ -185,33 +199,31 @@ impl Cheapest<'_> {
         }
     }
 
-    /// The least cost of a set that ends on an entry, without its own price, and what stands before it.
-    /// None that stays is passed over.
-    fn best_way(&self, to: usize, staying: usize, costs: &[f64]) -> (f64, usize) {
-        let mut best = (f64::INFINITY, staying);
-        let instant = self.entries[to].instant;
-        for from in (staying..to).rev() {
-            let begin = self.entries[from].instant;
-            if instant - begin > self.chords.reach() {
-                break;
-            }
-            if self.are_apart(from, to) {
-                let cost = costs[from] + self.loss(from, to);
-                if cost <= best.0 {
-                    best = (cost, from);
-                }
+    /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet,
+    /// of equals the first. The next that stays is not passed over.
+    fn go_on(&self, from: usize, stays_next: usize, ways: &mut Ways) {
+        let (begin, cost) = (&self.entries[from], ways.costs[from]);
+        let known = self.chords.known(begin.instant);
+        let Some(first) = (from + 1..=stays_next).find(|to| self.are_apart(from, *to)) else {
+            return;
+        };
+        for (to, entry) in self.entries.iter().enumerate().take(stays_next + 1).skip(first) {
+            let Some(loss) = known.get(entry.instant - begin.instant) else { break };
+            let cost = cost + f64::from(*loss);
+            if cost < ways.costs[to] {
+                (ways.costs[to], ways.before[to]) = (cost, from);
             }
         }
-        if best.0 == f64::INFINITY {
-            // Nothing within reach may be a key: the last that may, or before what stays what stays, is
-            // further off.
-            let is_way = |from: &usize| costs[*from] < f64::INFINITY && self.are_apart(*from, to);
-            let stays = self.entries[to].stays.then_some(staying);
-            if let Some(from) = (staying..to).rev().find(is_way).or(stays) {
-                best = (costs[from] + self.loss(from, to), from);
-            }
+    }
+
+    /// The way to an entry with nothing within reach that may be a key: from the last that may, or, if it stays,
+    /// from the last that stays, which is further off.
+    fn reach_far(&self, to: usize, stayed: usize, ways: &mut Ways) {
+        let is_way = |from: &usize| ways.costs[*from] < f64::INFINITY && self.are_apart(*from, to);
+        let stays = self.entries[to].stays.then_some(stayed);
+        if let Some(from) = (stayed..to).rev().find(is_way).or(stays) {
+            (ways.costs[to], ways.before[to]) = (ways.costs[from] + self.loss(from, to), from);
         }
-        best
     }
 
     /// The cheapest set at the least price, `price` or more, at which so few are worth it.

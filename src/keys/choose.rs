@@ -16,9 +16,10 @@ use crate::time::Span;
 /// Seconds for which a key has to save [`Choose::min_price`]: three koma of 24 a second.
 const HELD: f64 = 0.125;
 
-/// Where keys are as many a second and as cheap as these two, none is far from the next.
+/// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
 const MANY: f64 = 2.0;
 const CHEAP: f64 = 4.0;
+const FAR: f64 = 4.0;
 
 /// What may be a key of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -136,7 +137,7 @@ impl Choose {
     /// many it is no use to know the loss of long chords.
     pub fn span(&self) -> f64 {
         let are_many = self.per_second >= MANY && self.min_price <= CHEAP;
-        if are_many { 4.0 } else { f64::INFINITY }
+        if are_many { FAR } else { f64::INFINITY }
     }
 
     /// The keys that are worth a drawing, with who voted for them; a person's pins among them.

@@ -30,9 +30,9 @@ pub struct Chords {
     /// Where the instants stand in the clip.
     clock: Clock,
     /// The most instants from one end of a known chord to the other.
-    reach: usize,
-    /// Instants × reach: the loss from each instant to the first, second … after it. Seven digits of a
-    /// sum of squares are more than any motion has, and half the memory.
+    pub(super) reach: usize,
+    /// Instants × (reach + 1): the loss from each instant to itself and to the first, second … after it. Seven
+    /// digits of a sum of squares are more than any motion has, and half the memory.
     losses: Vec<f32>,
 }
 
@@ -58,7 +58,7 @@ impl Chords {
         let len = postures.len();
         let [least, most] = [LEAST_REACH, seconds].map(|s| (s * clock.koma_rate).ceil() as usize);
         let reach = (PAIRS / len.max(1)).min(most).max(least).min(len.saturating_sub(1));
-        let mut chords = Self { postures, clock, reach, losses: vec![0.0; len * reach] };
+        let mut chords = Self { postures, clock, reach, losses: vec![0.0; len * (reach + 1)] };
         wide(
             #[inline(always)]
             || chords.sum_up(),
@@ -91,24 +91,20 @@ impl Chords {
         self.postures.len()
     }
 
-    /// The most instants from one end of a known chord to the other.
-    pub(super) fn reach(&self) -> usize {
-        self.reach
-    }
-
-    /// What is lost from one instant to a later one within reach.
+    /// What is lost from one instant to itself and to each later one within reach.
     #[inline]
-    fn known(&self, from: usize, to: usize) -> f64 {
-        f64::from(self.losses[from * self.reach + (to - from - 1)])
+    pub(super) fn known(&self, from: usize) -> &[f32] {
+        let row = self.reach + 1;
+        &self.losses[from * row..(from + 1) * row]
     }
 
     /// What is lost from one instant to a later one, however far.
     #[inline]
     pub(super) fn loss(&self, from: usize, to: usize) -> f64 {
-        if to <= from {
-            return 0.0;
+        match self.known(from).get(to - from) {
+            Some(loss) => f64::from(*loss),
+            None => self.far(from, to),
         }
-        if to - from <= self.reach { self.known(from, to) } else { self.far(from, to) }
     }
 
     /// The same from the words, instant by instant; of a long chord every second, third … instant.
@@ -151,7 +147,7 @@ impl Chords {
         for from in (0..len).rev() {
             let mut from_begin = (0.0, 0.0);
             let own = self.postures.row(from);
-            let row = &mut self.losses[from * self.reach..(from + 1) * self.reach];
+            let row = &mut self.losses[from * (self.reach + 1)..][1..=self.reach];
             for (loss, to) in row.iter_mut().zip(from + 1..len) {
                 let (product, n) = (dot(own, self.postures.row(to)), (to - from) as f64);
                 let inside = until[to] - until[from + 1];

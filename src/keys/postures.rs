@@ -69,9 +69,7 @@ impl Postures {
     pub(super) fn speeds(&self, instants_a_second: f64) -> Vec<f64> {
         let speed = |at: usize| {
             let before = at.saturating_sub(2);
-            let steps = self.row(at).iter().zip(self.row(before));
-            let way = steps.map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt();
-            instants_a_second * way / (at - before) as f64
+            instants_a_second * apart(self.row(before), self.row(at)) / (at - before) as f64
         };
         (1..self.len()).map(speed).collect()
     }
@@ -80,6 +78,11 @@ impl Postures {
     pub(super) fn row(&self, instant: usize) -> &[f64] {
         &self.rows[instant * self.columns..(instant + 1) * self.columns]
     }
+}
+
+/// How far two postures are apart, in % of the body's height.
+pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Pelvis and heading besides the points.

@@ -5,7 +5,7 @@
 use std::ops::RangeInclusive;
 
 use crate::keys::Chords;
-use crate::keys::postures::Postures;
+use crate::keys::postures::{Postures, apart};
 use crate::time::Frame;
 
 /// Seconds that a stillness must last to be a rest.
@@ -54,10 +54,7 @@ pub(super) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
 fn held(postures: &Postures, begin: usize, end: usize, margin: usize) -> RangeInclusive<usize> {
     let (first, last) = (begin + margin, end - margin);
     let posture = mean(postures, first, last);
-    let off = |at: usize| {
-        let ways = postures.row(at).iter().zip(&posture).map(|(own, held)| (own - held).powi(2));
-        ways.sum::<f64>().sqrt()
-    };
+    let off = |at: usize| apart(postures.row(at), &posture);
     let unrest = (first..=last).map(off).fold(0.0, f64::max);
     let is_held = |at: &usize| off(*at) <= unrest + NEAR;
     let from = (0..first).rev().take_while(is_held).last().unwrap_or(first);

@@ -85,7 +85,7 @@ fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
         instant: 2 * frame,
         stays: frame == 0 || frame == 2999,
     });
-    assert!(5000 > chords.reach());
+    assert!(5000 > chords.reach);
     let cheapest = Cheapest { chords: &chords, entries: &far, apart: 1.0 };
     let kept = cheapest.set(1.0, usize::MAX).kept;
     assert_eq!(kept, [0, 2, 3], "what comes after the gap is worth it");
@@ -97,7 +97,7 @@ fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
 fn a_body_that_hardly_moves_for_longer_than_any_chord_has_no_key() {
     let clip = swing(&(0..500).map(|at| 0.01 * f64::from(at)).collect::<Vec<_>>());
     let (chords, entries) = (tests::chords(&clip, 2.0), entries(500, &[]));
-    assert!(chords.reach() < 500, "some chords are not known");
+    assert!(chords.reach < 500, "some chords are not known");
     let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
     assert_eq!(cheapest.set(27.0, usize::MAX).kept, [0, 499], "the default price");
 }
