@@ -4,7 +4,11 @@
 //! that follows on it. The set is found as a whole, by dynamic programming over the chords between
 //! instants, so that a little noise or another rig of the same body changes little.
 
+use std::iter::successors;
+use std::ops::Range;
+
 use crate::keys::chords::Chords;
+use crate::motion::lanes::wide;
 use crate::time::Frame;
 
 /// The highest price that is tried for a limit, %² of body height times koma: more than anything loses.
@@ -34,13 +38,15 @@ pub(super) struct Entry {
 }
 
 /// Chooses among entries, the first and the last of which are the clip's ends and stay.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Cheapest<'a> {
-    pub(super) chords: &'a Chords,
+    chords: &'a Chords,
     /// By frame.
-    pub(super) entries: &'a [Entry],
+    entries: &'a [Entry],
     /// Frames from one key to the next at least, unless both stay.
-    pub(super) apart: f64,
+    apart: f64,
+    /// Behind each entry the first that does not stand on the next instant: as far its losses lie side by side.
+    ends: Vec<usize>,
 }
 
 /// The cheapest ways to the entries found so far.
@@ -52,6 +58,22 @@ struct Ways {
     before: Vec<usize>,
 }
 
+impl Ways {
+    /// Takes the way through an entry to some others, of which these are the losses, where it is the cheaper one.
+    /// Both outcomes are computed, as which it is cannot be guessed.
+    #[inline(always)]
+    fn pass_through(&mut self, from: usize, others: Range<usize>, losses: &[f32]) {
+        let cost = self.costs[from];
+        let others = self.costs[others.clone()].iter_mut().zip(&mut self.before[others]);
+        for ((least, before), loss) in others.zip(losses) {
+            let cost = cost + f64::from(*loss);
+            let is_less = cost < *least;
+            *least = if is_less { cost } else { *least };
+            *before = if is_less { from } else { *before };
+        }
+    }
+}
+
 /// A set of entries by their place in the list.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Set {
@@ -60,7 +82,18 @@ pub(super) struct Set {
     pub(super) over_limit: usize,
 }
 
-impl Cheapest<'_> {
+impl<'a> Cheapest<'a> {
+    /// Among entries in the order of their frames, so many frames apart at least.
+    pub(super) fn among(entries: &'a [Entry], chords: &'a Chords, apart: f64) -> Self {
+        let mut ends: Vec<usize> = (1..=entries.len()).collect();
+        for at in (1..entries.len()).rev() {
+            if entries[at].instant == entries[at - 1].instant + 1 {
+                ends[at - 1] = ends[at];
+            }
+        }
+        Self { chords, entries, apart, ends }
+    }
+
     /// The cheapest set in which no more than `most` entries are there of their own, at the least price
     /// from `price` on at which there are so few; and then as many of the next best as there is room
     /// for and `price` lets in. At a price of 0 nothing has to be saved, and all are taken that fit.
@@ -165,6 +198,21 @@ impl Cheapest<'_> {
 
     /// The cheapest set at a price.
     fn at(&self, price: f64) -> Vec<usize> {
+        let before = wide(
+            #[inline(always)]
+            || self.ways(price).before,
+        );
+        let last = self.entries.len() - 1;
+        let mut kept: Vec<usize> =
+            successors(Some(last), |at| (*at > 0).then(|| before[*at])).collect();
+        kept.reverse();
+        self.join(&mut kept, price);
+        kept
+    }
+
+    /// The cheapest way to every entry at a price, from the first on.
+    #[inline(always)]
+    fn ways(&self, price: f64) -> Ways {
         let count = self.entries.len();
         let mut ways = Ways { costs: vec![f64::INFINITY; count], before: vec![0; count] };
         ways.costs[0] = 0.0;
@@ -182,12 +230,7 @@ impl Cheapest<'_> {
             }
             self.go_on(at, stays_next, &mut ways);
         }
-        let mut kept: Vec<usize> =
-            std::iter::successors(Some(count - 1), |at| (*at > 0).then(|| ways.before[*at]))
-                .collect();
-        kept.reverse();
-        self.join(&mut kept, price);
-        kept
+        ways
     }
 
     /// Takes out what is there only because no known chord is as long as the way past it: in a rest, or
@@ -201,18 +244,17 @@ impl Cheapest<'_> {
 
     /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet,
     /// of equals the first. The next that stays is not passed over.
+    #[inline(always)]
     fn go_on(&self, from: usize, stays_next: usize, ways: &mut Ways) {
-        let (begin, cost) = (&self.entries[from], ways.costs[from]);
-        let known = self.chords.known(begin.instant);
-        let Some(first) = (from + 1..=stays_next).find(|to| self.are_apart(from, *to)) else {
-            return;
-        };
-        for (to, entry) in self.entries.iter().enumerate().take(stays_next + 1).skip(first) {
-            let Some(loss) = known.get(entry.instant - begin.instant) else { break };
-            let cost = cost + f64::from(*loss);
-            if cost < ways.costs[to] {
-                (ways.costs[to], ways.before[to]) = (cost, from);
-            }
+        let begin = self.entries[from].instant;
+        let first = (from + 1..=stays_next).find(|to| self.are_apart(from, *to));
+        let mut to = first.unwrap_or(stays_next + 1);
+        while to <= stays_next {
+            let losses = self.chords.known(begin).get(self.entries[to].instant - begin..);
+            let Some(losses) = losses.filter(|losses| !losses.is_empty()) else { break };
+            let end = self.ends[to].min(stays_next + 1);
+            ways.pass_through(from, to..end, losses);
+            to = end;
         }
     }
 

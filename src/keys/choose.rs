@@ -187,7 +187,7 @@ impl Choose {
     ) -> usize {
         let Judges { reference, chords } = judges;
         let entries = entries(clip, chords, keys);
-        let cheapest = Cheapest { chords, entries: &entries, apart };
+        let cheapest = Cheapest::among(&entries, chords, apart);
         let held = HELD * reference.clock().koma_rate;
         let price = self.min_price.powi(2) * held;
         let mut set = cheapest.set(price, self.most_keys(reference.seconds()));

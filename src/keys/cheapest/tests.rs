@@ -48,7 +48,7 @@ proptest! {
         price in 0.01..400.0,
     ) {
         let (chords, entries) = (chords(count), entries(count, &staying));
-        let cheapest = Cheapest { chords: &chords, entries: &entries, apart };
+        let cheapest = Cheapest::among(&entries, &chords, apart);
         let set = cheapest.set(price, usize::MAX);
         let found = cost(&cheapest, &set.kept, price);
         let least = every_set(&cheapest).iter().map(|set| cost(&cheapest, set, price)).fold(f64::INFINITY, f64::min);
@@ -64,7 +64,7 @@ proptest! {
         price in prop_oneof![Just(0.0), 0.01..60.0],
     ) {
         let (chords, entries) = (chords(count), entries(count, &[7, 10]));
-        let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.5 };
+        let cheapest = Cheapest::among(&entries, &chords, 1.5);
         let free = cheapest.found(&cheapest.set(price, usize::MAX).kept);
         let set = cheapest.set(price, most);
         prop_assert_eq!(cheapest.found(&set.kept), most.min(free));
@@ -86,7 +86,7 @@ fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
         stays: frame == 0 || frame == 2999,
     });
     assert!(5000 > chords.reach);
-    let cheapest = Cheapest { chords: &chords, entries: &far, apart: 1.0 };
+    let cheapest = Cheapest::among(&far, &chords, 1.0);
     let kept = cheapest.set(1.0, usize::MAX).kept;
     assert_eq!(kept, [0, 2, 3], "what comes after the gap is worth it");
     let none = cheapest.set(1.0, 0);
@@ -98,14 +98,14 @@ fn a_body_that_hardly_moves_for_longer_than_any_chord_has_no_key() {
     let clip = swing(&(0..500).map(|at| 0.01 * f64::from(at)).collect::<Vec<_>>());
     let (chords, entries) = (tests::chords(&clip, 2.0), entries(500, &[]));
     assert!(chords.reach < 500, "some chords are not known");
-    let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
+    let cheapest = Cheapest::among(&entries, &chords, 1.0);
     assert_eq!(cheapest.set(27.0, usize::MAX).kept, [0, 499], "the default price");
 }
 
 #[test]
 fn what_a_key_saves_is_what_is_lost_without_it() {
     let (chords, entries) = (chords(40), entries(40, &[20]));
-    let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
+    let cheapest = Cheapest::among(&entries, &chords, 1.0);
     let kept = [0, 9, 20, 31, 39];
     let saves = cheapest.saves(&kept);
     assert_eq!([saves[0], saves[2], saves[4]], [f64::INFINITY; 3], "they stay");
@@ -117,7 +117,7 @@ fn what_a_key_saves_is_what_is_lost_without_it() {
 #[test]
 fn a_dearer_key_is_worth_more_koma_of_error() {
     let (chords, entries) = (chords(120), entries(120, &[]));
-    let cheapest = Cheapest { chords: &chords, entries: &entries, apart: 1.0 };
+    let cheapest = Cheapest::among(&entries, &chords, 1.0);
     let counts =
         [1.0, 10.0, 100.0, 1e3, 1e4].map(|price| cheapest.set(price, usize::MAX).kept.len());
     assert!(counts.is_sorted_by(|a, b| a > b), "{counts:?}");
