@@ -7,6 +7,7 @@
 mod actions;
 mod bridge;
 mod cheapest;
+mod choice;
 mod choose;
 mod chords;
 mod correct;
@@ -30,6 +31,7 @@ use crate::time::Frame;
 
 pub use actions::{Action, ActionFinder, Actions, Split, SplitReason};
 pub(crate) use bridge::Bridge;
+pub(crate) use choice::{Choice, Picked};
 pub use choose::{Choose, Judges, Merge, Rank};
 pub use chords::Chords;
 pub use figure::Figure;

@@ -1,10 +1,13 @@
 //! Which candidates are keys of the layer: those that together save most for their price.
 
+use std::iter::once;
+
 use serde::{Deserialize, Serialize};
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::cheapest::{Cheapest, Entry};
+use crate::keys::cheapest::Entry;
+use crate::keys::choice::{By, Choice, Picked};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::voters::voters;
 use crate::keys::{
@@ -12,9 +15,6 @@ use crate::keys::{
 };
 use crate::motion::Clip;
 use crate::time::Span;
-
-/// Seconds for which a key has to save [`Choose::min_price`]: three koma of 24 a second.
-const HELD: f64 = 0.125;
 
 /// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
 const MANY: f64 = 2.0;
@@ -149,92 +149,69 @@ impl Choose {
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> LayerKeys {
-        let reference = judges.reference;
-        let mut keys = self.eligible(clip, judges.chords, candidates, joints.apart, edits);
-        let over_limit = match self.rank {
-            Rank::Price => self.keep_the_cheapest(clip, judges, joints.apart, &mut keys),
-            Rank::Strength => self.keep_the_strong(reference.seconds(), &mut keys),
+        let keys = self.eligible(clip, judges.chords, candidates, joints, edits);
+        let picked = self.choice(clip, judges, &keys, joints.apart).pick(judges.chords);
+        self.drawn(clip, keys, &picked, candidates, joints, edits)
+    }
+
+    /// All that may become keys: candidates, the ends of rests, and pins.
+    pub(crate) fn eligible(
+        &self,
+        clip: &Clip,
+        chords: &Chords,
+        candidates: &Candidates,
+        joints: &JointTurns<'_>,
+        edits: &Edits,
+    ) -> Vec<Key> {
+        let rests = rest::rest_ends(chords, self.rest);
+        corrected(candidates, &rests, edits, clip, joints.apart)
+    }
+
+    /// On what it hangs which of some keys are picked.
+    pub(crate) fn choice(
+        &self,
+        clip: &Clip,
+        judges: Judges<'_>,
+        keys: &[Key],
+        apart: f64,
+    ) -> Choice {
+        let Judges { reference, chords } = judges;
+        let entry = |frame, stays| Entry { frame, instant: chords.instant(frame), stays };
+        let inner = keys.iter().map(|key| entry(key.frame, key.origin != Origin::Found));
+        let first = once(entry(clip.first(), true));
+        let by = match self.rank {
+            Rank::Price => By::Price(self.min_price),
+            Rank::Strength => {
+                let inner = keys.iter().map(|key| key.strength);
+                By::Strength(once(0.0).chain(inner).chain([0.0]).collect())
+            }
         };
+        Choice {
+            entries: first.chain(inner).chain([entry(clip.last(), true)]).collect(),
+            apart,
+            most: (self.per_second * reference.seconds() + 1e-9).floor() as usize,
+            by,
+        }
+    }
+
+    /// The keys that were picked, moved where a person wants them, with their voters.
+    pub(crate) fn drawn(
+        &self,
+        clip: &Clip,
+        keys: Vec<Key>,
+        picked: &Picked,
+        candidates: &Candidates,
+        joints: &JointTurns<'_>,
+        edits: &Edits,
+    ) -> LayerKeys {
+        let kept = picked.kept.iter().map(|(at, price)| Key { price: *price, ..keys[*at].clone() });
+        let mut keys: Vec<Key> = kept.collect();
         moved(&mut keys, edits, joints.apart);
         let reach = self.reach.frames(clip.rate()).max(joints.apart);
         for key in &mut keys {
             key.voters = voters(joints.turns, joints.weights, key.frame, reach);
         }
-        let over_limit = if edits.only_pins { 0 } else { over_limit };
+        let over_limit = if edits.only_pins { 0 } else { picked.over_limit };
         LayerKeys { keys, walls: candidates.walls.clone(), over_limit }
     }
-
-    /// All that may become keys: candidates, the ends of rests, and pins.
-    fn eligible(
-        &self,
-        clip: &Clip,
-        chords: &Chords,
-        candidates: &Candidates,
-        apart: f64,
-        edits: &Edits,
-    ) -> Vec<Key> {
-        let rests = rest::rest_ends(chords, self.rest);
-        corrected(candidates, &rests, edits, clip, apart)
-    }
-
-    /// Leaves the set that loses least, each with what it saves. Says how many more would be worth it.
-    fn keep_the_cheapest(
-        &self,
-        clip: &Clip,
-        judges: Judges<'_>,
-        apart: f64,
-        keys: &mut Vec<Key>,
-    ) -> usize {
-        let Judges { reference, chords } = judges;
-        let entries = entries(clip, chords, keys);
-        let cheapest = Cheapest::among(&entries, chords, apart);
-        let held = HELD * reference.clock().koma_rate;
-        let price = self.min_price.powi(2) * held;
-        let mut set = cheapest.set(price, self.most_keys(reference.seconds()));
-        cheapest.settle(&mut set.kept);
-        // The clip's ends are first and last among the entries and not among the keys.
-        let saves = cheapest.saves(&set.kept);
-        let inner =
-            set.kept.iter().zip(saves).filter(|(entry, _)| (1..=keys.len()).contains(*entry));
-        let kept = inner.map(|(entry, saved)| {
-            let price = (saved.max(0.0) / held).sqrt();
-            Key { price, ..keys[entry - 1].clone() }
-        });
-        *keys = kept.collect();
-        set.over_limit
-    }
-
-    /// Leaves the strongest keys. Says how many more there are.
-    fn keep_the_strong(&self, seconds: f64, keys: &mut Vec<Key>) -> usize {
-        let before = keys.len();
-        let staying = keys.iter().filter(|key| !is_found(key)).count();
-        strongest_first(keys);
-        keys.truncate(self.most_keys(seconds).saturating_add(staying));
-        keys.sort_by_key(|key| key.frame);
-        before - keys.len()
-    }
-
-    /// How many found keys a sheet of that length may have; pins and rests are not counted.
-    fn most_keys(&self, seconds: f64) -> usize {
-        (self.per_second * seconds + 1e-9).floor() as usize
-    }
-}
-
-/// Keys by frame with the clip's ends about them.
-fn entries(clip: &Clip, chords: &Chords, keys: &[Key]) -> Vec<Entry> {
-    let entry = |frame, stays| Entry { frame, instant: chords.instant(frame), stays };
-    let end = |frame| std::iter::once(entry(frame, true));
-    let keys = keys.iter().map(|key| entry(key.frame, !is_found(key)));
-    end(clip.first()).chain(keys).chain(end(clip.last())).collect()
-}
-
-/// Those that stay first, then the others, of equals the earlier.
-fn strongest_first(keys: &mut [Key]) {
-    let strength = |key: &Key| if is_found(key) { key.strength } else { f64::INFINITY };
-    keys.sort_by(|a, b| strength(b).total_cmp(&strength(a)).then(a.frame.cmp(&b.frame)));
-}
-
-/// Whether it may go.
-fn is_found(key: &Key) -> bool {
-    key.origin == Origin::Found
 }

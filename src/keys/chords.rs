@@ -118,15 +118,18 @@ impl Chords {
     /// the way has a corner this is least with a key on it, and near it is not nearly as small: squares
     /// would rather be a little off everywhere.
     pub(super) fn way_off(&self, from: usize, to: usize) -> f64 {
-        STEP * (from + 1..to).map(|instant| self.off(from, instant, to).sqrt()).sum::<f64>()
+        wide(
+            #[inline(always)]
+            || STEP * (from + 1..to).map(|instant| self.off(from, instant, to).sqrt()).sum::<f64>(),
+        )
     }
 
     /// The squared distance of a posture from the straight way between two others, in %².
+    #[inline(always)]
     fn off(&self, from: usize, instant: usize, to: usize) -> f64 {
         let share = (instant - from) as f64 / (to - from) as f64;
-        let ends = self.postures.row(from).iter().zip(self.postures.row(to));
-        let row = self.postures.row(instant).iter().zip(ends);
-        row.map(|(own, (from, to))| (own - (from + share * (to - from))).powi(2)).sum()
+        let row = |at| self.postures.row(at);
+        square_off(row(instant), row(from), row(to), share)
     }
 
     /// Finds every loss within reach. Seen from its begin a chord needs the sums of a·p and of those
@@ -166,7 +169,25 @@ impl Chords {
     }
 }
 
-/// Four sums side by side, so that the compiler keeps them in one register.
+/// The squared distance of a row from the place between two others; four sums side by side, so that the compiler
+/// keeps them in one register.
+#[inline(always)]
+fn square_off(own: &[f64], from: &[f64], to: &[f64], share: f64) -> f64 {
+    let square = |own: f64, from: f64, to: f64| (own - (from + share * (to - from))).powi(2);
+    let mut sums = [0.0; 4];
+    let (own, from, to) = (own.chunks_exact(4), from.chunks_exact(4), to.chunks_exact(4));
+    let ends = from.remainder().iter().zip(to.remainder());
+    let rest = own.remainder().iter().zip(ends).map(|(own, (from, to))| square(*own, *from, *to));
+    let rest: f64 = rest.sum();
+    for (own, (from, to)) in own.zip(from.zip(to)) {
+        for lane in 0..4 {
+            sums[lane] += square(own[lane], from[lane], to[lane]);
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+/// The scalar product, in the same way.
 #[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];

@@ -6,8 +6,8 @@ use super::stage::{Made, Stage};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, Candidates, Chords, JointTurns, JointWeights, Judges, LayerKeys, Part, PartMotion,
-    Reconstruction, Reference,
+    self, Candidates, Choice, Chords, JointTurns, JointWeights, Judges, LayerKeys, Part,
+    PartMotion, Picked, Reconstruction, Reference,
 };
 use crate::motion::{Clip, Skeleton};
 use crate::recipe::Recipe;
@@ -38,6 +38,8 @@ pub(super) struct Column {
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, Option<f64>), Reference>,
     chords: Stage<f64, Chords>,
+    /// What was picked: not made again where all that changed is how strong its keys are.
+    picked: Stage<Choice, Picked>,
     keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
     spaced: Stage<(Spacing, f64, Part), Spaced>,
     stills: Stage<(), Stills>,
@@ -128,8 +130,13 @@ impl Column {
         let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
         let candidates = self.candidates.output();
         let joints = joints(self.voices.output(), measured, recipe);
+        let (clip, keys, picked) = (measured.clip, &recipe.keys, &mut self.picked);
+        let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
-            recipe.keys.choose(measured.clip, judges, candidates, &joints, edits)
+            let eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
+            let choice = keys.choice(clip, judges, &eligible, joints.apart);
+            picked.renew(chords_made, &choice, || choice.pick(judges.chords));
+            keys.drawn(clip, eligible, picked.output(), candidates, &joints, edits)
         })
     }
 
