@@ -20,6 +20,7 @@ mod document;
 mod errand;
 mod exporting;
 mod file_field;
+mod held_key;
 mod help;
 mod here;
 mod history;

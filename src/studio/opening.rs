@@ -1,19 +1,51 @@
-//! A clip that is being read (読み込み).
+//! A clip on its way to the table (読み込み).
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use egui::Ui;
+use egui::{ProgressBar, Ui};
 
 use super::desk::Desk;
 use super::errand::{Errand, Look};
 use super::take::Take;
 use super::words::Words;
 
+/// Points that the bar is long.
+const WIDTH: f32 = 120.0;
+
+/// What is done before a clip can be shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Step {
+    /// The file is read.
+    Read,
+    /// Speeds are measured, smoothed and searched for turns.
+    Measure,
+    /// Genga are chosen.
+    Choose,
+    /// Drawings are put between them and left out.
+    Time,
+}
+
+impl Step {
+    const ALL: [Self; 4] = [Self::Read, Self::Measure, Self::Choose, Self::Time];
+
+    fn words(self, words: Words) -> &'static str {
+        match self {
+            Self::Read => words.say("reading", "読み込み中"),
+            Self::Measure => words.say("measuring", "速さを測定中"),
+            Self::Choose => words.say("choosing genga", "原画を選択中"),
+            Self::Time => words.say("timing", "タイミング調整中"),
+        }
+    }
+}
+
 /// A clip on its way.
 pub(super) struct Opening {
     path: PathBuf,
     errand: Errand<Result<Take, String>>,
+    /// The place of its step among all.
+    step: Arc<AtomicUsize>,
 }
 
 impl Opening {
@@ -21,8 +53,13 @@ impl Opening {
     pub(super) fn begin(desk: &Arc<dyn Desk>, path: &Path, recipe: Option<&Path>) -> Self {
         let (desk, clip) = (Arc::clone(desk), path.to_owned());
         let recipe = recipe.map(Path::to_owned);
-        let errand = Errand::begin(move || Take::open(&*desk, &clip, recipe.as_deref()));
-        Self { path: path.to_owned(), errand }
+        let step = Arc::new(AtomicUsize::new(0));
+        let told = Arc::clone(&step);
+        let errand = Errand::begin(move || {
+            let tell = |step: Step| told.store(step as usize, Ordering::Relaxed);
+            Take::open(&*desk, &clip, recipe.as_deref(), tell)
+        });
+        Self { path: path.to_owned(), errand, step }
     }
 
     /// The clip, or why there is none; nothing while it is read.
@@ -34,11 +71,16 @@ impl Opening {
         }
     }
 
-    /// Says that it is read.
+    /// Says how far it has come.
     pub(super) fn show(&self, ui: &mut Ui, words: Words) {
+        let at = self.step.load(Ordering::Relaxed);
+        let (what, steps) = (Step::ALL[at].words(words), Step::ALL.len());
         ui.horizontal(|ui| {
             ui.spinner();
-            let what = words.say("reading", "読み込み中");
+            let share = at as f32 / steps as f32;
+            ui.add(
+                ProgressBar::new(share).desired_width(WIDTH).text(format!("{}/{steps}", at + 1)),
+            );
             ui.label(format!("{what} {}", self.path.display()));
         });
     }

@@ -10,6 +10,7 @@ use super::desk::Desk;
 use super::document::Document;
 use super::exporting::Parcel;
 use super::history::History;
+use super::opening::Step;
 use super::scene::Scene;
 use crate::error::Error;
 use crate::motion::Clip;
@@ -41,20 +42,22 @@ pub(super) struct Take {
 }
 
 impl Take {
-    /// Opens a clip with its recipe: the one that is named, or the one saved beside it.
+    /// Opens a clip with its recipe: the one that is named, or the one saved beside it. Each step is told when it
+    /// begins.
     pub(super) fn open(
         desk: &dyn Desk,
         path: &Path,
         recipe: Option<&Path>,
+        begin: impl Fn(Step),
     ) -> Result<Self, String> {
+        begin(Step::Read);
         let opened = desk.open(path)?;
         let recipe = recipe.map_or_else(|| beside(path, ".genga.toml"), Path::to_owned);
         let saved = read(desk, &recipe)?.unwrap_or_default();
         let left = read(desk, &beside(path, AUTOSAVE)).ok().flatten();
         let mut engine = Engine::new(opened.clip).map_err(|error| error.to_string())?;
         let scene = Scene::of(engine.clip());
-        engine
-            .run(&saved.recipe, &saved.edits)
+        run(&mut engine, &saved, begin)
             .map_err(|error| format!("{}: {error}", recipe.display()))?;
         Ok(Self {
             path: path.to_owned(),
@@ -180,6 +183,17 @@ impl Take {
     pub(super) fn clip(&self) -> Arc<Clip> {
         self.engine.shared_clip()
     }
+}
+
+/// Runs the chain for the first time, step by step.
+fn run(engine: &mut Engine, document: &Document, begin: impl Fn(Step)) -> Result<(), Error> {
+    let Document { recipe, edits } = document;
+    begin(Step::Measure);
+    engine.find_turns(recipe)?;
+    begin(Step::Choose);
+    engine.find_keys(recipe, edits)?;
+    begin(Step::Time);
+    engine.run(recipe, edits).map(drop)
 }
 
 /// What the file beside a clip is called that keeps what is not saved.

@@ -5,6 +5,7 @@ use egui::{PointerButton, Pos2, Rect, Response};
 use super::time::Scale;
 use crate::keys::Key;
 use crate::studio::corrections::Correction;
+use crate::studio::held_key::HeldKey;
 use crate::studio::keyboard::Command;
 use crate::studio::shown::Shown;
 use crate::time::Frame;
@@ -19,8 +20,8 @@ const HUNDREDTHS: f64 = 100.0;
 /// What a hand holds.
 #[derive(Debug, Clone)]
 enum Held {
-    /// A key, and the frame that it was last over.
-    Key(Key, Frame),
+    /// A key.
+    Key(HeldKey),
     /// An inbetween by its koma on the sheet before anything was left out, the key on its side, and the weight that
     /// was last asked for.
     Inbetween { koma: usize, key: Key, weight: f64 },
@@ -73,13 +74,10 @@ impl Held {
     /// Asks for what brings it under the hand.
     fn follow(&mut self, place: f64, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         match self {
-            Self::Key(key, last) => {
+            Self::Key(key) => {
                 let frame = shown.frame(place);
                 commands.extend(go(frame, shown));
-                if *last != frame {
-                    *last = frame;
-                    commands.push(Command::Drag(Correction::Move(key.clone(), frame)));
-                }
+                commands.extend(key.carry(frame).map(Command::Drag));
             }
             Self::Inbetween { koma, key, weight } => {
                 let pulled = pulled(*koma, place, shown);
@@ -133,7 +131,7 @@ impl<'a> Ruler<'a> {
                 let (key, weight) = pulled(koma, place, self.shown)?;
                 Some(Held::Inbetween { koma, key: key.clone(), weight })
             }
-            None => key.map(|key| Held::Key(key.clone(), key.frame)),
+            None => key.map(|key| Held::Key(HeldKey::take(key))),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::ROW;
 use crate::keys::Key;
 use crate::studio::column::Cell;
 use crate::studio::corrections::Correction;
+use crate::studio::held_key::HeldKey;
 use crate::studio::keyboard::Command;
 use crate::studio::shown::Shown;
 use crate::time::Frame;
@@ -16,8 +17,8 @@ const NEAR_END: f32 = 3.5;
 /// What a hand holds.
 #[derive(Debug, Clone)]
 enum Held {
-    /// A key, and the frame that it was last over.
-    Key(Key, Frame),
+    /// A key.
+    Key(HeldKey),
     /// The end of a drawing by its frame, the koma on which that begins, and its last length.
     End { frame: Frame, begin: usize, koma: usize },
 }
@@ -74,11 +75,7 @@ impl Held {
     /// What brings it under the hand, when that has come to another koma.
     fn follow(&mut self, at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Correction> {
         match self {
-            Self::Key(key, last) => {
-                let to = shown.frame_of_koma(koma(at, rect, shown));
-                let is_new = std::mem::replace(last, to) != to;
-                is_new.then(|| Correction::Move(key.clone(), to))
-            }
+            Self::Key(key) => key.carry(shown.frame_of_koma(koma(at, rect, shown))),
             Self::End { frame, begin, koma } => {
                 let line = ((at.y - rect.min.y) / ROW).round().max(0.0) as usize;
                 let wanted = line.saturating_sub(*begin).max(1);
@@ -95,7 +92,7 @@ fn grasped(at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Held> {
         let frame = cell.hold_frame(&shown.wanted.edits);
         return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
     }
-    key(at, rect, shown).map(|key| Held::Key(key.clone(), key.frame))
+    key(at, rect, shown).map(|key| Held::Key(HeldKey::take(key)))
 }
 
 /// The koma that is there.
