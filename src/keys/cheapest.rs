@@ -20,6 +20,9 @@ const LOWEST: f64 = 1e-6;
 /// Halvings of the span of prices in the search for one: more would not tell two sets apart.
 const HALVINGS: usize = 40;
 
+/// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
+const CLOSE: usize = 4;
+
 /// Instants by which a key of the cheapest set may settle: two koma.
 const SETTLES: usize = 4;
 
@@ -270,22 +273,36 @@ impl<'a> Cheapest<'a> {
 
     /// The cheapest set at the least price, `price` or more, at which so few are worth it.
     fn limited(&self, price: f64, most: usize) -> Vec<usize> {
-        let (mut low, mut high) = (price.max(LOWEST).ln(), HIGHEST.ln());
-        let mut few = self.at(HIGHEST);
+        let (mut low, mut high) = (price.max(LOWEST), HIGHEST);
+        let [mut many, mut few] = [low, high].map(|price| self.at(price));
+        if self.found(&many) <= most {
+            return many;
+        }
+        if self.found(&few) >= most {
+            return few;
+        }
         for _ in 0..HALVINGS {
-            let middle = f64::midpoint(low, high);
-            let set = self.at(middle.exp());
-            let found = self.found(&set);
-            if found > most {
-                low = middle;
-            } else {
-                (high, few) = (middle, set);
-                if found == most {
-                    break;
-                }
+            let counts = [&many, &few].map(|set| self.found(set));
+            let is_close = counts[0] <= counts[1] + CLOSE;
+            let crossing = || self.crossing(&many, &few).clamp(low, high);
+            let price = if is_close { crossing() } else { (low * high).sqrt() };
+            let set = self.at(price);
+            match self.found(&set) {
+                // Where both cost the same no other is cheaper: no number between them is at any price.
+                found if is_close && counts.contains(&found) => break,
+                found if found == most => return set,
+                found if found > most => (low, many) = (price, set),
+                _ => (high, few) = (price, set),
             }
         }
         few
+    }
+
+    /// The price at which a set of many and one of fewer cost the same.
+    fn crossing(&self, many: &[usize], few: &[usize]) -> f64 {
+        let loss =
+            |set: &[usize]| set.windows(2).map(|ends| self.loss(ends[0], ends[1])).sum::<f64>();
+        (loss(few) - loss(many)) / (self.found(many) - self.found(few)) as f64
     }
 
     /// Takes the cheapest away until there are few enough: no chord is long enough for so few.
