@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use super::canvas::{Align, Type, paint};
 use super::sheet::fate::{Fate, fates};
-use super::view::View;
+use crate::motion::view::View;
 use super::*;
 use crate::error::Error;
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
