@@ -94,6 +94,7 @@ impl Recipe {
             return Err(Error::setting("rate", "must be 2 to 1000 koma a second; 24 is usual"));
         }
         self.layers.validate()?;
+        self.seen_from.validate()?;
         self.speed.validate()?;
         self.filter.validate()?;
         self.turns.validate()?;

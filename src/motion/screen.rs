@@ -106,7 +106,7 @@ impl Screen {
 }
 
 /// Where the joints stand in some frames of a clip, evenly spread.
-fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
+pub(super) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
     let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
     let step = clip.len().div_ceil(LOOKS).max(1);
     let stand = |row: usize| {
@@ -116,6 +116,34 @@ fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
         positions
     };
     (0..clip.len()).step_by(step).map(stand).collect()
+}
+
+impl SeenFrom {
+    /// Whether there is a screen.
+    pub fn is_world(self) -> bool {
+        self == Self::World
+    }
+
+    /// Checks that it can see.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a camera that stands at what it looks at, or nowhere.
+    pub fn validate(self) -> Result<(), Error> {
+        match self {
+            Self::Eye(eye) if !eye.is_eye() => Err(nowhere(&self.to_string())),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// That nothing is seen from there, and from where it is.
+fn nowhere(text: &str) -> Error {
+    let message = format!(
+        "\"{text}\" is nowhere to look from; it is world, {}, or where the camera stands and what it looks at, \
+         in the file's unit: X,Y,Z:X,Y,Z",
+        Camera::ALL.map(Camera::word).join(", ")
+    );
+    Error::setting("seen_from", message)
 }
 
 impl fmt::Display for SeenFrom {
@@ -146,14 +174,7 @@ impl FromStr for SeenFrom {
             let eye = Eye { at: place(at)?, target: place(target)? };
             eye.is_eye().then_some(Self::Eye(eye))
         });
-        eye.ok_or_else(|| {
-            let message = format!(
-                "\"{text}\" is nowhere to look from; it is world, {}, or where the camera stands and what it \
-                 looks at, in the file's unit: X,Y,Z:X,Y,Z",
-                Camera::ALL.map(Camera::word).join(", ")
-            );
-            Error::setting("seen_from", message)
-        })
+        eye.ok_or_else(|| nowhere(text))
     }
 }
 

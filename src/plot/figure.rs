@@ -3,10 +3,10 @@
 use glam::DVec3;
 use plotters::style::RGBColor;
 
+use crate::motion::view::View;
 use crate::motion::{BodySide, Joint, Skeleton};
 use crate::plot::canvas::Point;
 use crate::plot::style;
-use crate::motion::view::View;
 
 impl BodySide {
     pub(crate) fn color(self) -> RGBColor {

@@ -41,6 +41,13 @@ pub struct Speed {
     pub measure: Measure,
 }
 
+impl Measure {
+    /// Whether it is of ways, which depend on from where they are seen.
+    pub fn is_seen(self) -> bool {
+        matches!(self, Self::Displacement | Self::Combined)
+    }
+}
+
 impl Speed {
     /// Whether the settings can be used; there is none here that could be wrong.
     ///

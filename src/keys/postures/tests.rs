@@ -8,7 +8,13 @@ fn sample(name: &str) -> Clip {
 }
 
 fn postures(clip: &Clip) -> Postures {
-    Postures::of(clip, clip, clip.clock(48.0), 2.0, &vec![1.0; clip.skeleton().len()])
+    Postures::of(
+        clip,
+        clip,
+        clip.clock(48.0),
+        (&Screen::WORLD, 2.0),
+        &vec![1.0; clip.skeleton().len()],
+    )
 }
 
 /// The clip with everything so much larger, and then carried so far along X.
@@ -95,7 +101,7 @@ fn a_joint_without_say_does_not_count() {
     let mannequin = Mannequin::of(&kick, &landmarks).unwrap();
     let wrist = mannequin.joints()[4];
     own[wrist] = 0.0;
-    let rows = Postures::of(&kick, &kick, clock, 2.0, &own);
+    let rows = Postures::of(&kick, &kick, clock, (&Screen::WORLD, 2.0), &own);
     assert!((0..rows.len()).all(|at| rows.row(at)[3 * 4..3 * 6].iter().all(|value| *value == 0.0)));
     assert!((0..rows.len()).any(|at| rows.row(at)[..3 * 4].iter().any(|value| *value != 0.0)));
 }
