@@ -204,7 +204,7 @@ fn choice(
     set: &mut impl FnMut(String),
 ) {
     let shown = value.replace('_', " ");
-    let combo = ComboBox::from_id_salt(knob.name).selected_text(shown).width(128.0);
+    let combo = ComboBox::from_id_salt(knob.name).selected_text(shown).width(128.0).truncate();
     let combo = combo.show_ui(ui, |ui| {
         for choice in choices {
             if ui.selectable_label(value == *choice, choice.replace('_', " ")).clicked() {
