@@ -22,6 +22,7 @@ mod recent;
 mod recipe;
 mod results;
 mod run;
+mod seen;
 mod source;
 mod split;
 mod stale;

@@ -52,6 +52,12 @@ pub enum Error {
         /// What is wrong, and the way out.
         message: String,
     },
+    /// A file has no camera that can be used.
+    #[error("{message}")]
+    Camera {
+        /// What is wrong with it, and what there is.
+        message: String,
+    },
     /// Reading or writing failed.
     #[error("{}: {source}", path.display())]
     Io {

@@ -12,10 +12,10 @@ use crate::error::Error;
 use crate::keys::{
     ActionFinder, Actions, Candidates, LayerKeys, Layers, Part, Reconstruction, Reference,
 };
-use crate::motion::Clip;
+use crate::motion::{Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{RootMotion, Sheet};
-use crate::signal::{LowPass, Signals, Spectrum, Turn, TurnFinder};
+use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
 use crate::timing::{Report, with_holds};
 
@@ -28,8 +28,10 @@ use stage::{Made, Stage};
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
+    /// From where movement is seen.
+    screen: Stage<SeenFrom, Screen>,
     /// The speeds, and what filters make of them first.
-    speed: Stage<crate::signal::Speed, Spectrum>,
+    speed: Stage<(Speed, Screen), Spectrum>,
     filtered: Stage<LowPass, Signals>,
     /// The turns whatever the persistence, and those that it confirms.
     turning: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
@@ -52,6 +54,10 @@ type SheetSettings = (f64, RootMotion, Vec<Hold>, Vec<Made>);
 pub struct Breakdown<'a> {
     /// The motion.
     pub clip: &'a Clip,
+    /// From where its movement was measured.
+    pub seen_from: SeenFrom,
+    /// The screen there.
+    pub screen: &'a Screen,
     /// Where the sheet's koma stand in it.
     pub clock: Clock,
     /// How fast each joint is.
@@ -98,6 +104,7 @@ impl Engine {
         clip.check_size()?;
         Ok(Self {
             clip,
+            screen: Stage::default(),
             speed: Stage::default(),
             filtered: Stage::default(),
             turning: Stage::default(),
@@ -169,6 +176,8 @@ impl Engine {
         let LayerBreakdown { candidates, keys, did_not_fit, omission, .. } = columns[0].breakdown();
         Breakdown {
             clip: &self.clip,
+            seen_from: recipe.seen_from,
+            screen: self.screen.output(),
             clock: self.clip.clock(recipe.rate),
             speed: self.speed.output().unfiltered(),
             filtered: self.filtered.output(),
@@ -275,6 +284,7 @@ impl Engine {
             turns: self.turns.output(),
             made: turns_made,
             height: (parts.len() > 1).then(|| *self.height.output()),
+            screen: *self.screen.output(),
         };
         (measured, parts, &mut self.columns[..parts.len()])
     }
@@ -282,8 +292,12 @@ impl Engine {
     /// Speeds, smoothed, and where they turn.
     fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
         let clip = &*self.clip;
-        let measure = || recipe.speed.measure(clip).map(Spectrum::from);
-        let made = self.speed.refresh(Made::CLIP, &recipe.speed, measure)?;
+        self.screen.renew(Made::CLIP, &recipe.seen_from, || Screen::of(recipe.seen_from, clip));
+        // A rotation is the same from everywhere.
+        let is_seen = recipe.speed.measure.is_seen();
+        let screen = if is_seen { *self.screen.output() } else { Screen::WORLD };
+        let measure = || recipe.speed.measure_on(clip, &screen).map(Spectrum::from);
+        let made = self.speed.refresh(Made::CLIP, &(recipe.speed.clone(), screen), measure)?;
         let spectrum = self.speed.output();
         let made =
             self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;

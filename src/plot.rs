@@ -6,7 +6,6 @@
 //! pixels.
 
 mod axis;
-mod camera;
 mod canvas;
 mod cells;
 mod contact;
@@ -37,13 +36,12 @@ mod strip;
 mod study;
 mod style;
 mod svg;
-mod view;
 mod xsheet;
 
 #[cfg(test)]
 mod tests;
 
-pub use camera::Camera;
+pub use crate::motion::Camera;
 pub use contact::ContactSheet;
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;

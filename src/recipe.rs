@@ -9,6 +9,7 @@ use toml::{Table, Value};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{ActionFinder, Choose, Layers};
+use crate::motion::SeenFrom;
 use crate::sheet::RootMotion;
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
@@ -46,6 +47,9 @@ pub struct Recipe {
     /// source, `ones`, the travel is smooth, and feet that stand slide as far as the body goes while
     /// their drawing is held.
     pub root: RootMotion,
+    /// From where movement is measured; default `world`. On a camera's screen it counts for speeds of
+    /// displacement, for the keys and rests of the body, and for what omission leaves out.
+    pub seen_from: SeenFrom,
     /// How fast a joint is.
     pub speed: Speed,
     /// How its speed is smoothed.
@@ -68,6 +72,7 @@ impl Default for Recipe {
             rate: KOMA_RATE,
             layers: Layers::default(),
             root: RootMotion::default(),
+            seen_from: SeenFrom::World,
             speed: Speed::default(),
             filter: LowPass::default(),
             turns: TurnFinder::default(),
@@ -89,6 +94,7 @@ impl Recipe {
             return Err(Error::setting("rate", "must be 2 to 1000 koma a second; 24 is usual"));
         }
         self.layers.validate()?;
+        self.seen_from.validate()?;
         self.speed.validate()?;
         self.filter.validate()?;
         self.turns.validate()?;
@@ -248,6 +254,7 @@ struct File {
     rate: Option<f64>,
     layers: Layers,
     root: RootMotion,
+    seen_from: SeenFrom,
     speed: Speed,
     filter: LowPass,
     turns: TurnFinder,
@@ -264,6 +271,7 @@ impl File {
             rate: self.rate.unwrap_or(KOMA_RATE),
             layers: self.layers.clone(),
             root: self.root,
+            seen_from: self.seen_from,
             speed: self.speed.clone(),
             filter: self.filter.clone(),
             turns: self.turns.clone(),
@@ -363,6 +371,7 @@ mod tests {
                 r#"[{ name = "A", joints = ["Hips"] }, { name = "腕", joints = ["*Arm*"] }]"#,
             ),
             ("root", "ones"),
+            ("seen_from", "0,150,400:0,90,0"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),
             ("turns.steady", "5%"),

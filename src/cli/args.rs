@@ -5,6 +5,7 @@ mod compare;
 mod corrections;
 mod eval;
 mod formats;
+mod seen;
 mod split;
 mod study;
 mod targets;
@@ -20,6 +21,7 @@ pub(super) use compare::CompareArgs;
 pub(super) use corrections::{Corrections, LayerArgs, Settings};
 pub(super) use eval::EvalArgs;
 pub(super) use formats::{BvhRows, DeliverArgs, FormatArgs, RunArgs};
+pub(super) use seen::SeenArgs;
 pub(super) use split::SplitArgs;
 pub(super) use study::{Filter, StudyArgs};
 pub(super) use targets::TargetArgs;
@@ -108,6 +110,8 @@ pub(super) struct KeysArgs {
 pub(super) struct OmitArgs {
     #[command(flatten)]
     pub(super) clip: ClipArgs,
+    #[command(flatten)]
+    pub(super) seen: SeenArgs,
     /// How many of the fastest drawings to leave out: a count (4) or a share of the koma (4%).
     #[arg(long, value_name = "N", default_value = "4")]
     pub(super) naka_nashi: Amount,

@@ -33,7 +33,9 @@ impl Failure {
                 Self::CouldNot(format!("{name}:{error}"))
             }
             Error::Recipe { message } => Self::AskedWrongly(format!("{name}:{message}")),
-            Error::Clip { .. } | Error::Sheet { .. } => Self::CouldNot(format!("{name}: {error}")),
+            Error::Clip { .. } | Error::Sheet { .. } | Error::Camera { .. } => {
+                Self::CouldNot(format!("{name}: {error}"))
+            }
             other => other.into(),
         }
     }

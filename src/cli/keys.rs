@@ -3,7 +3,7 @@
 use super::args::KeysArgs;
 use super::failure::Failure;
 use super::words::Words;
-use super::{io, pins, source, targets};
+use super::{io, pins, seen, source, targets};
 use crate::deliver::{self, Drawings, Rows};
 use crate::pipeline::Engine;
 
@@ -12,9 +12,15 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     if let Some(marked) = &args.corrections.pin_from {
         io::spare_the("file with your keys", marked, &args.out)?;
     }
+    if let Some(camera) = seen::file(&args.corrections.seen) {
+        io::spare_the("camera", camera, &args.out)?;
+    }
     targets::check(&args.targets, &args.corrections)?;
     let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
-    let source = source::clip(&args.clip)?;
+    let mut source = source::clip(&args.clip)?;
+    let (seen_from, notes) = seen::asked(&args.corrections.seen, &source.clip)?;
+    recipe.seen_from = seen_from.unwrap_or(recipe.seen_from);
+    source.notes.extend(notes);
     source.notes.iter().for_each(|note| words.say(note));
     let mut engine = Engine::new(source.clip)?;
     let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;

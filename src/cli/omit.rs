@@ -3,8 +3,9 @@
 use super::args::OmitArgs;
 use super::failure::Failure;
 use super::words::{Words, counted};
-use super::{io, pictures, source};
+use super::{io, pictures, seen, source};
 use crate::deliver;
+use crate::motion::Screen;
 use crate::sheet::Sheet;
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Omitted, Order, Report, Stills};
@@ -12,17 +13,20 @@ use crate::timing::{Omission, Omitted, Order, Report, Stills};
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     for target in args.sheet.iter().chain(&args.plot).chain([&args.out]) {
         io::spare(&args.clip.clip, target)?;
+        seen::file(&args.seen).map_or(Ok(()), |camera| io::spare_the("camera", camera, target))?;
     }
     args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
     io::distinct(args.sheet.iter().chain(&args.plot).chain([&args.out]))?;
     let source = source::clip(&args.clip)?;
-    source.notes.iter().for_each(|note| words.say(note));
+    let (seen_from, notes) = seen::asked(&args.seen, &source.clip)?;
+    let seen_from = seen_from.unwrap_or_default();
+    source.notes.iter().chain(&notes).for_each(|note| words.say(note));
     let clip = source.clip;
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
     let started = std::time::Instant::now();
     let Omitted { layer, report } = {
-        let stills = Stills::of(&clip, &ones.layers[0]);
+        let stills = Stills::on(&clip, &ones.layers[0], &Screen::of(seen_from, &clip));
         omission(args).apply(&ones.layers[0], &stills, 1)?
     };
     let took = started.elapsed();
@@ -32,9 +36,12 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
         io::write(path, deliver::sheet_csv(&sheet)?.as_bytes())?;
     }
     if let Some(path) = &args.plot {
-        pictures::write_omission(path, &clip, (&ones, &sheet))?;
+        pictures::write_omission(path, &clip, (&ones, &sheet), seen_from)?;
     }
     io::write(&args.out, motion.as_bytes())?;
+    if !seen_from.is_world() {
+        words.say(format_args!("seen from   画面       {seen_from}"));
+    }
     summary(words, koma, &sheet, &report, took.as_secs_f64());
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::io;
-use crate::motion::Clip;
+use crate::motion::{Clip, SeenFrom};
 use crate::pipeline::Breakdown;
 use crate::plot::{self, SkeletonPlot, SpeedPlot, SsdPlot};
 use crate::sheet::Sheet;
@@ -30,8 +30,10 @@ pub(super) fn write_omission(
     path: &Path,
     clip: &Clip,
     (before, after): (&Sheet, &Sheet),
+    seen_from: SeenFrom,
 ) -> Result<(), Failure> {
-    write(path, &SsdPlot::default().draw(clip, before, after)?)
+    let plot = SsdPlot { seen_from, ..SsdPlot::default() };
+    write(path, &plot.draw(clip, before, after)?)
 }
 
 /// The skeleton: its rest pose and its hierarchy.

@@ -7,7 +7,7 @@ use super::asked::{Asked, Written};
 use super::failure::Failure;
 use super::results::{ALWAYS, OWN, RECIPE, Results};
 use super::words::{Words, counted};
-use super::{io, pins, source, targets};
+use super::{io, pins, seen, source, targets};
 use crate::deliver::{LayerReport, Report};
 use crate::edits::Edits;
 use crate::pipeline::Engine;
@@ -31,7 +31,10 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     spare(args, &asked, &folder, &name)?;
     let working = words.working();
     working.on("reading the motion");
-    let source = source::clip(&args.clip)?;
+    let mut source = source::clip(&args.clip)?;
+    let (seen_from, notes) = seen::asked(&args.corrections.seen, &source.clip)?;
+    recipe.seen_from = seen_from.unwrap_or(recipe.seen_from);
+    source.notes.extend(notes);
     working.on("finding the key drawings");
     let mut engine = Engine::new(source.clip)?;
     let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;
@@ -68,7 +71,11 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
 fn spare(args: &RunArgs, asked: &Asked, folder: &Path, cut: &str) -> Result<(), Failure> {
     let corrections = &args.corrections;
     let (recipe, bones) = (corrections.settings.recipe.as_deref(), args.formats.bones.as_deref());
-    let others = [recipe.map(|path| ("recipe", path)), bones.map(|path| ("table of bones", path))];
+    let others = [
+        recipe.map(|path| ("recipe", path)),
+        bones.map(|path| ("table of bones", path)),
+        seen::file(&corrections.seen).map(|path| ("camera", path)),
+    ];
     for (what, path) in
         [("motion", &*args.clip.clip)].into_iter().chain(others.into_iter().flatten())
     {
@@ -113,6 +120,9 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         "{cut}: {frames} frames at {frame_rate} fps, {joints} joints, {seconds:.2} s"
     ));
     report.notes.iter().for_each(|note| words.say(format_args!("note        {note}")));
+    if let Some(seen_from) = &report.seen_from {
+        words.say(format_args!("seen from   画面       {seen_from}"));
+    }
     if report.layers.is_empty() {
         of_body(words, report);
     } else {

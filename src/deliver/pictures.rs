@@ -1,7 +1,9 @@
 //! The pictures of a sheet: as bars, and its kept drawings as poses.
 
 use crate::deliver::Cut;
+use crate::deliver::sheet_json::MadeWith;
 use crate::error::Error;
+use crate::motion::{Screen, SeenFrom};
 use crate::plot::{PoseRow, SheetPlot};
 use crate::sheet::Sheet;
 use crate::timing::Stills;
@@ -13,10 +15,11 @@ use crate::timing::Stills;
 /// [`Error::Picture`] when it cannot be drawn.
 pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
     let ones = Sheet::on_ones(cut.sheet.clock, cut.sheet.length());
-    let stills = Stills::of(cut.clip, &ones.layers[0]);
+    let seen_from = cut.made_with.map_or(SeenFrom::World, MadeWith::seen_from);
+    let stills = Stills::on(cut.clip, &ones.layers[0], &Screen::of(seen_from, cut.clip));
     let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
     let steps: Vec<f64> = (0..stills.len()).map(step).collect();
-    let plot = SheetPlot { splits: cut.splits.to_vec(), ..SheetPlot::default() };
+    let plot = SheetPlot { splits: cut.splits.to_vec(), seen_from, ..SheetPlot::default() };
     plot.draw(cut.sheet, cut.spaced, Some(&steps))
 }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::keys::{Action, Actions};
+use crate::motion::SeenFrom;
 use crate::pipeline::{Breakdown, LayerBreakdown};
 use crate::sheet::Role;
 use crate::{study, timing};
@@ -20,6 +21,9 @@ pub struct Report {
     pub joints: usize,
     /// Seconds from the first frame to the last.
     pub seconds: f64,
+    /// From where movement was measured, in the words of the recipe; none in the world.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seen_from: Option<String>,
     /// Koma of the sheet.
     pub koma: usize,
     /// Koma a second.
@@ -140,6 +144,7 @@ impl Report {
             frame_rate: breakdown.clip.rate().fps(),
             joints: breakdown.clip.skeleton().len(),
             seconds: breakdown.clip.seconds(),
+            seen_from: seen_from(breakdown.seen_from),
             koma,
             koma_rate,
             turns: Turns {
@@ -162,6 +167,11 @@ impl Report {
             notes,
         }
     }
+}
+
+/// From where movement was measured; none in the world.
+fn seen_from(seen_from: SeenFrom) -> Option<String> {
+    (!seen_from.is_world()).then(|| seen_from.to_string())
 }
 
 /// The actions of a take; none for one that is whole.

@@ -37,9 +37,9 @@ pub struct Chords {
 }
 
 impl Chords {
-    /// The chords of a clip between instants half a koma of its reference apart, each known that is no
-    /// longer than `seconds`, 2 or more; infinite for as many as there is memory for. `own` is how much
-    /// each joint counts beside its bones: 0 or more, one of them above.
+    /// The chords of a clip between instants half a koma of its reference apart, seen from where that is, each
+    /// known that is no longer than `seconds`, 2 or more; infinite for as many as there is memory for. `own`
+    /// is how much each joint counts beside its bones: 0 or more, one of them above.
     pub fn of(clip: &Clip, reference: &Reference, own: &[f64], seconds: f64) -> Self {
         Self::of_part(clip, clip, reference, own, seconds)
     }
@@ -54,7 +54,8 @@ impl Chords {
         seconds: f64,
     ) -> Self {
         let clock = part.clock(reference.clock().koma_rate / STEP);
-        let postures = Postures::of(part, whole, clock, reference.height(), own);
+        let look = (reference.screen(), reference.height());
+        let postures = Postures::of(part, whole, clock, look, own);
         let len = postures.len();
         let [least, most] = [LEAST_REACH, seconds].map(|s| (s * clock.koma_rate).ceil() as usize);
         let reach = (PAIRS / len.max(1)).min(most).max(least).min(len.saturating_sub(1));

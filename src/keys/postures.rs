@@ -3,7 +3,7 @@
 //!
 //! The rows are of the [`Mannequin`] and not of the rig, and turned with the body's heading: on a body
 //! that spins all frames are alike but for the way it faces, and which of them is a key must not hang
-//! on where the room's axes point.
+//! on where the room's axes point. On a screen they are what is seen there, and a spin is what it looks like.
 
 mod heading;
 
@@ -16,7 +16,7 @@ use crate::motion::lanes::{LANES, LaneVec, wide};
 use crate::motion::mannequin::{BONES, Mannequin, POINTS, Stand};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
-use crate::motion::{Axis, Clip, Landmarks, Point};
+use crate::motion::{Axis, Clip, Landmarks, Point, Screen};
 use crate::time::Clock;
 
 /// How far a turn of the body by one radian counts as moved, in heights of the body: half a hip's width
@@ -32,19 +32,28 @@ pub(super) struct Postures {
 }
 
 impl Postures {
-    /// The body at each koma of a clock; `height` is the body's in the file's unit, and `own` how much
-    /// each joint counts beside its bones. Its limbs are found in `whole`, the same clip or one in which
-    /// more joints move.
+    /// The body at each koma of a clock as it is seen on a screen; `height` is the body's in the file's unit,
+    /// and `own` how much each joint counts beside its bones. Its limbs are found in `whole`, the same clip
+    /// or one in which more joints move.
     ///
     /// The squared distance of two rows is the mean squared way of the points, weighed by their bones,
-    /// plus the squared way of the pelvis and of the heading. A body that is no person's is taken by its
-    /// own points, where they are in the world.
-    pub(super) fn of(clip: &Clip, whole: &Clip, clock: Clock, height: f64, own: &[f64]) -> Self {
+    /// plus the squared way of the pelvis and, in the world, of the heading. A body that is no person's is
+    /// taken by its own points, where they are.
+    pub(super) fn of(
+        clip: &Clip,
+        whole: &Clip,
+        clock: Clock,
+        (screen, height): (&Screen, f64),
+        own: &[f64],
+    ) -> Self {
         let instants = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let landmarks = Landmarks::of(whole);
         let mut postures = match Mannequin::of(whole, &landmarks) {
-            Some(mannequin) => of_person(clip, clock, instants, &mannequin, landmarks.up, own),
-            None => of_points(clip, clock, instants, height, own),
+            Some(mannequin) if screen.is_world() => {
+                of_person(clip, clock, instants, &mannequin, landmarks.up, own)
+            }
+            Some(mannequin) => of_person_seen(clip, clock, instants, &mannequin, screen, own),
+            None => of_points(clip, clock, instants, (screen, height), own),
         };
         postures.start_at_0();
         postures
@@ -100,11 +109,7 @@ fn of_person(
     let mut rows = vec![0.0; instants * COLUMNS];
     let mut across = Vec::with_capacity(instants);
     each_pose(clip, clock, instants, |instant, pose, lane| {
-        let place = |point: Point| {
-            let joint = point.joint.0;
-            pose.translations[joint].lane(lane) + pose.rotations[joint].lane(lane) * point.offset
-        };
-        let stand = mannequin.stand(place);
+        let stand = mannequin.stand(|point| place(pose, lane, point));
         across.push(stand.across.map(|way| upright(way, up)));
         write(&stand, &scales, up, &mut rows[instant * COLUMNS..(instant + 1) * COLUMNS]);
     });
@@ -118,6 +123,39 @@ fn of_person(
         row[COLUMNS - 1] = 100.0 * GIRTH * heading;
     }
     Postures { columns: COLUMNS, rows }
+}
+
+/// The points and the pelvis alone: a turn of the body is what is seen of it.
+const COLUMNS_SEEN: usize = 3 * (POINTS + 1);
+
+fn of_person_seen(
+    clip: &Clip,
+    clock: Clock,
+    instants: usize,
+    mannequin: &Mannequin,
+    screen: &Screen,
+    own: &[f64],
+) -> Postures {
+    let (scales, height) = (scales(mannequin, own), mannequin.height());
+    let mut rows = vec![0.0; instants * COLUMNS_SEEN];
+    let see = |place: DVec3| screen.see(height * place) / height;
+    each_pose(clip, clock, instants, |instant, pose, lane| {
+        let stand = mannequin.stand(|point| place(pose, lane, point));
+        let pelvis = see(stand.pelvis);
+        let ways = stand.points.iter().zip(scales);
+        let ways = ways.map(|(point, scale)| scale * (see(stand.pelvis + *point) - pelvis));
+        let row = rows[instant * COLUMNS_SEEN..].chunks_exact_mut(3);
+        for (column, way) in row.zip(ways.chain([100.0 * pelvis])) {
+            column.copy_from_slice(&way.to_array());
+        }
+    });
+    Postures { columns: COLUMNS_SEEN, rows }
+}
+
+/// Where a point of the rig stands in one of some poses.
+fn place(pose: &LanePose, lane: usize, point: Point) -> DVec3 {
+    let joint = point.joint.0;
+    pose.translations[joint].lane(lane) + pose.rotations[joint].lane(lane) * point.offset
 }
 
 /// What a height of the body is worth at each point, in %.
@@ -143,7 +181,13 @@ fn upright(way: DVec3, up: Axis) -> DVec3 {
     if up == Axis::Z { DVec3::new(way.x, way.z, -way.y) } else { way }
 }
 
-fn of_points(clip: &Clip, clock: Clock, instants: usize, height: f64, own: &[f64]) -> Postures {
+fn of_points(
+    clip: &Clip,
+    clock: Clock,
+    instants: usize,
+    (screen, height): (&Screen, f64),
+    own: &[f64],
+) -> Postures {
     let points = Points::of(clip.skeleton(), own);
     let columns = 3 * points.len();
     let mut rows = vec![0.0; instants * columns];
@@ -155,7 +199,7 @@ fn of_points(clip: &Clip, clock: Clock, instants: usize, height: f64, own: &[f64
         }
         let row = rows[instant * columns..(instant + 1) * columns].chunks_exact_mut(3);
         for ((column, position), weight) in row.zip(&positions).zip(points.weights()) {
-            let way = scale * weight.sqrt() * position.lane(lane);
+            let way = scale * weight.sqrt() * screen.see(position.lane(lane));
             column.copy_from_slice(&way.to_array());
         }
     });

@@ -6,13 +6,16 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::keys::points::Points;
-use crate::motion::Clip;
 use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
+use crate::motion::{Clip, Screen};
 use crate::time::{Clock, Frame};
 
 /// The source at each koma, computed once: what a reconstruction is measured against.
+///
+/// A reconstruction is off by what it is off in the world; how fast the body is, and what is lost between two
+/// of its postures, is what is seen of it on [`Reference::on`] a screen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     clock: Clock,
@@ -22,6 +25,7 @@ pub struct Reference {
     positions: Vec<LaneVec>,
     /// Height of the body in the file's unit: see [`Reference::of`].
     height: f64,
+    screen: Screen,
 }
 
 impl Reference {
@@ -60,13 +64,23 @@ impl Reference {
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
         // A body of one point has no height; what it moves through stands for it.
         let height = if median > 0.0 { median } else { whole_side(&positions) };
-        Self { clock, koma, points, positions, height }
+        Self { clock, koma, points, positions, height, screen: Screen::WORLD }
     }
 
     /// The same beside a body of that height, in the file's unit: a part in which little moves has none of
     /// its own.
     pub(crate) fn beside(self, height: f64) -> Self {
         Self { height, ..self }
+    }
+
+    /// The same as it is seen on a screen.
+    pub fn on(self, screen: Screen) -> Self {
+        Self { screen, ..self }
+    }
+
+    /// From where it is seen.
+    pub fn screen(&self) -> &Screen {
+        &self.screen
     }
 
     /// Where its koma stand.
@@ -135,22 +149,25 @@ impl Reference {
         100.0 * squared.sqrt() / self.height
     }
 
-    /// How fast the body goes into each koma from the second on, in % of its height a second: root mean
-    /// square over its points.
+    /// How fast the body goes into each koma from the second on, as it is seen, in % of its height a second:
+    /// root mean square over its points.
     pub(crate) fn speeds(&self) -> Vec<f64> {
         if self.koma == 0 || self.points.len() == 0 || self.height <= 0.0 {
             return Vec::new();
         }
         let percent = 100.0 * self.clock.koma_rate / self.height;
-        let mut before: Vec<LaneVec> = self.positions(0).to_vec();
+        let seen = |block: &[LaneVec]| -> Vec<LaneVec> {
+            block.iter().map(|places| places.map(|place| self.screen.see(place))).collect()
+        };
+        let mut before = seen(self.positions(0));
         let mut speeds = Vec::with_capacity(self.koma + LANES);
-        for now in self.positions.chunks_exact(self.points.len()) {
+        for now in self.positions.chunks_exact(self.points.len()).map(seen) {
             // One koma back: the last of the block before, then all but the last of this one.
-            for (before, now) in before.iter_mut().zip(now) {
+            for (before, now) in before.iter_mut().zip(&now) {
                 *before = now.shifted(before.lane(LANES - 1));
             }
-            speeds.extend(self.points.apart(&before, now).0.map(|apart| percent * apart.sqrt()));
-            before.copy_from_slice(now);
+            speeds.extend(self.points.apart(&before, &now).0.map(|apart| percent * apart.sqrt()));
+            before = now;
         }
         speeds.truncate(self.koma);
         // There is no step into the first koma.

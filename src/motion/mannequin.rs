@@ -98,6 +98,11 @@ impl Mannequin {
         })
     }
 
+    /// The height of a person with the legs of this rig, in the file's unit.
+    pub(crate) fn height(&self) -> f64 {
+        self.height
+    }
+
     /// The joint of the rig at which each point is looked for.
     pub(crate) fn joints(&self) -> [usize; POINTS] {
         let limb = |limb: &Limb| {

@@ -9,7 +9,7 @@ use crate::keys::{
     self, Candidates, Choice, Chords, JointTurns, JointWeights, Judges, LayerKeys, Part,
     PartMotion, Picked, Reconstruction, Reference,
 };
-use crate::motion::{Clip, Skeleton};
+use crate::motion::{Clip, Screen, Skeleton};
 use crate::recipe::Recipe;
 use crate::sheet::Layer;
 use crate::signal::{LowPass, Signals, Turn, TurnFinder};
@@ -26,6 +26,8 @@ pub(super) struct Measured<'a> {
     pub(super) made: Made,
     /// The body's height in the file's unit, for a layer that is only a part of it.
     pub(super) height: Option<f64>,
+    /// From where it is seen.
+    pub(super) screen: Screen,
 }
 
 /// The stages of one layer, each with its last output.
@@ -36,13 +38,13 @@ pub(super) struct Column {
     /// The turns of those that have a say, and the weight of each one's vote.
     voices: Stage<Made, Voices>,
     candidates: Stage<CandidateSettings, Candidates>,
-    reference: Stage<(f64, Option<f64>), Reference>,
+    reference: Stage<(f64, Option<f64>, Screen), Reference>,
     chords: Stage<f64, Chords>,
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
-    keys: Stage<(keys::Choose, Edits, f64), LayerKeys>,
+    keys: Stage<(keys::Choose, Edits, f64, Screen), LayerKeys>,
     spaced: Stage<(Spacing, f64, Part), Spaced>,
-    stills: Stage<(), Stills>,
+    stills: Stage<Screen, Stills>,
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
 }
 
@@ -105,9 +107,10 @@ impl Column {
     /// What the candidates are judged against.
     fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
         let PartMotion { clip, judged, .. } = self.motion.output();
-        let settings = (recipe.rate, measured.height);
+        let settings = (recipe.rate, measured.height, measured.screen);
         let made = self.reference.renew(self.motion.made, &settings, || {
-            let own = Reference::weighted(clip, clip.clock(recipe.rate), judged);
+            let own =
+                Reference::weighted(clip, clip.clock(recipe.rate), judged).on(measured.screen);
             match measured.height {
                 None => own,
                 Some(height) => own.beside(height),
@@ -126,7 +129,7 @@ impl Column {
         edits: &Edits,
         candidates_made: Made,
     ) -> Made {
-        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate);
+        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen);
         let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
         let candidates = self.candidates.output();
         let joints = joints(self.voices.output(), measured, recipe);
@@ -157,7 +160,8 @@ impl Column {
             named(spacing.place(keys, clip.skeleton(), clock, koma, &pace), part, clip.skeleton())
         });
         let layer = &self.spaced.output().layer;
-        let made = self.stills.renew(made, &(), || Stills::of(clip, layer));
+        let screen = reference.screen();
+        let made = self.stills.renew(made, screen, || Stills::on(clip, layer, screen));
         let stills = self.stills.output();
         let on = recipe.spacing.on.most;
         let omit = || recipe.omission.apply_by_action(layer, stills, on, later);

@@ -33,6 +33,7 @@ fn values(knob: &Knob) -> Vec<String> {
         Kind::Span => vec!["1".into(), "0.25s".into(), "500".into()],
         Kind::Amount => vec!["0".into(), "7".into(), "60%".into()],
         Kind::On => vec!["1".into(), "3".into(), "1-3".into()],
+        Kind::SeenFrom => ["world", "auto", "1,9,40:0,5,0"].map(String::from).to_vec(),
         Kind::Band => vec!["0".into(), "900".into(), "20%".into()],
         Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
         Kind::Flag => vec!["true".into(), "false".into()],

@@ -4,9 +4,9 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::plot::axis::number;
-use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;

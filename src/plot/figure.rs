@@ -3,10 +3,10 @@
 use glam::DVec3;
 use plotters::style::RGBColor;
 
+use crate::motion::view::View;
 use crate::motion::{BodySide, Joint, Skeleton};
 use crate::plot::canvas::Point;
 use crate::plot::style;
-use crate::plot::view::View;
 
 impl BodySide {
     pub(crate) fn color(self) -> RGBColor {
@@ -79,7 +79,7 @@ impl Figure {
         let head = skeleton.joints.iter().position(is_head);
         let end = |joint: usize| bones.iter().find(|bone| bone.from == joint).map(|bone| bone.to);
         let head = head.map(|joint| (joint, end(joint).unwrap_or(joint)));
-        let height = super::view::extent(first).dot(up).abs();
+        let height = crate::motion::view::extent(first).dot(up).abs();
         Self { bones, head, height }
     }
 

@@ -4,8 +4,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{BodySide, Clip, Composite};
-use crate::plot::camera::Camera;
+use crate::motion::view::View;
+use crate::motion::{BodySide, Camera, Clip, Composite};
 use crate::plot::cells::{
     beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
 };
@@ -14,7 +14,6 @@ use crate::plot::points::Posing;
 use crate::plot::stage::Bounds;
 use crate::plot::style;
 use crate::plot::svg::escaped;
-use crate::plot::view::View;
 use crate::sheet::{Layer, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one HTML file that needs nothing else, to play, to step

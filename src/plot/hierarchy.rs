@@ -4,8 +4,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::Camera;
 use crate::motion::{Body, BodySide, Clip, Pose, Skeleton};
-use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{Clip, Composite};
-use crate::plot::camera::Camera;
+use crate::motion::{Camera, Clip, Composite};
 use crate::plot::cells::{composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};

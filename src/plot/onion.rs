@@ -4,8 +4,9 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::Camera;
 use crate::motion::Clip;
-use crate::plot::camera::Camera;
+use crate::motion::view::View;
 use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses};
 use crate::plot::figure::Figure;
@@ -13,7 +14,6 @@ use crate::plot::page::{self, Head};
 use crate::plot::stage::{Bounds, Stage, fitting};
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};
-use crate::plot::view::View;
 use crate::sheet::Sheet;
 
 /// Onion skin (オニオンスキン): a panel from each genga to the next, all drawings of the way in their

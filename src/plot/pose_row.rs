@@ -4,15 +4,14 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{BodySide, Clip};
+use crate::motion::view::View;
+use crate::motion::{BodySide, Camera, Clip};
 use crate::plot::axis::number;
-use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
 use crate::plot::cells::{Cell, cells, composed};
 use crate::plot::figure::Figure;
 use crate::plot::points::{Posing, Showing};
 use crate::plot::style;
-use crate::plot::view::View;
 use crate::sheet::{Role, Sheet, Source};
 
 /// Stick figures (棒人間) of some drawings, side by side, on one floor and of one scale.

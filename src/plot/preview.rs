@@ -10,8 +10,7 @@ use std::io::Write;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::Clip;
-use crate::plot::camera::Camera;
+use crate::motion::{Camera, Clip};
 use crate::plot::cells::composed;
 use crate::plot::style;
 use crate::sheet::Sheet;

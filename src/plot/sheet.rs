@@ -6,6 +6,7 @@ mod paper;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::SeenFrom;
 use crate::plot::canvas::{Canvas, Type, paint};
 use crate::plot::sheet::fate::row_before;
 use crate::plot::sheet::paper::{Band, LEFT, Paper, badges};
@@ -13,7 +14,7 @@ use crate::plot::style;
 use crate::sheet::{Layer, Role, Sheet};
 
 /// The timesheet (タイムシート): a bar a drawing on its first koma, a line while it is held.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SheetPlot {
     /// Width in px, 400 to 20000; default 1200. The height follows from the sheet.
@@ -23,11 +24,13 @@ pub struct SheetPlot {
     pub koma_in_line: usize,
     /// Koma from 0 with which actions (動作) begin, as dashed lines; default none.
     pub splits: Vec<usize>,
+    /// From where SSD was seen; default from nowhere, in the world.
+    pub seen_from: SeenFrom,
 }
 
 impl Default for SheetPlot {
     fn default() -> Self {
-        Self { width: 1200, koma_in_line: 144, splits: Vec::new() }
+        Self { width: 1200, koma_in_line: 144, splits: Vec::new(), seen_from: SeenFrom::World }
     }
 }
 
@@ -109,6 +112,7 @@ impl SheetPlot {
             bands,
             ssd,
             greatest_ssd: ssd.map_or(0.0, greatest),
+            is_on_screen: !self.seen_from.is_world(),
             splits: &self.splits,
             koma,
             in_line,

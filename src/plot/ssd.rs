@@ -4,7 +4,7 @@ use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::Clip;
+use crate::motion::{Clip, Screen, SeenFrom};
 use crate::plot::axis::{Scale, number};
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
 use crate::plot::cells::shown;
@@ -15,18 +15,20 @@ use crate::timing::Stills;
 
 /// The movement into each koma (動きの大きさ): a bar a koma of the source, under it a sign for what
 /// omission did there, and below a bar a koma of the result, none where a drawing is held.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SsdPlot {
     /// Width in px, 400 to 20000; default 1200. A koma of a long clip is a thin bar.
     pub width: u32,
     /// Height in px, 300 to 20000; default 480.
     pub height: u32,
+    /// From where movement is seen; default from nowhere, in the world.
+    pub seen_from: SeenFrom,
 }
 
 impl Default for SsdPlot {
     fn default() -> Self {
-        Self { width: 1200, height: 480 }
+        Self { width: 1200, height: 480, seen_from: SeenFrom::World }
     }
 }
 
@@ -49,8 +51,8 @@ pub(crate) struct Moves {
 }
 
 impl Moves {
-    pub(crate) fn of(clip: &Clip, layer: &Layer) -> Self {
-        let stills = Stills::of(clip, layer);
+    pub(crate) fn of(clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
+        let stills = Stills::on(clip, layer, screen);
         let drawings: Vec<usize> = layer.koma().collect();
         let ssd = drawings.windows(2).map(|pair| stills.ssd(pair[0], pair[1]));
         let begins = layer.timed().map(|(koma, _)| koma).collect();
@@ -64,6 +66,7 @@ impl Moves {
 
 /// Everything drawn, and where.
 struct Paper<'a> {
+    seen_from: SeenFrom,
     before: &'a Layer,
     after: &'a Layer,
     source: Moves,
@@ -106,9 +109,11 @@ impl SsdPlot {
         let high = 0.5 * (height - TOP - SIGNS - BETWEEN - STROKES - BOTTOM);
         let floor = TOP + high;
         let right = width - style::MARGIN;
+        let screen = Screen::of(self.seen_from, clip);
         let paper = Paper {
-            source: Moves::of(clip, before),
-            result: Moves::of(clip, after),
+            seen_from: self.seen_from,
+            source: Moves::of(clip, before, &screen),
+            result: Moves::of(clip, after, &screen),
             fates: fates(before, after),
             before,
             after,
@@ -147,14 +152,20 @@ impl Paper<'_> {
     /// What was done, in numbers, and what the signs mean.
     fn head(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
         let title = Type::new(style::TITLE).bold();
-        canvas.text("Movement into each koma 動きの大きさ", (style::MARGIN, 34.0), title)?;
+        let (words, seen) = if self.seen_from.is_world() {
+            ("Movement into each koma 動きの大きさ", String::new())
+        } else {
+            let seen = format!("  ·  seen from 見る位置 {}", self.seen_from);
+            ("Movement on screen into each koma 画面での動きの大きさ", seen)
+        };
+        canvas.text(words, (style::MARGIN, 34.0), title)?;
         let count = |fate| self.fates.iter().filter(|of_drawing| **of_drawing == fate).count();
         let (left_out, held) = (count(Fate::LeftOut), count(Fate::Held));
         let (was, is) = (self.source.largest(), self.result.largest());
         let times = if was > 0.0 { format!(", {:.1} times", is / was) } else { String::new() };
         let facts = format!(
             "{} koma  ·  left out 中無し {left_out}  ·  held コマ撮り {held}  ·  \
-             largest SSD {was:.0} → {is:.0}{times}  ·  bars are √SSD high",
+             largest SSD {was:.0} → {is:.0}{times}  ·  bars are √SSD high{seen}",
             self.koma
         );
         let facts = style::fitted(&facts, style::WORDS, self.right - style::MARGIN);

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use crate::motion::view::View;
 use crate::plot::canvas::Point;
 use crate::plot::figure::{Drawn, Figure};
-use crate::plot::view::View;
 
 /// The box round everything that is shown, seen from one side, in units of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,8 +4,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::Camera;
 use crate::motion::Clip;
-use crate::plot::camera::Camera;
 use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{
     Cell, beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,

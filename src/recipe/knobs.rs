@@ -41,6 +41,8 @@ pub enum Kind {
     On,
     /// A number, or a share of the joint's own 95th percentile (`5%`).
     Band,
+    /// A side to look from (`front`), or where a camera stands and what it looks at (`X,Y,Z:X,Y,Z`).
+    SeenFrom,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// `true` or `false`.
@@ -87,12 +89,21 @@ pub const KNOBS: &[Knob] = &[
                         onesでは止めた絵のまま体が滑っていく。",
     },
     Knob {
+        name: "seen_from",
+        japanese: "見る位置",
+        kind: Kind::SeenFrom,
+        unit: "world | auto | front | side | three-quarter, or X,Y,Z:X,Y,Z (where a camera stands : what it looks at)",
+        help: "From where movement is measured: in the world, or on the screen of a camera, where what comes \
+               straight at us hardly moves. It counts for displacements, keys, rests and omission, not for rotations.",
+        japanese_help: "動きをどこから測るか。空間（world）か、カメラの画面の上か。\
+                        画面ではこちらへ真っすぐ来る動きは小さい。移動・原画・止め・省略に効き、回転には効かない。",
+    },
+    Knob {
         name: "speed.measure",
         japanese: "速さの測り方",
         kind: Kind::Choice(&["rotation", "displacement", "combined", "angle"]),
         unit: "",
-        help: "How fast a joint is: its rotation against its parent, its way through the world, both, \
-               or the signed change of its own rotation angle (for studies).",
+        help: "How fast a joint is: its rotation against its parent, its way through the world (or on the screen), both, or the signed change of its own rotation angle (for studies).",
         japanese_help: "部位の速さの測り方。親に対する回転、空間での移動、その両方、\
                         または自身の回転角の符号つき変化（研究用）。",
     },
@@ -399,7 +410,7 @@ impl Knob {
             Kind::Choice(words) => words.join(" | "),
             Kind::Flag => "true | false".into(),
             Kind::Number { min, .. } => format!("{} (from {min})", self.unit),
-            Kind::Span | Kind::Amount | Kind::On | Kind::Band => self.unit.into(),
+            Kind::Span | Kind::Amount | Kind::On | Kind::Band | Kind::SeenFrom => self.unit.into(),
         }
     }
 

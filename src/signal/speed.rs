@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::rig::Rig;
-use crate::motion::{Body, Clip, Pose, local_rotation};
+use crate::motion::{Body, Clip, Pose, Screen, local_rotation};
 use crate::signal::{Signals, Unit};
 use crate::time::Frame;
 
@@ -23,9 +23,10 @@ pub enum Measure {
     /// is only carried along.
     #[default]
     Rotation,
-    /// Speed of the joint in the world, the file's unit a second. Blind to a hand that turns in place.
+    /// Speed of the joint in the world or on a screen, the file's unit a second. Blind to a hand that turns
+    /// in place.
     Displacement,
-    /// Both, each divided by its root mean square over all frames and joints, then added.
+    /// Rotation and displacement, each divided by its root mean square over all frames and joints, then added.
     Combined,
     /// Signed change per second of the joint's own rotation angle, rad/s: for studies. It reads 0
     /// where the axis turns at a constant angle, and jumps in sign where the angle passes half a turn.
@@ -40,6 +41,13 @@ pub struct Speed {
     pub measure: Measure,
 }
 
+impl Measure {
+    /// Whether it is of ways, which depend on from where they are seen.
+    pub fn is_seen(self) -> bool {
+        matches!(self, Self::Displacement | Self::Combined)
+    }
+}
+
 impl Speed {
     /// Whether the settings can be used; there is none here that could be wrong.
     ///
@@ -49,19 +57,27 @@ impl Speed {
         Ok(())
     }
 
-    /// Speeds of a clip, frames × joints.
+    /// Speeds of a clip in the world: see [`Speed::measure_on`].
+    ///
+    /// # Errors
+    /// Those of [`Speed::measure_on`].
+    pub fn measure(&self, clip: &Clip) -> Result<Signals, Error> {
+        self.measure_on(clip, &Screen::WORLD)
+    }
+
+    /// Speeds of a clip, frames × joints; displacements are those on the screen.
     ///
     /// Row k is the step *into* frame k, so the first row repeats the second. A clip of one frame has
     /// speed 0.
     ///
     /// # Errors
     /// [`Error::Clip`] when values of the clip are so large that a speed is not finite.
-    pub fn measure(&self, clip: &Clip) -> Result<Signals, Error> {
+    pub fn measure_on(&self, clip: &Clip, screen: &Screen) -> Result<Signals, Error> {
         self.validate()?;
         let (mut values, unit) = match self.measure {
             Measure::Rotation => (rotation(clip), Unit::Angle),
-            Measure::Displacement => (displacement(clip), Unit::Length),
-            Measure::Combined => (combined(clip), Unit::Ratio),
+            Measure::Displacement => (displacement(clip, screen), Unit::Length),
+            Measure::Combined => (combined(clip, screen), Unit::Ratio),
             Measure::Angle => (angle(clip), Unit::Angle),
         };
         if values.nrows() > 1 {
@@ -116,7 +132,7 @@ fn angle_of(q: DQuat) -> f64 {
     2.0 * q.xyz().length().atan2(q.w.abs())
 }
 
-fn displacement(clip: &Clip) -> DMatrix<f64> {
+fn displacement(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     let (fps, skeleton) = (clip.rate().fps(), clip.skeleton());
     let mut values = still(clip);
     let (mut pose, mut body) = (Pose::rest(skeleton), Body::new(skeleton));
@@ -125,6 +141,7 @@ fn displacement(clip: &Clip) -> DMatrix<f64> {
     for row in 0..clip.len() {
         pose.take_frame(clip, Frame(clip.first().0 + row));
         body.place(&pose, &mut now);
+        now.iter_mut().for_each(|place| *place = screen.see(*place));
         if row > 0 {
             for (joint, (before, now)) in before.iter().zip(&now).enumerate() {
                 values[(row, joint)] = before.distance(*now) * fps;
@@ -137,9 +154,9 @@ fn displacement(clip: &Clip) -> DMatrix<f64> {
 
 /// One root mean square for all joints of a measure, so that a joint that hardly moves stays small
 /// beside one that does.
-fn combined(clip: &Clip) -> DMatrix<f64> {
+fn combined(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     let mut values = in_own_rms(rotation(clip));
-    values += in_own_rms(displacement(clip));
+    values += in_own_rms(displacement(clip, screen));
     values
 }
 

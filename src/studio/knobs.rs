@@ -16,6 +16,8 @@ use crate::recipe::{KNOBS, Kind, Knob, Recipe};
 
 /// Koma a drawing that are offered; a recipe may have others.
 const ON: [&str; 8] = ["1", "2", "3", "4", "1-2", "1-3", "2-3", "2-4"];
+/// Sides to look from that are offered; a recipe may have a place.
+const SEEN_FROM: [&str; 5] = ["world", "auto", "front", "side", "three-quarter"];
 /// Width of the labels.
 const LABEL: f32 = 108.0;
 
@@ -160,6 +162,7 @@ fn control(ui: &mut Ui, knob: &'static Knob, value: &str, set: &mut impl FnMut(S
         }
         Kind::Span | Kind::Amount | Kind::Band => measured::show(ui, knob, value, set),
         Kind::On => choice(ui, knob, value, &ON, set),
+        Kind::SeenFrom => choice(ui, knob, value, &SEEN_FROM, set),
         Kind::Choice(choices) => choice(ui, knob, value, choices, set),
         Kind::Flag => {
             let mut is_on = value == "true";
@@ -201,7 +204,7 @@ fn choice(
     set: &mut impl FnMut(String),
 ) {
     let shown = value.replace('_', " ");
-    let combo = ComboBox::from_id_salt(knob.name).selected_text(shown).width(128.0);
+    let combo = ComboBox::from_id_salt(knob.name).selected_text(shown).width(128.0).truncate();
     let combo = combo.show_ui(ui, |ui| {
         for choice in choices {
             if ui.selectable_label(value == *choice, choice.replace('_', " ")).clicked() {

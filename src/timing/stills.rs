@@ -4,17 +4,17 @@ use std::array;
 
 use glam::DVec3;
 
-use crate::motion::Clip;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
+use crate::motion::{Clip, Screen};
 use crate::sheet::{Layer, Source};
 
 /// Sums kept side by side, so that a distance is computed several coordinates at a time.
 const WIDE: usize = 8;
 
-/// The world positions of a layer's drawings (静止画), in the file's unit: what the omission stages
-/// measure movement by, over the whole body.
+/// Where the joints are in a layer's drawings (静止画), in the world or on a screen, in the file's unit:
+/// what the omission stages measure movement by, over the whole body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stills {
     joints: usize,
@@ -29,12 +29,20 @@ impl Stills {
         Self { joints, drawings: 0, coordinates: Vec::new() }
     }
 
+    /// [`Stills::on`] no screen, but in the world.
+    ///
+    /// # Panics
+    /// When there is a drawing but the clip has no frame.
+    pub fn of(clip: &Clip, layer: &Layer) -> Self {
+        Self::on(clip, layer, &Screen::WORLD)
+    }
+
     /// The positions of each drawing of a layer, in its order, sampled at its place in the clip; a
     /// blend of two keys is placed as a blend.
     ///
     /// # Panics
     /// When there is a drawing but the clip has no frame.
-    pub fn of(clip: &Clip, layer: &Layer) -> Self {
+    pub fn on(clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
         let mut stills = Self::new(clip.skeleton().len());
         stills.coordinates.reserve_exact(stills.width() * layer.drawings.len());
         let mut sampler = Sampler::new(clip);
@@ -46,7 +54,8 @@ impl Stills {
                 || sampler.place(sources),
             );
             for lane in 0..drawings.len() {
-                stills.add(sampler.pose.translations.iter().map(|position| position.lane(lane)));
+                let places = sampler.pose.translations.iter().map(|place| place.lane(lane));
+                stills.add(places.map(|place| screen.see(place)));
             }
         }
         stills
@@ -82,7 +91,7 @@ impl Stills {
     }
 
     /// How far two drawings are apart (KKMFT §3.1): the sum over the joints of the squared distance
-    /// between their world positions, in the file's unit squared. The order of summation is fixed.
+    /// between their positions, in the file's unit squared. The order of summation is fixed.
     ///
     /// # Panics
     /// When there is no such drawing.

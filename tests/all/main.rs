@@ -23,6 +23,8 @@ mod real_clips; // the default recipe on every real clip
 mod rerig; // the same motion in another rig gives the same sheet
 mod rooms; // who may import whom
 #[cfg(feature = "cli")]
+mod seen; // movement as a camera sees it
+#[cfg(feature = "cli")]
 mod studies; // one or two settings varied, as tables and pictures
 mod targets; // numbers of keys and drawings on every real clip
 #[cfg(feature = "cli")]

@@ -65,6 +65,9 @@ fn any_setting() -> impl Strategy<Value = (String, String)> {
                 .to_vec(),
             Kind::Amount => ["0", "1", "5", "1000", "4%", "100%", "1/3"].map(String::from).to_vec(),
             Kind::On => ["0", "1", "3", "1000", "1-3", "3-1", "1-1000"].map(String::from).to_vec(),
+            Kind::SeenFrom => {
+                ["world", "auto", "front", "0,1,9:0,1,0", "0,0,0:0,0,0"].map(String::from).to_vec()
+            }
             Kind::Band => ["0", "1", "100", "1e9", "5%", "100%"].map(String::from).to_vec(),
             Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
             Kind::Flag => vec!["true".into(), "false".into()],

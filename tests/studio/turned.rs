@@ -44,7 +44,7 @@ fn every_knob_has_a_control_of_its_name() {
         let controls = table.harness.query_all_by_label(knob.name).count();
         let expected = match knob.kind {
             _ if is_unset => 1..=1,
-            Kind::Choice(_) | Kind::On | Kind::Flag => 1..=1,
+            Kind::Choice(_) | Kind::On | Kind::SeenFrom | Kind::Flag => 1..=1,
             _ => 1..=2,
         };
         assert!(expected.contains(&controls), "{}: {controls} controls", knob.name);

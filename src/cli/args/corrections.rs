@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::SeenArgs;
 use crate::time::Frame;
 
 /// The recipe: a file, then single settings on top.
@@ -24,6 +25,8 @@ pub(in crate::cli) struct Corrections {
     pub(in crate::cli) settings: Settings,
     #[command(flatten)]
     pub(in crate::cli) layers: LayerArgs,
+    #[command(flatten)]
+    pub(in crate::cli) seen: SeenArgs,
     /// Frames that are keys whatever is found, with a name and a spacing weight of their own if you like:
     /// --pin 12,150:wrist-top,180@0.5,200:hit@0. Of one layer alone: B/150, with forbid and move as well.
     #[arg(long, value_name = "[LAYER/]FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]

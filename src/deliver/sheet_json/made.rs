@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::digest;
 use crate::edits::Edits;
 use crate::error::Error;
+use crate::motion::SeenFrom;
 use crate::recipe::Recipe;
 use crate::sheet::{Sheet, is_default};
 
@@ -41,5 +42,11 @@ impl MadeWith {
         let mut recipe = Recipe::default();
         self.recipe.iter().try_for_each(|(name, word)| recipe.set(name, word))?;
         Ok(recipe)
+    }
+
+    /// From where movement was measured; of a record that does not say so, in the world.
+    pub fn seen_from(&self) -> SeenFrom {
+        let word = self.recipe.get("seen_from");
+        word.and_then(|word| word.parse().ok()).unwrap_or_default()
     }
 }

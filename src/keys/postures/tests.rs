@@ -8,7 +8,13 @@ fn sample(name: &str) -> Clip {
 }
 
 fn postures(clip: &Clip) -> Postures {
-    Postures::of(clip, clip, clip.clock(48.0), 2.0, &vec![1.0; clip.skeleton().len()])
+    Postures::of(
+        clip,
+        clip,
+        clip.clock(48.0),
+        (&Screen::WORLD, 2.0),
+        &vec![1.0; clip.skeleton().len()],
+    )
 }
 
 /// The clip with everything so much larger, and then carried so far along X.
@@ -95,7 +101,61 @@ fn a_joint_without_say_does_not_count() {
     let mannequin = Mannequin::of(&kick, &landmarks).unwrap();
     let wrist = mannequin.joints()[4];
     own[wrist] = 0.0;
-    let rows = Postures::of(&kick, &kick, clock, 2.0, &own);
+    let rows = Postures::of(&kick, &kick, clock, (&Screen::WORLD, 2.0), &own);
     assert!((0..rows.len()).all(|at| rows.row(at)[3 * 4..3 * 6].iter().all(|value| *value == 0.0)));
     assert!((0..rows.len()).any(|at| rows.row(at)[..3 * 4].iter().any(|value| *value != 0.0)));
+}
+
+/// The postures as they are seen from somewhere.
+fn seen(clip: &Clip, from: &str) -> Postures {
+    let screen = Screen::of(from.parse().unwrap(), clip);
+    let own = vec![1.0; clip.skeleton().len()];
+    Postures::of(clip, clip, clip.clock(48.0), (&screen, 2.0), &own)
+}
+
+/// The first pose of the clip, carried so far along each axis in a second.
+fn gone(clip: &Clip, way: [f64; 3]) -> Clip {
+    let root = &clip.skeleton().joints[0];
+    let rows = (0..25).flat_map(|frame| {
+        let mut row = clip.row(clip.first()).to_vec();
+        for (column, channel) in (root.first_channel..).zip(&root.channels) {
+            if let Channel::Position(axis) = channel {
+                row[column] += f64::from(frame) / 24.0 * way[*axis as usize];
+            }
+        }
+        row
+    });
+    let rows = rows.collect();
+    Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), 25, rows).unwrap()
+}
+
+#[test]
+fn front_and_side_together_see_a_level_way_and_each_of_them_all_of_one_up() {
+    let kick = sample("kick");
+    for way in [[90.0, 0.0, 0.0], [0.0, 0.0, 50.0], [-30.0, 0.0, 70.0]] {
+        let clip = gone(&kick, way);
+        let whole = |rows: Postures| far(rows.row(0), rows.row(rows.len() - 1));
+        let [world, front, side] = ["world", "front", "side"].map(|from| whole(seen(&clip, from)));
+        assert!((world - front.hypot(side)).abs() < 1e-9 * world, "{world} {front} {side}");
+        assert!(front.min(side) < 0.99 * world);
+    }
+    let up = gone(&kick, [0.0, 40.0, 0.0]);
+    let [world, front] = ["world", "front"].map(|from| seen(&up, from));
+    let [in_world, on_screen] = [&world, &front].map(|rows| far(rows.row(3), rows.row(40)));
+    assert!(in_world > 1.0 && (in_world - on_screen).abs() < 1e-9, "{in_world} {on_screen}");
+}
+
+#[test]
+fn on_a_screen_a_person_is_still_a_mannequin_and_anything_else_its_own_points() {
+    let kick = seen(&sample("kick"), "front");
+    assert_eq!(kick.columns, COLUMNS_SEEN);
+    let depth = |row: &[f64]| row.chunks_exact(3).map(|point| point[2].abs()).sum::<f64>();
+    assert!((0..kick.len()).all(|at| depth(kick.row(at)) == 0.0), "a screen has no depth");
+    let arm = swing(&[0.0, 30.0, 60.0]);
+    let world = seen(&arm, "world");
+    for (from, share) in [("front", 1.0), ("0,0,1e9:0,0,0", 1.0), ("side", 0.9)] {
+        let rows = seen(&arm, from);
+        let [all, some] = [&world, &rows].map(|rows| far(rows.row(0), rows.row(rows.len() - 1)));
+        assert!(if share == 1.0 { (some / all - 1.0).abs() < 1e-6 } else { some < share * all });
+    }
 }

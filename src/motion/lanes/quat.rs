@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Sub};
 
 use glam::{DQuat, DVec3};
 
-use super::Lanes;
+use super::{LANES, Lanes};
 use crate::motion::Axis;
 
 /// A vector a lane.
@@ -52,6 +52,17 @@ impl LaneVec {
             y: self.z * other.x - self.x * other.z,
             z: self.x * other.y - self.y * other.x,
         }
+    }
+
+    /// Each lane by itself.
+    #[inline(always)]
+    pub(crate) fn map(self, of: impl Fn(DVec3) -> DVec3) -> Self {
+        let mut mapped = self;
+        for lane in 0..LANES {
+            let vec = of(self.lane(lane));
+            (mapped.x.0[lane], mapped.y.0[lane], mapped.z.0[lane]) = (vec.x, vec.y, vec.z);
+        }
+        mapped
     }
 
     /// `share` of the way from one to the other, and not even a digit off where both are the same.

@@ -42,6 +42,8 @@ pub(super) struct Paper<'a> {
     pub(super) bands: Vec<Band<'a>>,
     pub(super) ssd: Option<&'a [f64]>,
     pub(super) greatest_ssd: f64,
+    /// Whether it is of what a camera sees.
+    pub(super) is_on_screen: bool,
     /// Koma with which actions begin.
     pub(super) splits: &'a [usize],
     pub(super) koma: usize,
@@ -172,6 +174,9 @@ impl Paper<'_> {
     fn ssd(&self, canvas: &mut Canvas<'_>, ssd: &[f64], floor: f64) -> Result<(), Error> {
         let words = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
         canvas.text("√SSD", (LEFT - 10.0, floor), words)?;
+        if self.is_on_screen {
+            canvas.text("画面", (LEFT - 10.0, floor - 13.0), words)?;
+        }
         let mut hull = vec![(LEFT, floor)];
         for (koma, value) in ssd.iter().enumerate() {
             let share = if self.greatest_ssd > 0.0 && value.is_finite() {

@@ -93,6 +93,6 @@ fn a_sheet_with_genga_has_a_picture_as_well() {
 #[test]
 fn a_small_picture_looks_as_it_did() {
     let (clip, before, after) = omitted();
-    let plot = SsdPlot { width: 400, height: 300 };
+    let plot = SsdPlot { width: 400, height: 300, ..SsdPlot::default() };
     insta::assert_snapshot!("ssd", plot.draw(&clip, &before, &after).unwrap());
 }

@@ -15,7 +15,7 @@ const SHARE: f32 = 0.5;
 pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
     let (look, breakdown) = (&shown.look, &shown.breakdown);
     let [before, after] = [breakdown.spaced, breakdown.sheet]
-        .map(|sheet| Moves::of(breakdown.clip, &sheet.layers[0]));
+        .map(|sheet| Moves::of(breakdown.clip, &sheet.layers[0], breakdown.screen));
     let most = before.largest().max(after.largest()).sqrt();
     let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     let clock = &shown.column.clock;

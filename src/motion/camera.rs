@@ -7,8 +7,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::view::{View, extent};
 use crate::motion::{BodySide, Clip, Skeleton, Stature};
-use crate::plot::view::{View, extent};
 
 /// From where a picture looks (カメラ): level, without perspective, standing still.
 ///

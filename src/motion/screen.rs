@@ -1,0 +1,296 @@
+//! The screen (画面): from where movement is measured.
+//!
+//! In the world, as both papers do; or as a camera sees it: on its screen a hand that comes straight towards us hardly
+//! moves, and what is near moves more than what is far [KKMFT §5].
+
+use std::fmt;
+use std::str::FromStr;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::view::View;
+use crate::motion::{Body, Camera, Clip, Pose, Stature};
+use crate::time::Frame;
+
+/// Frames that are looked at for the side of a [`Camera`]: enough to know where the body goes.
+const LOOKS: usize = 200;
+
+/// What is nearer to an eye than this share of the way to its target, or behind it, is seen as if it were so far:
+/// nearer still, a hair would fill the screen.
+const NEAREST: f64 = 0.05;
+
+/// From where movement is measured (見る位置).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum SeenFrom {
+    /// From nowhere: ways are those through the world [KKMFT §3.1]. The default.
+    #[default]
+    World,
+    /// From one of the sides that pictures have, without perspective.
+    Camera(Camera),
+    /// From a place, with perspective.
+    Eye(Eye),
+}
+
+/// A camera that stands still somewhere and looks at something, both in the file's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Eye {
+    /// Where it stands.
+    pub at: DVec3,
+    /// What it looks at, somewhere else: what moves there moves as far on the screen as in the world.
+    pub target: DVec3,
+}
+
+impl Eye {
+    /// Whether it can see: both places are numbers, and not the same.
+    pub fn is_eye(&self) -> bool {
+        let way = self.target - self.at;
+        way.is_finite() && way.length_squared() > 0.0 && way.length_squared().is_finite()
+    }
+}
+
+/// What a camera makes of places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Screen(Sight);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Sight {
+    World,
+    Far(View),
+    Near { eye: Eye, view: View, distance: f64 },
+}
+
+impl Screen {
+    /// No screen: places are where they are.
+    pub const WORLD: Self = Self(Sight::World);
+
+    /// The screen of a camera that looks at a clip.
+    pub fn of(seen_from: SeenFrom, clip: &Clip) -> Self {
+        Self(match seen_from {
+            SeenFrom::World => Sight::World,
+            SeenFrom::Camera(camera) => Sight::Far(camera.view(clip, &looks(clip))),
+            SeenFrom::Eye(eye) => {
+                let (way, up) = (eye.target - eye.at, Stature::of(clip).up.unit());
+                let near = -way.normalize();
+                // Straight from above or below any side may be the right one: ways are as long.
+                let right = up.cross(near).try_normalize().unwrap_or(near.any_orthonormal_vector());
+                let view = View { right, up: near.cross(right), near };
+                Sight::Near { eye, view, distance: way.length() }
+            }
+        })
+    }
+
+    /// Where a place of the world is seen: right and up on the screen and 0, in the file's unit. Without a screen it is
+    /// the place itself.
+    pub fn see(&self, place: DVec3) -> DVec3 {
+        match self.0 {
+            Sight::World => place,
+            Sight::Far(view) => {
+                let (right, up, _) = view.see(place);
+                DVec3::new(right, up, 0.0)
+            }
+            Sight::Near { eye, view, distance } => {
+                let (right, up, near) = view.see(place - eye.at);
+                let scale = distance / (-near).max(NEAREST * distance);
+                DVec3::new(scale * right, scale * up, 0.0)
+            }
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_world(&self) -> bool {
+        self.0 == Sight::World
+    }
+}
+
+/// Where the joints stand in some frames of a clip, evenly spread.
+pub(super) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
+    let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+    let step = clip.len().div_ceil(LOOKS).max(1);
+    let stand = |row: usize| {
+        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+        pose.take_frame(clip, Frame(clip.first().0 + row));
+        body.place(&pose, &mut positions);
+        positions
+    };
+    (0..clip.len()).step_by(step).map(stand).collect()
+}
+
+impl SeenFrom {
+    /// Whether there is a screen.
+    pub fn is_world(self) -> bool {
+        self == Self::World
+    }
+
+    /// Checks that it can see.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a camera that stands at what it looks at, or nowhere.
+    pub fn validate(self) -> Result<(), Error> {
+        match self {
+            Self::Eye(eye) if !eye.is_eye() => Err(nowhere(&self.to_string())),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// That nothing is seen from there, and from where it is.
+fn nowhere(text: &str) -> Error {
+    let message = format!(
+        "\"{text}\" is nowhere to look from; it is world, {}, or where the camera stands and what it looks at, \
+         in the file's unit: X,Y,Z:X,Y,Z",
+        Camera::ALL.map(Camera::word).join(", ")
+    );
+    Error::setting("seen_from", message)
+}
+
+impl fmt::Display for SeenFrom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::World => f.write_str("world"),
+            Self::Camera(camera) => camera.fmt(f),
+            Self::Eye(Eye { at, target }) => {
+                let [x, y, z] = at.to_array();
+                write!(f, "{x},{y},{z}:{},{},{}", target.x, target.y, target.z)
+            }
+        }
+    }
+}
+
+impl FromStr for SeenFrom {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let text = text.trim();
+        if text == "world" {
+            return Ok(Self::World);
+        }
+        if let Ok(camera) = text.parse() {
+            return Ok(Self::Camera(camera));
+        }
+        let eye = text.split_once(':').and_then(|(at, target)| {
+            let eye = Eye { at: place(at)?, target: place(target)? };
+            eye.is_eye().then_some(Self::Eye(eye))
+        });
+        eye.ok_or_else(|| nowhere(text))
+    }
+}
+
+fn place(text: &str) -> Option<DVec3> {
+    let mut numbers = text.split(',').map(|number| number.trim().parse::<f64>().ok());
+    let place = DVec3::new(numbers.next()??, numbers.next()??, numbers.next()??);
+    numbers.next().is_none().then_some(place)
+}
+
+impl TryFrom<String> for SeenFrom {
+    type Error = Error;
+
+    fn try_from(text: String) -> Result<Self, Error> {
+        text.parse()
+    }
+}
+
+impl From<SeenFrom> for String {
+    fn from(seen_from: SeenFrom) -> Self {
+        seen_from.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::motion::{Axis, Channel, Joint, Skeleton};
+    use crate::time::FrameRate;
+
+    /// A point that goes along X.
+    fn clip() -> Clip {
+        let joint = Joint {
+            name: "point".into(),
+            parent: None,
+            offset: DVec3::ZERO,
+            channels: vec![Channel::Position(Axis::X)],
+            first_channel: 0,
+            end_sites: vec![],
+        };
+        let rows = (0..500).map(f64::from).collect();
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(Skeleton { joints: vec![joint] }, rate, Frame(3), 500, rows).unwrap()
+    }
+
+    fn screen(text: &str) -> Screen {
+        Screen::of(text.parse().unwrap(), &clip())
+    }
+
+    #[test]
+    fn it_reads_back_as_written_and_refuses_what_cannot_see() {
+        for text in ["world", "auto", "front", "side", "three-quarter", "0,1.5,-400:0,90,1e20"] {
+            let seen_from: SeenFrom = text.parse().unwrap();
+            assert_eq!(seen_from.to_string().parse::<SeenFrom>().unwrap(), seen_from);
+            let written = serde_json::to_string(&seen_from).unwrap();
+            assert_eq!(serde_json::from_str::<SeenFrom>(&written).unwrap(), seen_from);
+        }
+        for wrong in
+            ["", "top", "1,2,3", "1,2:3,4", "1,2,3:1,2,3", "1,2,3:4,5,nan", "1,2,3,4:5,6,7"]
+        {
+            let message = wrong.parse::<SeenFrom>().unwrap_err().to_string();
+            assert!(message.contains("X,Y,Z:X,Y,Z"), "{message}");
+        }
+    }
+
+    #[test]
+    fn without_a_screen_a_place_is_where_it_is() {
+        let place = DVec3::new(1.0, -2.0, 3.0);
+        assert_eq!(Screen::WORLD.see(place), place);
+        assert!(screen("world").is_world() && !screen("front").is_world());
+    }
+
+    #[test]
+    fn from_the_front_nothing_is_seen_of_a_way_towards_us() {
+        let front = screen("front");
+        assert_eq!(front.see(7.0 * DVec3::Z), DVec3::ZERO);
+        assert_eq!(front.see(DVec3::new(2.0, 3.0, 4.0)), DVec3::new(2.0, 3.0, 0.0));
+        assert_eq!(
+            screen("auto").see(5.0 * DVec3::X).length(),
+            5.0,
+            "the side of the way that is gone"
+        );
+    }
+
+    #[test]
+    fn what_is_half_as_far_is_twice_as_large_and_nothing_grows_without_end() {
+        let near = screen("0,0,10:0,0,0");
+        assert_eq!(near.see(DVec3::new(1.0, 2.0, 0.0)), DVec3::new(1.0, 2.0, 0.0));
+        assert_eq!(near.see(DVec3::new(1.0, 2.0, 5.0)), DVec3::new(2.0, 4.0, 0.0));
+        assert_eq!(near.see(DVec3::new(1.0, 0.0, -10.0)), DVec3::new(0.5, 0.0, 0.0));
+        for behind in [9.9, 10.0, 50.0] {
+            assert_eq!(near.see(DVec3::new(1.0, 0.0, behind)), DVec3::new(20.0, 0.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn it_sees_from_straight_above() {
+        let above = screen("3,10,5:3,0,5");
+        assert!(
+            (above.see(DVec3::new(4.0, 0.0, 5.0)) - above.see(DVec3::new(3.0, 0.0, 5.0))).length()
+                > 0.99
+        );
+        assert!(above.see(DVec3::new(3.0, 6.0, 5.0)).length() < 1e-12, "on the way it looks");
+    }
+
+    proptest! {
+        #[test]
+        fn a_far_eye_sees_what_a_side_does(
+            place in prop::array::uniform3(-50.0..50.0f64),
+            other in prop::array::uniform3(-50.0..50.0f64),
+        ) {
+            let (eye, front) = (screen("0,0,1e9:0,0,0"), screen("front"));
+            let [place, other] = [place, other].map(DVec3::from_array);
+            let ways = [eye, front].map(|screen| screen.see(place).distance(screen.see(other)));
+            prop_assert!((ways[0] - ways[1]).abs() < 1e-4 * (1.0 + ways[1]));
+        }
+    }
+}
