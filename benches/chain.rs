@@ -85,6 +85,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     watch.lap("turns");
     let clock = clip.clock(recipe.rate);
     let joints = JointTurns {
+        contacts: &[],
         filtered: &filtered,
         turns: &turns,
         finder: &recipe.turns,

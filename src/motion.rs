@@ -9,6 +9,7 @@ mod drawn;
 mod kinematics;
 pub mod landmarks;
 pub(crate) mod lanes;
+mod leg;
 pub(crate) mod mannequin;
 pub(crate) mod rig;
 pub(crate) mod sampler;

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{ActionFinder, Choose, Layers};
-use crate::sheet::RootMotion;
+use crate::sheet::{Feet, RootMotion};
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
@@ -46,6 +46,9 @@ pub struct Recipe {
     /// source, `ones`, the travel is smooth, and feet that stand slide as far as the body goes while
     /// their drawing is held.
     pub root: RootMotion,
+    /// Whether a foot stays where it stands. Default: it is where its drawing has it. Held, it does not slide
+    /// as far as the leg reaches, and the legs are no longer the performer's to the last degree.
+    pub feet: Feet,
     /// How fast a joint is.
     pub speed: Speed,
     /// How its speed is smoothed.
@@ -68,6 +71,7 @@ impl Default for Recipe {
             rate: KOMA_RATE,
             layers: Layers::default(),
             root: RootMotion::default(),
+            feet: Feet::default(),
             speed: Speed::default(),
             filter: LowPass::default(),
             turns: TurnFinder::default(),
@@ -248,6 +252,7 @@ struct File {
     rate: Option<f64>,
     layers: Layers,
     root: RootMotion,
+    feet: Feet,
     speed: Speed,
     filter: LowPass,
     turns: TurnFinder,
@@ -264,6 +269,7 @@ impl File {
             rate: self.rate.unwrap_or(KOMA_RATE),
             layers: self.layers.clone(),
             root: self.root,
+            feet: self.feet,
             speed: self.speed.clone(),
             filter: self.filter.clone(),
             turns: self.turns.clone(),
@@ -363,6 +369,7 @@ mod tests {
                 r#"[{ name = "A", joints = ["Hips"] }, { name = "腕", joints = ["*Arm*"] }]"#,
             ),
             ("root", "ones"),
+            ("feet", "held"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),
             ("turns.steady", "5%"),
