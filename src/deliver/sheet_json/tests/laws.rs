@@ -27,15 +27,16 @@ fn why() -> impl Strategy<Value = Why> {
     let words = prop::collection::vec(any::<String>(), 0..3);
     let value = || prop::option::of(prop_oneof![Just(0.0), -1e300..1e300, 0.0..1e-300, 0.0..100.0]);
     let counts = prop::array::uniform3(0..4usize);
-    let flags = any::<(bool, bool)>();
+    let flags = any::<(bool, bool, bool)>();
     let pinned = prop::option::of(any::<String>());
     let moved = prop::option::of(0..999usize);
     (words, pinned, moved, flags, value(), value(), counts).prop_map(
-        |(voters, pinned, moved_from, (rest, hold_set), strength, price, counts)| Why {
+        |(voters, pinned, moved_from, (rest, contact, hold_set), strength, price, counts)| Why {
             voters,
             pinned,
             moved_from,
             rest,
+            contact,
             strength,
             price,
             lengthened: counts[0],
