@@ -73,7 +73,7 @@ const LOW: f64 = 0.05;
 const TORN: usize = 2;
 
 /// How far a point may get in them, in the longest steps of one that stays.
-const TORN_WAY: f64 = 3.0;
+const TORN_WAY: f64 = 2.0;
 
 impl ContactFinder {
     /// The contacts of both feet, then of both hands, each by koma.
