@@ -85,13 +85,13 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     watch.lap("turns");
     let clock = clip.clock(recipe.rate);
     let joints = JointTurns {
-        contacts: &[],
         filtered: &filtered,
         turns: &turns,
         finder: &recipe.turns,
         delay,
         weights: &keys::weights(clip),
         apart: clock.frames_in_koma(),
+        contacts: &[],
     };
     let candidates = recipe.keys.candidates(&joints);
     watch.lap("merge");
