@@ -11,7 +11,8 @@ use crate::keys::choice::{By, Choice, Picked};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::voters::voters;
 use crate::keys::{
-    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest,
+    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference,
+    rest,
 };
 use crate::motion::Clip;
 use crate::time::Span;
