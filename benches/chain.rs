@@ -91,6 +91,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
         delay,
         weights: &keys::weights(clip),
         apart: clock.frames_in_koma(),
+        contacts: &[],
     };
     let candidates = recipe.keys.candidates(&joints);
     watch.lap("merge");

@@ -10,6 +10,7 @@ mod cheapest;
 mod choice;
 mod choose;
 mod chords;
+mod contact;
 mod correct;
 mod figure;
 mod layers;
@@ -34,6 +35,8 @@ pub(crate) use bridge::Bridge;
 pub(crate) use choice::{Choice, Picked};
 pub use choose::{Choose, Judges, Merge, Rank};
 pub use chords::Chords;
+pub use contact::AtContacts;
+pub(crate) use contact::contact_ends;
 pub use figure::Figure;
 pub(crate) use layers::PartMotion;
 pub use layers::{Layers, NamedLayer, Part};
@@ -72,6 +75,8 @@ pub enum Origin {
     Found,
     /// The begin or the end of a rest (止め): it is kept whatever it saves.
     Rest,
+    /// The begin or the end of a contact (接地): it is kept whatever it saves.
+    Contact,
     /// Set by a person; it survives everything.
     Pinned,
     /// Found elsewhere and put here by a person; it survives everything.

@@ -14,7 +14,7 @@ use crate::keys::{
 };
 use crate::motion::{Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
-use crate::sheet::{RootMotion, Sheet};
+use crate::sheet::{Feet, RootMotion, Sheet};
 use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
 use crate::timing::{Report, with_holds};
@@ -46,8 +46,8 @@ pub struct Engine {
     sheets: Stage<SheetSettings, [Sheet; 2]>,
 }
 
-/// Rate, root, what a person holds, and which outputs of the layers.
-type SheetSettings = (f64, RootMotion, Vec<Hold>, Vec<Made>);
+/// Rate, root, feet, what a person holds, and which outputs of the layers.
+type SheetSettings = (f64, RootMotion, Feet, Vec<Hold>, Vec<Made>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
@@ -316,14 +316,15 @@ impl Engine {
     /// The sheet, before and after omission and what a person holds.
     fn sheet(&mut self, recipe: &Recipe, holds: &[Hold], clock: Clock, made: Vec<Made>) {
         let columns = &self.columns[..made.len()];
-        let settings = (recipe.rate, recipe.root, holds.to_vec(), made);
+        let Recipe { root, feet, .. } = *recipe;
+        let settings = (recipe.rate, root, feet, holds.to_vec(), made);
         self.sheets.renew(Made::CLIP, &settings, || {
             let held = |column: LayerBreakdown<'_>| {
                 let held = with_holds(column.layer, column.spaced, holds, clock);
                 (column.spaced.clone(), held)
             };
             let (spaced, layers) = columns.iter().map(Column::breakdown).map(held).unzip();
-            [spaced, layers].map(|layers| Sheet { clock, layers, root: recipe.root })
+            [spaced, layers].map(|layers| Sheet { clock, layers, root, feet })
         });
     }
 }

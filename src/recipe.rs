@@ -10,7 +10,7 @@ use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{ActionFinder, Choose, Layers};
 use crate::motion::SeenFrom;
-use crate::sheet::RootMotion;
+use crate::sheet::{Feet, RootMotion};
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
@@ -50,6 +50,9 @@ pub struct Recipe {
     /// From where movement is measured; default `world`. On a camera's screen it counts for speeds of
     /// displacement, for the keys and rests of the body, and for what omission leaves out.
     pub seen_from: SeenFrom,
+    /// Whether a foot stays where it stands. Default: it is where its drawing has it. Held, it does not slide
+    /// as far as the leg reaches, and the legs are no longer the performer's to the last degree.
+    pub feet: Feet,
     /// How fast a joint is.
     pub speed: Speed,
     /// How its speed is smoothed.
@@ -73,6 +76,7 @@ impl Default for Recipe {
             layers: Layers::default(),
             root: RootMotion::default(),
             seen_from: SeenFrom::World,
+            feet: Feet::default(),
             speed: Speed::default(),
             filter: LowPass::default(),
             turns: TurnFinder::default(),
@@ -255,6 +259,7 @@ struct File {
     layers: Layers,
     root: RootMotion,
     seen_from: SeenFrom,
+    feet: Feet,
     speed: Speed,
     filter: LowPass,
     turns: TurnFinder,
@@ -272,6 +277,7 @@ impl File {
             layers: self.layers.clone(),
             root: self.root,
             seen_from: self.seen_from,
+            feet: self.feet,
             speed: self.speed.clone(),
             filter: self.filter.clone(),
             turns: self.turns.clone(),
@@ -372,6 +378,7 @@ mod tests {
             ),
             ("root", "ones"),
             ("seen_from", "0,150,400:0,90,0"),
+            ("feet", "held"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),
             ("turns.steady", "5%"),

@@ -24,6 +24,21 @@ pub struct Sheet {
     /// What carries the body through the room while a drawing is held.
     #[serde(default, skip_serializing_if = "is_default")]
     pub root: RootMotion,
+    /// Whether a foot stays where it stands.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub feet: Feet,
+}
+
+/// Whether a foot on the ground (接地) stays where it is in the motion that is handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Feet {
+    /// It is where its drawing has it.
+    #[default]
+    Free,
+    /// In each drawing of an instant at which it stands in the source, it is where it stood there in the
+    /// mean: hip and knee give way as far as the leg reaches, the pelvis stays.
+    Held,
 }
 
 /// What carries the body through the room (移動) from koma to koma.
@@ -145,6 +160,9 @@ pub struct Why {
     /// The begin or the end of a rest (止め).
     #[serde(skip_serializing_if = "is_default")]
     pub rest: bool,
+    /// The begin or the end of a contact (接地).
+    #[serde(skip_serializing_if = "is_default")]
+    pub contact: bool,
     /// How strong the key is, 0 to 1 for votes; none for inbetweens.
     #[serde(skip_serializing_if = "is_default")]
     pub strength: Option<f64>,
@@ -193,6 +211,9 @@ impl fmt::Display for Why {
         }
         if self.rest {
             reasons.push("a rest begins or ends".into());
+        }
+        if self.contact {
+            reasons.push("a foot or a hand comes down or leaves".into());
         }
         if let [first, ..] = self.voters.as_slice() {
             let others = self.voters.len() - 1;
@@ -309,7 +330,7 @@ impl Layer {
 impl Sheet {
     /// A sheet of some layers, whose drawings carry the body.
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
-        Self { clock, layers, root: RootMotion::default() }
+        Self { clock, layers, root: RootMotion::default(), feet: Feet::default() }
     }
 
     /// Checks that every exposure shows a drawing that its layer has, for a koma at least, that no

@@ -1,6 +1,5 @@
 //! **Measure** (測る): how fast each joint moves, smoothed, and where its speed turns.
 
-mod contact;
 mod low_pass;
 mod speed;
 mod turns;
@@ -10,7 +9,7 @@ use nalgebra::DMatrix;
 use crate::motion::{JointId, Skeleton};
 use crate::time::{Frame, FrameRate};
 
-pub use contact::{Contact, ContactFinder, Limb};
+pub use crate::motion::{Contact, ContactFinder, Limb};
 pub use low_pass::{FilterKind, LowPass, Spectrum};
 pub use speed::{Measure, Speed};
 pub use turns::{Reading, Side, Steady, Turn, TurnFinder, TurnKind};

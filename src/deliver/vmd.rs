@@ -205,7 +205,7 @@ impl Frames {
 }
 
 /// Every bone on the first frame of each drawing, and on the last where that is another. Where a held
-/// drawing slides, the centre has a key on every koma besides.
+/// drawing slides, the centre has a key on every koma besides; where its feet stay meanwhile, every bone.
 fn keys(
     composite: &Composite<'_>,
     frames: &Frames,
@@ -215,8 +215,13 @@ fn keys(
     let bones = retarget.bones();
     let slides = composite.slides() && retarget.has_center();
     let mut before = vec![DQuat::IDENTITY; bones.len()];
-    let mut keys = Vec::with_capacity(2 * bones.len() * layer.exposures.len());
-    for (begin, exposure) in layer.timed() {
+    let exposures: Vec<(usize, Exposure)> = if composite.steppers().is_empty() {
+        layer.timed().collect()
+    } else {
+        layer.koma().map(|drawing| Exposure { drawing, koma: 1 }).enumerate().collect()
+    };
+    let mut keys = Vec::with_capacity(2 * bones.len() * exposures.len());
+    for (begin, exposure) in exposures {
         let mut pose = retarget.take(exposure.drawing, begin);
         for (local, before) in pose.iter_mut().zip(&mut before) {
             // q and −q are one rotation, but between the two MMD would turn the long way round.

@@ -11,7 +11,8 @@ use crate::keys::choice::{By, Choice, Picked};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::voters::voters;
 use crate::keys::{
-    Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference, rest,
+    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference,
+    rest,
 };
 use crate::motion::Clip;
 use crate::time::Span;
@@ -68,6 +69,10 @@ pub struct Choose {
     /// Both ends of a rest of half a second or more are keys whatever they save. Raised, slow gestures
     /// count as rests.
     pub rest: f64,
+    /// What the begin and the end of a contact (接地) are, of a foot that comes down or leaves the ground and
+    /// of a hand that stays somewhere: `off` (default) moments like all others, `candidates` also where no
+    /// joint turns, `keys` whatever they save. With `keys` a walk has a key at every step, and more of them.
+    pub contacts: AtContacts,
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
     pub min_strength: f64,
@@ -89,6 +94,7 @@ impl Default for Choose {
             rank: Rank::Price,
             min_price: 3.0,
             rest: 15.0,
+            contacts: AtContacts::default(),
             min_strength: 0.0,
             per_second: 6.0,
             weights: JointWeights::default(),
@@ -154,7 +160,7 @@ impl Choose {
         self.drawn(clip, keys, &picked, candidates, joints, edits)
     }
 
-    /// All that may become keys: candidates, the ends of rests, and pins.
+    /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
     pub(crate) fn eligible(
         &self,
         clip: &Clip,
@@ -164,7 +170,8 @@ impl Choose {
         edits: &Edits,
     ) -> Vec<Key> {
         let rests = rest::rest_ends(chords, self.rest);
-        corrected(candidates, &rests, edits, clip, joints.apart)
+        let contacts = if self.contacts == AtContacts::Keys { joints.contacts } else { &[] };
+        corrected(candidates, (&rests, contacts), edits, clip, joints.apart)
     }
 
     /// On what it hangs which of some keys are picked.

@@ -5,11 +5,12 @@ use crate::keys::{Candidates, Key, Origin};
 use crate::motion::Clip;
 use crate::time::Frame;
 
-/// Candidates, the ends of rests and pins in order. A pin pushes out what lies nearer than a koma, a
-/// forbidden frame too; the end of a rest pushes out candidates. `apart` is one koma in frames.
+/// Candidates, what stays of itself (the ends of rests, then of contacts) and pins in order. A pin pushes out
+/// what lies nearer than a koma, a forbidden frame too; what stays pushes out candidates, and the end of a
+/// rest those of contacts. `apart` is one koma in frames.
 pub(super) fn corrected(
     candidates: &Candidates,
-    rests: &[Frame],
+    (rests, contacts): (&[Frame], &[Frame]),
     edits: &Edits,
     clip: &Clip,
     apart: f64,
@@ -25,14 +26,16 @@ pub(super) fn corrected(
         .filter(|frame| !unwanted(*frame))
         .map(|frame| key(frame, 1.0, Origin::Rest))
         .collect();
-    let at_rest = |frame: Frame| {
-        let after = keys.partition_point(|rest| rest.frame < frame);
-        keys[after.saturating_sub(1)..].iter().take(2).any(|rest| near(rest.frame, frame))
-    };
+    for &frame in contacts.iter().filter(|frame| inside(frame) && !unwanted(**frame)) {
+        if !is_taken(&keys, frame, apart) {
+            let at = keys.partition_point(|other| other.frame < frame);
+            keys.insert(at, key(frame, 1.0, Origin::Contact));
+        }
+    }
     let found: Vec<Key> = candidates
         .keys
         .iter()
-        .filter(|candidate| !unwanted(candidate.frame) && !at_rest(candidate.frame))
+        .filter(|found| !unwanted(found.frame) && !is_taken(&keys, found.frame, apart))
         .map(|candidate| key(candidate.frame, candidate.strength, Origin::Found))
         .collect();
     keys.extend(found);
@@ -68,6 +71,13 @@ pub(super) fn moved(keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
     };
     keys.retain(|key| key.origin.is_set() || !gives_way(key));
     keys.sort_by_key(|key| key.frame);
+}
+
+/// Whether one of some keys, in order, is nearer to a frame than a koma.
+fn is_taken(keys: &[Key], frame: Frame, apart: f64) -> bool {
+    let after = keys.partition_point(|key| key.frame < frame);
+    let mut beside = keys[after.saturating_sub(1)..].iter().take(2);
+    beside.any(|key| distance(key.frame, frame) < apart)
 }
 
 fn distance(a: Frame, b: Frame) -> f64 {

@@ -3,7 +3,7 @@
 use crate::keys::chords::STEP;
 use crate::keys::peaks::strongest_apart;
 use crate::keys::vote::Poll;
-use crate::keys::{Candidate, Candidates, Choose, Merge, Rank, Wall, sum};
+use crate::keys::{AtContacts, Candidate, Candidates, Choose, Merge, Rank, Wall, sum};
 use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
 use crate::time::Frame;
 
@@ -22,6 +22,9 @@ pub struct JointTurns<'a> {
     pub weights: &'a [f64],
     /// The least distance of two keys, in frames: one koma.
     pub apart: f64,
+    /// Frames on which feet and hands of the layer come down or leave (接地), in order; none where that does
+    /// not count.
+    pub contacts: &'a [Frame],
 }
 
 impl Choose {
@@ -44,8 +47,12 @@ impl Choose {
             let koma = (koma(frame.0 - filtered.first.0) + 0.5).floor();
             0.0 < koma && koma < last
         };
+        let mut keys = merged(TurnKind::Key);
+        if self.contacts == AtContacts::Candidates {
+            add_contacts(&mut keys, &poll, joints);
+        }
         Candidates {
-            keys: merged(TurnKind::Key)
+            keys: keys
                 .into_iter()
                 .filter(|(frame, strength)| inside(*frame) && *strength >= self.min_strength)
                 .map(|(frame, strength)| Candidate { frame, strength })
@@ -65,6 +72,19 @@ impl Choose {
             weights: joints.weights,
             reach: self.reach.frames(filtered.rate),
             apart: joints.apart,
+        }
+    }
+}
+
+/// Adds the ends of contacts that no candidate is nearer to than a koma, with the vote there.
+fn add_contacts(keys: &mut Vec<(Frame, f64)>, poll: &Poll<'_>, joints: &JointTurns<'_>) {
+    let votes = poll.count(joints.turns, TurnKind::Key);
+    for &frame in joints.contacts {
+        let at = keys.partition_point(|(other, _)| *other < frame);
+        let mut beside = keys[at.saturating_sub(1)..].iter().take(2);
+        let near = |(other, _): &(Frame, f64)| (other.0.abs_diff(frame.0) as f64) < joints.apart;
+        if !beside.any(near) {
+            keys.insert(at, (frame, votes[frame.0 - poll.first.0]));
         }
     }
 }

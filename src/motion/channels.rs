@@ -72,8 +72,20 @@ impl<'a> RowWriter<'a> {
     }
 }
 
+/// Writes a rotation into a joint's part of a row, as the angles nearest to those that stand there; a joint
+/// without three different axes keeps what it has.
+pub(super) fn write_rotation(joint: &Joint, rotation: DQuat, row: &mut [f64]) {
+    let Some(axes) = rotation_axes(joint) else { return };
+    let mut angles = angles_from_rotation(rotation, axes, &near(joint, row)).into_iter();
+    for (channel, value) in joint.channels.iter().zip(row) {
+        if matches!(channel, Channel::Rotation(_)) {
+            *value = angles.next().unwrap_or(*value);
+        }
+    }
+}
+
 /// The axes of a joint's rotations when they are three different ones, in the order listed.
-fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
+pub(super) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
     let mut axes = joint.channels.iter().filter_map(|channel| match channel {
         Channel::Rotation(axis) => Some(*axis),
         Channel::Position(_) => None,

@@ -1,6 +1,7 @@
 //! The cels of a sheet laid on one another (合成): one body, each joint in the pose of its own layer's
 //! drawing.
 
+mod feet;
 mod flat;
 mod posed;
 mod rows;
@@ -11,9 +12,10 @@ use std::borrow::Cow;
 
 use crate::error::{Error, nearest};
 use crate::motion::{Channel, Clip, Skeleton};
-use crate::sheet::{Drawing, Exposure, Layer, RootMotion, Sheet, Source};
+use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Source};
 use crate::time::Clock;
 
+use feet::{FootHold, HeldFeet};
 pub(crate) use posed::PosedComposite;
 pub(crate) use rows::CompositeRows;
 
@@ -32,6 +34,8 @@ pub(crate) struct Composite<'a> {
     part_of: Vec<usize>,
     /// Joints whose place is the source's on every koma.
     travellers: Vec<usize>,
+    /// Feet that stay where they stand, where they are to.
+    feet: Option<HeldFeet>,
 }
 
 impl<'a> Composite<'a> {
@@ -63,7 +67,11 @@ impl<'a> Composite<'a> {
             RootMotion::Drawings => Vec::new(),
             RootMotion::Ones => travellers(clip),
         };
-        Ok(Self { clip, clock: sheet.clock, layer, drawings, part_of, travellers })
+        let feet = match sheet.feet {
+            Feet::Free => None,
+            Feet::Held => HeldFeet::of(clip, sheet.clock),
+        };
+        Ok(Self { clip, clock: sheet.clock, layer, drawings, part_of, travellers, feet })
     }
 
     /// The motion.
@@ -99,6 +107,17 @@ impl<'a> Composite<'a> {
     /// Joints whose place is the source's on every koma.
     pub(crate) fn travellers(&self) -> &[usize] {
         &self.travellers
+    }
+
+    /// Joints that turn while a drawing is held: the legs of feet that stay while the body goes on.
+    pub(crate) fn steppers(&self) -> Vec<usize> {
+        let feet = self.feet.iter().filter(|_| self.slides());
+        feet.flat_map(HeldFeet::joints).collect()
+    }
+
+    /// What holds the feet of its poses, where they are held.
+    fn foot_hold(&self) -> Option<FootHold<'_>> {
+        self.feet.as_ref().map(|feet| FootHold::of(feet, self.clip))
     }
 
     /// Where the koma stands in the source.

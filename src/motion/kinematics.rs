@@ -82,7 +82,8 @@ impl Pose {
         self.take_row(clip.skeleton(), clip.row(frame));
     }
 
-    fn take_row(&mut self, skeleton: &Skeleton, row: &[f64]) {
+    /// Takes on the pose of a row of channel values.
+    pub(super) fn take_row(&mut self, skeleton: &Skeleton, row: &[f64]) {
         for ((joint, rotation), translation) in
             skeleton.joints.iter().zip(&mut self.rotations).zip(&mut self.translations)
         {

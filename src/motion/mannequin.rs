@@ -119,6 +119,12 @@ impl Mannequin {
         joints
     }
 
+    /// Hip, knee and ankle of each leg, in the order of the feet.
+    pub(crate) fn legs(&self) -> [[usize; 3]; 2] {
+        [&self.legs[0], &self.legs[1]]
+            .map(|leg| [leg.upper, leg.middle, leg.lower].map(|point| point.joint.0))
+    }
+
     /// Where the limbs begin: left and right shoulder, left and right hip, as far as names tell a side.
     pub(crate) fn limb_tops(&self, skeleton: &Skeleton) -> [usize; 4] {
         let left_first = |limbs: &[Limb; 2]| {

@@ -37,6 +37,8 @@ pub(super) struct Column {
     motion: Stage<(Part, JointWeights), PartMotion>,
     /// The turns of those that have a say, and the weight of each one's vote.
     voices: Stage<Made, Voices>,
+    /// When feet and hands of the layer come down or leave, where that counts.
+    contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
     chords: Stage<f64, Chords>,
@@ -85,9 +87,20 @@ impl Column {
         let voices = |motion: &PartMotion| Voices::of(measured.clip, motion, measured.turns);
         let motion = self.motion.made;
         let made = self.voices.renew(measured.made, &motion, || voices(self.motion.output()));
+        self.touch(measured, recipe);
         let made = self.merge(measured, recipe, made);
         self.compare(measured, recipe);
         self.choose(measured, recipe, edits, made)
+    }
+
+    /// The ends of contacts, which are not looked for where they do not count.
+    fn touch(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let (clip, heard) = (measured.clip, &self.motion.output().heard);
+        let settings = (recipe.keys.contacts, recipe.rate);
+        self.contacts.renew(self.motion.made, &settings, || match recipe.keys.contacts {
+            keys::AtContacts::Off => Vec::new(),
+            _ => keys::contact_ends(clip, clip.clock(recipe.rate), heard),
+        });
     }
 
     /// The candidates for keys.
@@ -100,7 +113,7 @@ impl Column {
             ..recipe.keys.clone()
         };
         let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let joints = joints(self.voices.output(), measured, recipe);
+        let joints = joints(self.voices.output(), self.contacts.output(), measured, recipe);
         self.candidates.renew(voices_made, &settings, || recipe.keys.candidates(&joints))
     }
 
@@ -132,7 +145,7 @@ impl Column {
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen);
         let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
         let candidates = self.candidates.output();
-        let joints = joints(self.voices.output(), measured, recipe);
+        let joints = joints(self.voices.output(), self.contacts.output(), measured, recipe);
         let (clip, keys, picked) = (measured.clip, &recipe.keys, &mut self.picked);
         let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
@@ -205,7 +218,12 @@ impl Column {
 }
 
 /// What is known of the joints once their turns are found.
-fn joints<'a>(voices: &'a Voices, measured: &Measured<'a>, recipe: &'a Recipe) -> JointTurns<'a> {
+fn joints<'a>(
+    voices: &'a Voices,
+    contacts: &'a [Frame],
+    measured: &Measured<'a>,
+    recipe: &'a Recipe,
+) -> JointTurns<'a> {
     JointTurns {
         filtered: measured.filtered,
         turns: voices.turns.as_deref().unwrap_or(measured.turns),
@@ -213,6 +231,7 @@ fn joints<'a>(voices: &'a Voices, measured: &Measured<'a>, recipe: &'a Recipe) -
         delay: recipe.filter.delay(measured.clip.rate()),
         weights: &voices.weights,
         apart: measured.clip.clock(recipe.rate).frames_in_koma(),
+        contacts,
     }
 }
 

@@ -53,6 +53,9 @@ impl Cell<'_> {
         if why.rest {
             reasons.push("rest 止め".to_owned());
         }
+        if why.contact {
+            reasons.push("contact 接地".to_owned());
+        }
         match why.voters.as_slice() {
             [] => {}
             [one] => reasons.push(one.clone()),

@@ -99,6 +99,16 @@ pub const KNOBS: &[Knob] = &[
                         画面ではこちらへ真っすぐ来る動きは小さい。移動・原画・止め・省略に効き、回転には効かない。",
     },
     Knob {
+        name: "feet",
+        japanese: "接地",
+        kind: Kind::Choice(&["free", "held"]),
+        unit: "",
+        help: "Whether a foot stays where it stands: where its drawing has it (free), or on one place for \
+               as long as it stands in the source, hip and knee giving way (held).",
+        japanese_help: "接地した足を止めるか。絵のまま（free）か、素材で接地している間は一か所に止め、\
+                        股と膝で合わせる（held）か。",
+    },
+    Knob {
         name: "speed.measure",
         japanese: "速さの測り方",
         kind: Kind::Choice(&["rotation", "displacement", "combined", "angle"]),
@@ -206,6 +216,16 @@ pub const KNOBS: &[Knob] = &[
         unit: "% of body height a second",
         help: "Slower than this for half a second, the whole body rests: both ends of a rest are keys.",
         japanese_help: "全身がこれより遅い状態が半秒続けば止めとみなし、その両端を原画にする。",
+    },
+    Knob {
+        name: "keys.contacts",
+        japanese: "接地を原画に",
+        kind: Kind::Choice(&["off", "candidates", "keys"]),
+        unit: "",
+        help: "What the moments are at which a foot or a hand comes down or leaves: like all others (off), \
+               candidates even where no joint turns, or keys whatever they save.",
+        japanese_help: "足や手が着く瞬間と離れる瞬間をどう扱うか。特別扱いしない（off）、部位が変わらなくても\
+                        候補にする（candidates）、必ず原画にする（keys）。",
     },
     Knob {
         name: "keys.min_strength",

@@ -198,6 +198,7 @@ fn why(cell: &Cell<'_>, shown: &Shown<'_>) -> String {
                 false => format!("from frame {from}"),
             }),
             Origin::Rest => reasons.push(words.say("rest", "止め").into()),
+            Origin::Contact => reasons.push(words.say("contact", "接地").into()),
             _ => {}
         }
     }

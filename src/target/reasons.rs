@@ -22,10 +22,11 @@ pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {
 pub(super) fn staying(genga: usize, keys: &[Key]) -> String {
     let any = |is: fn(Origin) -> bool| keys.iter().any(|key| is(key.origin));
     let rests = any(|origin| origin == Origin::Rest);
-    let kinds = [
+    let kinds: [(bool, &str, &str); 4] = [
         (any(|origin| origin == Origin::Pinned), "a pin", "pins"),
         (any(|origin| matches!(origin, Origin::Moved { .. })), "a moved key", "moved keys"),
         (rests, "the end of a rest", "ends of rests"),
+        (any(|origin| origin == Origin::Contact), "the end of a contact", "ends of contacts"),
     ];
     let there = kinds.into_iter().filter(|(is_there, ..)| *is_there);
     let words: Vec<&str> =

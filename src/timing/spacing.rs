@@ -247,6 +247,7 @@ impl Station<'_> {
                 Origin::Pinned => {}
                 Origin::Moved { from } => why.moved_from = Some(from.0),
                 Origin::Rest => why.rest = true,
+                Origin::Contact => why.contact = true,
                 Origin::Found => why.price = Some(key.price).filter(|price| price.is_finite()),
             }
         }

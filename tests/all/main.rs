@@ -4,6 +4,7 @@
 
 mod actions; // a long take as its actions
 mod clips; // where clips come from
+mod contacts; // contacts as keys, and feet that stay where they stand
 mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found
 #[cfg(feature = "cli")]

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::Space;
 use super::binary::{Binary, Use};
 use super::bones::floats;
-use crate::motion::{Composite, CompositeRows, local_rotation, local_translation};
+use crate::motion::{Composite, CompositeRows, Joint, local_rotation, local_translation};
 use crate::sheet::{Layer, Source};
 
 /// A drawing that an animation shows, and from which koma until before which.
@@ -49,7 +49,9 @@ struct Local {
 }
 
 /// The pose of every drawing of a layer, and which parts of it move.
-pub(super) struct Poses {
+pub(super) struct Poses<'a> {
+    composite: &'a Composite<'a>,
+    space: Space,
     /// Drawing by drawing, joint by joint.
     locals: Vec<Local>,
     joints: usize,
@@ -57,13 +59,13 @@ pub(super) struct Poses {
     translated: Vec<usize>,
     /// The same of rotations.
     rotated: Vec<usize>,
-    /// Where joints are that are on ones whatever is held: one translation a koma.
-    sliding: Vec<(usize, Vec<[f32; 3]>)>,
+    /// Joints that turn on every koma whatever is held.
+    steppers: Vec<usize>,
 }
 
-impl Poses {
+impl<'a> Poses<'a> {
     /// The poses as `limited.bvh` has them.
-    pub(super) fn of(composite: &Composite<'_>, space: Space) -> Self {
+    pub(super) fn of(composite: &'a Composite<'a>, space: Space) -> Self {
         let joints = &composite.clip().skeleton().joints;
         let mut row = vec![0.0; composite.clip().skeleton().channels()];
         let mut rows = CompositeRows::of(composite);
@@ -71,10 +73,7 @@ impl Poses {
         let mut locals = Vec::with_capacity(first_koma.len() * joints.len());
         for (drawing, koma) in first_koma.into_iter().enumerate() {
             rows.write(drawing, koma, &mut row);
-            locals.extend(joints.iter().map(|joint| Local {
-                translation: floats(space.position(local_translation(joint, &row))),
-                rotation: quaternion(space.rotation(local_rotation(joint, &row))),
-            }));
+            locals.extend(joints.iter().map(|joint| Local::of(joint, &row, space)));
         }
         let any = |joint: usize, leaves: &dyn Fn(&Local) -> bool| {
             locals[joint..].iter().step_by(joints.len()).any(leaves)
@@ -86,14 +85,15 @@ impl Poses {
         // Not by the last value: the cosine of a small angle is 1.
         let is_rotated = |joint: &usize| any(*joint, &|local| local.rotation[..3] != [0.0; 3]);
         let mut translated: Vec<usize> = (0..joints.len()).filter(is_translated).collect();
-        let rotated: Vec<usize> = (0..joints.len()).filter(is_rotated).collect();
+        let mut rotated: Vec<usize> = (0..joints.len()).filter(is_rotated).collect();
         if translated.is_empty() && rotated.is_empty() {
             // glTF has no animation without a channel: a body that stays at rest is held there.
             translated.push(0);
         }
-        let sliding = sliding(composite, space);
-        translated.retain(|joint| sliding.iter().all(|(other, _)| other != joint));
-        Self { locals, joints: joints.len(), translated, rotated, sliding }
+        let steppers = composite.steppers();
+        translated.retain(|joint| !composite.travellers().contains(joint));
+        rotated.retain(|joint| !steppers.contains(joint));
+        Self { composite, space, locals, joints: joints.len(), translated, rotated, steppers }
     }
 
     /// An animation of some drawings, with a key at the end of the last: without it the last drawing
@@ -120,11 +120,18 @@ impl Poses {
             let values = continuous(self.track(joint, shown).map(|local| local.rotation));
             tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
         }
-        if let [(_, koma), ..] = self.sliding.as_slice() {
+        if self.composite.slides() {
+            let koma = self.on_ones(shown);
             let times: Vec<[f32; 1]> = (0..koma.len()).map(second).collect();
             let times = binary.add_bounded(Use::Data, "SCALAR", &times);
-            for (joint, values) in &self.sliding {
-                tracks.push((*joint, "translation", times, binary.add(Use::Data, "VEC3", values)));
+            let local = |joint: usize| koma.iter().map(move |locals| locals[joint]);
+            for &joint in self.composite.travellers() {
+                let values: Vec<_> = local(joint).map(|local| local.translation).collect();
+                tracks.push((joint, "translation", times, binary.add(Use::Data, "VEC3", &values)));
+            }
+            for &joint in &self.steppers {
+                let values = continuous(local(joint).map(|local| local.rotation));
+                tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
             }
         }
         type Track = (usize, &'static str, usize, usize);
@@ -139,31 +146,37 @@ impl Poses {
     }
 
     /// A joint through some drawings, the last once more.
-    fn track<'a>(&'a self, joint: usize, shown: &'a [Shown]) -> impl Iterator<Item = Local> + 'a {
+    fn track(&self, joint: usize, shown: &[Shown]) -> impl Iterator<Item = Local> {
         let drawings = shown.iter().chain(shown.last()).map(|shown| shown.drawing);
         drawings.map(move |drawing| self.locals[drawing * self.joints + joint])
     }
+
+    /// The whole body koma by koma in an animation of some drawings, the last once more: for what goes on
+    /// while they are held.
+    fn on_ones(&self, shown: &[Shown]) -> Vec<Vec<Local>> {
+        let joints = &self.composite.clip().skeleton().joints;
+        let mut row = vec![0.0; self.composite.clip().skeleton().channels()];
+        let mut rows = CompositeRows::of(self.composite);
+        let koma =
+            shown.iter().flat_map(|shown| (shown.begin..shown.end).map(move |koma| (koma, shown)));
+        let mut bodies: Vec<Vec<Local>> = koma
+            .map(|(koma, shown)| {
+                rows.write(shown.drawing, koma, &mut row);
+                joints.iter().map(|joint| Local::of(joint, &row, self.space)).collect()
+            })
+            .collect();
+        bodies.extend(bodies.last().cloned());
+        bodies
+    }
 }
 
-/// The joints that are on ones, and where they are on each koma, the last once more.
-fn sliding(composite: &Composite<'_>, space: Space) -> Vec<(usize, Vec<[f32; 3]>)> {
-    let skeleton = composite.clip().skeleton();
-    let mut sliding: Vec<(usize, Vec<[f32; 3]>)> =
-        composite.travellers().iter().map(|joint| (*joint, Vec::new())).collect();
-    if sliding.is_empty() {
-        return sliding;
-    }
-    let mut row = vec![0.0; skeleton.channels()];
-    let mut rows = CompositeRows::of(composite);
-    for (koma, drawing) in composite.layer().koma().enumerate() {
-        rows.write(drawing, koma, &mut row);
-        for (joint, places) in &mut sliding {
-            let place = local_translation(&skeleton.joints[*joint], &row);
-            places.push(floats(space.position(place)));
+impl Local {
+    fn of(joint: &Joint, row: &[f64], space: Space) -> Self {
+        Self {
+            translation: floats(space.position(local_translation(joint, row))),
+            rotation: quaternion(space.rotation(local_rotation(joint, row))),
         }
     }
-    sliding.iter_mut().for_each(|(_, places)| places.extend(places.last().copied()));
-    sliding
 }
 
 /// What stands on which koma, in the words of `sheet.json`: koma, drawings and source frames from 0.

@@ -107,6 +107,11 @@ fn layers_and_a_root_on_ones_stand_where_limited_bvh_has_them() {
         assert_eq!(sheet.layers.len(), 5);
         check_positions(&clip, &sheet, &Glb::default());
     }
+    let held = [("root", "ones"), ("feet", "held")];
+    for settings in [&held[..], &held[1..]] {
+        let (clip, sheet) = made("kick", settings);
+        check_positions(&clip, &sheet, &Glb::default());
+    }
     let (clip, sheet) = made("kick", &[("root", "ones")]);
     check_positions(&clip, &sheet, &Glb::default());
     let read = read(&clip, &sheet);

@@ -2,7 +2,7 @@
 
 use super::layer::LayerLines;
 use crate::motion::{Axis, Channel, Clip, Skeleton};
-use crate::sheet::{RootMotion, Sheet};
+use crate::sheet::{Feet, RootMotion, Sheet};
 
 /// FNV-1a of 64 bits over 64-bit words.
 struct Digest(u64);
@@ -51,8 +51,8 @@ pub(super) fn motion(clip: &Clip) -> String {
     digest.text()
 }
 
-/// Names, joints, drawings and exposures, as they are written, and a root that does not go with its
-/// drawings.
+/// Names, joints, drawings and exposures, as they are written, a root that does not go with its drawings,
+/// and feet that do not.
 pub(super) fn sheet(sheet: &Sheet) -> String {
     let mut digest = Digest::new();
     for layer in &sheet.layers {
@@ -61,6 +61,9 @@ pub(super) fn sheet(sheet: &Sheet) -> String {
     }
     if sheet.root == RootMotion::Ones {
         digest.word(1);
+    }
+    if sheet.feet == Feet::Held {
+        digest.word(2);
     }
     digest.text()
 }

@@ -39,6 +39,8 @@ struct Written<'a> {
     #[serde(borrow)]
     root: Option<&'a RawValue>,
     #[serde(borrow)]
+    feet: Option<&'a RawValue>,
+    #[serde(borrow)]
     layers: Vec<&'a RawValue>,
 }
 
@@ -83,13 +85,14 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip, &mut length));
     let layers = layers.collect::<Result<_, _>>()?;
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
+    let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let made_with: Option<MadeWith> = written.made_with.map(|raw| text.value(raw)).transpose()?;
     let file = SheetFile {
         cut: written.cut,
         genga: written.genga,
         clip,
         made_with,
-        sheet: Sheet { clock, layers, root },
+        sheet: Sheet { clock, layers, root, feet },
     };
     file.check()?;
     Ok(file)

@@ -8,7 +8,7 @@ use super::lines::Lines;
 use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::deliver::Cut;
 use crate::error::Error;
-use crate::sheet::{RootMotion, is_default};
+use crate::sheet::{Feet, RootMotion, is_default};
 
 /// The sheet of a cut as `sheet.json`.
 ///
@@ -31,6 +31,8 @@ struct Written<'a> {
     made_with: Option<&'a MadeWith>,
     #[serde(skip_serializing_if = "is_default")]
     root: RootMotion,
+    #[serde(skip_serializing_if = "is_default")]
+    feet: Feet,
     layers: Vec<LayerLines>,
 }
 
@@ -46,7 +48,7 @@ impl SheetFile {
         }
     }
 
-    /// Whether layers and root are those that were made. A sheet that does not say how it was made may be a
+    /// Whether layers, root and feet are those that were made. A sheet that does not say how it was made may be a
     /// person's work, and is not.
     pub fn is_as_made(&self) -> bool {
         let made = self.made_with.as_ref();
@@ -69,6 +71,7 @@ impl SheetFile {
             clip: &self.clip,
             made_with: self.made_with.as_ref(),
             root: self.sheet.root,
+            feet: self.sheet.feet,
             layers: self.sheet.layers.iter().map(LayerLines::of).collect(),
         };
         let mut bytes = Vec::new();

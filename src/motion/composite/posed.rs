@@ -1,6 +1,6 @@
 //! A composite as poses.
 
-use super::Composite;
+use super::{Composite, FootHold};
 use crate::motion::{DrawnPose, Pose};
 use crate::sheet::Source;
 
@@ -11,6 +11,7 @@ pub(crate) struct PosedComposite<'a> {
     /// What each part shows, and the whole body so: a layer's drawing stays while others change.
     parts: Vec<(Option<Source>, DrawnPose<'a>)>,
     root: DrawnPose<'a>,
+    feet: Option<FootHold<'a>>,
     pose: Pose,
 }
 
@@ -19,7 +20,7 @@ impl<'a> PosedComposite<'a> {
     pub(crate) fn of(composite: &'a Composite<'a>) -> Self {
         let root = DrawnPose::of(composite.clip());
         let parts = vec![(None, root.clone()); composite.parts()];
-        Self { composite, parts, pose: root.pose().clone(), root }
+        Self { composite, parts, pose: root.pose().clone(), root, feet: composite.foot_hold() }
     }
 
     /// The pose that was last taken on.
@@ -45,6 +46,9 @@ impl<'a> PosedComposite<'a> {
             for &joint in composite.travellers() {
                 self.pose.translations[joint] = self.root.pose().translations[joint];
             }
+        }
+        if let Some(feet) = &mut self.feet {
+            feet.hold(|joint| composite.source(drawing, joint).place(), &mut self.pose);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! A composite as rows of channel values.
 
-use super::{Composite, is_position};
-use crate::motion::RowWriter;
+use super::{Composite, FootHold, is_position};
+use crate::motion::channels::write_rotation;
+use crate::motion::{Pose, RowWriter, local_rotation};
 use crate::sheet::Source;
 
 /// Writes what is on screen as rows of channel values, with its buffers.
@@ -13,6 +14,8 @@ pub(crate) struct CompositeRows<'a> {
     parts: Vec<(Option<Source>, Vec<f64>)>,
     /// The source at a koma.
     root: Vec<f64>,
+    /// What holds the feet, and the pose in which it does.
+    feet: Option<(FootHold<'a>, Pose)>,
 }
 
 impl<'a> CompositeRows<'a> {
@@ -24,6 +27,7 @@ impl<'a> CompositeRows<'a> {
             writer: RowWriter::new(composite.clip()),
             parts: vec![(None, row.clone()); composite.parts()],
             root: row,
+            feet: composite.foot_hold().map(|feet| (feet, Pose::rest(composite.clip().skeleton()))),
         }
     }
 
@@ -48,6 +52,22 @@ impl<'a> CompositeRows<'a> {
                 for (_, column) in positions.filter(|(channel, _)| is_position(**channel)) {
                     row[column] = self.root[column];
                 }
+            }
+        }
+        self.hold_feet(drawing, row);
+    }
+
+    /// Writes the legs of feet that are held anew; a leg that is not keeps its numbers.
+    fn hold_feet(&mut self, drawing: usize, row: &mut [f64]) {
+        let Some((feet, pose)) = &mut self.feet else { return };
+        let skeleton = self.composite.clip().skeleton();
+        pose.take_row(skeleton, row);
+        feet.hold(|joint| self.composite.source(drawing, joint).place(), pose);
+        for joint in feet.joints() {
+            let (data, turned) = (&skeleton.joints[joint], pose.rotations[joint]);
+            if turned != local_rotation(data, row) {
+                let columns = data.first_channel..data.first_channel + data.channels.len();
+                write_rotation(data, turned, &mut row[columns]);
             }
         }
     }

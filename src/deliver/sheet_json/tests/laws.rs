@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
-use crate::sheet::{Drawing, Exposure, Layer, RootMotion, Sheet, Why};
+use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Why};
 use crate::time::{Clock, Frame, FrameRate};
 
 const FIRST: usize = 7;
@@ -27,15 +27,16 @@ fn why() -> impl Strategy<Value = Why> {
     let words = prop::collection::vec(any::<String>(), 0..3);
     let value = || prop::option::of(prop_oneof![Just(0.0), -1e300..1e300, 0.0..1e-300, 0.0..100.0]);
     let counts = prop::array::uniform3(0..4usize);
-    let flags = any::<(bool, bool)>();
+    let flags = any::<(bool, bool, bool)>();
     let pinned = prop::option::of(any::<String>());
     let moved = prop::option::of(0..999usize);
     (words, pinned, moved, flags, value(), value(), counts).prop_map(
-        |(voters, pinned, moved_from, (rest, hold_set), strength, price, counts)| Why {
+        |(voters, pinned, moved_from, (rest, contact, hold_set), strength, price, counts)| Why {
             voters,
             pinned,
             moved_from,
             rest,
+            contact,
             strength,
             price,
             lengthened: counts[0],
@@ -108,29 +109,33 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let joints = joints.prop_map(|joints| joints.into_iter().collect::<Vec<_>>());
     let words = prop::array::uniform2(any::<String>());
     let root = prop::sample::select(vec![RootMotion::Drawings, RootMotion::Ones]);
-    (rates, (layers, root), joints, words, prop::option::of(made_with())).prop_map(
-        |((frame_rate, koma_rate), (layers, root), joints, [cut, file], made_with)| SheetFile {
-            cut,
-            genga: "0.1.0".into(),
-            made_with,
-            sheet: Sheet {
-                clock: Clock {
-                    first: Frame(FIRST),
-                    frame_rate: FrameRate::new(frame_rate).unwrap(),
-                    koma_rate,
+    let feet = prop::sample::select(vec![Feet::Free, Feet::Held]);
+    (rates, (layers, root, feet), joints, words, prop::option::of(made_with())).prop_map(
+        |((frame_rate, koma_rate), (layers, root, feet), joints, [cut, file], made_with)| {
+            SheetFile {
+                cut,
+                genga: "0.1.0".into(),
+                made_with,
+                sheet: Sheet {
+                    clock: Clock {
+                        first: Frame(FIRST),
+                        frame_rate: FrameRate::new(frame_rate).unwrap(),
+                        koma_rate,
+                    },
+                    layers: with_joints(layers, &joints),
+                    root,
+                    feet,
                 },
-                layers: with_joints(layers, &joints),
-                root,
-            },
-            clip: MadeOf {
-                file,
-                frame_rate,
-                first_frame: FIRST,
-                frames: LAST - FIRST + 1,
-                motion: "0".into(),
-                skeleton: "1".into(),
-                joints,
-            },
+                clip: MadeOf {
+                    file,
+                    frame_rate,
+                    first_frame: FIRST,
+                    frames: LAST - FIRST + 1,
+                    motion: "0".into(),
+                    skeleton: "1".into(),
+                    joints,
+                },
+            }
         },
     )
 }

@@ -12,7 +12,7 @@ use super::rests::{kick, on_ones, standing};
 use crate::edits::Edits;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
-use crate::sheet::{Exposure, RootMotion, Sheet};
+use crate::sheet::{Exposure, Feet, RootMotion, Sheet};
 use crate::time::KOMA_RATE;
 
 /// The motion of a clip by the default recipe.
@@ -91,6 +91,23 @@ fn a_hold_is_written_again_on_the_frame_before_the_next_key() {
     assert_eq!(head[0].rotation, head[1].rotation);
     assert_eq!(head[3].rotation, head[4].rotation);
     assert_ne!(head[1].rotation, head[2].rotation);
+}
+
+#[test]
+fn held_feet_are_keys_on_every_koma_only_where_the_body_goes_on_above_them() {
+    let (sheet, free) = limited(kick());
+    let held = Sheet { feet: Feet::Held, ..sheet.clone() };
+    let made = |sheet: &Sheet| Vmd::default().make(&kick(), sheet).unwrap().motion.keys;
+    let frames = |keys: &[VmdKey]| -> Vec<(String, u32)> {
+        keys.iter().map(|key| (key.bone.clone(), key.frame)).collect()
+    };
+    assert_eq!(frames(&made(&held)), frames(&free.keys), "a drawing stays one pose");
+    assert_ne!(made(&held), free.keys, "the legs give way");
+    let ones = made(&Sheet { root: RootMotion::Ones, ..held });
+    let knees = ones.iter().filter(|key| key.bone == "右ひざ").map(|key| key.frame);
+    let mut knees: Vec<u32> = knees.collect();
+    knees.dedup();
+    assert!(knees.len() >= sheet.length(), "{} of {}", knees.len(), sheet.length());
 }
 
 #[test]

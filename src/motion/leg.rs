@@ -1,0 +1,205 @@
+//! A leg (脚) that sets its foot down somewhere else: two bones that turn at hip and knee.
+
+use glam::{DQuat, DVec3};
+
+use crate::motion::channels::rotation_axes;
+use crate::motion::mannequin::Mannequin;
+use crate::motion::{Body, Clip, JointId, Landmarks, Pose};
+use crate::time::Frame;
+
+/// Frames that are looked at to see how a knee bends.
+const LOOKS: usize = 200;
+
+/// How much a knee has to bend in the mean, as the sine of its angle, that its hinge is seen: 1°.
+const LEAST_BEND: f64 = 0.02;
+
+/// The joints of a leg and the hinge of its knee.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Leg {
+    hip: usize,
+    knee: usize,
+    pub(super) ankle: usize,
+    /// What carries knee and ankle: the hip itself, or a joint of a twist below it.
+    over_knee: usize,
+    over_ankle: usize,
+    over_hip: Option<usize>,
+    /// The axis of the knee in the axes of what carries it, of length 1: about it shin turns to thigh.
+    hinge: DVec3,
+}
+
+/// The turns in the world that bring a foot elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Reach {
+    /// Of the whole leg at the hip, after the knee.
+    swing: DQuat,
+    /// Of the shin at the knee.
+    bend: DQuat,
+}
+
+impl Leg {
+    /// The legs of a body in the order of its feet; none where a leg can't be turned freely at hip, knee
+    /// and ankle, or its knee never bends. A body without head, two arms and two legs has none.
+    pub(super) fn both(clip: &Clip, landmarks: &Landmarks) -> Vec<Option<Self>> {
+        let joints = Mannequin::of(clip, landmarks).map(|mannequin| mannequin.legs());
+        joints.into_iter().flatten().map(|joints| Self::of(clip, joints)).collect()
+    }
+
+    fn of(clip: &Clip, [hip, knee, ankle]: [usize; 3]) -> Option<Self> {
+        let joints = &clip.skeleton().joints;
+        let over = |joint: usize| joints[joint].parent.map(|JointId(parent)| parent);
+        if [hip, knee, ankle].iter().any(|joint| rotation_axes(&joints[*joint]).is_none()) {
+            return None;
+        }
+        let (over_knee, over_ankle) = (over(knee)?, over(ankle)?);
+        let hinge = DVec3::ZERO;
+        let leg = Self { hip, knee, ankle, over_knee, over_ankle, over_hip: over(hip), hinge };
+        let hinge = leg.seen_hinge(clip)?;
+        Some(Self { hinge, ..leg })
+    }
+
+    /// The axis about which the knee mostly bends, in the axes of what carries it.
+    fn seen_hinge(&self, clip: &Clip) -> Option<DVec3> {
+        let mut pose = Pose::rest(clip.skeleton());
+        let mut body = Body::new(clip.skeleton());
+        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+        let looks = clip.len().min(LOOKS);
+        let bend = |look: usize| {
+            pose.take_frame(clip, Frame(clip.first().0 + look * clip.len() / looks));
+            body.place(&pose, &mut positions);
+            let [thigh, shin] = [self.hip, self.ankle]
+                .map(|end| (positions[end] - positions[self.knee]).normalize_or_zero());
+            body.rotations()[self.over_knee].inverse() * thigh.cross(shin)
+        };
+        let mean = (0..looks).map(bend).sum::<DVec3>() / looks.max(1) as f64;
+        (mean.length() > LEAST_BEND).then(|| mean.normalize())
+    }
+
+    /// The joints that [`Leg::carry`] turns.
+    pub(super) fn joints(&self) -> [usize; 3] {
+        [self.hip, self.knee, self.ankle]
+    }
+
+    /// Brings the foot to where it is `way` from where it was, as far as the leg reaches, and turned in the
+    /// world as before. Hip and bones keep their place and length, the knee bends as knees of this body do.
+    /// `body` and `positions` are those of the pose.
+    pub(super) fn carry(&self, pose: &mut Pose, body: &Body, positions: &[DVec3], way: DVec3) {
+        let world = body.rotations();
+        let hinge = world[self.over_knee] * self.hinge;
+        let [hip, knee, ankle] = self.joints().map(|joint| positions[joint]);
+        let Some(Reach { swing, bend }) = reach([hip, knee, ankle], hinge, ankle + way) else {
+            return;
+        };
+        let over_hip = self.over_hip.map_or(DQuat::IDENTITY, |joint| world[joint]);
+        // What carries a joint is turned too; the foot itself is not.
+        let turns = [
+            (self.hip, over_hip, swing * world[self.hip]),
+            (self.knee, world[self.over_knee], bend * world[self.knee]),
+            (self.ankle, swing * bend * world[self.over_ankle], world[self.ankle]),
+        ];
+        for (joint, over, turned) in turns {
+            pose.rotations[joint] = (over.inverse() * turned).normalize();
+        }
+    }
+}
+
+/// The turns that bring the end of two bones to a target, or as near to it as they reach; none for bones of
+/// no length.
+///
+/// The knee turns about its hinge until hip and ankle are as far apart as they have to be, then the leg
+/// swings there by the shortest way. What bones and hinge leave askew stays so: the lengths across the
+/// hinge obey the law of cosines, those along it do not change.
+fn reach([hip, knee, ankle]: [DVec3; 3], hinge: DVec3, target: DVec3) -> Option<Reach> {
+    let (thigh, shin) = (hip - knee, ankle - knee);
+    let (along_thigh, along_shin) = (thigh.dot(hinge), shin.dot(hinge));
+    let (a, b) = (thigh - along_thigh * hinge, shin - along_shin * hinge);
+    let product = a.length() * b.length();
+    if product <= f64::EPSILON * (thigh.length_squared() + shin.length_squared()) {
+        return None;
+    }
+    let across = a.length_squared() + b.length_squared() + (along_thigh - along_shin).powi(2);
+    let cosine = ((across - (target - hip).length_squared()) / (2.0 * product)).clamp(-1.0, 1.0);
+    let wanted = ((1.0 - cosine) * (1.0 + cosine)).sqrt().atan2(cosine);
+    let angle = hinge.dot(a.cross(b)).atan2(a.dot(b));
+    let bend = DQuat::from_axis_angle(hinge, wanted - angle);
+    let bent = (bend * shin - thigh).try_normalize()?;
+    let swing = DQuat::from_rotation_arc(bent, (target - hip).try_normalize()?);
+    Some(Reach { swing, bend })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn vector(size: f64) -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-size..size).prop_map(DVec3::from_array)
+    }
+
+    /// Hip, knee and ankle after a reach.
+    fn reached([hip, knee, ankle]: [DVec3; 3], Reach { swing, bend }: Reach) -> [DVec3; 3] {
+        let shin = bend * (ankle - knee);
+        [hip, hip + swing * (knee - hip), hip + swing * (knee - hip + shin)]
+    }
+
+    #[test]
+    fn a_straight_leg_of_two_bones_bends_by_the_law_of_cosines() {
+        let leg = [2.0, 1.0, 0.0].map(|level| DVec3::Y * level);
+        // Two bones of 1 over √2: a right angle.
+        let target = DVec3::Y * (2.0 - 2.0_f64.sqrt());
+        let found = reached(leg, reach(leg, DVec3::X, target).unwrap());
+        assert!(found[2].abs_diff_eq(target, 1e-12), "{found:?}");
+        let knee = DVec3::new(0.0, 2.0 - 0.5_f64.sqrt(), found[1].z);
+        assert!(found[1].abs_diff_eq(knee, 1e-12), "{found:?}");
+        assert!((found[1].z.abs() - 0.5_f64.sqrt()).abs() < 1e-12, "{found:?}");
+        let other = reached(leg, reach(leg, -DVec3::X, target).unwrap());
+        assert!((other[1].z + found[1].z).abs() < 1e-12, "the other hinge bends the other way");
+    }
+
+    proptest! {
+        #[test]
+        fn a_foot_gets_where_the_leg_reaches_and_its_bones_keep_their_length(
+            hip in vector(5.0),
+            thigh in vector(1.0),
+            shin in vector(1.0),
+            hinge in vector(1.0),
+            way in vector(3.0),
+        ) {
+            let leg = [hip, hip + thigh, hip + thigh + shin];
+            let Some(hinge) = hinge.try_normalize() else { return Ok(()) };
+            prop_assume!(thigh.length() > 1e-3 && shin.length() > 1e-3);
+            let target = leg[2] + way;
+            let Some(found) = reach(leg, hinge, target) else { return Ok(()) };
+            let found = reached(leg, found);
+            for (bone, ends) in [thigh, shin].iter().zip(found.windows(2)) {
+                prop_assert!((ends[0].distance(ends[1]) - bone.length()).abs() < 1e-12, "{found:?}");
+            }
+            let bend = |degrees: f64| {
+                let shin = DQuat::from_axis_angle(hinge, degrees.to_radians()) * shin;
+                (thigh + shin).length()
+            };
+            let reaches: Vec<f64> = (0..3600).map(|tenth| bend(0.1 * f64::from(tenth))).collect();
+            let near = reaches.iter().copied().fold(f64::INFINITY, f64::min);
+            let far = reaches.iter().copied().fold(0.0, f64::max);
+            let wanted = hip.distance(target);
+            // As near as the knee lets it: the oracle's tenths of a degree are that coarse.
+            let off = found[2].distance(target);
+            let least = (near - wanted).max(wanted - far).max(0.0);
+            prop_assert!(off <= least + 1e-6 || (wanted - near).abs() < 1e-5, "{off} {least} {found:?}");
+            prop_assert!(off >= least - 1e-5, "{off} {least}");
+        }
+    }
+
+    #[test]
+    fn bones_of_no_length_and_targets_without_a_way_reach_nothing() {
+        let leg = [DVec3::Y * 2.0, DVec3::Y, DVec3::ZERO];
+        assert_eq!(reach([DVec3::Y; 3], DVec3::X, DVec3::ZERO), None);
+        assert_eq!(reach([DVec3::Y, DVec3::Y, DVec3::ZERO], DVec3::X, DVec3::X), None);
+        assert_eq!(reach(leg, DVec3::Y, DVec3::X), None, "a hinge along the bones bends nothing");
+        let far = reached(leg, reach(leg, DVec3::X, DVec3::new(0.0, 2.0, 100.0)).unwrap());
+        assert!(
+            far[2].abs_diff_eq(DVec3::new(0.0, 2.0, 2.0), 1e-12),
+            "stretched towards it: {far:?}"
+        );
+    }
+}
