@@ -16,6 +16,7 @@ mod skeleton;
 mod stature;
 
 pub use channels::RowWriter;
+pub(crate) use channels::{rotation_axes, turn_columns};
 pub use clip::Clip;
 pub(crate) use composite::{Composite, CompositeRows, PosedComposite};
 pub(crate) use drawn::DrawnPose;
