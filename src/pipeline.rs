@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use crate::edits::{Edits, Hold};
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::keys::{
     ActionFinder, Actions, Candidates, LayerKeys, Layers, Part, Reconstruction, Reference,
 };
@@ -28,6 +29,8 @@ use stage::{Made, Stage};
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
+    /// The motion that is drawn, and how it was exaggerated; the clip itself where it was not.
+    drawn: Stage<Option<Exaggerate>, Arc<Clip>>,
     /// The speeds, and what filters make of them first.
     speed: Stage<crate::signal::Speed, Spectrum>,
     filtered: Stage<LowPass, Signals>,
@@ -50,7 +53,9 @@ type SheetSettings = (f64, RootMotion, Vec<Hold>, Vec<Made>);
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Breakdown<'a> {
-    /// The motion.
+    /// The motion as it was given.
+    pub source: &'a Clip,
+    /// The motion that is measured and drawn: the source, exaggerated where the recipe asks for it.
     pub clip: &'a Clip,
     /// Where the sheet's koma stand in it.
     pub clock: Clock,
@@ -98,6 +103,7 @@ impl Engine {
         clip.check_size()?;
         Ok(Self {
             clip,
+            drawn: Stage::default(),
             speed: Stage::default(),
             filtered: Stage::default(),
             turning: Stage::default(),
@@ -110,12 +116,12 @@ impl Engine {
         })
     }
 
-    /// The motion.
+    /// The motion as it was given.
     pub fn clip(&self) -> &Clip {
         &self.clip
     }
 
-    /// The motion, to be kept beyond this engine.
+    /// The motion as it was given, to be kept beyond this engine.
     pub fn shared_clip(&self) -> Arc<Clip> {
         Arc::clone(&self.clip)
     }
@@ -154,7 +160,7 @@ impl Engine {
         let (measured, parts, columns) = self.layers(turns_made);
         let mut made = Vec::with_capacity(parts.len());
         for (part, column) in parts.iter().zip(columns) {
-            column.take(measured.clip, part, &recipe.keys.weights)?;
+            column.take(&measured, part, &recipe.keys.weights)?;
             let keys = column.find(&measured, recipe, &edits.of_layer(&part.name));
             made.push(column.time((measured.clip, part), recipe, clock, (keys, &later))?);
             done(column);
@@ -168,7 +174,8 @@ impl Engine {
         let columns = &self.columns[..sheet.layers.len()];
         let LayerBreakdown { candidates, keys, did_not_fit, omission, .. } = columns[0].breakdown();
         Breakdown {
-            clip: &self.clip,
+            source: &self.clip,
+            clip: self.drawn.output(),
             clock: self.clip.clock(recipe.rate),
             speed: self.speed.output().unfiltered(),
             filtered: self.filtered.output(),
@@ -234,7 +241,7 @@ impl Engine {
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         let turns_made = self.check_and_measure(recipe, edits)?;
         let (measured, parts, columns) = self.layers(turns_made);
-        columns[0].take(measured.clip, &parts[0], &recipe.keys.weights)?;
+        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
         columns[0].find(&measured, recipe, &edits.of_layer(&parts[0].name));
         Ok(turns_made)
     }
@@ -244,7 +251,8 @@ impl Engine {
         let (finder, rest) = (&recipe.actions, recipe.keys.rest);
         let settings = (finder.clone(), rest, edits.splits.clone());
         let (made, chords) = self.columns[0].chords();
-        self.actions.renew(made, &settings, || finder.find(&self.clip, chords, rest, edits));
+        let clip = self.drawn.output();
+        self.actions.renew(made, &settings, || finder.find(clip, chords, rest, edits));
     }
 
     fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
@@ -258,11 +266,13 @@ impl Engine {
         let clock = self.clip.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.of(self.clip.skeleton())?;
-        if parts.len() > 1 {
-            self.height
-                .renew(Made::CLIP, &recipe.rate, || Reference::of(&self.clip, clock).height());
+        let count = parts.len();
+        self.columns.resize_with(count.max(self.columns.len()), Column::default);
+        if count > 1 {
+            let made = self.exaggerate(recipe)?;
+            let drawn = self.drawn.output();
+            self.height.renew(made, &recipe.rate, || Reference::of(drawn, clock).height());
         }
-        self.columns.resize_with(parts.len().max(self.columns.len()), Column::default);
         self.measure(recipe)
     }
 
@@ -270,7 +280,8 @@ impl Engine {
     fn layers(&mut self, turns_made: Made) -> (Measured<'_>, &[Part], &mut [Column]) {
         let parts = self.parts.output();
         let measured = Measured {
-            clip: &self.clip,
+            clip: self.drawn.output(),
+            clip_made: self.drawn.made,
             filtered: self.filtered.output(),
             turns: self.turns.output(),
             made: turns_made,
@@ -279,11 +290,23 @@ impl Engine {
         (measured, parts, &mut self.columns[..parts.len()])
     }
 
+    /// The motion that is drawn.
+    fn exaggerate(&mut self, recipe: &Recipe) -> Result<Made, Error> {
+        let clip = &self.clip;
+        // What is off is off whatever its other settings.
+        let settings = (!recipe.exaggerate.is_off()).then(|| recipe.exaggerate.clone());
+        self.drawn.refresh(Made::CLIP, &settings, || match &settings {
+            None => Ok(Arc::clone(clip)),
+            Some(exaggerate) => exaggerate.apply(clip).map(Arc::new),
+        })
+    }
+
     /// Speeds, smoothed, and where they turn.
     fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
-        let clip = &*self.clip;
+        let made = self.exaggerate(recipe)?;
+        let clip = &**self.drawn.output();
         let measure = || recipe.speed.measure(clip).map(Spectrum::from);
-        let made = self.speed.refresh(Made::CLIP, &recipe.speed, measure)?;
+        let made = self.speed.refresh(made, &recipe.speed, measure)?;
         let spectrum = self.speed.output();
         let made =
             self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;

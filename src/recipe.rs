@@ -8,6 +8,7 @@ use toml::{Table, Value};
 
 use crate::edits::Edits;
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::keys::{ActionFinder, Choose, Layers};
 use crate::sheet::RootMotion;
 use crate::signal::{LowPass, Speed, TurnFinder};
@@ -46,6 +47,8 @@ pub struct Recipe {
     /// source, `ones`, the travel is smooth, and feet that stand slide as far as the body goes while
     /// their drawing is held.
     pub root: RootMotion,
+    /// How the motion is exaggerated before all else. Default: not at all.
+    pub exaggerate: Exaggerate,
     /// How fast a joint is.
     pub speed: Speed,
     /// How its speed is smoothed.
@@ -68,6 +71,7 @@ impl Default for Recipe {
             rate: KOMA_RATE,
             layers: Layers::default(),
             root: RootMotion::default(),
+            exaggerate: Exaggerate::default(),
             speed: Speed::default(),
             filter: LowPass::default(),
             turns: TurnFinder::default(),
@@ -89,6 +93,7 @@ impl Recipe {
             return Err(Error::setting("rate", "must be 2 to 1000 koma a second; 24 is usual"));
         }
         self.layers.validate()?;
+        self.exaggerate.validate()?;
         self.speed.validate()?;
         self.filter.validate()?;
         self.turns.validate()?;
@@ -248,6 +253,7 @@ struct File {
     rate: Option<f64>,
     layers: Layers,
     root: RootMotion,
+    exaggerate: Exaggerate,
     speed: Speed,
     filter: LowPass,
     turns: TurnFinder,
@@ -264,6 +270,7 @@ impl File {
             rate: self.rate.unwrap_or(KOMA_RATE),
             layers: self.layers.clone(),
             root: self.root,
+            exaggerate: self.exaggerate.clone(),
             speed: self.speed.clone(),
             filter: self.filter.clone(),
             turns: self.turns.clone(),
@@ -363,6 +370,8 @@ mod tests {
                 r#"[{ name = "A", joints = ["Hips"] }, { name = "腕", joints = ["*Arm*"] }]"#,
             ),
             ("root", "ones"),
+            ("exaggerate.cartoon", "0.7"),
+            ("exaggerate.cartoon_parts", "body"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),
             ("turns.steady", "5%"),

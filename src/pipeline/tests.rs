@@ -52,6 +52,7 @@ fn recipe(settings: &[(&str, &str)]) -> Recipe {
 /// What two runs are compared by: everything that is made.
 #[derive(Debug, PartialEq)]
 struct Result {
+    clip: Clip,
     speed: Signals,
     filtered: Signals,
     turns: Vec<Vec<Turn>>,
@@ -66,6 +67,7 @@ struct Result {
 fn run(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result {
     let breakdown = engine.run(recipe, edits).unwrap();
     Result {
+        clip: breakdown.clip.clone(),
         speed: breakdown.speed.clone(),
         filtered: breakdown.filtered.clone(),
         turns: breakdown.turns.to_vec(),

@@ -23,8 +23,19 @@ const PIECES: usize = 4;
 const MOST: usize = 1_000_000;
 
 /// Sections of the recipe, and what stands before them, in the order in which the chain uses them.
-const CHAIN: [&str; 10] =
-    ["noise", "speed", "filter", "turns", "layers", "rate", "keys", "spacing", "omission", "root"];
+const CHAIN: [&str; 11] = [
+    "noise",
+    "exaggerate",
+    "speed",
+    "filter",
+    "turns",
+    "layers",
+    "rate",
+    "keys",
+    "spacing",
+    "omission",
+    "root",
+];
 
 /// A study (調査): a recipe with one or two of its settings varied, and what is counted in each cell.
 #[derive(Debug, Clone, PartialEq)]
