@@ -151,12 +151,13 @@ fn never_back(times: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exaggerate::tests::chain;
     use crate::motion::{Axis, Pose};
     use crate::time::Frame;
 
     /// A chain of two joints that turn any way.
     fn clip(values: &[[f64; 6]]) -> Clip {
-        super::super::tests::chain([Axis::Z, Axis::X, Axis::Y], values)
+        chain([Axis::Z, Axis::X, Axis::Y], values)
     }
 
     /// The mean time by definition: every frame of the mirrored clip within the window.

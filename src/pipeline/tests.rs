@@ -261,6 +261,7 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
         vec![],
         vec![("turns.reading", "literal"), ("keys.rank", "strength")],
         vec![("spacing.on", "1-3")],
+        vec![("exaggerate.cartoon", "0.5"), ("exaggerate.ease", "0.8")],
         vec![("actions.length", "1s"), ("actions.contrast", "1")],
         vec![("spacing.on", "1"), ("omission.koma_dori", "50%"), ("spacing.weight", "0.8")],
     ];

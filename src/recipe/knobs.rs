@@ -90,7 +90,7 @@ pub const KNOBS: &[Knob] = &[
         name: "exaggerate.cartoon",
         japanese: "誇張",
         kind: number(0.0, 2.0),
-        unit: "times (0 is off)",
+        unit: "0 (off) to 3",
         help: "Anticipation before movements and follow-through after them (the cartoon animation filter), before \
                keys are chosen. 1 goes back and beyond by 36 % of a sudden movement. More breaks joints.",
         japanese_help: "原画を選ぶ前に、動きの前の予備動作と後の後追いを強める（カートゥーン・アニメーション・フィルタ）。\
