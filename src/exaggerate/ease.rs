@@ -214,6 +214,20 @@ mod tests {
     }
 
     #[test]
+    fn a_rotation_written_the_other_way_round_is_the_same_pose() {
+        let row = |at: usize| {
+            let way = 100.0 * (at as f64 * 0.2).sin();
+            [way, 0.0, 0.0, if at % 2 == 0 { way } else { way + 360.0 }, 0.0, 0.0]
+        };
+        let clip = clip(&(0..40).map(row).collect::<Vec<_>>());
+        let poses = Poses::of(&clip);
+        let window = Window::of(&poses, 3.0).unwrap();
+        for (frame, slow) in slow(&clip, 3.0).into_iter().enumerate() {
+            assert!((window.drawn(frame) - slow).abs() < 1e-6, "{frame}");
+        }
+    }
+
+    #[test]
     fn a_wide_window_is_looked_at_in_wide_steps() {
         let row = |at: usize| [30.0 * (at as f64 * 0.01).sin(), 0.0, 0.0, 0.0, 0.0, 0.0];
         let clip = clip(&(0..500).map(row).collect::<Vec<_>>());
@@ -223,6 +237,17 @@ mod tests {
         for (frame, slow) in slow(&clip, 60.0).into_iter().enumerate() {
             assert!((window.drawn(frame) - slow).abs() < 1.5, "{frame}");
         }
+    }
+
+    #[test]
+    fn a_pose_that_flickers_is_not_shown_before_what_came_before_it() {
+        let row = |at: usize| [if at == 6 { 40.0 } else { 0.0 }, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let clip = clip(&(0..30).map(row).collect::<Vec<_>>());
+        let poses = Poses::of(&clip);
+        let window = Window::of(&poses, 5.0).unwrap();
+        assert!(window.drawn(6) + 0.5 < window.drawn(5), "the rest behind it draws more");
+        let places = places(&clip, 1.0, 5.0).unwrap();
+        assert!(places.windows(2).all(|pair| pair[0] <= pair[1]), "{places:?}");
     }
 
     #[test]

@@ -314,8 +314,10 @@ fn any_rows() -> impl Strategy<Value = Vec<[f64; 6]>> {
         Just(1e9),
         Just(1e-300)
     ];
+    let few = [[0.0; 6], [90.0, 0.0, 0.0, 180.0, 0.0, 0.0], [0.0, 20.0, 0.0, 5.0, 0.0, 0.0]];
     prop_oneof![
         prop::collection::vec(prop::array::uniform6(value), 1..40),
+        prop::collection::vec(prop::sample::select(few.to_vec()), 3..40),
         prop::array::uniform6(-400.0..400.0f64).prop_map(|row| vec![row; 7]),
     ]
 }
