@@ -75,8 +75,8 @@ impl Smooth {
     /// The bell as weights, by definition: the box three times convolved with itself.
     pub(super) fn bell(self) -> Vec<f64> {
         let mut window = vec![1.0; 2 * self.reach + 3];
-        *window.first_mut().unwrap() = self.rest;
-        *window.last_mut().unwrap() = self.rest;
+        let last = window.len() - 1;
+        (window[0], window[last]) = (self.rest, self.rest);
         let width: f64 = window.iter().sum();
         let mut bell = vec![1.0];
         for _ in 0..3 {
