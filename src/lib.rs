@@ -23,7 +23,7 @@
 //!
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
-//! result; [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
+//! result; before the speeds are measured, [`exaggerate`] may change the motion (誇張); [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
 //! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; both use this
 //! library and nothing else.
 //!
@@ -73,6 +73,7 @@ pub mod cli;
 pub mod deliver;
 pub mod edits;
 pub mod error;
+pub mod exaggerate;
 pub mod keys;
 pub mod motion;
 pub mod pipeline;

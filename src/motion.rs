@@ -23,6 +23,7 @@ pub(crate) mod view;
 
 pub use camera::Camera;
 pub use channels::RowWriter;
+pub(crate) use channels::{rotation_axes, turn_columns};
 pub use clip::Clip;
 pub(crate) use composite::{Composite, CompositeRows, PosedComposite};
 pub use contact::{Contact, ContactFinder, Limb};

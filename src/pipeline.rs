@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use crate::edits::{Edits, Hold};
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::keys::{
     ActionFinder, Actions, Candidates, LayerKeys, Layers, Part, Reconstruction, Reference,
 };
@@ -28,6 +29,8 @@ use stage::{Made, Stage};
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
+    /// The motion that is drawn, and how it was exaggerated; the clip itself where it was not.
+    drawn: Stage<Option<Exaggerate>, Arc<Clip>>,
     /// From where movement is seen.
     screen: Stage<SeenFrom, Screen>,
     /// The speeds, and what filters make of them first.
@@ -52,7 +55,9 @@ type SheetSettings = (f64, RootMotion, Feet, Vec<Hold>, Vec<Made>);
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Breakdown<'a> {
-    /// The motion.
+    /// The motion as it was given.
+    pub source: &'a Clip,
+    /// The motion that is measured and drawn: the source, exaggerated where the recipe asks for it.
     pub clip: &'a Clip,
     /// From where its movement was measured.
     pub seen_from: SeenFrom,
@@ -104,6 +109,7 @@ impl Engine {
         clip.check_size()?;
         Ok(Self {
             clip,
+            drawn: Stage::default(),
             screen: Stage::default(),
             speed: Stage::default(),
             filtered: Stage::default(),
@@ -117,12 +123,12 @@ impl Engine {
         })
     }
 
-    /// The motion.
+    /// The motion as it was given.
     pub fn clip(&self) -> &Clip {
         &self.clip
     }
 
-    /// The motion, to be kept beyond this engine.
+    /// The motion as it was given, to be kept beyond this engine.
     pub fn shared_clip(&self) -> Arc<Clip> {
         Arc::clone(&self.clip)
     }
@@ -161,7 +167,7 @@ impl Engine {
         let (measured, parts, columns) = self.layers(turns_made);
         let mut made = Vec::with_capacity(parts.len());
         for (part, column) in parts.iter().zip(columns) {
-            column.take(measured.clip, part, &recipe.keys.weights)?;
+            column.take(&measured, part, &recipe.keys.weights)?;
             let keys = column.find(&measured, recipe, &edits.of_layer(&part.name));
             made.push(column.time((measured.clip, part), recipe, clock, (keys, &later))?);
             done(column);
@@ -175,7 +181,8 @@ impl Engine {
         let columns = &self.columns[..sheet.layers.len()];
         let LayerBreakdown { candidates, keys, did_not_fit, omission, .. } = columns[0].breakdown();
         Breakdown {
-            clip: &self.clip,
+            source: &self.clip,
+            clip: self.drawn.output(),
             seen_from: recipe.seen_from,
             screen: self.screen.output(),
             clock: self.clip.clock(recipe.rate),
@@ -243,7 +250,7 @@ impl Engine {
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
         let turns_made = self.check_and_measure(recipe, edits)?;
         let (measured, parts, columns) = self.layers(turns_made);
-        columns[0].take(measured.clip, &parts[0], &recipe.keys.weights)?;
+        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
         columns[0].find(&measured, recipe, &edits.of_layer(&parts[0].name));
         Ok(turns_made)
     }
@@ -253,7 +260,8 @@ impl Engine {
         let (finder, rest) = (&recipe.actions, recipe.keys.rest);
         let settings = (finder.clone(), rest, edits.splits.clone());
         let (made, chords) = self.columns[0].chords();
-        self.actions.renew(made, &settings, || finder.find(&self.clip, chords, rest, edits));
+        let clip = self.drawn.output();
+        self.actions.renew(made, &settings, || finder.find(clip, chords, rest, edits));
     }
 
     fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
@@ -267,11 +275,13 @@ impl Engine {
         let clock = self.clip.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.of(self.clip.skeleton())?;
-        if parts.len() > 1 {
-            self.height
-                .renew(Made::CLIP, &recipe.rate, || Reference::of(&self.clip, clock).height());
+        let count = parts.len();
+        self.columns.resize_with(count.max(self.columns.len()), Column::default);
+        if count > 1 {
+            let made = self.exaggerate(recipe)?;
+            let drawn = self.drawn.output();
+            self.height.renew(made, &recipe.rate, || Reference::of(drawn, clock).height());
         }
-        self.columns.resize_with(parts.len().max(self.columns.len()), Column::default);
         self.measure(recipe)
     }
 
@@ -279,7 +289,8 @@ impl Engine {
     fn layers(&mut self, turns_made: Made) -> (Measured<'_>, &[Part], &mut [Column]) {
         let parts = self.parts.output();
         let measured = Measured {
-            clip: &self.clip,
+            clip: self.drawn.output(),
+            clip_made: self.drawn.made,
             filtered: self.filtered.output(),
             turns: self.turns.output(),
             made: turns_made,
@@ -289,15 +300,27 @@ impl Engine {
         (measured, parts, &mut self.columns[..parts.len()])
     }
 
+    /// The motion that is drawn.
+    fn exaggerate(&mut self, recipe: &Recipe) -> Result<Made, Error> {
+        let clip = &self.clip;
+        // What is off is off whatever its other settings.
+        let settings = (!recipe.exaggerate.is_off()).then(|| recipe.exaggerate.clone());
+        self.drawn.refresh(Made::CLIP, &settings, || match &settings {
+            None => Ok(Arc::clone(clip)),
+            Some(exaggerate) => exaggerate.apply(clip).map(Arc::new),
+        })
+    }
+
     /// Speeds, smoothed, and where they turn.
     fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
-        let clip = &*self.clip;
-        self.screen.renew(Made::CLIP, &recipe.seen_from, || Screen::of(recipe.seen_from, clip));
+        let made = self.exaggerate(recipe)?;
+        let clip = &**self.drawn.output();
+        self.screen.renew(made, &recipe.seen_from, || Screen::of(recipe.seen_from, clip));
         // A rotation is the same from everywhere.
         let is_seen = recipe.speed.measure.is_seen();
         let screen = if is_seen { *self.screen.output() } else { Screen::WORLD };
         let measure = || recipe.speed.measure_on(clip, &screen).map(Spectrum::from);
-        let made = self.speed.refresh(Made::CLIP, &(recipe.speed.clone(), screen), measure)?;
+        let made = self.speed.refresh(made, &(recipe.speed.clone(), screen), measure)?;
         let spectrum = self.speed.output();
         let made =
             self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;

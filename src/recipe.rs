@@ -8,6 +8,7 @@ use toml::{Table, Value};
 
 use crate::edits::Edits;
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::keys::{ActionFinder, Choose, Layers};
 use crate::motion::SeenFrom;
 use crate::sheet::{Feet, RootMotion};
@@ -53,6 +54,8 @@ pub struct Recipe {
     /// Whether a foot stays where it stands. Default: it is where its drawing has it. Held, it does not slide
     /// as far as the leg reaches, and the legs are no longer the performer's to the last degree.
     pub feet: Feet,
+    /// How the motion is exaggerated before all else. Default: not at all.
+    pub exaggerate: Exaggerate,
     /// How fast a joint is.
     pub speed: Speed,
     /// How its speed is smoothed.
@@ -77,6 +80,7 @@ impl Default for Recipe {
             root: RootMotion::default(),
             seen_from: SeenFrom::World,
             feet: Feet::default(),
+            exaggerate: Exaggerate::default(),
             speed: Speed::default(),
             filter: LowPass::default(),
             turns: TurnFinder::default(),
@@ -99,6 +103,7 @@ impl Recipe {
         }
         self.layers.validate()?;
         self.seen_from.validate()?;
+        self.exaggerate.validate()?;
         self.speed.validate()?;
         self.filter.validate()?;
         self.turns.validate()?;
@@ -260,6 +265,7 @@ struct File {
     root: RootMotion,
     seen_from: SeenFrom,
     feet: Feet,
+    exaggerate: Exaggerate,
     speed: Speed,
     filter: LowPass,
     turns: TurnFinder,
@@ -278,6 +284,7 @@ impl File {
             root: self.root,
             seen_from: self.seen_from,
             feet: self.feet,
+            exaggerate: self.exaggerate.clone(),
             speed: self.speed.clone(),
             filter: self.filter.clone(),
             turns: self.turns.clone(),
@@ -379,6 +386,8 @@ mod tests {
             ("root", "ones"),
             ("seen_from", "0,150,400:0,90,0"),
             ("feet", "held"),
+            ("exaggerate.cartoon", "0.7"),
+            ("exaggerate.cartoon_parts", "body"),
             ("speed.measure", "displacement"),
             ("filter.width", "20"),
             ("turns.steady", "5%"),

@@ -27,13 +27,15 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         asked.spare(what, path, &folder, &file.cut)?;
     }
     let read = source::whole(&args.clip, &args.reading)?;
-    let (clip, notes) = file.fit(read.clip).map_err(of_sheet)?;
-    clip.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
+    let (source, notes) = file.fit(read.clip).map_err(of_sheet)?;
+    source.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
+    let drawn = file.drawn(&source).map_err(of_sheet)?;
     read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
     let cut = Cut {
         name: &file.cut,
         clip_file: &io::file_name(&args.clip),
-        clip: &clip,
+        clip: drawn.as_ref().unwrap_or(&source),
+        exaggerated: drawn.is_some().then_some((&source, &file.exaggerate)),
         sheet: &file.sheet,
         spaced: None,
         splits: &[],

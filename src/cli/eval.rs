@@ -21,9 +21,14 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
         ),
     };
     let read = source::whole(&args.clip, &args.reading)?;
-    let (clip, notes) = file.fit(read.clip).map_err(of_sheet)?;
-    clip.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
+    let (source, notes) = file.fit(read.clip).map_err(of_sheet)?;
+    source.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
+    let drawn = file.drawn(&source).map_err(of_sheet)?;
     read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
+    if drawn.is_some() {
+        words.say("the sheet is of an exaggerated motion, and is judged beside that: it is the source here");
+    }
+    let clip = drawn.as_ref().unwrap_or(&source);
     if let [first, _, ..] = &file.sheet.layers[..] {
         words.say(format_args!(
             "of several layers what is on screen is judged together, keys and pace by the first: {}",
@@ -36,7 +41,7 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
         let (first, last) = (clip.first(), clip.last());
         words.say(format_args!("{keys} beyond frames {first} to {last} of the sheet do not count"));
     }
-    let found = Evaluation::of(&clip, &file.sheet, reference.as_deref(), args.tolerance)
+    let found = Evaluation::of(clip, &file.sheet, reference.as_deref(), args.tolerance)
         .map_err(of_sheet)?;
     if let Some(path) = &args.json {
         io::write_json(path, &found)?;

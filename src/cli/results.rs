@@ -42,10 +42,12 @@ impl Results<'_> {
     ) -> Result<(Report, Written), Failure> {
         let Self { breakdown, recipe, edits, .. } = self;
         let mut report = Report::of(breakdown, self.notes);
+        let exaggerated = !recipe.exaggerate.is_off();
         let cut = Cut {
             name: self.name,
             clip_file: self.clip_file,
             clip: breakdown.clip,
+            exaggerated: exaggerated.then_some((breakdown.source, &recipe.exaggerate)),
             sheet: breakdown.sheet,
             spaced: Some(breakdown.spaced),
             splits: &breakdown.actions.koma(breakdown.clock),

@@ -2,6 +2,7 @@
 
 use crate::deliver::sheet_json::MadeWith;
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::motion::Clip;
 use crate::sheet::Sheet;
 
@@ -15,8 +16,10 @@ pub struct Cut<'a> {
     pub name: &'a str,
     /// The name of the clip's file, without folders.
     pub clip_file: &'a str,
-    /// The motion.
+    /// The motion that is drawn.
     pub clip: &'a Clip,
+    /// The motion as it was read, and how it became the one that is drawn; none where it is that one.
+    pub exaggerated: Option<(&'a Clip, &'a Exaggerate)>,
     /// The sheet, of any number of layers; a drawing may be on screen several times or not at all.
     pub sheet: &'a Sheet,
     /// The sheet before anything was left out, where it is known.

@@ -18,6 +18,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
+use crate::exaggerate::Exaggerate;
 use crate::sheet::Sheet;
 
 pub use made::MadeWith;
@@ -36,6 +37,8 @@ pub struct SheetFile {
     pub genga: String,
     /// The clip it was made of.
     pub clip: MadeOf,
+    /// How that clip was exaggerated: the drawings are of what [`Exaggerate::apply`] makes of it.
+    pub exaggerate: Exaggerate,
     /// What it was made with, where that is known.
     pub made_with: Option<MadeWith>,
     /// The sheet.

@@ -72,20 +72,17 @@ impl<'a> RowWriter<'a> {
     }
 }
 
-/// Writes a rotation into a joint's part of a row, as the angles nearest to those that stand there; a joint
-/// without three different axes keeps what it has.
-pub(super) fn write_rotation(joint: &Joint, rotation: DQuat, row: &mut [f64]) {
-    let Some(axes) = rotation_axes(joint) else { return };
-    let mut angles = angles_from_rotation(rotation, axes, &near(joint, row)).into_iter();
-    for (channel, value) in joint.channels.iter().zip(row) {
-        if matches!(channel, Channel::Rotation(_)) {
-            *value = angles.next().unwrap_or(*value);
-        }
-    }
+/// Writes a rotation into the columns of a joint that turns about three different axes: of all triples of
+/// angles that give it, the one nearest to the values that stand there.
+pub(crate) fn turn_columns(joint: &Joint, axes: [Axis; 3], rotation: DQuat, columns: &mut [f64]) {
+    let angles = angles_from_rotation(rotation, axes, &near(joint, columns));
+    let is_rotation = |channel: &Channel| matches!(channel, Channel::Rotation(_));
+    let turned = joint.channels.iter().zip(columns).filter(|(channel, _)| is_rotation(channel));
+    turned.zip(angles).for_each(|((_, value), angle)| *value = angle);
 }
 
 /// The axes of a joint's rotations when they are three different ones, in the order listed.
-pub(super) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
+pub(crate) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
     let mut axes = joint.channels.iter().filter_map(|channel| match channel {
         Channel::Rotation(axis) => Some(*axis),
         Channel::Position(_) => None,

@@ -20,6 +20,8 @@ use crate::timing::{Omission, Omitted, Pace, Report, Spaced, Spacing, Stills};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured<'a> {
     pub(super) clip: &'a Arc<Clip>,
+    /// Which clip this is.
+    pub(super) clip_made: Made,
     pub(super) filtered: &'a Signals,
     pub(super) turns: &'a [Vec<Turn>],
     /// Which turns these are.
@@ -73,12 +75,13 @@ impl Column {
     /// Takes on a part of the body.
     pub(super) fn take(
         &mut self,
-        clip: &Arc<Clip>,
+        measured: &Measured<'_>,
         part: &Part,
         weights: &JointWeights,
     ) -> Result<(), Error> {
         let settings = (part.clone(), weights.clone());
-        self.motion.refresh(Made::CLIP, &settings, || PartMotion::of(clip, part, weights))?;
+        let motion = || PartMotion::of(measured.clip, part, weights);
+        self.motion.refresh(measured.clip_made, &settings, motion)?;
         Ok(())
     }
 

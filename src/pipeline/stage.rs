@@ -10,7 +10,7 @@ use crate::error::Error;
 pub(super) struct Made(u64);
 
 impl Made {
-    /// The clip never changes.
+    /// The clip as it was given never changes.
     pub(super) const CLIP: Self = Self(0);
 }
 

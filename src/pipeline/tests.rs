@@ -53,6 +53,7 @@ fn recipe(settings: &[(&str, &str)]) -> Recipe {
 /// What two runs are compared by: everything that is made.
 #[derive(Debug, PartialEq)]
 struct Result {
+    clip: Clip,
     speed: Signals,
     filtered: Signals,
     turns: Vec<Vec<Turn>>,
@@ -67,6 +68,7 @@ struct Result {
 fn run(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result {
     let breakdown = engine.run(recipe, edits).unwrap();
     Result {
+        clip: breakdown.clip.clone(),
         speed: breakdown.speed.clone(),
         filtered: breakdown.filtered.clone(),
         turns: breakdown.turns.to_vec(),
@@ -260,6 +262,7 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
         vec![],
         vec![("turns.reading", "literal"), ("keys.rank", "strength")],
         vec![("spacing.on", "1-3")],
+        vec![("exaggerate.cartoon", "0.5"), ("exaggerate.ease", "0.8")],
         vec![("actions.length", "1s"), ("actions.contrast", "1")],
         vec![("spacing.on", "1"), ("omission.koma_dori", "50%"), ("spacing.weight", "0.8")],
     ];

@@ -109,6 +109,53 @@ pub const KNOBS: &[Knob] = &[
                         股と膝で合わせる（held）か。",
     },
     Knob {
+        name: "exaggerate.cartoon",
+        japanese: "誇張",
+        kind: number(0.0, 2.0),
+        unit: "0 (off) to 3",
+        help: "Anticipation before movements and follow-through after them (the cartoon animation filter), before \
+               keys are chosen. 1 goes back and beyond by 36 % of a sudden movement. More breaks joints.",
+        japanese_help: "原画を選ぶ前に、動きの前の予備動作と後の後追いを強める（カートゥーン・アニメーション・フィルタ）。\
+                        1で、急な動きの36％だけ逆へ引き、行き過ぎる。強すぎると関節が壊れる。",
+    },
+    Knob {
+        name: "exaggerate.cartoon_width",
+        japanese: "予備動作から後追いまで",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "The time from the anticipation of a sudden movement to its follow-through. Longer exaggerates \
+               slow movements too.",
+        japanese_help: "急な動きの予備動作から後追いまでの時間。長いほど、ゆっくりした動きも誇張される。",
+    },
+    Knob {
+        name: "exaggerate.cartoon_parts",
+        japanese: "誇張する部位",
+        kind: Kind::Choice(&["upper", "body"]),
+        unit: "",
+        help: "What is exaggerated so: all that no foot hangs on, so that feet stand where they stood (upper), or \
+               legs and the way of the body too (body): feet slide a little then.",
+        japanese_help: "誇張する部位。足につながらない部位だけで、接地した足は動かない（upper）か、\
+                        脚と体の移動も含む全身（body）で、足は少し滑る。",
+    },
+    Knob {
+        name: "exaggerate.ease",
+        japanese: "スローイン・スローアウト",
+        kind: number(0.0, 1.0),
+        unit: "0 (off) to 1",
+        help: "Slow-in and slow-out: poses gather round rests and turning points, and the movement between is \
+               faster. No pose is changed, only its time.",
+        japanese_help: "止まりや折り返しの近くに時間を集め、あいだの動きを速くする。ポーズは変わらず、時刻だけが変わる。",
+    },
+    Knob {
+        name: "exaggerate.ease_reach",
+        japanese: "時間を集める範囲",
+        kind: Kind::Span,
+        unit: "source frames or seconds",
+        help: "How far in time poses are drawn to the slow ones beside them. Longer draws short movements to the \
+               rests beside them.",
+        japanese_help: "近くの遅いポーズに引き寄せる時間の範囲。長いほど、短い動きは隣の止めに引き寄せられる。",
+    },
+    Knob {
         name: "speed.measure",
         japanese: "速さの測り方",
         kind: Kind::Choice(&["rotation", "displacement", "combined", "angle"]),

@@ -231,6 +231,7 @@ fn sections() -> Vec<Option<&'static str>> {
 fn named(section: Option<&'static str>, words: Words) -> (&'static str, bool) {
     match section {
         None => (words.say("Sheet", "シート"), false),
+        Some("exaggerate") => (words.say("Exaggeration", "誇張"), false),
         Some("speed") => (words.say("Speed", "速さ"), false),
         Some("filter") => (words.say("Smoothing", "ローパスフィルタ"), true),
         Some("turns") => (words.say("Turns of joints", "部位の動きの変わり目"), false),

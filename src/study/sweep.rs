@@ -23,8 +23,19 @@ const PIECES: usize = 4;
 const MOST: usize = 1_000_000;
 
 /// Sections of the recipe, and what stands before them, in the order in which the chain uses them.
-const CHAIN: [&str; 11] = [
-    "noise", "speed", "filter", "turns", "layers", "rate", "keys", "spacing", "omission", "root",
+const CHAIN: [&str; 13] = [
+    "noise",
+    "exaggerate",
+    "seen_from",
+    "speed",
+    "filter",
+    "turns",
+    "layers",
+    "rate",
+    "keys",
+    "spacing",
+    "omission",
+    "root",
     "feet",
 ];
 

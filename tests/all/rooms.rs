@@ -6,9 +6,10 @@ use std::path::Path;
 use crate::clips::here;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
-const ROOMS: [&[&str]; 14] = [
+const ROOMS: [&[&str]; 15] = [
     &["error", "time", "sheet", "edits"],
     &["motion"],
+    &["exaggerate"],
     &["signal"],
     &["keys"],
     &["timing"],

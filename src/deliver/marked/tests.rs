@@ -36,6 +36,7 @@ fn kick() -> (Vec<Pin>, [String; 4]) {
         name: "kick",
         clip_file: "kick.bvh",
         clip,
+        exaggerated: None,
         sheet,
         spaced: None,
         splits: &[],

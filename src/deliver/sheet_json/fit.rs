@@ -32,7 +32,7 @@ impl MadeOf {
 
 impl SheetFile {
     /// The part of a clip that the sheet was made of, and what is odd about it. The clip is the file as it
-    /// is, with its lead-in and untrimmed.
+    /// is, with its lead-in and untrimmed. What is drawn is what `exaggerate` makes of it.
     ///
     /// Other bones or another motion under the same joints are no error: a take that was cleaned up keeps
     /// its sheet.
@@ -72,6 +72,14 @@ impl SheetFile {
             ));
         }
         Ok((clip, notes))
+    }
+
+    /// The motion that the drawings are of, of the clip that fits; none where it is that clip.
+    ///
+    /// # Errors
+    /// Those of [`Exaggerate::apply`](crate::exaggerate::Exaggerate::apply).
+    pub fn drawn(&self, clip: &Clip) -> Result<Option<Clip>, Error> {
+        (!self.exaggerate.is_off()).then(|| self.exaggerate.apply(clip)).transpose()
     }
 
     fn fit_joints(&self, clip: &Clip) -> Result<(), Error> {

@@ -9,6 +9,7 @@ use super::layer::DrawingLine;
 use super::text::Text;
 use super::{MadeOf, MadeWith, SCHEMA, SheetFile, check};
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::sheet::{Exposure, Layer, Sheet};
 use crate::time::{Clock, Frame, FrameRate};
 
@@ -36,6 +37,8 @@ struct Written<'a> {
     clip: &'a RawValue,
     #[serde(borrow)]
     made_with: Option<&'a RawValue>,
+    #[serde(borrow)]
+    exaggerate: Option<&'a RawValue>,
     #[serde(borrow)]
     root: Option<&'a RawValue>,
     #[serde(borrow)]
@@ -86,16 +89,27 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let layers = layers.collect::<Result<_, _>>()?;
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
+    let exaggerate = match written.exaggerate {
+        None => Exaggerate::default(),
+        Some(raw) => exaggeration(text, raw)?,
+    };
     let made_with: Option<MadeWith> = written.made_with.map(|raw| text.value(raw)).transpose()?;
     let file = SheetFile {
         cut: written.cut,
         genga: written.genga,
         clip,
+        exaggerate,
         made_with,
         sheet: Sheet { clock, layers, root, feet },
     };
     file.check()?;
     Ok(file)
+}
+
+fn exaggeration(text: Text<'_>, raw: &RawValue) -> Result<Exaggerate, Error> {
+    let exaggerate: Exaggerate = text.value(raw)?;
+    exaggerate.validate().map_err(|error| text.error(raw, error.to_string()))?;
+    Ok(exaggerate)
 }
 
 fn check_version(text: Text<'_>) -> Result<(), Error> {

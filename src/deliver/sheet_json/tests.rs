@@ -19,6 +19,7 @@ fn file() -> SheetFile {
         name: "波 \"wave\"",
         clip_file: "wave.bvh",
         clip: breakdown.clip,
+        exaggerated: None,
         sheet: breakdown.sheet,
         spaced: None,
         splits: &[],

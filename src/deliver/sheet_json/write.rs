@@ -8,6 +8,7 @@ use super::lines::Lines;
 use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::deliver::Cut;
 use crate::error::Error;
+use crate::exaggerate::Exaggerate;
 use crate::sheet::{Feet, RootMotion, is_default};
 
 /// The sheet of a cut as `sheet.json`.
@@ -29,6 +30,8 @@ struct Written<'a> {
     clip: &'a MadeOf,
     #[serde(skip_serializing_if = "Option::is_none")]
     made_with: Option<&'a MadeWith>,
+    #[serde(skip_serializing_if = "Exaggerate::is_off")]
+    exaggerate: &'a Exaggerate,
     #[serde(skip_serializing_if = "is_default")]
     root: RootMotion,
     #[serde(skip_serializing_if = "is_default")]
@@ -39,10 +42,15 @@ struct Written<'a> {
 impl SheetFile {
     /// What `sheet.json` says of a cut.
     pub fn of(cut: &Cut<'_>) -> Self {
+        let (source, exaggerate) = match cut.exaggerated {
+            Some((source, exaggerate)) => (source, exaggerate.clone()),
+            None => (cut.clip, Exaggerate::default()),
+        };
         Self {
             cut: cut.name.into(),
             genga: env!("CARGO_PKG_VERSION").into(),
-            clip: MadeOf::of(cut.clip_file, cut.clip),
+            clip: MadeOf::of(cut.clip_file, source),
+            exaggerate,
             made_with: cut.made_with.cloned(),
             sheet: cut.sheet.clone(),
         }
@@ -70,6 +78,7 @@ impl SheetFile {
             frame_base: 0,
             clip: &self.clip,
             made_with: self.made_with.as_ref(),
+            exaggerate: &self.exaggerate,
             root: self.sheet.root,
             feet: self.sheet.feet,
             layers: self.sheet.layers.iter().map(LayerLines::of).collect(),

@@ -35,6 +35,7 @@ fn cut<'a>(clip: &'a Clip, sheet: &'a Sheet) -> Cut<'a> {
         name: "wave",
         clip_file: "wave.bvh",
         clip,
+        exaggerated: None,
         sheet,
         spaced: None,
         splits: &[],

@@ -29,6 +29,7 @@ fn every_format_refuses_what_cannot_be_shown() {
             name: "wave",
             clip_file: "wave.bvh",
             clip: &clip,
+            exaggerated: None,
             sheet: &sheet,
             spaced: None,
             splits: &[],

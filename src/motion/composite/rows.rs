@@ -1,7 +1,7 @@
 //! A composite as rows of channel values.
 
 use super::{Composite, FootHold, is_position};
-use crate::motion::channels::write_rotation;
+use crate::motion::channels::{rotation_axes, turn_columns};
 use crate::motion::{Pose, RowWriter, local_rotation};
 use crate::sheet::Source;
 
@@ -67,7 +67,9 @@ impl<'a> CompositeRows<'a> {
             let (data, turned) = (&skeleton.joints[joint], pose.rotations[joint]);
             if turned != local_rotation(data, row) {
                 let columns = data.first_channel..data.first_channel + data.channels.len();
-                write_rotation(data, turned, &mut row[columns]);
+                if let Some(axes) = rotation_axes(data) {
+                    turn_columns(data, axes, turned, &mut row[columns]);
+                }
             }
         }
     }

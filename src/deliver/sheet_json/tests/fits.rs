@@ -29,6 +29,43 @@ fn its_own_clip_fits_without_a_word_also_with_more_around_it() {
 }
 
 #[test]
+fn a_sheet_of_an_exaggerated_motion_knows_its_source_and_makes_that_motion_again() {
+    let mut recipe = recipe();
+    for (name, value) in [("cartoon", "0.8"), ("cartoon_parts", "body"), ("ease", "0.5")] {
+        recipe.set(&format!("exaggerate.{name}"), value).unwrap();
+    }
+    let mut engine = Engine::new(wave()).unwrap();
+    let made = engine.run(&recipe, &Default::default()).unwrap();
+    assert_ne!(made.clip, made.source);
+    let cut = Cut {
+        name: "wave",
+        clip_file: "wave.bvh",
+        clip: made.clip,
+        exaggerated: Some((made.source, &recipe.exaggerate)),
+        sheet: made.sheet,
+        spaced: None,
+        splits: &[],
+        made_with: None,
+    };
+    let written = SheetFile::of(&cut).write().unwrap();
+    let again = read(written.as_bytes()).unwrap();
+    assert_eq!(again.write().unwrap(), written);
+    let (source, notes) = again.fit(wave()).unwrap();
+    assert_eq!((&source, notes), (made.source, vec![]));
+    assert_eq!(again.drawn(&source).unwrap().as_ref(), Some(made.clip));
+    assert_eq!(file().drawn(&source).unwrap(), None, "another sheet is of the clip itself");
+    let schema = include_str!("../../../../docs/schema/sheet-1.json");
+    let schema = serde_json::from_str(schema).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    assert!(validator.is_valid(&serde_json::from_str(&written).unwrap()), "{written}");
+    let wrong = written.replacen("\"ease\": 0.5", "\"ease\": 1.5", 1);
+    assert!(!validator.is_valid(&serde_json::from_str(&wrong).unwrap()));
+    let error = read(wrong.as_bytes()).unwrap_err();
+    assert!(error.position().is_some(), "{error}");
+    assert!(error.to_string().contains("exaggerate.ease: 1.5 is no strength"), "{error}");
+}
+
+#[test]
 fn what_does_not_fit_is_named() {
     let told = |clip: Clip| file().fit(clip).unwrap_err().to_string();
     let error = told(other(|skeleton, _| skeleton.joints[1].name = "Leg".into(), 50.0));

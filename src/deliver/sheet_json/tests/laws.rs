@@ -4,8 +4,9 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
+use crate::exaggerate::{CartoonParts, Exaggerate};
 use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Why};
-use crate::time::{Clock, Frame, FrameRate};
+use crate::time::{Clock, Frame, FrameRate, Span};
 
 const FIRST: usize = 7;
 const LAST: usize = 5000;
@@ -102,6 +103,23 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
     )
 }
 
+/// One that does something, and none.
+fn exaggerate() -> impl Strategy<Value = Exaggerate> {
+    let span =
+        || prop_oneof![(0.0..1e9).prop_map(Span::Frames), (0.0..9.0).prop_map(Span::Seconds)];
+    let parts = prop::sample::select(vec![CartoonParts::Upper, CartoonParts::Body]);
+    let some = (1e-300..3.0, span(), parts, 0.0..=1.0, span()).prop_map(
+        |(cartoon, cartoon_width, cartoon_parts, ease, ease_reach)| Exaggerate {
+            cartoon,
+            cartoon_width,
+            cartoon_parts,
+            ease,
+            ease_reach,
+        },
+    );
+    prop_oneof![Just(Exaggerate::default()), some]
+}
+
 fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let rates = (0.01..1000.0, prop_oneof![Just(24.0), 2.0..1000.0]);
     let layers = prop::collection::vec(layer(), 0..4);
@@ -110,12 +128,20 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let words = prop::array::uniform2(any::<String>());
     let root = prop::sample::select(vec![RootMotion::Drawings, RootMotion::Ones]);
     let feet = prop::sample::select(vec![Feet::Free, Feet::Held]);
+    let root = (root, exaggerate());
     (rates, (layers, root, feet), joints, words, prop::option::of(made_with())).prop_map(
-        |((frame_rate, koma_rate), (layers, root, feet), joints, [cut, file], made_with)| {
+        |(
+            (frame_rate, koma_rate),
+            (layers, (root, exaggerate), feet),
+            joints,
+            [cut, file],
+            made_with,
+        )| {
             SheetFile {
                 cut,
                 genga: "0.1.0".into(),
                 made_with,
+                exaggerate,
                 sheet: Sheet {
                     clock: Clock {
                         first: Frame(FIRST),

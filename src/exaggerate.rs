@@ -1,0 +1,126 @@
+//! **Exaggerate** (誇張): anticipation and follow-through, slow-in and slow-out, before anything is drawn.
+//!
+//! Off unless it is asked for. The result is a clip like any other: what comes after it need not know.
+
+mod cartoon;
+mod ease;
+mod parts;
+mod smooth;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::motion::{Clip, RowWriter};
+use crate::sheet::Source;
+use crate::time::Span;
+
+pub use parts::CartoonParts;
+
+/// The strongest cartoon filter: three times the swing is beyond what a body can be read in.
+const STRONGEST: f64 = 3.0;
+
+/// Exaggeration (誇張) of a motion: the cartoon filter of Wang, Drucker, Agrawala and Cohen 2006, then
+/// slow-in and slow-out by a bilateral filter after Kwon and Lee 2011. Both are off by default.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Exaggerate {
+    /// How strong anticipation (予備動作) and follow-through (後追い) are, 0 (none) to 3; default 0. With 1 a
+    /// sudden turn goes back by 36 % of itself before and beyond by as much after, and a swing in the
+    /// period that is met best is twice as wide. Raised, limbs go through the body and joints beyond what
+    /// they can.
+    pub cartoon: f64,
+    /// The time from the furthest back to the furthest beyond of a sudden movement, frames or seconds, 0 or
+    /// more; 0.25 s by default. A swing of 2.4 times that period gains most. Raised, slow movements are
+    /// exaggerated as well; more than the clip's length counts as that.
+    pub cartoon_width: Span,
+    /// What of the body the cartoon filter moves. Default: what no foot hangs on.
+    pub cartoon_parts: CartoonParts,
+    /// How far poses gather round the slow ones beside them (slow-in, slow-out; スローイン・スローアウト), 0 (not
+    /// at all) to 1; default 0. The way of every joint stays what it was, and the movement between is faster.
+    pub ease: f64,
+    /// How far in time poses draw one another, as a standard deviation, frames or seconds, 0 or more; 0.1 s by
+    /// default. Raised, short movements are drawn to the rests beside them.
+    pub ease_reach: Span,
+}
+
+impl Default for Exaggerate {
+    fn default() -> Self {
+        Self {
+            cartoon: 0.0,
+            cartoon_width: Span::Seconds(0.25),
+            cartoon_parts: CartoonParts::default(),
+            ease: 0.0,
+            ease_reach: Span::Seconds(0.1),
+        }
+    }
+}
+
+impl Exaggerate {
+    /// Whether the settings can be used.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let strengths = [("cartoon", self.cartoon, STRONGEST), ("ease", self.ease, 1.0)];
+        for (name, strength, most) in strengths {
+            if !(0.0..=most).contains(&strength) {
+                let message = format!("{strength} is no strength; it is 0 (none) to {most}");
+                return Err(Error::setting(format!("exaggerate.{name}"), message));
+            }
+        }
+        let lengths = [("cartoon_width", self.cartoon_width), ("ease_reach", self.ease_reach)];
+        for (name, length) in lengths {
+            if !length.is_length() {
+                let message = format!("{length} is no length; give frames (20) or seconds (0.2s)");
+                return Err(Error::setting(format!("exaggerate.{name}"), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether nothing is exaggerated.
+    pub fn is_off(&self) -> bool {
+        self.cartoon == 0.0 && self.ease == 0.0
+    }
+
+    /// The exaggerated clip: same joints, rate and frames. First the poses, then their times, so that what the
+    /// first makes is eased as well. The first and the last frame stay as they are.
+    ///
+    /// # Errors
+    /// Those of [`Exaggerate::validate`], and [`Error::Clip`] where a position would grow beyond 10¹².
+    pub fn apply(&self, clip: &Clip) -> Result<Clip, Error> {
+        self.validate()?;
+        let posed = self.posed(clip);
+        let eased = self.eased(posed.as_ref().unwrap_or(clip));
+        let exaggerated = eased.or(posed).unwrap_or_else(|| clip.clone());
+        exaggerated.check_size()?;
+        Ok(exaggerated)
+    }
+
+    /// Anticipation and follow-through; none where there is nothing to do.
+    fn posed(&self, clip: &Clip) -> Option<Clip> {
+        let width = self.cartoon_width.frames(clip.rate()).min(clip.len() as f64);
+        let filter = cartoon::Filter::of(self.cartoon, 0.5 * width)?;
+        Some(filter.apply(clip, &self.cartoon_parts.joints(clip)))
+    }
+
+    /// The same poses at other times; none where there is nothing to do.
+    fn eased(&self, clip: &Clip) -> Option<Clip> {
+        let reach = self.ease_reach.frames(clip.rate()).min(clip.len() as f64);
+        let places = ease::places(clip, self.ease, reach)?;
+        let channels = clip.skeleton().channels();
+        let mut values = vec![0.0; clip.len() * channels];
+        let mut writer = RowWriter::new(clip);
+        for (row, place) in values.chunks_exact_mut(channels).zip(places) {
+            writer.write(Source::At(clip.first().0 as f64 + place), row);
+        }
+        Some(with_values(clip, values))
+    }
+}
+
+/// A clip of the same joints, rate and frames.
+fn with_values(clip: &Clip, values: Vec<f64>) -> Clip {
+    Clip::of_finite(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), values)
+}
