@@ -217,7 +217,7 @@ mod tests {
     fn a_rotation_written_the_other_way_round_is_the_same_pose() {
         let row = |at: usize| {
             let way = 100.0 * (at as f64 * 0.2).sin();
-            [way, 0.0, 0.0, if at % 2 == 0 { way } else { way + 360.0 }, 0.0, 0.0]
+            [way, 0.0, 0.0, if at.is_multiple_of(2) { way } else { way + 360.0 }, 0.0, 0.0]
         };
         let clip = clip(&(0..40).map(row).collect::<Vec<_>>());
         let poses = Poses::of(&clip);
