@@ -24,7 +24,7 @@ pub(crate) use room::with_found;
 /// What a sheet is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target {
-    /// So many genga on the sheet, found ones, pins and ends of rests together; the clip's two ends do
+    /// So many genga on the sheet, found ones, pins, ends of rests and of contacts together; the clip's two ends do
     /// not count.
     Keys(usize),
     /// Drawings on the sheet over its seconds: above 0, and at most a drawing a koma.

@@ -36,7 +36,7 @@ pub(super) struct Entry {
     pub(super) frame: Frame,
     /// The instant of the chords that is nearest to it.
     pub(super) instant: usize,
-    /// Pins, ends of rests and the clip's ends are always in the set.
+    /// Pins, ends of rests and of contacts, and the clip's ends are always in the set.
     pub(super) stays: bool,
 }
 

@@ -76,7 +76,8 @@ pub struct Choose {
     /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
     /// lose their keys.
     pub min_strength: f64,
-    /// Found keys a second at the most; pins and the ends of rests come on top. Above 0, default 6,
+    /// Found keys a second at the most; pins and the ends of rests, and of contacts
+    /// where these are keys, come on top. Above 0, default 6,
     /// `inf` for no limit. Where more would be worth it the price is raised until they fit: lowered, it
     /// takes those that save least.
     pub per_second: f64,

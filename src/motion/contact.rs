@@ -69,6 +69,10 @@ const BEFORE: f64 = 0.5;
 /// The share of koma in which a foot is below its ground.
 const LOW: f64 = 0.05;
 
+/// Seconds over which small steps are looked at together, and how far they may lead, in % of body height.
+const SLOW: f64 = 0.5;
+const SLOW_WAY: f64 = 3.0;
+
 /// Steps of the path that may be too fast within one contact: one koma that is off has two.
 const TORN: usize = 2;
 
@@ -117,7 +121,7 @@ impl ContactFinder {
             let is_low = |koma: &RangeInclusive<usize>| {
                 mean(&levels[foot][koma.clone()]) <= ground + self.foot_lift
             };
-            let mut still = still(path, self.foot_speed / koma_rate, self.foot_least * koma_rate);
+            let mut still = still(path, self.foot_speed, self.foot_least, koma_rate);
             still.retain(|koma| is_low(koma) || self.carries(&levels, foot, koma));
             still
         };
@@ -142,7 +146,7 @@ impl ContactFinder {
             let fastest = steps.map(|step| step[0].distance(step[1])).fold(0.0, f64::max);
             fastest >= self.hand_before / koma_rate
         };
-        let mut still = still(path, self.hand_speed / koma_rate, self.hand_least * koma_rate);
+        let mut still = still(path, self.hand_speed, self.hand_least, koma_rate);
         still.retain(moved);
         still
     }
@@ -159,11 +163,11 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// The stretches of a path in which no step is longer than `step`, of `least` koma or more; two that a
+/// The stretches of a path in which no step is faster than `speed`, of `least` seconds or more; two that a
 /// fast koma tore are one again.
-fn still(path: &[DVec3], step: f64, least: f64) -> Vec<RangeInclusive<usize>> {
-    let is_still = |koma: usize| path[koma].distance(path[koma + 1]) <= step;
-    let steps: Vec<bool> = (0..path.len().saturating_sub(1)).map(is_still).collect();
+fn still(path: &[DVec3], speed: f64, least: f64, koma_rate: f64) -> Vec<RangeInclusive<usize>> {
+    let (step, least) = (speed / koma_rate, least * koma_rate);
+    let steps = still_steps(path, step, koma_rate);
     let mut stretches: Vec<RangeInclusive<usize>> = Vec::new();
     let mut begin = 0;
     for run in steps.chunk_by(|a, b| a == b) {
@@ -182,6 +186,20 @@ fn still(path: &[DVec3], step: f64, least: f64) -> Vec<RangeInclusive<usize>> {
         begin = end;
     }
     stretches
+}
+
+/// Which steps of a path are no longer than `step`, and none of a slow way: many small steps in one direction are
+/// a foot that is set elsewhere with care.
+fn still_steps(path: &[DVec3], step: f64, koma_rate: f64) -> Vec<bool> {
+    let is_small = |koma: usize| path[koma].distance(path[koma + 1]) <= step;
+    let small: Vec<bool> = (0..path.len().saturating_sub(1)).map(is_small).collect();
+    let half = (0.5 * SLOW * koma_rate).round() as usize;
+    let is_on_its_way = |koma: usize| {
+        let (Some(from), to) = (koma.checked_sub(half), koma + half) else { return false };
+        let is_slow = small.get(from..to).is_some_and(|steps| steps.iter().all(|small| *small));
+        is_slow && path[from].distance(path[to]) > SLOW_WAY
+    };
+    (0..small.len()).map(|koma| small[koma] && !is_on_its_way(koma)).collect()
 }
 
 #[cfg(test)]
@@ -214,6 +232,12 @@ mod tests {
         // The second time it is held in the air.
         let lifted = |koma| if (15..35).contains(&koma) { 9.0 } else { 3.0 };
         assert_eq!(standing(path(&steps, lifted)), [0..=10, 38..=44]);
+    }
+
+    #[test]
+    fn a_foot_that_is_set_elsewhere_slowly_stands_twice() {
+        let slow = standing(path(&[(24, 0.02), (48, 0.49), (24, 0.02)], |_| 0.0));
+        assert_eq!(slow, [0..=24, 73..=96]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A leg (脚) that sets its foot down somewhere else: two bones that turn at hip and knee.
 
+use std::f64::consts::{PI, TAU};
+
 use glam::{DQuat, DVec3};
 
 use crate::motion::channels::rotation_axes;
@@ -12,6 +14,12 @@ const LOOKS: usize = 200;
 
 /// How much a knee has to bend in the mean, as the sine of its angle, that its hinge is seen: 1°.
 const LEAST_BEND: f64 = 0.02;
+
+/// How far past straight a knee may be stretched that is no other knee, in radians: 15°.
+const OVER: f64 = 0.26;
+
+/// How fast such a knee goes through straight, for each radian that the leg is to be bent more.
+const THROUGH: f64 = 4.0;
 
 /// The joints of a leg and the hinge of its knee.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,10 +128,24 @@ fn reach([hip, knee, ankle]: [DVec3; 3], hinge: DVec3, target: DVec3) -> Option<
     let cosine = ((across - (target - hip).length_squared()) / (2.0 * product)).clamp(-1.0, 1.0);
     let wanted = ((1.0 - cosine) * (1.0 + cosine)).sqrt().atan2(cosine);
     let angle = hinge.dot(a.cross(b)).atan2(a.dot(b));
-    let bend = DQuat::from_axis_angle(hinge, wanted - angle);
+    let bend = DQuat::from_axis_angle(hinge, bend(PI - angle, PI - wanted));
     let bent = (bend * shin - thigh).try_normalize()?;
     let swing = DQuat::from_rotation_arc(bent, (target - hip).try_normalize()?);
     Some(Reach { swing, bend })
+}
+
+/// How far a knee turns about its hinge from one bend to another, both 0 where the leg is straight; the second is
+/// 0 to π.
+///
+/// A knee that is a little past straight would jump to the same bend on the other side when its foot is hardly
+/// moved. It goes there by and by instead: so near to straight the foot is off by next to nothing.
+fn bend(now: f64, wanted: f64) -> f64 {
+    let past = if now > PI { TAU - now } else { -now };
+    if !(0.0..=OVER).contains(&past) {
+        return now - wanted;
+    }
+    let to = if wanted <= past { -wanted } else { (THROUGH * (wanted - past) - past).min(wanted) };
+    -past - to
 }
 
 #[cfg(test)]
@@ -156,6 +178,23 @@ mod tests {
         assert!((other[1].z + found[1].z).abs() < 1e-12, "the other hinge bends the other way");
     }
 
+    #[test]
+    fn a_knee_a_little_past_straight_goes_through_it_and_does_not_jump() {
+        let past = -0.05_f64;
+        let to = |wanted: f64| past - bend(past, wanted);
+        assert_eq!(bend(past, 0.05), 0.0, "where the foot is, nothing moves");
+        let wanted = (0..=300).map(|at| 0.001 * f64::from(at));
+        let bends: Vec<f64> = wanted.map(to).collect();
+        let steps = bends.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        assert!(steps.fold(0.0, f64::max) < 0.0041, "{bends:?}");
+        assert!((bends[300] - 0.3).abs() < 1e-12, "bent well it is bent as asked");
+        assert!(
+            (bend(past + TAU, 0.2) - bend(past, 0.2)).abs() < 1e-12,
+            "whole turns do not count"
+        );
+        assert!((bend(-1.0, 0.2) + 1.2).abs() < 1e-12, "a knee on the wrong side comes over");
+    }
+
     proptest! {
         #[test]
         fn a_foot_gets_where_the_leg_reaches_and_its_bones_keep_their_length(
@@ -184,6 +223,10 @@ mod tests {
             let wanted = hip.distance(target);
             // As near as the knee lets it: the oracle's tenths of a degree are that coarse.
             let off = found[2].distance(target);
+            let across = |bone: DVec3| bone.reject_from_normalized(hinge);
+            let past = hinge.dot(across(shin).cross(across(thigh))).atan2(across(thigh).dot(across(shin)));
+            // It goes through straight by and by.
+            prop_assume!(!(-OVER..=0.0).contains(&past));
             let least = (near - wanted).max(wanted - far).max(0.0);
             prop_assert!(off <= least + 1e-6 || (wanted - near).abs() < 1e-5, "{off} {least} {found:?}");
             prop_assert!(off >= least - 1e-5, "{off} {least}");

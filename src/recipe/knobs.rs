@@ -287,9 +287,9 @@ pub const KNOBS: &[Knob] = &[
         japanese: "毎秒の原画数",
         kind: number(0.1, 12.0),
         unit: "keys a second, inf for no limit",
-        help: "That many found keys at the most; pins and ends of rests come on top. Where more are worth it \
-               the price rises until they fit.",
-        japanese_help: "見つける原画の毎秒の上限。固定した原画と止めの両端は別に数える。\
+        help: "That many found keys at the most; pins, ends of rests and contacts that are keys come on top. \
+               Where more are worth it the price rises until they fit.",
+        japanese_help: "見つける原画の毎秒の上限。固定した原画、止めの両端、原画にした接地は別に数える。\
                         超えるときは収まるまで値段が上がる。",
     },
     Knob {

@@ -22,17 +22,23 @@ pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {
 pub(super) fn staying(genga: usize, keys: &[Key]) -> String {
     let any = |is: fn(Origin) -> bool| keys.iter().any(|key| is(key.origin));
     let rests = any(|origin| origin == Origin::Rest);
+    let contacts = any(|origin| origin == Origin::Contact);
     let kinds: [(bool, &str, &str); 4] = [
         (any(|origin| origin == Origin::Pinned), "a pin", "pins"),
         (any(|origin| matches!(origin, Origin::Moved { .. })), "a moved key", "moved keys"),
         (rests, "the end of a rest", "ends of rests"),
-        (any(|origin| origin == Origin::Contact), "the end of a contact", "ends of contacts"),
+        (contacts, "the end of a contact", "ends of contacts"),
     ];
     let there = kinds.into_iter().filter(|(is_there, ..)| *is_there);
     let words: Vec<&str> =
         there.map(|(_, one, many)| if genga == 1 { one } else { many }).collect();
     let words = listed(&words);
-    let way = if rests { "; keys.rest=0 knows no rests" } else { "" };
+    let way = match (rests, contacts) {
+        (true, true) => "; keys.rest=0 knows no rests, and keys.contacts=off no contacts",
+        (true, false) => "; keys.rest=0 knows no rests",
+        (false, true) => "; keys.contacts=off knows no contacts",
+        (false, false) => "",
+    };
     match genga {
         1 => format!("the one that is left is {words}, which stays{way}"),
         _ => format!("all {genga} are {words}, which stay{way}"),

@@ -5,7 +5,7 @@ use clap::Args;
 /// What the sheet is to be, instead of the settings that make it so.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct TargetArgs {
-    /// So many genga on the sheet, pins and ends of rests with them, the clip's two ends without; over
+    /// So many genga on the sheet, pins and what stays by itself (ends of rests) with them, the clip's two ends without; over
     /// keys.min_price and keys.per_second.
     #[arg(long, value_name = "N", value_parser = genga, allow_negative_numbers = true)]
     pub(in crate::cli) keys: Option<usize>,

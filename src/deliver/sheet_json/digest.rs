@@ -1,6 +1,7 @@
 //! Short digests by which a sheet knows its clip and itself again. They tell mistakes, not forgeries.
 
 use super::layer::LayerLines;
+use crate::exaggerate::Exaggerate;
 use crate::motion::{Axis, Channel, Clip, Skeleton};
 use crate::sheet::{Feet, RootMotion, Sheet};
 
@@ -52,8 +53,8 @@ pub(super) fn motion(clip: &Clip) -> String {
 }
 
 /// Names, joints, drawings and exposures, as they are written, a root that does not go with its drawings,
-/// and feet that do not.
-pub(super) fn sheet(sheet: &Sheet) -> String {
+/// feet that do not, and what the motion was exaggerated by.
+pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     let mut digest = Digest::new();
     for layer in &sheet.layers {
         let text = serde_json::to_string(&LayerLines::of(layer)).expect("a layer is plain data");
@@ -64,6 +65,10 @@ pub(super) fn sheet(sheet: &Sheet) -> String {
     }
     if sheet.feet == Feet::Held {
         digest.word(2);
+    }
+    if !exaggerate.is_off() {
+        let text = serde_json::to_string(exaggerate).expect("settings are plain data");
+        text.bytes().for_each(|byte| digest.word(u64::from(byte)));
     }
     digest.text()
 }

@@ -20,7 +20,7 @@ pub struct MadeWith {
     /// The corrections.
     #[serde(default)]
     pub edits: Edits,
-    /// A digest of the layers that they made, by which a sheet that was edited since is known; empty
+    /// A digest of the layers that they made, with root, feet and exaggeration, by which a sheet that was edited since is known; empty
     /// where nobody took it.
     #[serde(default, skip_serializing_if = "is_default")]
     pub layers: String,
@@ -29,7 +29,7 @@ pub struct MadeWith {
 impl MadeWith {
     /// The record of a run and the sheet that it made.
     pub fn of(recipe: &Recipe, edits: &Edits, sheet: &Sheet) -> Self {
-        let layers = digest::sheet(sheet);
+        let layers = digest::sheet(sheet, &recipe.exaggerate);
         let recipe = recipe.settings().into_iter().collect();
         Self { recipe, edits: edits.clone(), layers }
     }

@@ -56,11 +56,11 @@ impl SheetFile {
         }
     }
 
-    /// Whether layers, root and feet are those that were made. A sheet that does not say how it was made may be a
+    /// Whether layers, root, feet and exaggeration are those that were made. A sheet that does not say how it was made may be a
     /// person's work, and is not.
     pub fn is_as_made(&self) -> bool {
         let made = self.made_with.as_ref();
-        made.is_some_and(|made| made.layers == digest::sheet(&self.sheet))
+        made.is_some_and(|made| made.layers == digest::sheet(&self.sheet, &self.exaggerate))
     }
 
     /// The file: tidy, and the same bytes for the same sheet.
