@@ -82,6 +82,8 @@ fn an_edited_sheet_is_known_and_stays_known_when_it_is_written_again() {
         ("\"name\": \"A\"", "\"name\": \"B\""),
         ("\n    \"layers\": \"", "\n    \"layers\": \"0"),
         ("\n  \"layers\": [", "\n  \"root\": \"ones\",\n  \"layers\": ["),
+        ("\n  \"layers\": [", "\n  \"feet\": \"held\",\n  \"layers\": ["),
+        ("\n  \"layers\": [", "\n  \"exaggerate\": {\"ease\": 0.5},\n  \"layers\": ["),
         ("\"name\": \"A\",", "\"name\": \"A\", \"joints\": [\"Hips\"],"),
     ] {
         assert!(text().contains(line), "{line}");
