@@ -34,6 +34,7 @@ mod opening;
 mod player;
 mod scene;
 mod shown;
+mod step;
 mod take;
 mod timesheet;
 mod transport;

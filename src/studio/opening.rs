@@ -8,37 +8,12 @@ use egui::{ProgressBar, Ui};
 
 use super::desk::Desk;
 use super::errand::{Errand, Look};
+use super::step::Step;
 use super::take::Take;
 use super::words::Words;
 
 /// Points that the bar is long.
 const WIDTH: f32 = 120.0;
-
-/// What is done before a clip can be shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Step {
-    /// The file is read.
-    Read,
-    /// Speeds are measured, smoothed and searched for turns.
-    Measure,
-    /// Genga are chosen.
-    Choose,
-    /// Drawings are put between them and left out.
-    Time,
-}
-
-impl Step {
-    const ALL: [Self; 4] = [Self::Read, Self::Measure, Self::Choose, Self::Time];
-
-    fn words(self, words: Words) -> &'static str {
-        match self {
-            Self::Read => words.say("reading", "読み込み中"),
-            Self::Measure => words.say("measuring", "速さを測定中"),
-            Self::Choose => words.say("choosing genga", "原画を選択中"),
-            Self::Time => words.say("timing", "タイミング調整中"),
-        }
-    }
-}
 
 /// A clip on its way.
 pub(super) struct Opening {
