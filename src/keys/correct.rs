@@ -1,6 +1,7 @@
 //! A person's corrections: pins and what is forbidden among the candidates, moves among the keys.
 
 use crate::edits::{Edits, Move, Pin};
+use crate::keys::merge::is_taken;
 use crate::keys::{Candidates, Key, Origin};
 use crate::motion::Clip;
 use crate::time::Frame;
@@ -27,7 +28,7 @@ pub(super) fn corrected(
         .map(|frame| key(frame, 1.0, Origin::Rest))
         .collect();
     for &frame in contacts.iter().filter(|frame| inside(frame) && !unwanted(**frame)) {
-        if !is_taken(&keys, frame, apart) {
+        if !is_taken(&keys, |key| key.frame, frame, apart) {
             let at = keys.partition_point(|other| other.frame < frame);
             keys.insert(at, key(frame, 1.0, Origin::Contact));
         }
@@ -35,7 +36,9 @@ pub(super) fn corrected(
     let found: Vec<Key> = candidates
         .keys
         .iter()
-        .filter(|found| !unwanted(found.frame) && !is_taken(&keys, found.frame, apart))
+        .filter(|found| {
+            !unwanted(found.frame) && !is_taken(&keys, |key| key.frame, found.frame, apart)
+        })
         .map(|candidate| key(candidate.frame, candidate.strength, Origin::Found))
         .collect();
     keys.extend(found);
@@ -71,13 +74,6 @@ pub(super) fn moved(keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
     };
     keys.retain(|key| key.origin.is_set() || !gives_way(key));
     keys.sort_by_key(|key| key.frame);
-}
-
-/// Whether one of some keys, in order, is nearer to a frame than a koma.
-fn is_taken(keys: &[Key], frame: Frame, apart: f64) -> bool {
-    let after = keys.partition_point(|key| key.frame < frame);
-    let mut beside = keys[after.saturating_sub(1)..].iter().take(2);
-    beside.any(|key| distance(key.frame, frame) < apart)
 }
 
 fn distance(a: Frame, b: Frame) -> f64 {

@@ -80,13 +80,23 @@ impl Choose {
 fn add_contacts(keys: &mut Vec<(Frame, f64)>, poll: &Poll<'_>, joints: &JointTurns<'_>) {
     let votes = poll.count(joints.turns, TurnKind::Key);
     for &frame in joints.contacts {
-        let at = keys.partition_point(|(other, _)| *other < frame);
-        let mut beside = keys[at.saturating_sub(1)..].iter().take(2);
-        let near = |(other, _): &(Frame, f64)| (other.0.abs_diff(frame.0) as f64) < joints.apart;
-        if !beside.any(near) {
+        if !is_taken(keys, |(other, _)| *other, frame, joints.apart) {
+            let at = keys.partition_point(|(other, _)| *other < frame);
             keys.insert(at, (frame, votes[frame.0 - poll.first.0]));
         }
     }
+}
+
+/// Whether one of some moments, in the order of their frames, is nearer to a frame than `apart`.
+pub(super) fn is_taken<T>(
+    moments: &[T],
+    frame_of: impl Fn(&T) -> Frame,
+    frame: Frame,
+    apart: f64,
+) -> bool {
+    let after = moments.partition_point(|moment| frame_of(moment) < frame);
+    let mut beside = moments[after.saturating_sub(1)..].iter().take(2);
+    beside.any(|moment| (frame_of(moment).0.abs_diff(frame.0) as f64) < apart)
 }
 
 /// The frames nearest to each half koma, with the vote there.

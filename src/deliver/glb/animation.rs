@@ -121,16 +121,18 @@ impl<'a> Poses<'a> {
             tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
         }
         if self.composite.slides() {
-            let koma = self.on_ones(shown);
-            let times: Vec<[f32; 1]> = (0..koma.len()).map(second).collect();
+            let travellers = self.composite.travellers();
+            let followed = [travellers, &self.steppers].concat();
+            let locals = self.on_ones(&followed, shown);
+            let times: Vec<[f32; 1]> = (0..locals.len() / followed.len()).map(second).collect();
             let times = binary.add_bounded(Use::Data, "SCALAR", &times);
-            let local = |joint: usize| koma.iter().map(move |locals| locals[joint]);
-            for &joint in self.composite.travellers() {
-                let values: Vec<_> = local(joint).map(|local| local.translation).collect();
+            let koma_by_koma = |at: usize| locals[at..].iter().step_by(followed.len()).copied();
+            for (at, &joint) in travellers.iter().enumerate() {
+                let values: Vec<_> = koma_by_koma(at).map(|local| local.translation).collect();
                 tracks.push((joint, "translation", times, binary.add(Use::Data, "VEC3", &values)));
             }
-            for &joint in &self.steppers {
-                let values = continuous(local(joint).map(|local| local.rotation));
+            for (at, &joint) in (travellers.len()..).zip(&self.steppers) {
+                let values = continuous(koma_by_koma(at).map(|local| local.rotation));
                 tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
             }
         }
@@ -151,22 +153,22 @@ impl<'a> Poses<'a> {
         drawings.map(move |drawing| self.locals[drawing * self.joints + joint])
     }
 
-    /// The whole body koma by koma in an animation of some drawings, the last once more: for what goes on
-    /// while they are held.
-    fn on_ones(&self, shown: &[Shown]) -> Vec<Vec<Local>> {
-        let joints = &self.composite.clip().skeleton().joints;
-        let mut row = vec![0.0; self.composite.clip().skeleton().channels()];
+    /// Some joints koma by koma in an animation of some drawings, the last koma once more: what goes on while
+    /// they are held.
+    fn on_ones(&self, joints: &[usize], shown: &[Shown]) -> Vec<Local> {
+        let skeleton = self.composite.clip().skeleton();
+        let mut row = vec![0.0; skeleton.channels()];
         let mut rows = CompositeRows::of(self.composite);
-        let koma =
-            shown.iter().flat_map(|shown| (shown.begin..shown.end).map(move |koma| (koma, shown)));
-        let mut bodies: Vec<Vec<Local>> = koma
-            .map(|(koma, shown)| {
+        let mut locals = Vec::new();
+        for shown in shown {
+            for koma in shown.begin..shown.end {
                 rows.write(shown.drawing, koma, &mut row);
-                joints.iter().map(|joint| Local::of(joint, &row, self.space)).collect()
-            })
-            .collect();
-        bodies.extend(bodies.last().cloned());
-        bodies
+                let local = |joint: &usize| Local::of(&skeleton.joints[*joint], &row, self.space);
+                locals.extend(joints.iter().map(local));
+            }
+        }
+        locals.extend_from_within(locals.len().saturating_sub(joints.len())..);
+        locals
     }
 }
 
