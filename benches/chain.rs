@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use genga::edits::Edits;
-use genga::keys::{self, Chords, JointTurns, Judges, Reference};
+use genga::keys::{self, BodyTurns, Chords, JointTurns, Judges, Reference};
 use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -84,6 +84,10 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let turns = recipe.turns.find(&filtered, delay);
     watch.lap("turns");
     let clock = clip.clock(recipe.rate);
+    let reference = Reference::of(clip, clock);
+    watch.lap("reference");
+    let body = BodyTurns::of(clip, &reference, &recipe.filter, recipe.turns.persistence);
+    watch.lap("turns of the body");
     let joints = JointTurns {
         filtered: &filtered,
         turns: &turns,
@@ -92,11 +96,10 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
         weights: &keys::weights(clip),
         apart: clock.frames_in_koma(),
         contacts: &[],
+        body: &body,
     };
     let candidates = recipe.keys.candidates(&joints);
-    watch.lap("merge");
-    let reference = Reference::of(clip, clock);
-    watch.lap("reference");
+    watch.lap("candidates");
     let own = vec![1.0; clip.skeleton().len()];
     let chords = Chords::of(clip, &reference, &own, recipe.keys.span());
     watch.lap("chords");

@@ -5,6 +5,7 @@
 //! loses least at a price a drawing.
 
 mod actions;
+mod body;
 mod bridge;
 mod cheapest;
 mod choice;
@@ -28,12 +29,15 @@ mod voters;
 mod weights;
 
 use crate::motion::JointId;
+use crate::sheet::Reason;
 use crate::time::Frame;
 
 pub use actions::{Action, ActionFinder, Actions, Split, SplitReason};
+pub use body::BodyTurns;
+pub(crate) use body::{BodySpeeds, LayerMotion};
 pub(crate) use bridge::Bridge;
 pub(crate) use choice::{Choice, Picked};
-pub use choose::{Choose, Judges, Merge, Rank};
+pub use choose::{Choose, Fill, Judges, Merge, Rank};
 pub use chords::Chords;
 pub use contact::AtContacts;
 pub(crate) use contact::contact_ends;
@@ -71,8 +75,10 @@ pub struct Key {
 /// Where a key comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// Found in the motion.
-    Found,
+    /// A turn of the body (変わり目).
+    Turn,
+    /// No turn, but without it the body would go astray (補い).
+    Fill,
     /// The begin or the end of a rest (止め): it is kept whatever it saves.
     Rest,
     /// The begin or the end of a contact (接地): it is kept whatever it saves.
@@ -87,6 +93,22 @@ pub enum Origin {
 }
 
 impl Origin {
+    /// What it says of its drawing.
+    pub fn reason(self) -> Reason {
+        match self {
+            Self::Turn => Reason::Turn,
+            Self::Fill => Reason::Fill,
+            Self::Rest => Reason::Rest,
+            Self::Contact => Reason::Contact,
+            Self::Pinned | Self::Moved { .. } => Reason::Pin,
+        }
+    }
+
+    /// Whether it was found in the motion and may go.
+    pub fn is_found(self) -> bool {
+        matches!(self, Self::Turn | Self::Fill)
+    }
+
     /// Whether a person wants it just where it is.
     pub fn is_set(self) -> bool {
         matches!(self, Self::Pinned | Self::Moved { .. })
@@ -118,6 +140,8 @@ pub struct Candidate {
     pub frame: Frame,
     /// How strong it is; above 0, or 0 where every moment is a candidate and no joint turns.
     pub strength: f64,
+    /// Whether it is a turn.
+    pub is_turn: bool,
 }
 
 /// The keys and walls of a layer.

@@ -1,5 +1,6 @@
 //! **Read** (読む): the file as written ⇄ [`Clip`], and the poses of a clip.
 
+mod build;
 pub mod bvh;
 mod camera;
 mod channels;
@@ -21,6 +22,7 @@ mod skeleton;
 mod stature;
 pub(crate) mod view;
 
+pub(crate) use build::Build;
 pub use camera::Camera;
 pub use channels::RowWriter;
 pub(crate) use channels::{rotation_axes, turn_columns};

@@ -11,9 +11,10 @@ use crate::edits::{Edits, Hold};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{
-    ActionFinder, Actions, Candidates, LayerKeys, Layers, Part, Reconstruction, Reference,
+    ActionFinder, Actions, BodyTurns, Candidates, LayerKeys, Layers, Part, Reconstruction,
+    Reference,
 };
-use crate::motion::{Clip, Screen, SeenFrom};
+use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{Feet, RootMotion, Sheet};
 use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
@@ -33,6 +34,7 @@ pub struct Engine {
     drawn: Stage<Option<Exaggerate>, Arc<Clip>>,
     /// From where movement is seen.
     screen: Stage<SeenFrom, Screen>,
+    build: Stage<(), Build>,
     /// The speeds, and what filters make of them first.
     speed: Stage<(Speed, Screen), Spectrum>,
     filtered: Stage<LowPass, Signals>,
@@ -71,8 +73,9 @@ pub struct Breakdown<'a> {
     pub filtered: &'a Signals,
     /// Confirmed keys and walls of each joint, by frame.
     pub turns: &'a [Vec<Turn>],
-    /// What the joints say together, before it was asked what a key is worth; of the first layer, as the
-    /// next two and `omission`. [`Breakdown::layers`] has them all.
+    /// The turns of the body; of the first layer, as the next ones and `omission`.
+    pub body: &'a BodyTurns,
+    /// What may be a key, before it was asked what it is worth. [`Breakdown::layers`] has them all.
     pub candidates: &'a Candidates,
     /// Keys and walls of the layer.
     pub keys: &'a LayerKeys,
@@ -87,6 +90,17 @@ pub struct Breakdown<'a> {
     /// What was left out, and what could not be.
     pub omission: &'a Report,
     columns: &'a [Column],
+}
+
+/// What was found up to the keys of the first layer.
+#[derive(Debug, Clone, Copy)]
+pub struct FoundKeys<'a> {
+    /// Confirmed keys and walls of each joint, by frame.
+    pub turns: &'a [Vec<Turn>],
+    /// The turns of the layer as a whole.
+    pub body: &'a BodyTurns,
+    /// Keys and walls of the layer.
+    pub keys: &'a LayerKeys,
 }
 
 impl<'a> Breakdown<'a> {
@@ -111,6 +125,7 @@ impl Engine {
             clip,
             drawn: Stage::default(),
             screen: Stage::default(),
+            build: Stage::default(),
             speed: Stage::default(),
             filtered: Stage::default(),
             turning: Stage::default(),
@@ -179,7 +194,8 @@ impl Engine {
     fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
         let [spaced, sheet] = self.sheets.output();
         let columns = &self.columns[..sheet.layers.len()];
-        let LayerBreakdown { candidates, keys, did_not_fit, omission, .. } = columns[0].breakdown();
+        let LayerBreakdown { body, candidates, keys, did_not_fit, omission, .. } =
+            columns[0].breakdown();
         Breakdown {
             source: &self.clip,
             clip: self.drawn.output(),
@@ -189,6 +205,7 @@ impl Engine {
             speed: self.speed.output().unfiltered(),
             filtered: self.filtered.output(),
             turns: self.turns.output(),
+            body,
             candidates,
             keys,
             actions: self.actions.output(),
@@ -210,17 +227,30 @@ impl Engine {
         Ok(self.turns.output())
     }
 
-    /// Runs the chain up to the keys: every joint's turns, and the keys of the first layer.
+    /// Runs the chain up to the keys of the first layer.
     ///
     /// # Errors
     /// Those of [`Engine::run`].
-    pub fn find_keys(
+    pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
+        self.find(recipe, edits)?;
+        let (body, keys) = self.columns[0].keys();
+        Ok(FoundKeys { turns: self.turns.output(), body, keys })
+    }
+
+    /// Runs the chain up to the turns: every joint's, and those of the body, or of the first of its layers.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn find_body_turns(
         &mut self,
         recipe: &Recipe,
-        edits: &Edits,
-    ) -> Result<(&[Vec<Turn>], &LayerKeys), Error> {
-        self.find(recipe, edits)?;
-        Ok((self.turns.output(), self.columns[0].keys()))
+    ) -> Result<(&[Vec<Turn>], &BodyTurns), Error> {
+        let edits = Edits::default();
+        let turns_made = self.check_and_measure(recipe, &edits)?;
+        let (measured, parts, columns) = self.layers(turns_made);
+        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
+        columns[0].find_body_turns(&measured, recipe);
+        Ok((self.turns.output(), self.columns[0].body_turns()))
     }
 
     /// Runs the chain as far as it takes to tell the actions of the take.
@@ -294,6 +324,7 @@ impl Engine {
             filtered: self.filtered.output(),
             turns: self.turns.output(),
             made: turns_made,
+            build: self.build.output(),
             height: (parts.len() > 1).then(|| *self.height.output()),
             screen: *self.screen.output(),
         };
@@ -316,6 +347,7 @@ impl Engine {
         let made = self.exaggerate(recipe)?;
         let clip = &**self.drawn.output();
         self.screen.renew(made, &recipe.seen_from, || Screen::of(recipe.seen_from, clip));
+        self.build.renew(made, &(), || Build::of(clip));
         // A rotation is the same from everywhere.
         let is_seen = recipe.speed.measure.is_seen();
         let screen = if is_seen { *self.screen.output() } else { Screen::WORLD };

@@ -144,6 +144,49 @@ impl Role {
     }
 }
 
+/// What makes a drawing a genga.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// The body turns (変わり目).
+    Turn,
+    /// It does not turn, but would go astray without a drawing (補い).
+    Fill,
+    /// A rest (止め) begins or ends.
+    Rest,
+    /// A contact (接地) begins or ends.
+    Contact,
+    /// A person wants it (固定).
+    Pin,
+}
+
+impl Reason {
+    /// Every reason.
+    pub const ALL: [Self; 5] = [Self::Turn, Self::Fill, Self::Rest, Self::Contact, Self::Pin];
+
+    /// Its word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Turn => "turn",
+            Self::Fill => "fill",
+            Self::Rest => "rest",
+            Self::Contact => "contact",
+            Self::Pin => "pin",
+        }
+    }
+
+    /// Its Japanese word.
+    pub fn japanese(self) -> &'static str {
+        match self {
+            Self::Turn => "変わり目",
+            Self::Fill => "補い",
+            Self::Rest => "止め",
+            Self::Contact => "接地",
+            Self::Pin => "固定",
+        }
+    }
+}
+
 /// Why a drawing is on the sheet, and what was done round it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -157,13 +200,11 @@ pub struct Why {
     /// The source frame near which the key was found that a person put here.
     #[serde(skip_serializing_if = "is_default")]
     pub moved_from: Option<usize>,
-    /// The begin or the end of a rest (止め).
+    /// What makes it a genga; none for other drawings.
     #[serde(skip_serializing_if = "is_default")]
-    pub rest: bool,
-    /// The begin or the end of a contact (接地).
-    #[serde(skip_serializing_if = "is_default")]
-    pub contact: bool,
-    /// How strong the key is, 0 to 1 for votes; none for inbetweens.
+    pub reason: Option<Reason>,
+    /// How much of a turn the genga is, 0 to 1 (what joints say together where `keys.merge` is not `body`);
+    /// none for inbetweens.
     #[serde(skip_serializing_if = "is_default")]
     pub strength: Option<f64>,
     /// What the key saves, in % of body height: how far the body would be off without it; none for
@@ -209,11 +250,11 @@ impl fmt::Display for Why {
         if let Some(from) = self.moved_from {
             reasons.push(format!("moved from frame {from}"));
         }
-        if self.rest {
-            reasons.push("a rest begins or ends".into());
-        }
-        if self.contact {
-            reasons.push("a foot or a hand comes down or leaves".into());
+        match self.reason {
+            Some(Reason::Fill) => reasons.push("keeps the body on its way".into()),
+            Some(Reason::Rest) => reasons.push("a rest begins or ends".into()),
+            Some(Reason::Contact) => reasons.push("a foot or a hand comes down or leaves".into()),
+            Some(Reason::Turn | Reason::Pin) | None => {}
         }
         if let [first, ..] = self.voters.as_slice() {
             let others = self.voters.len() - 1;

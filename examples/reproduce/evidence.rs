@@ -2,6 +2,7 @@
 
 mod actions;
 mod events;
+mod keys;
 mod laws;
 mod poses;
 mod rates;
@@ -26,6 +27,9 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
         ("windows", windows::table(takes)?),
         ("genga-lost", laws::table(takes)?),
     ] {
+        part.text(name, text);
+    }
+    for (name, text) in keys::tables(takes, &events)? {
         part.text(name, text);
     }
     for (name, clip) in poses::PICTURES {

@@ -11,6 +11,8 @@
 mod chain;
 mod evidence;
 mod kitamura;
+#[path = "../../tests/all/known_keys/made.rs"]
+mod known;
 mod kuroda_tokoi;
 mod ones;
 mod page;

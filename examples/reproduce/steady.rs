@@ -5,7 +5,7 @@ use std::slice::from_ref;
 use genga::keys::Matching;
 use genga::plot::HeatMap;
 use genga::recipe::Recipe;
-use genga::study::{self, Axis, Grid, Measure, Plateau, Study};
+use genga::study::{Axis, Grid, Measure, Plateau, Study};
 use genga::time::Frame;
 
 use crate::part::Part;
@@ -15,30 +15,28 @@ use crate::{Outcome, samples};
 
 /// A setting, its own value in the default recipe first, then others.
 const CHANGES: [(&str, &[&str]); 3] = [
-    ("filter.width", &["0.1s", "0.09s", "0.11s", "0.08s", "0.12s"]),
+    ("filter.width", &["0.15s", "0.14s", "0.16s", "0.13s", "0.17s"]),
     ("turns.persistence", &["0.1s", "0.09s", "0.11s", "0.08s", "0.12s"]),
     ("noise", &["0", "0.05", "0.1", "0.2", "0.5"]),
 ];
 
 /// Where plateaus are looked for, round the default recipe.
-const ROUND: &str = "0.06s..0.14s:0.01s";
+const ROUND: [(&str, &str); 2] =
+    [("filter.width", "0.11s..0.19s:0.01s"), ("turns.persistence", "0.06s..0.14s:0.01s")];
 
 /// The map of Table 1.
 pub(crate) fn from_samples() -> Outcome<Part> {
     let study = Study {
-        recipe: study::table_1_recipe(),
+        recipe: Recipe::default(),
         x: Axis::new("filter.width", "4..40:2")?,
         y: Some(Axis::new("turns.persistence", "1..12:1")?),
-        measures: vec![Measure::Union, Measure::LayerKeys],
+        measures: vec![Measure::Turns],
         keep_keys: true,
     };
     let grid = study.run(samples::clip("kuroda-pitch")?, || ())?;
     let plateaus = [0.0, 1.0].map(|koma| Plateau::largest(from_ref(&grid), koma));
     let mut part = Part::default();
-    part.picture(
-        "table-1-map",
-        HeatMap { show: Measure::LayerKeys }.draw(&[grid], Some(&plateaus))?,
-    );
+    part.picture("table-1-map", HeatMap { show: Measure::Turns }.draw(&[grid], Some(&plateaus))?);
     Ok(part)
 }
 
@@ -72,7 +70,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
 
 /// Where the keys of each clip do not change.
 fn plateaus(takes: &[Take], part: &mut Part) -> Outcome<()> {
-    let [x, y] = ["filter.width", "turns.persistence"].map(|name| Axis::new(name, ROUND));
+    let [x, y] = ROUND.map(|(name, values)| Axis::new(name, values));
     let mut table = Table::new(&[
         "clip",
         ">cells with the very same keys",
@@ -106,7 +104,7 @@ fn plateaus(takes: &[Take], part: &mut Part) -> Outcome<()> {
 
 /// The default recipe with settings varied, on every clip.
 fn grids(takes: &[Take], x: Axis, y: Option<Axis>) -> Outcome<Vec<Grid>> {
-    let (recipe, measures) = (Recipe::default(), vec![Measure::LayerKeys]);
+    let (recipe, measures) = (Recipe::default(), vec![Measure::Genga]);
     let study = Study { recipe, x, y, measures, keep_keys: true };
     takes.iter().map(|take| Ok(study.run(take.clip.clone(), || ())?)).collect()
 }

@@ -13,7 +13,7 @@ use genga::sheet::{Role, Sheet};
 use crate::{Outcome, root};
 
 /// All merges, the default among them.
-pub(crate) const MERGES: [&str; 4] = ["vote", "sum", "union", "every"];
+pub(crate) const MERGES: [&str; 4] = ["vote", "sum", "union", "body"];
 
 /// A clip and what the chain makes of it.
 pub(crate) struct Take {
@@ -103,6 +103,10 @@ impl Run {
     fn of(engine: &mut Engine, merge: &'static str) -> Outcome<Self> {
         let mut recipe = Recipe::default();
         recipe.set("keys.merge", merge)?;
+        if merge != Recipe::default().get("keys.merge")? {
+            // No turn is cheaper there: about as many keys as the default has.
+            recipe.set("keys.min_price", "3")?;
+        }
         let breakdown = engine.run(&recipe, &Edits::default())?;
         Ok(Self {
             merge,

@@ -159,13 +159,13 @@ fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
     if of_the_sheet(x) || y.is_some_and(of_the_sheet) {
         return Measure::ALL.to_vec();
     }
-    vec![Measure::Union, Measure::Total, Measure::LayerKeys]
+    vec![Measure::Turns, Measure::Genga, Measure::Fills, Measure::Union, Measure::Total]
 }
 
 /// What is drawn unless it is said: what is compared, where it was counted.
 fn usually_shown(study: &Study) -> Measure {
-    let is_compared = study.keep_keys && study.measures.contains(&Measure::LayerKeys);
-    if is_compared { Measure::LayerKeys } else { study.measures[0] }
+    let is_compared = study.keep_keys && study.measures.contains(&Measure::Genga);
+    if is_compared { Measure::Genga } else { study.measures[0] }
 }
 
 fn swept(study: &Study, clips: Vec<Clip>, words: &Words) -> Result<Vec<Grid>, Failure> {

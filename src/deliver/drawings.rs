@@ -3,7 +3,7 @@
 use crate::deliver::{csv_table, number};
 use crate::error::Error;
 use crate::motion::{Clip, JointId};
-use crate::sheet::{Drawing, Layer, Sheet};
+use crate::sheet::{Drawing, Layer, Reason, Sheet};
 use crate::timing::{Gauge, fraction};
 
 /// A drawing on screen for more koma than this is a hold (止メ) to a person.
@@ -27,12 +27,13 @@ pub struct Drawings {
     pub rows: Rows,
 }
 
-const HEADER: [&str; 16] = [
+const HEADER: [&str; 17] = [
     "cut",
     "column",
     "drawing",
     "role",
     "genga_no",
+    "reason",
     "koma_first",
     "koma_count",
     "time_s",
@@ -74,6 +75,7 @@ impl Drawings {
                     (exposure.drawing + 1).to_string(),
                     drawing.role.word().into(),
                     genga_number.unwrap_or_default(),
+                    drawing.why.reason.map_or("", Reason::word).into(),
                     (begin + 1).to_string(),
                     exposure.koma.to_string(),
                     number(begin as f64 / sheet.clock.koma_rate),

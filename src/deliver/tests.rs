@@ -162,7 +162,7 @@ fn a_row_of_the_key_poses_is_a_genga_as_it_stands_on_its_koma() {
     let text = made("keys.csv");
     let rows = csv::Reader::from_reader(text.as_bytes()).into_records().map(|row| row.unwrap());
     let shown: Vec<String> =
-        rows.map(|row| stepped[row[5].parse::<usize>().unwrap() - 1].clone()).collect();
+        rows.map(|row| stepped[row[6].parse::<usize>().unwrap() - 1].clone()).collect();
     assert_eq!(keys, shown);
 }
 
@@ -187,13 +187,13 @@ fn the_tables_agree_with_each_other() {
     assert_eq!(sheet.len(), remap.len());
     let mut koma = sheet.iter().zip(&remap);
     for drawing in &drawings {
-        for held in 0..drawing[6].parse::<usize>().unwrap() {
+        for held in 0..drawing[7].parse::<usize>().unwrap() {
             let (sheet, remap) = koma.next().unwrap();
-            let number = drawing[5].parse::<usize>().unwrap() + held;
+            let number = drawing[6].parse::<usize>().unwrap() + held;
             assert_eq!(sheet[0], number.to_string());
-            assert_eq!((&sheet[2], &sheet[3], &sheet[4]), (&drawing[2], &drawing[3], &drawing[8]));
-            assert_eq!((&remap[0], &remap[1], &remap[2]), (&sheet[0], &sheet[4], &drawing[9]));
-            assert_eq!(sheet[5], drawing[15], "why");
+            assert_eq!((&sheet[2], &sheet[3], &sheet[4]), (&drawing[2], &drawing[3], &drawing[9]));
+            assert_eq!((&remap[0], &remap[1], &remap[2]), (&sheet[0], &sheet[4], &drawing[10]));
+            assert_eq!(sheet[5], drawing[16], "why");
         }
     }
     assert!(koma.next().is_none());

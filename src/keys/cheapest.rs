@@ -23,21 +23,17 @@ const HALVINGS: usize = 40;
 /// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
 const CLOSE: usize = 4;
 
-/// Instants by which a key of the cheapest set may settle: two koma.
-const SETTLES: usize = 4;
-
-/// How often each key settles: its neighbours have moved since the first time.
-const SWEEPS: usize = 2;
-
 /// What may be a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Entry {
     /// The source frame.
     pub(super) frame: Frame,
-    /// The instant of the chords that is nearest to it.
-    pub(super) instant: usize,
+    /// The koma that is nearest to it.
+    pub(super) koma: usize,
     /// Pins, ends of rests and of contacts, and the clip's ends are always in the set.
     pub(super) stays: bool,
+    /// What it costs, as a share of the price.
+    pub(super) cost: f64,
 }
 
 /// Chooses among entries, the first and the last of which are the clip's ends and stay.
@@ -48,7 +44,7 @@ pub(super) struct Cheapest<'a> {
     entries: &'a [Entry],
     /// Frames from one key to the next at least, unless both stay.
     apart: f64,
-    /// Behind each entry the first that does not stand on the next instant: as far its losses lie side by side.
+    /// Behind each entry the first that does not stand on the next koma: as far its losses lie side by side.
     ends: Vec<usize>,
 }
 
@@ -90,7 +86,7 @@ impl<'a> Cheapest<'a> {
     pub(super) fn among(entries: &'a [Entry], chords: &'a Chords, apart: f64) -> Self {
         let mut ends: Vec<usize> = (1..=entries.len()).collect();
         for at in (1..entries.len()).rev() {
-            if entries[at].instant == entries[at - 1].instant + 1 {
+            if entries[at].koma == entries[at - 1].koma + 1 {
                 ends[at - 1] = ends[at];
             }
         }
@@ -118,38 +114,6 @@ impl<'a> Cheapest<'a> {
         Set { kept, over_limit }
     }
 
-    /// Puts each key of a set that does not stay where the body is least off between its neighbours, up to
-    /// two koma away. The set is found by squares, which a little noise hardly changes and which blur the
-    /// moment of a turn; the distance itself is sharp there.
-    pub(super) fn settle(&self, kept: &mut [usize]) {
-        let home: Vec<usize> = kept.iter().map(|at| self.entries[*at].instant).collect();
-        for _ in 0..SWEEPS {
-            for at in 1..kept.len().saturating_sub(1) {
-                if !self.entries[kept[at]].stays {
-                    kept[at] = self.sharpest(kept[at - 1], kept[at], kept[at + 1], home[at]);
-                }
-            }
-        }
-    }
-
-    /// The entry near an instant between two others at which the body is least off; of equals the one that
-    /// is there, then the earlier.
-    fn sharpest(&self, before: usize, now: usize, after: usize, home: usize) -> usize {
-        let instant = |at: usize| self.entries[at].instant;
-        let off = |at: usize| {
-            self.chords.way_off(instant(before), instant(at))
-                + self.chords.way_off(instant(at), instant(after))
-        };
-        let first = self.entries.partition_point(|entry| entry.instant + SETTLES < home);
-        let end = self.entries.partition_point(|entry| entry.instant <= home + SETTLES);
-        let fits = |at: &usize| self.are_apart(before, *at) && self.are_apart(*at, after);
-        let near = (first.max(before + 1)..end.min(after)).filter(fits);
-        let others = near.map(|at| (off(at), at));
-        let least =
-            |best: (f64, usize), other: (f64, usize)| if other.0 < best.0 { other } else { best };
-        others.fold((off(now), now), least).1
-    }
-
     /// What is lost besides if one of a set is left out; infinite for those that stay.
     pub(super) fn saves(&self, kept: &[usize]) -> Vec<f64> {
         (0..kept.len()).map(|at| self.saves_at(kept, at)).collect()
@@ -169,7 +133,7 @@ impl<'a> Cheapest<'a> {
     }
 
     fn loss(&self, from: usize, to: usize) -> f64 {
-        self.chords.loss(self.entries[from].instant, self.entries[to].instant)
+        self.chords.loss(self.entries[from].koma, self.entries[to].koma)
     }
 
     /// How many of a set are there because they are worth it.
@@ -229,7 +193,7 @@ impl<'a> Cheapest<'a> {
                 stays_next = (at + 1..count).find(stays).unwrap_or(at);
                 stayed = at;
             } else {
-                ways.costs[at] += price;
+                ways.costs[at] += price * entry.cost;
             }
             self.go_on(at, stays_next, &mut ways);
         }
@@ -240,7 +204,9 @@ impl<'a> Cheapest<'a> {
     /// where the body hardly moves.
     fn join(&self, kept: &mut Vec<usize>, price: f64) {
         let mut saves = self.saves(kept);
-        while let Some(at) = least(&saves).filter(|at| saves[*at] < price) {
+        while let Some(at) =
+            least(&saves).filter(|at| saves[*at] < price * self.entries[kept[*at]].cost)
+        {
             self.leave_out(kept, &mut saves, at);
         }
     }
@@ -249,11 +215,11 @@ impl<'a> Cheapest<'a> {
     /// of equals the first. The next that stays is not passed over.
     #[inline(always)]
     fn go_on(&self, from: usize, stays_next: usize, ways: &mut Ways) {
-        let begin = self.entries[from].instant;
+        let begin = self.entries[from].koma;
         let first = (from + 1..=stays_next).find(|to| self.are_apart(from, *to));
         let mut to = first.unwrap_or(stays_next + 1);
         while to <= stays_next {
-            let losses = self.chords.known(begin).get(self.entries[to].instant - begin..);
+            let losses = self.chords.known(begin).get(self.entries[to].koma - begin..);
             let Some(losses) = losses.filter(|losses| !losses.is_empty()) else { break };
             let end = self.ends[to].min(stays_next + 1);
             ways.pass_through(from, to..end, losses);
@@ -302,7 +268,11 @@ impl<'a> Cheapest<'a> {
     fn crossing(&self, many: &[usize], few: &[usize]) -> f64 {
         let loss =
             |set: &[usize]| set.windows(2).map(|ends| self.loss(ends[0], ends[1])).sum::<f64>();
-        (loss(few) - loss(many)) / (self.found(many) - self.found(few)) as f64
+        let cost = |set: &[usize]| {
+            let found = set.iter().map(|at| self.entries[*at]).filter(|entry| !entry.stays);
+            found.map(|entry| entry.cost).sum::<f64>()
+        };
+        (loss(few) - loss(many)) / (cost(many) - cost(few)).max(1e-9)
     }
 
     /// Takes the cheapest away until there are few enough: no chord is long enough for so few.
@@ -339,9 +309,11 @@ impl<'a> Cheapest<'a> {
 
     /// The entry between two of a set that saves most beyond what it costs, and how much that is.
     fn best_between(&self, from: usize, to: usize, price: f64) -> Option<(usize, f64)> {
-        let whole = self.loss(from, to) - price;
+        let whole = self.loss(from, to);
         let fits = |at: &usize| self.are_apart(from, *at) && self.are_apart(*at, to);
-        let gain = |at: usize| (at, whole - self.loss(from, at) - self.loss(at, to));
+        let gain = |at: usize| {
+            (at, whole - self.loss(from, at) - self.loss(at, to) - price * self.entries[at].cost)
+        };
         let is_worth_it = |(_, gain): &(usize, f64)| *gain > 0.0 || price == 0.0;
         let gains = (from + 1..to).filter(fits).map(gain).filter(is_worth_it);
         gains.reduce(|best, other| if other.1 > best.1 { other } else { best })

@@ -1,7 +1,7 @@
 //! A choice (選択): what may be a key and what a key costs, and those that are picked.
 
 use crate::keys::cheapest::{Cheapest, Entry};
-use crate::keys::chords::{Chords, STEP};
+use crate::keys::chords::Chords;
 
 /// Seconds for which a key has to save its price: three koma of 24 a second.
 const HELD: f64 = 0.125;
@@ -50,9 +50,8 @@ impl Choice {
     /// The set that loses least, each with what it saves.
     fn cheapest(&self, price: f64, chords: &Chords) -> Picked {
         let cheapest = Cheapest::among(&self.entries, chords, self.apart);
-        let held = HELD * STEP * chords.clock().koma_rate;
-        let mut set = cheapest.set(price.powi(2) * held, self.most);
-        cheapest.settle(&mut set.kept);
+        let held = HELD * chords.koma_rate();
+        let set = cheapest.set(price.powi(2) * held, self.most);
         let saves = cheapest.saves(&set.kept);
         let kept = set.kept.iter().zip(saves).filter(|(entry, _)| self.is_inner(**entry));
         let price = |saved: f64| (saved.max(0.0) / held).sqrt();

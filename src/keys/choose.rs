@@ -11,31 +11,46 @@ use crate::keys::choice::{By, Choice, Picked};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::voters::voters;
 use crate::keys::{
-    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Origin, Reference,
-    rest,
+    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, rest,
 };
 use crate::motion::Clip;
 use crate::time::Span;
 
 /// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
 const MANY: f64 = 2.0;
-const CHEAP: f64 = 4.0;
+const CHEAP: f64 = 10.0;
 const FAR: f64 = 4.0;
+
+/// How much cheaper a key is that is a turn through and through.
+const DISCOUNT: f64 = 0.9;
+
+/// What a key costs at the least, as a share of the price.
+const LEAST_COST: f64 = 0.05;
 
 /// What may be a key of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Merge {
-    /// Every moment, half koma by half koma; its strength is the vote. Ranked by strength it is
-    /// [`Merge::Union`].
+    /// The turns of the body.
     #[default]
-    Every,
+    Body,
     /// Every joint votes with the weight of what hangs on it; keys are the maxima of the vote.
     Vote,
     /// The joints' speeds are added first; keys are the valleys of the sum.
     Sum,
     /// A turn of any joint is a key [KT11 §3.3].
     Union,
+}
+
+/// Whether moments that are no turn may be keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fill {
+    /// Where the body would go astray without them.
+    #[default]
+    On,
+    /// Never: turns, rests and pins alone, the paper's picks and nothing else.
+    Off,
 }
 
 /// By what the keys are ranked.
@@ -53,16 +68,19 @@ pub enum Rank {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Choose {
-    /// What may be a key. Default: `every` moment, and the price picks.
+    /// What picks the keys. Default: the turns of the `body`.
     pub merge: Merge,
+    /// Whether moments that are no turn may be keys, where the body would go astray without them (補い). Default `on`;
+    /// `off` leaves turns, rests and pins alone. It counts with `body`.
+    pub fill: Fill,
     /// How far a joint's vote carries, frames or seconds. Default 0.08 s. Raised, it joins turns that
     /// lie further apart into one key, and quick double actions become one.
     pub reach: Span,
     /// By what keys are ranked. Default: `price`.
     pub rank: Rank,
-    /// What a key costs, in % of body height: it must save an error so large for an eighth of a second;
-    /// 0 or more, default 3. Raised, small gestures lose their keys first. It counts when ranked by
-    /// price.
+    /// What a key costs that is no turn, in % of body height: it must save an error so large for an eighth of a
+    /// second; a turn through and through costs a tenth of that. 0 or more, default 7.5. Raised, small gestures lose
+    /// their keys first. It counts when ranked by price.
     pub min_price: f64,
     /// The speed below which the whole body rests, in % of its height a second (the posture's: pelvis,
     /// heading, and root mean square over the other points); 0 or more, default 15, 0 for no rests.
@@ -73,8 +91,8 @@ pub struct Choose {
     /// of a hand that stays somewhere: `off` (default) moments like all others, `candidates` also where no
     /// joint turns, `keys` whatever they save. With `keys` a walk has a key at every step, and more of them.
     pub contacts: AtContacts,
-    /// The least strength of a key, 0 or more, default 0. Raised, moments on which few joints agree
-    /// lose their keys.
+    /// The least strength of a key, 0 or more, default 0; with `body` how much of a turn it is, 0 to 1. Raised,
+    /// moments that are hardly a turn are no keys.
     pub min_strength: f64,
     /// Found keys a second at the most; pins and the ends of rests, and of contacts
     /// where these are keys, come on top. Above 0, default 6,
@@ -90,10 +108,11 @@ pub struct Choose {
 impl Default for Choose {
     fn default() -> Self {
         Self {
-            merge: Merge::Every,
+            merge: Merge::Body,
+            fill: Fill::On,
             reach: Span::Seconds(0.08),
             rank: Rank::Price,
-            min_price: 3.0,
+            min_price: 7.5,
             rest: 15.0,
             contacts: AtContacts::default(),
             min_strength: 0.0,
@@ -184,9 +203,13 @@ impl Choose {
         apart: f64,
     ) -> Choice {
         let Judges { reference, chords } = judges;
-        let entry = |frame, stays| Entry { frame, instant: chords.instant(frame), stays };
-        let inner = keys.iter().map(|key| entry(key.frame, key.origin != Origin::Found));
-        let first = once(entry(clip.first(), true));
+        let entry = |frame, stays, cost| Entry { frame, koma: chords.koma_of(frame), stays, cost };
+        let cost = |key: &Key| match self.merge {
+            Merge::Body => (1.0 - DISCOUNT * key.strength).max(LEAST_COST),
+            Merge::Union | Merge::Vote | Merge::Sum => 1.0,
+        };
+        let inner = keys.iter().map(|key| entry(key.frame, !key.origin.is_found(), cost(key)));
+        let first = once(entry(clip.first(), true, 1.0));
         let by = match self.rank {
             Rank::Price => By::Price(self.min_price),
             Rank::Strength => {
@@ -195,7 +218,7 @@ impl Choose {
             }
         };
         Choice {
-            entries: first.chain(inner).chain([entry(clip.last(), true)]).collect(),
+            entries: first.chain(inner).chain([entry(clip.last(), true, 1.0)]).collect(),
             apart,
             most: (self.per_second * reference.seconds() + 1e-9).floor() as usize,
             by,

@@ -2,18 +2,17 @@
 
 use crate::keys::Reference;
 use crate::keys::postures::Postures;
-use crate::motion::Clip;
 use crate::motion::lanes::wide;
+use crate::motion::{Build, Clip};
 use crate::time::{Clock, Frame};
 
-/// Pairs of instants that are kept of any clip at the most, unless its instants alone are too many: eight
-/// megabytes.
+/// Pairs of koma whose chord is kept of any clip at the most, unless its koma alone are too many: eight megabytes.
 const PAIRS: usize = 1 << 21;
 
-/// Koma from one instant to the next.
-pub(super) const STEP: f64 = 0.5;
+/// Instants at which the posture is known, in a koma: chords go from koma to koma, rests begin and end between them.
+pub(super) const INSTANTS: usize = 2;
 
-/// Instants that are looked at of a chord that is not known, at the most: a longer one is not slower.
+/// Koma that are looked at of a chord that is not known, at the most: a longer one is not slower.
 const LOOKS: usize = 512;
 
 /// Seconds from one end of a chord to the other up to which all are known, however long the clip.
@@ -21,45 +20,47 @@ const LEAST_REACH: f64 = 2.0;
 
 /// The loss of every chord up to some length.
 ///
-/// What is lost between two instants is the squared distance of the postures between them from the
-/// straight way, summed over koma: %² of the body's height times koma. With a·b known for each pair, all
-/// of it comes from running sums, so that a pair costs one scalar product however long it is.
+/// What is lost between two koma is the squared distance of the postures between them from the straight way, summed
+/// over koma: %² of the body's height times koma. With a·b known for each pair, all of it comes from running sums, so
+/// that a pair costs one scalar product however long it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chords {
     postures: Postures,
     /// Where the instants stand in the clip.
     clock: Clock,
-    /// The most instants from one end of a known chord to the other.
+    koma: usize,
+    /// The most koma from one end of a known chord to the other.
     pub(super) reach: usize,
-    /// Instants × (reach + 1): the loss from each instant to itself and to the first, second … after it. Seven
-    /// digits of a sum of squares are more than any motion has, and half the memory.
+    /// Koma × (reach + 1): the loss from each koma to itself and to the first, second … after it. Seven digits of a
+    /// sum of squares are more than any motion has, and half the memory.
     losses: Vec<f32>,
 }
 
 impl Chords {
-    /// The chords of a clip between instants half a koma of its reference apart, seen from where that is, each
-    /// known that is no longer than `seconds`, 2 or more; infinite for as many as there is memory for. `own`
-    /// is how much each joint counts beside its bones: 0 or more, one of them above.
+    /// The chords of a clip between the koma of its reference, seen from where that is, each known that is no longer than
+    /// `seconds`, 2 or more; infinite for as many as there is memory for. `own` is how much each joint counts beside its
+    /// bones: 0 or more, one of them above.
     pub fn of(clip: &Clip, reference: &Reference, own: &[f64], seconds: f64) -> Self {
-        Self::of_part(clip, clip, reference, own, seconds)
+        Self::of_part(clip, &Build::of(clip), reference, own, seconds)
     }
 
-    /// The same of a part of the body, which alone moves in `part`; what the body is like is seen in the
-    /// whole clip.
+    /// The same of a part of the body, which alone moves in `part`; `build` is that of the whole.
     pub(crate) fn of_part(
         part: &Clip,
-        whole: &Clip,
+        build: &Build,
         reference: &Reference,
         own: &[f64],
         seconds: f64,
     ) -> Self {
-        let clock = part.clock(reference.clock().koma_rate / STEP);
+        let koma_rate = reference.clock().koma_rate;
+        let clock = part.clock(INSTANTS as f64 * koma_rate);
         let look = (reference.screen(), reference.height());
-        let postures = Postures::of(part, whole, clock, look, own);
-        let len = postures.len();
-        let [least, most] = [LEAST_REACH, seconds].map(|s| (s * clock.koma_rate).ceil() as usize);
-        let reach = (PAIRS / len.max(1)).min(most).max(least).min(len.saturating_sub(1));
-        let mut chords = Self { postures, clock, reach, losses: vec![0.0; len * (reach + 1)] };
+        let postures = Postures::of(part, build, clock, look, own);
+        let koma = postures.len().div_ceil(INSTANTS);
+        let [least, most] = [LEAST_REACH, seconds].map(|s| (s * koma_rate).ceil() as usize);
+        let reach = (PAIRS / koma.max(1)).min(most).max(least).min(koma.saturating_sub(1));
+        let losses = vec![0.0; koma * (reach + 1)];
+        let mut chords = Self { postures, clock, koma, reach, losses };
         wide(
             #[inline(always)]
             || chords.sum_up(),
@@ -67,9 +68,10 @@ impl Chords {
         chords
     }
 
-    /// The instant nearest to a frame.
-    pub(super) fn instant(&self, frame: Frame) -> usize {
-        self.clock.koma_from_place(frame.0 as f64).min(self.len().saturating_sub(1))
+    /// The koma nearest to a frame.
+    pub(super) fn koma_of(&self, frame: Frame) -> usize {
+        let clock = Clock { koma_rate: self.koma_rate(), ..self.clock };
+        clock.koma_from_place(frame.0 as f64).min(self.koma.saturating_sub(1))
     }
 
     /// The frame nearest to an instant.
@@ -77,9 +79,14 @@ impl Chords {
         Frame(self.clock.place_from_koma(instant).round() as usize)
     }
 
-    /// Where the instants stand in the clip.
+    /// Where the instants of the postures stand in the clip.
     pub(super) fn clock(&self) -> Clock {
         self.clock
+    }
+
+    /// Koma a second.
+    pub(super) fn koma_rate(&self) -> f64 {
+        self.clock.koma_rate / INSTANTS as f64
     }
 
     /// The body at each instant.
@@ -92,14 +99,20 @@ impl Chords {
         self.postures.len()
     }
 
-    /// What is lost from one instant to itself and to each later one within reach.
+    /// The body at a koma.
+    #[inline(always)]
+    fn row(&self, koma: usize) -> &[f64] {
+        self.postures.row(INSTANTS * koma)
+    }
+
+    /// What is lost from one koma to itself and to each later one within reach.
     #[inline]
     pub(super) fn known(&self, from: usize) -> &[f32] {
         let row = self.reach + 1;
         &self.losses[from * row..(from + 1) * row]
     }
 
-    /// What is lost from one instant to a later one, however far.
+    /// What is lost from one koma to a later one, however far.
     #[inline]
     pub(super) fn loss(&self, from: usize, to: usize) -> f64 {
         match self.known(from).get(to - from) {
@@ -108,29 +121,19 @@ impl Chords {
         }
     }
 
-    /// The same from the words, instant by instant; of a long chord every second, third … instant.
+    /// The same from the words, koma by koma; of a long chord every second, third … koma.
     fn far(&self, from: usize, to: usize) -> f64 {
         let step = (to - from).div_ceil(LOOKS);
-        let squares = (from + step..to).step_by(step).map(|instant| self.off(from, instant, to));
-        STEP * step as f64 * squares.sum::<f64>()
-    }
-
-    /// How far off the body is in all from one instant to a later one, in % of its height times koma. Where
-    /// the way has a corner this is least with a key on it, and near it is not nearly as small: squares
-    /// would rather be a little off everywhere.
-    pub(super) fn way_off(&self, from: usize, to: usize) -> f64 {
-        wide(
-            #[inline(always)]
-            || STEP * (from + 1..to).map(|instant| self.off(from, instant, to).sqrt()).sum::<f64>(),
-        )
+        let squares = (from + step..to).step_by(step).map(|koma| self.off(from, koma, to));
+        step as f64 * squares.sum::<f64>()
     }
 
     /// The squared distance of a posture from the straight way between two others, in %².
-    #[inline(always)]
-    fn off(&self, from: usize, instant: usize, to: usize) -> f64 {
-        let share = (instant - from) as f64 / (to - from) as f64;
-        let row = |at| self.postures.row(at);
-        square_off(row(instant), row(from), row(to), share)
+    fn off(&self, from: usize, koma: usize, to: usize) -> f64 {
+        let share = (koma - from) as f64 / (to - from) as f64;
+        let square = |own: f64, from: f64, to: f64| (own - (from + share * (to - from))).powi(2);
+        let ends = self.row(from).iter().zip(self.row(to));
+        self.row(koma).iter().zip(ends).map(|(own, (from, to))| square(*own, *from, *to)).sum()
     }
 
     /// Finds every loss within reach. Seen from its begin a chord needs the sums of a·p and of those
@@ -138,9 +141,8 @@ impl Chords {
     /// former grow with each end, the latter with each begin.
     #[inline(always)]
     fn sum_up(&mut self) {
-        let len = self.len();
-        let squares: Vec<f64> =
-            (0..len).map(|at| self.postures.row(at)).map(|row| dot(row, row)).collect();
+        let len = self.koma;
+        let squares: Vec<f64> = (0..len).map(|at| dot(self.row(at), self.row(at))).collect();
         let until: Vec<f64> = std::iter::once(0.0)
             .chain(squares.iter().scan(0.0, |sum, square| {
                 *sum += square;
@@ -150,17 +152,18 @@ impl Chords {
         let mut from_end = vec![(0.0, 0.0); len];
         for from in (0..len).rev() {
             let mut from_begin = (0.0, 0.0);
-            let own = self.postures.row(from);
+            let own = self.postures.row(INSTANTS * from);
             let row = &mut self.losses[from * (self.reach + 1)..][1..=self.reach];
             for (loss, to) in row.iter_mut().zip(from + 1..len) {
-                let (product, n) = (dot(own, self.postures.row(to)), (to - from) as f64);
+                let product = dot(own, self.postures.row(INSTANTS * to));
+                let n = (to - from) as f64;
                 let inside = until[to] - until[from + 1];
                 let (begin, end) = (from_begin, from_end[to]);
                 let cross = begin.0 - begin.1 / n + end.0 - end.1 / n;
                 let of_ends =
                     (squares[from] + squares[to]) * (n - 1.0) * (2.0 * n - 1.0) / (6.0 * n);
                 let both = product * (n * n - 1.0) / (3.0 * n);
-                *loss = (STEP * (inside - 2.0 * cross + of_ends + both).max(0.0)) as f32;
+                *loss = (inside - 2.0 * cross + of_ends + both).max(0.0) as f32;
                 from_begin.0 += product;
                 from_begin.1 += n * product;
                 from_end[to].0 += product;
@@ -170,25 +173,7 @@ impl Chords {
     }
 }
 
-/// The squared distance of a row from the place between two others; four sums side by side, so that the compiler
-/// keeps them in one register.
-#[inline(always)]
-fn square_off(own: &[f64], from: &[f64], to: &[f64], share: f64) -> f64 {
-    let square = |own: f64, from: f64, to: f64| (own - (from + share * (to - from))).powi(2);
-    let mut sums = [0.0; 4];
-    let (own, from, to) = (own.chunks_exact(4), from.chunks_exact(4), to.chunks_exact(4));
-    let ends = from.remainder().iter().zip(to.remainder());
-    let rest = own.remainder().iter().zip(ends).map(|(own, (from, to))| square(*own, *from, *to));
-    let rest: f64 = rest.sum();
-    for (own, (from, to)) in own.zip(from.zip(to)) {
-        for lane in 0..4 {
-            sums[lane] += square(own[lane], from[lane], to[lane]);
-        }
-    }
-    sums.iter().sum::<f64>() + rest
-}
-
-/// The scalar product, in the same way.
+/// The scalar product; four sums side by side, so that the compiler keeps them in one register.
 #[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];

@@ -39,7 +39,13 @@ pub(super) fn corrected(
         .filter(|found| {
             !unwanted(found.frame) && !is_taken(&keys, |key| key.frame, found.frame, apart)
         })
-        .map(|candidate| key(candidate.frame, candidate.strength, Origin::Found))
+        .map(|candidate| {
+            key(
+                candidate.frame,
+                candidate.strength,
+                if candidate.is_turn { Origin::Turn } else { Origin::Fill },
+            )
+        })
         .collect();
     keys.extend(found);
     keys.extend(edits.pins.iter().map(|pin| wanted(pin.clone(), Origin::Pinned)));

@@ -1,11 +1,13 @@
-//! From the turns of joints to candidates of the layer: every moment, union, vote or sum.
+//! From the turns of joints to candidates of the layer: the turns of the body, or union, vote and sum of theirs.
 
-use crate::keys::chords::STEP;
 use crate::keys::peaks::strongest_apart;
 use crate::keys::vote::Poll;
-use crate::keys::{AtContacts, Candidate, Candidates, Choose, Merge, Rank, Wall, sum};
+use crate::keys::{AtContacts, BodyTurns, Candidate, Candidates, Choose, Fill, Merge, Wall, sum};
 use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
 use crate::time::Frame;
+
+/// How far a fill is from a turn at the least, in koma.
+const FILL_APART: f64 = 0.5;
 
 /// What is known of the joints when they are merged.
 #[derive(Debug, Clone, Copy)]
@@ -22,45 +24,51 @@ pub struct JointTurns<'a> {
     pub weights: &'a [f64],
     /// The least distance of two keys, in frames: one koma.
     pub apart: f64,
+    /// The turns of the body.
+    pub body: &'a BodyTurns,
     /// Frames on which feet and hands of the layer come down or leave (接地), in order; none where that does
     /// not count.
     pub contacts: &'a [Frame],
 }
 
 impl Choose {
-    /// What the joints say together.
+    /// What may be a key of the layer, and its walls.
     pub fn candidates(&self, joints: &JointTurns<'_>) -> Candidates {
-        let filtered = joints.filtered;
-        let poll = self.poll(joints);
-        let elected = |kind| poll.elected(&poll.count(joints.turns, kind));
-        let named = |kind| poll.named(joints.turns, kind, &poll.count(joints.turns, kind));
-        let merged = |kind| match (self.merge, kind) {
-            (Merge::Every, TurnKind::Key) if self.rank == Rank::Price => every(&poll, joints),
-            (Merge::Sum, _) => summed(joints, kind),
-            (Merge::Vote, _) => elected(kind),
-            (Merge::Union | Merge::Every, _) => named(kind),
+        let Candidates { mut keys, walls } = match self.merge {
+            Merge::Body => {
+                Candidates { keys: moments(joints, self.fill), walls: joints.body.walls.clone() }
+            }
+            Merge::Union | Merge::Vote | Merge::Sum => self.merged(joints),
         };
+        if self.contacts == AtContacts::Candidates {
+            add_contacts(&mut keys, &self.poll(joints), joints);
+        }
         // On the first and the last koma the clip's ends are shown, and no other drawing.
         let koma = |row: usize| row as f64 / joints.apart;
-        let last = (koma(filtered.frames().saturating_sub(1)) + 1e-9).floor();
-        let inside = |frame: Frame| {
-            let koma = (koma(frame.0 - filtered.first.0) + 0.5).floor();
-            0.0 < koma && koma < last
+        let last = (koma(joints.filtered.frames().saturating_sub(1)) + 1e-9).floor();
+        keys.retain(|key| {
+            let koma = (koma(key.frame.0 - joints.filtered.first.0) + 0.5).floor();
+            0.0 < koma && koma < last && key.strength >= self.min_strength
+        });
+        Candidates { keys, walls }
+    }
+
+    /// What the joints say together.
+    fn merged(&self, joints: &JointTurns<'_>) -> Candidates {
+        let poll = self.poll(joints);
+        let found = |kind| {
+            let votes = || poll.count(joints.turns, kind);
+            match self.merge {
+                Merge::Sum => summed(joints, kind),
+                Merge::Vote => poll.elected(&votes()),
+                Merge::Union | Merge::Body => poll.named(joints.turns, kind, &votes()),
+            }
         };
-        let mut keys = merged(TurnKind::Key);
-        if self.contacts == AtContacts::Candidates {
-            add_contacts(&mut keys, &poll, joints);
-        }
+        let key = |(frame, strength)| Candidate { frame, strength, is_turn: true };
+        let wall = |(frame, strength)| Wall { frame, strength };
         Candidates {
-            keys: keys
-                .into_iter()
-                .filter(|(frame, strength)| inside(*frame) && *strength >= self.min_strength)
-                .map(|(frame, strength)| Candidate { frame, strength })
-                .collect(),
-            walls: merged(TurnKind::Wall)
-                .into_iter()
-                .map(|(frame, strength)| Wall { frame, strength })
-                .collect(),
+            keys: found(TurnKind::Key).into_iter().map(key).collect(),
+            walls: found(TurnKind::Wall).into_iter().map(wall).collect(),
         }
     }
 
@@ -77,12 +85,13 @@ impl Choose {
 }
 
 /// Adds the ends of contacts that no candidate is nearer to than a koma, with the vote there.
-fn add_contacts(keys: &mut Vec<(Frame, f64)>, poll: &Poll<'_>, joints: &JointTurns<'_>) {
+fn add_contacts(keys: &mut Vec<Candidate>, poll: &Poll<'_>, joints: &JointTurns<'_>) {
     let votes = poll.count(joints.turns, TurnKind::Key);
     for &frame in joints.contacts {
-        if !is_taken(keys, |(other, _)| *other, frame, joints.apart) {
-            let at = keys.partition_point(|(other, _)| *other < frame);
-            keys.insert(at, (frame, votes[frame.0 - poll.first.0]));
+        if !is_taken(keys, |other| other.frame, frame, joints.apart) {
+            let at = keys.partition_point(|other| other.frame < frame);
+            let strength = votes[frame.0 - poll.first.0];
+            keys.insert(at, Candidate { frame, strength, is_turn: true });
         }
     }
 }
@@ -99,13 +108,23 @@ pub(super) fn is_taken<T>(
     beside.any(|moment| (frame_of(moment).0.abs_diff(frame.0) as f64) < apart)
 }
 
-/// The frames nearest to each half koma, with the vote there.
-fn every(poll: &Poll<'_>, joints: &JointTurns<'_>) -> Vec<(Frame, f64)> {
-    let votes = poll.count(joints.turns, TurnKind::Key);
-    let row = |instant: usize| (instant as f64 * STEP * joints.apart).round() as usize;
-    let mut rows: Vec<usize> = (0..).map(row).take_while(|row| *row < votes.len()).collect();
-    rows.dedup();
-    rows.into_iter().map(|row| (Frame(poll.first.0 + row), votes[row])).collect()
+/// The turns of the body and, to fill what lies between them, each koma that is not on one. What is nearer to a
+/// turn than a koma is that turn, drawn beside its peak.
+fn moments(joints: &JointTurns<'_>, fill: Fill) -> Vec<Candidate> {
+    let BodyTurns { first, turns, evidence, .. } = joints.body;
+    let candidate =
+        |frame: Frame, is_turn| Candidate { frame, strength: evidence[frame.0 - first.0], is_turn };
+    let koma = |at: usize| Frame(first.0 + (at as f64 * joints.apart).round() as usize);
+    let last = first.0 + evidence.len();
+    let grid = (0..).map(koma).take_while(|frame| fill == Fill::On && frame.0 < last);
+    let between =
+        grid.filter(|frame| !is_taken(turns, |turn| *turn, *frame, FILL_APART * joints.apart));
+    let is_turn = |frame| is_taken(turns, |turn| *turn, frame, joints.apart);
+    let fills = between.map(|frame| candidate(frame, is_turn(frame)));
+    let mut moments: Vec<Candidate> =
+        turns.iter().map(|turn| candidate(*turn, true)).chain(fills).collect();
+    moments.sort_by_key(|moment| moment.frame);
+    moments
 }
 
 /// The turns of the layer's mean speed, with their prominence.

@@ -16,7 +16,7 @@ use crate::motion::lanes::{LANES, LaneVec, wide};
 use crate::motion::mannequin::{BONES, Mannequin, POINTS, Stand};
 use crate::motion::rig::Rig;
 use crate::motion::sampler::LanePose;
-use crate::motion::{Axis, Clip, Landmarks, Point, Screen};
+use crate::motion::{Axis, Build, Clip, Point, Screen};
 use crate::time::Clock;
 
 /// How far a turn of the body by one radian counts as moved, in heights of the body: half a hip's width
@@ -33,26 +33,24 @@ pub(super) struct Postures {
 
 impl Postures {
     /// The body at each koma of a clock as it is seen on a screen; `height` is the body's in the file's unit,
-    /// and `own` how much each joint counts beside its bones. Its limbs are found in `whole`, the same clip
-    /// or one in which more joints move.
+    /// and `own` how much each joint counts beside its bones. `build` is that of the whole body.
     ///
     /// The squared distance of two rows is the mean squared way of the points, weighed by their bones,
     /// plus the squared way of the pelvis and, in the world, of the heading. A body that is no person's is
     /// taken by its own points, where they are.
     pub(super) fn of(
         clip: &Clip,
-        whole: &Clip,
+        build: &Build,
         clock: Clock,
         (screen, height): (&Screen, f64),
         own: &[f64],
     ) -> Self {
         let instants = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-        let landmarks = Landmarks::of(whole);
-        let mut postures = match Mannequin::of(whole, &landmarks) {
+        let mut postures = match &build.mannequin {
             Some(mannequin) if screen.is_world() => {
-                of_person(clip, clock, instants, &mannequin, landmarks.up, own)
+                of_person(clip, clock, instants, mannequin, build.landmarks.up, own)
             }
-            Some(mannequin) => of_person_seen(clip, clock, instants, &mannequin, screen, own),
+            Some(mannequin) => of_person_seen(clip, clock, instants, mannequin, screen, own),
             None => of_points(clip, clock, instants, (screen, height), own),
         };
         postures.start_at_0();

@@ -1,7 +1,7 @@
 //! A motion clip: a skeleton and one flat table of channel values, frame after frame.
 
 use crate::error::Error;
-use crate::motion::{Joint, Skeleton};
+use crate::motion::{Channel, Joint, Skeleton};
 use crate::time::{Clock, Frame, FrameRate};
 
 /// The largest value that a motion may hold: beyond it distances squared and summed could overflow.
@@ -146,6 +146,18 @@ impl Clip {
             first..first + joint.channels.len()
         };
         self.skeleton.joints.iter().map(|joint| changes[columns(joint)].contains(&true)).collect()
+    }
+
+    /// Which joints turn at all: one of their rotations is not the same in every row.
+    pub(crate) fn turning_joints(&self) -> Vec<bool> {
+        let changes = self.changing_channels();
+        let turns = |joint: &Joint| {
+            let channels = joint.channels.iter().zip(&changes[joint.first_channel..]);
+            channels
+                .into_iter()
+                .any(|(channel, changes)| matches!(channel, Channel::Rotation(_)) && *changes)
+        };
+        self.skeleton.joints.iter().map(turns).collect()
     }
 
     /// Which columns of the table are not the same in every row.

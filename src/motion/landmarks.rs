@@ -31,7 +31,7 @@ pub struct Point {
 }
 
 impl Point {
-    pub(super) fn of(joint: usize) -> Self {
+    pub(crate) fn of(joint: usize) -> Self {
         Self { joint: JointId(joint), offset: DVec3::ZERO }
     }
 

@@ -6,10 +6,10 @@ use super::stage::{Made, Stage};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, Candidates, Choice, Chords, JointTurns, JointWeights, Judges, LayerKeys, Part,
-    PartMotion, Picked, Reconstruction, Reference,
+    self, BodySpeeds, BodyTurns, Candidates, Choice, Chords, JointTurns, JointWeights, Judges,
+    LayerKeys, LayerMotion, Part, PartMotion, Picked, Reconstruction, Reference,
 };
-use crate::motion::{Clip, Screen, Skeleton};
+use crate::motion::{Build, Clip, Screen, Skeleton};
 use crate::recipe::Recipe;
 use crate::sheet::Layer;
 use crate::signal::{LowPass, Signals, Turn, TurnFinder};
@@ -26,6 +26,8 @@ pub(super) struct Measured<'a> {
     pub(super) turns: &'a [Vec<Turn>],
     /// Which turns these are.
     pub(super) made: Made,
+    /// The build of the body.
+    pub(super) build: &'a Build,
     /// The body's height in the file's unit, for a layer that is only a part of it.
     pub(super) height: Option<f64>,
     /// From where it is seen.
@@ -41,6 +43,9 @@ pub(super) struct Column {
     voices: Stage<Made, Voices>,
     /// When feet and hands of the layer come down or leave, where that counts.
     contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
+    /// How fast all that moves in the layer is, and when it turns as a whole.
+    speeds: Stage<(LowPass, Screen, f64), BodySpeeds>,
+    body: Stage<(f64, f64), BodyTurns>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
     chords: Stage<f64, Chords>,
@@ -52,12 +57,14 @@ pub(super) struct Column {
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
 }
 
-type CandidateSettings = (keys::Choose, TurnFinder, LowPass, f64);
+type CandidateSettings = (keys::Choose, (TurnFinder, LowPass, f64), Made);
 
 /// What was found and decided for one layer.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerBreakdown<'a> {
-    /// What the joints say together, before it was asked what a key is worth.
+    /// When it turns as a whole.
+    pub body: &'a BodyTurns,
+    /// What may be a key, before it was asked what it is worth.
     pub candidates: &'a Candidates,
     /// Keys and walls.
     pub keys: &'a LayerKeys,
@@ -91,8 +98,9 @@ impl Column {
         let motion = self.motion.made;
         let made = self.voices.renew(measured.made, &motion, || voices(self.motion.output()));
         self.touch(measured, recipe);
-        let made = self.merge(measured, recipe, made);
         self.compare(measured, recipe);
+        let turns_made = self.turn(measured, recipe);
+        let made = self.merge(measured, recipe, (made, turns_made));
         self.choose(measured, recipe, edits, made)
     }
 
@@ -106,8 +114,24 @@ impl Column {
         });
     }
 
+    /// The turns of the layer as a whole.
+    fn turn(&mut self, measured: &Measured<'_>, recipe: &Recipe) -> Made {
+        let PartMotion { clip, judged, heard } = self.motion.output();
+        let Measured { build, screen, .. } = measured;
+        let height = self.reference.output().height();
+        let motion = LayerMotion { clip, build, heard, judged, screen, height };
+        let filter = &recipe.filter;
+        let settings = (filter.clone(), *screen, recipe.rate);
+        let speeds = || BodySpeeds::of(&motion, filter);
+        let made = self.speeds.renew(self.motion.made, &settings, speeds);
+        let persistence = recipe.turns.persistence.frames(clip.rate());
+        let apart = clip.clock(recipe.rate).frames_in_koma();
+        let speeds = self.speeds.output();
+        self.body.renew(made, &(persistence, apart), || speeds.turns(persistence, apart))
+    }
+
     /// The candidates for keys.
-    fn merge(&mut self, measured: &Measured<'_>, recipe: &Recipe, voices_made: Made) -> Made {
+    fn merge(&mut self, measured: &Measured<'_>, recipe: &Recipe, made: (Made, Made)) -> Made {
         // What is asked of the ranked list does not change the candidates.
         let merging = keys::Choose {
             min_price: 0.0,
@@ -115,27 +139,41 @@ impl Column {
             per_second: f64::INFINITY,
             ..recipe.keys.clone()
         };
-        let settings = (merging, recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let joints = joints(self.voices.output(), self.contacts.output(), measured, recipe);
+        let (voices_made, turns_made) = made;
+        let finding = (recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
+        let settings = (merging, finding, turns_made);
+        let joints = joints(
+            self.voices.output(),
+            self.body.output(),
+            self.contacts.output(),
+            measured,
+            recipe,
+        );
         self.candidates.renew(voices_made, &settings, || recipe.keys.candidates(&joints))
     }
 
-    /// What the candidates are judged against.
-    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+    /// What the layer is judged beside.
+    fn refer(&mut self, measured: &Measured<'_>, recipe: &Recipe) -> Made {
         let PartMotion { clip, judged, .. } = self.motion.output();
         let settings = (recipe.rate, measured.height, measured.screen);
-        let made = self.reference.renew(self.motion.made, &settings, || {
+        self.reference.renew(self.motion.made, &settings, || {
             let own =
                 Reference::weighted(clip, clip.clock(recipe.rate), judged).on(measured.screen);
             match measured.height {
                 None => own,
                 Some(height) => own.beside(height),
             }
-        });
+        })
+    }
+
+    /// What is lost from any koma to another.
+    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let made = self.refer(measured, recipe);
+        let PartMotion { clip, judged, .. } = self.motion.output();
         let reference = self.reference.output();
         let span = recipe.keys.span();
         self.chords
-            .renew(made, &span, || Chords::of_part(clip, measured.clip, reference, judged, span));
+            .renew(made, &span, || Chords::of_part(clip, measured.build, reference, judged, span));
     }
 
     fn choose(
@@ -148,7 +186,13 @@ impl Column {
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen);
         let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
         let candidates = self.candidates.output();
-        let joints = joints(self.voices.output(), self.contacts.output(), measured, recipe);
+        let joints = joints(
+            self.voices.output(),
+            self.body.output(),
+            self.contacts.output(),
+            measured,
+            recipe,
+        );
         let (clip, keys, picked) = (measured.clip, &recipe.keys, &mut self.picked);
         let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
@@ -189,12 +233,14 @@ impl Column {
         self.motion.forget();
         self.reference.forget();
         self.chords.forget();
+        self.speeds.forget();
         self.stills.forget();
     }
 
     pub(super) fn breakdown(&self) -> LayerBreakdown<'_> {
         let (spaced, omitted) = (self.spaced.output(), self.omitted.output());
         LayerBreakdown {
+            body: self.body.output(),
             candidates: self.candidates.output(),
             keys: self.keys.output(),
             did_not_fit: spaced.did_not_fit,
@@ -209,8 +255,20 @@ impl Column {
         (self.chords.made, self.chords.output())
     }
 
-    pub(super) fn keys(&self) -> &LayerKeys {
-        self.keys.output()
+    /// Its turns as a whole, and its keys.
+    pub(super) fn keys(&self) -> (&BodyTurns, &LayerKeys) {
+        (self.body.output(), self.keys.output())
+    }
+
+    /// Runs its stages up to its turns as a whole.
+    pub(super) fn find_body_turns(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        self.refer(measured, recipe);
+        self.turn(measured, recipe);
+    }
+
+    /// Its turns as a whole.
+    pub(super) fn body_turns(&self) -> &BodyTurns {
+        self.body.output()
     }
 
     /// How far off the layer is when nothing but its keys is left.
@@ -223,6 +281,7 @@ impl Column {
 /// What is known of the joints once their turns are found.
 fn joints<'a>(
     voices: &'a Voices,
+    body: &'a BodyTurns,
     contacts: &'a [Frame],
     measured: &Measured<'a>,
     recipe: &'a Recipe,
@@ -235,6 +294,7 @@ fn joints<'a>(
         weights: &voices.weights,
         apart: measured.clip.clock(recipe.rate).frames_in_koma(),
         contacts,
+        body,
     }
 }
 

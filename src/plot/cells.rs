@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::motion::{Clip, Composite};
 use crate::plot::points::Showing;
 use crate::plot::style;
-use crate::sheet::{Drawing, Exposure, Layer, Sheet};
+use crate::sheet::{Drawing, Exposure, Layer, Reason, Sheet};
 
 /// A drawing on screen.
 #[derive(Debug, Clone, Copy)]
@@ -50,11 +50,11 @@ impl Cell<'_> {
         if why.omitted_before > 0 {
             reasons.push(format!("中無し {}", why.omitted_before));
         }
-        if why.rest {
-            reasons.push("rest 止め".to_owned());
-        }
-        if why.contact {
-            reasons.push("contact 接地".to_owned());
+        match why.reason {
+            Some(reason @ (Reason::Fill | Reason::Rest | Reason::Contact)) => {
+                reasons.push(format!("{} {}", reason.word(), reason.japanese()));
+            }
+            Some(Reason::Turn | Reason::Pin) | None => {}
         }
         match why.voters.as_slice() {
             [] => {}

@@ -28,7 +28,7 @@ pub struct StudyPlot {
 
 impl Default for StudyPlot {
     fn default() -> Self {
-        Self { width: 900, height: 560, show: Measure::Union, paper: false }
+        Self { width: 900, height: 560, show: Measure::Turns, paper: false }
     }
 }
 

@@ -177,7 +177,7 @@ pub const KNOBS: &[Knob] = &[
         japanese: "フィルタの適用範囲",
         kind: Kind::Span,
         unit: "source frames or seconds",
-        help: "How wide the smoothing is. Wider finds fewer keys and blurs quick double actions.",
+        help: "How wide the smoothing is. Wider finds fewer turns, so fewer genga, and blurs quick double actions.",
         japanese_help: "ならす幅。広いほど原画は減り、素早い二段の動きはぼやける。",
     },
     Knob {
@@ -195,16 +195,20 @@ pub const KNOBS: &[Knob] = &[
         japanese: "定速とみなす加速度",
         kind: Kind::Band,
         unit: "°/s², or a share of the joint's own 95th percentile (\"5%\")",
-        help: "Accelerations up to this count as none. Raised, slow gestures lose their keys.",
-        japanese_help: "この加速度までは等速とみなす。上げると、ゆっくりした芝居の原画がなくなる。",
+        help: "Accelerations of a joint up to this count as none. Raised, slow joints turn less often. Turns of \
+               the body do not ask for it.",
+        japanese_help: "部位のこの加速度までは等速とみなす。上げると、ゆっくりした部位の変わり目がなくなる。\
+                        全身の変わり目には効かない。",
     },
     Knob {
         name: "turns.persistence",
         japanese: "連続フレーム数",
         kind: Kind::Span,
         unit: "source frames or seconds",
-        help: "How long a change must last to count. Longer finds fewer keys.",
-        japanese_help: "変化がどれだけ続けば数えるか。長いほど原画は減る。",
+        help: "How long before and after a turn the body must be faster. Longer finds fewer turns, and short \
+               pauses and quick back-and-forth movements go.",
+        japanese_help: "変わり目の前後でどれだけの間より速ければ数えるか。長いほど変わり目は減り、\
+                        短い間や素早い往復は消える。",
     },
     Knob {
         name: "turns.side",
@@ -219,12 +223,21 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "keys.merge",
         japanese: "原画の候補",
-        kind: Kind::Choice(&["every", "union", "vote", "sum"]),
+        kind: Kind::Choice(&["body", "union", "vote", "sum"]),
         unit: "",
-        help: "What may be a key: every moment, a turn of any joint (union), what joints elect that vote \
-               with the length of what hangs on them, or turns of their speeds added up (sum).",
-        japanese_help: "原画の候補。すべての瞬間 (every)、いずれかの部位の変わり目 (union)、\
+        help: "What picks the keys: turns of the whole body (body). For studies: a turn of any joint (union), \
+               what joints elect that vote with the length of what hangs on them, or turns of their speeds \
+               added up (sum).",
+        japanese_help: "原画を選ぶもの。全身の変わり目 (body)。研究用に、いずれかの部位の変わり目 (union)、\
                         先につながる長さを票とする部位の投票 (vote)、速さの合計の変わり目 (sum)。",
+    },
+    Knob {
+        name: "keys.fill",
+        japanese: "補いの原画",
+        kind: Kind::Choice(&["on", "off"]),
+        unit: "",
+        help: "Whether moments that are no turn become keys where the body would go astray without them.",
+        japanese_help: "変わり目でない瞬間も、ないと動きが崩れるところでは原画にするか。",
     },
     Knob {
         name: "keys.reach",
@@ -241,20 +254,20 @@ pub const KNOBS: &[Knob] = &[
         japanese: "原画の選び方",
         kind: Kind::Choice(&["price", "strength"]),
         unit: "",
-        help: "What decides between keys: what they save together at a price a drawing, or how many joints \
-               turn.",
+        help: "What decides between keys: what they save together at a price a drawing, or how much of a turn \
+               each is.",
         japanese_help: "原画どうしの選び方。一枚の値段に対して全体で減る誤差か、\
-                        変わり目となる部位の多さか。",
+                        変わり目としての強さか。",
     },
     Knob {
         name: "keys.min_price",
         japanese: "最低の価値",
         kind: number(0.0, 20.0),
         unit: "% of body height",
-        help: "What a key costs: it must save an error so large for an eighth of a second. Higher keeps \
-               fewer; small gestures go first.",
-        japanese_help: "原画一枚の値段。これだけの誤差を8分の1秒のあいだ減らす原画だけが残る。\
-                        上げると原画は減り、小さな芝居から消える。",
+        help: "What a key costs that is no turn: it must save an error so large for an eighth of a second. A \
+               clear turn costs a tenth. Higher keeps fewer; small gestures go first.",
+        japanese_help: "変わり目でない原画一枚の値段。これだけの誤差を8分の1秒のあいだ減らすものだけが残る。\
+                        はっきりした変わり目は十分の一の値段。上げると原画は減り、小さな芝居から消える。",
     },
     Knob {
         name: "keys.rest",
@@ -278,7 +291,7 @@ pub const KNOBS: &[Knob] = &[
         name: "keys.min_strength",
         japanese: "最低の強さ",
         kind: number(0.0, 1.0),
-        unit: "share of all votes, for sum the depth of the valley",
+        unit: "0 to 1; for vote and union the share of all votes, for sum the depth of the valley",
         help: "How strong a key must be at the least.",
         japanese_help: "原画に最低限必要な強さ。",
     },

@@ -38,7 +38,7 @@ pub enum FilterKind {
 pub struct LowPass {
     /// The kind; `box` by default.
     pub kind: FilterKind,
-    /// The paper's filter range W, in source frames or seconds, 0 or more; 0.1 s by default. Up to 1
+    /// The paper's filter range W, in source frames or seconds, 0 or more; 0.15 s by default. Up to 1
     /// frame it is no filter (up to 2 for `ideal` and `butterworth`, as no sampled motion has a
     /// shorter period). Raised, it takes away short movements and the accents of fast ones.
     pub width: Span,
@@ -46,7 +46,7 @@ pub struct LowPass {
 
 impl Default for LowPass {
     fn default() -> Self {
-        Self { kind: FilterKind::Box, width: Span::Seconds(0.1) }
+        Self { kind: FilterKind::Box, width: Span::Seconds(0.15) }
     }
 }
 

@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_found_key_is_locked_named_weighted_and_taken_back() {
-        let found = key(42, Origin::Found);
+        let found = key(42, Origin::Turn);
         let name = Correction::Name(found.clone(), " contact ".into());
         let edits = on(&Edits::default(), &[Correction::Lock(found.clone()), name]);
         let edits = Correction::Weight(found, Some(0.5)).on(&edits);
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn a_found_key_moves_on_and_back() {
         let to = |key, frame| Correction::Move(key, Frame(frame));
-        let edits = to(key(41, Origin::Found), 43).on(&Edits::default());
+        let edits = to(key(41, Origin::Turn), 43).on(&Edits::default());
         assert_eq!(edits.moves, [Move::parse("41:43").unwrap()]);
         let moved = key(43, Origin::Moved { from: Frame(41) });
         let edits = to(moved.clone(), 44).on(&edits);
@@ -181,9 +181,9 @@ mod tests {
     #[test]
     fn a_forbidden_key_is_forbidden_where_it_was_found_and_may_be_again() {
         let one = |frame| vec![Forbidden::one(Frame(frame))];
-        let edits = Correction::Forbid(key(41, Origin::Found)).on(&Edits::default());
+        let edits = Correction::Forbid(key(41, Origin::Turn)).on(&Edits::default());
         assert_eq!(edits.forbidden, one(41));
-        let moved = Correction::Move(key(41, Origin::Found), Frame(43)).on(&Edits::default());
+        let moved = Correction::Move(key(41, Origin::Turn), Frame(43)).on(&Edits::default());
         let gone = Correction::Forbid(key(43, Origin::Moved { from: Frame(41) })).on(&moved);
         assert_eq!((gone.forbidden, gone.moves), (one(41), vec![]));
         assert_eq!(Correction::Allow(Forbidden::one(Frame(41))).on(&edits), Edits::default());

@@ -27,14 +27,18 @@ impl Here<'_> {
         let key = column.key(self.at).cloned();
         Some(match (command, key) {
             (Command::ToggleKey, Some(key)) if self.is_here(&key) => match key.origin {
-                Origin::Found | Origin::Rest | Origin::Contact => Correction::Forbid(key),
+                Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => {
+                    Correction::Forbid(key)
+                }
                 _ => Correction::TakeBack(key),
             },
             (Command::ToggleKey, _) => {
                 Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
             }
             (Command::Lock, Some(key)) => match key.origin {
-                Origin::Found | Origin::Rest | Origin::Contact => Correction::Lock(key),
+                Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => {
+                    Correction::Lock(key)
+                }
                 _ => Correction::TakeBack(key),
             },
             (Command::Nudge(by), Some(key)) => {

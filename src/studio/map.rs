@@ -18,7 +18,7 @@ use crate::plot::parts::heat;
 use crate::study::{Axis, Grid, Measure, Study};
 
 /// What can be counted, in the order of the chain.
-const MEASURES: [Measure; 3] = [Measure::Union, Measure::LayerKeys, Measure::Drawings];
+const MEASURES: [Measure; 4] = [Measure::Turns, Measure::Genga, Measure::Union, Measure::Drawings];
 
 /// Room for the values left of the cells and below them.
 const LEFT: f32 = 40.0;

@@ -197,9 +197,11 @@ fn why(cell: &Cell<'_>, shown: &Shown<'_>) -> String {
                 true => format!("フレーム{from}から"),
                 false => format!("from frame {from}"),
             }),
-            Origin::Rest => reasons.push(words.say("rest", "止め").into()),
-            Origin::Contact => reasons.push(words.say("contact", "接地").into()),
-            _ => {}
+            Origin::Fill | Origin::Rest | Origin::Contact => {
+                let reason = key.origin.reason();
+                reasons.push(words.say(reason.word(), reason.japanese()).into());
+            }
+            Origin::Turn | Origin::Pinned => {}
         }
     }
     let why = &cell.drawing.why;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::keys::LayerKeys;
+use crate::keys::{BodyTurns, LayerKeys, Origin};
 use crate::motion::Clip;
 use crate::sheet::{Layer, Role};
 use crate::signal::Turn;
@@ -18,12 +18,16 @@ use crate::timing::Stills;
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// Distinct frames that are a key of any joint: what the paper counts.
-    #[default]
     Union,
     /// Keys summed over the joints.
     Total,
-    /// Keys of the layer, after price and limit.
-    LayerKeys,
+    /// Turns of the body.
+    #[default]
+    Turns,
+    /// Genga of the layer.
+    Genga,
+    /// Of these the ones that are no turn.
+    Fills,
     /// Drawings on the sheet.
     Drawings,
     /// Drawings a second.
@@ -43,7 +47,8 @@ pub enum Measure {
 /// How far the chain has to run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Reach {
-    Turns,
+    Joints,
+    Body,
     Keys,
     Sheet,
 }
@@ -52,17 +57,28 @@ pub(super) enum Reach {
 pub(super) struct Found<'a> {
     pub(super) clip: &'a Clip,
     pub(super) turns: &'a [Vec<Turn>],
+    pub(super) body: Option<&'a BodyTurns>,
     pub(super) keys: Option<&'a LayerKeys>,
     /// The layer, and koma a second.
     pub(super) layer: Option<(&'a Layer, f64)>,
 }
 
+impl Found<'_> {
+    /// Genga of an origin; NaN where none were looked for.
+    fn genga(&self, is_of: impl Fn(Origin) -> bool) -> f64 {
+        let count = |keys: &LayerKeys| keys.keys.iter().filter(|key| is_of(key.origin)).count();
+        self.keys.map_or(f64::NAN, |keys| count(keys) as f64)
+    }
+}
+
 impl Measure {
     /// Every measure, in the order of the chain.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Union,
         Self::Total,
-        Self::LayerKeys,
+        Self::Turns,
+        Self::Genga,
+        Self::Fills,
         Self::Drawings,
         Self::DrawingsPerSecond,
         Self::GengaPerSecond,
@@ -77,7 +93,9 @@ impl Measure {
         match self {
             Self::Union => "union",
             Self::Total => "total",
-            Self::LayerKeys => "layer_keys",
+            Self::Turns => "turns",
+            Self::Genga => "genga",
+            Self::Fills => "fills",
             Self::Drawings => "drawings",
             Self::DrawingsPerSecond => "drawings_per_second",
             Self::GengaPerSecond => "genga_per_second",
@@ -93,7 +111,9 @@ impl Measure {
         match self {
             Self::Union => ("frames with a key of any joint", "いずれかの関節の原画があるフレーム"),
             Self::Total => ("keys of all joints", "全関節の原画の合計"),
-            Self::LayerKeys => ("keys of the layer", "セルの原画"),
+            Self::Turns => ("turns of the body", "全身の変わり目"),
+            Self::Genga => ("genga", "原画"),
+            Self::Fills => ("genga that are no turn", "補いの原画"),
             Self::Drawings => ("drawings on the sheet", "動画枚数"),
             Self::DrawingsPerSecond => ("drawings a second", "毎秒の枚数"),
             Self::GengaPerSecond => ("genga a second", "毎秒の原画数"),
@@ -106,8 +126,9 @@ impl Measure {
 
     pub(super) fn reach(self) -> Reach {
         match self {
-            Self::Union | Self::Total => Reach::Turns,
-            Self::LayerKeys => Reach::Keys,
+            Self::Union | Self::Total => Reach::Joints,
+            Self::Turns => Reach::Body,
+            Self::Genga | Self::Fills => Reach::Keys,
             _ => Reach::Sheet,
         }
     }
@@ -117,7 +138,9 @@ impl Measure {
         match self {
             Self::Union => union(found.turns) as f64,
             Self::Total => total(found.turns) as f64,
-            Self::LayerKeys => found.keys.map_or(f64::NAN, |keys| keys.keys.len() as f64),
+            Self::Turns => found.body.map_or(f64::NAN, |body| body.turns.len() as f64),
+            Self::Genga => found.genga(|_| true),
+            Self::Fills => found.genga(|origin| origin == Origin::Fill),
             _ => found.layer.map_or(f64::NAN, |layer| self.of_layer(found.clip, layer)),
         }
     }
@@ -132,7 +155,7 @@ impl Measure {
             Self::HeldKoma => layer.held_koma() as f64,
             Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),
             Self::MedianSsd => median(&steps(clip, layer)).unwrap_or(0.0),
-            Self::Union | Self::Total | Self::LayerKeys => f64::NAN,
+            Self::Union | Self::Total | Self::Turns | Self::Genga | Self::Fills => f64::NAN,
         }
     }
 }
@@ -186,7 +209,7 @@ mod tests {
             assert_eq!(json, format!("\"{measure}\""));
         }
         let said = "keys".parse::<Measure>().unwrap_err().to_string();
-        assert!(said.contains("union, total, layer_keys"), "{said}");
+        assert!(said.contains("union, total, turns, genga"), "{said}");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::motion::Clip;
-use crate::pipeline::Engine;
+use crate::pipeline::{Engine, FoundKeys};
 use crate::recipe::{KNOBS, Recipe};
 use crate::study::axis::{Axis, Setting};
 use crate::study::grid::{Cell, Grid};
@@ -179,7 +179,7 @@ impl Study {
     fn reach(&self) -> Reach {
         let asked = self.measures.iter().map(|measure| measure.reach());
         let keys = self.keep_keys.then_some(Reach::Keys);
-        asked.chain(keys).max().unwrap_or(Reach::Turns)
+        asked.chain(keys).max().unwrap_or(Reach::Joints)
     }
 }
 
@@ -213,18 +213,23 @@ impl Bench {
         let (recipe, edits) = (&setting.recipe, Edits::default());
         let clip = &*self.clean;
         Ok(match reach {
-            Reach::Turns => {
+            Reach::Joints => {
                 let turns = self.engine.find_turns(recipe)?;
-                Found { clip, turns, keys: None, layer: None }
+                Found { clip, turns, body: None, keys: None, layer: None }
+            }
+            Reach::Body => {
+                let (turns, body) = self.engine.find_body_turns(recipe)?;
+                Found { clip, turns, body: Some(body), keys: None, layer: None }
             }
             Reach::Keys => {
-                let (turns, keys) = self.engine.find_keys(recipe, &edits)?;
-                Found { clip, turns, keys: Some(keys), layer: None }
+                let FoundKeys { turns, body, keys } = self.engine.find_keys(recipe, &edits)?;
+                Found { clip, turns, body: Some(body), keys: Some(keys), layer: None }
             }
             Reach::Sheet => {
                 let run = self.engine.run(recipe, &edits)?;
                 let layer = Some((&run.sheet.layers[0], run.clock.koma_rate));
-                Found { clip: run.clip, turns: run.turns, keys: Some(run.keys), layer }
+                let (body, keys) = (Some(run.body), Some(run.keys));
+                Found { clip: run.clip, turns: run.turns, body, keys, layer }
             }
         })
     }

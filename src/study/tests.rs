@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::edits::Edits;
+use crate::keys::Origin;
 use crate::motion::{Axis as Direction, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::pipeline::Engine;
 use crate::sheet::Role;
@@ -67,7 +68,7 @@ fn study(x: &str, y: Option<&str>, measures: &[Measure]) -> Study {
         x: axis(x),
         y: y.map(axis),
         measures: measures.to_vec(),
-        keep_keys: measures.contains(&Measure::LayerKeys),
+        keep_keys: measures.contains(&Measure::Genga),
     }
 }
 
@@ -99,7 +100,11 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             let value = |measure: &Measure| match measure {
                 Measure::Union => union.len() as f64,
                 Measure::Total => keys(run.turns).count() as f64,
-                Measure::LayerKeys => frames.len() as f64,
+                Measure::Turns => run.body.turns.len() as f64,
+                Measure::Genga => frames.len() as f64,
+                Measure::Fills => {
+                    run.keys.keys.iter().filter(|key| key.origin == Origin::Fill).count() as f64
+                }
                 Measure::Drawings => layer.drawings.len() as f64,
                 Measure::DrawingsPerSecond => layer.drawings.len() as f64 / seconds,
                 Measure::GengaPerSecond => genga as f64 / seconds,
@@ -121,7 +126,8 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
 }
 
 const COUNTS: [Measure; 2] = [Measure::Union, Measure::Total];
-const KEYS: [Measure; 3] = [Measure::Union, Measure::Total, Measure::LayerKeys];
+const KEYS: [Measure; 5] =
+    [Measure::Union, Measure::Total, Measure::Turns, Measure::Genga, Measure::Fills];
 
 /// Cells are the same when their counts are, to the last digits of a division.
 fn are_the_same(cells: &[Cell], others: &[Cell]) -> bool {
@@ -142,7 +148,7 @@ fn a_sweep_gives_what_an_engine_of_its_own_gives_each_cell() {
         ("turns.steady=0,50,5%", Some("turns.reading=event,literal"), &KEYS),
         ("noise=0..1:0.5", Some("noise.seed=0..1:1"), &KEYS),
         ("filter.width=5..25:10", Some("noise=0,0.3"), &Measure::ALL),
-        ("rate=12,24", Some("omission.koma_dori=0,1/3"), &Measure::ALL[3..]),
+        ("rate=12,24", Some("omission.koma_dori=0,1/3"), &Measure::ALL[5..]),
         ("spacing.on=1..3:1", Some("keys.merge=union,vote,sum"), &Measure::ALL),
         ("keys.min_price=0..5:1", None, &Measure::ALL),
     ] {
@@ -239,9 +245,9 @@ fn what_nobody_asks_for_is_not_made() {
 #[test]
 fn the_recipes_own_cell_is_the_nearest_one_that_is_there() {
     let own = |x: &str, y: &str| study(x, Some(y), &COUNTS).run(swinging(30), || ()).unwrap().own;
-    // 0.1 s are 12 frames.
-    assert_eq!(own("filter.width=5..20:5", "turns.persistence=0.05s..0.2s:0.05s"), Some(4 + 1));
-    assert_eq!(own("filter.width=15,20", "turns.persistence=0.1s"), None);
+    // 0.15 s are 18 frames.
+    assert_eq!(own("filter.width=5..30:5", "turns.persistence=0.05s..0.2s:0.05s"), Some(3 * 4 + 1));
+    assert_eq!(own("filter.width=5,10", "turns.persistence=0.1s"), None);
     assert_eq!(own("noise=0,1", "filter.kind=gaussian,box"), Some(1));
     assert_eq!(own("noise=0,1", "filter.kind=gaussian,ideal"), None);
 }

@@ -3,7 +3,7 @@
 use super::{Outcome, Target, reasons, room};
 use crate::edits::{Edits, Forbidden};
 use crate::error::Error;
-use crate::keys::{Merge, Rank};
+use crate::keys::{Fill, Merge, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::time::Frame;
@@ -78,7 +78,7 @@ fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Reci
 }
 
 fn keys(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Frame>, Error> {
-    Ok(engine.find_keys(recipe, edits)?.1.keys.iter().map(|key| key.frame).collect())
+    Ok(engine.find_keys(recipe, edits)?.keys.keys.iter().map(|key| key.frame).collect())
 }
 
 /// Why some koma are further off, the worst of them near a frame, and what helps.
@@ -87,8 +87,9 @@ fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> String {
         format!("it is further off: {}", reasons::ONLY_PINS)
     } else {
         let limits = reasons::limits(recipe, edits);
-        match (recipe.keys.merge, recipe.keys.rank) {
-            (Merge::Every, Rank::Price) => format!("no keys a koma apart{limits} come nearer"),
+        match (recipe.keys.merge, recipe.keys.fill) {
+            (Merge::Body, Fill::On) => format!("no keys a koma apart{limits} come nearer"),
+            (Merge::Body, Fill::Off) => format!("no turn of the body{limits} comes nearer"),
             _ => format!("no key where a joint turns{limits} comes nearer"),
         }
     };

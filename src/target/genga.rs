@@ -3,7 +3,7 @@
 use super::{Outcome, Target, genga, reasons, room};
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Merge, Rank};
+use crate::keys::{Fill, Merge, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
@@ -54,7 +54,7 @@ pub(super) fn meet(
         std::cmp::Ordering::Equal => None,
         std::cmp::Ordering::Less => Some(too_few(&recipe, edits)),
         std::cmp::Ordering::Greater => {
-            let (_, left) = engine.find_keys(&recipe, edits)?;
+            let left = engine.find_keys(&recipe, edits)?.keys;
             Some(reasons::staying(reached, &left.keys))
         }
     };
@@ -66,13 +66,17 @@ fn too_few(recipe: &Recipe, edits: &Edits) -> String {
         return reasons::ONLY_PINS.into();
     }
     let limits = reasons::limits(recipe, edits);
-    match (recipe.keys.merge, recipe.keys.rank) {
-        (Merge::Every, Rank::Price) => {
+    match (recipe.keys.merge, recipe.keys.fill) {
+        (Merge::Body, Fill::On) => {
             format!("there is no room for another{limits}: keys stand a koma apart")
         }
+        (Merge::Body, Fill::Off) => format!(
+            "the body turns at no other moment{limits}; keys.fill=on takes every koma, and a smaller \
+             filter.width or turns.persistence finds more turns"
+        ),
         _ => format!(
-            "no joint turns at any other moment{limits}; keys.merge=every takes every moment for one, and a \
-             smaller turns.steady or turns.persistence finds more turns"
+            "no joint turns at any other moment{limits}; keys.merge=body takes every koma, and a smaller \
+             turns.steady or turns.persistence finds more turns"
         ),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Key, Origin, Rank};
+use crate::keys::{Key, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
@@ -66,8 +66,8 @@ pub(super) fn by_price(
 
 /// How many keys of a recipe are there because they are worth it.
 pub(super) fn found(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
-    let (_, layer) = engine.find_keys(recipe, edits)?;
-    let is_found = |key: &&Key| key.origin == Origin::Found;
+    let layer = engine.find_keys(recipe, edits)?.keys;
+    let is_found = |key: &&Key| key.origin.is_found();
     Ok(layer.keys.iter().filter(is_found).count())
 }
 

@@ -243,13 +243,13 @@ impl Station<'_> {
             if key.origin.is_set() {
                 why.pinned = Some(key.name.clone().unwrap_or_default());
             }
-            match key.origin {
-                Origin::Pinned => {}
-                Origin::Moved { from } => why.moved_from = Some(from.0),
-                Origin::Rest => why.rest = true,
-                Origin::Contact => why.contact = true,
-                Origin::Found => why.price = Some(key.price).filter(|price| price.is_finite()),
+            if let Origin::Moved { from } = key.origin {
+                why.moved_from = Some(from.0);
             }
+            if self.role == Role::Genga {
+                why.reason = Some(key.origin.reason());
+            }
+            why.price = Some(key.price).filter(|price| price.is_finite());
         }
         Drawing { source: Source::At(self.place), role: self.role, why }
     }

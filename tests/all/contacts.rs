@@ -7,7 +7,7 @@ use genga::motion::{Clip, ContactFinder};
 use genga::pipeline::Engine;
 use genga::quality::Evaluation;
 use genga::recipe::Recipe;
-use genga::sheet::{Feet, Sheet};
+use genga::sheet::{Feet, Reason, Sheet};
 use genga::time::Frame;
 
 use crate::clips;
@@ -47,7 +47,10 @@ fn where_a_foot_comes_down_or_leaves_is_a_key_if_it_is_to_be() {
     let own: Vec<Frame> =
         keys.iter().filter(|key| key.origin == Origin::Contact).map(|key| key.frame).collect();
     assert!(!own.is_empty() && own.iter().all(|frame| ends.contains(frame)), "{own:?}");
-    let said = made.sheet.layers[0].drawings.iter().filter(|drawing| drawing.why.contact);
+    let said = made.sheet.layers[0]
+        .drawings
+        .iter()
+        .filter(|drawing| drawing.why.reason == Some(Reason::Contact));
     let said: Vec<f64> = said.map(|drawing| drawing.source.place()).collect();
     assert_eq!(said, own.iter().map(|frame| frame.0 as f64).collect::<Vec<_>>());
     let edits = Edits { forbidden: vec![own[0].to_string().parse().unwrap()], ..Edits::default() };
@@ -66,7 +69,7 @@ fn as_candidates_contacts_count_where_joints_name_the_moments_and_nowhere_else()
         let frames: Vec<Frame> = made.candidates.keys.iter().map(|found| found.frame).collect();
         (frames, made.sheet.clone())
     };
-    assert_eq!(candidates("every", "off"), candidates("every", "candidates"));
+    assert_eq!(candidates("body", "off"), candidates("body", "candidates"));
     for merge in ["union", "vote", "sum"] {
         let (before, after) = (candidates(merge, "off").0, candidates(merge, "candidates").0);
         assert!(before.iter().all(|frame| after.contains(frame)), "{merge}");

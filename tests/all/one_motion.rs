@@ -20,7 +20,7 @@ fn keys(clip: &Clip, min_price: f64) -> Vec<Frame> {
     let mut recipe = Recipe::default();
     recipe.keys.min_price = min_price;
     let mut engine = Engine::new(clip.clone()).unwrap();
-    let (_, layer) = engine.find_keys(&recipe, &Edits::default()).unwrap();
+    let layer = engine.find_keys(&recipe, &Edits::default()).unwrap().keys;
     let fine = |frame: Frame| FINE * (frame.0 - clip.first().0) as f64 * 24.0 / clip.rate().fps();
     layer.keys.iter().map(|key| Frame(fine(key.frame).round() as usize)).collect()
 }

@@ -13,7 +13,7 @@ fn table_1_has_a_row_a_cell_and_persistence_runs_fastest() {
     let place = Place::new();
     for name in SAMPLES {
         let table = place.done(&format!("study data/{name}.bvh"));
-        let header = "clip,filter.width,turns.persistence,union,total,layer_keys\n";
+        let header = "clip,filter.width,turns.persistence,turns,genga,fills,union,total\n";
         assert!(table.starts_with(header), "{table}");
         assert_eq!(column(&table, "clip"), [name; 6]);
         assert_eq!(column(&table, "filter.width"), ["10", "10", "20", "20", "30", "30"]);
@@ -50,12 +50,15 @@ fn any_setting_is_an_axis_and_what_it_changes_is_counted() {
     let header = |args: &str| -> String {
         place.done(&format!("study data/kick.bvh {args}")).lines().next().unwrap().into()
     };
-    assert_eq!(header("--x keys.per_second=2,4"), "clip,keys.per_second,union,total,layer_keys");
+    assert_eq!(
+        header("--x keys.per_second=2,4"),
+        "clip,keys.per_second,turns,genga,fills,union,total"
+    );
     let of_the_sheet =
         "drawings,drawings_per_second,genga_per_second,longest_hold,held_koma,peak_ssd,median_ssd";
     assert_eq!(
         header("--x omission.koma_dori=0,1/3 --y noise=0,1"),
-        format!("clip,omission.koma_dori,noise,union,total,layer_keys,{of_the_sheet}")
+        format!("clip,omission.koma_dori,noise,turns,genga,fills,union,total,{of_the_sheet}")
     );
     assert_eq!(
         header("--measure total,held_koma --show union"),
@@ -99,12 +102,12 @@ fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
 #[test]
 fn stability_compares_cells_and_names_the_plateau() {
     let place = Place::new();
-    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,layer_keys --set keys.merge=union";
+    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,genga --set keys.merge=union";
     let output = place.genga(&format!("{args} --stability --heat h.svg"));
     let (table, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(table.starts_with(
-        "clip,filter.width,turns.persistence,union,layer_keys,kept,mean_move,largest_move\n"
+        "clip,filter.width,turns.persistence,union,genga,kept,mean_move,largest_move\n"
     ));
     assert!(numbers(&table, "kept").iter().all(|kept| (0.0..=1.0).contains(kept)));
     // A koma is a frame in this clip: no key that moved further is the same.
@@ -140,7 +143,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     // Without it nothing is said, and the keys are the same.
     let plain = place.genga(args);
     assert_eq!(text(&plain.stderr), "");
-    assert_eq!(numbers(&text(&plain.stdout), "layer_keys"), numbers(&table, "layer_keys"));
+    assert_eq!(numbers(&text(&plain.stdout), "genga"), numbers(&table, "genga"));
     // The region that is named has one number of keys.
     let (columns, rows) =
         lines[1].split_once("filter.width ").unwrap().1.split_once(", turns.persistence ").unwrap();
@@ -155,7 +158,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     let cells =
         numbers(&table, "filter.width").into_iter().zip(numbers(&table, "turns.persistence"));
     let held: Vec<f64> = cells
-        .zip(numbers(&table, "layer_keys"))
+        .zip(numbers(&table, "genga"))
         .filter(|((x, y), keys)| {
             (left..=right).contains(x) && (low..=high).contains(y) && *keys == count
         })
@@ -170,7 +173,7 @@ fn stability_compares_cells_and_names_the_plateau() {
 fn plateaus_are_named_of_each_clip_and_of_all() {
     let place = Place::new();
     let clips = "data/kick.bvh data/pitch.bvh";
-    let axis = "--x keys.per_second=2,2.01,2.02,2.03 --measure layer_keys --stability";
+    let axis = "--x keys.per_second=2,2.01,2.02,2.03 --measure genga --stability";
     let said = text(&place.genga(&format!("study {clips} {axis}")).stderr);
     let begins: Vec<&str> =
         said.lines().skip(1).map(|line| line.split(':').next().unwrap()).collect();
@@ -195,7 +198,7 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         ("--x filter.width=3 --set filter.width=4", "a study varies it already"),
         ("--x filter.kind=box --filter ideal", "a study varies it already"),
         ("--persistence 5,5", "stands twice"),
-        ("--measure keys", "one of union, total, layer_keys"),
+        ("--measure keys", "one of union, total, genga"),
         ("--x noise=-1", "0 to 180"),
         ("--x turns.steady=10 --plot s.svg --paper", "in frames alone"),
         ("--x filter.width=3 --stability", "there is one alone"),

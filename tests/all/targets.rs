@@ -1,7 +1,7 @@
 //! Targets on every real clip: met exactly, or within one drawing.
 
 use genga::edits::Edits;
-use genga::keys::{Choose, Origin};
+use genga::keys::Choose;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::Role;
@@ -78,14 +78,14 @@ fn the_body_is_nowhere_further_off_than_asked_for() {
             assert!(left == 0 || most < 5.0, "{name}: {left} koma beyond {most}");
             assert_eq!(met.outcomes[0].shortfall.is_some(), left > 0, "{name}: {most}");
             let found = engine.run(&met.recipe, &edits).unwrap().keys.keys.iter();
-            let found = found.filter(|key| key.origin == Origin::Found).count();
+            let found = found.filter(|key| key.origin.is_found()).count();
             assert!(found >= fewest, "{name}: {found} keys for {most} %, and {fewest} for more");
             fewest = found;
             let mut cheaper = met.recipe.clone();
             cheaper.keys.min_price = 1.2 * cheaper.keys.min_price + 0.06;
             let errors = engine.reconstruction(&cheaper, &edits).unwrap().errors;
             let same = met.recipe == Recipe::default();
-            let fewer = engine.find_keys(&cheaper, &edits).unwrap().1.keys.len() < found;
+            let fewer = engine.find_keys(&cheaper, &edits).unwrap().keys.keys.len() < found;
             let beyond = errors.iter().filter(|error| **error > most).count();
             assert!(beyond > left || same || !fewer, "{name}: {most} at a higher price");
         }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
 
 use genga::time::Clock;
@@ -13,12 +14,17 @@ use crate::takes::{Run, Shown, Take, kept, named};
 /// How far a genga may stand from an event, in koma.
 const NEAR: usize = 1;
 
+/// The sets of which every event is listed.
+const LISTED: [&str; 3] = ["chosen-with", "held-out", "run-second-reading"];
+
 /// An event of `docs/evidence/events.csv`: it is over `from..=to`, source frames.
 pub(crate) struct Event {
     pub(crate) clip: String,
     pub(crate) set: String,
     from: usize,
     to: usize,
+    /// What kind of event it is; nothing in the first list.
+    pub(crate) kind: String,
     what: String,
 }
 
@@ -44,8 +50,21 @@ impl Score {
 
 impl Event {
     /// The first and the last koma of the event.
-    fn koma(&self, clock: &Clock) -> [usize; 2] {
+    pub(crate) fn koma(&self, clock: &Clock) -> [usize; 2] {
         [self.from, self.to].map(|frame| clock.koma_from_place(frame as f64))
+    }
+
+    /// Whether a genga on one of some koma hits it.
+    pub(crate) fn is_hit_by(&self, genga: &[usize], clock: &Clock) -> bool {
+        is_near(genga, self.koma(clock))
+    }
+
+    /// The share of some koma, from one up to another, at which an event as long would be hit.
+    pub(crate) fn chance_among(&self, genga: &[usize], clock: &Clock, koma: Range<usize>) -> f64 {
+        let [from, to] = self.koma(clock);
+        let places = koma.start..koma.end.saturating_sub(to - from);
+        let count = places.len().max(1) as f64;
+        places.filter(|place| is_near(genga, [*place, place + to - from])).count() as f64 / count
     }
 
     fn frames(&self) -> String {
@@ -63,12 +82,12 @@ pub(crate) fn read(path: &Path) -> Outcome<Vec<Event>> {
     let bytes = fs::read(path).map_err(|error| failed(&error))?;
     let mut events = Vec::new();
     for row in csv::Reader::from_reader(bytes.as_slice()).deserialize() {
-        let (clip, set, from, to, what): (String, String, usize, usize, String) =
+        let (clip, set, from, to, kind, what): (String, String, usize, usize, String, String) =
             row.map_err(|error| failed(&error))?;
         if from > to {
             return Err(failed(&format!("{clip}: {from} to {to} is no range")).into());
         }
-        events.push(Event { clip, set, from, to, what });
+        events.push(Event { clip, set, from, to, kind, what });
     }
     Ok(events)
 }
@@ -87,6 +106,10 @@ fn is_hit(genga: &[Shown], event: [usize; 2]) -> bool {
     nearest(genga, event).is_some_and(|(_, apart)| apart.unsigned_abs() <= NEAR as u64)
 }
 
+fn is_near(genga: &[usize], event: [usize; 2]) -> bool {
+    genga.iter().any(|koma| apart(*koma, event).unsigned_abs() <= NEAR as u64)
+}
+
 /// The share of all places in the clip at which an event as long as this one would be hit.
 fn chance(run: &Run, genga: &[Shown], [from, to]: [usize; 2]) -> f64 {
     let places = run.sheet.length().saturating_sub(to - from);
@@ -97,7 +120,7 @@ fn chance(run: &Run, genga: &[Shown], [from, to]: [usize; 2]) -> f64 {
 /// Clips and sets in the order of the file, the rests apart.
 fn sets(events: &[Event]) -> Vec<(&str, &str)> {
     let mut sets: Vec<(&str, &str)> = Vec::new();
-    for event in events.iter().filter(|event| event.set != "rest") {
+    for event in events.iter().filter(|event| LISTED.contains(&event.set.as_str())) {
         let set = (event.clip.as_str(), event.set.as_str());
         if !sets.contains(&set) {
             sets.push(set);

@@ -4,7 +4,7 @@ use crate::Outcome;
 use crate::table::{Table, number};
 use crate::takes::{MERGES, Take, named};
 
-const RIGS: [&str; 2] = ["cmu-05_11-dance-pirouette", "threejs-pirouette"];
+pub(crate) const RIGS: [&str; 2] = ["cmu-05_11-dance-pirouette", "threejs-pirouette"];
 
 /// F1 of the genga of both rigs for each merge, and how many there are.
 pub(crate) fn table(takes: &[Take]) -> Outcome<String> {

@@ -29,7 +29,7 @@ pub(super) fn study() -> Outcome<Study> {
         recipe: study::table_1_recipe(),
         x: Axis::new("filter.width", "10,20,30")?,
         y: Some(Axis::new("turns.persistence", "5,10")?),
-        measures: vec![Measure::Union, Measure::Total, Measure::LayerKeys],
+        measures: vec![Measure::Union, Measure::Total, Measure::Genga],
         keep_keys: false,
     })
 }

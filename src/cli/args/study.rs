@@ -37,7 +37,7 @@ pub(in crate::cli) struct StudyArgs {
     /// The filter.
     #[arg(long, value_name = "KIND")]
     pub(in crate::cli) filter: Option<Filter>,
-    /// What is counted [default: union,total,layer_keys; all of the sheet too when a setting of the
+    /// What is counted [default: turns,genga,fills,union,total; all of the sheet too when a setting of the
     /// sheet is varied].
     #[arg(long, value_name = "MEASURE,…", value_delimiter = ',')]
     pub(in crate::cli) measure: Vec<Measure>,
@@ -58,7 +58,7 @@ pub(in crate::cli) struct StudyArgs {
     /// A measure as a map of both settings, its value in each cell, an SVG or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     pub(in crate::cli) heat: Option<PathBuf>,
-    /// The measure that is drawn [default: the first that is counted; layer_keys with --stability].
+    /// The measure that is drawn [default: the first that is counted; genga with --stability].
     #[arg(long, value_name = "MEASURE")]
     pub(in crate::cli) show: Option<Measure>,
     /// Draw the paper's own six counts beside, of a clip that is not public.

@@ -78,7 +78,7 @@ fn an_edited_sheet_is_known_and_stays_known_when_it_is_written_again() {
     for (line, edited) in [
         ("\"koma\": 4", "\"koma\": 5"),
         ("\"role\": \"genga\"", "\"role\": \"inbetween\""),
-        ("\"frame\": 24", "\"frame\": 26"),
+        ("\"frame\": 22", "\"frame\": 26"),
         ("\"name\": \"A\"", "\"name\": \"B\""),
         ("\n    \"layers\": \"", "\n    \"layers\": \"0"),
         ("\n  \"layers\": [", "\n  \"root\": \"ones\",\n  \"layers\": ["),

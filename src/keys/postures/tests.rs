@@ -10,7 +10,7 @@ fn sample(name: &str) -> Clip {
 fn postures(clip: &Clip) -> Postures {
     Postures::of(
         clip,
-        clip,
+        &Build::of(clip),
         clip.clock(48.0),
         (&Screen::WORLD, 2.0),
         &vec![1.0; clip.skeleton().len()],
@@ -97,11 +97,10 @@ fn a_joint_without_say_does_not_count() {
     let kick = sample("kick");
     let clock = kick.clock(48.0);
     let mut own = vec![1.0; kick.skeleton().len()];
-    let landmarks = Landmarks::of(&kick);
-    let mannequin = Mannequin::of(&kick, &landmarks).unwrap();
-    let wrist = mannequin.joints()[4];
+    let build = Build::of(&kick);
+    let wrist = build.mannequin.as_ref().unwrap().joints()[4];
     own[wrist] = 0.0;
-    let rows = Postures::of(&kick, &kick, clock, (&Screen::WORLD, 2.0), &own);
+    let rows = Postures::of(&kick, &build, clock, (&Screen::WORLD, 2.0), &own);
     assert!((0..rows.len()).all(|at| rows.row(at)[3 * 4..3 * 6].iter().all(|value| *value == 0.0)));
     assert!((0..rows.len()).any(|at| rows.row(at)[..3 * 4].iter().any(|value| *value != 0.0)));
 }
@@ -110,7 +109,7 @@ fn a_joint_without_say_does_not_count() {
 fn seen(clip: &Clip, from: &str) -> Postures {
     let screen = Screen::of(from.parse().unwrap(), clip);
     let own = vec![1.0; clip.skeleton().len()];
-    Postures::of(clip, clip, clip.clock(48.0), (&screen, 2.0), &own)
+    Postures::of(clip, &Build::of(clip), clip.clock(48.0), (&screen, 2.0), &own)
 }
 
 /// The first pose of the clip, carried so far along each axis in a second.

@@ -174,6 +174,18 @@ impl LaneQuat {
         (tangent.atan() * Lanes::splat(4.0)).where_long(chord, short)
     }
 
+    /// The way from one rotation to another as a vector: the axis, in the axes that both are given in, times the
+    /// angle of the short way in radians.
+    #[inline(always)]
+    pub(crate) fn way_to(self, to: Self) -> LaneVec {
+        let turn = to * Self { v: self.v * Lanes::splat(-1.0), w: self.w };
+        let sine = turn.v.dot(turn.v).sqrt();
+        let sign = turn.w.map(|w| 1f64.copysign(w));
+        // Of a way so short the angle is twice the sine of its half.
+        let stretch = |angle: f64, sine: f64| if sine > 0.0 { angle / sine } else { 2.0 };
+        turn.v * (self.angle_to(to).with(sine, stretch) * sign)
+    }
+
     #[inline(always)]
     fn squared(self) -> Lanes {
         (self.v.x * self.v.x + self.v.y * self.v.y) + (self.v.z * self.v.z + self.w * self.w)

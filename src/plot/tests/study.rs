@@ -3,13 +3,13 @@
 use super::*;
 use crate::study::{Cell, Grid, Measure, Plateau};
 
-/// A grid of the union and the total, ten times as large.
+/// A grid of turns and of the total, ten times as large.
 fn grid(x: &str, y: Option<&str>, union: &[f64]) -> Grid {
     let cell = |union: &f64| Cell { values: vec![*union, 10.0 * union], keys: None };
     let grid = Grid {
         x: x.parse().unwrap(),
         y: y.map(|y| y.parse().unwrap()),
-        measures: vec![Measure::Union, Measure::Total],
+        measures: vec![Measure::Turns, Measure::Total],
         frames_in_koma: 5.0,
         own: None,
         cells: union.iter().map(cell).collect(),
@@ -41,11 +41,7 @@ fn a_study_plot_refuses_what_cannot_be() {
         assert!(said.contains(says), "{said}");
     };
     says(StudyPlot::default(), &[], "without a clip");
-    says(
-        StudyPlot { show: Measure::LayerKeys, ..StudyPlot::default() },
-        &[small()],
-        "layer_keys was not",
-    );
+    says(StudyPlot { show: Measure::Genga, ..StudyPlot::default() }, &[small()], "genga was not");
     let paper = StudyPlot { paper: true, ..StudyPlot::default() };
     for x in ["filter.width=0.1s,0.2s", "turns.steady=10,20"] {
         let other = grid(x, Some("turns.persistence=5,10"), &[1.0; 4]);
@@ -99,7 +95,7 @@ fn a_study_draws_the_measure_it_is_asked_for() {
     let draw = |show| StudyPlot { show, ..StudyPlot::default() }.draw(&[small()]).unwrap();
     assert!(words(&draw(Measure::Total)).contains(&"800"));
     assert!(words(&draw(Measure::Total)).contains(&"Keys of all joints  全関節の原画の合計"));
-    assert!(!words(&draw(Measure::Union)).contains(&"800"));
+    assert!(!words(&draw(Measure::Turns)).contains(&"800"));
     let zero = grid("filter.width=0", None, &[0.0]);
     assert!(StudyPlot::default().draw(&[zero]).is_ok());
 }
@@ -162,7 +158,7 @@ fn a_map_has_a_number_in_each_cell_that_has_room() {
         HeatMap::default().draw(&[wide], None).unwrap_err().to_string().contains("larger steps")
     );
     assert!(HeatMap::default().draw(&[], None).is_err());
-    assert!(HeatMap { show: Measure::LayerKeys }.draw(&[small()], None).is_err());
+    assert!(HeatMap { show: Measure::Genga }.draw(&[small()], None).is_err());
 }
 
 #[test]

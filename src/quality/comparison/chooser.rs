@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Origin, Rank};
+use crate::keys::Rank;
 use crate::motion::Clip;
 use crate::pipeline::Engine;
 use crate::quality::baselines::{
@@ -48,7 +48,7 @@ impl<'a> Chooser<'a> {
 
     /// How many keys the recipe finds when nobody says how many.
     pub(super) fn own_keys(&mut self) -> Result<usize, Error> {
-        Ok(self.engine.find_keys(self.recipe, &Edits::default())?.1.keys.len())
+        Ok(self.engine.find_keys(self.recipe, &Edits::default())?.keys.keys.len())
     }
 
     /// The keys of methods that have a number of their own; none where the clip is too short.
@@ -91,8 +91,8 @@ impl<'a> Chooser<'a> {
     /// left out, as those stay whatever a key saves.
     fn own(&mut self, recipe: &Recipe, counts: &[usize]) -> Result<Vec<Vec<Frame>>, Error> {
         let edits = Edits::default();
-        let (_, layer) = self.engine.find_keys(recipe, &edits)?;
-        let rests = layer.keys.iter().filter(|key| key.origin != Origin::Found).count();
+        let layer = self.engine.find_keys(recipe, &edits)?.keys;
+        let rests = layer.keys.iter().filter(|key| !key.origin.is_found()).count();
         let mut without_rests = recipe.clone();
         without_rests.keys.rest = 0.0;
         let mut keys = Vec::with_capacity(counts.len());
@@ -102,7 +102,7 @@ impl<'a> Chooser<'a> {
                 None => (&without_rests, *count),
             };
             let recipe = with_found(&mut self.engine, recipe, &edits, free)?;
-            let (_, layer) = self.engine.find_keys(&recipe, &edits)?;
+            let layer = self.engine.find_keys(&recipe, &edits)?.keys;
             keys.push(layer.keys.iter().map(|key| key.frame).collect());
         }
         Ok(keys)

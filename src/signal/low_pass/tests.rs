@@ -128,7 +128,7 @@ fn settings_refuse_what_is_no_width() {
         assert!(toml::from_str::<LowPass>(wrong).is_err(), "{wrong}");
     }
     let default: LowPass = toml::from_str("").unwrap();
-    assert_eq!(default, LowPass { kind: Box, width: Span::Seconds(0.1) });
+    assert_eq!(default, LowPass { kind: Box, width: Span::Seconds(0.15) });
 }
 
 #[test]

@@ -36,6 +36,15 @@ pub(super) fn study(recipe: &Recipe, rate: FrameRate, measure: Measure) -> Optio
             turns: recipe.turns.clone(),
             ..Recipe::default()
         },
+        Measure::Turns => Recipe {
+            filter: recipe.filter.clone(),
+            turns: recipe.turns.clone(),
+            layers: recipe.layers.clone(),
+            seen_from: recipe.seen_from,
+            exaggerate: recipe.exaggerate.clone(),
+            rate: recipe.rate,
+            ..Recipe::default()
+        },
         _ => recipe.clone(),
     };
     base.filter.width = Recipe::default().filter.width;

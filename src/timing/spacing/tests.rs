@@ -16,7 +16,7 @@ fn key(frame: usize, price: f64) -> Key {
         voters: Vec::new(),
         weight: None,
         name: None,
-        origin: Origin::Found,
+        origin: Origin::Turn,
     }
 }
 

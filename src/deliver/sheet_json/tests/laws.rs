@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
 use crate::exaggerate::{CartoonParts, Exaggerate};
-use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Why};
+use crate::sheet::{Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, Why};
 use crate::time::{Clock, Frame, FrameRate, Span};
 
 const FIRST: usize = 7;
@@ -28,16 +28,16 @@ fn why() -> impl Strategy<Value = Why> {
     let words = prop::collection::vec(any::<String>(), 0..3);
     let value = || prop::option::of(prop_oneof![Just(0.0), -1e300..1e300, 0.0..1e-300, 0.0..100.0]);
     let counts = prop::array::uniform3(0..4usize);
-    let flags = any::<(bool, bool, bool)>();
+    let reason = prop::option::of(prop::sample::select(&Reason::ALL[..]));
+    let said = (reason, any::<bool>());
     let pinned = prop::option::of(any::<String>());
     let moved = prop::option::of(0..999usize);
-    (words, pinned, moved, flags, value(), value(), counts).prop_map(
-        |(voters, pinned, moved_from, (rest, contact, hold_set), strength, price, counts)| Why {
+    (words, pinned, moved, said, value(), value(), counts).prop_map(
+        |(voters, pinned, moved_from, (reason, hold_set), strength, price, counts)| Why {
             voters,
             pinned,
             moved_from,
-            rest,
-            contact,
+            reason,
             strength,
             price,
             lengthened: counts[0],

@@ -1,0 +1,93 @@
+//! The turn of a body (全身の変わり目) [KT11 §2, §3.1 to §3.4]: how much all of it turns at each frame.
+//!
+//! The first paper finds turns joint by joint. A drawing is of the whole body, so the same pattern is asked of all that
+//! turns and travels together: the velocity of each is smoothed, and where its size is less than a moment before and after
+//! it turns. Added up by weight that is one number a frame, and its peaks are the turns of the body.
+
+mod pattern;
+#[cfg(test)]
+mod tests;
+mod tracks;
+
+use crate::keys::{Reference, Wall};
+use crate::motion::lanes::wide;
+use crate::motion::{Build, Clip};
+use crate::signal::LowPass;
+use crate::time::{Frame, Span};
+
+use pattern::{LEAST, Pattern, largest_near, summits};
+pub(crate) use tracks::LayerMotion;
+use tracks::Tracks;
+
+/// By how much a body has to slow down and speed up for half a turn, in % of its height a second: so much trembles.
+const TREMBLE: f64 = 2.0;
+
+/// When a body turns, and when it stops accelerating (壁).
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyTurns {
+    /// The clip's first frame.
+    pub first: Frame,
+    /// How much of a turn each frame is, 0 to 1.
+    pub evidence: Vec<f64>,
+    /// The turns by frame, none nearer to another than a koma.
+    pub turns: Vec<Frame>,
+    /// The walls by frame, likewise; their strength is in % of body height a second.
+    pub walls: Vec<Wall>,
+}
+
+impl BodyTurns {
+    /// The turns of a clip whose `reference` says how high it is, from where it is seen and how long a koma is: the
+    /// velocities are smoothed by `filter` and a turn is to last for `persistence` to each side.
+    pub fn of(clip: &Clip, reference: &Reference, filter: &LowPass, persistence: Span) -> Self {
+        let (build, own) = (Build::of(clip), vec![1.0; clip.skeleton().len()]);
+        let motion = LayerMotion {
+            clip,
+            build: &build,
+            heard: &own,
+            judged: &own,
+            screen: reference.screen(),
+            height: reference.height(),
+        };
+        let speeds = BodySpeeds::of(&motion, filter);
+        speeds.turns(persistence.frames(clip.rate()), reference.clock().frames_in_koma())
+    }
+}
+
+/// The speeds of all that turns and travels in a layer, smoothed: another persistence needs no new ones.
+#[derive(Debug, Clone)]
+pub(crate) struct BodySpeeds(Pattern);
+
+impl BodySpeeds {
+    /// Measures and smooths them.
+    pub(crate) fn of(motion: &LayerMotion<'_>, filter: &LowPass) -> Self {
+        let Tracks { steps, weights } = Tracks::of(motion);
+        Self(Pattern::of(&filter.apply(&steps), &weights))
+    }
+
+    /// The turns that last for `persistence` frames to each side, `apart` frames from each other at the least.
+    pub(crate) fn turns(&self, persistence: f64, apart: f64) -> BodyTurns {
+        let (valleys, hills) = wide(
+            #[inline(always)]
+            || self.0.bends(persistence),
+        );
+        let near = largest_near(&valleys, persistence.round() as usize);
+        let evidence = valleys.iter().zip(&near).map(|(own, near)| evidence(*own, *near));
+        let first = self.0.first();
+        let frame = |row: usize| Frame(first.0 + row);
+        // Where somebody cut the clip it has drawings anyway.
+        let inner = |(row, _): &(usize, f64)| (1..valleys.len() - 1).contains(row);
+        let turns = summits(&valleys, apart).into_iter().filter(inner).map(|(row, _)| frame(row));
+        let walls = summits(&hills, apart).into_iter().filter(inner);
+        BodyTurns {
+            first,
+            turns: turns.collect(),
+            walls: walls.map(|(row, strength)| Wall { frame: frame(row), strength }).collect(),
+            evidence: evidence.collect(),
+        }
+    }
+}
+
+/// How much of a turn a frame is whose bend is `own`, where the largest about it is `near`.
+fn evidence(own: f64, near: f64) -> f64 {
+    if near >= LEAST { (own / near).powi(2) * own / (own + TREMBLE) } else { 0.0 }
+}

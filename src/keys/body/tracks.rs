@@ -1,0 +1,250 @@
+//! Tracks (軌跡): the velocities of all that turns and travels in a layer, vectors in % of body height a second.
+
+use std::array;
+
+use glam::{DQuat, DVec3};
+use nalgebra::DMatrix;
+
+use crate::keys::weights;
+use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
+use crate::motion::mannequin::Mannequin;
+use crate::motion::rig::Rig;
+use crate::motion::sampler::LanePose;
+use crate::motion::{Build, Clip, Joint, JointId, Point, Screen};
+use crate::signal::{Signals, Spectrum, Unit};
+
+/// How far a joint that carries a whole chain of bones reaches, in heights of the body.
+const REACH: f64 = 0.75;
+
+/// The weight of the rotation of such a joint beside the place of a limb's end, which has 1.
+const ROTATION: f64 = 0.5 * REACH;
+
+/// The weight of each of the tracks of a gait.
+const GAIT: f64 = 2.0;
+
+/// The weight of the tips of a body that has no limbs, together: that of a person's places.
+const TIPS: f64 = 6.0;
+
+/// The motion of a layer, and what is known of the body it is of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LayerMotion<'a> {
+    /// The motion in which only the joints of the layer move.
+    pub(crate) clip: &'a Clip,
+    /// The build of the whole body.
+    pub(crate) build: &'a Build,
+    /// How much the rotation of each joint counts; with 0 it has no track.
+    pub(crate) heard: &'a [f64],
+    /// How much the place of each joint counts; with 0 it has no track.
+    pub(crate) judged: &'a [f64],
+    /// From where places are seen.
+    pub(crate) screen: &'a Screen,
+    /// The height of the body in the file's unit, where the build does not say it.
+    pub(crate) height: f64,
+}
+
+/// The velocities of a layer.
+pub(super) struct Tracks {
+    /// Three columns a track: the step from each frame to the next, one fewer than there are frames.
+    pub(super) steps: Spectrum,
+    /// One a track, above 0.
+    pub(super) weights: Vec<f64>,
+}
+
+/// A joint that turns.
+struct Turning {
+    joint: usize,
+    /// How far it reaches, in % of the body's height.
+    reach: f64,
+    weight: f64,
+}
+
+/// What travels.
+struct Travelling {
+    what: Place,
+    weight: f64,
+}
+
+/// A place on a body, or the way from one to another.
+#[derive(Clone, Copy)]
+enum Place {
+    /// A point.
+    Of(Point),
+    /// The middle of two points.
+    Between(Point, Point),
+    /// The second of two points seen from the first.
+    From(Point, Point),
+    /// How high the middle of two points is.
+    Height(Point, Point),
+}
+
+impl Tracks {
+    pub(super) fn of(motion: &LayerMotion<'_>) -> Self {
+        let clip = motion.clip;
+        let (turning, travelling) = (turning(motion), travelling(motion));
+        let weights = turning.iter().map(|track| track.weight);
+        let weights: Vec<f64> =
+            weights.chain(travelling.iter().map(|track| track.weight)).collect();
+        let mut values = DMatrix::zeros(clip.len() - 1, 3 * weights.len());
+        if clip.len() > 1 {
+            wide(
+                #[inline(always)]
+                || measure(motion, &turning, &travelling, values.as_mut_slice()),
+            );
+        }
+        let signals = Signals { values, unit: Unit::Ratio, rate: clip.rate(), first: clip.first() };
+        Self { steps: Spectrum::from(signals), weights }
+    }
+}
+
+/// Rotation [KT11 §3.1]: of every joint that ever turns and has a say, by what it carries.
+fn turning(motion: &LayerMotion<'_>) -> Vec<Turning> {
+    let turns = motion.clip.turning_joints();
+    let track = |(joint, carried): (usize, f64)| Turning {
+        joint,
+        reach: 100.0 * REACH * carried,
+        weight: ROTATION * carried * motion.heard[joint],
+    };
+    let joints = weights(motion.clip).into_iter().enumerate();
+    let tracks = joints.filter(|(joint, _)| turns[*joint]).map(track);
+    tracks.filter(|track| track.weight > 0.0).collect()
+}
+
+/// Displacement [KT11 §2]: head, wrists, ankles and pelvis, and the gait; of a body without limbs its tips.
+fn travelling(motion: &LayerMotion<'_>) -> Vec<Travelling> {
+    let mut tracks = match &motion.build.mannequin {
+        Some(mannequin) => of_person(motion, mannequin),
+        None => of_tips(motion),
+    };
+    tracks.retain(|track| track.weight > 0.0);
+    tracks
+}
+
+fn of_person(motion: &LayerMotion<'_>, mannequin: &Mannequin) -> Vec<Travelling> {
+    let counts = |point: &Point| motion.judged[point.joint.0];
+    let both = |a: &Point, b: &Point| f64::min(counts(a), counts(b));
+    let ends = motion.build.landmarks.points().into_iter();
+    let ends = ends.map(|end| Travelling { what: Place::Of(end), weight: counts(&end) });
+    let [left, right] =
+        mannequin.legs().map(|[hip, _, ankle]| [hip, ankle].map(|joint| Point::of(joint)));
+    let hips = both(&left[0], &right[0]);
+    // What feet and pelvis do in the world is mostly travel; seen from each other it is the step.
+    let pelvis = Travelling { what: Place::Between(left[0], right[0]), weight: hips };
+    let gait = [
+        Travelling {
+            what: Place::From(left[1], right[1]),
+            weight: GAIT * both(&left[1], &right[1]),
+        },
+        Travelling { what: Place::Height(left[0], right[0]), weight: GAIT * hips },
+    ];
+    ends.chain([pelvis]).chain(gait).collect()
+}
+
+/// The tips of its chains; its joints where there are none.
+fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
+    let skeleton = motion.clip.skeleton();
+    let of_joint = |(joint, data): (JointId, &Joint)| {
+        let tips = data.end_sites.iter().map(move |end| Point { joint, offset: end.offset });
+        tips.collect::<Vec<Point>>()
+    };
+    let mut tips: Vec<Point> = skeleton.iter().flat_map(of_joint).collect();
+    if tips.is_empty() {
+        tips.extend((0..skeleton.len()).map(Point::of));
+    }
+    let weight = (TIPS / tips.len() as f64).min(1.0);
+    let track = |tip: Point| Travelling {
+        what: Place::Of(tip),
+        weight: weight * motion.judged[tip.joint.0],
+    };
+    tips.into_iter().map(track).collect()
+}
+
+/// Writes the step of each track from each frame to the next, [`LANES`] frames side by side.
+#[inline(always)]
+fn measure(
+    motion: &LayerMotion<'_>,
+    turning: &[Turning],
+    travelling: &[Travelling],
+    values: &mut [f64],
+) {
+    let (clip, frames) = (motion.clip, motion.clip.len());
+    let steps = frames - 1;
+    let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
+    let rows: Vec<&[f64]> = clip.rows().collect();
+    let sight = Sight::of(motion);
+    let mut turned = vec![DQuat::IDENTITY; turning.len()];
+    let mut stood = vec![DVec3::ZERO; travelling.len()];
+    for begin in (0..frames).step_by(LANES) {
+        let mut columns = values.chunks_exact_mut(3 * steps);
+        // No step leads into the first frame.
+        let skipped = usize::from(begin == 0);
+        let own = begin + skipped - 1..steps.min(begin + LANES - 1);
+        let mut write = |step: LaneVec| {
+            let Some(columns) = columns.next() else { return };
+            for (column, step) in columns.chunks_exact_mut(steps).zip([step.x, step.y, step.z]) {
+                column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()]);
+            }
+        };
+        pose.take_rows(&rig, &array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
+        for (track, before) in turning.iter().zip(&mut turned) {
+            let now = pose.rotations[track.joint];
+            if begin == 0 {
+                *before = now.lane(0);
+            }
+            let speed = Lanes::splat(track.reach * clip.rate().fps());
+            write(now.shifted(*before).way_to(now) * speed);
+            *before = now.lane(LANES - 1);
+        }
+        pose.place(&rig);
+        for (track, before) in travelling.iter().zip(&mut stood) {
+            let now = sight.see(track.what, &pose);
+            if begin == 0 {
+                *before = now.lane(0);
+            }
+            write(now - now.shifted(*before));
+            *before = now.lane(LANES - 1);
+        }
+    }
+}
+
+/// How places are seen.
+struct Sight<'a> {
+    screen: &'a Screen,
+    up: DVec3,
+    /// From the file's unit a frame to % of body height a second.
+    scale: f64,
+}
+
+impl<'a> Sight<'a> {
+    fn of(motion: &LayerMotion<'a>) -> Self {
+        let Build { landmarks, mannequin } = motion.build;
+        let height = mannequin.as_ref().map_or(motion.height, Mannequin::height);
+        let scale = if height > 0.0 { 100.0 * motion.clip.rate().fps() / height } else { 0.0 };
+        // What is up on a screen is its second axis.
+        let up = if motion.screen.is_world() { landmarks.up.unit() } else { DVec3::Y };
+        Self { screen: motion.screen, up, scale }
+    }
+
+    /// Where a place is in some poses, in % of body height a second from the origin a frame before.
+    #[inline(always)]
+    fn see(&self, what: Place, pose: &LanePose) -> LaneVec {
+        let stand = |point: Point| {
+            let joint = point.joint.0;
+            pose.translations[joint] + pose.rotations[joint].rotate(LaneVec::splat(point.offset))
+        };
+        let seen = |place: LaneVec| {
+            let is_world = self.screen.is_world();
+            let place = if is_world { place } else { place.map(|place| self.screen.see(place)) };
+            place * Lanes::splat(self.scale)
+        };
+        let middle = |a, b| seen((stand(a) + stand(b)) * Lanes::splat(0.5));
+        match what {
+            Place::Of(point) => seen(stand(point)),
+            Place::Between(a, b) => middle(a, b),
+            Place::From(a, b) => seen(stand(b)) - seen(stand(a)),
+            Place::Height(a, b) => {
+                let up = LaneVec::splat(self.up);
+                up * middle(a, b).dot(up)
+            }
+        }
+    }
+}

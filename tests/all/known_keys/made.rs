@@ -1,0 +1,206 @@
+//! Clips with a pose on every frame, made from a few known keys.
+
+use genga::motion::{Body, Channel, Clip, Landmarks, Pose, RowWriter};
+use genga::sheet::Source;
+use genga::study::Noise;
+use genga::time::{Frame, FrameRate};
+use glam::DVec3;
+
+/// Frames in a koma of the clips that are made, 120 a second.
+pub(crate) const FRAMES: usize = 5;
+
+/// How much of the way through the room is left: keys are taken from anywhere in a clip, and a body does
+/// not leap across a stage from one to the next.
+const TRAVEL: f64 = 0.2;
+
+/// Keys of each clip.
+const KEYS: usize = 16;
+
+/// How far apart two keys after one another are at least, in heights of the body: what one would draw.
+const APART: f64 = 0.12;
+
+/// Seconds of a clip from one key's pose to the next one's, back or forth, at the most.
+const NEAR: f64 = 1.0;
+
+/// How far a joint is early or late at a key at the most, in koma.
+const LATE: f64 = 1.0;
+
+/// Numbers that look drawn by lot, the same for the same seed.
+struct Lot(u64);
+
+impl Lot {
+    fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, least: f64, most: f64) -> f64 {
+        least + (most - least) * self.share()
+    }
+}
+
+/// One of the poses that a clip is made from.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    /// Where its pose stands in the clip it is taken from.
+    place: f64,
+    /// Where that of the root does: a body does not face anywhere from one key to the next.
+    root: f64,
+    /// When it is reached, and how long it is held, in koma.
+    at: f64,
+    hold: f64,
+    /// Whether the body is still moving when it gets there.
+    is_passed: bool,
+}
+
+/// Keys 5 to 14 koma apart; every fifth or so is held for half a second or more, and of the others every
+/// third is passed at speed.
+fn known(clip: &Clip, lot: &mut Lot) -> Vec<Known> {
+    let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
+    let second = clip.rate().fps();
+    let middle = lot.between(first + 0.5 * second, last - 0.5 * second);
+    let mut keys: Vec<Known> = Vec::new();
+    let mut at = 0.0;
+    for number in 0..KEYS {
+        let root = lot.between(middle - 0.5 * second, middle + 0.5 * second).floor();
+        let before = keys.last().map_or(middle, |key| key.place);
+        let near = ((before - NEAR * second).max(first), (before + NEAR * second).min(last));
+        let mut place = before;
+        for _ in 0..200 {
+            place = lot.between(near.0, near.1).floor();
+            let is_apart =
+                |key: &Known| distance(clip, (key.place, key.root), (place, root)) >= APART;
+            if keys.last().is_none_or(is_apart) {
+                break;
+            }
+        }
+        let is_held = (1..KEYS - 1).contains(&number) && lot.share() < 0.2;
+        let hold = if is_held { lot.between(14.0, 24.0).round() } else { 0.0 };
+        let is_passed = !is_held && lot.share() < 1.0 / 3.0;
+        keys.push(Known { place, root, at, hold, is_passed });
+        at += hold + lot.between(5.0, 14.0).round();
+    }
+    keys
+}
+
+/// How far two poses of a clip are apart without their way through the room, each given by its place and
+/// that of its root: root mean square over the joints, in heights of the body.
+fn distance(clip: &Clip, one: (f64, f64), other: (f64, f64)) -> f64 {
+    let stands = [one, other].map(|(place, root)| {
+        let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+        pose.take_place(clip, root);
+        let (rotation, translation) = (pose.rotations[0], pose.translations[0]);
+        pose.take_place(clip, place);
+        (pose.rotations[0], pose.translations[0]) = (rotation, TRAVEL * translation);
+        body.place(&pose, &mut positions);
+        positions
+    });
+    let ways = stands[0].iter().zip(&stands[1]).map(|(a, b)| a.distance_squared(*b));
+    (ways.sum::<f64>() / stands[0].len() as f64).sqrt() / Landmarks::of(clip).height
+}
+
+/// What moves a body from known key to known key.
+struct Made<'a> {
+    from: &'a Clip,
+    keys: &'a [Known],
+    /// Joint by joint, how many koma later each key is reached than it is by the body as a whole.
+    late: Vec<Vec<f64>>,
+}
+
+impl Made<'_> {
+    /// Where the pose of a joint comes from at a koma.
+    fn source(&self, joint: usize, koma: f64) -> Source {
+        let keys = self.keys;
+        let place = |key: usize| if joint == 0 { keys[key].root } else { keys[key].place };
+        let reached = |key: usize| keys[key].at + self.late[joint][key];
+        let left = |key: usize| reached(key) + keys[key].hold;
+        let Some(before) = (0..keys.len()).rev().find(|key| koma >= reached(*key)) else {
+            return Source::At(place(0));
+        };
+        if koma <= left(before) || before + 1 == keys.len() {
+            return Source::At(place(before));
+        }
+        let share = (koma - left(before)) / (reached(before + 1) - left(before));
+        let [out, into] = [before, before + 1].map(|key| f64::from(keys[key].is_passed));
+        // Hermite's curve: it starts and ends at rest, or at the pace of the whole way.
+        let (square, cube) = (share * share, share * share * share);
+        let share = out * (cube - 2.0 * square + share)
+            + into * (cube - square)
+            + (3.0 * square - 2.0 * cube);
+        Source::Between { from: place(before), to: place(before + 1), share }
+    }
+
+    fn clip(&self) -> Clip {
+        let skeleton = self.from.skeleton();
+        let length = self.keys.last().map_or(0.0, |key| key.at + key.hold) as usize + 3;
+        let (frames, channels) = (length * FRAMES, skeleton.channels());
+        let mut values = vec![0.0; frames * channels];
+        let mut whole = vec![0.0; channels];
+        for (id, joint) in skeleton.iter() {
+            let mut writer = RowWriter::new(self.from);
+            let own = joint.first_channel..joint.first_channel + joint.channels.len();
+            for (frame, row) in values.chunks_exact_mut(channels).enumerate() {
+                writer.write(self.source(id.0, frame as f64 / FRAMES as f64), &mut whole);
+                row[own.clone()].copy_from_slice(&whole[own.clone()]);
+            }
+        }
+        let first = values[..channels].to_vec();
+        for row in values.chunks_exact_mut(channels) {
+            for (value, first) in row[..3].iter_mut().zip(&first) {
+                *value = first + TRAVEL * (*value - first);
+            }
+        }
+        let rate = FrameRate::new(24.0 * FRAMES as f64).unwrap();
+        let values = smooth(&values, channels);
+        Clip::new(skeleton.clone(), rate, Frame(0), frames, values).unwrap()
+    }
+}
+
+/// Each channel's mean over a koma: a body has mass, and no speed of it changes at once.
+fn smooth(values: &[f64], channels: usize) -> Vec<f64> {
+    let frames = values.len() / channels;
+    let mean = |frame: usize, channel: usize| {
+        let near = frame.saturating_sub(FRAMES / 2)..(frame + FRAMES / 2 + 1).min(frames);
+        let count = near.len() as f64;
+        near.map(|frame| values[frame * channels + channel]).sum::<f64>() / count
+    };
+    (0..frames).flat_map(|frame| (0..channels).map(move |channel| mean(frame, channel))).collect()
+}
+
+/// A clip made from keys of another, and the frames of those but its first and last.
+pub(crate) fn made(from: &Clip, seed: u64, noise: f64) -> (Clip, Vec<Frame>) {
+    let mut lot = Lot(seed);
+    let keys = known(from, &mut lot);
+    let late = (0..from.skeleton().len())
+        .map(|_| keys.iter().map(|_| lot.between(-LATE, LATE)).collect())
+        .collect();
+    let clip = Made { from, keys: &keys, late }.clip();
+    let frame = |koma: f64| Frame((koma * FRAMES as f64).round() as usize);
+    let inner = keys[1..KEYS - 1].iter().flat_map(|key| [frame(key.at), frame(key.at + key.hold)]);
+    let mut frames: Vec<Frame> = inner.collect();
+    frames.dedup();
+    (Noise { degrees: noise, seed }.on(&clip), frames)
+}
+
+/// The noise of a clip in degrees, from the third differences of its rotations, which motion hardly has: half
+/// of those of a channel are smaller than √20 · 0.67 times its noise. The middle one of the channels that turn.
+pub(crate) fn noise_of(clip: &Clip) -> f64 {
+    let rows: Vec<&[f64]> = clip.rows().collect();
+    let noise = |channel: usize| {
+        let third = |rows: &[&[f64]]| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|row| rows[row][channel]);
+            (d - 3.0 * c + 3.0 * b - a).abs()
+        };
+        middle(rows.windows(4).map(third).collect()) / (20_f64.sqrt() * 0.6745)
+    };
+    let joints = clip.skeleton().joints.iter();
+    let channels = joints.flat_map(|joint| joint.channels.iter().zip(joint.first_channel..));
+    let turning = channels.filter(|(channel, _)| matches!(channel, Channel::Rotation(_)));
+    middle(turning.map(|(_, at)| noise(at)).filter(|noise| *noise > 0.0).collect())
+}
+
+fn middle(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
