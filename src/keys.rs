@@ -1,8 +1,8 @@
 //! **Choose** (選ぶ): from the turns of joints to the keys (原画) and walls (壁) of a layer.
 //!
-//! Candidates are every moment, with what the joints say of it, or the moments that joints name (they
-//! vote, their speeds are added, or any joint's turn is one); [`Choose`] takes of them the set that
-//! loses least at a price a drawing.
+//! The filter, the sign pattern and the persistence pick the turns of the body ([`BodyTurns`]). They are cheap; what lies
+//! between them is dear. [`Choose`] takes the set that loses least at that price. For studies joints may pick instead: they
+//! vote, their speeds are added, or any joint's turn is a candidate.
 
 mod actions;
 mod body;
@@ -57,7 +57,7 @@ pub use weights::JointWeights;
 pub struct Key {
     /// The source frame it shows.
     pub frame: Frame,
-    /// How strong it is: a share of all weight for votes, the prominence of its valley for `sum`.
+    /// How much of a turn it is, 0 to 1; a share of all weight for votes, the prominence of its valley for `sum`.
     pub strength: f64,
     /// What it saves, in % of body height: the error that its neighbours would leave without it, spread
     /// over an eighth of a second. Infinite for keys that may not go.
@@ -124,10 +124,10 @@ pub struct Wall {
     pub strength: f64,
 }
 
-/// What the joints say together: candidates, before it is asked what they are worth.
+/// What may be a key, before it is asked what it is worth, and the walls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidates {
-    /// Key candidates by frame; unless every moment is one, none nearer to another than one koma.
+    /// Key candidates by frame.
     pub keys: Vec<Candidate>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
@@ -138,9 +138,9 @@ pub struct Candidates {
 pub struct Candidate {
     /// The source frame.
     pub frame: Frame,
-    /// How strong it is; above 0, or 0 where every moment is a candidate and no joint turns.
+    /// How much of a turn it is, 0 to 1; what joints say together where they pick.
     pub strength: f64,
-    /// Whether it is a turn.
+    /// Whether it is a turn; else it fills what lies between turns.
     pub is_turn: bool,
 }
 

@@ -70,7 +70,8 @@ impl BodySpeeds {
             #[inline(always)]
             || self.0.bends(persistence),
         );
-        let near = largest_near(&valleys, persistence.round() as usize);
+        let reach = (persistence.round() as usize).min(valleys.len());
+        let near = largest_near(&valleys, reach);
         let evidence = valleys.iter().zip(&near).map(|(own, near)| evidence(*own, *near));
         let first = self.0.first();
         let frame = |row: usize| Frame(first.0 + row);

@@ -12,7 +12,7 @@ pub enum AtContacts {
     /// Moments like all others.
     #[default]
     Off,
-    /// Candidates, also where no joint turns. Where every moment is one this changes nothing.
+    /// Candidates, also where nothing turns. Where every koma may fill this changes nothing.
     Candidates,
     /// Keys whatever they save, as the ends of rests are.
     Keys,

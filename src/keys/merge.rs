@@ -6,9 +6,6 @@ use crate::keys::{AtContacts, BodyTurns, Candidate, Candidates, Choose, Fill, Me
 use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
 use crate::time::Frame;
 
-/// How far a fill is from a turn at the least, in koma.
-const FILL_APART: f64 = 0.5;
-
 /// What is known of the joints when they are merged.
 #[derive(Debug, Clone, Copy)]
 pub struct JointTurns<'a> {
@@ -108,23 +105,22 @@ pub(super) fn is_taken<T>(
     beside.any(|moment| (frame_of(moment).0.abs_diff(frame.0) as f64) < apart)
 }
 
-/// The turns of the body and, to fill what lies between them, each koma that is not on one. What is nearer to a
-/// turn than a koma is that turn, drawn beside its peak.
+/// The turns of the body and, to fill what lies between them, every koma. What is nearer to a turn than a koma is that
+/// turn, drawn beside its peak.
 fn moments(joints: &JointTurns<'_>, fill: Fill) -> Vec<Candidate> {
     let BodyTurns { first, turns, evidence, .. } = joints.body;
-    let candidate =
-        |frame: Frame, is_turn| Candidate { frame, strength: evidence[frame.0 - first.0], is_turn };
+    let past = first.0 + evidence.len();
     let koma = |at: usize| Frame(first.0 + (at as f64 * joints.apart).round() as usize);
-    let last = first.0 + evidence.len();
-    let grid = (0..).map(koma).take_while(|frame| fill == Fill::On && frame.0 < last);
-    let between =
-        grid.filter(|frame| !is_taken(turns, |turn| *turn, *frame, FILL_APART * joints.apart));
-    let is_turn = |frame| is_taken(turns, |turn| *turn, frame, joints.apart);
-    let fills = between.map(|frame| candidate(frame, is_turn(frame)));
-    let mut moments: Vec<Candidate> =
-        turns.iter().map(|turn| candidate(*turn, true)).chain(fills).collect();
-    moments.sort_by_key(|moment| moment.frame);
-    moments
+    let grid = (0..).map(koma).take_while(|frame| fill == Fill::On && frame.0 < past);
+    let mut frames: Vec<Frame> = grid.chain(turns.iter().copied()).collect();
+    frames.sort_unstable();
+    frames.dedup();
+    let candidate = |frame: Frame| Candidate {
+        frame,
+        strength: evidence[frame.0 - first.0],
+        is_turn: is_taken(turns, |turn| *turn, frame, joints.apart),
+    };
+    frames.into_iter().map(candidate).collect()
 }
 
 /// The turns of the layer's mean speed, with their prominence.

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 /// A way to choose keys (手法).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Method {
-    /// The program's own: candidates from the turns of all joints, ranked by what a key saves.
+    /// The program's own: turns of the body, cheaper than what fills between them, and of all sets the one that loses least.
     Own,
     /// The least mean error of reconstruction that there is.
     OptimalMean,

@@ -72,13 +72,13 @@ impl Found<'_> {
 }
 
 impl Measure {
-    /// Every measure, in the order of the chain.
+    /// Every measure: of the turns and keys, then of the sheet.
     pub const ALL: [Self; 12] = [
-        Self::Union,
-        Self::Total,
         Self::Turns,
         Self::Genga,
         Self::Fills,
+        Self::Union,
+        Self::Total,
         Self::Drawings,
         Self::DrawingsPerSecond,
         Self::GengaPerSecond,
@@ -209,7 +209,7 @@ mod tests {
             assert_eq!(json, format!("\"{measure}\""));
         }
         let said = "keys".parse::<Measure>().unwrap_err().to_string();
-        assert!(said.contains("union, total, turns, genga"), "{said}");
+        assert!(said.contains("turns, genga, fills, union"), "{said}");
     }
 
     #[test]

@@ -58,11 +58,11 @@ fn the_same_take_in_two_rigs_has_the_same_keys() {
         let of_other: Vec<Frame> = keys(&other, price).iter().map(shift).collect();
         Matching::between(&keys(&one, price), &of_other, FINE + 1.0).kept()
     };
-    let prices = [2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5];
+    let prices = [6.0, 6.5, 7.0, 7.5, 8.0, 8.5, 9.0];
     let all = prices.map(agreement);
     assert!(all.iter().all(|share| *share > 0.75), "{all:?}");
-    assert!(all.iter().sum::<f64>() / prices.len() as f64 >= 0.9, "{all:?}");
-    assert!(agreement(Recipe::default().keys.min_price) >= 0.9, "{all:?}");
+    assert!(all.iter().sum::<f64>() / prices.len() as f64 >= 0.88, "{all:?}");
+    assert!(agreement(Recipe::default().keys.min_price) >= 0.88, "{all:?}");
 }
 
 #[test]

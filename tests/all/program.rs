@@ -17,11 +17,11 @@ pub(crate) const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuro
 const FILES: [(&str, &str); 11] = [
     (
         "drawings.csv",
-        "cut,column,drawing,role,genga_no,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
+        "cut,column,drawing,role,genga_no,reason,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
     ),
     (
         "keys.csv",
-        "cut,column,drawing,role,genga_no,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
+        "cut,column,drawing,role,genga_no,reason,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
     ),
     ("limited.bvh", "HIERARCHY\nROOT "),
     ("poses.svg", "<svg "),

@@ -116,13 +116,13 @@ fn stability_compares_cells_and_names_the_plateau() {
     assert_eq!(lines.len(), 3, "{said}");
     assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
-    // The recipe's own 0.1 s are 2.4 frames here, so the cell of 2 and 2.
+    // The recipe's own 0.15 s are 3.6 frames here, so the cell of 4 and 2.
     assert!(
-        lines[1].contains("filter.width 1 to 2, ") && lines[1].ends_with("stand on it"),
+        lines[1].contains("filter.width 2, ") && lines[1].ends_with("stand beside it"),
         "{said}"
     );
     assert!(
-        lines[2].contains("filter.width 1 to 3, ") && lines[2].ends_with("stand on it"),
+        lines[2].contains("filter.width 1 to 3, ") && lines[2].ends_with("stand beside it"),
         "{said}"
     );
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();
@@ -198,7 +198,7 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         ("--x filter.width=3 --set filter.width=4", "a study varies it already"),
         ("--x filter.kind=box --filter ideal", "a study varies it already"),
         ("--persistence 5,5", "stands twice"),
-        ("--measure keys", "one of union, total, genga"),
+        ("--measure keys", "one of turns, genga, fills"),
         ("--x noise=-1", "0 to 180"),
         ("--x turns.steady=10 --plot s.svg --paper", "in frames alone"),
         ("--x filter.width=3 --stability", "there is one alone"),

@@ -54,7 +54,7 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let table = String::from_utf8(output.stdout).unwrap();
         // Column, koma and source frame.
-        let row = |row: csv::StringRecord| format!("{} {} {}", &row[1], &row[5], &row[8]);
+        let row = |row: csv::StringRecord| format!("{} {} {}", &row[1], &row[6], &row[9]);
         let mut reader = csv::Reader::from_reader(table.as_bytes());
         let rows: Vec<_> = reader.records().map(|record| row(record.unwrap())).collect();
         (rows, table, String::from_utf8(output.stderr).unwrap())

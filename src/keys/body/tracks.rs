@@ -124,8 +124,7 @@ fn of_person(motion: &LayerMotion<'_>, mannequin: &Mannequin) -> Vec<Travelling>
     let both = |a: &Point, b: &Point| f64::min(counts(a), counts(b));
     let ends = motion.build.landmarks.points().into_iter();
     let ends = ends.map(|end| Travelling { what: Place::Of(end), weight: counts(&end) });
-    let [left, right] =
-        mannequin.legs().map(|[hip, _, ankle]| [hip, ankle].map(|joint| Point::of(joint)));
+    let [left, right] = mannequin.legs().map(|[hip, _, ankle]| [hip, ankle].map(Point::of));
     let hips = both(&left[0], &right[0]);
     // What feet and pelvis do in the world is mostly travel; seen from each other it is the step.
     let pelvis = Travelling { what: Place::Between(left[0], right[0]), weight: hips };

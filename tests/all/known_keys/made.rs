@@ -151,9 +151,10 @@ impl Made<'_> {
                 *value = first + TRAVEL * (*value - first);
             }
         }
-        let rate = FrameRate::new(24.0 * FRAMES as f64).unwrap();
+        let rate = FrameRate::new(24.0 * FRAMES as f64).expect("a rate");
         let values = smooth(&values, channels);
-        Clip::new(skeleton.clone(), rate, Frame(0), frames, values).unwrap()
+        Clip::new(skeleton.clone(), rate, Frame(0), frames, values)
+            .expect("a rate and a whole table")
     }
 }
 
