@@ -8,15 +8,13 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use self::hand::Hand;
+use self::hand::{Hand, ROW};
 use super::column::Cell;
+use super::command::Command;
 use super::key_menu;
-use super::keyboard::Command;
 use super::shown::Shown;
 use crate::keys::{Key, Origin};
 
-/// Height of a koma.
-const ROW: f32 = 17.0;
 /// Room over the first koma, so that its circle is whole.
 const PAD: f32 = 3.0;
 /// Where the middle of the column stands.

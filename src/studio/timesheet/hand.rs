@@ -2,15 +2,16 @@
 
 use egui::{CursorIcon, PointerButton, Pos2, Rect, Response};
 
-use super::ROW;
 use crate::keys::Key;
 use crate::studio::column::Cell;
+use crate::studio::command::Command;
 use crate::studio::corrections::Correction;
 use crate::studio::held_key::HeldKey;
-use crate::studio::keyboard::Command;
 use crate::studio::shown::Shown;
 use crate::time::Frame;
 
+/// Height of a koma on the sheet.
+pub(super) const ROW: f32 = 17.0;
 /// How near a hand has to be to the end of a hold.
 const NEAR_END: f32 = 3.5;
 
