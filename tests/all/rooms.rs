@@ -268,3 +268,20 @@ fn what_is_allowed_is_not_found() {
         assert_eq!(violations(path, text), [""; 0], "{text}");
     }
 }
+
+/// Fields of public structs that only some builds have: whoever writes such a struct out would break with the others.
+fn fields_of_a_feature(path: &str, text: &str) -> Vec<String> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let is_field = |line: &str| line.starts_with("pub ") && line.ends_with(',');
+    let pairs = lines.windows(2).filter(|pair| pair[0].starts_with("#[cfg(feature"));
+    pairs.filter(|pair| is_field(pair[1])).map(|pair| format!("{path}: {}", pair[1])).collect()
+}
+
+#[test]
+fn public_structs_have_the_same_fields_in_every_build() {
+    let mut files = Vec::new();
+    sources(&here("src"), "", &mut files);
+    let found: Vec<_> =
+        files.iter().flat_map(|(path, text)| fields_of_a_feature(path, text)).collect();
+    assert_eq!(found, [""; 0]);
+}
