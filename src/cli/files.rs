@@ -1,6 +1,7 @@
 //! Files and streams: `-` is stdin or stdout, and a file is written beside its place and then renamed,
 //! so that nobody ever finds half of one. What is no file, a pipe or a device, is written into.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -38,9 +39,14 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes data as JSON, as [`write`] does.
 pub(super) fn write_json(path: &Path, data: &impl Serialize) -> Result<(), Failure> {
+    write(path, json(&path.display(), data)?.as_bytes())
+}
+
+/// Data as JSON; `name` is what the file is called.
+pub(super) fn json(name: &impl Display, data: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(data)
-        .map_err(|error| Failure::CouldNot(format!("{}: {error}", path.display())))?;
-    write(path, (text + "\n").as_bytes())
+        .map_err(|error| Failure::CouldNot(format!("{name}: {error}")))?;
+    Ok(text + "\n")
 }
 
 /// A picture as an SVG or, for a name that ends in `.png`, a PNG.

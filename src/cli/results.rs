@@ -64,17 +64,11 @@ impl Results<'_> {
         if self.kept.is_none() {
             bundle.add(RECIPE, recipe.write(edits))?;
         }
-        bundle.add("report.json", json(&report)?)?;
+        bundle.add("report.json", files::json(&"report.json", &report)?)?;
         bundle.finish()?;
         written.files.extend(OWN.map(str::to_owned));
         Ok((report, written))
     }
-}
-
-fn json(report: &Report) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(report)
-        .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
-    Ok(text + "\n")
 }
 
 /// Speeds before and after the filter with keys and walls, of the joints that move most.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::slice::from_ref;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rayon::prelude::*;
 
 use crate::cli::clip::Part;
@@ -16,7 +16,6 @@ use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::{HeatMap, StudyPlot};
 use crate::recipe::Recipe;
-use crate::signal::FilterKind;
 use crate::study::{self, Axis, Grid, Measure, Plateau, Study};
 
 /// Sections of the recipe that change the sheet and not the keys.
@@ -49,8 +48,8 @@ pub(super) struct StudyArgs {
     #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
     persistence: Option<Axis>,
     /// The filter.
-    #[arg(long, value_name = "KIND")]
-    filter: Option<Filter>,
+    #[arg(long, value_name = "KIND", value_parser = ["box", "gaussian", "ideal", "butterworth"])]
+    filter: Option<String>,
     /// What is counted [default: union,total,layer_keys; all of the sheet too when a setting of the
     /// sheet is varied].
     #[arg(long, value_name = "MEASURE,…", value_delimiter = ',')]
@@ -78,14 +77,6 @@ pub(super) struct StudyArgs {
     /// Draw the paper's own six counts beside, of a clip that is not public.
     #[arg(long, requires = "plot")]
     paper: bool,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Filter {
-    Box,
-    Gaussian,
-    Ideal,
-    Butterworth,
 }
 
 /// How axes are written, what can be counted, and three studies to begin with.
@@ -208,8 +199,8 @@ fn asked(args: &StudyArgs) -> Result<Study, Failure> {
     let is_table_1 = args.x.is_none() && args.y.is_none();
     let base = if is_table_1 { study::table_1_recipe() } else { Recipe::default() };
     let (mut recipe, _) = args.settings.read(base)?;
-    if let Some(filter) = args.filter {
-        recipe.filter.kind = kind(filter);
+    if let Some(kind) = &args.filter {
+        recipe.set("filter.kind", kind)?;
     }
     let (x, y) = axes(args)?;
     for axis in [Some(&x), y.as_ref()].into_iter().flatten() {
@@ -276,13 +267,4 @@ fn swept(study: &Study, clips: Vec<Clip>, words: &Words) -> Result<Vec<Grid>, Fa
         clips.into_par_iter().map(|clip| study.run(clip, || counter.count())).collect();
     // The first of what went wrong, whichever thread was first.
     Ok(grids.into_iter().collect::<Result<_, _>>()?)
-}
-
-fn kind(filter: Filter) -> FilterKind {
-    match filter {
-        Filter::Box => FilterKind::Box,
-        Filter::Gaussian => FilterKind::Gaussian,
-        Filter::Ideal => FilterKind::Ideal,
-        Filter::Butterworth => FilterKind::Butterworth,
-    }
 }
