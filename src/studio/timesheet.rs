@@ -9,7 +9,7 @@ use egui::{
 };
 
 use self::hand::{Hand, ROW};
-use super::column::Cell;
+use super::column::KeyedCell;
 use super::command::Command;
 use super::key_menu;
 use super::shown::Shown;
@@ -141,7 +141,7 @@ fn grid(painter: &Painter, rect: Rect, rows: &std::ops::Range<usize>, shown: &Sh
 }
 
 /// A drawing: its mark, the line of its hold, why it is there.
-fn draw_cell(painter: &Painter, corner: Pos2, cell: &Cell<'_>, shown: &Shown<'_>) {
+fn draw_cell(painter: &Painter, corner: Pos2, cell: &KeyedCell<'_>, shown: &Shown<'_>) {
     let look = &shown.look;
     let middle = corner + vec2(MIDDLE, ROW * (cell.koma as f32 + 0.5));
     let color = look.of_role(cell.drawing.role);
@@ -181,7 +181,7 @@ pub(super) fn badge(
 }
 
 /// Why a drawing is there, in few words.
-fn why(cell: &Cell<'_>, shown: &Shown<'_>) -> String {
+fn why(cell: &KeyedCell<'_>, shown: &Shown<'_>) -> String {
     let words = shown.words;
     let mut reasons: Vec<String> = Vec::new();
     if let Some(key) = cell.key {
