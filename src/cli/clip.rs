@@ -97,7 +97,7 @@ impl Part {
         let (clip, note) = if self.keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
         notes.extend(note.filter(|_| begin < clip.first().0));
         let clip = self.trimmed(clip, path)?;
-        clip.check_size().map_err(|error| Failure::of_file(&paths::named(path), error))?;
+        clip.check_size().map_err(files::fault_of(path))?;
         Ok(Source { clip, notes, written_frame_time })
     }
 
@@ -108,7 +108,7 @@ impl Part {
         let end = Frame(if frames.end == usize::MAX { clip.last().0 + 1 } else { frames.end });
         clip.trimmed(begin, end).map_err(|error| match error {
             Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),
-            other => Failure::of_file(&paths::named(path), other),
+            other => files::fault_of(path)(other),
         })
     }
 
@@ -144,7 +144,7 @@ impl Reading {
             Error::Setting { name, message } => {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
-            other => Failure::of_file(&paths::named(path), other),
+            other => files::fault_of(path)(other),
         })
     }
 
@@ -155,11 +155,11 @@ impl Reading {
         path: &Path,
         words: &Words,
     ) -> Result<OfSheet, Failure> {
-        let of_sheet = |error| Failure::of_file(&paths::named(sheet), error);
+        let of_sheet = files::fault_of(sheet);
         let read = self.read(path)?;
-        let (source, notes) = file.fit(read.clip).map_err(of_sheet)?;
-        source.check_size().map_err(|error| Failure::of_file(&paths::named(path), error))?;
-        let drawn = file.drawn(&source).map_err(of_sheet)?;
+        let (source, notes) = file.fit(read.clip).map_err(&of_sheet)?;
+        source.check_size().map_err(files::fault_of(path))?;
+        let drawn = file.drawn(&source).map_err(&of_sheet)?;
         read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
         Ok(OfSheet { source, drawn })
     }

@@ -95,9 +95,7 @@ impl Settings {
                 let text = String::from_utf8(files::read(path)?).map_err(|_| {
                     Failure::AskedWrongly(format!("{}: is not text", path.display()))
                 })?;
-                default
-                    .overlaid(&text)
-                    .map_err(|error| Failure::of_file(&paths::named(path), error))?
+                default.overlaid(&text).map_err(files::fault_of(path))?
             }
         };
         for (name, value) in &self.set {
@@ -179,12 +177,7 @@ fn layers_of_file(path: &Path) -> Result<Layers, Failure> {
         );
         return Err(Failure::AskedWrongly(message));
     }
-    let name = paths::named(path);
-    let wrong = |reason: &dyn std::fmt::Display| {
-        Failure::AskedWrongly(format!("--layers: {}: {reason}", name.display()))
-    };
-    let text = String::from_utf8(files::read(path)?).map_err(|_| wrong(&"is not UTF-8"))?;
-    Layers::parse(&text).map_err(|error| wrong(&error))
+    files::parsed("layers", path, Layers::parse)
 }
 
 fn wrongly(option: &str, error: Error) -> Failure {

@@ -25,6 +25,24 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     bytes.map_err(|source| failed(path, source))
 }
 
+/// The text of the file that `--option` names, as `parse` reads it. Whatever is wrong with it is said of the option.
+pub(super) fn parsed<T>(
+    option: &str,
+    path: &Path,
+    parse: impl FnOnce(&str) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    let wrong = |reason: &dyn Display| {
+        Failure::AskedWrongly(format!("--{option}: {}: {reason}", named(path).display()))
+    };
+    let text = String::from_utf8(read(path)?).map_err(|_| wrong(&"is not UTF-8"))?;
+    parse(&text).map_err(|error| wrong(&error))
+}
+
+/// An error that concerns a file, which its message then names.
+pub(super) fn fault_of(path: &Path) -> impl Fn(Error) -> Failure {
+    move |error| Failure::of_file(&named(path), error)
+}
+
 /// Writes a file whole or not at all, or to stdout for `-`.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_stream(path) {

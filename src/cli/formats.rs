@@ -95,6 +95,7 @@ impl Formats {
         for (name, value) in &args.with {
             settings.set(name, value).map_err(|error| wrongly("with", &error))?;
         }
+        let bones = |path| files::parsed("bones", path, BoneMap::parse);
         settings.vmd.bones = args.bones.as_deref().map(bones).transpose()?;
         Ok(Self { formats, named, settings })
     }
@@ -200,17 +201,6 @@ fn shortened(mut names: Vec<String>) -> Vec<String> {
         names.splice(1..names.len() - 1, ["…".into()]);
     }
     names
-}
-
-/// A person's table of bones.
-fn bones(path: &Path) -> Result<BoneMap, Failure> {
-    let name = paths::named(path);
-    let wrong = |reason: &dyn std::fmt::Display| {
-        Failure::AskedWrongly(format!("--bones: {}: {reason}", name.display()))
-    };
-    let bytes = files::read(path)?;
-    let text = std::str::from_utf8(&bytes).map_err(|_| wrong(&"is not UTF-8"))?;
-    BoneMap::parse(text).map_err(|error| wrong(&error))
 }
 
 fn wrongly(option: &str, error: &Error) -> Failure {

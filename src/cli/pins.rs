@@ -41,14 +41,14 @@ pub(super) fn marked(
     let name = paths::named(path);
     let bytes = files::read(path)?;
     let column = args.pin_column.as_deref();
-    let of_file = |error| Failure::of_file(&name, error);
+    let of_file = files::fault_of(path);
     let marked = match Kind::of(&name, &bytes) {
         Kind::Timesheet => of_timesheet(&bytes, &name, column, engine, (recipe, edits))?,
-        Kind::Table => Marked::of(pins_from_table(&bytes, column).map_err(of_file)?),
+        Kind::Table => Marked::of(pins_from_table(&bytes, column).map_err(&of_file)?),
         Kind::Sheet => {
-            let file = sheet_json::read(&bytes).map_err(of_file)?;
+            let file = sheet_json::read(&bytes).map_err(&of_file)?;
             check_rate(&file, engine, &name)?;
-            Marked::of(pins_from_sheet(&file, column).map_err(of_file)?)
+            Marked::of(pins_from_sheet(&file, column).map_err(&of_file)?)
         }
     };
     let count = marked.pins.len();
@@ -170,7 +170,7 @@ fn of_timesheet(
     engine: &mut Engine,
     (recipe, edits): (&Recipe, &Edits),
 ) -> Result<Marked, Failure> {
-    let file = xdts::read(bytes).map_err(|error| Failure::of_file(name, error))?;
+    let file = xdts::read(bytes).map_err(files::fault_of(name))?;
     let column = sheet_column(&file, column, name)?;
     let numbered = numbered(name);
     if xdts::marked_keys(column, numbered).is_empty() {

@@ -67,9 +67,9 @@ fn camera(
     name: Option<&str>,
     clip: &Clip,
 ) -> Result<(SeenFrom, Vec<Warning>), Failure> {
-    let of_file = |error| Failure::of_file(path, error);
-    let camera = GltfCamera::read(&files::read(path)?, name).map_err(of_file)?;
-    let eye = camera.eye(clip).map_err(of_file)?;
+    let of_file = files::fault_of(path);
+    let camera = GltfCamera::read(&files::read(path)?, name).map_err(&of_file)?;
+    let eye = camera.eye(clip).map_err(&of_file)?;
     let mut notes = Vec::new();
     if camera.is_animated {
         let message = format!(

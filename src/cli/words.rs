@@ -30,24 +30,20 @@ impl Words {
     }
 
     /// A sign of life for work that may take long, on a terminal alone. It goes when dropped.
-    pub(super) fn working(&self) -> Working {
-        Working(self.is_watched().then(|| {
-            let bar = ProgressBar::new_spinner();
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
-                bar.set_style(style);
-            }
-            bar.enable_steady_tick(Duration::from_millis(120));
-            bar
-        }))
+    pub(super) fn working(&self) -> Bar {
+        self.bar("{spinner} {msg} ({elapsed})", ProgressBar::new_spinner)
     }
 
     /// The same for work of which it is known how much there is.
-    pub(super) fn counting(&self, count: usize, what: &str) -> Counter {
-        Counter(self.is_watched().then(|| {
-            let bar = ProgressBar::new(count as u64);
-            let look =
-                format!("{{wide_bar}} {{pos}} of {{len}} {what} ({{elapsed}}, {{eta}} left)");
-            if let Ok(style) = ProgressStyle::with_template(&look) {
+    pub(super) fn counting(&self, count: usize, what: &str) -> Bar {
+        let look = format!("{{wide_bar}} {{pos}} of {{len}} {what} ({{elapsed}}, {{eta}} left)");
+        self.bar(&look, || ProgressBar::new(count as u64))
+    }
+
+    fn bar(&self, look: &str, begin: impl FnOnce() -> ProgressBar) -> Bar {
+        Bar(self.is_watched().then(|| {
+            let bar = begin();
+            if let Ok(style) = ProgressStyle::with_template(look) {
                 bar.set_style(style);
             }
             bar.enable_steady_tick(Duration::from_millis(120));
@@ -60,22 +56,22 @@ impl Words {
     }
 }
 
-/// A bar of what is done of what there is to do; several threads may count.
-pub(super) struct Counter(Option<ProgressBar>);
+/// What is being done, or how much of it is; several threads may count.
+pub(super) struct Bar(Option<ProgressBar>);
 
-impl Counter {
+impl Bar {
+    pub(super) fn on(&self, what: &'static str) {
+        self.0.iter().for_each(|bar| bar.set_message(what));
+    }
+
     pub(super) fn count(&self) {
-        if let Some(bar) = &self.0 {
-            bar.inc(1);
-        }
+        self.0.iter().for_each(|bar| bar.inc(1));
     }
 }
 
-impl Drop for Counter {
+impl Drop for Bar {
     fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
-        }
+        self.0.iter().for_each(ProgressBar::finish_and_clear);
     }
 }
 
@@ -87,25 +83,6 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
 /// A measure with two places; – where there is none.
 pub(super) fn two(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| format!("{value:.2}"))
-}
-
-/// A spinner that says what is being done.
-pub(super) struct Working(Option<ProgressBar>);
-
-impl Working {
-    pub(super) fn on(&self, what: &'static str) {
-        if let Some(bar) = &self.0 {
-            bar.set_message(what);
-        }
-    }
-}
-
-impl Drop for Working {
-    fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
-        }
-    }
 }
 
 /// A closed stderr is nobody listening: that is no reason to stop.

@@ -43,8 +43,8 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let folder = args.out.as_deref().unwrap_or_else(|| beside(&args.sheet));
     formats.leave_sheet(&args.sheet, folder)?;
     formats.spare_edited(folder)?;
-    let file = sheet_json::read(&files::read(&args.sheet)?)
-        .map_err(|error| Failure::of_file(&paths::named(&args.sheet), error))?;
+    let file =
+        sheet_json::read(&files::read(&args.sheet)?).map_err(files::fault_of(&args.sheet))?;
     let bones = args.formats.bones.as_deref().map(|path| ("table of bones", path));
     let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
     for (what, path) in sources {

@@ -55,15 +55,10 @@ Examples:
 
 pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     check_files(args)?;
-    let of_sheet = |error| Failure::of_file(&paths::named(&args.sheet), error);
-    let file = sheet_json::read(&files::read(&args.sheet)?).map_err(of_sheet)?;
-    let reference = match &args.reference {
-        None => None,
-        Some(path) => Some(
-            reference_keys(&files::read(path)?)
-                .map_err(|error| Failure::of_file(&paths::named(path), error))?,
-        ),
-    };
+    let of_sheet = files::fault_of(&args.sheet);
+    let file = sheet_json::read(&files::read(&args.sheet)?).map_err(&of_sheet)?;
+    let keys = |path: &PathBuf| reference_keys(&files::read(path)?).map_err(files::fault_of(path));
+    let reference = args.reference.as_ref().map(keys).transpose()?;
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
     if motion.drawn.is_some() {
         words.say("the sheet is of an exaggerated motion, and is judged beside that: it is the source here");
@@ -82,7 +77,7 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
         words.say(format_args!("{keys} beyond frames {first} to {last} of the sheet do not count"));
     }
     let found = Evaluation::of(clip, &file.sheet, reference.as_deref(), args.tolerance)
-        .map_err(of_sheet)?;
+        .map_err(&of_sheet)?;
     if let Some(path) = &args.json {
         files::write_json(path, &found)?;
     }
