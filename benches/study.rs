@@ -42,6 +42,6 @@ fn union_and_total(bencher: Bencher<'_, '_>, degrees: f64) {
 
 /// Merge and prices too, by the recipe of a run.
 #[divan::bench(args = NOISE, sample_count = 3)]
-fn layer_keys(bencher: Bencher<'_, '_>, degrees: f64) {
+fn genga(bencher: Bencher<'_, '_>, degrees: f64) {
     study(bencher, Recipe::default(), degrees, &[Measure::Genga]);
 }

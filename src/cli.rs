@@ -1,65 +1,50 @@
-//! The `genga` program. It uses the public library and nothing else.
+//! The `genga` program. A command is a file of `commands`: what it takes, and what it does. What several of them
+//! share stands beside.
+//!
+//! ```text
+//! commands    the commands, a file each
+//! clip        the motion: which, which part of it, and how it is read
+//! corrections the recipe, and what a person corrects
+//! pins        keys that are marked in a file
+//! seen        from where movement is measured
+//! plan        all of these together, and what the sheet is to be
+//! formats     the formats that are asked for, and their files
+//! results     what a run writes into its folder
+//! paths       what a path means, and which must not be written to
+//! files       reading, and writing whole or not at all
+//! words       what a person is told, tables among it
+//! failure     why the program stops, and its exit code
+//! ```
 
-mod args;
-mod asked;
-mod compare;
-mod deliver;
-#[cfg(feature = "studio")]
-mod dialog;
-#[cfg(feature = "studio")]
-pub mod disk;
-mod eval;
+mod clip;
+mod commands;
+mod corrections;
 mod failure;
-mod inspect;
-mod io;
-mod keys;
-mod omit;
-mod pages;
-mod pictures;
+mod files;
+mod formats;
+mod paths;
 mod pins;
-#[cfg(feature = "studio")]
-mod recent;
-mod recipe;
+mod plan;
 mod results;
-mod run;
 mod seen;
-mod source;
-mod split;
-mod stale;
-mod studio;
-mod study;
-mod table;
-mod targets;
 mod words;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
-use args::{Args, Command};
+use commands::Args;
 use failure::Failure;
 use words::Words;
+
+#[cfg(feature = "studio")]
+pub use commands::Disk;
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
     let args = Args::parse();
     let words = Words::new(args.quiet);
-    let done = match args.command {
-        Command::Run(args) => run::run(&args, &words),
-        Command::Studio(args) => studio::run(args),
-        Command::Deliver(args) => deliver::run(&args, &words),
-        Command::Keys(args) => keys::run(&args, &words),
-        Command::Omit(args) => omit::run(&args, &words),
-        Command::Split(args) => split::run(&args, &words),
-        Command::Study(args) => study::run(&args, &words),
-        Command::Eval(args) => eval::run(&args, &words),
-        Command::Compare(args) => compare::run(&args, &words),
-        Command::Inspect(args) => inspect::run(&args, &words),
-        Command::Recipe(args) => recipe::run(&args),
-        Command::Completions { shell } => pages::completions(shell),
-        Command::Man => pages::man(),
-    };
-    match done {
+    match args.run(&words) {
         Ok(()) => ExitCode::SUCCESS,
         // The reader has what it wanted.
         Err(Failure::ClosedPipe) => ExitCode::SUCCESS,

@@ -52,13 +52,20 @@ where
     Row: IntoIterator<Item = String>,
 {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let failed = |error: csv::Error| Error::clip(format!("a table could not be written: {error}"));
+    let failed = |error: csv::Error| Error::Encoding { what: "a table", source: error.into() };
     writer.write_record(header).map_err(failed)?;
     for row in rows {
         writer.write_record(row).map_err(failed)?;
     }
     let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
     Ok(String::from_utf8(bytes).expect("only text was written"))
+}
+
+/// What the reader of JSON says, without the place: that counts within the part which was read.
+fn json_words(error: &serde_json::Error) -> String {
+    let words = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    words.strip_suffix(&place).unwrap_or(&words).to_owned()
 }
 
 /// A number as tables have it: the shortest that reads back as the same value, −0 as 0.

@@ -4,6 +4,9 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
+/// What another library said, behind an error.
+pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+
 /// Everything that can go wrong, sorted by who can mend it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -51,6 +54,26 @@ pub enum Error {
         place: Option<(usize, usize)>,
         /// What is wrong, and the way out.
         message: String,
+        /// What the reader of its format said.
+        source: Option<Cause>,
+    },
+    /// A table is not what it should be. Its message has the name of the field, so that only the line goes before it.
+    #[error("{}{message}", line(*place))]
+    Table {
+        /// Line of the row and number of the field in it, from 1, where there is a place to point at.
+        place: Option<(usize, usize)>,
+        /// What was expected and what was found.
+        message: String,
+        /// What the reader of its format said.
+        source: Option<Cause>,
+    },
+    /// A result does not go into its format. No file of a person is at fault.
+    #[error("{what} could not be written: {source}")]
+    Encoding {
+        /// What was to be written.
+        what: &'static str,
+        /// What the writer of the format said.
+        source: Cause,
     },
     /// A file has no camera that can be used.
     #[error("{message}")]
@@ -87,14 +110,19 @@ impl Error {
 
     /// An error of a sheet as a whole.
     pub fn sheet(message: impl Into<String>) -> Self {
-        Self::Sheet { place: None, message: message.into() }
+        Self::Sheet { place: None, message: message.into(), source: None }
+    }
+
+    /// An error of a sheet at a line and column of its file, from 1.
+    pub fn sheet_at(place: (usize, usize), message: impl Into<String>) -> Self {
+        Self::Sheet { place: Some(place), message: message.into(), source: None }
     }
 
     /// Line and column in the file, from 1, where there is a file to point into.
     pub fn position(&self) -> Option<(usize, usize)> {
         match self {
             Self::Bvh { line, column, .. } => Some((*line, *column)),
-            Self::Sheet { place, .. } => *place,
+            Self::Sheet { place, .. } | Self::Table { place, .. } => *place,
             _ => None,
         }
     }
@@ -121,6 +149,10 @@ fn distance(a: &str, b: &str) -> usize {
 
 fn located(place: Option<(usize, usize)>) -> String {
     place.map_or_else(String::new, |(line, column)| format!("{line}:{column}: "))
+}
+
+fn line(place: Option<(usize, usize)>) -> String {
+    place.map_or_else(String::new, |(line, _)| format!("line {line}: "))
 }
 
 /// Something a person should know which does not stop the work.

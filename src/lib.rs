@@ -24,8 +24,9 @@
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
 //! result; before the speeds are measured, [`exaggerate`] may change the motion (誇張); [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
-//! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; both use this
-//! library and nothing else.
+//! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; no room stands on them. The
+//! program uses what is public here. So does the window, but for `plot::parts`: its figures, cells and colours are those
+//! of the pictures.
 //!
 //! # Example
 //!

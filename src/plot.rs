@@ -13,7 +13,6 @@ mod figure;
 mod flipbook;
 mod heat;
 mod hierarchy;
-#[cfg(feature = "cli")]
 mod images;
 mod onion;
 mod page;
@@ -23,7 +22,6 @@ pub(crate) mod parts;
 mod pixels;
 mod points;
 mod pose_row;
-#[cfg(feature = "cli")]
 mod preview;
 #[cfg(feature = "cli")]
 mod raster;
@@ -46,11 +44,9 @@ pub use contact::ContactSheet;
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;
-#[cfg(feature = "cli")]
 pub use images::NumberedImages;
 pub use onion::OnionSkin;
 pub use pose_row::PoseRow;
-#[cfg(feature = "cli")]
 pub use preview::Preview;
 #[cfg(feature = "cli")]
 pub use raster::png_from_svg;

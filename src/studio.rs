@@ -8,9 +8,10 @@
 //! one `Shown` a frame, change nothing but how they look, and say what a hand wants as a `Command`, the same
 //! that keys give.
 
+mod act;
 mod bar;
 mod column;
-mod commands;
+mod command;
 mod corrected;
 mod corrections;
 mod counts;
@@ -49,13 +50,13 @@ use egui::{CentralPanel, Frame, Panel, Ui};
 
 use bar::Message;
 use column::Column;
+use command::Command;
 use counts::Counts;
 use curves::Curves;
 use errand::Errand;
 use exporting::Exporting;
 use file_field::FileField;
 use key_menu::KeyPanel;
-use keyboard::Command;
 use knobs::Knobs;
 use look::Look;
 use map::Map;

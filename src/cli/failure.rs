@@ -33,9 +33,10 @@ impl Failure {
                 Self::CouldNot(format!("{name}:{error}"))
             }
             Error::Recipe { message } => Self::AskedWrongly(format!("{name}:{message}")),
-            Error::Clip { .. } | Error::Sheet { .. } | Error::Camera { .. } => {
-                Self::CouldNot(format!("{name}: {error}"))
-            }
+            Error::Clip { .. }
+            | Error::Sheet { .. }
+            | Error::Table { .. }
+            | Error::Camera { .. } => Self::CouldNot(format!("{name}: {error}")),
             other => other.into(),
         }
     }

@@ -1,20 +1,19 @@
-//! `--pin-from`: keys that a person marked in a file.
-
-mod xdts;
+//! `--pin-from`: keys that a person marked in a file, a table, a sheet or a digital timesheet.
 
 use std::path::Path;
 
-use super::args::Corrections;
-use super::asked::Asked;
+use super::corrections::Corrections;
 use super::failure::Failure;
-use super::io;
+use super::formats::Formats;
 use super::words::counted;
-use crate::deliver::{pins_from_sheet, pins_from_table, sheet_json};
-use crate::edits::{Edits, Move, Pin};
+use super::{files, paths};
+use crate::deliver::xdts::{self, Column, Exchange, Mark, Numbered};
+use crate::deliver::{Cut, Format, pins_from_sheet, pins_from_table, sheet_json};
+use crate::edits::{Edits, Pin};
 use crate::error::Error;
-use crate::keys::{Key, Origin};
-use crate::pipeline::{Breakdown, Engine};
+use crate::pipeline::Engine;
 use crate::recipe::Recipe;
+use crate::time::Frame;
 
 /// Keys of a file, and of which column of it.
 struct Marked {
@@ -22,6 +21,12 @@ struct Marked {
     column: String,
     /// What a person should know besides.
     notes: Vec<String>,
+}
+
+impl Marked {
+    fn of((pins, column): (Vec<Pin>, String)) -> Self {
+        Self { pins, column, notes: vec![] }
+    }
 }
 
 /// Adds the keys marked in the file of `--pin-from` to the corrections, and says so in sentences. Pins
@@ -33,21 +38,17 @@ pub(super) fn marked(
     edits: &mut Edits,
 ) -> Result<Vec<String>, Failure> {
     let Some(path) = &args.pin_from else { return Ok(vec![]) };
-    let name = io::named(path);
-    let bytes = io::read(path)?;
+    let name = paths::named(path);
+    let bytes = files::read(path)?;
     let column = args.pin_column.as_deref();
-    let of_file = |error| Failure::of_file(&name, error);
+    let of_file = files::fault_of(path);
     let marked = match Kind::of(&name, &bytes) {
-        Kind::Timesheet => xdts::marked(&bytes, &name, column, engine, (recipe, edits))?,
-        Kind::Table => {
-            let (pins, column) = pins_from_table(&bytes, column).map_err(of_file)?;
-            Marked { pins, column, notes: vec![] }
-        }
+        Kind::Timesheet => of_timesheet(&bytes, &name, column, engine, (recipe, edits))?,
+        Kind::Table => Marked::of(pins_from_table(&bytes, column).map_err(&of_file)?),
         Kind::Sheet => {
-            let file = sheet_json::read(&bytes).map_err(of_file)?;
+            let file = sheet_json::read(&bytes).map_err(&of_file)?;
             check_rate(&file, engine, &name)?;
-            let (pins, column) = pins_from_sheet(&file, column).map_err(of_file)?;
-            Marked { pins, column, notes: vec![] }
+            Marked::of(pins_from_sheet(&file, column).map_err(&of_file)?)
         }
     };
     let count = marked.pins.len();
@@ -83,7 +84,7 @@ fn add(
     edits: &mut Edits,
 ) -> usize {
     let clock = engine.clip().clock(recipe.rate);
-    let koma = |frame: crate::time::Frame| clock.koma_from_place(frame.0 as f64);
+    let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);
     let mut added = 0;
     for pin in pins {
         let own = koma(pin.frame);
@@ -98,51 +99,25 @@ fn add(
     added
 }
 
-/// A sentence for each move that found nothing to move, in any of the layers it is for.
-pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
-    let layers: Vec<_> = breakdown.layers().collect();
-    let of_all = edits.moves.iter().map(|moved| (moved, None));
-    let of_one = edits
-        .layers
-        .iter()
-        .flat_map(|(name, own)| own.moves.iter().map(move |moved| (moved, Some(name.as_str()))));
-    let said = of_all.chain(of_one).filter_map(|(moved, name)| {
-        let meant = layers.iter().filter(|own| name.is_none_or(|name| own.layer.name == name));
-        let keys: Vec<&[Key]> = meant.map(|own| own.keys.keys.as_slice()).collect();
-        let is_moved = |key: &Key| key.origin == Origin::Moved { from: moved.from };
-        let is_idle = !keys.iter().any(|keys| keys.iter().any(is_moved));
-        is_idle.then(|| unmoved_one(moved, name, keys.first().copied().unwrap_or_default()))
-    });
-    said.collect()
-}
-
-/// That there was no key to move, and where the nearest are.
-fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
-    let (from, to) = (moved.from, moved.to);
-    let after = keys.partition_point(|key| key.frame < from);
-    let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
-    let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
-    let nearest = match round.as_slice() {
-        [] => String::new(),
-        [only] => format!(" (the nearest is at {only})"),
-        both => format!(" (the nearest are at {})", both.join(" and ")),
-    };
-    let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
-    format!(
-        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
-    )
-}
-
 /// Refuses to write over the marked file: a person's work is in it.
 pub(super) fn spare(
     args: &Corrections,
-    asked: &Asked,
+    formats: &Formats,
     folder: &Path,
     cut: &str,
 ) -> Result<(), Failure> {
     let Some(marked) = args.pin_from.as_deref() else { return Ok(()) };
-    xdts::spare(marked, asked, folder, cut)?;
-    asked.spare("file with your keys", marked, folder, cut)
+    if formats.writes("xdts") {
+        let mut files = Format::find("xdts")?.files.iter();
+        if files.any(|file| paths::is_same(marked, &folder.join(Cut::file_of(cut, file)))) {
+            return Err(Failure::AskedWrongly(format!(
+                "{}: --deliver xdts would write over the sheet you marked; save it under another name, or \
+                 write elsewhere with --out",
+                marked.display()
+            )));
+        }
+    }
+    formats.spare("file with your keys", marked, folder, cut)
 }
 
 /// What kind of file keys are marked in.
@@ -158,8 +133,7 @@ enum Kind {
 impl Kind {
     /// By its ending, and by its first letters where that says nothing.
     fn of(name: &Path, bytes: &[u8]) -> Self {
-        let ending = name.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-        match ending.as_deref() {
+        match paths::ending(name).as_deref() {
             Some("xdts" | "tdts") => Self::Timesheet,
             Some("csv" | "tsv" | "txt") => Self::Table,
             Some("json") => Self::Sheet,
@@ -186,4 +160,95 @@ fn check_rate(file: &sheet_json::SheetFile, engine: &Engine, name: &Path) -> Res
          --fps {sheet} reads the clip so"
     );
     Err(Failure::of_file(name, Error::sheet(message)))
+}
+
+/// The keys of a timesheet, on the frames that the clip's sheet has there.
+fn of_timesheet(
+    bytes: &[u8],
+    name: &Path,
+    column: Option<&str>,
+    engine: &mut Engine,
+    (recipe, edits): (&Recipe, &Edits),
+) -> Result<Marked, Failure> {
+    let file = xdts::read(bytes).map_err(files::fault_of(name))?;
+    let column = sheet_column(&file, column, name)?;
+    let numbered = numbered(name);
+    if xdts::marked_keys(column, numbered).is_empty() {
+        return Err(nothing_marked(name, column, numbered));
+    }
+    let frames = (engine.clip().first(), engine.clip().last());
+    // The sheet as it is without them: they may be the only keys.
+    let before = Edits { only_pins: false, ..edits.clone() };
+    let sheet = engine.run(recipe, &before)?.sheet;
+    if file.length != sheet.length() {
+        return Err(Failure::AskedWrongly(format!(
+            "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
+             the timing edited, or is another part (--trim) meant?",
+            name.display(),
+            file.length,
+            sheet.length()
+        )));
+    }
+    let pins = xdts::pins(column, numbered, sheet, frames)
+        .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;
+    let has_marks = column.cells.iter().any(|cell| cell.circled || cell.mark == Mark::Inbetween);
+    let mut notes = Vec::new();
+    if numbered == Numbered::Keys && !has_marks {
+        notes.push("it has no inbetween marks, so every number on it is a key".into());
+    }
+    Ok(Marked { pins, column: column.name.clone(), notes })
+}
+
+/// The column that is asked for, else the only one that has a drawing, else the one called A as ours.
+fn sheet_column<'a>(
+    file: &'a Exchange,
+    asked: Option<&str>,
+    path: &Path,
+) -> Result<&'a Column, Failure> {
+    let drawn =
+        |column: &&Column| column.cells.iter().any(|cell| matches!(cell.mark, Mark::Drawing(_)));
+    let columns: Vec<&Column> = file.columns.iter().filter(drawn).collect();
+    let called = |name: &str| columns.iter().copied().find(|column| column.name == name);
+    let found = match (asked, columns.as_slice()) {
+        (Some(name), _) => called(name),
+        (None, [only]) => Some(*only),
+        (None, _) => called("A"),
+    };
+    found.ok_or_else(|| {
+        let names: Vec<_> = columns.iter().map(|column| column.name.as_str()).collect();
+        let path = path.display();
+        Failure::AskedWrongly(match (names.as_slice(), asked) {
+            ([], _) => format!("{path}: no column of it has a drawing"),
+            (_, Some(name)) => {
+                format!("{path}: there is no column {name}; there are {}", names.join(", "))
+            }
+            (_, None) => {
+                format!("{path}: which column? --pin-column takes one of {}", names.join(", "))
+            }
+        })
+    })
+}
+
+/// A file by the name that genga gives to douga sheets has a number on every drawing.
+fn numbered(path: &Path) -> Numbered {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    if stem.is_some_and(|stem| stem.ends_with("_douga")) {
+        Numbered::Drawings
+    } else {
+        Numbered::Keys
+    }
+}
+
+fn nothing_marked(path: &Path, column: &Column, numbered: Numbered) -> Failure {
+    let (path, column) = (path.display(), &column.name);
+    Failure::AskedWrongly(match numbered {
+        Numbered::Keys => {
+            format!("{path}: column {column} has no number, so there is no key to pin")
+        }
+        Numbered::Drawings => format!(
+            "{path}: a douga sheet numbers every drawing, and none in column {column} is circled as a \
+             key (OPTION_KEYFRAME); give the _genga.xdts, or mark keys in one written by \
+             --with xdts.circled=true"
+        ),
+    })
 }

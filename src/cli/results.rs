@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
-use super::asked::{Asked, Written};
 use super::failure::Failure;
-use super::{io, pictures};
+use super::files;
+use super::formats::{Formats, Written};
 use crate::deliver::sheet_json::MadeWith;
 use crate::deliver::{Cut, Report};
 use crate::edits::Edits;
 use crate::pipeline::Breakdown;
+use crate::plot::SpeedPlot;
 use crate::recipe::Recipe;
+use crate::time::Frame;
 
 /// The formats that are written whether or not they are asked for.
 pub(super) const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
@@ -37,7 +39,7 @@ impl Results<'_> {
     /// Writes them with what else is asked for: all files, or none.
     pub(super) fn write(
         self,
-        asked: &mut Asked,
+        formats: &mut Formats,
         folder: &Path,
     ) -> Result<(Report, Written), Failure> {
         let Self { breakdown, recipe, edits, .. } = self;
@@ -53,24 +55,33 @@ impl Results<'_> {
             splits: &breakdown.actions.koma(breakdown.clock),
             made_with: Some(&MadeWith::of(recipe, edits, breakdown.sheet)),
         };
-        report.notes.extend(asked.settle(&cut)?.iter().map(ToString::to_string));
+        report.notes.extend(formats.settle(&cut)?.iter().map(ToString::to_string));
         report.notes.extend(self.kept.map(str::to_owned));
-        let mut bundle = io::Bundle::begin(folder)?;
-        let mut written = asked.write(&cut, &mut bundle, self.tell)?;
+        let mut bundle = files::Bundle::begin(folder)?;
+        let mut written = formats.write(&cut, &mut bundle, self.tell)?;
         (self.tell)("speed.svg");
-        bundle.add("speed.svg", pictures::speed(breakdown)?)?;
+        bundle.add("speed.svg", speeds(breakdown)?)?;
         if self.kept.is_none() {
             bundle.add(RECIPE, recipe.write(edits))?;
         }
-        bundle.add("report.json", json(&report)?)?;
+        bundle.add("report.json", files::json(&"report.json", &report)?)?;
         bundle.finish()?;
         written.files.extend(OWN.map(str::to_owned));
         Ok((report, written))
     }
 }
 
-fn json(report: &Report) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(report)
-        .map_err(|error| Failure::CouldNot(format!("report.json: {error}")))?;
-    Ok(text + "\n")
+/// Speeds before and after the filter with keys and walls, of the joints that move most.
+fn speeds(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
+    let names: Vec<&str> =
+        breakdown.clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
+    // The kept drawings of the sheet, so that their numbers are those of the key table.
+    let kept = breakdown.sheet.layers[0].drawings.iter().filter(|drawing| drawing.role.is_kept());
+    let keys: Vec<Frame> =
+        kept.map(|drawing| Frame(drawing.source.place().round() as usize)).collect();
+    let Breakdown { speed, filtered, turns, .. } = breakdown;
+    let order = filtered.movers_first(breakdown.clip.skeleton());
+    let splits = breakdown.actions.splits().iter().map(|split| split.frame).collect();
+    let plot = SpeedPlot { splits, ..SpeedPlot::default() };
+    Ok(plot.draw(&names, speed, filtered, turns, &keys, &order)?)
 }

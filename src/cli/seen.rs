@@ -2,14 +2,26 @@
 
 use std::path::Path;
 
-use super::args::SeenArgs;
+use clap::Args;
+
 use super::failure::Failure;
-use super::io;
+use super::files;
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, GltfCamera, SeenFrom};
 
 /// Endings of files that may have a camera.
 const ENDINGS: [&str; 2] = [".glb", ".gltf"];
+
+/// From where movement is measured, over the recipe.
+#[derive(Debug, Default, Args)]
+pub(super) struct SeenArgs {
+    /// Measure movement on the screen (画面) of a camera instead of in the world: from front, side, three-quarter or
+    /// auto (where most is seen); from a place, X,Y,Z:X,Y,Z (where it stands and what it looks at, in the
+    /// file's unit); or of the first camera of a .glb or .gltf file, or the one named behind it:
+    /// --seen-from cut.glb:Camera.001
+    #[arg(long, value_name = "WORD|PLACE|FILE[:NAME]", allow_hyphen_values = true)]
+    seen_from: Option<String>,
+}
 
 /// From where a clip is to be seen, where that is asked for; and what a person should know of it.
 pub(super) fn asked(
@@ -55,9 +67,9 @@ fn camera(
     name: Option<&str>,
     clip: &Clip,
 ) -> Result<(SeenFrom, Vec<Warning>), Failure> {
-    let of_file = |error| Failure::of_file(path, error);
-    let camera = GltfCamera::read(&io::read(path)?, name).map_err(of_file)?;
-    let eye = camera.eye(clip).map_err(of_file)?;
+    let of_file = files::fault_of(path);
+    let camera = GltfCamera::read(&files::read(path)?, name).map_err(&of_file)?;
+    let eye = camera.eye(clip).map_err(&of_file)?;
     let mut notes = Vec::new();
     if camera.is_animated {
         let message = format!(

@@ -1,4 +1,4 @@
-//! What the program says to a person, on stderr: never data.
+//! What the program says to a person: sentences on stderr, never data, and tables that line up.
 
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stderr};
@@ -30,24 +30,20 @@ impl Words {
     }
 
     /// A sign of life for work that may take long, on a terminal alone. It goes when dropped.
-    pub(super) fn working(&self) -> Working {
-        Working(self.is_watched().then(|| {
-            let bar = ProgressBar::new_spinner();
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
-                bar.set_style(style);
-            }
-            bar.enable_steady_tick(Duration::from_millis(120));
-            bar
-        }))
+    pub(super) fn working(&self) -> Bar {
+        self.bar("{spinner} {msg} ({elapsed})", ProgressBar::new_spinner)
     }
 
     /// The same for work of which it is known how much there is.
-    pub(super) fn counting(&self, count: usize, what: &str) -> Counter {
-        Counter(self.is_watched().then(|| {
-            let bar = ProgressBar::new(count as u64);
-            let look =
-                format!("{{wide_bar}} {{pos}} of {{len}} {what} ({{elapsed}}, {{eta}} left)");
-            if let Ok(style) = ProgressStyle::with_template(&look) {
+    pub(super) fn counting(&self, count: usize, what: &str) -> Bar {
+        let look = format!("{{wide_bar}} {{pos}} of {{len}} {what} ({{elapsed}}, {{eta}} left)");
+        self.bar(&look, || ProgressBar::new(count as u64))
+    }
+
+    fn bar(&self, look: &str, begin: impl FnOnce() -> ProgressBar) -> Bar {
+        Bar(self.is_watched().then(|| {
+            let bar = begin();
+            if let Ok(style) = ProgressStyle::with_template(look) {
                 bar.set_style(style);
             }
             bar.enable_steady_tick(Duration::from_millis(120));
@@ -60,22 +56,22 @@ impl Words {
     }
 }
 
-/// A bar of what is done of what there is to do; several threads may count.
-pub(super) struct Counter(Option<ProgressBar>);
+/// What is being done, or how much of it is; several threads may count.
+pub(super) struct Bar(Option<ProgressBar>);
 
-impl Counter {
+impl Bar {
+    pub(super) fn on(&self, what: &'static str) {
+        self.0.iter().for_each(|bar| bar.set_message(what));
+    }
+
     pub(super) fn count(&self) {
-        if let Some(bar) = &self.0 {
-            bar.inc(1);
-        }
+        self.0.iter().for_each(|bar| bar.inc(1));
     }
 }
 
-impl Drop for Counter {
+impl Drop for Bar {
     fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
-        }
+        self.0.iter().for_each(ProgressBar::finish_and_clear);
     }
 }
 
@@ -89,26 +85,64 @@ pub(super) fn two(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| format!("{value:.2}"))
 }
 
-/// A spinner that says what is being done.
-pub(super) struct Working(Option<ProgressBar>);
-
-impl Working {
-    pub(super) fn on(&self, what: &'static str) {
-        if let Some(bar) = &self.0 {
-            bar.set_message(what);
-        }
-    }
-}
-
-impl Drop for Working {
-    fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
-        }
-    }
-}
-
 /// A closed stderr is nobody listening: that is no reason to stop.
 fn write_line(line: &dyn Display) {
     let _ = writeln!(stderr(), "{line}");
+}
+
+/// A table (表) for people: columns that line up, Japanese words among them.
+#[derive(Debug, Default)]
+pub(super) struct Table(Vec<Vec<String>>);
+
+impl Table {
+    /// Adds a row.
+    pub(super) fn row<Cell: Into<String>>(&mut self, cells: impl IntoIterator<Item = Cell>) {
+        self.0.push(cells.into_iter().map(Into::into).collect());
+    }
+
+    /// The text, two blanks between columns: the first `left` of them begin in line, the others end so.
+    pub(super) fn text(&self, left: usize) -> String {
+        let columns = self.0.iter().map(Vec::len).max().unwrap_or(0);
+        let widest = |column: usize| {
+            self.0.iter().filter_map(|row| row.get(column)).map(|cell| width(cell)).max()
+        };
+        let widths: Vec<usize> = (0..columns).map(|column| widest(column).unwrap_or(0)).collect();
+        let mut text = String::new();
+        for row in &self.0 {
+            let mut line = String::new();
+            for (column, cell) in row.iter().enumerate() {
+                let blanks = " ".repeat(widths[column] - width(cell));
+                let gap = if column > 0 { "  " } else { "" };
+                line += gap;
+                line += &if column < left {
+                    format!("{cell}{blanks}")
+                } else {
+                    format!("{blanks}{cell}")
+                };
+            }
+            text += line.trim_end();
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// How many places a word takes on a screen: two a letter from the Japanese kana and signs on.
+fn width(word: &str) -> usize {
+    word.chars().map(|letter| if letter >= '\u{2e80}' { 2 } else { 1 }).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_line_up_whatever_they_are_written_in() {
+        let mut table = Table::default();
+        table.row(["genga", "原画のみ", "12"]);
+        table.row(["on screen", "画面", "1.25"]);
+        table.row(["none"]);
+        assert_eq!(table.text(2), "genga      原画のみ    12\non screen  画面      1.25\nnone\n");
+        assert_eq!(Table::default().text(1), "");
+    }
 }

@@ -91,11 +91,8 @@ impl Settings {
         self.contact.camera = camera;
         self.onion.camera = camera;
         self.flipbook.camera = camera;
-        #[cfg(feature = "cli")]
-        {
-            self.preview.camera = camera;
-            self.images.camera = camera;
-        }
+        self.preview.camera = camera;
+        self.images.camera = camera;
     }
 }
 

@@ -169,7 +169,7 @@ fn animations(
 ) -> Value {
     let layer = composite.layer();
     let poses = animation::Poses::of(composite, space);
-    let write = |name: &str, shown: &[animation::Shown], binary: &mut Binary| {
+    let write = |name: &str, shown: &[animation::Exposed], binary: &mut Binary| {
         poses.animation(name, shown, layer, sheet.clock.koma_rate, binary)
     };
     let mut animations = vec![write("koma", &animation::all(layer), binary)];

@@ -17,7 +17,7 @@ pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         let slides = composite.slides();
         let rows = if slides { (begin..begin + koma).collect() } else { vec![begin] };
         let times = if slides { 1 } else { koma };
-        rows.into_iter().map(move |at| Shown { drawing, at, times })
+        rows.into_iter().map(move |at| Repeated { drawing, at, times })
     };
     written(&composite, sheet, composite.layer().timed().flat_map(on_screen))
 }
@@ -33,7 +33,8 @@ pub fn keys_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
     let layer = composite.layer();
     let drawings = layer.drawings.iter().zip(composite.first_koma()).enumerate();
     let kept = drawings.filter(|(_, (drawing, _))| drawing.role.is_kept());
-    let rows: Vec<Shown> = kept.map(|(drawing, (_, at))| Shown { drawing, at, times: 1 }).collect();
+    let rows: Vec<Repeated> =
+        kept.map(|(drawing, (_, at))| Repeated { drawing, at, times: 1 }).collect();
     if rows.is_empty() {
         return Err(Error::clip("the sheet has neither genga nor ends: there is no pose to write"));
     }
@@ -41,7 +42,7 @@ pub fn keys_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
 }
 
 /// A pose, on which koma it is shown, and how many times it is written.
-struct Shown {
+struct Repeated {
     drawing: usize,
     at: usize,
     times: usize,
@@ -51,13 +52,13 @@ struct Shown {
 fn written(
     composite: &Composite<'_>,
     sheet: &Sheet,
-    poses: impl IntoIterator<Item = Shown>,
+    poses: impl IntoIterator<Item = Repeated>,
 ) -> Result<String, Error> {
     let skeleton = composite.clip().skeleton();
     let mut file = bvh::Writer::new(skeleton, FrameRate::new(sheet.clock.koma_rate)?);
     let mut row = vec![0.0; skeleton.channels()];
     let mut rows = CompositeRows::of(composite);
-    for Shown { drawing, at, times } in poses {
+    for Repeated { drawing, at, times } in poses {
         rows.write(drawing, at, &mut row);
         (0..times).for_each(|_| file.row(&row));
     }

@@ -4,7 +4,7 @@ use csv::{ReaderBuilder, StringRecord};
 
 use crate::deliver::sheet_json::SheetFile;
 use crate::edits::Pin;
-use crate::error::Error;
+use crate::error::{Cause, Error};
 use crate::sheet::{Drawing, Layer, Role};
 use crate::time::Frame;
 
@@ -16,12 +16,13 @@ use crate::time::Frame;
 /// semicolons or tabs, as the programs that save tables please.
 ///
 /// # Errors
-/// [`Error::Sheet`] saying the line and what is wrong there: no such column, no genga, a frame that is no
-/// number.
+/// [`Error::Table`] with the place of what is wrong: no column of frames, a frame that is no number. [`Error::Sheet`]
+/// where there is no such column, or no genga in it.
 pub fn pins_from_table(bytes: &[u8], column: Option<&str>) -> Result<(Vec<Pin>, String), Error> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let text = std::str::from_utf8(bytes)
-        .map_err(|_| Error::sheet("this is not text in UTF-8; save the table as CSV in UTF-8"))?;
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        no_table("this is not text in UTF-8; save the table as CSV in UTF-8".into(), error)
+    })?;
     let header = text.lines().next().unwrap_or_default();
     let parted_by = [b',', b';', b'\t'];
     let count = |byte: &u8| header.bytes().filter(|other| other == byte).count();
@@ -29,13 +30,13 @@ pub fn pins_from_table(bytes: &[u8], column: Option<&str>) -> Result<(Vec<Pin>, 
     let delimiter = parted_by.into_iter().rev().max_by_key(count).unwrap_or(b',');
     let mut reader =
         ReaderBuilder::new().delimiter(delimiter).flexible(true).from_reader(text.as_bytes());
-    let failed = |error: csv::Error| Error::sheet(format!("is no table: {error}"));
+    let failed = |error: csv::Error| no_table(format!("is no table: {error}"), error);
     let table = Table::of(reader.headers().map_err(failed)?)?;
     let mut keys = Vec::new();
     for record in reader.records() {
         let record = record.map_err(failed)?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let wrong = |message: String| Error::sheet(format!("line {line}: {message}"));
+        let line = record.position().map_or(0, |place| place.line() as usize);
+        let wrong = |(field, message): Wrong| wrong_at((line, field + 1), message);
         keys.extend(table.key(&record).map_err(wrong)?);
     }
     let columns = keys.iter().map(|(column, _)| column.as_str()).collect();
@@ -45,6 +46,17 @@ pub fn pins_from_table(bytes: &[u8], column: Option<&str>) -> Result<(Vec<Pin>, 
     // A sheet has a row a koma: a genga that is held comes again.
     pins.dedup_by_key(|pin| pin.frame);
     Ok((pins, column))
+}
+
+/// Which field of a row, and what is wrong with it.
+type Wrong = (usize, String);
+
+fn wrong_at(place: (usize, usize), message: impl Into<String>) -> Error {
+    Error::Table { place: Some(place), message: message.into(), source: None }
+}
+
+fn no_table(message: String, source: impl Into<Cause>) -> Error {
+    Error::Table { place: None, message, source: Some(source.into()) }
 }
 
 /// Where a table has what.
@@ -61,8 +73,9 @@ impl Table {
     fn of(header: &StringRecord) -> Result<Self, Error> {
         let at = |name: &str| header.iter().position(|field| field.trim() == name);
         let frame = at("source_frame").ok_or_else(|| {
-            Error::sheet(
-                "line 1: there is no column source_frame; keys are read from a keys.csv, drawings.csv or \
+            wrong_at(
+                (1, 1),
+                "there is no column source_frame; keys are read from a keys.csv, drawings.csv or \
                  sheet.csv as genga writes it, from a sheet.json and from an XDTS timesheet",
             )
         })?;
@@ -77,20 +90,21 @@ impl Table {
     }
 
     /// The key of a row with its column, if it is one.
-    fn key(&self, row: &StringRecord) -> Result<Option<(String, Pin)>, String> {
+    fn key(&self, row: &StringRecord) -> Result<Option<(String, Pin)>, Wrong> {
         let field = |at: Option<usize>| at.and_then(|at| row.get(at)).unwrap_or_default().trim();
+        let wrong = |at: Option<usize>, expected: &str| {
+            (at.unwrap_or(0), format!("{expected}, found \"{}\"", field(at)))
+        };
         match field(self.role) {
             "" | "genga" => {}
             "inbetween" | "end" => return Ok(None),
-            other => {
-                return Err(format!("role: expected genga, inbetween or end, found \"{other}\""));
-            }
+            _ => return Err(wrong(self.role, "role: expected genga, inbetween or end")),
         }
         let frame = match field(Some(self.frame)) {
             // A line of nothing but commas, as table programs leave below.
             "" if row.iter().all(|field| field.trim().is_empty()) => return Ok(None),
             text => text.parse().ok().and_then(whole_frame).ok_or_else(|| {
-                format!("source_frame: expected a frame number of the clip, found \"{text}\"")
+                wrong(Some(self.frame), "source_frame: expected a frame number of the clip")
             })?,
         };
         let name = Some(field(self.name)).filter(|name| !name.is_empty());
@@ -98,7 +112,7 @@ impl Table {
         let weight = match field(self.weight) {
             "" => None,
             text => Some(text.parse().map_err(|_| {
-                format!("weight: expected a spacing weight, 0 to below 1, found \"{text}\"")
+                wrong(self.weight, "weight: expected a spacing weight, 0 to below 1")
             })?),
         };
         let column = Some(field(self.column)).filter(|column| !column.is_empty());

@@ -89,10 +89,8 @@ fn frame(text: &str) -> Option<Frame> {
 }
 
 fn no_frame(line: usize, column: usize, text: &str) -> Error {
-    Error::Sheet {
-        place: Some((line, column)),
-        message: format!("expected the number of a source frame, found \"{text}\""),
-    }
+    let message = format!("expected the number of a source frame, found \"{text}\"");
+    Error::sheet_at((line, column), message)
 }
 
 #[cfg(test)]

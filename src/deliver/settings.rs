@@ -6,9 +6,7 @@ use toml::{Table, Value};
 use crate::deliver::xdts::Xdts;
 use crate::deliver::{FigureSettings, Glb, Vmd};
 use crate::error::Error;
-use crate::plot::{ContactSheet, FlipBook, OnionSkin, Strip, XSheet};
-#[cfg(feature = "cli")]
-use crate::plot::{NumberedImages, Preview};
+use crate::plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip, XSheet};
 
 /// The settings of every format, by its name. A new format's are a field here.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -33,10 +31,8 @@ pub struct Settings {
     /// The page that plays the sheet.
     pub flipbook: FlipBook,
     /// Source beside result, moving.
-    #[cfg(feature = "cli")]
     pub preview: Preview,
     /// A picture a drawing.
-    #[cfg(feature = "cli")]
     pub images: NumberedImages,
     /// The stepped motion as GLB.
     pub glb: Glb,
@@ -69,12 +65,8 @@ impl Settings {
         in_section("contact", self.contact.validate())?;
         in_section("onion", self.onion.validate())?;
         in_section("flipbook", self.flipbook.validate())?;
-        #[cfg(feature = "cli")]
-        {
-            in_section("preview", self.preview.validate())?;
-            in_section("images", self.images.validate())?;
-        }
-        Ok(())
+        in_section("preview", self.preview.validate())?;
+        in_section("images", self.images.validate())
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.

@@ -63,7 +63,7 @@ struct Take<'a> {
     views: Vec<(&'a str, [[f64; 3]; 3])>,
     /// Drawing, first koma, koma on screen.
     cells: Vec<[usize; 3]>,
-    drawings: Vec<Shown>,
+    drawings: Vec<PageDrawing>,
     /// A pose a koma: x, y, z of each point, in steps.
     source: Vec<Vec<i32>>,
     /// The result so, where a held drawing slides.
@@ -72,7 +72,7 @@ struct Take<'a> {
 }
 
 #[derive(Serialize)]
-struct Shown {
+struct PageDrawing {
     role: &'static str,
     genga: Option<usize>,
     /// The place in the source, to a tenth of a frame.
@@ -148,7 +148,7 @@ impl FlipBook {
             views: views.into_iter().map(|(word, view)| (word, axes(&view))).collect(),
             cells: cells.iter().map(|cell| [cell.index, cell.koma, cell.held]).collect(),
             drawings: drawings
-                .map(|((drawing, pose), genga)| Shown {
+                .map(|((drawing, pose), genga)| PageDrawing {
                     role: drawing.role.word(),
                     genga,
                     frame: (drawing.source.place() * 10.0).round() / 10.0,

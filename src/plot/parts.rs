@@ -9,4 +9,5 @@ pub(crate) use super::stage::{Stage, fitting};
 pub(crate) use super::style::{
     END, FAINT, FILTERED, GENGA, GENGA_LINE, INK, LEFT, PAPER, RAW, RIGHT, WALL,
 };
+pub(crate) use crate::motion::BodySide;
 pub(crate) use crate::motion::view::View;

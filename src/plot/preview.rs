@@ -3,25 +3,22 @@
 //! A GIF, and not an APNG, because every mail, chat and office program plays it, where many show of an
 //! APNG the first picture alone; few plain colours are also what its packing is good at. What a GIF cannot
 //! is 1/24 s: its times are hundredths. A koma is 4 or 5 of them here, so that every koma begins within
-//! half a hundredth of its time and nothing drifts.
+//! half a hundredth of its time and nothing drifts. The settings are there in every build.
 
-use std::io::Write;
+#[cfg(feature = "cli")]
+mod draw;
+#[cfg(feature = "cli")]
+mod movie;
+#[cfg(feature = "cli")]
+mod palette;
+#[cfg(feature = "cli")]
+mod scene;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{Camera, Clip};
-use crate::plot::cells::composed;
+use crate::motion::Camera;
 use crate::plot::style;
-use crate::sheet::Sheet;
-
-mod movie;
-mod palette;
-mod scene;
-
-use movie::Movie;
-use palette::Palette;
-use scene::Scene;
 
 /// An animated preview (プレビュー): source beside result at 24 koma a second, as a GIF that repeats.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,33 +59,5 @@ impl Preview {
             }
         }
         style::check_count("most", self.most, MOST_KOMA)
-    }
-
-    /// Draws a sheet beside its source, one picture after the other, and gives how many koma it shows;
-    /// `cut` is the name on it.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] as [`Preview::validate`]; [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing
-    /// to show, or `file` cannot be written.
-    pub fn draw(
-        &self,
-        cut: &str,
-        clip: &Clip,
-        sheet: &Sheet,
-        file: impl Write,
-    ) -> Result<usize, Error> {
-        self.validate()?;
-        let composite = composed(clip, sheet)?;
-        let layer = composite.layer();
-        let koma = layer.length().min(self.most);
-        let palette = Palette::new();
-        let mut scene = Scene::new(self, cut, &composite, sheet, koma)?;
-        let mut movie = Movie::begin(file, (self.width, self.height), &palette)?;
-        for (at, drawing) in layer.koma().take(koma).enumerate() {
-            let pixels = scene.draw(at, drawing);
-            movie.show(palette.indices(pixels.colors()), at, sheet.clock.koma_rate)?;
-        }
-        movie.finish(koma, sheet.clock.koma_rate)?;
-        Ok(koma)
     }
 }

@@ -2,9 +2,9 @@
 
 use egui::{Align, Button, Color32, Frame, Layout, RichText, Ui};
 
+use super::command::Command;
 use super::counts::Counts;
 use super::icon::{self, Icon};
-use super::keyboard::Command;
 use super::look::Look;
 use super::take::Take;
 use super::words::{Language, Words};

@@ -11,13 +11,13 @@ use crate::time::{Clock, Frame};
 
 /// A cell as pictures know it, and the key behind it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cell<'a> {
+pub(super) struct KeyedCell<'a> {
     on_paper: parts::Cell<'a>,
     /// The key that it draws; none for inbetweens and ends.
     pub(super) key: Option<&'a Key>,
 }
 
-impl Cell<'_> {
+impl KeyedCell<'_> {
     /// The source frame by which a hold of it is known: that of the hold it has, else the one it shows.
     pub(super) fn hold_frame(&self, edits: &Edits) -> Frame {
         let place = self.drawing.source.place();
@@ -28,7 +28,7 @@ impl Cell<'_> {
     }
 }
 
-impl<'a> Deref for Cell<'a> {
+impl<'a> Deref for KeyedCell<'a> {
     type Target = parts::Cell<'a>;
 
     fn deref(&self) -> &parts::Cell<'a> {
@@ -39,7 +39,7 @@ impl<'a> Deref for Cell<'a> {
 /// The first column of a sheet, exposure after exposure.
 #[derive(Debug, Clone)]
 pub(super) struct Column<'a> {
-    pub(super) cells: Vec<Cell<'a>>,
+    pub(super) cells: Vec<KeyedCell<'a>>,
     pub(super) clock: Clock,
     /// Koma of the column.
     pub(super) length: usize,
@@ -50,7 +50,7 @@ impl<'a> Column<'a> {
         let layer: &'a Layer = &breakdown.sheet.layers[0];
         let with_key = |on_paper: parts::Cell<'a>| {
             let key = key_at(&breakdown.keys.keys, on_paper.drawing.source);
-            Cell { on_paper, key }
+            KeyedCell { on_paper, key }
         };
         let cells = parts::cells(layer).into_iter().map(with_key).collect();
         Self { cells, clock: breakdown.clock, length: layer.length() }
@@ -62,12 +62,17 @@ impl<'a> Column<'a> {
     }
 
     /// The exposure on screen at a koma.
-    pub(super) fn cell(&self, koma: usize) -> &Cell<'a> {
+    pub(super) fn cell(&self, koma: usize) -> &KeyedCell<'a> {
         &self.cells[self.at(koma)]
     }
 
     /// The koma on which the exposure begins that is some exposures on from a koma; `wanted` says which count.
-    pub(super) fn step(&self, koma: usize, by: isize, wanted: impl Fn(&Cell<'_>) -> bool) -> usize {
+    pub(super) fn step(
+        &self,
+        koma: usize,
+        by: isize,
+        wanted: impl Fn(&KeyedCell<'_>) -> bool,
+    ) -> usize {
         let begins = self.cells.iter().filter(|cell| wanted(cell)).map(|cell| cell.koma);
         let mut after: Vec<usize> = if by > 0 {
             begins.filter(|begin| *begin > koma).collect()
@@ -84,7 +89,7 @@ impl<'a> Column<'a> {
     /// The key that is meant at a koma: the one that stands there, else the one whose drawing is shown.
     pub(super) fn key(&self, koma: usize) -> Option<&'a Key> {
         let cell = self.cell(koma);
-        let stands_here = |cell: &&Cell<'a>| {
+        let stands_here = |cell: &&KeyedCell<'a>| {
             cell.key.is_some_and(|key| self.clock.koma_from_place(key.frame.0 as f64) == koma)
         };
         self.cells.iter().find(stands_here).and_then(|cell| cell.key).or(cell.key)

@@ -2,9 +2,9 @@
 
 use egui::{CollapsingHeader, RichText, Ui};
 
+use super::command::Command;
 use super::corrections::Correction;
 use super::icon::{self, Icon};
-use super::keyboard::Command;
 use super::shown::Shown;
 use super::words::Words;
 use crate::edits::Pin;

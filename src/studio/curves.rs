@@ -13,8 +13,8 @@ use egui::{Id, Panel, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use self::hand::Hand;
 use self::time::Window;
+use super::command::Command;
 use super::key_menu;
-use super::keyboard::Command;
 use super::player::Player;
 use super::shown::Shown;
 use crate::motion::JointId;

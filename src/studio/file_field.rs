@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Button, Key, TextEdit, Ui};
 
-use super::keyboard::Command;
+use super::command::Command;
 use super::words::Words;
 
 /// What is typed.

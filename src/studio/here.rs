@@ -1,9 +1,9 @@
 //! What a key on the keyboard corrects at the play head (再生位置).
 
 use super::column::Column;
+use super::command::Command;
 use super::corrections::Correction;
 use super::document::Document;
-use super::keyboard::Command;
 use crate::keys::{Key, Origin};
 use crate::motion::Clip;
 use crate::time::Frame;

@@ -6,9 +6,10 @@ pub(super) mod presets;
 
 use egui::{Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, SliderClamping, Ui};
 
+use self::measured::written;
 use self::presets::PRESETS;
+use super::command::Command;
 use super::icon::{self, Icon};
-use super::keyboard::Command;
 use super::map::Map;
 use super::shown::Shown;
 use super::words::Words;
@@ -213,11 +214,6 @@ fn choice(
         }
     });
     combo.response.accessible_name(knob.name);
-}
-
-/// A number as a person would write it: a slider stands on no more than thousandths.
-fn written(number: f64) -> String {
-    ((number * 1000.0).round() / 1000.0).to_string()
 }
 
 /// The sections in their order, each once.

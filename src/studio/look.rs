@@ -2,8 +2,7 @@
 
 use egui::{Color32, Theme};
 
-use crate::motion::BodySide;
-use crate::plot::parts;
+use crate::plot::parts::{self, BodySide};
 use crate::sheet::Role;
 
 /// The colours of everything that is drawn by hand.

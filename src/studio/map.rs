@@ -9,8 +9,8 @@ use egui::{
 };
 
 use self::survey::{PERSISTENCE, WIDTH};
+use super::command::Command;
 use super::errand::{Errand, Look};
-use super::keyboard::Command;
 use super::shown::Shown;
 use super::take::Take;
 use super::words::Words;

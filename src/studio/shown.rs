@@ -1,8 +1,8 @@
 //! What is shown (表示): everything that the panels of one frame read, and none of them changes.
 
 use super::column::Column;
+use super::command::Command;
 use super::document::Document;
-use super::keyboard::Command;
 use super::look::Look;
 use super::scene::Scene;
 use super::words::Words;

@@ -8,15 +8,13 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use self::hand::Hand;
-use super::column::Cell;
+use self::hand::{Hand, ROW};
+use super::column::KeyedCell;
+use super::command::Command;
 use super::key_menu;
-use super::keyboard::Command;
 use super::shown::Shown;
 use crate::keys::{Key, Origin};
 
-/// Height of a koma.
-const ROW: f32 = 17.0;
 /// Room over the first koma, so that its circle is whole.
 const PAD: f32 = 3.0;
 /// Where the middle of the column stands.
@@ -143,7 +141,7 @@ fn grid(painter: &Painter, rect: Rect, rows: &std::ops::Range<usize>, shown: &Sh
 }
 
 /// A drawing: its mark, the line of its hold, why it is there.
-fn draw_cell(painter: &Painter, corner: Pos2, cell: &Cell<'_>, shown: &Shown<'_>) {
+fn draw_cell(painter: &Painter, corner: Pos2, cell: &KeyedCell<'_>, shown: &Shown<'_>) {
     let look = &shown.look;
     let middle = corner + vec2(MIDDLE, ROW * (cell.koma as f32 + 0.5));
     let color = look.of_role(cell.drawing.role);
@@ -183,7 +181,7 @@ pub(super) fn badge(
 }
 
 /// Why a drawing is there, in few words.
-fn why(cell: &Cell<'_>, shown: &Shown<'_>) -> String {
+fn why(cell: &KeyedCell<'_>, shown: &Shown<'_>) -> String {
     let words = shown.words;
     let mut reasons: Vec<String> = Vec::new();
     if let Some(key) = cell.key {

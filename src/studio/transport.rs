@@ -2,8 +2,8 @@
 
 use egui::{Align2, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::command::Command;
 use super::icon::{self, Icon};
-use super::keyboard::Command;
 use super::player::Player;
 use super::shown::Shown;
 

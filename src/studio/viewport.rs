@@ -9,27 +9,15 @@ mod trails;
 
 use glam::DVec3;
 
-use egui::{Align2, FontId, Id, PointerButton, Rect, Response, Role, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Id, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
-use super::keyboard::Command;
+use super::command::{Command, Seen};
 use super::scene::Scene;
 use super::shown::Shown;
-use crate::plot::parts::{Posing, Stage};
+use crate::plot::parts::Posing;
 use crate::sheet::Source;
 
-pub(super) use orbit::{Orbit, Standard};
-
-/// Which of the two is seen.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) enum Seen {
-    /// Both, side by side.
-    #[default]
-    Both,
-    /// The motion as it was captured.
-    Source,
-    /// What the sheet shows.
-    Result,
-}
+pub(super) use orbit::Orbit;
 
 /// What a person looks at, and how.
 #[derive(Debug, Clone)]
@@ -63,7 +51,8 @@ impl Viewport {
     pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.add_space(6.0);
-            sides::show(ui, shown, self, commands);
+            let shining = (self.onion, self.trails);
+            sides::show(ui, shown.words, (self.seen, &self.orbit), shining, commands);
         });
         let whole = ui.available_rect_before_wrap();
         let anchor = self.anchor(shown);
@@ -187,19 +176,4 @@ fn standing(seen: Seen, shown: &Shown<'_>) -> String {
         true => format!("動画 {drawing} · {number} · {since}/{held}コマ目"),
         false => format!("drawing {drawing} · {number} · koma {since} of {held}"),
     }
-}
-
-/// A point of the stage as a point of the window.
-fn position((x, y): (f64, f64)) -> egui::Pos2 {
-    pos2(x as f32, y as f32)
-}
-
-/// Where a point of the world comes in the window.
-fn placed(stage: &Stage, point: DVec3) -> egui::Pos2 {
-    position(stage.place(point))
-}
-
-/// How far apart two points of the window are drawn for the same koma: nothing is drawn twice in one place.
-fn is_apart(a: egui::Pos2, b: egui::Pos2) -> bool {
-    (a - b).length_sq() > Vec2::splat(0.5).length_sq()
 }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use egui::{Align, Button, CentralPanel, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
+use super::command::Command;
 use super::file_field;
-use super::keyboard::Command;
 use super::look::Look;
 use super::words::Words;
 

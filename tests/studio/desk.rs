@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use genga::cli::disk::Disk;
+use genga::cli::Disk;
 use genga::edits::Edits;
 use genga::studio::{Desk, Export, Opened};
 

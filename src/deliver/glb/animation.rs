@@ -11,15 +11,15 @@ use crate::sheet::{Layer, Source};
 
 /// A drawing that an animation shows, and from which koma until before which.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Shown {
+pub(super) struct Exposed {
     drawing: usize,
     begin: usize,
     end: usize,
 }
 
 /// Every exposure of a layer.
-pub(super) fn all(layer: &Layer) -> Vec<Shown> {
-    let shown = |(begin, exposure): (usize, crate::sheet::Exposure)| Shown {
+pub(super) fn all(layer: &Layer) -> Vec<Exposed> {
+    let shown = |(begin, exposure): (usize, crate::sheet::Exposure)| Exposed {
         drawing: exposure.drawing,
         begin,
         end: begin + exposure.koma,
@@ -29,9 +29,9 @@ pub(super) fn all(layer: &Layer) -> Vec<Shown> {
 
 /// The exposures of key drawings and ends alone, each held until the next. What a sheet shows before
 /// its first key is that key.
-pub(super) fn genga(layer: &Layer) -> Vec<Shown> {
-    let is_kept = |shown: &Shown| layer.drawings[shown.drawing].role.is_kept();
-    let mut kept: Vec<Shown> = all(layer).into_iter().filter(is_kept).collect();
+pub(super) fn genga(layer: &Layer) -> Vec<Exposed> {
+    let is_kept = |shown: &Exposed| layer.drawings[shown.drawing].role.is_kept();
+    let mut kept: Vec<Exposed> = all(layer).into_iter().filter(is_kept).collect();
     for at in 0..kept.len() {
         kept[at].end = kept.get(at + 1).map_or(layer.length(), |next| next.begin);
     }
@@ -101,7 +101,7 @@ impl<'a> Poses<'a> {
     pub(super) fn animation(
         &self,
         name: &str,
-        shown: &[Shown],
+        shown: &[Exposed],
         layer: &Layer,
         koma_rate: f64,
         binary: &mut Binary,
@@ -148,14 +148,14 @@ impl<'a> Poses<'a> {
     }
 
     /// A joint through some drawings, the last once more.
-    fn track(&self, joint: usize, shown: &[Shown]) -> impl Iterator<Item = Local> {
+    fn track(&self, joint: usize, shown: &[Exposed]) -> impl Iterator<Item = Local> {
         let drawings = shown.iter().chain(shown.last()).map(|shown| shown.drawing);
         drawings.map(move |drawing| self.locals[drawing * self.joints + joint])
     }
 
     /// Some joints koma by koma in an animation of some drawings, the last koma once more: what goes on while
     /// they are held.
-    fn on_ones(&self, joints: &[usize], shown: &[Shown]) -> Vec<Local> {
+    fn on_ones(&self, joints: &[usize], shown: &[Exposed]) -> Vec<Local> {
         let skeleton = self.composite.clip().skeleton();
         let mut row = vec![0.0; skeleton.channels()];
         let mut rows = CompositeRows::of(self.composite);
@@ -183,9 +183,9 @@ impl Local {
 
 /// What stands on which koma, in the words of `sheet.json`: koma, drawings and source frames from 0.
 /// `genga_no` alone counts from 1, as it stands in a circle on paper.
-fn extras(shown: &[Shown], layer: &Layer, koma_rate: f64) -> Value {
+fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
     let genga = layer.genga_numbers();
-    let key = |shown: &Shown| {
+    let key = |shown: &Exposed| {
         let drawing = &layer.drawings[shown.drawing];
         let mut key = json!({
             "koma": shown.begin,

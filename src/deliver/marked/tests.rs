@@ -128,3 +128,14 @@ fn what_is_wrong_has_its_line() {
     let error = pins_from_table(&[b'a', 0xff], None).unwrap_err().to_string();
     assert!(error.contains("UTF-8"), "{error}");
 }
+
+#[test]
+fn the_place_of_what_is_wrong_is_data() {
+    let place = |text: &str| pins_from_table(text.as_bytes(), None).unwrap_err().position();
+    assert_eq!(place("source_frame,role\n3,genga\n4,gnega\n"), Some((3, 2)));
+    assert_eq!(place("role,weight,source_frame\ngenga,,3\ngenga,,three\n"), Some((3, 3)));
+    assert_eq!(place("weight,source_frame\nhalf,3\n"), Some((2, 1)));
+    assert_eq!(place("frame,role\n3,genga\n"), Some((1, 1)));
+    let error = pins_from_table(&[b'a', 0xff], None).unwrap_err();
+    assert!(std::error::Error::source(&error).is_some(), "{error}");
+}

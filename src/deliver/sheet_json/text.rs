@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
+use crate::deliver::json_words;
 use crate::error::Error;
 
 /// The text of a file, parts of which are parsed by themselves.
@@ -22,20 +23,21 @@ impl<'a> Text<'a> {
 
     /// What is wrong with a value, with the place where it begins.
     pub(super) fn error(self, raw: &RawValue, message: impl Into<String>) -> Error {
-        Error::Sheet { place: Some(self.place(raw.get())), message: message.into() }
+        Error::sheet_at(self.place(raw.get()), message)
     }
 
     fn part<T: Deserialize<'a>>(self, part: &'a str) -> Result<T, Error> {
         serde_json::from_str(part).map_err(|error| {
             let (line, column) = self.place(part);
-            // The place within the part follows the words.
-            let words = error.to_string();
-            let message = words.split(" at line ").next().unwrap_or_default().to_owned();
             let place = match error.line() {
                 0 | 1 => (line, column + error.column().saturating_sub(1)),
                 further => (line + further - 1, error.column()),
             };
-            Error::Sheet { place: Some(place), message }
+            Error::Sheet {
+                place: Some(place),
+                message: json_words(&error),
+                source: Some(error.into()),
+            }
         })
     }
 

@@ -85,7 +85,7 @@ impl SheetFile {
         };
         let mut bytes = Vec::new();
         file.serialize(&mut Serializer::with_formatter(&mut bytes, Lines::default()))
-            .map_err(|error| Error::sheet(format!("cannot be written: {error}")))?;
+            .map_err(|error| Error::Encoding { what: "the sheet", source: error.into() })?;
         bytes.push(b'\n');
         Ok(String::from_utf8(bytes).expect("JSON is text"))
     }

@@ -68,3 +68,12 @@ fn so_does_each_writer_of_the_library_by_itself() {
         }
     }
 }
+
+#[test]
+fn a_table_that_cannot_be_written_is_no_fault_of_a_clip() {
+    let rows = [vec!["1".to_owned(), "2".to_owned()]];
+    let error = crate::deliver::csv_table(&["frame"], rows).unwrap_err();
+    assert!(!matches!(error, Error::Clip { .. }), "{error:?}");
+    assert!(std::error::Error::source(&error).is_some(), "{error:?}");
+    assert!(error.to_string().starts_with("a table could not be written: "), "{error}");
+}

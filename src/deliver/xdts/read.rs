@@ -2,6 +2,7 @@
 
 use super::file::{Entry, Header, Root, TimeTable};
 use super::{BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SIGNATURE, TDTS_SIGNATURE};
+use crate::deliver::json_words;
 use crate::error::Error;
 use crate::sheet::column_name;
 
@@ -75,7 +76,14 @@ pub fn read(bytes: &[u8]) -> Result<Exchange, Error> {
     let root: Root = serde_json::from_str(json).map_err(|error| {
         let on_first = if error.line() == 1 { signature.len() } else { 0 };
         let (line, column) = (error.line().max(1), (error.column() + on_first).max(1));
-        wrong((line, column), without_place(&error))
+        let words = json_words(&error);
+        Error::Sheet {
+            place: Some((line, column)),
+            message: format!(
+                "{words}; if you did not write this by hand, save the sheet again as XDTS"
+            ),
+            source: Some(error.into()),
+        }
     })?;
     let (header, table) = first_table(root).ok_or_else(|| {
         wrong((1, 1), "expected a time table (timeTables), found none; save a sheet with one")
@@ -93,15 +101,7 @@ fn unsigned(text: &str) -> Error {
 }
 
 fn wrong(place: (usize, usize), message: impl Into<String>) -> Error {
-    Error::Sheet { place: Some(place), message: message.into() }
-}
-
-/// What the JSON reader says, without the place: that counts from the end of the signature.
-fn without_place(error: &serde_json::Error) -> String {
-    let message = error.to_string();
-    let place = format!(" at line {} column {}", error.line(), error.column());
-    let message = message.strip_suffix(&place).unwrap_or(&message);
-    format!("{message}; if you did not write this by hand, save the sheet again as XDTS")
+    Error::sheet_at(place, message)
 }
 
 fn first_table(root: Root) -> Option<(Option<Header>, TimeTable)> {

@@ -151,7 +151,7 @@ fn text(file: &Root) -> Result<String, Error> {
     let mut bytes = format!("{SIGNATURE}\n").into_bytes();
     let mut writer = Serializer::with_formatter(&mut bytes, LineAnEntry::default());
     file.serialize(&mut writer)
-        .map_err(|error| Error::sheet(format!("the time table could not be written: {error}")))?;
+        .map_err(|error| Error::Encoding { what: "the time table", source: error.into() })?;
     bytes.push(b'\n');
     Ok(String::from_utf8(bytes).expect("JSON is text"))
 }

@@ -4,9 +4,9 @@ use egui::{PointerButton, Pos2, Rect, Response};
 
 use super::time::Scale;
 use crate::keys::Key;
+use crate::studio::command::Command;
 use crate::studio::corrections::Correction;
 use crate::studio::held_key::HeldKey;
-use crate::studio::keyboard::Command;
 use crate::studio::shown::Shown;
 use crate::time::Frame;
 

@@ -2,7 +2,6 @@
 
 use egui::{Button, Slider, SliderClamping, Ui};
 
-use super::written;
 use crate::recipe::{Kind, Knob};
 
 /// A unit as it stands behind the number, and how far a slider goes in it.
@@ -72,6 +71,11 @@ pub(super) fn show(ui: &mut Ui, knob: &Knob, value: &str, set: &mut impl FnMut(S
         let number = if other.is_whole { number.round() } else { number };
         set(format!("{}{}", written(number), other.suffix));
     }
+}
+
+/// A number as a person would write it: a slider stands on no more than thousandths.
+pub(super) fn written(number: f64) -> String {
+    ((number * 1000.0).round() / 1000.0).to_string()
 }
 
 #[cfg(test)]

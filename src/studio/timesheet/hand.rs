@@ -2,15 +2,16 @@
 
 use egui::{CursorIcon, PointerButton, Pos2, Rect, Response};
 
-use super::ROW;
 use crate::keys::Key;
-use crate::studio::column::Cell;
+use crate::studio::column::KeyedCell;
+use crate::studio::command::Command;
 use crate::studio::corrections::Correction;
 use crate::studio::held_key::HeldKey;
-use crate::studio::keyboard::Command;
 use crate::studio::shown::Shown;
 use crate::time::Frame;
 
+/// Height of a koma on the sheet.
+pub(super) const ROW: f32 = 17.0;
 /// How near a hand has to be to the end of a hold.
 const NEAR_END: f32 = 3.5;
 
@@ -108,11 +109,11 @@ fn key<'a>(at: Pos2, rect: Rect, shown: &Shown<'a>) -> Option<&'a Key> {
 }
 
 /// The drawing that ends there; the last one ends with the sheet.
-fn ending<'a, 'b>(at: Pos2, rect: Rect, shown: &'b Shown<'a>) -> Option<&'b Cell<'a>> {
+fn ending<'a, 'b>(at: Pos2, rect: Rect, shown: &'b Shown<'a>) -> Option<&'b KeyedCell<'a>> {
     let lines = (at.y - rect.min.y) / ROW;
     let line = lines.round();
     let is_near = (lines - line).abs() * ROW <= NEAR_END && line >= 1.0;
-    let is_end = |cell: &&Cell<'_>| cell.koma + cell.held == line as usize;
+    let is_end = |cell: &&KeyedCell<'_>| cell.koma + cell.held == line as usize;
     let ends = (line as usize) < shown.column.length;
     let cell = (is_near && ends).then(|| shown.column.cell(line as usize - 1));
     cell.filter(is_end)

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Painter, Stroke};
 
-use super::position;
+use super::orbit::position;
 use crate::plot::parts::Drawn;
 use crate::studio::look::Look;
 

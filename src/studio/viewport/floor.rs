@@ -3,7 +3,8 @@
 use egui::{Painter, Stroke};
 use glam::DVec3;
 
-use super::{body, placed};
+use super::body;
+use super::orbit::placed;
 use crate::plot::parts::Stage;
 use crate::studio::scene::Scene;
 use crate::studio::shown::Shown;

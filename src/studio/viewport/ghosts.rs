@@ -2,9 +2,10 @@
 
 use egui::{Color32, Painter};
 
-use super::{Seen, body};
+use super::body;
 use crate::plot::parts::{Posing, Stage};
 use crate::sheet::Source;
+use crate::studio::command::Seen;
 use crate::studio::shown::Shown;
 
 /// Neighbours to each side.

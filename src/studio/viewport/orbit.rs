@@ -1,24 +1,12 @@
 //! From where a view looks: a standard side, turned, tilted, moved and brought nearer by hand.
 
-use egui::{Rect, Vec2};
+use egui::{Pos2, Rect, Vec2, pos2};
 use glam::DVec3;
 
 use crate::plot::Camera;
 use crate::plot::parts::{Stage, View, fitting};
+use crate::studio::command::Standard;
 use crate::studio::scene::Scene;
-
-/// A side that everybody knows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::studio) enum Standard {
-    /// 正面.
-    Front,
-    /// 側面.
-    Side,
-    /// 真上.
-    Top,
-    /// 斜め.
-    ThreeQuarter,
-}
 
 /// How far the camera of the three-quarter view looks down.
 const TILT: f64 = 0.2;
@@ -140,4 +128,14 @@ fn reach(view: &View, scene: &Scene) -> (f64, f64, f64, f64) {
         let (x, y, _) = view.see(*point);
         (left.min(x - head), right.max(x + head), low.min(y), high.max(y + head))
     })
+}
+
+/// A point of the stage as a point of the window.
+pub(super) fn position((x, y): (f64, f64)) -> Pos2 {
+    pos2(x as f32, y as f32)
+}
+
+/// Where a point of the world comes in the window.
+pub(super) fn placed(stage: &Stage, point: DVec3) -> Pos2 {
+    position(stage.place(point))
 }

@@ -2,25 +2,25 @@
 
 use egui::{Button, Ui};
 
-use super::{Seen, Standard, Viewport};
-use crate::studio::keyboard::Command;
-use crate::studio::shown::Shown;
+use super::orbit::Orbit;
+use crate::studio::command::{Command, Seen, Standard};
+use crate::studio::words::Words;
 
 /// Shows the buttons.
 pub(super) fn show(
     ui: &mut Ui,
-    shown: &Shown<'_>,
-    viewport: &Viewport,
+    words: Words,
+    (seen, orbit): (Seen, &Orbit),
+    (onion, trails): (bool, bool),
     commands: &mut Vec<Command>,
 ) {
-    let words = shown.words;
-    let seen = [
+    let choices = [
         (Seen::Both, words.say("Both", "並べて")),
         (Seen::Source, words.say("Source", "素材")),
         (Seen::Result, words.say("Result", "結果")),
     ];
-    for (which, name) in seen {
-        if ui.add(Button::selectable(viewport.seen == which, name)).clicked() {
+    for (which, name) in choices {
+        if ui.add(Button::selectable(seen == which, name)).clicked() {
             commands.push(Command::See(which));
         }
     }
@@ -31,22 +31,19 @@ pub(super) fn show(
         (Standard::Top, words.say("Top", "真上")),
         (Standard::ThreeQuarter, words.say("Three-quarter", "斜め")),
     ] {
-        let is_so = viewport.orbit.standard() == Some(side);
+        let is_so = orbit.standard() == Some(side);
         if ui.add(Button::selectable(is_so, name)).clicked() {
             commands.push(Command::Look(side));
         }
     }
     ui.separator();
-    let follow = words.say("Follow", "追従");
-    if ui.add(Button::selectable(viewport.orbit.follows, follow)).clicked() {
-        commands.push(Command::Follow);
-    }
-    let onion = words.say("Onion skin", "オニオンスキン");
-    if ui.add(Button::selectable(viewport.onion, onion)).clicked() {
-        commands.push(Command::Onion);
-    }
-    let trails = words.say("Trails", "軌跡");
-    if ui.add(Button::selectable(viewport.trails, trails)).clicked() {
-        commands.push(Command::Trails);
+    for (is_on, name, command) in [
+        (orbit.follows, words.say("Follow", "追従"), Command::Follow),
+        (onion, words.say("Onion skin", "オニオンスキン"), Command::Onion),
+        (trails, words.say("Trails", "軌跡"), Command::Trails),
+    ] {
+        if ui.add(Button::selectable(is_on, name)).clicked() {
+            commands.push(command);
+        }
     }
 }

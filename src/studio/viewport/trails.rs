@@ -1,11 +1,12 @@
 //! Trails (軌跡): where chosen joints go, with a dot at every koma of the source and every drawing of the
 //! result. Where dots stand close it is slow: spacing can be seen.
 
-use egui::{Painter, Pos2, Shape, Stroke};
+use egui::{Painter, Pos2, Shape, Stroke, Vec2};
 
-use super::{Seen, is_apart, placed};
+use super::orbit::placed;
 use crate::plot::parts::{Posing, Stage};
 use crate::sheet::{Role, Source};
+use crate::studio::command::Seen;
 use crate::studio::shown::Shown;
 
 /// Koma before and after the play head.
@@ -81,4 +82,9 @@ fn path(painter: &Painter, places: &[Pos2], dots: &[Dot], shown: &Shown<'_>) {
             painter.circle_stroke(*place, radius + 2.5, Stroke::new(1.8, look.playhead));
         }
     }
+}
+
+/// How far apart two points of the window are drawn for the same koma: nothing is drawn twice in one place.
+fn is_apart(a: Pos2, b: Pos2) -> bool {
+    (a - b).length_sq() > Vec2::splat(0.5).length_sq()
 }

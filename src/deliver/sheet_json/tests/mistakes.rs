@@ -145,3 +145,12 @@ fn another_version_and_other_files_are_named() {
     assert!(read(&text().as_bytes()[..900]).is_err());
     assert!(read(format!("{}{}", text(), text()).as_bytes()).is_err(), "two sheets in one file");
 }
+
+#[test]
+fn words_of_the_file_are_told_whole() {
+    let error = told("\"cut\": ", "\"cut at line 7\": 1, \"cut\": ");
+    assert!(error.contains("unknown field `cut at line 7`, expected one of "), "{error}");
+    let text = text().replacen("\"cut\": ", "\"cut\": 3, \"cute\": ", 1);
+    let error = read(text.as_bytes()).unwrap_err();
+    assert!(std::error::Error::source(&error).is_some(), "{error}");
+}

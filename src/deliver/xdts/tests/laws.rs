@@ -27,7 +27,7 @@ fn any_drawings() -> impl Strategy<Value = Vec<Drawing>> {
 
 /// Koma of each exposure, and which drawing of how many where that is not the next.
 #[derive(Debug, Clone)]
-enum Shown {
+enum Exposures {
     InOrder(Vec<usize>),
     Edited(Vec<(prop::sample::Index, usize)>),
 }
@@ -37,14 +37,15 @@ enum Shown {
 fn any_layer() -> impl Strategy<Value = Layer> {
     let edits = prop::collection::vec((any::<prop::sample::Index>(), 1..8usize), 1..40);
     let lengths = prop::collection::vec(1..8usize, 30);
-    let shown = prop_oneof![lengths.prop_map(Shown::InOrder), edits.prop_map(Shown::Edited)];
+    let shown =
+        prop_oneof![lengths.prop_map(Exposures::InOrder), edits.prop_map(Exposures::Edited)];
     (any_drawings(), shown, "[A-FS][0-9]?|腕|").prop_map(|(drawings, shown, name)| {
         let count = drawings.len();
         let exposures = match shown {
-            Shown::InOrder(lengths) => {
+            Exposures::InOrder(lengths) => {
                 lengths.into_iter().take(count).enumerate().collect::<Vec<_>>()
             }
-            Shown::Edited(edited) => {
+            Exposures::Edited(edited) => {
                 edited.into_iter().map(|(at, koma)| (at.index(count), koma)).collect()
             }
         };

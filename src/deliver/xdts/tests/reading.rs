@@ -100,7 +100,7 @@ fn tdts_is_read_from_its_action_column() {
 
 fn refused(file: &[u8]) -> (usize, usize, String) {
     match read(file) {
-        Err(Error::Sheet { place: Some((line, column)), message }) => (line, column, message),
+        Err(Error::Sheet { place: Some((line, column)), message, .. }) => (line, column, message),
         other => panic!("{other:?}"),
     }
 }

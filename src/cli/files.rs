@@ -1,6 +1,7 @@
 //! Files and streams: `-` is stdin or stdout, and a file is written beside its place and then renamed,
 //! so that nobody ever finds half of one. What is no file, a pipe or a device, is written into.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -9,12 +10,9 @@ use serde::Serialize;
 use tempfile::{NamedTempFile, TempPath};
 
 use super::failure::Failure;
+use super::paths::{self, is_stream, named};
 use crate::error::Error;
-
-/// Whether a path means stdin or stdout.
-pub(super) fn is_stream(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
+use crate::plot;
 
 /// All bytes of a file, or of stdin for `-`.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -25,6 +23,24 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
         fs::read(path)
     };
     bytes.map_err(|source| failed(path, source))
+}
+
+/// The text of the file that `--option` names, as `parse` reads it. Whatever is wrong with it is said of the option.
+pub(super) fn parsed<T>(
+    option: &str,
+    path: &Path,
+    parse: impl FnOnce(&str) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    let wrong = |reason: &dyn Display| {
+        Failure::AskedWrongly(format!("--{option}: {}: {reason}", named(path).display()))
+    };
+    let text = String::from_utf8(read(path)?).map_err(|_| wrong(&"is not UTF-8"))?;
+    parse(&text).map_err(|error| wrong(&error))
+}
+
+/// An error that concerns a file, which its message then names.
+pub(super) fn fault_of(path: &Path) -> impl Fn(Error) -> Failure {
+    move |error| Failure::of_file(&named(path), error)
 }
 
 /// Writes a file whole or not at all, or to stdout for `-`.
@@ -41,9 +57,22 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes data as JSON, as [`write`] does.
 pub(super) fn write_json(path: &Path, data: &impl Serialize) -> Result<(), Failure> {
+    write(path, json(&path.display(), data)?.as_bytes())
+}
+
+/// Data as JSON; `name` is what the file is called.
+pub(super) fn json(name: &impl Display, data: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(data)
-        .map_err(|error| Failure::CouldNot(format!("{}: {error}", path.display())))?;
-    write(path, (text + "\n").as_bytes())
+        .map_err(|error| Failure::CouldNot(format!("{name}: {error}")))?;
+    Ok(text + "\n")
+}
+
+/// A picture as an SVG or, for a name that ends in `.png`, a PNG.
+pub(super) fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
+    match paths::ending(path).as_deref() {
+        Some("png") => write(path, &plot::png_from_svg(svg, 2.0)?),
+        _ => write(path, svg.as_bytes()),
+    }
 }
 
 /// Whether a path is a device or a pipe, which takes what is written and must not be replaced by a file.
@@ -166,69 +195,6 @@ pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
         io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
         _ => failed(Path::new("stdout"), source),
     })
-}
-
-/// Refuses to write where the motion is read from: it is somebody's only take.
-pub(super) fn spare(source: &Path, target: &Path) -> Result<(), Failure> {
-    spare_the("motion", source, target)
-}
-
-/// Refuses to write where something is read from.
-pub(super) fn spare_the(what: &str, source: &Path, target: &Path) -> Result<(), Failure> {
-    if !is_same(source, target) {
-        return Ok(());
-    }
-    let target = target.display();
-    let message = format!("{target}: this is the {what} itself; write elsewhere, as with --out");
-    Err(Failure::AskedWrongly(message))
-}
-
-/// Refuses to write two things to one place: only the last would be left.
-pub(super) fn distinct<'a>(targets: impl Iterator<Item = &'a PathBuf>) -> Result<(), Failure> {
-    let targets: Vec<&PathBuf> = targets.collect();
-    for (at, target) in targets.iter().enumerate() {
-        if targets[..at].iter().any(|other| other == target || is_same(other, target)) {
-            let target = target.display();
-            let message = format!("{target}: two outputs are to go there; name another for one");
-            return Err(Failure::AskedWrongly(message));
-        }
-    }
-    Ok(())
-}
-
-/// Whether two paths are one file that is there.
-pub(super) fn is_same(a: &Path, b: &Path) -> bool {
-    let real = |path: &Path| fs::canonicalize(path).ok();
-    !is_stream(a) && real(a).is_some_and(|a| real(b) == Some(a))
-}
-
-/// The name a clip is called by: its file name without the ending.
-pub(super) fn stem(path: &Path) -> String {
-    if is_stream(path) {
-        return "stdin".into();
-    }
-    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-/// What several clips are called: as short as tells them apart.
-pub(super) fn names(clips: &[PathBuf]) -> Vec<String> {
-    let stems: Vec<String> = clips.iter().map(|clip| stem(clip)).collect();
-    let is_one = |stem: &String| stems.iter().filter(|other| *other == stem).count() == 1;
-    if stems.iter().all(is_one) {
-        return stems;
-    }
-    clips.iter().map(|clip| clip.display().to_string()).collect()
-}
-
-/// The name of a file without its folders; of stdin it is `stdin`.
-pub(super) fn file_name(path: &Path) -> String {
-    let named = named(path);
-    named.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-/// What a file that is read is called in messages.
-pub(super) fn named(path: &Path) -> PathBuf {
-    if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() }
 }
 
 fn failed(path: &Path, source: io::Error) -> Failure {

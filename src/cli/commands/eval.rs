@@ -1,34 +1,69 @@
 //! `genga eval`: how good a sheet is.
 
-use super::args::EvalArgs;
-use super::failure::Failure;
-use super::table::Table;
-use super::words::{Words, counted, two};
-use super::{io, source};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::study::tolerance;
+use crate::cli::clip::Reading;
+use crate::cli::failure::Failure;
+use crate::cli::words::{Table, Words, counted, two};
+use crate::cli::{files, paths};
 use crate::deliver::{reference_keys, sheet_json};
 use crate::quality::{Evaluation, Off, Slip, Timing};
 use crate::time::Frame;
 
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub(super) struct EvalArgs {
+    /// The sheet, a sheet.json; - is stdin.
+    #[arg(value_name = "SHEET.json")]
+    sheet: PathBuf,
+    /// The motion it was made of, the whole BVH file.
+    #[arg(long, short, value_name = "CLIP.bvh")]
+    clip: PathBuf,
+    /// Keys of somebody else to judge the genga by: a sheet.json, a table of `genga keys`, a CSV with a
+    /// column frame, or a list of source frames, one a line.
+    #[arg(long, value_name = "KEYS")]
+    reference: Option<PathBuf>,
+    /// How far a genga may be from a key of the reference and still be the same, in koma.
+    #[arg(long, value_name = "KOMA", default_value_t = 1.0, requires = "reference", value_parser = tolerance)]
+    tolerance: f64,
+    /// The measures as JSON; - is stdout, in place of the table.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+const HELP: &str = "\
+Measures:
+  keys alone     the motion made again by slerp from the genga and both ends of the clip, beside the
+                 source at each koma: root mean square over the body, in % of its height
+  on screen      the same of what the sheet shows at each koma
+  slip           how far a foot goes along the ground while it stands in the source
+  in source      the same in the source itself over the same koma
+  pops           steps out of a hold that are twice as far as the speed within half a second gives in
+                 the time of the hold, and 1 % or more
+  precision, recall, F1
+                 genga and keys of the reference that have each other within --tolerance, one to one
+  off            how far the nearest genga is from a key of the reference
+
+Examples:
+  genga run kick.bvh && genga eval kick-genga/sheet.json --clip kick.bvh
+  genga eval kick-genga/sheet.json --clip kick.bvh --reference by-hand.csv --json -";
+
 pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     check_files(args)?;
-    let of_sheet = |error| Failure::of_file(&io::named(&args.sheet), error);
-    let file = sheet_json::read(&io::read(&args.sheet)?).map_err(of_sheet)?;
-    let reference = match &args.reference {
-        None => None,
-        Some(path) => Some(
-            reference_keys(&io::read(path)?)
-                .map_err(|error| Failure::of_file(&io::named(path), error))?,
-        ),
-    };
-    let read = source::whole(&args.clip, &args.reading)?;
-    let (source, notes) = file.fit(read.clip).map_err(of_sheet)?;
-    source.check_size().map_err(|error| Failure::of_file(&io::named(&args.clip), error))?;
-    let drawn = file.drawn(&source).map_err(of_sheet)?;
-    read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
-    if drawn.is_some() {
+    let of_sheet = files::fault_of(&args.sheet);
+    let file = sheet_json::read(&files::read(&args.sheet)?).map_err(&of_sheet)?;
+    let keys = |path: &PathBuf| reference_keys(&files::read(path)?).map_err(files::fault_of(path));
+    let reference = args.reference.as_ref().map(keys).transpose()?;
+    let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
+    if motion.drawn.is_some() {
         words.say("the sheet is of an exaggerated motion, and is judged beside that: it is the source here");
     }
-    let clip = drawn.as_ref().unwrap_or(&source);
+    let clip = motion.clip();
     if let [first, _, ..] = &file.sheet.layers[..] {
         words.say(format_args!(
             "of several layers what is on screen is judged together, keys and pace by the first: {}",
@@ -42,31 +77,27 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
         words.say(format_args!("{keys} beyond frames {first} to {last} of the sheet do not count"));
     }
     let found = Evaluation::of(clip, &file.sheet, reference.as_deref(), args.tolerance)
-        .map_err(of_sheet)?;
+        .map_err(&of_sheet)?;
     if let Some(path) = &args.json {
-        io::write_json(path, &found)?;
+        files::write_json(path, &found)?;
     }
-    if args.json.as_deref().is_some_and(io::is_stream) {
+    if args.json.as_deref().is_some_and(paths::is_stream) {
         return Ok(());
     }
     let ends = [clip.first(), clip.last()];
-    io::to_stdout(page(&file.cut, &found, args.tolerance, ends).as_bytes())
+    files::to_stdout(page(&file.cut, &found, args.tolerance, ends).as_bytes())
 }
 
 /// One stdin, and nothing written over what is read.
 fn check_files(args: &EvalArgs) -> Result<(), Failure> {
     let sources = || [Some(&args.sheet), Some(&args.clip), args.reference.as_ref()];
-    if sources().into_iter().flatten().filter(|path| io::is_stream(path)).count() > 1 {
+    if sources().into_iter().flatten().filter(|path| paths::is_stream(path)).count() > 1 {
         let message = "only one of sheet, clip and reference can come from stdin".into();
         return Err(Failure::AskedWrongly(message));
     }
-    let named = ["sheet", "motion", "reference"].into_iter().zip(sources());
-    for (what, path) in named {
-        if let (Some(path), Some(target)) = (path, &args.json) {
-            io::spare_the(what, path, target)?;
-        }
-    }
-    Ok(())
+    let [sheet, clip, reference] = sources().map(|path| path.map(PathBuf::as_path));
+    let named = [("sheet", sheet), ("motion", clip), ("reference", reference)];
+    args.json.iter().try_for_each(|target| paths::spare(&named, target))
 }
 
 /// The measures for people.

@@ -1,7 +1,33 @@
 //! `genga studio`: the window.
 
-use super::args::StudioArgs;
-use super::failure::Failure;
+#[cfg(feature = "studio")]
+mod dialog;
+#[cfg(feature = "studio")]
+mod disk;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::clip::Part;
+use crate::cli::failure::Failure;
+
+#[cfg(feature = "studio")]
+pub use disk::Disk;
+
+#[derive(Debug, Args)]
+#[cfg_attr(not(feature = "studio"), allow(dead_code, reason = "this build has no studio"))]
+pub(super) struct StudioArgs {
+    /// The motion, a BVH file; without one the window waits for a file to be dropped on it.
+    #[arg(value_name = "CLIP.bvh")]
+    clip: Option<PathBuf>,
+    #[command(flatten)]
+    part: Part,
+    /// A recipe with its corrections [default: CLIP.genga.toml beside the clip, where a save of the studio
+    /// goes].
+    #[arg(long, value_name = "R.toml", requires = "clip")]
+    recipe: Option<PathBuf>,
+}
 
 #[cfg(not(feature = "studio"))]
 pub(super) fn run(_: StudioArgs) -> Result<(), Failure> {
@@ -21,9 +47,8 @@ mod shell {
 
     use eframe::egui::{Ui, ViewportBuilder, ViewportCommand};
 
-    use super::{Failure, StudioArgs};
-    use crate::cli::disk::Disk;
-    use crate::cli::io;
+    use super::{Disk, Failure, StudioArgs};
+    use crate::cli::paths;
     use crate::studio::{Language, Studio};
 
     /// The window and what it was last called.
@@ -43,9 +68,9 @@ mod shell {
         }
     }
 
-    pub(in crate::cli) fn run(args: StudioArgs) -> Result<(), Failure> {
+    pub(in crate::cli::commands) fn run(args: StudioArgs) -> Result<(), Failure> {
         let StudioArgs { clip, part, recipe } = args;
-        if clip.as_deref().is_some_and(io::is_stream) {
+        if clip.as_deref().is_some_and(paths::is_stream) {
             let message = "the studio saves beside its clip: give a file, not stdin";
             return Err(Failure::AskedWrongly(message.into()));
         }

@@ -1,31 +1,124 @@
 //! `genga study`: what is found when one or two settings vary.
 
+use std::path::PathBuf;
 use std::slice::from_ref;
 
+use clap::Args;
 use rayon::prelude::*;
 
-use super::args::{Filter, StudyArgs};
-use super::failure::Failure;
-use super::words::{Words, counted};
-use super::{io, pictures, source};
+use crate::cli::clip::Part;
+use crate::cli::corrections::Settings;
+use crate::cli::failure::Failure;
+use crate::cli::words::{Words, counted};
+use crate::cli::{files, paths};
 use crate::deliver;
+use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::{HeatMap, StudyPlot};
 use crate::recipe::Recipe;
-use crate::signal::FilterKind;
 use crate::study::{self, Axis, Grid, Measure, Plateau, Study};
 
 /// Sections of the recipe that change the sheet and not the keys.
 const OF_THE_SHEET: [&str; 2] = ["spacing", "omission"];
 
+#[derive(Debug, Args)]
+#[command(after_help = study_help())]
+pub(super) struct StudyArgs {
+    /// The motions, BVH files; - is stdin.
+    #[arg(value_name = "CLIP.bvh", required = true)]
+    clips: Vec<PathBuf>,
+    #[command(flatten)]
+    part: Part,
+    #[command(flatten)]
+    settings: Settings,
+    /// The setting that is varied and its values, in the recipe of `genga run` [default:
+    /// filter.width=10,20,30 in the recipe of Table 1].
+    #[arg(long, value_name = "KNOB=VALUES")]
+    x: Option<Axis>,
+    /// Another setting, varied for each value of the first [default: turns.persistence=5,10, and none
+    /// with --x].
+    #[arg(long, value_name = "KNOB=VALUES")]
+    y: Option<Axis>,
+    /// Filter widths of a Table 1 study, source frames or seconds: --x filter.width=VALUES, but in the
+    /// recipe of Table 1.
+    #[arg(long, value_name = "VALUES", value_parser = filter_width, conflicts_with = "x")]
+    filter_width: Option<Axis>,
+    /// Persistences of a Table 1 study, source frames or seconds: --y turns.persistence=VALUES, but in
+    /// the recipe of Table 1 unless --x is given.
+    #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
+    persistence: Option<Axis>,
+    /// The filter.
+    #[arg(long, value_name = "KIND", value_parser = ["box", "gaussian", "ideal", "butterworth"])]
+    filter: Option<String>,
+    /// What is counted [default: turns,genga,fills,union,total; all of the sheet too when a setting of the
+    /// sheet is varied].
+    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',')]
+    measure: Vec<Measure>,
+    /// Compare the layer's keys of each cell with those of the cells beside it: columns kept (share of
+    /// keys), mean_move and largest_move (source frames). Says in which region the keys do not change,
+    /// and draws its edge on the map.
+    #[arg(long)]
+    stability: bool,
+    /// How far a key may be moved and still be the same, in koma of the sheet.
+    #[arg(long, value_name = "KOMA", default_value_t = 1.0, requires = "stability", value_parser = tolerance)]
+    tolerance: f64,
+    /// The table, a CSV file; - is stdout.
+    #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
+    out: PathBuf,
+    /// A measure as curves over the first setting, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+    /// A measure as a map of both settings, its value in each cell, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    heat: Option<PathBuf>,
+    /// The measure that is drawn [default: the first that is counted; genga with --stability].
+    #[arg(long, value_name = "MEASURE")]
+    show: Option<Measure>,
+    /// Draw the paper's own six counts beside, of a clip that is not public.
+    #[arg(long, requires = "plot")]
+    paper: bool,
+}
+
+/// How axes are written, what can be counted, and three studies to begin with.
+fn study_help() -> String {
+    let measures = Measure::ALL.map(|measure| {
+        let (english, japanese) = measure.words();
+        format!("\n  {measure:<21}{english} ({japanese})")
+    });
+    format!(
+        "Axes:\n  KNOB is any setting of `genga recipe`, or noise (degrees of Gaussian noise on every rotation) \
+         or\n  noise.seed. VALUES is a list, in which FROM..TO:STEP is a range: both ends are in it when \
+         the step\n  lands on them. Units stay: 0.1s..0.5s:0.05s. Without --x and --y the recipe is that of \
+         the first\n  paper\u{2019}s Table 1 (`genga recipe --study`), with them it is that of `genga run`.\n\n\
+         Measures:{}\n\n\
+         Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
+         genga study a.bvh b.bvh --x keys.per_second=2..6:0.5 --plot curves.svg\n  \
+         genga study a.bvh --x noise=0..1:0.1 --y filter.width=0.05s..0.2s:0.05s --stability",
+        measures.concat()
+    )
+}
+
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    let koma = text.parse().ok().filter(|koma: &f64| koma.is_finite() && *koma >= 0.0);
+    koma.ok_or_else(|| "expected koma, 0 or more, as in 1 or 0.5".into())
+}
+
+fn filter_width(values: &str) -> Result<Axis, Error> {
+    Axis::new("filter.width", values)
+}
+
+fn persistence(values: &str) -> Result<Axis, Error> {
+    Axis::new("turns.persistence", values)
+}
+
 pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let targets = || args.plot.iter().chain(&args.heat).chain([&args.out]);
     for clip in &args.clips {
-        targets().try_for_each(|target| io::spare(clip, target))?;
+        targets().try_for_each(|target| paths::spare(&[("motion", Some(clip))], target))?;
     }
-    io::distinct(targets())?;
-    args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
-    args.heat.iter().try_for_each(|path| pictures::check_name("heat", path))?;
+    paths::distinct(targets())?;
+    paths::check_picture("plot", args.plot.as_ref())?;
+    paths::check_picture("heat", args.heat.as_ref())?;
     let study = asked(args)?;
     let show = args.show.unwrap_or_else(|| usually_shown(&study));
     let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
@@ -34,19 +127,19 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if args.heat.is_some() {
         HeatMap::fits(&study.x, study.y.as_ref())?;
     }
-    let clips = source::parts(&args.clips, &args.part, words)?;
+    let clips = args.part.read_all(&args.clips, words)?;
     let grids = swept(&study, clips, words)?;
-    let names = io::names(&args.clips);
+    let names = paths::names(&args.clips);
     let tolerance = args.stability.then_some(args.tolerance);
     let plateaus = tolerance.map(|koma| Plateaus::of(&grids, koma));
     if let Some(path) = &args.plot {
-        pictures::write(path, &plot.draw(&grids)?)?;
+        files::write_picture(path, &plot.draw(&grids)?)?;
     }
     if let Some(path) = &args.heat {
         let edges = plateaus.as_ref().map(|plateaus| &plateaus.found);
-        pictures::write(path, &HeatMap { show }.draw(&grids, edges)?)?;
+        files::write_picture(path, &HeatMap { show }.draw(&grids, edges)?)?;
     }
-    io::write(&args.out, deliver::study_csv(&names, &grids, tolerance)?.as_bytes())?;
+    files::write(&args.out, deliver::study_csv(&names, &grids, tolerance)?.as_bytes())?;
     if let Some(plateaus) = plateaus {
         say_plateaus(words, &names, &grids, &plateaus);
     }
@@ -105,9 +198,9 @@ fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
 fn asked(args: &StudyArgs) -> Result<Study, Failure> {
     let is_table_1 = args.x.is_none() && args.y.is_none();
     let base = if is_table_1 { study::table_1_recipe() } else { Recipe::default() };
-    let (mut recipe, _) = source::recipe(&args.settings, base)?;
-    if let Some(filter) = args.filter {
-        recipe.filter.kind = kind(filter);
+    let (mut recipe, _) = args.settings.read(base)?;
+    if let Some(kind) = &args.filter {
+        recipe.set("filter.kind", kind)?;
     }
     let (x, y) = axes(args)?;
     for axis in [Some(&x), y.as_ref()].into_iter().flatten() {
@@ -174,13 +267,4 @@ fn swept(study: &Study, clips: Vec<Clip>, words: &Words) -> Result<Vec<Grid>, Fa
         clips.into_par_iter().map(|clip| study.run(clip, || counter.count())).collect();
     // The first of what went wrong, whichever thread was first.
     Ok(grids.into_iter().collect::<Result<_, _>>()?)
-}
-
-fn kind(filter: Filter) -> FilterKind {
-    match filter {
-        Filter::Box => FilterKind::Box,
-        Filter::Gaussian => FilterKind::Gaussian,
-        Filter::Ideal => FilterKind::Ideal,
-        Filter::Butterworth => FilterKind::Butterworth,
-    }
 }

@@ -1,34 +1,49 @@
 //! `genga inspect`: what is in a clip.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
-use super::args::InspectArgs;
-use super::failure::Failure;
-use super::source::Source;
-use super::words::Words;
-use super::{io, pictures, source};
+use clap::Args;
+
+use crate::cli::clip::{ClipArgs, Source};
+use crate::cli::failure::Failure;
+use crate::cli::words::Words;
+use crate::cli::{files, paths};
 use crate::error::Warning;
 use crate::motion::{Axis, Channel, Clip, Joint, Stature, Unit};
+use crate::plot::SkeletonPlot;
 use crate::time::{FrameRate, KOMA_RATE};
 
 /// Levels that are indented; deeper ones would only run off the screen.
 const DEEPEST: usize = 32;
 
+#[derive(Debug, Args)]
+pub(super) struct InspectArgs {
+    #[command(flatten)]
+    clip: ClipArgs,
+    /// Only the warnings, on stdout: one a line, its code, line:column (- for the whole clip), sentence.
+    #[arg(long)]
+    warnings: bool,
+    /// Draw the skeleton too: its rest pose and its hierarchy, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg", conflicts_with = "warnings")]
+    plot: Option<PathBuf>,
+}
+
 pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     if let Some(target) = &args.plot {
-        io::spare(&args.clip.clip, target)?;
-        pictures::check_name("plot", target)?;
+        paths::spare(&[("motion", Some(&args.clip.path))], target)?;
     }
-    let source = source::clip(&args.clip)?;
+    paths::check_picture("plot", args.plot.as_ref())?;
+    let source = args.clip.read()?;
     if args.warnings {
-        return io::to_stdout(listed(&source.notes).as_bytes());
+        return files::to_stdout(listed(&source.notes).as_bytes());
     }
     source.notes.iter().for_each(|note| words.say(note));
-    let name = io::stem(&args.clip.clip);
+    let name = paths::stem(&args.clip.path);
     if let Some(path) = &args.plot {
-        pictures::write_skeleton(path, &name, &source.clip)?;
+        files::write_picture(path, &SkeletonPlot::default().draw(&name, &source.clip)?)?;
     }
-    io::to_stdout(page(&name, &source).as_bytes())
+    files::to_stdout(page(&name, &source).as_bytes())
 }
 
 /// Warnings for a script: code, place, sentence.

@@ -5,15 +5,17 @@ use std::sync::Arc;
 
 use egui::{Theme, Ui};
 
+use super::Studio;
 use super::column::Column;
+use super::command::{Command, Seen};
 use super::corrections::Correction;
 use super::errand::Errand;
 use super::exporting::Exporting;
 use super::here::Here;
-use super::keyboard::Command;
 use super::opening::Opening;
-use super::viewport::{Orbit, Seen};
-use super::{Language, Studio};
+use super::take::Take;
+use super::viewport::Orbit;
+use super::words::Language;
 use crate::error::Error;
 use crate::recipe::Recipe;
 
@@ -132,7 +134,7 @@ impl Studio {
                 self.save_as(&path);
             }
             Command::Choose => self.choose(),
-            Command::Recover => self.take.iter_mut().for_each(super::Take::recover),
+            Command::Recover => self.take.iter_mut().for_each(Take::recover),
             Command::Discard => self.discard(),
             Command::Theme => {
                 let other = if ui.theme() == Theme::Dark { Theme::Light } else { Theme::Dark };

@@ -1,17 +1,70 @@
 //! `genga compare`: several ways to choose keys, side by side.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use serde::Serialize;
 
-use super::args::CompareArgs;
-use super::failure::Failure;
-use super::table::Table;
-use super::words::{Words, counted, two};
-use super::{io, source};
+use crate::cli::clip::Part;
+use crate::cli::corrections::Settings;
+use crate::cli::failure::Failure;
+use crate::cli::words::{Table, Words, counted, two};
+use crate::cli::{files, paths};
 use crate::deliver;
 use crate::motion::Clip;
 use crate::quality::{Compare, Comparison, Method, Row};
 use crate::recipe::Recipe;
 use crate::study::Noise;
+
+#[derive(Debug, Args)]
+#[command(after_help = help())]
+pub(super) struct CompareArgs {
+    /// The motions, BVH files; - is stdin.
+    #[arg(value_name = "CLIP.bvh", required = true)]
+    clips: Vec<PathBuf>,
+    #[command(flatten)]
+    part: Part,
+    #[command(flatten)]
+    settings: Settings,
+    /// How many keys every method chooses, both ends of the clip apart: --keys 8,16,32 [default: as many
+    /// as the recipe finds, half and double].
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    keys: Vec<u32>,
+    /// Degrees of noise on every rotation under which keys are chosen once more; 0 for none.
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.1)]
+    noise: f64,
+    /// Tell how long each method took, which is other on each run.
+    #[arg(long)]
+    times: bool,
+    /// The table as a CSV file; - is stdout, in place of the one for people.
+    #[arg(long, short, value_name = "FILE.csv|-")]
+    out: Option<PathBuf>,
+    /// The same as JSON; - is stdout.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+/// The methods and columns, a line each.
+fn help() -> String {
+    let paces = Method::PACES.map(|(method, _)| method);
+    let lines = Method::ALL.into_iter().chain(paces).map(|method| {
+        let (english, japanese) = method.words();
+        format!("\n  {method:<15}{english} ({japanese})")
+    });
+    format!(
+        "Methods:{}\n\n\
+         Columns:\n  mean, worst    error of the motion made again by slerp from the keys, over all koma and at the\n                 \
+         worst: root mean square over the body, in % of its height\n  \
+         × mean, worst  the same as a multiple of the least there is for as many keys\n  \
+         hits           the share of the moments at which wrists, ankles or head turn furthest in the world, as\n                 \
+         many as keys, that have a key within a koma\n  \
+         by chance      the same in the mean when the keys are turned round the clip by 1, 2, 3 … koma\n  \
+         off            how far the nearest key is from such a moment in the mean, in koma\n  \
+         steady         F1, within a koma, of the keys with and without noise on the clip\n\n\
+         Examples:\n  genga compare kick.bvh --keys 8,16,32\n  genga compare *.bvh --out methods.csv",
+        lines.collect::<String>()
+    )
+}
 
 /// A comparison with the name of its clip.
 #[derive(Serialize)]
@@ -24,12 +77,12 @@ struct Named<'a> {
 pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
     let targets = || args.out.iter().chain(&args.json);
     for clip in &args.clips {
-        targets().try_for_each(|target| io::spare(clip, target))?;
+        targets().try_for_each(|target| paths::spare(&[("motion", Some(clip))], target))?;
     }
-    io::distinct(targets())?;
+    paths::distinct(targets())?;
     let asked = asked(args)?;
-    let names = io::names(&args.clips);
-    let clips: Vec<Clip> = source::parts(&args.clips, &args.part, words)?;
+    let names = paths::names(&args.clips);
+    let clips: Vec<Clip> = args.part.read_all(&args.clips, words)?;
     let counter = words.counting(clips.len(), "clips");
     let mut comparisons = Vec::with_capacity(clips.len());
     // One after the other: each works on all cores, and times would say nothing.
@@ -46,22 +99,22 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
     }
     drop(counter);
     if let Some(path) = &args.out {
-        io::write(path, deliver::comparison_csv(&names, &comparisons)?.as_bytes())?;
+        files::write(path, deliver::comparison_csv(&names, &comparisons)?.as_bytes())?;
     }
     if let Some(path) = &args.json {
         let named = names.iter().zip(&comparisons);
         let named: Vec<_> = named.map(|(clip, comparison)| Named { clip, comparison }).collect();
-        io::write_json(path, &named)?;
+        files::write_json(path, &named)?;
     }
-    if targets().any(|target| io::is_stream(target)) {
+    if targets().any(|target| paths::is_stream(target)) {
         return Ok(());
     }
     let pages = names.iter().zip(&comparisons).map(|(name, found)| page(name, found));
-    io::to_stdout(pages.collect::<Vec<_>>().join("\n").as_bytes())
+    files::to_stdout(pages.collect::<Vec<_>>().join("\n").as_bytes())
 }
 
 fn asked(args: &CompareArgs) -> Result<Compare, Failure> {
-    let (recipe, _) = source::recipe(&args.settings, Recipe::default())?;
+    let (recipe, _) = args.settings.read(Recipe::default())?;
     let counts = args.keys.iter().map(|count| *count as usize).collect();
     let noise = Noise { degrees: args.noise, ..Noise::default() };
     let asked = Compare { recipe, counts, noise, times: args.times, ..Compare::default() };

@@ -2,16 +2,33 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::RunArgs;
-use super::asked::{Asked, Written};
-use super::failure::Failure;
-use super::results::{ALWAYS, OWN, RECIPE, Results};
-use super::words::{Words, counted};
-use super::{io, pins, seen, source, targets};
+use clap::Args;
+
+use crate::cli::failure::Failure;
+use crate::cli::formats::{FormatArgs, Formats, Written, help};
+use crate::cli::plan::{Plan, PlanArgs};
+use crate::cli::results::{ALWAYS, OWN, RECIPE, Results};
+use crate::cli::words::{Words, counted};
+use crate::cli::{corrections, files, paths, pins, seen};
 use crate::deliver::{LayerReport, Report};
 use crate::edits::Edits;
-use crate::pipeline::Engine;
+use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
+
+#[derive(Debug, Args)]
+#[command(after_help = help())]
+pub(super) struct RunArgs {
+    #[command(flatten)]
+    plan: PlanArgs,
+    /// Formats to write besides: --deliver remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
+    deliver: Vec<String>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    /// The folder for the results [default: the clip's name with -genga].
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
 
 /// A recipe that is used in its place and is not as genga writes it is somebody's text, with comments that
 /// the settings do not hold. A run after an edit is how a recipe is tuned, so it is kept and not refused.
@@ -23,94 +40,74 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
                             run with --out into another folder, whose recipe.toml then has them";
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
-    targets::check(&args.targets, &args.corrections)?;
-    let (mut recipe, mut edits) = source::corrected(&args.corrections)?;
-    let mut asked = Asked::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
-    let name = io::stem(&args.clip.clip);
-    let folder = folder(args, &name)?;
-    spare(args, &asked, &folder, &name)?;
-    let working = words.working();
+    let mut plan = Plan::of(&args.plan)?;
+    let mut formats = Formats::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
+    let clip = &args.plan.clip.path;
+    let name = paths::stem(clip);
+    paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
+    let folder = args.out.clone().unwrap_or_else(|| format!("{name}-genga").into());
+    spare(args, &formats, &folder, &name)?;
+
+    let (working, mut notes) = (words.working(), Vec::new());
     working.on("reading the motion");
-    let mut source = source::clip(&args.clip)?;
-    let (seen_from, notes) = seen::asked(&args.corrections.seen, &source.clip)?;
-    recipe.seen_from = seen_from.unwrap_or(recipe.seen_from);
-    source.notes.extend(notes);
+    let mut engine = plan.read(&mut |note| notes.push(note))?;
     working.on("finding the key drawings");
-    let mut engine = Engine::new(source.clip)?;
-    let marked = pins::marked(&args.corrections, &mut engine, &recipe, &mut edits)?;
-    let short = targets::meet(&args.targets, &mut engine, &mut recipe, &edits, words)?;
-    let breakdown = engine.run_once(&recipe, &edits)?;
+    plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
+    let Plan { recipe, edits, .. } = &plan;
+    let breakdown = engine.run_once(recipe, edits)?;
+    notes.extend(corrections::unmoved(edits, &breakdown));
+
     working.on("writing");
-    let unmoved = pins::unmoved(&edits, &breakdown);
-    let notes = source.notes.iter().map(ToString::to_string);
-    let notes = notes.chain(marked).chain(short).chain(unmoved);
     let results = Results {
         name: &name,
-        clip_file: &io::file_name(&args.clip.clip),
+        clip_file: &paths::file_name(clip),
         breakdown: &breakdown,
-        recipe: &recipe,
-        edits: &edits,
-        notes: notes.collect(),
-        kept: kept(args, &folder.join(RECIPE), (&recipe, &edits)),
+        recipe,
+        edits,
+        notes,
+        kept: kept(args, &folder.join(RECIPE), (recipe, edits)),
         tell: &|_| {},
     };
-    let (report, Written { files, stale }) = results.write(&mut asked, &folder)?;
+    let (report, Written { files, stale }) = results.write(&mut formats, &folder)?;
     drop(working);
+
     summary(words, &name, &report);
-    for layer in breakdown.layers() {
-        let of = if report.layers.is_empty() { "" } else { &format!("{}: ", layer.layer.name) };
-        let shortfalls = layer.omission.shortfalls();
-        shortfalls.for_each(|reason| words.say(format_args!("note        {of}{reason}")));
-    }
+    shortfalls(words, &report, &breakdown);
     stale.iter().for_each(|stale| words.say(format_args!("note        {stale}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     Ok(())
 }
 
 /// Refuses to write over what is read, and over a sheet that was edited.
-fn spare(args: &RunArgs, asked: &Asked, folder: &Path, cut: &str) -> Result<(), Failure> {
-    let corrections = &args.corrections;
-    let (recipe, bones) = (corrections.settings.recipe.as_deref(), args.formats.bones.as_deref());
-    let others = [
-        recipe.map(|path| ("recipe", path)),
-        bones.map(|path| ("table of bones", path)),
-        seen::file(&corrections.seen).map(|path| ("camera", path)),
+fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<(), Failure> {
+    let (clip, corrections) = (&args.plan.clip, &args.plan.corrections);
+    let sources = [
+        ("motion", Some(&*clip.path)),
+        ("recipe", corrections.settings.recipe.as_deref()),
+        ("table of bones", args.formats.bones.as_deref()),
+        ("camera", seen::file(&corrections.seen)),
     ];
-    for (what, path) in
-        [("motion", &*args.clip.clip)].into_iter().chain(others.into_iter().flatten())
-    {
-        asked.spare(what, path, folder, cut)?;
-        let own = OWN.iter().filter(|file| (what, **file) != ("recipe", RECIPE));
-        own.into_iter().try_for_each(|file| io::spare_the(what, path, &folder.join(file)))?;
+    for (what, path) in sources.into_iter().filter_map(|(what, path)| Some((what, path?))) {
+        formats.spare(what, path, folder, cut)?;
+        let mut own = OWN.iter().filter(|file| (what, **file) != ("recipe", RECIPE));
+        own.try_for_each(|file| paths::spare(&[(what, Some(path))], &folder.join(file)))?;
     }
-    pins::spare(corrections, asked, folder, cut)?;
-    asked.spare_edited(folder)
+    pins::spare(corrections, formats, folder, cut)?;
+    formats.spare_edited(folder)
 }
 
 /// Why the recipe in the folder stays as it is; none where it is to be written, as it is for one that was
 /// given but has nothing that would be lost.
 fn kept(args: &RunArgs, file: &Path, used: (&Recipe, &Edits)) -> Option<&'static str> {
-    let given = args.corrections.settings.recipe.as_deref()?;
-    if !io::is_same(given, file) {
+    let given = args.plan.corrections.settings.recipe.as_deref()?;
+    if !paths::is_same(given, file) {
         return None;
     }
-    let text = String::from_utf8(io::read(file).ok()?).ok()?;
+    let text = String::from_utf8(files::read(file).ok()?).ok()?;
     match Recipe::parse(&text) {
         Ok((recipe, edits)) if recipe.write(&edits) == text => None,
         Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),
         _ => Some(KEPT_WITHOUT),
-    }
-}
-
-/// The folder that is asked for, or one beside the work with the clip's name.
-fn folder(args: &RunArgs, cut: &str) -> Result<PathBuf, Failure> {
-    match &args.out {
-        None => Ok(PathBuf::from(format!("{cut}-genga"))),
-        Some(out) if io::is_stream(out) => Err(Failure::AskedWrongly(
-            "--out: run writes a folder of files, not to stdout; genga keys writes a table there"
-                .into(),
-        )),
-        Some(out) => Ok(out.clone()),
     }
 }
 
@@ -132,6 +129,15 @@ fn summary(words: &Words, cut: &str, report: &Report) {
     if report.inbetweens_that_did_not_fit > 0 {
         let count = report.inbetweens_that_did_not_fit;
         words.say(format_args!("note        {count} inbetweens did not fit between their keys"));
+    }
+}
+
+/// What could not be left out or held as asked.
+fn shortfalls(words: &Words, report: &Report, breakdown: &Breakdown<'_>) {
+    for layer in breakdown.layers() {
+        let of = if report.layers.is_empty() { "" } else { &format!("{}: ", layer.layer.name) };
+        let shortfalls = layer.omission.shortfalls();
+        shortfalls.for_each(|reason| words.say(format_args!("note        {of}{reason}")));
     }
 }
 

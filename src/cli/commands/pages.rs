@@ -1,21 +1,22 @@
 //! Completions and the manual page, made from the same definition that parses the arguments.
 
-use clap::CommandFactory;
+use clap::Command;
 
-use super::args::Args;
-use super::failure::Failure;
-use super::io;
+use crate::cli::failure::Failure;
+use crate::cli::files;
 
 /// Completions for a shell. Made in memory first: writing them straight to a closed pipe would panic.
-pub(super) fn completions(shell: clap_complete::Shell) -> Result<(), Failure> {
+pub(super) fn completions(
+    shell: clap_complete::Shell,
+    mut program: Command,
+) -> Result<(), Failure> {
     let mut page = Vec::new();
-    clap_complete::generate(shell, &mut Args::command(), "genga", &mut page);
-    io::to_stdout(&page)
+    clap_complete::generate(shell, &mut program, "genga", &mut page);
+    files::to_stdout(&page)
 }
 
 /// The manual page, with a page for each command after it.
-pub(super) fn man() -> Result<(), Failure> {
-    let mut program = Args::command();
+pub(super) fn man(mut program: Command) -> Result<(), Failure> {
     program.build();
     let commands =
         program.get_subcommands().filter(|command| command.get_name() != "help").cloned();
@@ -25,5 +26,5 @@ pub(super) fn man() -> Result<(), Failure> {
             .render(&mut page)
             .map_err(|error| Failure::CouldNot(error.to_string()))?;
     }
-    io::to_stdout(&page)
+    files::to_stdout(&page)
 }

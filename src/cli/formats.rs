@@ -1,12 +1,50 @@
 //! The formats that a person asks for, and their files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::args::{BvhRows, FormatArgs};
+use clap::{Args, ValueEnum};
+
+use super::corrections::assignment;
 use super::failure::Failure;
-use super::{io, stale};
-use crate::deliver::{BoneMap, Cut, Format, Settings, sheet_json};
+use super::{files, paths};
+use crate::deliver::{BoneMap, Cut, FORMATS, Format, Settings, sheet_json};
 use crate::error::{Error, Warning};
+use crate::plot::Camera;
+
+/// What both commands that write formats take.
+#[derive(Debug, Default, Args)]
+pub(super) struct FormatArgs {
+    /// A BVH with these rows: the formats bvh and bvh-keys by other words.
+    #[arg(long, value_name = "ROWS")]
+    bvh: Option<BvhRows>,
+    /// From where the pictures of figures are seen: front, side, three-quarter, or auto, from where most of
+    /// the movement is seen.
+    #[arg(long, value_name = "CAMERA")]
+    camera: Option<Camera>,
+    /// One setting of a format: --with csv.bom=true (may be given again).
+    #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
+    with: Vec<(String, String)>,
+    /// For vmd: which of your joints drive which bone, over the table that comes with genga.
+    #[arg(long, value_name = "BONES.toml")]
+    pub(super) bones: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum BvhRows {
+    /// A row a koma, holds repeated: limited.bvh.
+    Stepped,
+    /// A row a key drawing, a pose library: keys.bvh.
+    Keys,
+}
+
+/// The formats, a line each.
+pub(super) fn help() -> String {
+    let lines = FORMATS.iter().map(|format| {
+        let (name, help, japanese) = (format.name, format.help, format.japanese);
+        format!("\n  {name:<12}{help} ({japanese}): {}", format.files.join(" "))
+    });
+    format!("Formats:{}", lines.collect::<String>())
+}
 
 /// More files of one format than this are named by the first and the last.
 const MOST_NAMES: usize = 3;
@@ -23,14 +61,14 @@ pub(super) struct Written {
 }
 
 /// Formats and their settings.
-pub(super) struct Asked {
+pub(super) struct Formats {
     formats: Vec<&'static Format>,
     /// Those that are not only among `all`.
     named: Vec<&'static str>,
     settings: Settings,
 }
 
-impl Asked {
+impl Formats {
     /// What `--option` names, what else is asked for, and what comes `always`.
     pub(super) fn new(
         option: &str,
@@ -57,6 +95,7 @@ impl Asked {
         for (name, value) in &args.with {
             settings.set(name, value).map_err(|error| wrongly("with", &error))?;
         }
+        let bones = |path| files::parsed("bones", path, BoneMap::parse);
         settings.vmd.bones = args.bones.as_deref().map(bones).transpose()?;
         Ok(Self { formats, named, settings })
     }
@@ -70,8 +109,8 @@ impl Asked {
         cut: &str,
     ) -> Result<(), Failure> {
         let mut files = self.formats.iter().flat_map(|format| format.files);
-        files
-            .try_for_each(|file| io::spare_the(what, source, &folder.join(Cut::file_of(cut, file))))
+        let place = |file| folder.join(Cut::file_of(cut, file));
+        files.try_for_each(|file| paths::spare(&[(what, Some(source))], &place(file)))
     }
 
     /// Refuses to write over a sheet that is not as it was made: a person's work is in it.
@@ -80,7 +119,7 @@ impl Asked {
         if !self.writes("json") || !path.is_file() {
             return Ok(());
         }
-        let sheet = io::read(&path).map(|bytes| sheet_json::read(&bytes));
+        let sheet = files::read(&path).map(|bytes| sheet_json::read(&bytes));
         if matches!(sheet, Ok(Ok(sheet)) if sheet.is_as_made()) {
             return Ok(());
         }
@@ -96,10 +135,11 @@ impl Asked {
     /// Where it is asked for by name, that is refused.
     pub(super) fn leave_sheet(&mut self, sheet: &Path, folder: &Path) -> Result<(), Failure> {
         let target = folder.join(SHEET);
-        if !self.is_named("json") && io::is_same(sheet, &target) {
+        if !self.is_named("json") && paths::is_same(sheet, &target) {
             self.formats.retain(|format| format.name != "json");
         }
-        if self.writes("json") { io::spare_the("sheet", sheet, &target) } else { Ok(()) }
+        let sheet = Some(sheet).filter(|_| self.writes("json"));
+        paths::spare(&[("sheet", sheet)], &target)
     }
 
     /// Whether a format of that name is among them.
@@ -115,7 +155,7 @@ impl Asked {
     pub(super) fn write(
         &self,
         cut: &Cut<'_>,
-        bundle: &mut io::Bundle<'_>,
+        bundle: &mut files::Bundle<'_>,
         tell: &dyn Fn(&str),
     ) -> Result<Written, Failure> {
         let (mut files, mut left) = (Vec::new(), Vec::new());
@@ -127,7 +167,7 @@ impl Asked {
                 bundle.add(name, bytes)
             })?;
             if format.is_numbered {
-                left.extend(shortened(stale::stale(bundle.folder(), &names)));
+                left.extend(shortened(paths::stale(bundle.folder(), &names)));
             }
             files.extend(shortened(names));
         }
@@ -161,17 +201,6 @@ fn shortened(mut names: Vec<String>) -> Vec<String> {
         names.splice(1..names.len() - 1, ["…".into()]);
     }
     names
-}
-
-/// A person's table of bones.
-fn bones(path: &Path) -> Result<BoneMap, Failure> {
-    let name = io::named(path);
-    let wrong = |reason: &dyn std::fmt::Display| {
-        Failure::AskedWrongly(format!("--bones: {}: {reason}", name.display()))
-    };
-    let bytes = io::read(path)?;
-    let text = std::str::from_utf8(&bytes).map_err(|_| wrong(&"is not UTF-8"))?;
-    BoneMap::parse(text).map_err(|error| wrong(&error))
 }
 
 fn wrongly(option: &str, error: &Error) -> Failure {

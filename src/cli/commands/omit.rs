@@ -1,23 +1,63 @@
 //! `genga omit`: the second paper alone, on the clip at 24 drawings a second.
 
-use super::args::OmitArgs;
-use super::failure::Failure;
-use super::words::{Words, counted};
-use super::{io, pictures, seen, source};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::clip::ClipArgs;
+use crate::cli::failure::Failure;
+use crate::cli::seen::{self, SeenArgs};
+use crate::cli::words::{Words, counted};
+use crate::cli::{files, paths};
 use crate::deliver;
 use crate::motion::Screen;
+use crate::plot::SsdPlot;
 use crate::sheet::Sheet;
 use crate::time::KOMA_RATE;
-use crate::timing::{Omission, Omitted, Order, Report, Stills};
+use crate::timing::{Amount, Omission, Omitted, Order, Report, Stills};
+
+#[derive(Debug, Args)]
+pub(super) struct OmitArgs {
+    #[command(flatten)]
+    clip: ClipArgs,
+    #[command(flatten)]
+    seen: SeenArgs,
+    /// How many of the fastest drawings to leave out: a count (4) or a share of the koma (4%).
+    #[arg(long, value_name = "N", default_value = "4")]
+    naka_nashi: Amount,
+    /// How many of the slowest drawings to hold over: a count (33) or a share of the drawings (1/3).
+    #[arg(long, value_name = "N|SHARE", default_value = "1/3")]
+    koma_dori: Amount,
+    /// The longest hold, in koma.
+    #[arg(long, value_name = "K", default_value_t = 4)]
+    max_hold: usize,
+    /// Leave the fastest out all at once, by their first speed (for comparison).
+    #[arg(long)]
+    all_at_once: bool,
+    /// Hold first, leave out after.
+    #[arg(long)]
+    koma_dori_first: bool,
+    /// Let the motion get shorter by what naka-nashi leaves out.
+    #[arg(long)]
+    let_length_change: bool,
+    /// The limited motion, a BVH file at 24 frames a second; - is stdout.
+    #[arg(long, short, value_name = "FILE.bvh")]
+    out: PathBuf,
+    /// The timesheet, a CSV file.
+    #[arg(long, value_name = "FILE.csv")]
+    sheet: Option<PathBuf>,
+    /// The movement into each koma before and after, an SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
 
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
-    for target in args.sheet.iter().chain(&args.plot).chain([&args.out]) {
-        io::spare(&args.clip.clip, target)?;
-        seen::file(&args.seen).map_or(Ok(()), |camera| io::spare_the("camera", camera, target))?;
-    }
-    args.plot.iter().try_for_each(|path| pictures::check_name("plot", path))?;
-    io::distinct(args.sheet.iter().chain(&args.plot).chain([&args.out]))?;
-    let source = source::clip(&args.clip)?;
+    let targets = || args.sheet.iter().chain(&args.plot).chain([&args.out]);
+    let sources = [("motion", Some(&*args.clip.path)), ("camera", seen::file(&args.seen))];
+    targets().try_for_each(|target| paths::spare(&sources, target))?;
+    paths::check_picture("plot", args.plot.as_ref())?;
+    paths::distinct(targets())?;
+    let source = args.clip.read()?;
     let (seen_from, notes) = seen::asked(&args.seen, &source.clip)?;
     let seen_from = seen_from.unwrap_or_default();
     source.notes.iter().chain(&notes).for_each(|note| words.say(note));
@@ -33,12 +73,13 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     let sheet = Sheet::new(ones.clock, vec![layer]);
     let motion = deliver::limited_bvh(&clip, &sheet)?;
     if let Some(path) = &args.sheet {
-        io::write(path, deliver::sheet_csv(&sheet)?.as_bytes())?;
+        files::write(path, deliver::sheet_csv(&sheet)?.as_bytes())?;
     }
     if let Some(path) = &args.plot {
-        pictures::write_omission(path, &clip, (&ones, &sheet), seen_from)?;
+        let plot = SsdPlot { seen_from, ..SsdPlot::default() };
+        files::write_picture(path, &plot.draw(&clip, &ones, &sheet)?)?;
     }
-    io::write(&args.out, motion.as_bytes())?;
+    files::write(&args.out, motion.as_bytes())?;
     if !seen_from.is_world() {
         words.say(format_args!("seen from   画面       {seen_from}"));
     }

@@ -1,12 +1,14 @@
 //! `genga split`: a long take as the actions that it consists of.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::args::SplitArgs;
-use super::failure::Failure;
-use super::table::Table;
-use super::words::{Words, counted};
-use super::{io, source, stale};
+use clap::Args;
+
+use crate::cli::clip::ClipArgs;
+use crate::cli::corrections::{Settings, frame};
+use crate::cli::failure::Failure;
+use crate::cli::words::{Table, Words, counted};
+use crate::cli::{files, paths};
 use crate::deliver::{Cut, actions_csv};
 use crate::keys::{Action, Actions, SplitReason};
 use crate::motion::{Clip, bvh};
@@ -14,30 +16,58 @@ use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::time::{Frame, FrameRate};
 
+const HELP: &str = "\
+An action (動作) is one movement: a throw, a swing, a kick. The second paper leaves 4 to 6
+drawings out of an action, and its clips were cut by hand into single ones. Not to be
+confused with a cut (カット), the shot.
+
+A take is split in the middle of its rests (止め), in lulls (緩み) and where other parts of
+the body take over the movement (動きの変化), so that actions last 4.4 seconds or so, and
+none less than one. genga run does the same by itself and counts what is left out in each
+action; its --split and actions.split=false are for when it is wrong.
+
+Examples:
+  genga split take.bvh                            where it would be split, and why
+  genga split take.bvh --out parts                parts/take-01.bvh, take-02.bvh …
+  genga split take.bvh --at 310,774 --out parts   there and nowhere else
+  genga split take.bvh --set actions.length=8s    fewer and longer actions";
+
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub(super) struct SplitArgs {
+    #[command(flatten)]
+    clip: ClipArgs,
+    #[command(flatten)]
+    settings: Settings,
+    /// Source frames with which actions begin, instead of those that are found: --at 310,774
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
+    at: Vec<Frame>,
+    /// Write each action as a BVH of its own into this folder, and a table of them; without it they are
+    /// only listed.
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
 pub(super) fn run(args: &SplitArgs, words: &Words) -> Result<(), Failure> {
-    let (recipe, mut edits) = source::recipe(&args.settings, Recipe::default())?;
+    let (recipe, mut edits) = args.settings.read(Recipe::default())?;
     if !args.at.is_empty() {
         edits.splits = args.at.clone();
     }
-    check_folder(args.out.as_deref())?;
-    let source = source::clip(&args.clip)?;
+    paths::check_folder(
+        args.out.as_deref(),
+        "split",
+        "; without --out it lists the actions there",
+    )?;
+    let source = args.clip.read()?;
     source.notes.iter().for_each(|note| words.say(note));
     let mut engine = Engine::new(source.clip)?;
     let actions = engine.find_actions(&recipe, &edits)?.clone();
     let clip = engine.clip();
     if let Some(folder) = &args.out {
-        let parts = Parts { clip, actions: &actions, name: &io::stem(&args.clip.clip) };
-        parts.write(&args.clip.clip, folder, words)?;
+        let parts = Parts { clip, actions: &actions, name: &paths::stem(&args.clip.path) };
+        parts.write(&args.clip.path, folder, words)?;
     }
-    io::to_stdout(table(&actions, clip.rate()).as_bytes())
-}
-
-fn check_folder(folder: Option<&Path>) -> Result<(), Failure> {
-    if folder.is_some_and(io::is_stream) {
-        let message = "--out: split writes a folder of files, not to stdout; without --out it lists the actions there";
-        return Err(Failure::AskedWrongly(message.into()));
-    }
-    Ok(())
+    files::to_stdout(table(&actions, clip.rate()).as_bytes())
 }
 
 /// A take in parts.
@@ -53,15 +83,15 @@ impl Parts<'_> {
         let files = self.files();
         let table = Cut::file_of(self.name, "CUT-actions.csv");
         for file in files.iter().chain([&table]) {
-            io::spare(source, &folder.join(file))?;
+            paths::spare(&[("motion", Some(source))], &folder.join(file))?;
         }
-        let mut bundle = io::Bundle::begin(folder)?;
+        let mut bundle = files::Bundle::begin(folder)?;
         for (file, action) in files.iter().zip(self.actions.iter()) {
             bundle.add(file, self.bvh(action))?;
         }
         bundle.add(&table, actions_csv(self.actions, self.clip.rate(), &files)?)?;
         bundle.finish()?;
-        let left = stale::stale(folder, &files);
+        let left = paths::stale(folder, &files);
         if !left.is_empty() {
             let left = left.join(" ");
             words.say(format_args!("note        of an earlier split, not of this one: {left}"));

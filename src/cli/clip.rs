@@ -1,0 +1,204 @@
+//! The motion of a command: which, which part of it, and how it is read.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::words::Words;
+use super::{files, paths};
+use crate::deliver::sheet_json::SheetFile;
+use crate::error::{Error, Warning};
+use crate::motion::{Clip, bvh};
+use crate::time::{Frame, FrameRate};
+
+/// The clip, and which part of it.
+#[derive(Debug, Args)]
+pub(super) struct ClipArgs {
+    /// The motion, a BVH file; - is stdin.
+    #[arg(id = "clip", value_name = "CLIP.bvh")]
+    pub(super) path: PathBuf,
+    #[command(flatten)]
+    part: Part,
+}
+
+/// Which part of a clip, and how it is read.
+#[derive(Debug, Default, Args)]
+pub(super) struct Part {
+    /// Keep a T-pose that was put in front of the motion.
+    #[arg(long)]
+    keep_lead_in: bool,
+    /// Work on source frames A up to but not including B, numbered from 0 as in the file.
+    #[arg(long, value_name = "A..B", value_parser = frames)]
+    trim: Option<Frames>,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+/// How a clip is read.
+#[derive(Debug, Default, Args)]
+pub(super) struct Reading {
+    /// The frame rate, whatever the file says.
+    #[arg(long, value_name = "N", value_parser = rate)]
+    fps: Option<FrameRate>,
+    /// Of several trees of joints only the one whose root has this name.
+    #[arg(long, value_name = "NAME")]
+    root: Option<String>,
+    /// Hold the value before a nan or inf, and leave out what is too much in a row; said in a note.
+    #[arg(long, conflicts_with = "strict")]
+    repair: bool,
+    /// Refuse a file that has anything to warn of (see inspect --warnings).
+    #[arg(long)]
+    strict: bool,
+}
+
+/// A half-open range of source frames.
+type Frames = std::ops::Range<usize>;
+
+fn frames(text: &str) -> Result<Frames, String> {
+    let number = |text: &str, open: usize| match text.trim() {
+        "" => Some(open),
+        text => text.parse().ok(),
+    };
+    let parsed = text
+        .split_once("..")
+        .and_then(|(begin, end)| Some(number(begin, 0)?..number(end, usize::MAX)?));
+    parsed.ok_or_else(|| "expected frame numbers, as in 120..480, 120.. or ..480".into())
+}
+
+fn rate(text: &str) -> Result<FrameRate, String> {
+    let fps = text.parse().ok().and_then(|fps| FrameRate::new(fps).ok());
+    fps.ok_or_else(|| "expected frames a second from 0.001 to 1000000, as in 120 or 29.97".into())
+}
+
+/// A clip ready to be worked on, and what a person should know about it.
+pub(super) struct Source {
+    pub(super) clip: Clip,
+    pub(super) notes: Vec<Warning>,
+    /// Seconds a frame as the file writes them.
+    pub(super) written_frame_time: f64,
+}
+
+impl ClipArgs {
+    /// Reads the clip as [`Part::read`] does.
+    pub(super) fn read(&self) -> Result<Source, Failure> {
+        self.part.read(&self.path)
+    }
+}
+
+impl Part {
+    /// Reads the clip, leaves out an inserted T-pose unless asked to keep it, and trims.
+    ///
+    /// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
+    pub(super) fn read(&self, path: &Path) -> Result<Source, Failure> {
+        let bvh::Read { clip, warnings: mut notes, written_frame_time } =
+            self.reading.read(path)?;
+        let begin = self.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
+        let (clip, note) = if self.keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
+        notes.extend(note.filter(|_| begin < clip.first().0));
+        let clip = self.trimmed(clip, path)?;
+        clip.check_size().map_err(files::fault_of(path))?;
+        Ok(Source { clip, notes, written_frame_time })
+    }
+
+    fn trimmed(&self, clip: Clip, path: &Path) -> Result<Clip, Failure> {
+        let Some(frames) = &self.trim else { return Ok(clip) };
+        // A trim from before the motion means from its beginning.
+        let begin = Frame(frames.start.max(clip.first().0));
+        let end = Frame(if frames.end == usize::MAX { clip.last().0 + 1 } else { frames.end });
+        clip.trimmed(begin, end).map_err(|error| match error {
+            Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),
+            other => files::fault_of(path)(other),
+        })
+    }
+
+    /// Reads every file, before any work on one begins; says what there is to know of each.
+    pub(super) fn read_all(&self, clips: &[PathBuf], words: &Words) -> Result<Vec<Clip>, Failure> {
+        let read = |path: &PathBuf| {
+            let source = self.read(path)?;
+            for note in &source.notes {
+                if clips.len() > 1 {
+                    words.say(format_args!("{}: {note}", path.display()));
+                } else {
+                    words.say(note);
+                }
+            }
+            Ok(source.clip)
+        };
+        clips.iter().map(read).collect()
+    }
+}
+
+impl Reading {
+    /// Reads the whole file, with everything that stands in front of the motion.
+    fn read(&self, path: &Path) -> Result<bvh::Read, Failure> {
+        let Self { fps, root, repair, strict } = self;
+        let options =
+            bvh::Options { strict: *strict, repair: *repair, fps: *fps, root: root.clone() };
+        let read = if paths::is_stream(path) {
+            options.read(&files::read(path)?)
+        } else {
+            options.open(path)
+        };
+        read.map_err(|error| match error {
+            Error::Setting { name, message } => {
+                Failure::AskedWrongly(format!("--{name}: {message}"))
+            }
+            other => files::fault_of(path)(other),
+        })
+    }
+
+    /// Reads the motion of a sheet, and says what there is to know of it.
+    pub(super) fn read_for(
+        &self,
+        (sheet, file): (&Path, &SheetFile),
+        path: &Path,
+        words: &Words,
+    ) -> Result<OfSheet, Failure> {
+        let of_sheet = files::fault_of(sheet);
+        let read = self.read(path)?;
+        let (source, notes) = file.fit(read.clip).map_err(&of_sheet)?;
+        source.check_size().map_err(files::fault_of(path))?;
+        let drawn = file.drawn(&source).map_err(&of_sheet)?;
+        read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
+        Ok(OfSheet { source, drawn })
+    }
+}
+
+/// The motion of a sheet.
+pub(super) struct OfSheet {
+    /// As it was captured.
+    pub(super) source: Clip,
+    /// As it was drawn, where it was exaggerated.
+    pub(super) drawn: Option<Clip>,
+}
+
+impl OfSheet {
+    /// What the drawings are of.
+    pub(super) fn clip(&self) -> &Clip {
+        self.drawn.as_ref().unwrap_or(&self.source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_is_a_number_of_frames_a_second() {
+        assert_eq!(rate("29.97").unwrap().fps(), 29.97);
+        for wrong in ["0", "-24", "nan", "inf", "fast", ""] {
+            assert!(rate(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_range_is_two_frames_or_open() {
+        assert_eq!(frames("120..480").unwrap(), 120..480);
+        assert_eq!(frames("120..").unwrap(), 120..usize::MAX);
+        assert_eq!(frames("..480").unwrap(), 0..480);
+        for wrong in ["120-480", "a..480", "120..b", "-1..5"] {
+            assert!(frames(wrong).is_err(), "{wrong}");
+        }
+    }
+}

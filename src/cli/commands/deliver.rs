@@ -1,0 +1,84 @@
+//! `genga deliver`: a sheet, as it was or edited, in the formats that are asked for.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::cli::clip::Reading;
+use crate::cli::failure::Failure;
+use crate::cli::formats::{FormatArgs, Formats, help};
+use crate::cli::words::{Words, counted};
+use crate::cli::{files, paths};
+use crate::deliver::{Cut, sheet_json};
+use crate::sheet::Role;
+
+#[derive(Debug, Args)]
+#[command(after_help = help())]
+pub(super) struct DeliverArgs {
+    /// The sheet, a sheet.json; - is stdin.
+    #[arg(value_name = "SHEET.json")]
+    sheet: PathBuf,
+    /// The motion it was made of, the whole BVH file.
+    #[arg(value_name = "CLIP.bvh")]
+    clip: PathBuf,
+    /// The formats to write: --to remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required_unless_present = "bvh")]
+    to: Vec<String>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    #[command(flatten)]
+    reading: Reading,
+    /// The folder for the files [default: the one the sheet is in].
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
+    let mut formats = Formats::new("to", &args.to, &[], &args.formats)?;
+    if paths::is_stream(&args.sheet) && paths::is_stream(&args.clip) {
+        let message = "sheet and clip cannot both come from stdin".into();
+        return Err(Failure::AskedWrongly(message));
+    }
+    paths::check_folder(args.out.as_deref(), "deliver", "")?;
+    let folder = args.out.as_deref().unwrap_or_else(|| beside(&args.sheet));
+    formats.leave_sheet(&args.sheet, folder)?;
+    formats.spare_edited(folder)?;
+    let file =
+        sheet_json::read(&files::read(&args.sheet)?).map_err(files::fault_of(&args.sheet))?;
+    let bones = args.formats.bones.as_deref().map(|path| ("table of bones", path));
+    let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
+    for (what, path) in sources {
+        formats.spare(what, path, folder, &file.cut)?;
+    }
+    let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
+    let cut = Cut {
+        name: &file.cut,
+        clip_file: &paths::file_name(&args.clip),
+        clip: motion.clip(),
+        exaggerated: motion.drawn.is_some().then_some((&motion.source, &file.exaggerate)),
+        sheet: &file.sheet,
+        spaced: None,
+        splits: &[],
+        made_with: file.made_with.as_ref(),
+    };
+    formats.settle(&cut)?.iter().for_each(|note| words.say(note));
+    let mut bundle = files::Bundle::begin(folder)?;
+    let written = formats.write(&cut, &mut bundle, &|_| {})?;
+    bundle.finish()?;
+    for layer in &file.sheet.layers {
+        let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));
+        let drawings = counted(layer.shown().count(), "drawing");
+        words.say(format_args!(
+            "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
+        ));
+    }
+    written.stale.iter().for_each(|stale| words.say(stale));
+    words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
+    Ok(())
+}
+
+/// The folder that a file is in.
+fn beside(file: &Path) -> &Path {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}

@@ -1,0 +1,181 @@
+//! The studio's desk on a disk: it reads, writes and exports as the other commands do.
+
+use std::env;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use super::dialog;
+use crate::cli::clip::Part;
+use crate::cli::failure::Failure;
+use crate::cli::formats::{FormatArgs, Formats};
+use crate::cli::results::{ALWAYS, OWN, Results};
+use crate::cli::{files, paths};
+use crate::studio::{Desk, Export, Opened};
+
+/// Files on a disk.
+#[derive(Debug, Default)]
+pub struct Disk {
+    /// The clip that the command line names, and which part of it is meant.
+    named: Option<(PathBuf, Part)>,
+    recent: Recent,
+}
+
+impl Disk {
+    /// A disk with a clip of which a part is meant, and the list of what was opened last.
+    pub(super) fn with(clip: Option<PathBuf>, part: Part) -> Self {
+        Self { named: clip.map(|clip| (clip, part)), recent: Recent::of_person() }
+    }
+}
+
+impl Desk for Disk {
+    fn open(&self, clip: &Path) -> Result<Opened, String> {
+        let whole = Part::default();
+        let part = self.named.as_ref().filter(|(named, _)| named == clip);
+        let read = part.map_or(&whole, |(_, part)| part).read(clip).map_err(said)?;
+        let notes = read.notes.iter().map(ToString::to_string).collect();
+        Ok(Opened { clip: read.clip, notes })
+    }
+
+    fn read(&self, path: &Path) -> Result<Option<String>, String> {
+        match fs::read_to_string(path) {
+            Ok(text) => Ok(Some(text)),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(format!("{}: {error}", path.display())),
+        }
+    }
+
+    fn write(&self, path: &Path, text: &str) -> Result<(), String> {
+        files::write(path, text.as_bytes()).map_err(said)
+    }
+
+    fn remove(&self, path: &Path) -> Result<(), String> {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(format!("{}: {error}", path.display()))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn export(
+        &self,
+        folder: &Path,
+        export: &Export<'_>,
+        tell: &dyn Fn(&str),
+    ) -> Result<Vec<String>, String> {
+        written(folder, export, tell).map_err(said)
+    }
+
+    fn choose(&self) -> Option<PathBuf> {
+        dialog::choose()
+    }
+
+    fn recent(&self) -> Vec<PathBuf> {
+        self.recent.clips()
+    }
+
+    fn remember(&self, clip: &Path) {
+        // A list that cannot be written is worth no word.
+        drop(self.recent.remember(clip));
+    }
+}
+
+/// Writes what a run writes, and spares what a run spares.
+fn written(
+    folder: &Path,
+    export: &Export<'_>,
+    tell: &dyn Fn(&str),
+) -> Result<Vec<String>, Failure> {
+    let mut formats = Formats::new("deliver", &[], &ALWAYS, &FormatArgs::default())?;
+    let name = paths::stem(export.clip);
+    formats.spare("motion", export.clip, folder, &name)?;
+    let motion = [("motion", Some(export.clip))];
+    OWN.iter().try_for_each(|file| paths::spare(&motion, &folder.join(file)))?;
+    formats.spare_edited(folder)?;
+    let results = Results {
+        name: &name,
+        clip_file: &paths::file_name(export.clip),
+        breakdown: export.breakdown,
+        recipe: export.recipe,
+        edits: export.edits,
+        notes: export.notes.to_vec(),
+        kept: None,
+        tell,
+    };
+    let (_, written) = results.write(&mut formats, folder)?;
+    Ok(written.files)
+}
+
+fn said(failure: Failure) -> String {
+    failure.to_string()
+}
+
+/// As many as can be taken in at a glance.
+const MOST: usize = 8;
+
+/// The clips that were opened last: where their list is kept, a path a line, the newest first. None where the system names no place for it.
+#[derive(Debug, Default)]
+struct Recent(Option<PathBuf>);
+
+impl Recent {
+    /// The list of whoever runs the program.
+    fn of_person() -> Self {
+        let folder = |name| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let state = match cfg!(windows) {
+            true => folder("LOCALAPPDATA"),
+            false => folder("XDG_STATE_HOME")
+                .or_else(|| folder("HOME").map(|home| home.join(".local/state"))),
+        };
+        Self(state.map(|state| state.join("genga/recent.txt")))
+    }
+
+    /// The clips that are still there.
+    fn clips(&self) -> Vec<PathBuf> {
+        let text = self.0.as_ref().and_then(|file| fs::read_to_string(file).ok());
+        let text = text.unwrap_or_default();
+        text.lines().map(PathBuf::from).filter(|clip| clip.is_file()).take(MOST).collect()
+    }
+
+    /// Puts a clip in front.
+    fn remember(&self, clip: &Path) -> Result<(), Failure> {
+        let Some(file) = &self.0 else { return Ok(()) };
+        let clip = std::path::absolute(clip).unwrap_or_else(|_| clip.to_owned());
+        let others = self.clips().into_iter().filter(|other| *other != clip);
+        let clips = [clip.clone()].into_iter().chain(others).take(MOST);
+        // A path that is no text, or more than a line, could not be read back.
+        let lines = clips.filter_map(|clip| Some(clip.to_str()?.to_owned()));
+        let text: String =
+            lines.filter(|line| !line.contains('\n')).map(|line| line + "\n").collect();
+        if let Some(folder) = file.parent() {
+            fs::create_dir_all(folder)
+                .map_err(|error| Failure::CouldNot(format!("{}: {error}", folder.display())))?;
+        }
+        files::write(file, text.as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newest_comes_first_and_what_is_gone_is_not_offered() {
+        let place = tempfile::tempdir().unwrap();
+        let clips: Vec<PathBuf> =
+            (0..MOST + 2).map(|at| place.path().join(format!("{at}.bvh"))).collect();
+        let recent = Recent(Some(place.path().join("state/recent.txt")));
+        assert!(recent.clips().is_empty());
+        for clip in &clips {
+            fs::write(clip, "").unwrap();
+            recent.remember(clip).unwrap();
+        }
+        let newest: Vec<PathBuf> = clips.iter().rev().take(MOST).cloned().collect();
+        assert_eq!(recent.clips(), newest);
+        recent.remember(&clips[5]).unwrap();
+        assert_eq!(recent.clips()[..2], [clips[5].clone(), clips[MOST + 1].clone()]);
+        fs::remove_file(&clips[5]).unwrap();
+        assert_eq!(recent.clips()[0], clips[MOST + 1]);
+        assert!(Recent(None).remember(&clips[0]).is_ok(), "nowhere to remember is no failure");
+    }
+}

@@ -1,0 +1,236 @@
+//! The recipe of a command, and what a person corrects.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::seen::SeenArgs;
+use super::{files, paths};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin, layer_of};
+use crate::error::Error;
+use crate::keys::{Key, Layers, Origin};
+use crate::pipeline::Breakdown;
+use crate::recipe::Recipe;
+use crate::time::Frame;
+
+/// The recipe: a file, then single settings on top.
+#[derive(Debug, Args)]
+pub(super) struct Settings {
+    /// A recipe file; see `genga recipe`.
+    #[arg(long, value_name = "R.toml")]
+    pub(super) recipe: Option<PathBuf>,
+    /// One setting, over the recipe: --set spacing.on=3 (may be given again).
+    #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
+    pub(super) set: Vec<(String, String)>,
+}
+
+/// The recipe, and a person's corrections.
+#[derive(Debug, Args)]
+pub(super) struct Corrections {
+    #[command(flatten)]
+    pub(super) settings: Settings,
+    #[command(flatten)]
+    layers: LayerArgs,
+    #[command(flatten)]
+    pub(super) seen: SeenArgs,
+    /// Frames that are keys whatever is found, with a name and a spacing weight of their own if you like:
+    /// --pin 12,150:wrist-top,180@0.5,200:hit@0. Of one layer alone: B/150, with forbid and move as well.
+    #[arg(long, value_name = "[LAYER/]FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    pin: Vec<String>,
+    /// Frames near which no key may be found, and ranges without their last frame: --forbid 12,120..140
+    #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
+    forbid: Vec<String>,
+    /// Keys that are found near one frame and drawn at another instead: --move 41:42,80:84:hit@0.2
+    #[arg(long = "move", value_name = "FROM:TO[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    moves: Vec<String>,
+    /// Drawings, each by the source frame it shows, and for how many koma they stay: --hold 42:4,60:1
+    #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',')]
+    holds: Vec<String>,
+    /// Source frames with which actions begin, instead of those that are found (see genga split): --split
+    /// 310,774
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
+    split: Vec<Frame>,
+    /// Keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
+    /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
+    #[arg(long, value_name = "FILE")]
+    pub(super) pin_from: Option<PathBuf>,
+    /// No keys but those that are pinned or moved, and the clip's ends; =false takes back what a recipe says
+    /// of it.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    pub(super) only_pins: Option<bool>,
+    /// The column of that file [default: the only one, or A].
+    #[arg(long, value_name = "NAME", requires = "pin_from")]
+    pub(super) pin_column: Option<String>,
+}
+
+/// The cels of the sheet, over the recipe.
+#[derive(Debug, Args)]
+pub(super) struct LayerArgs {
+    /// Layers (セル) with keys and timing of their own: body (one), limbs (trunk with head A, arms B and C, legs D and
+    /// E), joints (one for each that moves), or a TOML file of [[layers]] with name and joints.
+    #[arg(long, value_name = "body|limbs|joints|FILE")]
+    layers: Option<String>,
+    /// What carries the body through the room: drawings, or ones, by which a held drawing slides on with the
+    /// source (移動を1コマで).
+    #[arg(long, value_name = "drawings|ones")]
+    root_on: Option<String>,
+}
+
+pub(super) fn frame(text: &str) -> Result<Frame, String> {
+    text.trim().parse().map(Frame).map_err(|_| "expected a source frame, as in 310".into())
+}
+
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("expected KEY=VALUE, as in spacing.on=3")?;
+    Ok((name.trim().into(), value.trim().into()))
+}
+
+impl Settings {
+    /// The recipe and corrections that are asked for, on top of `default`.
+    pub(super) fn read(&self, default: Recipe) -> Result<(Recipe, Edits), Failure> {
+        let (mut recipe, edits) = match &self.recipe {
+            None => (default, Edits::default()),
+            Some(path) => {
+                let text = String::from_utf8(files::read(path)?).map_err(|_| {
+                    Failure::AskedWrongly(format!("{}: is not text", path.display()))
+                })?;
+                default.overlaid(&text).map_err(files::fault_of(path))?
+            }
+        };
+        for (name, value) in &self.set {
+            recipe.set(name, value)?;
+        }
+        Ok((recipe, edits))
+    }
+}
+
+impl Corrections {
+    /// The recipe and corrections of the settings, and those of the command line on top.
+    pub(super) fn read(&self) -> Result<(Recipe, Edits), Failure> {
+        let (mut recipe, mut edits) = self.settings.read(Recipe::default())?;
+        self.layers.put(&mut recipe)?;
+        self.keys(&mut edits)?;
+        for hold in &self.holds {
+            let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
+            edits.holds.retain(|other| other.frame != hold.frame);
+            edits.holds.push(hold);
+        }
+        if !self.split.is_empty() {
+            edits.splits = self.split.clone();
+        }
+        edits.only_pins = self.only_pins.unwrap_or(edits.only_pins);
+        Ok((recipe, edits))
+    }
+
+    /// Pins, forbids and moves keys.
+    fn keys(&self, edits: &mut Edits) -> Result<(), Failure> {
+        for text in &self.pin {
+            let (layer, text) = layer_of(text);
+            let pin = Pin::parse(text).map_err(|error| wrongly("pin", error))?;
+            let pins = edits.pins_of(layer);
+            // A pin given again says more about the same frame.
+            pins.retain(|other| other.frame != pin.frame);
+            pins.push(pin);
+        }
+        for text in &self.forbid {
+            let (layer, text) = layer_of(text);
+            let frames: Forbidden = text
+                .parse()
+                .map_err(|message| Failure::AskedWrongly(format!("--forbid: {message}")))?;
+            let forbidden = edits.forbidden_of(layer);
+            if !forbidden.contains(&frames) {
+                forbidden.push(frames);
+            }
+        }
+        for text in &self.moves {
+            let (layer, text) = layer_of(text);
+            let moved = Move::parse(text).map_err(|error| wrongly("move", error))?;
+            let moves = edits.moves_of(layer);
+            moves.retain(|other| other.from != moved.from);
+            moves.push(moved);
+        }
+        Ok(())
+    }
+}
+
+impl LayerArgs {
+    /// Puts the layers and the root that are asked for into a recipe.
+    fn put(&self, recipe: &mut Recipe) -> Result<(), Failure> {
+        match self.layers.as_deref() {
+            None => {}
+            Some(word @ ("body" | "limbs" | "joints")) => recipe.set("layers", word)?,
+            Some(file) => recipe.layers = layers_of_file(Path::new(file))?,
+        }
+        if let Some(word) = &self.root_on {
+            recipe.set("root", word)?;
+        }
+        Ok(())
+    }
+}
+
+fn layers_of_file(path: &Path) -> Result<Layers, Failure> {
+    if !paths::is_stream(path) && !path.exists() {
+        let message = format!(
+            "--layers: expected body, limbs, joints or a file of layers; there is no file {}",
+            path.display()
+        );
+        return Err(Failure::AskedWrongly(message));
+    }
+    files::parsed("layers", path, Layers::parse)
+}
+
+fn wrongly(option: &str, error: Error) -> Failure {
+    match error {
+        Error::Edits { message } => Failure::AskedWrongly(format!("--{option}: {message}")),
+        other => other.into(),
+    }
+}
+
+/// A sentence for each move that found nothing to move, in any of the layers it is for.
+pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let layers: Vec<_> = breakdown.layers().collect();
+    let of_all = edits.moves.iter().map(|moved| (moved, None));
+    let of_one = edits
+        .layers
+        .iter()
+        .flat_map(|(name, own)| own.moves.iter().map(move |moved| (moved, Some(name.as_str()))));
+    let said = of_all.chain(of_one).filter_map(|(moved, name)| {
+        let meant = layers.iter().filter(|own| name.is_none_or(|name| own.layer.name == name));
+        let keys: Vec<&[Key]> = meant.map(|own| own.keys.keys.as_slice()).collect();
+        let is_moved = |key: &Key| key.origin == Origin::Moved { from: moved.from };
+        let is_idle = !keys.iter().any(|keys| keys.iter().any(is_moved));
+        is_idle.then(|| unmoved_one(moved, name, keys.first().copied().unwrap_or_default()))
+    });
+    said.collect()
+}
+
+/// That there was no key to move, and where the nearest are.
+fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
+    let (from, to) = (moved.from, moved.to);
+    let after = keys.partition_point(|key| key.frame < from);
+    let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
+    let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
+    let nearest = match round.as_slice() {
+        [] => String::new(),
+        [only] => format!(" (the nearest is at {only})"),
+        both => format!(" (the nearest are at {})", both.join(" and ")),
+    };
+    let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
+    format!(
+        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_is_a_number_of_the_file() {
+        assert_eq!(frame(" 310").unwrap(), Frame(310));
+        for wrong in ["", "-1", "1.5", "10s", "a"] {
+            assert!(frame(wrong).unwrap_err().contains("as in 310"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What paths mean: `-` is stdin or stdout, a clip is called by its file, and what is read is not written over.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+
+/// Whether a path means stdin or stdout.
+pub(super) fn is_stream(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Refuses to write where something is read from: it may be somebody's only take. A source is what it is called and,
+/// where there is one, its path.
+pub(super) fn spare(sources: &[(&str, Option<&Path>)], target: &Path) -> Result<(), Failure> {
+    let is_target =
+        |(_, path): &&(&str, Option<&Path>)| path.is_some_and(|path| is_same(path, target));
+    let Some((what, _)) = sources.iter().find(is_target) else { return Ok(()) };
+    let target = target.display();
+    let message = format!("{target}: this is the {what} itself; write elsewhere, as with --out");
+    Err(Failure::AskedWrongly(message))
+}
+
+/// Refuses to write two things to one place: only the last would be left.
+pub(super) fn distinct<'a>(targets: impl Iterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+    let targets: Vec<&PathBuf> = targets.collect();
+    for (at, target) in targets.iter().enumerate() {
+        if targets[..at].iter().any(|other| other == target || is_same(other, target)) {
+            let target = target.display();
+            let message = format!("{target}: two outputs are to go there; name another for one");
+            return Err(Failure::AskedWrongly(message));
+        }
+    }
+    Ok(())
+}
+
+/// Whether two paths are one file that is there.
+pub(super) fn is_same(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| fs::canonicalize(path).ok();
+    !is_stream(a) && real(a).is_some_and(|a| real(b) == Some(a))
+}
+
+/// The name a clip is called by: its file name without the ending.
+pub(super) fn stem(path: &Path) -> String {
+    if is_stream(path) {
+        return "stdin".into();
+    }
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// What several clips are called: as short as tells them apart.
+pub(super) fn names(clips: &[PathBuf]) -> Vec<String> {
+    let stems: Vec<String> = clips.iter().map(|clip| stem(clip)).collect();
+    let is_one = |stem: &String| stems.iter().filter(|other| *other == stem).count() == 1;
+    if stems.iter().all(is_one) {
+        return stems;
+    }
+    clips.iter().map(|clip| clip.display().to_string()).collect()
+}
+
+/// The name of a file without its folders; of stdin it is `stdin`.
+pub(super) fn file_name(path: &Path) -> String {
+    let named = named(path);
+    named.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// What a file that is read is called in messages.
+pub(super) fn named(path: &Path) -> PathBuf {
+    if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() }
+}
+
+/// Refuses stdout where `command` writes a folder; `instead` says what else there is.
+pub(super) fn check_folder(
+    out: Option<&Path>,
+    command: &str,
+    instead: &str,
+) -> Result<(), Failure> {
+    if !out.is_some_and(is_stream) {
+        return Ok(());
+    }
+    let message = format!("--out: {command} writes a folder of files, not to stdout{instead}");
+    Err(Failure::AskedWrongly(message))
+}
+
+/// Refuses a picture that could not be written, before any work.
+pub(super) fn check_picture(option: &str, path: Option<&PathBuf>) -> Result<(), Failure> {
+    match path.and_then(|path| ending(path)).as_deref() {
+        Some("png" | "svg") | None => Ok(()),
+        Some(other) => Err(Failure::AskedWrongly(format!(
+            "--{option}: a picture is .svg or .png, not .{other}"
+        ))),
+    }
+}
+
+/// The ending of a file's name, in small letters.
+pub(super) fn ending(path: &Path) -> Option<String> {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase())
+}
+
+/// Numbered files that a longer sheet left behind: they continue the numbers of some that were written, and were not
+/// written with them.
+///
+/// They are named and not removed: numbered images are made to be drawn over, and a drawing is a person's work whatever
+/// its number.
+pub(super) fn stale(folder: &Path, written: &[String]) -> Vec<String> {
+    let series: BTreeSet<_> = written.iter().filter_map(|name| series(name)).collect();
+    let written: BTreeSet<&str> = written.iter().map(String::as_str).collect();
+    let mut stale = Vec::new();
+    for (inside, begin, end) in series {
+        let Ok(entries) = fs::read_dir(folder.join(inside)) else { continue };
+        for entry in entries.flatten().filter(|entry| entry.path().is_file()) {
+            let file = entry.file_name().to_string_lossy().into_owned();
+            let number = file.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(end));
+            let name = format!("{inside}{file}");
+            if number.is_some_and(is_number) && !written.contains(&name[..]) {
+                stale.push(name);
+            }
+        }
+    }
+    stale.sort();
+    stale
+}
+
+/// The folder of a numbered file with its `/`, and what stands before and behind the number. The first
+/// page of a picture has none.
+fn series(name: &str) -> Option<(&str, String, &str)> {
+    let (inside, file) = name.split_at(name.rfind('/').map_or(0, |at| at + 1));
+    let (stem, end) = file.split_at(file.rfind('.')?);
+    let begin = stem.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let begin = if begin == stem { format!("{stem}-") } else { begin.into() };
+    Some((inside, begin, end))
+}
+
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_longer_sheet_left_is_told_from_what_a_person_put_there() {
+        let place = tempfile::tempdir().unwrap();
+        fs::create_dir(place.path().join("images")).unwrap();
+        fs::create_dir(place.path().join("strip-4.svg")).unwrap();
+        for file in
+            ["strip.svg", "strip-2.svg", "strip-3.svg", "strip-b.svg", "strip-2.png", "strip2.svg"]
+        {
+            fs::write(place.path().join(file), "").unwrap();
+        }
+        for file in ["A_0001.png", "A_0002.png", "A_0002b.png", "B_0002.png", "A_.png"] {
+            fs::write(place.path().join("images").join(file), "").unwrap();
+        }
+        let left = |written: &[&str]| {
+            let written: Vec<_> = written.iter().map(|name| (*name).to_owned()).collect();
+            stale(place.path(), &written)
+        };
+        assert_eq!(left(&["strip.svg"]), ["strip-2.svg", "strip-3.svg"]);
+        assert_eq!(left(&["strip.svg", "strip-2.svg"]), ["strip-3.svg"]);
+        assert_eq!(left(&["images/A_0001.png"]), ["images/A_0002.png"]);
+        assert_eq!(left(&["images/A_0001.png", "images/A_0002.png"]), [""; 0]);
+    }
+}

@@ -1,0 +1,117 @@
+//! Commands (操作): what a hand or a key asks for, and the words it has for it.
+
+use std::path::PathBuf;
+
+use super::corrections::Correction;
+
+/// What a hand asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Command {
+    /// Plays or stops.
+    Play,
+    /// So many koma on.
+    Koma(isize),
+    /// So many drawings on.
+    Drawing(isize),
+    /// So many genga on.
+    Genga(isize),
+    First,
+    Last,
+    /// To a koma.
+    Go(usize),
+    /// What is played begins here.
+    LoopFrom,
+    /// What is played ends here.
+    LoopTo,
+    /// All is played.
+    LoopAll,
+    /// From source to result and back.
+    Flip,
+    /// Source, result or both.
+    See(Seen),
+    /// From a standard side.
+    Look(Standard),
+    /// All of the motion fits into the view.
+    Fit,
+    /// Nearer or further.
+    Zoom(f32),
+    Follow,
+    Onion,
+    Trails,
+    /// How far the body moves into each koma.
+    Movement,
+    /// The map of what is found with other settings of the smoothing.
+    Map,
+    /// A key at the play head, or none.
+    ToggleKey,
+    /// The key at the play head stays, or may go again.
+    Lock,
+    /// The key at the play head is drawn so many koma later.
+    Nudge(isize),
+    /// The same in source frames.
+    NudgeFrame(isize),
+    /// The drawing at the play head stays so many koma longer.
+    Hold(isize),
+    /// The inbetweens of the key at the play head crowd so much closer to it.
+    Crowd(f64),
+    /// Gives a name to the key at the play head.
+    FocusName,
+    /// A correction.
+    Correct(Correction),
+    /// A correction in the making: what was there when the hand took hold is corrected so.
+    Drag(Correction),
+    /// A knob and its value.
+    Set(&'static str, String),
+    /// Several knobs.
+    Preset(&'static [(&'static str, &'static str)]),
+    /// All knobs as they come.
+    Defaults,
+    Undo,
+    Redo,
+    Save,
+    /// Opens or closes the field for a file's name.
+    OpenFile,
+    /// Opens a clip, or a recipe for the one on the table.
+    Open(PathBuf),
+    /// Saves the recipe under another name.
+    SaveAs(PathBuf),
+    /// Lets the person choose a file in a dialog of the system.
+    Choose,
+    Export,
+    /// Takes what an earlier session left.
+    Recover,
+    /// Throws it away.
+    Discard,
+    /// Light or dark.
+    Theme,
+    Language,
+    /// The list of keys.
+    Help,
+    /// Closes what is open.
+    Dismiss,
+}
+
+/// Which of the two is seen.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// Both, side by side.
+    #[default]
+    Both,
+    /// The motion as it was captured.
+    Source,
+    /// What the sheet shows.
+    Result,
+}
+
+/// A side that everybody knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Standard {
+    /// 正面.
+    Front,
+    /// 側面.
+    Side,
+    /// 真上.
+    Top,
+    /// 斜め.
+    ThreeQuarter,
+}
