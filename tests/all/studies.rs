@@ -132,7 +132,7 @@ fn stability_compares_cells_and_names_the_plateau() {
         assert!(heat.contains(words), "{words}");
     }
     // What is compared is drawn.
-    assert!(heat.contains("Keys of the layer"));
+    assert!(heat.contains("Genga"));
     // A move in the mean is no longer than the longest.
     let moves = numbers(&table, "mean_move").into_iter().zip(numbers(&table, "largest_move"));
     assert!(moves.clone().all(|(mean, most)| mean <= most && (mean > 0.0) == (most > 0.0)));
