@@ -220,12 +220,12 @@ fn an_inbetween_is_pulled_towards_its_genga() {
     let curves = table.canvas("Speed curves");
     let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
     let at = |place: f64| pos2(left + (right - left) * (place / 91.0) as f32, curves.min.y + 25.0);
-    // The last inbetween before the first genga, on frame 13: koma 12 of 13, drawn towards it by 0.3.
-    let place = 13.0 - (1.0 - own);
-    table.drag(at(place), at(12.6));
+    // The last inbetween before the first genga, on frame 12: koma 10 of 12, drawn towards it by 0.3.
+    let place = 12.0 - 2.0 * (1.0 - own);
+    table.drag(at(place), at(11.2));
     let [pin] = &table.edits().pins[..] else { panic!("{:?}", table.edits()) };
     let weight = pin.weight.unwrap();
-    assert_eq!(pin.frame, Frame(13));
+    assert_eq!(pin.frame, Frame(12));
     assert!((weight - 0.6).abs() < 0.06, "{weight}");
     table.tap(Modifiers::COMMAND, Key::Z);
     assert!(table.edits().is_empty(), "a drag is one step");
