@@ -27,6 +27,8 @@ mod vote;
 mod voters;
 mod weights;
 
+use std::ops::RangeInclusive;
+
 use crate::motion::JointId;
 use crate::time::Frame;
 
@@ -127,6 +129,9 @@ pub struct LayerKeys {
     pub keys: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
+    /// Rests (止め) by the frames of their begins and ends, both included. One that touches the clip's begin or
+    /// end begins or ends with it; two may overlap.
+    pub rests: Vec<RangeInclusive<Frame>>,
     /// Keys that were worth a drawing and went all the same, because there were too many a second.
     pub over_limit: usize,
 }

@@ -12,6 +12,7 @@ mod chain;
 mod evidence;
 mod kitamura;
 mod kuroda_tokoi;
+mod on_screen;
 mod ones;
 mod page;
 mod part;

@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::keys::{Key, Origin};
 use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
+use crate::timing::held_for;
 
 /// Keys of a file, and of which column of it.
 struct Marked {
@@ -114,6 +115,31 @@ pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
         is_idle.then(|| unmoved_one(moved, name, keys.first().copied().unwrap_or_default()))
     });
     said.collect()
+}
+
+/// A sentence for each hold of which a layer has less or more than was asked for, and for each that found no drawing.
+pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let layers = &breakdown.sheet.layers;
+    let several = layers.len() > 1;
+    let mut said = Vec::new();
+    for hold in &edits.holds {
+        let (frame, asked) = (hold.frame, hold.koma);
+        let stays = |layer| held_for(layer, *hold, breakdown.clock);
+        let found: Vec<_> = layers.iter().filter_map(|own| Some((own, stays(own)?))).collect();
+        if found.is_empty() {
+            said.push(format!(
+                "no drawing is within two koma of frame {frame}, so none stays for {asked} koma; --pin {frame} makes one there"
+            ));
+        }
+        for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
+            let of = if several { format!("{}/", layer.name) } else { String::new() };
+            said.push(format!(
+                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: genga stay on their \
+                 koma, and on twos and threes no drawing for one"
+            ));
+        }
+    }
+    said
 }
 
 /// That there was no key to move, and where the nearest are.

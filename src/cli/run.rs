@@ -42,8 +42,9 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let breakdown = engine.run_once(&recipe, &edits)?;
     working.on("writing");
     let unmoved = pins::unmoved(&edits, &breakdown);
+    let unheld = pins::unheld(&edits, &breakdown);
     let notes = source.notes.iter().map(ToString::to_string);
-    let notes = notes.chain(marked).chain(short).chain(unmoved);
+    let notes = notes.chain(marked).chain(short).chain(unmoved).chain(unheld);
     let results = Results {
         name: &name,
         clip_file: &io::file_name(&args.clip.clip),

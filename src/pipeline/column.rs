@@ -46,7 +46,7 @@ pub(super) struct Column {
     chords: Stage<f64, Chords>,
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
-    keys: Stage<(keys::Choose, Edits, f64, Screen), LayerKeys>,
+    keys: Stage<(keys::Choose, Edits, f64, Screen, usize), LayerKeys>,
     spaced: Stage<(Spacing, f64, Part), Spaced>,
     stills: Stage<Screen, Stills>,
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
@@ -145,7 +145,9 @@ impl Column {
         edits: &Edits,
         candidates_made: Made,
     ) -> Made {
-        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen);
+        // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
+        let stay = recipe.spacing.on.stay();
+        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen, stay);
         let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
         let candidates = self.candidates.output();
         let joints = joints(self.voices.output(), self.contacts.output(), measured, recipe);
@@ -153,9 +155,9 @@ impl Column {
         let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
             let eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
-            let choice = keys.choice(clip, judges, &eligible, joints.apart);
+            let choice = keys.choice(clip, judges, &eligible, stay as f64 * joints.apart);
             picked.renew(chords_made, &choice, || choice.pick(judges.chords));
-            keys.drawn(clip, eligible, picked.output(), candidates, &joints, edits)
+            keys.drawn(judges.chords, eligible, picked.output(), candidates, &joints, edits)
         })
     }
 
@@ -171,9 +173,9 @@ impl Column {
         let (keys, reference) = (self.keys.output(), self.reference.output());
         let settings = (recipe.spacing.clone(), recipe.rate, part.clone());
         let made = self.spaced.renew(keys_made, &settings, || {
-            let spacing = &recipe.spacing;
-            let pace = if spacing.on.is_fixed() { Pace::default() } else { Pace::of(reference) };
-            named(spacing.place(keys, clip.skeleton(), clock, koma, &pace), part, clip.skeleton())
+            let spaced =
+                recipe.spacing.place(keys, clip.skeleton(), clock, koma, &Pace::of(reference));
+            named(spaced, part, clip.skeleton())
         });
         let layer = &self.spaced.output().layer;
         let screen = reference.screen();

@@ -2,8 +2,9 @@
 
 use crate::timing::{On, Spacing};
 
-/// On fours: beyond it a movement no longer reads as one, so rather keys go than that drawings stay longer.
-pub(super) const SLOWEST: usize = 4;
+/// On threes: two drawings' time is the bound of a hold, and one of eight koma, as on fours, stops a movement. So
+/// rather keys go.
+const SLOWEST: usize = 3;
 
 /// More inbetweens between any two keys than this nobody asks for by number.
 const MOST_INBETWEENS: usize = 24;
@@ -42,8 +43,8 @@ pub(super) fn sparser(spacing: &Spacing) -> Option<Spacing> {
     Some(Spacing { on, inbetweens, ..spacing.clone() })
 }
 
-/// The same, but no slower than on fours.
-pub(super) fn sparser_to_fours(spacing: &Spacing) -> Option<Spacing> {
+/// The same, but no slower than on threes.
+pub(super) fn sparser_to_threes(spacing: &Spacing) -> Option<Spacing> {
     sparser(spacing).filter(|next| next.inbetweens.is_some() || next.on.most <= SLOWEST)
 }
 
@@ -69,15 +70,15 @@ mod tests {
     fn a_range_closes_before_it_moves() {
         assert_eq!(rungs(spacing("1-3", None), denser), ["1-3", "1-2", "1"]);
         assert_eq!(rungs(spacing("3", None), denser), ["3", "2", "1"]);
-        assert_eq!(rungs(spacing("1-3", None), sparser_to_fours), ["1-3", "2-3", "3", "4"]);
-        assert_eq!(rungs(spacing("6", None), sparser_to_fours), ["6"]);
+        assert_eq!(rungs(spacing("1-3", None), sparser_to_threes), ["1-3", "2-3", "3"]);
+        assert_eq!(rungs(spacing("6", None), sparser_to_threes), ["6"]);
     }
 
     #[test]
     fn a_fixed_number_of_inbetweens_goes_by_ones_and_gives_way_to_ones() {
         let up = rungs(spacing("2", Some(22)), denser);
         assert_eq!(up, ["22 between", "23 between", "24 between", "1"]);
-        let down = rungs(spacing("9", Some(2)), sparser_to_fours);
+        let down = rungs(spacing("9", Some(2)), sparser_to_threes);
         assert_eq!(down, ["2 between", "1 between", "0 between"]);
     }
 

@@ -229,6 +229,33 @@ fn a_held_drawing_stays_as_long_as_was_asked_and_genga_on_their_koma() {
 }
 
 #[test]
+fn a_hold_that_could_not_be_done_is_said() {
+    let place = Place::new();
+    let notes = |args: &str| {
+        let said = text(&place.genga(&format!("run data/kick.bvh --out o {args}")).stderr);
+        let notes = report(&place, "o")["notes"].clone();
+        notes
+            .as_array()
+            .unwrap()
+            .iter()
+            .for_each(|note| assert!(said.contains(note.as_str().unwrap())));
+        notes
+    };
+    let found = frames(
+        &fs::read_to_string({
+            notes("");
+            place.path("o/keys.csv")
+        })
+        .unwrap(),
+    );
+    let genga = &found[found.len() / 2];
+    let note = notes(&format!("--hold {genga}:30"));
+    let begin = format!("the drawing of frame {genga} was to stay for 30 koma and stays for ");
+    assert!(note[0].as_str().unwrap().starts_with(&begin), "{note}");
+    assert_eq!(notes("--hold 0:2"), serde_json::json!([]), "what was done is not told");
+}
+
+#[test]
 fn a_move_changes_the_key_that_is_moved_and_no_other() {
     let place = Place::new();
     let before = frames(&place.done("keys data/kick.bvh"));

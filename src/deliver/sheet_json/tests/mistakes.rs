@@ -19,10 +19,10 @@ fn place(what: &str) -> String {
 
 #[test]
 fn what_is_wrong_with_a_line_is_said_with_its_place() {
-    let shown = "{\"drawing\": 5, \"koma\": 2}";
-    let drawn = "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 21.200000000000003}";
+    let shown = "{\"drawing\": 5, \"koma\": 3}";
+    let drawn = "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 19.305555555555557}";
     for (line, wrong, words) in [
-        (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 18 drawings, none of them is 40"),
+        (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 17 drawings, none of them is 40"),
         (shown, "{\"drawing\": 5, \"koma\": 0}", "an exposure of 0 koma is not seen"),
         (
             shown,
