@@ -148,13 +148,17 @@ impl Column {
         // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
         let stay = recipe.spacing.on.stay();
         let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen, stay);
-        let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
+        let reference = self.reference.output();
+        let judges = Judges { reference, chords: self.chords.output() };
         let candidates = self.candidates.output();
         let joints = joints(self.voices.output(), self.contacts.output(), measured, recipe);
         let (clip, keys, picked) = (measured.clip, &recipe.keys, &mut self.picked);
         let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
-            let eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
+            let mut eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
+            let has_room =
+                |frame| recipe.spacing.has_room(frame, reference.clock(), reference.koma());
+            eligible.retain(|key| key.origin != keys::Origin::Found || has_room(key.frame));
             let choice = keys.choice(clip, judges, &eligible, stay as f64 * joints.apart);
             picked.renew(chords_made, &choice, || choice.pick(judges.chords));
             keys.drawn(judges.chords, eligible, picked.output(), candidates, &joints, edits)

@@ -43,7 +43,7 @@ pub struct Spacing {
     /// about as many drawings as twos do. Raised, more of the motion is on threes.
     pub step: f64,
     /// How far the body may be from the drawing that a rest (止め) holds, in % of its height (root mean square over
-    /// its bones); 0 or more, default 2. Where it goes further, an inbetween stands there: a moving hold. 0 puts
+    /// its bones); 0 or more, default 1. Where it goes further, an inbetween stands there: a moving hold. 0 puts
     /// inbetweens into rests as everywhere. Raised, small gestures are lost in holds and come all at once after them.
     pub drift: f64,
     /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
@@ -65,7 +65,7 @@ impl Default for Spacing {
         Self {
             on: On::every(2),
             step: 9.0,
-            drift: 2.0,
+            drift: 1.0,
             inbetweens: None,
             weight: 0.3,
             max_shift: 2.0,
@@ -124,8 +124,8 @@ impl Spacing {
     ///
     /// The first and the last koma show an `end`; a key that falls on one gives way to it and hands over its
     /// voters. Of keys that stand too near for a drawing to stay, the dearer stays. In a rest the drawing on screen
-    /// holds until the body has gone further from it than `drift`, to the sheet's end if need be. Where `on` is a
-    /// range the pace decides.
+    /// holds until the body has gone further from it than `drift`; a body that never moves has no other. Where `on`
+    /// is a range the pace decides.
     pub fn place(
         &self,
         layer: &LayerKeys,
@@ -146,8 +146,9 @@ impl Spacing {
             let all = self.koma_between(station.koma, next.koma, on);
             row.did_not_fit += self.inbetweens.map_or(0, |asked| asked - all.len());
             let shown = rests.what_moves(station.koma, &all);
-            let is_last = at + 2 == stations.len();
-            if is_last && shown.is_empty() && !next.is_set() && rests.hold(station.koma, koma - 1) {
+            // A body that never moves is one drawing.
+            let is_all = stations.len() == 2 && shown.is_empty() && !next.is_set();
+            if is_all && rests.hold(station.koma, koma - 1) {
                 break;
             }
             let ends = shown.iter().skip(1).copied().chain([next.koma]);
@@ -191,6 +192,13 @@ impl Spacing {
         let (side, weight) = interval.weight_at(koma, all[own].1, place)?;
         let key = [from, to][side].key?;
         Some(Pull { key: key.frame, weight })
+    }
+
+    /// Whether a found key has room before the drawing of the sheet's end: else it would give way to it.
+    pub(crate) fn has_room(&self, frame: Frame, clock: Clock, koma: usize) -> bool {
+        let stay = self.on.stay();
+        let before = (frame.0.saturating_sub(clock.first.0)) as f64 / clock.frames_in_koma();
+        before < (koma + 1) as f64 - 2.0 * stay as f64 || stay == 1
     }
 
     /// For how many koma a drawing stays at the least between two koma.

@@ -113,7 +113,7 @@ proptest! {
         keys in layer(),
         on in on(),
         inbetweens in prop::option::weighted(0.2, 0..5usize),
-        drift in prop::sample::select(vec![0.0, 2.0]),
+        drift in prop::sample::select(vec![0.0, 1.0]),
         steps in prop::collection::vec(0.0..30.0, length() - 1),
         places in prop::collection::vec(0.0..50.0, 7),
         omission in omission(),

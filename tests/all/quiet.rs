@@ -17,7 +17,7 @@ pub(crate) const ALL: [(&str, f64); 3] = [("sitting", 12.0), ("standing", 12.0),
 /// When somebody who talks moves: a second, a joint, a channel of it, degrees and seconds.
 const GESTURES: [(f64, &str, usize, f64, f64); 4] = [
     (2.5, "RightForeArm", 1, 45.0, 0.8),
-    (5.0, "Head", 1, 14.0, 0.6),
+    (5.0, "Head", 1, 30.0, 0.8),
     (8.0, "RightForeArm", 1, 30.0, 0.7),
     (10.5, "LeftArm", 0, 25.0, 0.9),
 ];

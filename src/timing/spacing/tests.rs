@@ -266,12 +266,14 @@ fn a_rest_at_an_end_of_the_sheet_is_held_by_one_drawing() {
     assert_eq!(begins(&begin), [0, 20, 22, 24, 26]);
     keys.rests = vec![Frame(20)..=Frame(27)];
     let end = place(&Spacing::default(), &keys, 24.0, 28);
-    assert_eq!(begins(&end), (0..11).map(|at| 2 * at).collect::<Vec<_>>());
-    assert_eq!(end.drawings[10].role, Role::Genga, "there is nothing new at the end");
+    let expected: Vec<usize> = (0..11).map(|at| 2 * at).chain([26]).collect();
+    assert_eq!(begins(&end), expected, "the clip's end is the end of the rest");
+    assert_eq!([10, 11].map(|at| end.drawings[at].role), [Role::Genga, Role::End]);
     keys = layer(&[], &[]);
     keys.rests = vec![Frame(0)..=Frame(27)];
     let still = place(&Spacing::default(), &keys, 24.0, 28);
     assert_eq!((begins(&still), still.length()), (vec![0], 28), "it never moves");
+    assert_eq!(still.drawings[0].role, Role::End);
     keys.keys = vec![Key { origin: Origin::Pinned, ..key(27, f64::INFINITY) }];
     assert_eq!(begins(&place(&Spacing::default(), &keys, 24.0, 28)), [0, 26], "a person wants it");
 }
