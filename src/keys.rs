@@ -28,6 +28,8 @@ mod vote;
 mod voters;
 mod weights;
 
+use std::ops::RangeInclusive;
+
 use crate::motion::JointId;
 use crate::sheet::Reason;
 use crate::time::Frame;
@@ -49,6 +51,7 @@ pub use merge::JointTurns;
 pub use reconstruction::Reconstruction;
 pub(crate) use reconstruction::with_ends;
 pub use reference::Reference;
+pub(crate) use rest::rest_frames;
 pub use voters::weights;
 pub use weights::JointWeights;
 
@@ -151,6 +154,9 @@ pub struct LayerKeys {
     pub keys: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
+    /// Rests (止め) by the frames of their begins and ends, both included. One that touches the clip's begin or
+    /// end begins or ends with it; two may overlap.
+    pub rests: Vec<RangeInclusive<Frame>>,
     /// Keys that were worth a drawing and went all the same, because there were too many a second.
     pub over_limit: usize,
 }

@@ -54,6 +54,9 @@ pub struct Outcome {
     pub shortfall: Option<String>,
 }
 
+/// How often keys and drawings are settled in turn: where drawings may stand decides which keys have room.
+const MOST_ROUNDS: usize = 4;
+
 /// Finds settings with which the sheet is what the targets say, or as near to it as can be.
 ///
 /// Keys are settled first, then drawings: a number of drawings never changes keys that a target asked
@@ -70,20 +73,11 @@ pub fn meet(
 ) -> Result<Met, Error> {
     check(targets, recipe)?;
     let mut met = Met { recipe: recipe.clone(), outcomes: Vec::new() };
-    let mut keys_are_free = true;
-    for target in targets {
-        let settled = match *target {
-            Target::Keys(count) => genga::meet(engine, &met.recipe, edits, count)?,
-            Target::MaxError(most) => error::meet(engine, &met.recipe, edits, most)?,
-            Target::DrawingsPerSecond(_) => continue,
-        };
-        keys_are_free = false;
-        met.settle(settled);
-    }
-    for target in targets {
-        if let Target::DrawingsPerSecond(rate) = *target {
-            let goal = drawings::Goal { per_second: rate, keys_are_free };
-            met.settle(goal.meet(engine, &met.recipe, edits)?);
+    for _ in 0..MOST_ROUNDS {
+        met.outcomes.clear();
+        met.settle_all(engine, edits, targets)?;
+        if met.keys_hold(engine, edits)? {
+            break;
         }
     }
     Ok(met)
@@ -123,6 +117,47 @@ fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
 }
 
 impl Met {
+    /// Settles keys, then drawings.
+    fn settle_all(
+        &mut self,
+        engine: &mut Engine,
+        edits: &Edits,
+        targets: &[Target],
+    ) -> Result<(), Error> {
+        let mut keys_are_free = true;
+        for target in targets {
+            let settled = match *target {
+                Target::Keys(count) => genga::meet(engine, &self.recipe, edits, count)?,
+                Target::MaxError(most) => error::meet(engine, &self.recipe, edits, most)?,
+                Target::DrawingsPerSecond(_) => continue,
+            };
+            keys_are_free = false;
+            self.settle(settled);
+        }
+        for target in targets {
+            if let Target::DrawingsPerSecond(rate) = *target {
+                let goal = drawings::Goal { per_second: rate, keys_are_free };
+                self.settle(goal.meet(engine, &self.recipe, edits)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the keys are still what they were before drawings were settled.
+    fn keys_hold(&self, engine: &mut Engine, edits: &Edits) -> Result<bool, Error> {
+        for outcome in &self.outcomes {
+            let now = match outcome.target {
+                Target::Keys(_) => genga(&engine.run(&self.recipe, edits)?) as f64,
+                Target::MaxError(_) => engine.reconstruction(&self.recipe, edits)?.worst(),
+                Target::DrawingsPerSecond(_) => continue,
+            };
+            if now != outcome.reached {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     fn settle(&mut self, (recipe, outcome): (Recipe, Outcome)) {
         self.recipe = recipe;
         self.outcomes.push(outcome);

@@ -14,9 +14,12 @@ mod stills;
 mod strip;
 mod tournament;
 
+#[cfg(test)]
+mod tests;
+
 pub use amount::Amount;
 pub use gauge::{Gauge, Packing, fraction};
-pub use holds::with_holds;
+pub use holds::{held_for, with_holds};
 pub use omission::{Omission, Omitted, Order};
 pub use on::{On, Pace};
 pub use report::{Gone, Report, Shortfall, StageReport};

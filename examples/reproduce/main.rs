@@ -14,6 +14,7 @@ mod kitamura;
 #[path = "../../tests/all/known_keys/made.rs"]
 mod known;
 mod kuroda_tokoi;
+mod on_screen;
 mod ones;
 mod page;
 mod part;

@@ -6,6 +6,7 @@ use genga::quality::{Compare, Comparison, Evaluation, Method, Row};
 use genga::signal::{ContactFinder, Limb};
 
 use crate::Outcome;
+use crate::on_screen;
 use crate::part::Part;
 use crate::table::{Table, number, spread};
 use crate::takes::Take;
@@ -53,6 +54,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     part.table("paces", paces(&judged));
     part.measured("times", times(&judged));
     part.table("sheets", sheets(takes)?);
+    on_screen::add(takes, &mut part)?;
     part.text("blind", list(takes.iter().filter_map(blind)));
     part.number("clips", judged.len());
     verdicts(&judged, &mut part);

@@ -44,6 +44,8 @@ pub(crate) struct Shown {
     pub(crate) koma: usize,
     /// Source place.
     pub(crate) place: f64,
+    /// The koma nearest to its place: a drawing of two koma may begin on the one before.
+    pub(crate) moment: usize,
     pub(crate) role: Role,
 }
 
@@ -132,7 +134,8 @@ pub(crate) fn kept(sheet: &Sheet) -> Vec<Shown> {
     let layer = &sheet.layers[0];
     let shown = layer.timed().map(|(koma, exposure)| {
         let drawing = &layer.drawings[exposure.drawing];
-        Shown { koma, place: drawing.source.place(), role: drawing.role }
+        let place = drawing.source.place();
+        Shown { koma, place, moment: sheet.clock.koma_from_place(place), role: drawing.role }
     });
     shown.filter(|shown| shown.role.is_kept()).collect()
 }

@@ -13,6 +13,7 @@ use crate::keys::{Key, Layers, Origin};
 use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
 use crate::time::Frame;
+use crate::timing::held_for;
 
 /// The recipe: a file, then single settings on top.
 #[derive(Debug, Args)]
@@ -220,6 +221,31 @@ fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
     format!(
         "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
     )
+}
+
+/// A sentence for each hold of which a layer has less or more than was asked for, and for each that found no drawing.
+pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let layers = &breakdown.sheet.layers;
+    let mut said = Vec::new();
+    for hold in &edits.holds {
+        let (frame, asked) = (hold.frame, hold.koma);
+        let stays = |layer| held_for(layer, *hold, breakdown.clock);
+        let found: Vec<_> = layers.iter().filter_map(|own| Some((own, stays(own)?))).collect();
+        if found.is_empty() {
+            said.push(format!(
+                "no drawing is within two koma of frame {frame}, so none stays for {asked} koma; --pin {frame} makes one \
+                 there"
+            ));
+        }
+        for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
+            let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
+            said.push(format!(
+                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: genga stay on their \
+                 koma, and on twos and threes no drawing for one"
+            ));
+        }
+    }
+    said
 }
 
 #[cfg(test)]

@@ -177,7 +177,7 @@ impl Choose {
     ) -> LayerKeys {
         let keys = self.eligible(clip, judges.chords, candidates, joints, edits);
         let picked = self.choice(clip, judges, &keys, joints.apart).pick(judges.chords);
-        self.drawn(clip, keys, &picked, candidates, joints, edits)
+        self.drawn(judges.chords, keys, &picked, candidates, joints, edits)
     }
 
     /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
@@ -228,7 +228,7 @@ impl Choose {
     /// The keys that were picked, moved where a person wants them, with their voters.
     pub(crate) fn drawn(
         &self,
-        clip: &Clip,
+        chords: &Chords,
         keys: Vec<Key>,
         picked: &Picked,
         candidates: &Candidates,
@@ -238,11 +238,12 @@ impl Choose {
         let kept = picked.kept.iter().map(|(at, price)| Key { price: *price, ..keys[*at].clone() });
         let mut keys: Vec<Key> = kept.collect();
         moved(&mut keys, edits, joints.apart);
-        let reach = self.reach.frames(clip.rate()).max(joints.apart);
+        let reach = self.reach.frames(chords.clock().frame_rate).max(joints.apart);
         for key in &mut keys {
             key.voters = voters(joints.turns, joints.weights, key.frame, reach);
         }
         let over_limit = if edits.only_pins { 0 } else { picked.over_limit };
-        LayerKeys { keys, walls: candidates.walls.clone(), over_limit }
+        let rests = rest::rest_frames(chords, self.rest);
+        LayerKeys { keys, walls: candidates.walls.clone(), rests, over_limit }
     }
 }

@@ -17,6 +17,16 @@ const SMOOTH: f64 = 0.125;
 /// How far the body may be from the posture that it holds, beside its unrest, in % of its height.
 const NEAR: f64 = 0.2;
 
+/// The rests by the frames of their begins and ends, both included. One that reaches the sheet's first or last
+/// koma begins or ends there.
+pub(crate) fn rest_frames(chords: &Chords, speed: f64) -> Vec<RangeInclusive<Frame>> {
+    let frames = |rest: RangeInclusive<usize>| {
+        let (begin, end) = rest.into_inner();
+        chords.frame(begin)..=chords.frame(end)
+    };
+    rests(chords, speed).into_iter().map(frames).collect()
+}
+
 /// The frames on which rests begin and end. A rest that reaches the sheet's first or last koma only
 /// ends or only begins.
 pub(super) fn rest_ends(chords: &Chords, speed: f64) -> Vec<Frame> {

@@ -51,13 +51,16 @@ pub(super) struct Column {
     chords: Stage<f64, Chords>,
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
-    keys: Stage<(keys::Choose, Edits, f64, Screen), LayerKeys>,
+    keys: Stage<KeySettings, LayerKeys>,
     spaced: Stage<(Spacing, f64, Part), Spaced>,
     stills: Stage<Screen, Stills>,
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
 }
 
 type CandidateSettings = (keys::Choose, (TurnFinder, LowPass, f64), Made);
+
+/// At the end the rate, how long drawings stay and how far the body may go in a rest.
+type KeySettings = (keys::Choose, Edits, Screen, (f64, usize, f64));
 
 /// What was found and decided for one layer.
 #[derive(Debug, Clone, Copy)]
@@ -183,8 +186,12 @@ impl Column {
         edits: &Edits,
         candidates_made: Made,
     ) -> Made {
-        let settings = (recipe.keys.clone(), edits.clone(), recipe.rate, measured.screen);
-        let judges = Judges { reference: self.reference.output(), chords: self.chords.output() };
+        // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
+        let stay = recipe.spacing.on.stay();
+        let sheet = (recipe.rate, stay, recipe.spacing.drift);
+        let settings = (recipe.keys.clone(), edits.clone(), measured.screen, sheet);
+        let reference = self.reference.output();
+        let judges = Judges { reference, chords: self.chords.output() };
         let candidates = self.candidates.output();
         let joints = joints(
             self.voices.output(),
@@ -193,13 +200,18 @@ impl Column {
             measured,
             recipe,
         );
-        let (clip, keys, picked) = (measured.clip, &recipe.keys, &mut self.picked);
+        let (clip, keys, spacing) = (measured.clip, &recipe.keys, &recipe.spacing);
+        let picked = &mut self.picked;
         let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
-            let eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
-            let choice = keys.choice(clip, judges, &eligible, joints.apart);
+            let mut eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
+            let rests = keys::rest_frames(judges.chords, keys.rest);
+            let pace = Pace::of(reference);
+            let room = spacing.room(&rests, reference.clock(), reference.koma(), &pace);
+            eligible.retain(|key| !key.origin.is_found() || room(key.frame));
+            let choice = keys.choice(clip, judges, &eligible, stay as f64 * joints.apart);
             picked.renew(chords_made, &choice, || choice.pick(judges.chords));
-            keys.drawn(clip, eligible, picked.output(), candidates, &joints, edits)
+            keys.drawn(judges.chords, eligible, picked.output(), candidates, &joints, edits)
         })
     }
 
@@ -215,9 +227,9 @@ impl Column {
         let (keys, reference) = (self.keys.output(), self.reference.output());
         let settings = (recipe.spacing.clone(), recipe.rate, part.clone());
         let made = self.spaced.renew(keys_made, &settings, || {
-            let spacing = &recipe.spacing;
-            let pace = if spacing.on.is_fixed() { Pace::default() } else { Pace::of(reference) };
-            named(spacing.place(keys, clip.skeleton(), clock, koma, &pace), part, clip.skeleton())
+            let spaced =
+                recipe.spacing.place(keys, clip.skeleton(), clock, koma, &Pace::of(reference));
+            named(spaced, part, clip.skeleton())
         });
         let layer = &self.spaced.output().layer;
         let screen = reference.screen();

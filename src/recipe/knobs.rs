@@ -360,6 +360,16 @@ pub const KNOBS: &[Knob] = &[
                         大きいほど3コマ打ちが増える。",
     },
     Knob {
+        name: "spacing.drift",
+        japanese: "止めのずれ",
+        kind: number(0.0, 20.0),
+        unit: "% of body height",
+        help: "How far the body may be from the drawing that a rest holds; further on, an inbetween stands there. 0 has \
+               inbetweens in rests as everywhere. More loses small gestures.",
+        japanese_help: "止めのあいだ、体が今の絵からどこまで離れてよいか。それより離れたところには中割りを置く。\
+                        0なら止めの中にも普段どおり中割りを置く。大きいほど小さな芝居が消える。",
+    },
+    Knob {
         name: "spacing.inbetweens",
         japanese: "中割り枚数",
         kind: Kind::Number { min: 0.0, max: 12.0, whole: true, optional: true },
@@ -408,7 +418,7 @@ pub const KNOBS: &[Knob] = &[
         name: "omission.koma_dori",
         japanese: "コマ撮り",
         kind: Kind::Amount,
-        unit: "drawings, or a share of the drawings",
+        unit: "drawings, or a share of the inbetweens",
         help: "How many inbetweens of the slowest movement are held over (koma-dori). More stills small \
                movements.",
         japanese_help: "いちばん遅い動きの中割りを何枚止めに変えるか（コマ撮り）。\

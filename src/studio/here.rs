@@ -64,8 +64,11 @@ impl Here<'_> {
         })
     }
 
+    /// Whether a key stands at the play head: on the koma nearest to it, or on that with which it begins.
     fn is_here(&self, key: &Key) -> bool {
-        self.column.clock.koma_from_place(key.frame.0 as f64) == self.at
+        let cell = self.column.cell(self.at);
+        let begins = cell.koma == self.at && cell.key.is_some_and(|own| own.frame == key.frame);
+        begins || self.column.clock.koma_from_place(key.frame.0 as f64) == self.at
     }
 
     /// The source frame nearest to a place, within the clip.

@@ -1,7 +1,7 @@
 //! A number of drawings a second: koma-dori gives single ones, and the other settings of the sheet where
 //! its range ends.
 
-use super::ladder::{denser, sparser, sparser_to_fours};
+use super::ladder::{denser, sparser, sparser_to_threes};
 use super::{Outcome, Target, genga, layer, room};
 use crate::edits::Edits;
 use crate::error::Error;
@@ -20,6 +20,10 @@ const MOST_CORRECTIONS: usize = 16;
 
 /// What naka-nashi may leave out of an action by a share; fewer are tried where it has to give way.
 const MOST_SPARED: usize = 6;
+
+/// Of the drawings that are asked for so many are genga at the most, where keys may go: with more there are no
+/// inbetweens left to take away, and the slow ones are held too long for the fast.
+const MOST_GENGA: f64 = 0.75;
 
 /// So many drawings a second.
 pub(super) struct Goal {
@@ -81,7 +85,8 @@ impl Goal {
         Ok(found.or(self.descend(search, &free)?))
     }
 
-    /// Koma-dori first; then the spacing, and the koma-dori for it; then naka-nashi, or keys.
+    /// Koma-dori first, with no more keys than leave room for inbetweens; then the spacing, and the koma-dori for
+    /// it; then naka-nashi, or keys.
     fn descend(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
         let held = search.hold(recipe)?;
         if held.is_exact() {
@@ -90,11 +95,14 @@ impl Goal {
         if held.excess < 0.0 {
             return search.more(held);
         }
-        let slow = search.climb(held, sparser_to_fours)?;
+        let held = if self.keys_are_free { search.balance(held)? } else { held };
+        if held.is_exact() {
+            return Ok(held);
+        }
+        let slow = search.climb_and_spare(held, sparser_to_threes)?;
         match slow.excess > EXACT {
-            true if self.keys_are_free => search.fewer(slow),
-            true => search.climb(slow, sparser),
-            false if slow.excess < -NEAR => search.spare(slow),
+            true if self.keys_are_free => Ok(slow.clone().or(search.fewer(slow)?)),
+            true => search.climb_and_spare(slow, sparser),
             false => Ok(slow),
         }
     }
@@ -156,37 +164,63 @@ impl Search<'_> {
         self.hold(&recipe)
     }
 
-    /// Rung after rung of spacing until there are too few drawings; the nearest of all.
-    fn climb(
+    /// Rung after rung of spacing until there are too few drawings, or too many where there were too few; the nearest of
+    /// all. Where that lies between two rungs, naka-nashi leaves fewer out on the one that has too few.
+    fn climb_and_spare(
         &mut self,
         from: Found,
         next: fn(&Spacing) -> Option<Spacing>,
     ) -> Result<Found, Error> {
         let was_above = from.excess > 0.0;
         let mut rung = from.recipe.spacing.clone();
-        let mut best = from;
+        let (mut best, mut last) = (from.clone(), from);
         while let Some(spacing) = next(&rung) {
             rung = spacing;
             let found = self.hold(&Recipe { spacing: rung.clone(), ..best.recipe.clone() })?;
-            let is_past = found.is_exact() || (found.excess > 0.0) != was_above;
-            best = best.or(found);
-            if is_past {
+            best = best.or(found.clone());
+            if found.is_exact() {
                 break;
             }
+            if (found.excess > 0.0) != was_above {
+                let few = if was_above { found } else { last };
+                return if best.is_exact() { Ok(best) } else { Ok(best.or(self.spare(few)?)) };
+            }
+            last = found;
         }
         Ok(best)
     }
 
     /// More drawings than there are with no koma-dori: denser spacing, and then no naka-nashi.
     fn more(&mut self, from: Found) -> Result<Found, Error> {
-        let dense = self.climb(from, denser)?;
+        let dense = self.climb_and_spare(from, denser)?;
         if dense.excess >= -EXACT {
             return Ok(dense);
         }
         let mut recipe = dense.recipe.clone();
         recipe.omission.naka_nashi = Amount::Count(0);
         let whole = self.hold(&recipe)?;
-        Ok(dense.or(whole))
+        if whole.excess >= -EXACT {
+            return Ok(dense.or(whole));
+        }
+        // Only rests are left in which there could be more.
+        recipe.spacing.drift = 0.0;
+        let moving = self.hold(&recipe)?;
+        Ok(dense.or(whole).or(moving))
+    }
+
+    /// No more found keys than leave room for inbetweens among so many drawings.
+    fn balance(&mut self, from: Found) -> Result<Found, Error> {
+        let breakdown = self.engine.run(&from.recipe, self.edits)?;
+        let drawings = layer(&breakdown).shown().count() as f64 - from.excess;
+        let room = (MOST_GENGA * drawings) as usize;
+        let too_many = genga(&breakdown).saturating_sub(room);
+        let found = room::found(self.engine, &from.recipe, self.edits)?;
+        if too_many.min(found) == 0 {
+            return Ok(from);
+        }
+        let fewer = self.hold_with(&from.recipe, found.saturating_sub(too_many))?;
+        // Where there are too few drawings then, they are not the reason.
+        Ok(if fewer.excess < -EXACT { from } else { fewer })
     }
 
     /// Between two rungs of spacing: on the sparser one naka-nashi leaves fewer out of each action, and
@@ -205,7 +239,7 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// Fewer drawings than there are with all keys on fours: fewer keys, on the first rung on which there
+    /// Fewer drawings than there are with all keys on threes: fewer keys, on the first rung on which there
     /// are few enough drawings without any found key. A hold has its bound, so on a denser one there are
     /// too many whatever keys go.
     fn fewer(&mut self, from: Found) -> Result<Found, Error> {

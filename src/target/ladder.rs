@@ -2,8 +2,9 @@
 
 use crate::timing::{On, Spacing};
 
-/// On fours: beyond it a movement no longer reads as one, so rather keys go than that drawings stay longer.
-pub(super) const SLOWEST: usize = 4;
+/// On threes: two drawings' time is the bound of a hold, and one of eight koma, as on fours, stops a movement. So
+/// rather keys go.
+const SLOWEST: usize = 3;
 
 /// More inbetweens between any two keys than this nobody asks for by number.
 const MOST_INBETWEENS: usize = 24;
@@ -11,27 +12,28 @@ const MOST_INBETWEENS: usize = 24;
 /// Koma between drawings at which the ladder ends.
 const LONGEST: usize = 1000;
 
-/// Spacing with more drawings: the upper end of a range comes down to the lower, then both; of a fixed
-/// number of inbetweens one more. None where there is a drawing every koma.
+/// Spacing with more drawings: the upper end of a range comes down to the lower, and from twos it opens again to ones
+/// where the body is fast; of a fixed number of inbetweens one more. None where there is a drawing every koma.
 pub(super) fn denser(spacing: &Spacing) -> Option<Spacing> {
     let Spacing { on, inbetweens, .. } = *spacing;
     let (on, inbetweens) = match inbetweens {
         Some(count) if count < MOST_INBETWEENS => (on, Some(count + 1)),
         Some(_) => (On::every(1), None),
         None if on.least < on.most => (On { most: on.most - 1, ..on }, None),
-        None if on.most > 1 => (On::every(on.most - 1), None),
+        None if on.most > 1 => (On { least: on.most - 1, ..on }, None),
         None => return None,
     };
     Some(Spacing { on, inbetweens, ..spacing.clone() })
 }
 
-/// Spacing with fewer drawings: the lower end of a range goes up to the upper, then both; of a fixed
-/// number of inbetweens one less. None where no more can go.
+/// Spacing with fewer drawings: the lower end of a range goes up to the upper, and up to threes it opens again to
+/// slower ones; of a fixed number of inbetweens one less. None where no more can go.
 pub(super) fn sparser(spacing: &Spacing) -> Option<Spacing> {
     let Spacing { on, inbetweens, .. } = *spacing;
     let (on, inbetweens) = match inbetweens {
         Some(count) => (on, Some(count.checked_sub(1)?)),
         None if on.least < on.most => (On { least: on.least + 1, ..on }, None),
+        None if on.most < SLOWEST => (On { most: on.most + 1, ..on }, None),
         // By a quarter at a time: two drawings' time is the bound of a hold, so what koma-dori reaches on
         // neighbouring rungs overlaps.
         None if on.most < LONGEST => {
@@ -42,8 +44,8 @@ pub(super) fn sparser(spacing: &Spacing) -> Option<Spacing> {
     Some(Spacing { on, inbetweens, ..spacing.clone() })
 }
 
-/// The same, but no slower than on fours.
-pub(super) fn sparser_to_fours(spacing: &Spacing) -> Option<Spacing> {
+/// The same, but no slower than on threes.
+pub(super) fn sparser_to_threes(spacing: &Spacing) -> Option<Spacing> {
     sparser(spacing).filter(|next| next.inbetweens.is_some() || next.on.most <= SLOWEST)
 }
 
@@ -66,18 +68,19 @@ mod tests {
     }
 
     #[test]
-    fn a_range_closes_before_it_moves() {
+    fn a_range_closes_before_it_moves_and_opens_between_two_rungs() {
         assert_eq!(rungs(spacing("1-3", None), denser), ["1-3", "1-2", "1"]);
-        assert_eq!(rungs(spacing("3", None), denser), ["3", "2", "1"]);
-        assert_eq!(rungs(spacing("1-3", None), sparser_to_fours), ["1-3", "2-3", "3", "4"]);
-        assert_eq!(rungs(spacing("6", None), sparser_to_fours), ["6"]);
+        assert_eq!(rungs(spacing("3", None), denser), ["3", "2-3", "2", "1-2", "1"]);
+        assert_eq!(rungs(spacing("1", None), sparser_to_threes), ["1", "1-2", "2", "2-3", "3"]);
+        assert_eq!(rungs(spacing("1-3", None), sparser_to_threes), ["1-3", "2-3", "3"]);
+        assert_eq!(rungs(spacing("6", None), sparser_to_threes), ["6"]);
     }
 
     #[test]
     fn a_fixed_number_of_inbetweens_goes_by_ones_and_gives_way_to_ones() {
         let up = rungs(spacing("2", Some(22)), denser);
         assert_eq!(up, ["22 between", "23 between", "24 between", "1"]);
-        let down = rungs(spacing("9", Some(2)), sparser_to_fours);
+        let down = rungs(spacing("9", Some(2)), sparser_to_threes);
         assert_eq!(down, ["2 between", "1 between", "0 between"]);
     }
 

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use crate::edits::Hold;
 use crate::sheet::{Drawing, Exposure, Layer};
 use crate::time::Clock;
+use crate::timing::on::STAY;
 
 /// How near a drawing has to be to the frame of its hold, in koma.
 const NEAR: f64 = 2.0;
@@ -32,6 +33,17 @@ pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -
         cell += 1;
     }
     row.into_layer(layer)
+}
+
+/// For how many koma the drawing of a person's hold stays on a layer that has been through [`with_holds`]; none where no
+/// drawing is near the frame of the hold.
+pub fn held_for(layer: &Layer, hold: Hold, clock: Clock) -> Option<usize> {
+    let frame = hold.frame.0 as f64;
+    let away = |shown: &Exposure| (layer.drawings[shown.drawing].source.place() - frame).abs();
+    let is_set = |shown: &&Exposure| layer.drawings[shown.drawing].why.hold_set;
+    let set = layer.exposures.iter().filter(is_set);
+    let nearest = set.min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest.koma)
 }
 
 /// A drawing on screen.
@@ -97,17 +109,59 @@ impl<'a> Row<'a> {
             missing -= taken;
             self.cells[cell].koma += taken;
             if self.cells[cell + 1].koma == 0 {
-                let why = self.cells.remove(cell + 1).drawing.why;
-                // What was left out round a covered drawing is under the hold too.
-                self.cells[cell].drawing.why.held_for += why.omitted_before + 1 + why.held_for;
+                self.cover(cell);
             }
         }
+        if self.next_kept(cell) > cell + 1 && self.cells[cell + 1].asked.is_none() {
+            self.let_stay(cell);
+        }
+    }
+
+    /// Covers the inbetween after a drawing with it.
+    fn cover(&mut self, cell: usize) -> usize {
+        let Cell { koma, drawing, .. } = self.cells.remove(cell + 1);
+        // What was left out round a covered drawing is under the hold too.
+        self.cells[cell].drawing.why.held_for +=
+            drawing.why.omitted_before + 1 + drawing.why.held_for;
+        koma
+    }
+
+    /// Sees to it that the inbetween after a drawing stays for as long as drawings do there: by koma of those behind
+    /// it that have more, else the next takes its place, and where there is none the hold lasts up to the genga.
+    fn let_stay(&mut self, cell: usize) {
+        let least = self.least(cell);
+        for behind in cell + 2..self.next_kept(cell) {
+            let missing = least.saturating_sub(self.cells[cell + 1].koma);
+            let given = missing.min(self.cells[behind].koma.saturating_sub(least));
+            self.cells[behind].koma -= given;
+            self.cells[cell + 1].koma += given;
+        }
+        if self.cells[cell + 1].koma < least {
+            let heir = cell + usize::from(self.next_kept(cell) > cell + 2);
+            let koma = self.cover(cell);
+            self.cells[heir].koma += koma;
+        }
+    }
+
+    /// For how many koma drawings stay at the least between the two genga round a drawing: two, unless some were
+    /// spaced for one there.
+    fn least(&self, cell: usize) -> usize {
+        let is_kept = |cell: &&Cell| cell.drawing.role.is_kept();
+        let opener = self.cells[..=cell].iter().rev().find(is_kept);
+        let from = opener.map_or(f64::NEG_INFINITY, |opener| opener.drawing.source.place());
+        let place = |shown: &Exposure| self.spaced.drawings[shown.drawing].source.place();
+        let role = |shown: &Exposure| self.spaced.drawings[shown.drawing].role;
+        let after = self.spaced.exposures.iter().skip_while(|shown| place(shown) < from);
+        let own = after.clone().take(1);
+        let inbetweens = after.skip(1).take_while(|shown| !role(shown).is_kept());
+        own.chain(inbetweens).map(|shown| shown.koma).min().unwrap_or(1).min(STAY)
     }
 
     /// Gives koma to a drawing that was left out after it, else to the next inbetween.
     fn shorten(&mut self, cell: usize, koma: usize) {
         let freed = self.cells[cell].koma - koma;
-        if let Some((at, drawing)) = self.left_out(cell, koma) {
+        let left_out = self.left_out(cell, koma).filter(|_| freed >= self.least(cell));
+        if let Some((at, drawing)) = left_out {
             self.come_back(cell, at, Cell { drawing, koma: freed, asked: None });
         } else if self.next_kept(cell) > cell + 1 {
             self.cells[cell + 1].koma += freed;

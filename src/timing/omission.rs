@@ -25,7 +25,7 @@ pub struct Omission {
     /// reads as one.
     pub naka_nashi: Amount,
     /// Koma-dori (コマ撮り): inbetweens replaced by the drawing before them where the movement is
-    /// smallest; a share is of the drawings there are when it begins. Default 1/3. Raised, small
+    /// smallest; a share is of the inbetweens there are when it begins. Default 1/3. Raised, small
     /// movement is lost.
     pub koma_dori: Amount,
     /// Koma that an exposure may grow to, 1 or more; never below twice the sheet's spacing. Default
@@ -186,7 +186,7 @@ impl Omission {
     }
 
     fn hold(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut Report) {
-        let count = self.koma_dori.of(strip.drawings);
+        let count = self.koma_dori.of(strip.inbetweens());
         let replaced = koma_dori::run(count, strip);
         report.koma_dori = StageReport {
             asked: count,

@@ -1,6 +1,7 @@
 //! How many koma a drawing stays between two keys (何コマ打ち): the same everywhere, or chosen for each
 //! interval by its motion (打ち分け).
 
+use std::cell::OnceCell;
 use std::fmt;
 use std::str::FromStr;
 
@@ -10,6 +11,9 @@ use crate::keys::Reference;
 
 /// Koma between two drawings beyond which nobody spaces.
 const MOST: usize = 1000;
+
+/// Koma that a drawing stays at the least where drawings are not on ones.
+pub(super) const STAY: usize = 2;
 
 /// A drawing every so many koma: `2` is on twos everywhere, `1-3` on ones to threes (1〜3コマ打ち), as the
 /// motion of each interval asks.
@@ -33,6 +37,12 @@ impl On {
         self.least == self.most
     }
 
+    /// Koma that a drawing stays at the least wherever it stands: two, since one alone is a twitch, or one where
+    /// there may be ones.
+    pub(crate) fn stay(self) -> usize {
+        self.least.min(STAY)
+    }
+
     /// Whether it can be.
     pub fn is_spacing(self) -> bool {
         1 <= self.least && self.least <= self.most && self.most <= MOST
@@ -40,42 +50,61 @@ impl On {
 
     /// For an interval from one koma to another: the most koma for which the body goes no further than
     /// `step`, in % of its height, from drawing to drawing in the mean.
-    pub(super) fn within(self, from: usize, to: usize, pace: &Pace, step: f64) -> usize {
+    pub(super) fn within(self, from: usize, to: usize, pace: &Pace<'_>, step: f64) -> usize {
         let koma = step / pace.mean(from, to);
         // Of a body that does not move this is infinite, which the bound below takes.
         (koma.floor() as usize).clamp(self.least, self.most)
     }
 }
 
-/// How far a body has gone by each koma.
+/// How far a body goes from koma to koma. Of no body it does not move.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Pace {
-    /// In % of its height, from 0 on the first koma.
-    way: Vec<f64>,
+pub struct Pace<'a> {
+    body: Option<&'a Reference>,
+    /// How far it has gone by each koma, in % of its height, from 0 on the first; not before it is asked for.
+    way: OnceCell<Vec<f64>>,
 }
 
-impl Pace {
+impl<'a> Pace<'a> {
     /// The pace of the source, koma after koma.
-    pub fn of(reference: &Reference) -> Self {
-        let rate = reference.clock().koma_rate;
-        Self::of_steps(reference.speeds().into_iter().map(|speed| speed / rate))
+    pub fn of(reference: &'a Reference) -> Self {
+        Self { body: Some(reference), way: OnceCell::new() }
     }
 
-    /// The pace of a body that goes so far into each koma from the second on, in % of its height.
+    /// The pace of no body, that would go so far into each koma from the second on, in % of its height.
+    #[cfg(test)]
     pub(super) fn of_steps(steps: impl Iterator<Item = f64>) -> Self {
-        let mut way = 0.0;
-        let ways = steps.map(|step| {
-            way += step;
-            way
-        });
-        Self { way: std::iter::once(0.0).chain(ways).collect() }
+        Self { body: None, way: OnceCell::from(summed(steps)) }
+    }
+
+    /// How far apart the poses of two koma are, in % of the body's height: what it does on the way does not count.
+    pub(super) fn apart(&self, a: usize, b: usize) -> f64 {
+        let body = self.body.filter(|body| a.max(b) < body.koma());
+        body.map_or(0.0, |body| body.apart(a, b))
     }
 
     /// How far it goes a koma between two koma, in the mean.
     fn mean(&self, from: usize, to: usize) -> f64 {
-        let way = |koma: usize| self.way.get(koma).or(self.way.last()).copied().unwrap_or(0.0);
+        let ways = self.way.get_or_init(|| self.body.map_or_else(Vec::new, ways));
+        let way = |koma: usize| ways.get(koma).or(ways.last()).copied().unwrap_or(0.0);
         (way(to) - way(from)) / (to - from) as f64
     }
+}
+
+/// How far a body has gone by each koma.
+fn ways(body: &Reference) -> Vec<f64> {
+    let rate = body.clock().koma_rate;
+    summed(body.speeds().into_iter().map(|speed| speed / rate))
+}
+
+/// Sums of the steps into each koma from the second on, and 0 before the first of them.
+fn summed(steps: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut way = 0.0;
+    let ways = steps.map(|step| {
+        way += step;
+        way
+    });
+    std::iter::once(0.0).chain(ways).collect()
 }
 
 impl fmt::Display for On {

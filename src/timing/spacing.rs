@@ -2,16 +2,22 @@
 //! [KT11 §3.4].
 
 mod interval;
+mod rests;
+mod station;
+
+use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
 use self::interval::Interval;
+use self::rests::Rests;
+use self::station::{Station, stations};
 use crate::error::Error;
-use crate::keys::{Key, LayerKeys, Origin};
+use crate::keys::LayerKeys;
 use crate::motion::Skeleton;
-use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
+use crate::sheet::{Drawing, Exposure, Layer};
 use crate::time::{Clock, Frame};
-use crate::timing::on::{On, Pace};
+use crate::timing::on::{On, Pace, STAY};
 
 /// What an inbetween shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -38,6 +44,10 @@ pub struct Spacing {
     /// (root mean square over its bones, in the mean over the interval); above 0, default 9, which gives
     /// about as many drawings as twos do. Raised, more of the motion is on threes.
     pub step: f64,
+    /// How far the body may be from the drawing that a rest (止め) holds, in % of its height (root mean square over
+    /// its bones); 0 or more, default 1. Where it goes further, an inbetween stands there: a moving hold. 0 puts
+    /// inbetweens into rests as everywhere. Raised, small gestures are lost in holds and come all at once after them.
+    pub drift: f64,
     /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
     /// them takes as many as fit.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,6 +67,7 @@ impl Default for Spacing {
         Self {
             on: On::every(2),
             step: 9.0,
+            drift: 1.0,
             inbetweens: None,
             weight: 0.3,
             max_shift: 2.0,
@@ -83,15 +94,6 @@ pub struct Pull {
     pub weight: f64,
 }
 
-/// A drawing that stands at a koma of its own: a key or an end.
-struct Station<'a> {
-    koma: usize,
-    place: f64,
-    role: Role,
-    /// The key it shows, or for an end the key it took over.
-    key: Option<&'a Key>,
-}
-
 impl Spacing {
     /// Checks the settings.
     ///
@@ -104,6 +106,9 @@ impl Spacing {
         }
         if !(self.step > 0.0 && self.step.is_finite()) {
             return Err(Error::setting("spacing.step", "must be above 0, in % of body height"));
+        }
+        if !(self.drift >= 0.0 && self.drift.is_finite()) {
+            return Err(Error::setting("spacing.drift", "must be 0 or more, in % of body height"));
         }
         if self.inbetweens.is_some_and(|count| count > MOST) {
             return Err(Error::setting("spacing.inbetweens", "must be 1000 at the most, or none"));
@@ -119,35 +124,134 @@ impl Spacing {
 
     /// Places the keys of a layer and the inbetweens between them on a sheet of `koma` koma.
     ///
-    /// The first and the last koma always show an `end`; a key that falls on one gives way to it and
-    /// hands over its voters. Of two keys on one koma the dearer stays. The pace is asked for where
-    /// `on` is a range.
+    /// The first and the last koma show an `end`; a key that falls on one gives way to it and hands over its
+    /// voters. Of keys that stand too near for a drawing to stay, the dearer stays. In a rest the drawing on screen
+    /// holds until the body has gone further from it than `drift`; a body that never moves has no other. Where `on`
+    /// is a range the pace decides.
     pub fn place(
         &self,
         layer: &LayerKeys,
         skeleton: &Skeleton,
         clock: Clock,
         koma: usize,
-        pace: &Pace,
+        pace: &Pace<'_>,
     ) -> Spaced {
-        let stations = stations(&layer.keys, clock, koma);
-        let mut drawings = Vec::with_capacity(koma);
-        let mut begins = Vec::with_capacity(koma);
-        let mut did_not_fit = 0;
+        let rests = Rests::of(&layer.rests, clock, self.drift, pace);
+        let least = |from: usize, to: usize| self.least(from, to, pace);
+        let stations = stations(&layer.keys, clock, koma, least);
+        let mut row = Row::default();
         for (at, station) in stations.iter().enumerate() {
-            drawings.push(station.drawing(skeleton));
-            begins.push(station.koma);
+            row.put(station.koma, station.drawing(skeleton));
             let Some(next) = stations.get(at + 1) else { continue };
             let interval = Interval::new(self, station, next, &layer.walls, clock);
-            let koma = self.koma_between(station.koma, next.koma, pace);
-            let asked = self.inbetweens.unwrap_or(koma.len());
-            did_not_fit += asked - koma.len();
-            for koma in koma {
-                drawings.push(interval.inbetween(koma));
-                begins.push(koma);
+            let on = self.on.within(station.koma, next.koma, pace, self.step);
+            let all = self.koma_between(station.koma, next.koma, on);
+            row.did_not_fit += self.inbetweens.map_or(0, |asked| asked - all.len());
+            let shown = rests.what_moves(station.koma, &all);
+            // A body that never moves is one drawing.
+            let is_all = stations.len() == 2 && shown.is_empty() && !next.is_set();
+            if is_all && rests.hold(station.koma, koma - 1) {
+                break;
+            }
+            let ends = shown.iter().skip(1).copied().chain([next.koma]);
+            for (koma, end) in shown.iter().zip(ends) {
+                row.put(*koma, interval.inbetween(*koma, end - koma));
             }
         }
-        let ends = begins.iter().skip(1).copied().chain(std::iter::once(koma));
+        row.into_spaced(koma)
+    }
+
+    /// The weight of a key that takes the inbetween of a koma to a place, or as near as `max_shift` lets it.
+    ///
+    /// `spaced` is the layer before anything was left out, and `koma` counts on it. None where no inbetween can
+    /// stand, in the very middle of its interval, and on the side of an end of the clip that is no key.
+    pub fn pulled(
+        &self,
+        layer: &LayerKeys,
+        spaced: &Layer,
+        clock: Clock,
+        koma: usize,
+        place: f64,
+    ) -> Option<Pull> {
+        let shown = |(begin, shown): (usize, Exposure)| {
+            (begin, shown.koma, &spaced.drawings[shown.drawing])
+        };
+        let all: Vec<_> = spaced.timed().map(shown).collect();
+        let own = all.partition_point(|(begin, ..)| *begin <= koma).checked_sub(1)?;
+        let kept = |at: &usize| all[*at].2.role.is_kept();
+        let [from, to] = [(0..own).rev().find(kept)?, (own..all.len()).find(kept)?];
+        if to == own {
+            return None;
+        }
+        let station = |at: usize| {
+            let (koma, _, drawing) = all[at];
+            let place = drawing.source.place();
+            let key = layer.keys.iter().find(|key| key.frame.0 as f64 == place);
+            Station { koma, place, role: drawing.role, key }
+        };
+        let [from, to] = [from, to].map(station);
+        let interval = Interval::new(self, &from, &to, &layer.walls, clock);
+        let (side, weight) = interval.weight_at(koma, all[own].1, place)?;
+        let key = [from, to][side].key?;
+        Some(Pull { key: key.frame, weight })
+    }
+
+    /// Which frames are worth a found key on a sheet of so many koma: not those on which it would give way to the
+    /// drawing of the sheet's end, and not those within a rest that show nothing new.
+    pub(crate) fn room<'a>(
+        &self,
+        rests: &[RangeInclusive<Frame>],
+        clock: Clock,
+        koma: usize,
+        pace: &'a Pace<'a>,
+    ) -> impl Fn(Frame) -> bool + use<'a> {
+        let rests = Rests::of(rests, clock, self.drift, pace);
+        let stay = self.on.stay();
+        // Koma on which one would stand too near to the end.
+        let past = if stay > 1 { (koma + 1).saturating_sub(2 * stay) } else { koma };
+        move |frame| {
+            let place = frame.0 as f64;
+            place < clock.place_from_koma(past) && !rests.cover(clock.koma_from_place(place))
+        }
+    }
+
+    /// For how many koma a drawing stays at the least between two koma.
+    fn least(&self, from: usize, to: usize, pace: &Pace<'_>) -> usize {
+        self.on.within(from, to, pace, self.step).min(STAY)
+    }
+
+    /// The koma on which inbetweens stand between two koma, each for as long as a drawing has to.
+    fn koma_between(&self, from: usize, to: usize, on: usize) -> Vec<usize> {
+        let (distance, least) = (to - from, on.min(STAY));
+        match self.inbetweens {
+            None => (from + on..=to.saturating_sub(least)).step_by(on).collect(),
+            Some(asked) => {
+                let count = asked.min((distance / least).saturating_sub(1));
+                let koma = |at: usize| (at * distance) as f64 / (count + 1) as f64;
+                (1..=count).map(|at| from + koma(at).round() as usize).collect()
+            }
+        }
+    }
+}
+
+/// Drawings and the koma on which they begin.
+#[derive(Default)]
+struct Row {
+    drawings: Vec<Drawing>,
+    begins: Vec<usize>,
+    did_not_fit: usize,
+}
+
+impl Row {
+    fn put(&mut self, koma: usize, drawing: Drawing) {
+        self.drawings.push(drawing);
+        self.begins.push(koma);
+    }
+
+    /// A layer of so many koma, each drawing up to the next.
+    fn into_spaced(self, koma: usize) -> Spaced {
+        let Self { drawings, begins, did_not_fit } = self;
+        let ends = begins.iter().skip(1).copied().chain([koma]);
         let exposures = begins
             .iter()
             .zip(ends)
@@ -157,112 +261,6 @@ impl Spacing {
         Spaced {
             layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
             did_not_fit,
-        }
-    }
-
-    /// The weight of a key that takes the inbetween of a koma to a place, or as near as `max_shift` lets it.
-    ///
-    /// `koma` counts on the sheet before anything was left out, which has `length` koma. None where no inbetween can
-    /// stand, in the very middle of its interval, and on the side of an end of the clip that is no key.
-    pub fn pulled(
-        &self,
-        layer: &LayerKeys,
-        clock: Clock,
-        length: usize,
-        koma: usize,
-        place: f64,
-    ) -> Option<Pull> {
-        let stations = stations(&layer.keys, clock, length);
-        let after = stations.partition_point(|station| station.koma <= koma);
-        let (from, to) = (stations.get(after.checked_sub(1)?)?, stations.get(after)?);
-        let interval = Interval::new(self, from, to, &layer.walls, clock);
-        let (side, weight) = interval.weight_at(koma, place)?;
-        let key = [from, to][side].key?;
-        Some(Pull { key: key.frame, weight })
-    }
-
-    /// The koma on which inbetweens stand between two koma.
-    fn koma_between(&self, from: usize, to: usize, pace: &Pace) -> Vec<usize> {
-        let distance = to - from;
-        match self.inbetweens {
-            None => {
-                let on = self.on.within(from, to, pace, self.step);
-                (from + on..to).step_by(on).collect()
-            }
-            Some(asked) => {
-                let count = asked.min(distance - 1);
-                let koma = |at: usize| (at * distance) as f64 / (count + 1) as f64;
-                (1..=count).map(|at| from + koma(at).round() as usize).collect()
-            }
-        }
-    }
-}
-
-/// Keys and ends by koma, no two on one.
-fn stations(keys: &[Key], clock: Clock, koma: usize) -> Vec<Station<'_>> {
-    let end = |koma: usize| Station {
-        koma,
-        place: clock.place_from_koma(koma),
-        role: Role::End,
-        key: None,
-    };
-    let Some(last) = koma.checked_sub(1) else { return Vec::new() };
-    let mut stations = vec![end(0)];
-    for key in keys {
-        let place = key.frame.0 as f64;
-        let koma = clock.koma_from_place(place).min(last);
-        let station = Station { koma, place, role: Role::Genga, key: Some(key) };
-        match stations.last_mut().filter(|before| before.koma == koma) {
-            None => stations.push(station),
-            Some(before) if before.role == Role::End => before.take_over(key),
-            Some(before) if before.key.is_some_and(|other| key.price > other.price) => {
-                *before = station
-            }
-            Some(_) => {}
-        }
-    }
-    match stations.last_mut().filter(|station| station.koma == last) {
-        Some(station) if station.role == Role::End => {}
-        Some(station) => {
-            let key = station.key;
-            *station = end(last);
-            key.into_iter().for_each(|key| station.take_over(key));
-        }
-        None => stations.push(end(last)),
-    }
-    stations
-}
-
-impl Station<'_> {
-    fn drawing(&self, skeleton: &Skeleton) -> Drawing {
-        let mut why = Why::default();
-        if let Some(key) = self.key {
-            let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
-            why.voters = key.voters.iter().map(name).collect();
-            why.strength = Some(key.strength);
-            if key.origin.is_set() {
-                why.pinned = Some(key.name.clone().unwrap_or_default());
-            }
-            if let Origin::Moved { from } = key.origin {
-                why.moved_from = Some(from.0);
-            }
-            if self.role == Role::Genga {
-                why.reason = Some(key.origin.reason());
-            }
-            why.price = Some(key.price).filter(|price| price.is_finite());
-        }
-        Drawing { source: Source::At(self.place), role: self.role, why }
-    }
-}
-
-impl<'a> Station<'a> {
-    /// An end shows what it shows, unless a person wants the key there.
-    fn take_over(&mut self, key: &'a Key) {
-        if self.key.is_none_or(|other| key.price > other.price) {
-            self.key = Some(key);
-        }
-        if key.origin.is_set() {
-            self.place = key.frame.0 as f64;
         }
     }
 }

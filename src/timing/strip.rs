@@ -102,6 +102,11 @@ impl<'a> Strip<'a> {
         MOST_LENGTHENINGS.saturating_sub(given).min(self.bound.saturating_sub(koma))
     }
 
+    /// Inbetweens that are not gone.
+    pub(super) fn inbetweens(&self) -> usize {
+        self.drawings - self.intervals.len()
+    }
+
     /// Takes an inbetween out of the list and gives its koma; its neighbours are measured anew.
     pub(super) fn remove(&mut self, drawing: usize) -> usize {
         let Cell { before, after, omitted_before, .. } = self.cells[drawing];

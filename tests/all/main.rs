@@ -7,6 +7,7 @@ mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found
+mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]
 mod judged; // sheets judged, and methods side by side
 mod known_keys; // clips made from known keys give them back
@@ -20,6 +21,7 @@ mod one_motion; // the same keys in any rig, at any rate, with noise
 mod opened; // a file in blocks is the file from memory
 #[cfg(feature = "cli")]
 mod program; // the built binary, as a person or a script uses it
+mod quiet; // somebody sits, stands or talks
 mod real_clips; // the default recipe on every real clip
 mod rerig; // the same motion in another rig gives the same sheet
 mod rooms; // who may import whom

@@ -102,7 +102,7 @@ fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
 #[test]
 fn stability_compares_cells_and_names_the_plateau() {
     let place = Place::new();
-    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,genga --set keys.merge=union";
+    let args = "study data/kick.bvh --x filter.width=1..8:1 --y turns.persistence=1..4:1 --measure union,genga --set keys.merge=union --set spacing.on=1";
     let output = place.genga(&format!("{args} --stability --heat h.svg"));
     let (table, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(output.status.code(), Some(0), "{said}");

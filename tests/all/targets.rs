@@ -1,11 +1,12 @@
 //! Targets on every real clip: met exactly, or within one drawing.
 
 use genga::edits::Edits;
-use genga::keys::Choose;
+use genga::keys::{Choose, Key};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::Role;
 use genga::target::{Met, Target, meet};
+use genga::time::Frame;
 
 use crate::clips;
 
@@ -22,6 +23,13 @@ fn met(engine: &mut Engine, targets: &[Target]) -> Met {
     meet(engine, &Recipe::default(), &Edits::default(), targets).unwrap()
 }
 
+/// The default but for the koma that drawings stay: on ones keys may stand a koma apart.
+fn on(koma: &str) -> Recipe {
+    let mut recipe = Recipe::default();
+    recipe.set("spacing.on", koma).unwrap();
+    recipe
+}
+
 /// Genga and drawings on the sheet of a recipe, and its seconds.
 fn figures(engine: &mut Engine, recipe: &Recipe) -> (usize, usize, f64) {
     let breakdown = engine.run(recipe, &Edits::default()).unwrap();
@@ -31,24 +39,30 @@ fn figures(engine: &mut Engine, recipe: &Recipe) -> (usize, usize, f64) {
 
 #[test]
 fn genga_are_as_many_as_asked_for() {
-    each(|name, engine| {
-        let bound = |min_price, per_second| Recipe {
-            keys: Choose { min_price, per_second, ..Choose::default() },
-            ..Recipe::default()
-        };
-        let fewest = figures(engine, &bound(1e9, 1e-9)).0;
-        let (most, _, seconds) = figures(engine, &bound(0.0, f64::INFINITY));
-        assert!(most as f64 > 10.0 * seconds, "{name}: {most} keys fit");
-        let some = (0..12).map(|step| fewest + (most - fewest) * step / 11);
-        for count in some.chain([24]).filter(|count| (fewest..=most).contains(count)) {
-            let met = met(engine, &[Target::Keys(count)]);
-            assert_eq!(figures(engine, &met.recipe).0, count, "{name}");
-            assert_eq!(met.outcomes[0].shortfall, None, "{name}");
-        }
-        let beyond = met(engine, &[Target::Keys(most + 1)]);
-        assert_eq!(figures(engine, &beyond.recipe).0, most, "{name}");
-        assert!(beyond.outcomes[0].shortfall.is_some(), "{name}");
-    });
+    each(|name, engine| ["1", "2"].iter().for_each(|koma| genga_are_met(name, engine, koma)));
+}
+
+fn genga_are_met(name: &str, engine: &mut Engine, koma: &str) {
+    let recipe = on(koma);
+    let bound = |min_price, per_second| Recipe {
+        keys: Choose { min_price, per_second, ..Choose::default() },
+        ..recipe.clone()
+    };
+    let fewest = figures(engine, &bound(1e9, 1e-9)).0;
+    let (most, _, seconds) = figures(engine, &bound(0.0, f64::INFINITY));
+    let fit = if koma == "1" { 10.0 } else { 6.0 };
+    assert!(most as f64 > fit * seconds, "{name}: {most} keys fit");
+    let mut met = |count| meet(engine, &recipe, &Edits::default(), &[Target::Keys(count)]).unwrap();
+    let some = (0..12).map(|step| fewest + (most - fewest) * step / 11);
+    let some: Vec<Met> =
+        some.chain([24]).filter(|count| (fewest..=most).contains(count)).map(&mut met).collect();
+    let beyond = met(most + 1);
+    for met in some {
+        assert_eq!(met.outcomes[0].target, Target::Keys(figures(engine, &met.recipe).0), "{name}");
+        assert_eq!(met.outcomes[0].shortfall, None, "{name}");
+    }
+    assert_eq!(figures(engine, &beyond.recipe).0, most, "{name}");
+    assert!(beyond.outcomes[0].shortfall.is_some(), "{name}");
 }
 
 #[test]
@@ -72,7 +86,7 @@ fn the_body_is_nowhere_further_off_than_asked_for() {
         let edits = Edits::default();
         let mut fewest = 0;
         for most in [20.0, 10.0, 5.0, 2.0] {
-            let met = met(engine, &[Target::MaxError(most)]);
+            let met = meet(engine, &on("1"), &edits, &[Target::MaxError(most)]).unwrap();
             let rebuilt = engine.reconstruction(&met.recipe, &edits).unwrap();
             let left = rebuilt.errors.iter().filter(|error| **error > most).count();
             assert!(left == 0 || most < 5.0, "{name}: {left} koma beyond {most}");
@@ -84,7 +98,7 @@ fn the_body_is_nowhere_further_off_than_asked_for() {
             let mut cheaper = met.recipe.clone();
             cheaper.keys.min_price = 1.2 * cheaper.keys.min_price + 0.06;
             let errors = engine.reconstruction(&cheaper, &edits).unwrap().errors;
-            let same = met.recipe == Recipe::default();
+            let same = met.recipe == on("1");
             let fewer = engine.find_keys(&cheaper, &edits).unwrap().keys.keys.len() < found;
             let beyond = errors.iter().filter(|error| **error > most).count();
             assert!(beyond > left || same || !fewer, "{name}: {most} at a higher price");
@@ -101,5 +115,31 @@ fn keys_and_drawings_are_met_together() {
         let (genga, drawings, seconds) = figures(engine, &met.recipe);
         assert_eq!(genga, count, "{name}");
         assert!((drawings as f64 - 8.0 * seconds).abs() <= 1.0, "{name}: {drawings}");
+    });
+}
+
+#[test]
+fn genga_go_before_anything_that_moves_is_held_for_eight_koma() {
+    each(|name, engine| {
+        for rate in [8.0, 7.0, 6.0] {
+            let met = met(engine, &[Target::DrawingsPerSecond(rate)]);
+            let breakdown = engine.run(&met.recipe, &Edits::default()).unwrap();
+            let koma = |frame: &Frame| breakdown.clock.koma_from_place(frame.0 as f64);
+            let rests = breakdown.keys.rests.iter();
+            let rests: Vec<_> = rests.map(|rest| koma(rest.start())..koma(rest.end())).collect();
+            let layer = &breakdown.sheet.layers[0];
+            let rests_in = |begin: usize, past: usize| {
+                rests.iter().any(|rest| rest.start < past && begin < rest.end)
+            };
+            let moving =
+                layer.timed().filter(|(begin, shown)| !rests_in(*begin, begin + shown.koma));
+            let longest = moving.map(|(_, shown)| shown.koma).max().unwrap_or(0);
+            assert!(longest < 8, "{name}: {longest} koma at {rate} a second");
+            let is_found = |key: &&Key| key.origin.is_found();
+            let found = breakdown.keys.keys.iter().filter(is_found).count();
+            let (genga, drawings) = (layer.count(Role::Genga), layer.shown().count());
+            let is_mixed = genga as f64 <= 0.75 * drawings as f64 + 1.0;
+            assert!(is_mixed || found == 0, "{name}: {genga} of {drawings} at {rate} a second");
+        }
     });
 }

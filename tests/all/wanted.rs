@@ -17,16 +17,16 @@ fn report(place: &Place, folder: &str) -> serde_json::Value {
 #[test]
 fn as_many_genga_and_drawings_as_asked_for() {
     let place = Place::new();
-    let said = place.genga("run data/kick.bvh --out a --keys 12 --drawings-per-second 6");
+    let said = place.genga("run data/kick.bvh --out a --keys 14 --drawings-per-second 6");
     assert!(said.status.success());
     let said = text(&said.stderr);
     assert!(said.contains("found       keys.min_price="), "{said}");
     assert!(
-        said.contains("12 and both ends") && said.contains(", 23 drawings, 6.0 a second"),
+        said.contains("14 and both ends") && said.contains(", 23 drawings, 6.0 a second"),
         "{said}"
     );
     assert_eq!(report(&place, "a")["notes"], serde_json::json!([]));
-    assert_eq!(genga(&place.done("keys data/kick.bvh --keys 12")), 12);
+    assert_eq!(genga(&place.done("keys data/kick.bvh --keys 14")), 14);
 }
 
 #[test]
@@ -226,6 +226,33 @@ fn a_held_drawing_stays_as_long_as_was_asked_and_genga_on_their_koma() {
         assert_eq!(same, genga);
         assert_eq!(held[0], koma, "{found:?}");
     }
+}
+
+#[test]
+fn a_hold_that_could_not_be_done_is_said() {
+    let place = Place::new();
+    let notes = |args: &str| {
+        let said = text(&place.genga(&format!("run data/kick.bvh --out o {args}")).stderr);
+        let notes = report(&place, "o")["notes"].clone();
+        notes
+            .as_array()
+            .unwrap()
+            .iter()
+            .for_each(|note| assert!(said.contains(note.as_str().unwrap())));
+        notes
+    };
+    let found = frames(
+        &fs::read_to_string({
+            notes("");
+            place.path("o/keys.csv")
+        })
+        .unwrap(),
+    );
+    let genga = &found[found.len() / 2];
+    let note = notes(&format!("--hold {genga}:30"));
+    let begin = format!("the drawing of frame {genga} was to stay for 30 koma and stays for ");
+    assert!(note[0].as_str().unwrap().starts_with(&begin), "{note}");
+    assert_eq!(notes("--hold 0:2"), serde_json::json!([]), "what was done is not told");
 }
 
 #[test]

@@ -98,7 +98,7 @@ fn apart(koma: usize, [from, to]: [usize; 2]) -> i64 {
 }
 
 fn nearest(genga: &[Shown], event: [usize; 2]) -> Option<(Shown, i64)> {
-    let with_distance = genga.iter().map(|genga| (*genga, apart(genga.koma, event)));
+    let with_distance = genga.iter().map(|genga| (*genga, apart(genga.moment, event)));
     with_distance.min_by_key(|(_, apart)| apart.unsigned_abs())
 }
 

@@ -9,7 +9,7 @@ use genga::plot::SpacingPlot;
 use genga::sheet::Sheet;
 use genga::signal::{LowPass, Measure, Signals, Spectrum, Speed, TurnFinder, TurnKind};
 use genga::time::{Frame, KOMA_RATE, Span};
-use genga::timing::{Pace, Spacing};
+use genga::timing::{On, Pace, Spacing};
 
 use crate::Outcome;
 use crate::part::Part;
@@ -92,9 +92,11 @@ fn walls(speed: &Signals) -> Vec<Frame> {
 
 /// Three inbetweens between the ends of a clip.
 fn sheet(clip: &Clip, weight: f64, walls: &[Frame]) -> Sheet {
-    let spacing = Spacing { inbetweens: Some(3), weight, ..Spacing::default() };
+    // Three fit between two balls as near as those of the paper where they may stay for one koma.
+    let (on, inbetweens) = (On::every(1), Some(3));
+    let spacing = Spacing { on, inbetweens, weight, ..Spacing::default() };
     let walls = walls.iter().map(|frame| Wall { frame: *frame, strength: 1.0 }).collect();
-    let keys = LayerKeys { keys: Vec::new(), walls, over_limit: 0 };
+    let keys = LayerKeys { keys: Vec::new(), walls, rests: Vec::new(), over_limit: 0 };
     let clock = clip.clock(KOMA_RATE);
     let spaced = spacing.place(&keys, clip.skeleton(), clock, KOMA, &Pace::default());
     Sheet::new(clock, vec![spaced.layer])

@@ -25,7 +25,7 @@ pub(super) struct OmitArgs {
     /// How many of the fastest drawings to leave out: a count (4) or a share of the koma (4%).
     #[arg(long, value_name = "N", default_value = "4")]
     naka_nashi: Amount,
-    /// How many of the slowest drawings to hold over: a count (33) or a share of the drawings (1/3).
+    /// How many of the slowest drawings to hold over: a count (33) or a share of the inbetweens (1/3).
     #[arg(long, value_name = "N|SHARE", default_value = "1/3")]
     koma_dori: Amount,
     /// The longest hold, in koma.

@@ -56,6 +56,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let Plan { recipe, edits, .. } = &plan;
     let breakdown = engine.run_once(recipe, edits)?;
     notes.extend(corrections::unmoved(edits, &breakdown));
+    notes.extend(corrections::unheld(edits, &breakdown));
 
     working.on("writing");
     let results = Results {

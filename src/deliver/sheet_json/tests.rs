@@ -118,9 +118,9 @@ fn a_person_may_write_it_otherwise() {
 #[test]
 fn a_blend_is_written_as_two_frames_and_a_share() {
     let mut file = file();
-    file.sheet.layers[0].drawings[1].source = Source::Between { from: 4.0, to: 23.5, share: 0.1 };
+    file.sheet.layers[0].drawings[7].source = Source::Between { from: 4.0, to: 23.5, share: 0.1 };
     let text = file.write().unwrap();
-    let line = "{\"drawing\": 1, \"role\": \"inbetween\", \"between\": [4, 23.5], \"share\": 0.1, ";
+    let line = "{\"drawing\": 7, \"role\": \"inbetween\", \"between\": [4, 23.5], \"share\": 0.1}";
     assert!(text.contains(line), "{text}");
     assert_eq!(read(text.as_bytes()).unwrap(), file);
 }
@@ -138,8 +138,8 @@ fn a_sheet_that_no_reader_would_take_is_not_written() {
         ("layer A: frame 104.5 is not in the clip, which has frames 4 to 104", |file| {
             file.sheet.layers[0].drawings[0].source = Source::At(104.5);
         }),
-        ("layer A shows drawing 18 but has 18", |file| {
-            file.sheet.layers[0].exposures[0].drawing = 18;
+        ("layer A shows drawing 17 but has 17", |file| {
+            file.sheet.layers[0].exposures[0].drawing = 17;
         }),
         ("layer A: an exposure of 0 koma", |file| file.sheet.layers[0].exposures[0].koma = 0),
         ("layer A: a strength or price", |file| {

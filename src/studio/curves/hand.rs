@@ -139,9 +139,9 @@ impl<'a> Ruler<'a> {
 /// The key on the side of an inbetween, and the weight that takes the inbetween to a place.
 fn pulled<'a>(koma: usize, place: f64, shown: &Shown<'a>) -> Option<(&'a Key, f64)> {
     let breakdown = &shown.breakdown;
-    let length = breakdown.spaced.length();
+    let spaced = &breakdown.spaced.layers[0];
     let spacing = &shown.wanted.recipe.spacing;
-    let pull = spacing.pulled(breakdown.keys, breakdown.clock, length, koma, place)?;
+    let pull = spacing.pulled(breakdown.keys, spaced, breakdown.clock, koma, place)?;
     let keys = &breakdown.keys.keys;
     let at = keys.binary_search_by_key(&pull.key, |key| key.frame).ok()?;
     Some((&keys[at], (pull.weight * HUNDREDTHS).round() / HUNDREDTHS))

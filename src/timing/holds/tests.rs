@@ -61,8 +61,9 @@ fn row(layer: &Layer) -> Vec<(usize, usize)> {
 fn a_longer_hold_covers_inbetweens_and_ends_at_the_next_genga() {
     let all = spaced(6, &[4]);
     let longer = |koma| row(&held(&all, &all, &[&format!("8:{koma}")]));
-    assert_eq!(longer(3), [(0, 2), (8, 3), (16, 1), (24, 2), (32, 2), (40, 2)]);
+    assert_eq!(longer(3), [(0, 2), (8, 3), (24, 3), (32, 2), (40, 2)], "and leaves none of a koma");
     assert_eq!(longer(4), [(0, 2), (8, 4), (24, 2), (32, 2), (40, 2)]);
+    assert_eq!(longer(5), [(0, 2), (8, 6), (32, 2), (40, 2)], "a koma more, or one would be left");
     assert_eq!(longer(99), [(0, 2), (8, 6), (32, 2), (40, 2)]);
     let why = &held(&all, &all, &["8:99"]).drawings[1].why;
     assert_eq!((why.hold_set, why.held_for), (true, 2));

@@ -213,7 +213,7 @@ fn on_ones_koma_dori_holds_as_many_koma_as_it_was_asked_for() {
 }
 
 #[test]
-fn a_share_is_of_the_koma_for_naka_nashi_and_of_the_drawings_for_koma_dori() {
+fn a_share_is_of_the_koma_for_naka_nashi_and_of_the_inbetweens_for_koma_dori() {
     let places: Vec<i32> = (0..100).map(|k| (k * k * 7 + k * 13) % 101).collect();
     let (layer, stills) = on_ones(&places);
     let asked = |naka_nashi, koma_dori| {
@@ -221,7 +221,11 @@ fn a_share_is_of_the_koma_for_naka_nashi_and_of_the_drawings_for_koma_dori() {
         let report = settings.apply(&layer, &stills, 1).unwrap().report;
         (report.naka_nashi.asked, report.koma_dori.asked)
     };
-    assert_eq!(asked(Amount::Share(0.04), Amount::Share(1.0 / 3.0)), (4, 32), "a third of 96");
+    assert_eq!(
+        asked(Amount::Share(0.04), Amount::Share(1.0 / 3.0)),
+        (4, 31),
+        "a third of 94 inbetweens"
+    );
     assert_eq!(asked(Amount::Share(0.5), Amount::Count(0)), (6, 0), "six an action");
     assert_eq!(asked(Amount::Count(9), Amount::Count(2)), (9, 2), "a count is taken at its word");
 }

@@ -4,6 +4,7 @@ use super::{InbetweenSource, Spacing, Station};
 use crate::keys::Wall;
 use crate::sheet::{Drawing, Role, Source, Why};
 use crate::time::Clock;
+use crate::timing::on::STAY;
 
 /// The most that a hand can pull: at 1 all inbetweens would be the key itself.
 const MOST_WEIGHT: f64 = 0.95;
@@ -17,6 +18,8 @@ pub(super) struct Interval {
     wall: Option<f64>,
     /// In frames.
     max_shift: f64,
+    /// Koma that a drawing stays at the most where the body moves.
+    longest: usize,
     source: InbetweenSource,
 }
 
@@ -44,13 +47,15 @@ impl Interval {
             weights: [weight(from), weight(to)],
             wall: wall.map(|wall| wall.frame.0 as f64),
             max_shift: spacing.max_shift * clock.frames_in_koma(),
+            longest: spacing.on.most + STAY - 1,
             source: spacing.source,
         }
     }
 
-    pub(super) fn inbetween(&self, koma: usize) -> Drawing {
+    /// What stands on a koma and stays for so many.
+    pub(super) fn inbetween(&self, koma: usize, stay: usize) -> Drawing {
         let [from, to] = self.places;
-        let place = self.place(koma);
+        let place = self.place(koma, stay);
         let source = match self.source {
             InbetweenSource::Sample => Source::At(place),
             InbetweenSource::Blend => {
@@ -61,9 +66,9 @@ impl Interval {
     }
 
     /// Where in the source an inbetween on that koma is taken from: drawn towards the key on its side.
-    fn place(&self, koma: usize) -> f64 {
+    fn place(&self, koma: usize, stay: usize) -> f64 {
         let [from, to] = self.places;
-        let share = self.share(koma);
+        let share = self.share(koma, stay);
         let shifted = match self.side(share) {
             Some(0) => share * (1.0 - self.weights[0]),
             Some(_) => 1.0 - (1.0 - share) * (1.0 - self.weights[1]),
@@ -74,18 +79,21 @@ impl Interval {
 
     /// The weight with which an inbetween on that koma is taken from a place, and whose it is: 0 for the key before,
     /// 1 for the key after. None on a key, in the middle, and where both show one place.
-    pub(super) fn weight_at(&self, koma: usize, place: f64) -> Option<(usize, f64)> {
+    pub(super) fn weight_at(&self, koma: usize, stay: usize, place: f64) -> Option<(usize, f64)> {
         let [from, to] = self.places;
-        let share = self.share(koma);
+        let share = self.share(koma, stay);
         let side = self.side(share)?;
         let (key, even) = ([from, to][side], self.even(share));
         let left = (self.bounded(place, share) - key) / (even - key);
         (even != key).then_some((side, (1.0 - left).clamp(0.0, MOST_WEIGHT)))
     }
 
-    /// How much of the time has gone, 0 to 1.
-    fn share(&self, koma: usize) -> f64 {
-        (koma - self.koma[0]) as f64 / (self.koma[1] - self.koma[0]) as f64
+    /// How much of the time has gone, 0 to 1, for a drawing that stays so long: it shows the middle of its
+    /// exposure, as a key that stays for two koma does. What holds in a rest shows the begin of the hold.
+    fn share(&self, koma: usize, stay: usize) -> f64 {
+        let [from, to] = self.koma;
+        let middle = stay.min(self.longest).saturating_sub(STAY) as f64 / 2.0;
+        ((koma - from) as f64 + middle) / (to - from) as f64
     }
 
     /// The place without any weight.

@@ -1,7 +1,8 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::keys::Wall;
+use crate::keys::{Key, Origin, Wall};
+use crate::sheet::{Role, Source};
 use crate::time::FrameRate;
 
 fn clock(fps: f64) -> Clock {
@@ -24,6 +25,7 @@ fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
     LayerKeys {
         keys: keys.iter().map(|frame| key(*frame, 10.0)).collect(),
         walls: walls.iter().map(|frame| Wall { frame: Frame(*frame), strength: 1.0 }).collect(),
+        rests: Vec::new(),
         over_limit: 0,
     }
 }
@@ -54,6 +56,9 @@ fn every_knob_out_of_range_is_named() {
     }
     let inbetweens = Some(usize::MAX);
     assert!(wrong(Spacing { inbetweens, ..Spacing::default() }).starts_with("spacing.inbetweens"));
+    for drift in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(wrong(Spacing { drift, ..Spacing::default() }).starts_with("spacing.drift"));
+    }
     for weight in [-0.1, 1.0, f64::NAN] {
         assert!(wrong(Spacing { weight, ..Spacing::default() }).starts_with("spacing.weight"));
     }
@@ -66,28 +71,45 @@ fn every_knob_out_of_range_is_named() {
 }
 
 #[test]
-fn even_spacing_on_threes_has_a_short_last_exposure() {
+fn even_spacing_on_threes_leaves_nothing_for_one_koma() {
     let spacing = Spacing { on: On::every(3), weight: 0.0, ..Spacing::default() };
-    let layer = place(&spacing, &layer(&[8], &[]), 24.0, 12);
-    assert_eq!(begins(&layer), [0, 3, 6, 8, 11]);
-    assert_eq!(places(&layer), [0.0, 3.0, 6.0, 8.0, 11.0]);
-    assert_eq!(layer.length(), 12);
+    let on_threes = |keys: &[usize]| place(&spacing, &layer(keys, &[]), 24.0, 12);
+    let short = on_threes(&[8]);
+    assert_eq!(begins(&short), [0, 3, 6, 8, 10], "the last but one of two koma");
+    assert_eq!(places(&short), [0.0, 3.5, 6.0, 8.0, 11.0], "the end shows the last instant");
+    assert_eq!(short.length(), 12);
+    assert_eq!(begins(&on_threes(&[7])), [0, 3, 7, 10], "what would stay for one is not there");
+}
+
+#[test]
+fn what_stays_longer_than_a_key_shows_a_later_moment() {
+    let spacing = Spacing { on: On::every(4), weight: 0.0, ..Spacing::default() };
+    let even = places(&place(&spacing, &layer(&[], &[]), 24.0, 18));
+    assert_eq!(
+        even,
+        [0.0, 4.0 + 1.0, 8.0 + 1.0, 12.0 + 1.0, 17.0]
+            .map(|at| at * 17.0 / 16.0)
+            .map(|at: f64| at.min(17.0))
+    );
 }
 
 #[test]
 fn inbetweens_crowd_towards_the_nearer_key_and_the_middle_stays() {
     // Fig. 9: a ball rolls from A to B with three inbetweens.
-    let spacing =
-        Spacing { inbetweens: Some(3), weight: 0.5, max_shift: 9.0, ..Spacing::default() };
-    let layer = place(&spacing, &layer(&[], &[]), 24.0, 9);
+    let layer = place(&three(), &layer(&[], &[]), 24.0, 9);
     assert_eq!(places(&layer), [0.0, 1.0, 4.0, 7.0, 8.0]);
+}
+
+/// Three inbetweens, half way to their key, of drawings that may stay for one koma.
+fn three() -> Spacing {
+    let (on, inbetweens) = (On::every(1), Some(3));
+    Spacing { on, inbetweens, weight: 0.5, max_shift: 9.0, ..Spacing::default() }
 }
 
 #[test]
 fn a_wall_decides_the_side() {
     // Fig. 10: the speed peak lies late, so the middle and what follows it still belong to A.
-    let spacing =
-        Spacing { inbetweens: Some(3), weight: 0.5, max_shift: 9.0, ..Spacing::default() };
+    let spacing = three();
     let with_wall = place(&spacing, &layer(&[], &[5]), 24.0, 9);
     assert_eq!(places(&with_wall), [0.0, 1.0, 2.0, 7.0, 8.0]);
     let on_wall = place(&spacing, &layer(&[], &[6]), 24.0, 9);
@@ -99,8 +121,7 @@ fn a_wall_decides_the_side() {
 
 #[test]
 fn a_key_has_a_weight_of_its_own() {
-    let spacing =
-        Spacing { inbetweens: Some(3), weight: 0.0, max_shift: 9.0, ..Spacing::default() };
+    let spacing = Spacing { weight: 0.0, ..three() };
     let mut keys = layer(&[8], &[]);
     keys.keys[0].weight = Some(0.5);
     assert_eq!(places(&place(&spacing, &keys, 24.0, 17))[..5], [0.0, 2.0, 4.0, 7.0, 8.0]);
@@ -117,17 +138,22 @@ fn a_place_moves_no_further_than_allowed() {
 
 #[test]
 fn what_does_not_fit_is_reported() {
-    let spacing = Spacing { inbetweens: Some(4), ..Spacing::default() };
-    let spaced =
-        spacing.place(&layer(&[3], &[]), &Skeleton::default(), clock(24.0), 9, &Pace::default());
-    assert_eq!(spaced.did_not_fit, 2);
-    assert_eq!(begins(&spaced.layer), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+    let spaced = |on| {
+        let spacing = Spacing { on: On::every(on), inbetweens: Some(4), ..Spacing::default() };
+        let keys = layer(&[3], &[]);
+        spacing.place(&keys, &Skeleton::default(), clock(24.0), 9, &Pace::default())
+    };
+    assert_eq!(spaced(1).did_not_fit, 2);
+    assert_eq!(begins(&spaced(1).layer), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+    assert_eq!(spaced(2).did_not_fit, 4 + 3, "on twos each stays for two");
+    assert_eq!(begins(&spaced(2).layer), [0, 3, 5, 7]);
 }
 
 #[test]
 fn a_blend_shows_the_keys_at_the_share_of_its_place() {
     let spacing = Spacing {
         source: InbetweenSource::Blend,
+        on: On::every(1),
         inbetweens: Some(1),
         weight: 0.0,
         ..Spacing::default()
@@ -177,7 +203,9 @@ fn a_fast_interval_is_on_ones_and_a_slow_one_on_threes() {
 #[test]
 fn what_is_no_inbetween_of_a_key_cannot_be_pulled() {
     let (spacing, layer) = (Spacing::default(), layer(&[10], &[]));
-    let pulled = |koma, place| spacing.pulled(&layer, clock(24.0), 21, koma, place);
+    let spaced = place(&spacing, &layer, 24.0, 22);
+    assert_eq!(begins(&spaced), [0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20]);
+    let pulled = |koma, place| spacing.pulled(&layer, &spaced, clock(24.0), koma, place);
     assert_eq!(pulled(8, 8.0), Some(Pull { key: Frame(10), weight: 0.0 }));
     assert_eq!(pulled(8, 9.0), Some(Pull { key: Frame(10), weight: 0.5 }));
     assert_eq!(pulled(8, 30.0), Some(Pull { key: Frame(10), weight: 0.95 }), "not quite the key");
@@ -191,11 +219,107 @@ fn what_is_no_inbetween_of_a_key_cannot_be_pulled() {
 
 #[test]
 fn short_sheets_are_ends_alone() {
-    for koma in 0..3 {
-        let layer = place(&Spacing::default(), &layer(&[], &[]), 24.0, koma);
-        assert_eq!((layer.drawings.len(), layer.length()), (koma, koma));
+    let ends = |on, koma| {
+        let spacing = Spacing { on: On::every(on), ..Spacing::default() };
+        let layer = place(&spacing, &layer(&[], &[]), 24.0, koma);
         assert!(layer.drawings.iter().all(|drawing| drawing.role == Role::End));
+        assert_eq!(layer.length(), koma);
+        layer.drawings.len()
+    };
+    assert_eq!([0, 1, 2].map(|koma| ends(1, koma)), [0, 1, 2]);
+    assert_eq!([0, 1, 2, 3, 4].map(|koma| ends(2, koma)), [0, 1, 1, 1, 2], "two koma each");
+}
+
+// Rests.
+
+/// Keys with rests between some frames, whose ends are keys.
+fn resting(keys: &[usize], rests: &[(usize, usize)]) -> LayerKeys {
+    let mut layer = layer(keys, &[]);
+    for (begin, end) in rests {
+        for frame in [begin, end] {
+            layer.keys.push(Key { origin: Origin::Rest, ..key(*frame, f64::INFINITY) });
+        }
+        layer.rests.push(Frame(*begin)..=Frame(*end));
     }
+    layer.keys.sort_by_key(|key| key.frame);
+    layer
+}
+
+#[test]
+fn one_drawing_holds_through_a_rest() {
+    let held = |layer: &LayerKeys| begins(&place(&Spacing::default(), layer, 24.0, 40));
+    assert_eq!(held(&resting(&[], &[(8, 32)])), [0, 2, 4, 6, 8, 32, 34, 36, 38]);
+    assert_eq!(
+        held(&resting(&[20], &[(8, 32)])),
+        [0, 2, 4, 6, 8, 20, 32, 34, 36, 38],
+        "a key is a drawing"
+    );
+    let room = |spacing: &Spacing, frame| {
+        spacing.room(&[Frame(8)..=Frame(32)], clock(24.0), 40, &Pace::default())(Frame(frame))
+    };
+    let found = Spacing::default();
+    assert_eq!([8, 9, 31, 32].map(|frame| room(&found, frame)), [true, false, false, true]);
+    assert_eq!([36, 37].map(|frame| room(&found, frame)), [true, false], "the end begins with 38");
+    let everywhere = Spacing { drift: 0.0, ..Spacing::default() };
+    assert!(room(&everywhere, 20));
+    let all = begins(&place(&everywhere, &resting(&[], &[(8, 32)]), 24.0, 40));
+    assert_eq!(all, (0..20).map(|at| 2 * at).collect::<Vec<_>>(), "0 holds nothing");
+}
+
+#[test]
+fn a_rest_at_an_end_of_the_sheet_is_held_by_one_drawing() {
+    let mut keys = layer(&[20], &[]);
+    keys.rests = vec![Frame(0)..=Frame(20)];
+    let begin = place(&Spacing::default(), &keys, 24.0, 28);
+    assert_eq!(begins(&begin), [0, 20, 22, 24, 26]);
+    keys.rests = vec![Frame(20)..=Frame(27)];
+    let end = place(&Spacing::default(), &keys, 24.0, 28);
+    let expected: Vec<usize> = (0..11).map(|at| 2 * at).chain([26]).collect();
+    assert_eq!(begins(&end), expected, "the clip's end is the end of the rest");
+    assert_eq!([10, 11].map(|at| end.drawings[at].role), [Role::Genga, Role::End]);
+    keys = layer(&[], &[]);
+    keys.rests = vec![Frame(0)..=Frame(27)];
+    let still = place(&Spacing::default(), &keys, 24.0, 28);
+    assert_eq!((begins(&still), still.length()), (vec![0], 28), "it never moves");
+    assert_eq!(still.drawings[0].role, Role::End);
+    keys.keys = vec![Key { origin: Origin::Pinned, ..key(27, f64::INFINITY) }];
+    assert_eq!(begins(&place(&Spacing::default(), &keys, 24.0, 28)), [0, 26], "a person wants it");
+}
+
+// Nearness.
+
+#[test]
+fn of_two_that_stand_too_near_the_dearer_stays_and_pins_both() {
+    let near = |on, prices: [f64; 2], pinned: bool| {
+        let mut keys = layer(&[10, 11], &[]);
+        for (key, price) in keys.keys.iter_mut().zip(prices) {
+            key.price = price;
+            key.origin = if pinned { Origin::Pinned } else { Origin::Turn };
+        }
+        let spacing = Spacing { on: On::every(on), ..Spacing::default() };
+        let layer = place(&spacing, &keys, 24.0, 22);
+        let genga = layer.drawings.iter().filter(|drawing| drawing.role == Role::Genga);
+        genga.map(|drawing| drawing.source.place() as usize).collect::<Vec<_>>()
+    };
+    for on in [2, 3] {
+        assert_eq!(near(on, [5.0, 9.0], false), [11], "the impact, and none just before it");
+        assert_eq!(near(on, [9.0, 5.0], false), [10]);
+        assert_eq!(near(on, [9.0, 9.0], false), [10], "of equals the earlier");
+        assert_eq!(near(on, [5.0, 9.0], true), [10, 11]);
+    }
+    assert_eq!(near(1, [5.0, 9.0], false), [10, 11], "on ones both");
+}
+
+#[test]
+fn a_key_stands_on_the_two_koma_nearest_to_it_and_on_ones_on_the_nearest() {
+    let koma = |on, frame| {
+        let spacing = Spacing { on: On::every(on), ..Spacing::default() };
+        let layer = place(&spacing, &layer(&[frame], &[]), 120.0, 41);
+        let at = layer.drawings.iter().position(|drawing| drawing.role == Role::Genga).unwrap();
+        begins(&layer)[at]
+    };
+    assert_eq!([50, 51, 52, 53, 54, 55].map(|frame| koma(2, frame)), [10, 10, 10, 10, 10, 11]);
+    assert_eq!([50, 51, 52, 53, 54, 55].map(|frame| koma(1, frame)), [10, 10, 10, 11, 11, 11]);
 }
 
 proptest! {
@@ -214,12 +338,12 @@ proptest! {
         let even = place(&Spacing { weight: 0.0, ..spacing.clone() }, &layer, 24.0, koma);
         for (at, (begin, shown)) in even.timed().enumerate() {
             let before = even.drawings[shown.drawing].source.place();
-            let Some(pull) = spacing.pulled(&layer, clock(24.0), koma, begin, before) else { continue };
+            let Some(pull) = spacing.pulled(&layer, &even, clock(24.0), begin, before) else { continue };
             prop_assert!(pull.weight < 1e-9, "{} where it is even", pull.weight);
             let key = pull.key.0 as f64;
             let nearest = before + (key - before).clamp(-max_shift, max_shift);
             let hand = nearest + share * (before - nearest);
-            let asked = spacing.pulled(&layer, clock(24.0), koma, begin, hand).unwrap();
+            let asked = spacing.pulled(&layer, &even, clock(24.0), begin, hand).unwrap();
             prop_assert_eq!(asked.key, pull.key);
             let own = layer.keys.iter().position(|key| key.frame == pull.key).unwrap();
             layer.keys[own].weight = Some(asked.weight);
@@ -247,11 +371,13 @@ proptest! {
         prop_assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", places);
         for (begin, exposure) in layer.timed() {
             let drawing = &layer.drawings[exposure.drawing];
-            prop_assert!(exposure.koma >= 1 && exposure.koma <= on);
+            prop_assert!(exposure.koma >= on.min(2) && exposure.koma <= on + 1 || koma < 4);
             if drawing.role == Role::Genga {
                 let place = drawing.source.place();
                 prop_assert!(keys.contains(&(place as usize)) && place.fract() == 0.0);
-                prop_assert_eq!(clock(fps).koma_from_place(place), begin);
+                let off = (place - clock(fps).place_from_koma(begin)) / clock(fps).frames_in_koma();
+                let [early, late] = if on == 1 { [-0.5, 0.5] } else { [-1e-6, 1.0 - 1e-6] };
+                prop_assert!(early <= off && off <= late, "{} koma off", off);
             }
         }
     }

@@ -20,9 +20,9 @@ fn place(what: &str) -> String {
 #[test]
 fn what_is_wrong_with_a_line_is_said_with_its_place() {
     let shown = "{\"drawing\": 5, \"koma\": 3}";
-    let drawn = "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 20.599999999999998}";
+    let drawn = "{\"drawing\": 14, \"role\": \"inbetween\", \"frame\": 90.22222222222223}";
     for (line, wrong, words) in [
-        (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 18 drawings, none of them is 40"),
+        (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 17 drawings, none of them is 40"),
         (shown, "{\"drawing\": 5, \"koma\": 0}", "an exposure of 0 koma is not seen"),
         (
             shown,
@@ -36,27 +36,27 @@ fn what_is_wrong_with_a_line_is_said_with_its_place() {
         ),
         (
             drawn,
-            "{\"drawing\": 2, \"role\": \"inbetween\"}",
+            "{\"drawing\": 14, \"role\": \"inbetween\"}",
             "a drawing shows a source frame, \"frame\": 42",
         ),
         (
             drawn,
-            "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 9, \"share\": 0.5}",
+            "{\"drawing\": 14, \"role\": \"inbetween\", \"frame\": 9, \"share\": 0.5}",
             "a drawing shows a source frame",
         ),
         (
             drawn,
-            "{\"drawing\": 2, \"role\": \"inbetween\", \"frame\": 3.9}",
+            "{\"drawing\": 14, \"role\": \"inbetween\", \"frame\": 3.9}",
             "frame 3.9 is not in the clip, which has frames 4 to 104",
         ),
         (
             drawn,
-            "{\"drawing\": 2, \"role\": \"inbetween\", \"between\": [4, 105], \"share\": 0.5}",
+            "{\"drawing\": 14, \"role\": \"inbetween\", \"between\": [4, 105], \"share\": 0.5}",
             "frame 105 is not in the clip",
         ),
         (
             drawn,
-            "{\"drawing\": 2, \"role\": \"inbetween\", \"between\": [4, 9], \"share\": 1.5}",
+            "{\"drawing\": 14, \"role\": \"inbetween\", \"between\": [4, 9], \"share\": 1.5}",
             "share is 1.5; it is 0 at",
         ),
     ] {

@@ -53,7 +53,6 @@ fn a_key_after_the_sheet_s_end_is_of_another_clip() {
 fn the_keys_of_a_run_given_back_alone_are_the_same_keys() {
     let mut recipe = Recipe::default();
     recipe.set("keys.min_price", "1000").unwrap();
-    recipe.set("keys.rest", "0").unwrap();
     for name in ["kick.bvh", "pitch.bvh"] {
         let (clip, own) = sample(name);
         let file = Xdts::default().write(&own, "c1").unwrap().genga;

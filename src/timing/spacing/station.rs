@@ -1,0 +1,164 @@
+//! Stations: drawings that stand at a koma of their own, the keys and both ends of the sheet.
+
+use std::cmp::Reverse;
+
+use crate::keys::{Key, Origin};
+use crate::motion::{JointId, Skeleton};
+use crate::sheet::{Drawing, Role, Source, Why};
+use crate::time::Clock;
+
+/// A drawing that stands at a koma of its own: a key or an end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Station<'a> {
+    pub(super) koma: usize,
+    pub(super) place: f64,
+    pub(super) role: Role,
+    /// The key it shows, or for an end the key it took over.
+    pub(super) key: Option<&'a Key>,
+}
+
+/// Keys and ends by koma, of those that stand too near to each other the stronger.
+///
+/// `least` is for how many koma a drawing has to stay between two koma. What a person set stays, however near.
+pub(super) fn stations<'a>(
+    keys: &'a [Key],
+    clock: Clock,
+    length: usize,
+    least: impl Fn(usize, usize) -> usize,
+) -> Vec<Station<'a>> {
+    let Some(last) = length.checked_sub(1) else { return Vec::new() };
+    let mut own = on_koma(keys, clock, last, &least);
+    let set: Vec<usize> = own.iter().filter(|key| key.is_set()).map(|key| key.koma).collect();
+    let stay = if last == 0 { 1 } else { least(last - 1, last) };
+    let mut taken = ends(clock, last, stay, &set);
+    // The strongest first; of equals the earlier, since the order of those is kept.
+    own.sort_by(|a, b| b.strength().total_cmp(&a.strength()));
+    own.sort_by_key(|station| Reverse(station.rank()));
+    for station in own {
+        let after = taken.partition_point(|other| other.koma <= station.koma);
+        let (before, next) = (after - 1, after);
+        let is_near = |other: &Station<'_>| {
+            let [a, b] = [station.koma.min(other.koma), station.koma.max(other.koma)];
+            a == b || b - a < least(a, b)
+        };
+        let is_last_end = |at: usize| at > 0 && taken[at].role == Role::End;
+        let near_before = is_near(&taken[before]);
+        let near_next = taken.get(next).is_some_and(is_near);
+        if is_last_end(before) || taken[before].koma == station.koma {
+            taken[before].take_over(&station);
+        } else if station.is_set() || !(near_before || near_next) {
+            taken.insert(next, station);
+        } else if near_next {
+            taken[next].take_over(&station);
+        } else {
+            taken[before].take_over(&station);
+        }
+    }
+    taken
+}
+
+/// The keys on their koma: the two nearest to a key's frame, or the nearest where drawings stay for one.
+///
+/// A drawing that stays for two koma is in time in the mean if its frame lies between them. Where that koma has
+/// what a person set already, what else they set comes on the next.
+fn on_koma<'a>(
+    keys: &'a [Key],
+    clock: Clock,
+    last: usize,
+    least: &impl Fn(usize, usize) -> usize,
+) -> Vec<Station<'a>> {
+    let mut stations: Vec<Station<'a>> = Vec::with_capacity(keys.len());
+    let mut set = None;
+    for key in keys {
+        let place = key.frame.0 as f64;
+        let nearest = clock.koma_from_place(place).min(last);
+        let is_early = nearest > 0 && place < clock.place_from_koma(nearest) - HAIR;
+        let earlier = nearest.saturating_sub(usize::from(is_early));
+        let begins_earlier = is_early && least(earlier, nearest) > 1;
+        let is_free = !key.origin.is_set() || set != Some(earlier);
+        let koma = if begins_earlier && is_free { earlier } else { nearest };
+        if key.origin.is_set() {
+            set = Some(koma);
+        }
+        stations.push(Station { koma, place, role: Role::Genga, key: Some(key) });
+    }
+    stations
+}
+
+/// Places nearer than this, in frames, are one.
+const HAIR: f64 = 1e-6;
+
+/// The drawings of both ends, or one for a sheet too short for two. The last stays for `stay` koma like any
+/// other, or for one where a person wants two drawings there; `set` are the koma of what they set.
+fn ends<'a>(clock: Clock, last: usize, stay: usize, set: &[usize]) -> Vec<Station<'a>> {
+    let end = |koma, shown: usize| Station {
+        koma,
+        place: clock.place_from_koma(shown),
+        role: Role::End,
+        key: None,
+    };
+    let begin = (last + 1).saturating_sub(stay);
+    let wanted = set.iter().filter(|koma| **koma >= begin.max(1)).count();
+    let is_one = begin < stay;
+    match if wanted > usize::from(!is_one) { last } else { begin } {
+        begin if begin == 0 || (is_one && wanted == 0) => vec![end(0, 0)],
+        begin => vec![end(0, 0), end(begin, last)],
+    }
+}
+
+impl Station<'_> {
+    /// Whether a person wants it just where it is.
+    pub(super) fn is_set(&self) -> bool {
+        self.key.is_some_and(|key| key.origin.is_set())
+    }
+
+    /// What goes before what, whatever it saves.
+    fn rank(&self) -> usize {
+        match self.key.map(|key| key.origin) {
+            Some(Origin::Pinned | Origin::Moved { .. }) => 3,
+            Some(Origin::Rest) => 2,
+            Some(Origin::Contact) => 1,
+            Some(Origin::Turn | Origin::Fill) | None => 0,
+        }
+    }
+
+    /// What it saves; where all are kept for how strong they are, that.
+    fn strength(&self) -> f64 {
+        let of = |key: &Key| if key.price.is_finite() { key.price } else { key.strength };
+        self.key.map_or(0.0, of)
+    }
+
+    pub(super) fn drawing(&self, skeleton: &Skeleton) -> Drawing {
+        let mut why = Why::default();
+        if let Some(key) = self.key {
+            let name = |joint: &JointId| skeleton.joints[joint.0].name.clone();
+            why.voters = key.voters.iter().map(name).collect();
+            why.strength = Some(key.strength);
+            if key.origin.is_set() {
+                why.pinned = Some(key.name.clone().unwrap_or_default());
+            }
+            if let Origin::Moved { from } = key.origin {
+                why.moved_from = Some(from.0);
+            }
+            if self.role == Role::Genga {
+                why.reason = Some(key.origin.reason());
+            }
+            why.price = Some(key.price).filter(|price| price.is_finite());
+        }
+        Drawing { source: Source::At(self.place), role: self.role, why }
+    }
+}
+
+impl<'a> Station<'a> {
+    /// An end takes over the reasons of the strongest key that gives way to it. It shows what it shows, unless a
+    /// person wants the key there.
+    fn take_over(&mut self, given: &Station<'a>) {
+        if self.role != Role::End || self.key.is_some() {
+            return;
+        }
+        self.key = given.key;
+        if given.is_set() {
+            self.place = given.place;
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! A law of all stages together: on twos and threes nothing stays for one koma, unless a person asked for it.
+
+use glam::DVec3;
+use proptest::prelude::*;
+
+use super::*;
+use crate::edits::Hold;
+use crate::keys::{Key, LayerKeys, Origin, Wall};
+use crate::motion::Skeleton;
+use crate::sheet::{Layer, Role};
+use crate::time::{Clock, Frame, FrameRate};
+
+/// Frames of the clips, 30 a second.
+const FRAMES: usize = 150;
+
+fn clock() -> Clock {
+    Clock { first: Frame(0), frame_rate: FrameRate::new(30.0).unwrap(), koma_rate: 24.0 }
+}
+
+fn length() -> usize {
+    clock().frame_rate.koma_from_frames(FRAMES, clock().koma_rate)
+}
+
+fn key((frame, (price, origin)): (usize, (f64, Origin))) -> Key {
+    let (voters, weight, name) = (Vec::new(), None, None);
+    let price = if origin.is_found() { price } else { f64::INFINITY };
+    Key { frame: Frame(frame), strength: 0.5, price, voters, weight, name, origin }
+}
+
+fn origin() -> impl Strategy<Value = Origin> {
+    prop_oneof![
+        12 => Just(Origin::Turn),
+        2 => Just(Origin::Rest),
+        1 => Just(Origin::Contact),
+        1 => Just(Origin::Pinned),
+    ]
+}
+
+prop_compose! {
+    /// Keys as near as a frame, walls and rests anywhere; of two pins on one koma the first.
+    fn layer()(
+        keys in prop::collection::btree_map(0..FRAMES, (0.0..9.0, origin()), 0..60),
+        walls in prop::collection::btree_set(0..FRAMES, 0..9),
+        rests in prop::collection::vec((0..FRAMES, 0..40usize), 0..4),
+    ) -> LayerKeys {
+        let mut keys: Vec<Key> = keys.into_iter().map(key).collect();
+        let koma = |key: &Key| clock().koma_from_place(key.frame.0 as f64);
+        let mut pinned = None;
+        for key in keys.iter_mut().filter(|key| key.origin.is_set()) {
+            if pinned.replace(koma(key)) == Some(koma(key)) {
+                key.origin = Origin::Turn;
+            }
+        }
+        let rest = |(begin, frames): (usize, usize)| Frame(begin)..=Frame((begin + frames).min(FRAMES - 1));
+        LayerKeys {
+            keys,
+            walls: walls.into_iter().map(|frame| Wall { frame: Frame(frame), strength: 1.0 }).collect(),
+            rests: rests.into_iter().map(rest).collect(),
+            over_limit: 0,
+        }
+    }
+}
+
+fn on() -> impl Strategy<Value = On> {
+    let range = (1..4usize, 0..3usize).prop_map(|(least, more)| On { least, most: least + more });
+    prop_oneof![(1..5usize).prop_map(On::every), range]
+}
+
+prop_compose! {
+    fn omission()(
+        naka_nashi in 0..9usize,
+        koma_dori in 0..40usize,
+        max_hold in 1..7usize,
+        keep_length: bool,
+        all_at_once: bool,
+        koma_dori_first: bool,
+    ) -> Omission {
+        let [naka_nashi, koma_dori] = [naka_nashi, koma_dori].map(Amount::Count);
+        let order = if koma_dori_first { Order::KomaDoriFirst } else { Order::NakaNashiFirst };
+        Omission { naka_nashi, koma_dori, max_hold, keep_length, all_at_once, order }
+    }
+}
+
+/// Stills of a layer whose drawings lie anywhere on a line.
+fn stills(layer: &Layer, places: &[f64]) -> Stills {
+    let mut stills = Stills::new(1);
+    let places = places.iter().cycle().take(layer.drawings.len());
+    places.for_each(|place| stills.push(&[DVec3::X * *place]));
+    stills
+}
+
+/// The drawings that stay for one koma without a reason: the koma, and what each is.
+fn twitches(layer: &Layer, may: impl Fn(usize, usize) -> bool) -> Vec<(usize, Role)> {
+    let shown: Vec<_> = layer.timed().collect();
+    let drawing = |at: usize| &layer.drawings[shown[at].1.drawing];
+    let is_set = |at: usize| {
+        at < shown.len() && (drawing(at).why.pinned.is_some() || drawing(at).why.hold_set)
+    };
+    let kept = |at: &usize| drawing(*at).role.is_kept();
+    let twitch = |at: &usize| {
+        let opener = (0..=*at).rev().find(kept).map_or(0, |at| shown[at].0);
+        let closer = (at + 1..shown.len()).find(kept).map_or(layer.length(), |at| shown[at].0);
+        let is_asked = is_set(*at) || is_set(at + 1) || (*at > 0 && is_set(at - 1));
+        shown[*at].1.koma == 1 && !is_asked && !may(opener, closer)
+    };
+    (0..shown.len()).filter(twitch).map(|at| (shown[at].0, drawing(at).role)).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn nothing_stays_for_one_koma_where_drawings_are_not_on_ones(
+        keys in layer(),
+        on in on(),
+        inbetweens in prop::option::weighted(0.2, 0..5usize),
+        drift in prop::sample::select(vec![0.0, 1.0]),
+        steps in prop::collection::vec(0.0..30.0, length() - 1),
+        places in prop::collection::vec(0.0..50.0, 7),
+        omission in omission(),
+        holds in prop::collection::btree_map(0..FRAMES, 1..9usize, 0..4),
+    ) {
+        let spacing = Spacing { on, inbetweens, drift, ..Spacing::default() };
+        let pace = Pace::of_steps(steps.into_iter());
+        let spaced = spacing.place(&keys, &Skeleton::default(), clock(), length(), &pace).layer;
+        // In a range an interval that is fast enough is on ones.
+        let on_ones = |from: usize, to: usize| {
+            let [from, to] = if to == length() { [to - 2, to - 1] } else { [from, to] };
+            on.within(from, to, &pace, spacing.step) == 1
+        };
+        prop_assert_eq!(twitches(&spaced, on_ones), [], "{:?}", spaced.exposures);
+        let omitted = omission.apply(&spaced, &stills(&spaced, &places), on.most).unwrap().layer;
+        // Without its length the koma of the sheet are no longer those of the pace.
+        let is_ones = |from, to| if omission.keep_length { on_ones(from, to) } else { on.least == 1 };
+        prop_assert_eq!(twitches(&omitted, is_ones), [], "{:?}", omitted.exposures);
+        let holds: Vec<Hold> =
+            holds.into_iter().map(|(frame, koma)| Hold { frame: Frame(frame), koma }).collect();
+        let held = with_holds(&omitted, &spaced, &holds, clock());
+        prop_assert_eq!(twitches(&held, is_ones), [], "{:?}", held.exposures);
+        prop_assert_eq!(held.length(), omitted.length());
+    }
+
+    #[test]
+    fn pins_are_on_the_sheet_whatever_lies_near(keys in layer(), on in on()) {
+        let spacing = Spacing { on, ..Spacing::default() };
+        let spaced = spacing.place(&keys, &Skeleton::default(), clock(), length(), &Pace::default()).layer;
+        for pin in keys.keys.iter().filter(|key| key.origin.is_set()) {
+            let is_it = |place: f64| place == pin.frame.0 as f64;
+            prop_assert!(spaced.drawings.iter().any(|drawing| is_it(drawing.source.place())), "{:?}", pin);
+        }
+        prop_assert_eq!(spaced.length(), length());
+    }
+}
