@@ -1,6 +1,6 @@
 //! The chain, stage by stage and as a whole, on a synthetic body: `cargo bench --bench chain`.
 //!
-//! A table in Markdown: CPU time in ns per frame·joint, median of the rounds.
+//! A table in Markdown: CPU time in ns per frame·joint, median of the rounds. `-- 5000` is of as many frames alone.
 
 #![allow(clippy::print_stdout, reason = "it prints a table")]
 
@@ -24,12 +24,14 @@ use body::{JOINTS, swinging};
 const FRAMES: [usize; 4] = [129, 1_000, 5_000, 100_000];
 
 fn main() {
-    let columns: Vec<Vec<(&str, f64)>> = FRAMES.iter().map(|frames| medians(*frames)).collect();
-    println!(
-        "| ns per frame·joint | {} frames |",
-        FRAMES.map(|frames| frames.to_string()).join(" | ")
-    );
-    println!("| --- |{}", " ---: |".repeat(FRAMES.len()));
+    let mut asked: Vec<usize> = std::env::args().filter_map(|frames| frames.parse().ok()).collect();
+    if asked.is_empty() {
+        asked = FRAMES.to_vec();
+    }
+    let columns: Vec<Vec<(&str, f64)>> = asked.iter().map(|frames| medians(*frames)).collect();
+    let header: Vec<String> = asked.iter().map(usize::to_string).collect();
+    println!("| ns per frame·joint | {} frames |", header.join(" | "));
+    println!("| --- |{}", " ---: |".repeat(asked.len()));
     for (stage, (name, _)) in columns[0].iter().enumerate() {
         let cells: Vec<String> =
             columns.iter().map(|column| format!("{:.1}", column[stage].1)).collect();

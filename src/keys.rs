@@ -36,7 +36,7 @@ use crate::time::Frame;
 
 pub use actions::{Action, ActionFinder, Actions, Split, SplitReason};
 pub use body::BodyTurns;
-pub(crate) use body::{BodySpeeds, LayerMotion};
+pub(crate) use body::{BodySpeeds, LayerMotion, Tracks};
 pub(crate) use bridge::Bridge;
 pub(crate) use choice::{Choice, Picked};
 pub use choose::{Choose, Fill, Judges, Merge, Rank};

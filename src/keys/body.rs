@@ -16,8 +16,7 @@ use crate::signal::LowPass;
 use crate::time::{Frame, Span};
 
 use pattern::{LEAST, Pattern, largest_near, summits};
-pub(crate) use tracks::LayerMotion;
-use tracks::Tracks;
+pub(crate) use tracks::{LayerMotion, Tracks};
 
 /// By how much a body has to slow down and speed up for half a turn, in % of its height a second: so much trembles.
 const TREMBLE: f64 = 2.0;
@@ -48,7 +47,7 @@ impl BodyTurns {
             screen: reference.screen(),
             height: reference.height(),
         };
-        let speeds = BodySpeeds::of(&motion, filter);
+        let speeds = BodySpeeds::of(&Tracks::of(&motion), filter);
         speeds.turns(persistence.frames(clip.rate()), reference.clock().frames_in_koma())
     }
 }
@@ -58,10 +57,9 @@ impl BodyTurns {
 pub(crate) struct BodySpeeds(Pattern);
 
 impl BodySpeeds {
-    /// Measures and smooths them.
-    pub(crate) fn of(motion: &LayerMotion<'_>, filter: &LowPass) -> Self {
-        let Tracks { steps, weights } = Tracks::of(motion);
-        Self(Pattern::of(&filter.apply(&steps), &weights))
+    /// Smooths them.
+    pub(crate) fn of(tracks: &Tracks, filter: &LowPass) -> Self {
+        Self(Pattern::of(tracks, filter))
     }
 
     /// The turns that last for `persistence` frames to each side, `apart` frames from each other at the least.

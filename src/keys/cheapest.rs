@@ -17,8 +17,14 @@ const HIGHEST: f64 = 1e12;
 /// The lowest, where the first is 0.
 const LOWEST: f64 = 1e-6;
 
-/// Halvings of the span of prices in the search for one: more would not tell two sets apart.
-const HALVINGS: usize = 40;
+/// By how much the price goes up until too few are worth it.
+const STEP: f64 = 4.0;
+
+/// Prices that are tried between two in the search for one: more would not tell two sets apart.
+const TRIES: usize = 40;
+
+/// How far a price that is tried stays from both ends of the span, as a share of it.
+const AWAY: f64 = 0.05;
 
 /// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
 const CLOSE: usize = 4;
@@ -239,24 +245,31 @@ impl<'a> Cheapest<'a> {
 
     /// The cheapest set at the least price, `price` or more, at which so few are worth it.
     fn limited(&self, price: f64, most: usize) -> Vec<usize> {
-        let (mut low, mut high) = (price.max(LOWEST), HIGHEST);
-        let [mut many, mut few] = [low, high].map(|price| self.at(price));
+        let mut low = price.max(LOWEST);
+        let mut many = self.at(low);
         if self.found(&many) <= most {
             return many;
         }
-        if self.found(&few) >= most {
-            return few;
+        let (mut high, mut few) = (STEP * low, self.at(STEP * low));
+        while self.found(&few) > most && high < HIGHEST {
+            (low, many) = (high, few);
+            (high, few) = (STEP * low, self.at(STEP * low));
         }
-        for _ in 0..HALVINGS {
+        for _ in 0..TRIES {
             let counts = [&many, &few].map(|set| self.found(set));
+            if counts[1] >= most {
+                break;
+            }
             let is_close = counts[0] <= counts[1] + CLOSE;
-            let crossing = || self.crossing(&many, &few).clamp(low, high);
-            let price = if is_close { crossing() } else { (low * high).sqrt() };
+            let price = if is_close {
+                self.crossing(&many, &few).clamp(low, high)
+            } else {
+                between([low, high], counts, most)
+            };
             let set = self.at(price);
             match self.found(&set) {
                 // Where both cost the same no other is cheaper: no number between them is at any price.
                 found if is_close && counts.contains(&found) => break,
-                found if found == most => return set,
                 found if found > most => (low, many) = (price, set),
                 _ => (high, few) = (price, set),
             }
@@ -318,6 +331,15 @@ impl<'a> Cheapest<'a> {
         let gains = (from + 1..to).filter(fits).map(gain).filter(is_worth_it);
         gains.reduce(|best, other| if other.1 > best.1 { other } else { best })
     }
+}
+
+/// The price between two at which so many would be left if their number were a power of it; not near either of them, lest
+/// one end of the span stay for ever.
+fn between(prices: [f64; 2], counts: [usize; 2], most: usize) -> f64 {
+    let [low, high] = prices.map(f64::ln);
+    let [many, few, most] = [counts[0], counts[1], most].map(|count| (count as f64 + 0.5).ln());
+    let share = ((many - most) / (many - few)).clamp(AWAY, 1.0 - AWAY);
+    (low + share * (high - low)).exp()
 }
 
 /// Where least is saved, of equals the first; none in a set of which all stay.

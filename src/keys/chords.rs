@@ -1,8 +1,11 @@
 //! Chords (弦): what is lost when the body goes straight from one posture to another.
 
+use std::array;
+use std::iter::once;
+
 use crate::keys::Reference;
 use crate::keys::postures::Postures;
-use crate::motion::lanes::wide;
+use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Build, Clip};
 use crate::time::{Clock, Frame};
 
@@ -14,6 +17,9 @@ pub(super) const INSTANTS: usize = 2;
 
 /// Koma that are looked at of a chord that is not known, at the most: a longer one is not slower.
 const LOOKS: usize = 512;
+
+/// Scalar products that are formed side by side.
+const TOGETHER: usize = 4;
 
 /// Seconds from one end of a chord to the other up to which all are known, however long the clip.
 const LEAST_REACH: f64 = 2.0;
@@ -141,50 +147,116 @@ impl Chords {
     /// former grow with each end, the latter with each begin.
     #[inline(always)]
     fn sum_up(&mut self) {
-        let len = self.koma;
-        let squares: Vec<f64> = (0..len).map(|at| dot(self.row(at), self.row(at))).collect();
-        let until: Vec<f64> = std::iter::once(0.0)
-            .chain(squares.iter().scan(0.0, |sum, square| {
-                *sum += square;
-                Some(*sum)
-            }))
-            .collect();
-        let mut from_end = vec![(0.0, 0.0); len];
+        let (len, reach) = (self.koma, self.reach);
+        let rows = self.packed();
+        let width = rows.len() / len.max(1);
+        let row = |koma: usize| &rows[koma * width..(koma + 1) * width];
+        let squares: Vec<f64> = (0..len).map(|koma| dots([row(koma)], row(koma))[0]).collect();
+        let mut sums = Sums::of(&squares, reach);
+        let mut products = vec![0.0; reach];
         for from in (0..len).rev() {
-            let mut from_begin = (0.0, 0.0);
-            let own = self.postures.row(INSTANTS * from);
-            let row = &mut self.losses[from * (self.reach + 1)..][1..=self.reach];
-            for (loss, to) in row.iter_mut().zip(from + 1..len) {
-                let product = dot(own, self.postures.row(INSTANTS * to));
-                let n = (to - from) as f64;
-                let inside = until[to] - until[from + 1];
-                let (begin, end) = (from_begin, from_end[to]);
-                let cross = begin.0 - begin.1 / n + end.0 - end.1 / n;
-                let of_ends =
-                    (squares[from] + squares[to]) * (n - 1.0) * (2.0 * n - 1.0) / (6.0 * n);
-                let both = product * (n * n - 1.0) / (3.0 * n);
-                *loss = (inside - 2.0 * cross + of_ends + both).max(0.0) as f32;
-                from_begin.0 += product;
-                from_begin.1 += n * product;
-                from_end[to].0 += product;
-                from_end[to].1 += n * product;
+            let own = row(from);
+            let products = &mut products[..reach.min(len - 1 - from)];
+            let mut blocks = products.chunks_exact_mut(TOGETHER);
+            let mut to = from + 1;
+            for block in &mut blocks {
+                block.copy_from_slice(&dots::<TOGETHER>(array::from_fn(|at| row(to + at)), own));
+                to += TOGETHER;
             }
+            for product in blocks.into_remainder() {
+                [*product] = dots([row(to)], own);
+                to += 1;
+            }
+            let losses = &mut self.losses[from * (reach + 1)..][1..=products.len()];
+            sums.close(from, &squares, products, losses);
+        }
+    }
+
+    /// The body at each koma, its row filled up with zeros to whole registers.
+    fn packed(&self) -> Vec<f64> {
+        let width = self.row(0).len().next_multiple_of(LANES);
+        let mut rows = vec![0.0; self.koma * width];
+        for (koma, row) in rows.chunks_exact_mut(width).enumerate() {
+            let own = self.row(koma);
+            row[..own.len()].copy_from_slice(own);
+        }
+        rows
+    }
+}
+
+/// What the chords from one koma need beside their scalar products: running sums, and what hangs on their length alone.
+struct Sums {
+    /// The squares of all koma before each.
+    until: Vec<f64>,
+    /// By how many koma n a chord is long, from 1 on: 1/n, and Σ s² and 2·Σ s·(1 − s) over the shares s of its inside.
+    per_length: Vec<f64>,
+    of_ends: Vec<f64>,
+    of_both: Vec<f64>,
+    /// Σ a·p, and Σ times the distance from a, over the inside p of each chord from the koma at hand.
+    from_begin: [Vec<f64>; 2],
+    /// The same seen from the end of each chord, by the koma of the end.
+    from_end: [Vec<f64>; 2],
+}
+
+impl Sums {
+    fn of(squares: &[f64], reach: usize) -> Self {
+        let add = |sum: &mut f64, square: &f64| {
+            *sum += square;
+            Some(*sum)
+        };
+        let lengths = || (1..=reach).map(|n| n as f64);
+        let of_ends = |n: f64| (n - 1.0) * (2.0 * n - 1.0) / (6.0 * n);
+        let zeros = |count: usize| [vec![0.0; count], vec![0.0; count]];
+        Self {
+            until: once(0.0).chain(squares.iter().scan(0.0, add)).collect(),
+            per_length: lengths().map(f64::recip).collect(),
+            of_ends: lengths().map(of_ends).collect(),
+            of_both: lengths().map(|n| (n * n - 1.0) / (3.0 * n)).collect(),
+            from_begin: zeros(reach),
+            from_end: zeros(squares.len()),
+        }
+    }
+
+    /// The losses of the chords from a koma, the shortest first, by the products of its posture and those of their ends.
+    #[inline(always)]
+    fn close(&mut self, from: usize, squares: &[f64], products: &[f64], losses: &mut [f32]) {
+        let count = products.len();
+        let [begin, begin_far] = self.from_begin.each_mut().map(|sums| &mut sums[..count]);
+        let (mut sum, mut sum_far) = (0.0, 0.0);
+        for (at, product) in products.iter().enumerate() {
+            (begin[at], begin_far[at]) = (sum, sum_far);
+            sum += product;
+            sum_far += (at + 1) as f64 * product;
+        }
+        let ends = from + 1..from + 1 + count;
+        let [end, end_far] = self.from_end.each_mut().map(|sums| &mut sums[ends.clone()]);
+        let (until, squares_of_ends) = (&self.until[ends.clone()], &squares[ends]);
+        let (inside_from, square) = (self.until[from + 1], squares[from]);
+        let [per_length, of_ends, of_both] =
+            [&self.per_length, &self.of_ends, &self.of_both].map(|each| &each[..count]);
+        for at in 0..count {
+            let cross =
+                begin[at] - begin_far[at] * per_length[at] + end[at] - end_far[at] * per_length[at];
+            let inside = until[at] - inside_from;
+            let ends = (square + squares_of_ends[at]) * of_ends[at] + products[at] * of_both[at];
+            losses[at] = (inside - 2.0 * cross + ends).max(0.0) as f32;
+            end[at] += products[at];
+            end_far[at] += (at + 1) as f64 * products[at];
         }
     }
 }
 
-/// The scalar product; four sums side by side, so that the compiler keeps them in one register.
+/// The scalar products of as many rows with another; each row and sum in registers of its own.
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for lane in 0..4 {
-            sums[lane] += a[lane] * b[lane];
+fn dots<const ROWS: usize>(rows: [&[f64]; ROWS], other: &[f64]) -> [f64; ROWS] {
+    let mut sums = [Lanes::ZERO; ROWS];
+    let rows = rows.map(|row| row.as_chunks::<LANES>().0);
+    for (at, other) in other.as_chunks::<LANES>().0.iter().enumerate() {
+        for (sum, row) in sums.iter_mut().zip(rows) {
+            *sum = *sum + Lanes(row[at]) * Lanes(*other);
         }
     }
-    sums.iter().sum::<f64>() + rest
+    sums.map(|sum| sum.0.iter().sum())
 }
 
 #[cfg(test)]

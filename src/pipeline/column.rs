@@ -7,7 +7,7 @@ use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
     self, BodySpeeds, BodyTurns, Candidates, Choice, Chords, JointTurns, JointWeights, Judges,
-    LayerKeys, LayerMotion, Part, PartMotion, Picked, Reconstruction, Reference,
+    LayerKeys, LayerMotion, Part, PartMotion, Picked, Reconstruction, Reference, Tracks,
 };
 use crate::motion::{Build, Clip, Screen, Skeleton};
 use crate::recipe::Recipe;
@@ -43,8 +43,9 @@ pub(super) struct Column {
     voices: Stage<Made, Voices>,
     /// When feet and hands of the layer come down or leave, where that counts.
     contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
-    /// How fast all that moves in the layer is, and when it turns as a whole.
-    speeds: Stage<(LowPass, Screen, f64), BodySpeeds>,
+    /// How all that moves in the layer moves, how fast that is, and when it turns as a whole.
+    tracks: Stage<(Screen, f64), Tracks>,
+    speeds: Stage<LowPass, BodySpeeds>,
     body: Stage<(f64, f64), BodyTurns>,
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
@@ -123,10 +124,10 @@ impl Column {
         let Measured { build, screen, .. } = measured;
         let height = self.reference.output().height();
         let motion = LayerMotion { clip, build, heard, judged, screen, height };
-        let filter = &recipe.filter;
-        let settings = (filter.clone(), *screen, recipe.rate);
-        let speeds = || BodySpeeds::of(&motion, filter);
-        let made = self.speeds.renew(self.motion.made, &settings, speeds);
+        let settings = (*screen, recipe.rate);
+        let made = self.tracks.renew(self.motion.made, &settings, || Tracks::of(&motion));
+        let (filter, tracks) = (&recipe.filter, self.tracks.output());
+        let made = self.speeds.renew(made, filter, || BodySpeeds::of(tracks, filter));
         let persistence = recipe.turns.persistence.frames(clip.rate());
         let apart = clip.clock(recipe.rate).frames_in_koma();
         let speeds = self.speeds.output();
@@ -245,6 +246,7 @@ impl Column {
         self.motion.forget();
         self.reference.forget();
         self.chords.forget();
+        self.tracks.forget();
         self.speeds.forget();
         self.stills.forget();
     }

@@ -8,6 +8,7 @@ mod spectrum;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::lanes::wide;
 use crate::signal::Signals;
 use crate::time::{FrameRate, Span};
 
@@ -73,6 +74,29 @@ impl LowPass {
                 None => spectrum.times(&self.kind.response(width, frames)),
             },
             _ => spectrum.unfiltered().clone(),
+        }
+    }
+
+    /// Hands on the filtered columns, so many at a time and one behind the other; there must be a multiple of them.
+    pub(crate) fn each<const COLUMNS: usize>(
+        &self,
+        spectrum: &Spectrum,
+        mut each: impl FnMut(&[f64]),
+    ) {
+        let frames = spectrum.frames();
+        let width = self.filtering_width(spectrum.rate()).filter(|_| frames > 1);
+        if let Some(window) = width.and_then(|width| self.window(width, frames)) {
+            let mut means = vec![0.0; COLUMNS * frames];
+            for columns in spectrum.unfiltered().values.as_slice().chunks_exact(means.len()) {
+                wide(
+                    #[inline(always)]
+                    || window.slide::<COLUMNS>(columns, &mut means),
+                );
+                each(&means);
+            }
+        } else {
+            let filtered = self.apply(spectrum);
+            filtered.values.as_slice().chunks_exact((COLUMNS * frames).max(1)).for_each(each);
         }
     }
 

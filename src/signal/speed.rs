@@ -93,7 +93,8 @@ impl Speed {
 
 /// A matrix of the clip's shape with row 0 left at 0.
 fn still(clip: &Clip) -> DMatrix<f64> {
-    DMatrix::zeros(clip.len(), clip.skeleton().len())
+    let (frames, joints) = (clip.len(), clip.skeleton().len());
+    DMatrix::from_vec(frames, joints, vec![0.0; frames * joints])
 }
 
 fn rotation(clip: &Clip) -> DMatrix<f64> {

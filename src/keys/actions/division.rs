@@ -33,20 +33,27 @@ impl Lengths {
 pub(super) fn cheapest(places: &[Place], seconds: f64, lengths: Lengths) -> Vec<usize> {
     let (begin, end) = (Place { at: 0.0, price: 0.0 }, Place { at: seconds, price: 0.0 });
     let all: Vec<Place> = [begin].into_iter().chain(places.iter().copied()).chain([end]).collect();
-    // The least cost of a take that ends at each place, and where its last part begins.
+    // The least cost of a take that ends at each place, and where its last part begins; and the least up to there.
     let mut best: Vec<(f64, usize)> = vec![(0.0, 0)];
+    let mut cheapest = vec![0.0f64];
     for (at, place) in all.iter().enumerate().skip(1) {
         let mut least = (f64::INFINITY, 0);
-        for (from, other) in all[..at].iter().enumerate() {
+        for (from, other) in all[..at].iter().enumerate().rev() {
             let long = place.at - other.at;
             if long < lengths.shortest || long <= 0.0 {
                 continue;
             }
-            let cost = best[from].0 + lengths.price(long) + place.price;
-            if cost < least.0 {
+            let price = lengths.price(long);
+            // A part that is longer still costs more, and no take before it less.
+            if long > lengths.usual && cheapest[from] + price + place.price > least.0 {
+                break;
+            }
+            let cost = best[from].0 + price + place.price;
+            if cost <= least.0 {
                 least = (cost, from);
             }
         }
+        cheapest.push(cheapest[at - 1].min(least.0));
         best.push(least);
     }
     let mut divisions = Vec::new();

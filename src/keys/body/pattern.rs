@@ -1,8 +1,11 @@
 //! The pattern of a turn: slower now than a moment before and a moment after [KT11 §3.3].
 
 use crate::keys::peaks::{peaks, strongest_apart};
-use crate::signal::Signals;
+use crate::motion::lanes::wide;
+use crate::signal::LowPass;
 use crate::time::Frame;
+
+use super::tracks::Tracks;
 
 /// A change of a bend below this is rounding, in % of body height a second.
 const DUST: f64 = 1e-9;
@@ -22,23 +25,18 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    /// The speed of each track at each frame, of steps from frame to frame that are three columns a track.
-    pub(super) fn of(steps: &Signals, weights: &[f64]) -> Self {
+    /// The speed of each track at each frame, its steps smoothed.
+    pub(super) fn of(Tracks { steps, weights }: &Tracks, filter: &LowPass) -> Self {
         let (count, all) = (steps.frames(), weights.iter().sum::<f64>());
         let mut speeds = Vec::with_capacity((count + 1) * weights.len());
-        for track in steps.values.as_slice().chunks_exact((3 * count).max(1)) {
-            let [x, y, z] = [0, 1, 2].map(|axis| &track[axis * count..(axis + 1) * count]);
-            // At a frame a body is as fast as in the mean of the steps into it and out of it: time has no direction.
-            let speed = |before: usize, after: usize| {
-                let mean = |axis: &[f64]| 0.5 * (axis[before] + axis[after]);
-                (mean(x).powi(2) + mean(y).powi(2) + mean(z).powi(2)).sqrt()
-            };
-            speeds.push(speed(0, 0));
-            speeds.extend((1..count).map(|at| speed(at - 1, at)));
-            speeds.push(speed(count - 1, count - 1));
-        }
+        filter.each::<3>(steps, |track| {
+            wide(
+                #[inline(always)]
+                || add_speeds(track, count, &mut speeds),
+            );
+        });
         let weights = weights.iter().map(|own| own / all).collect();
-        Self { first: steps.first, frames: count + 1, speeds, weights }
+        Self { first: steps.unfiltered().first, frames: count + 1, speeds, weights }
     }
 
     /// Speeds as they are, one track after the other.
@@ -65,6 +63,20 @@ impl Pattern {
         }
         (valleys, hills)
     }
+}
+
+/// Adds how fast a track is at each frame, of its steps along three axes.
+#[inline(always)]
+fn add_speeds(track: &[f64], count: usize, speeds: &mut Vec<f64>) {
+    let [x, y, z] = [0, 1, 2].map(|axis| &track[axis * count..(axis + 1) * count]);
+    // At a frame a body is as fast as in the mean of the steps into it and out of it: time has no direction.
+    let speed = |before: usize, after: usize| {
+        let mean = |axis: &[f64]| 0.5 * (axis[before] + axis[after]);
+        (mean(x).powi(2) + mean(y).powi(2) + mean(z).powi(2)).sqrt()
+    };
+    speeds.push(speed(0, 0));
+    speeds.extend((1..count).map(|at| speed(at - 1, at)));
+    speeds.push(speed(count - 1, count - 1));
 }
 
 /// Adds the bends of a track.

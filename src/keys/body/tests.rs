@@ -21,7 +21,7 @@ fn speeds(clip: &Clip, width: f64) -> BodySpeeds {
         height: 2.0,
     };
     let filter = LowPass { width: Span::Frames(width), ..LowPass::default() };
-    BodySpeeds::of(&motion, &filter)
+    BodySpeeds::of(&Tracks::of(&motion), &filter)
 }
 
 fn turns(clip: &Clip, width: f64, persistence: f64) -> BodyTurns {

@@ -42,8 +42,9 @@ pub(crate) struct LayerMotion<'a> {
     pub(crate) height: f64,
 }
 
-/// The velocities of a layer.
-pub(super) struct Tracks {
+/// The velocities of a layer: another filter needs no new ones.
+#[derive(Debug, Clone)]
+pub(crate) struct Tracks {
     /// Three columns a track: the step from each frame to the next, one fewer than there are frames.
     pub(super) steps: Spectrum,
     /// One a track, above 0.
@@ -78,19 +79,22 @@ enum Place {
 }
 
 impl Tracks {
-    pub(super) fn of(motion: &LayerMotion<'_>) -> Self {
+    /// Measures them.
+    pub(crate) fn of(motion: &LayerMotion<'_>) -> Self {
         let clip = motion.clip;
         let (turning, travelling) = (turning(motion), travelling(motion));
         let weights = turning.iter().map(|track| track.weight);
         let weights: Vec<f64> =
             weights.chain(travelling.iter().map(|track| track.weight)).collect();
-        let mut values = DMatrix::zeros(clip.len() - 1, 3 * weights.len());
+        let (steps, columns) = (clip.len() - 1, 3 * weights.len());
+        let mut values = vec![0.0; steps * columns];
         if clip.len() > 1 {
             wide(
                 #[inline(always)]
-                || measure(motion, &turning, &travelling, values.as_mut_slice()),
+                || measure(motion, &turning, &travelling, &mut values),
             );
         }
+        let values = DMatrix::from_vec(steps, columns, values);
         let signals = Signals { values, unit: Unit::Ratio, rate: clip.rate(), first: clip.first() };
         Self { steps: Spectrum::from(signals), weights }
     }
