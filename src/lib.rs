@@ -8,7 +8,7 @@
 //!
 //! Two papers are implemented and chained: Kuroda & Tokoi 2011 \[KT11\], "An Editing method of MOCAP
 //! Data for the Cell Animation", and Kitamura, Kanamori, Mitani, Fukui & Tsuruno \[KKMFT\], "Motion
-//! Frame Omission for Cartoon-like Effects". `docs/method.md` has every formula and every decision.
+//! Frame Omission for Cartoon-like Effects". `docs/method.md` has every formula, `docs/decisions.md` every reason.
 //!
 //! # The rooms
 //!

@@ -70,7 +70,7 @@ impl Method {
     /// What it is, in a few words and in Japanese.
     pub fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Own => ("the keys of this program, its ranked list cut", "原画"),
+            Self::Own => ("the keys of this program: turns of the body and fills", "原画"),
             Self::OptimalMean => {
                 ("the least mean error there is (dynamic programming)", "平均誤差最小")
             }

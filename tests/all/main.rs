@@ -5,6 +5,7 @@
 mod actions; // a long take as its actions
 mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
+mod defaults; // the method states every default as it is
 mod documented; // every format and setting is in the docs
 mod found; // what fuzzing found
 mod held; // rests are holds, and no drawing stays for one koma
