@@ -228,7 +228,9 @@ fn commands_of_the_pages_say_what_the_pages_show() {
 #[test]
 fn a_page_and_its_translation_have_the_same_commands_in_one_order() {
     for [english, japanese] in PAGES {
-        assert_eq!(commands(&page(english)), commands(&page(japanese)), "{japanese}");
+        let [meant, shown] = [english, japanese].map(|name| commands(&page(name)).join("\n"));
+        let off = difference("command", &shown, &meant);
+        assert!(off.is_empty(), "{japanese}, {off}");
     }
 }
 
@@ -248,23 +250,83 @@ fn the_readme_has_at_most_150_lines() {
     }
 }
 
-#[test]
-fn settings_and_options_named_in_the_prose_are_accepted() {
-    let place = place();
-    let mut tried = 0;
+/// What stands between backticks in the prose of all pages, each with its page.
+fn codes() -> Vec<(&'static str, String)> {
+    let mut codes = Vec::new();
     for name in PAGES.as_flattened() {
         let page = page(name);
         for piece in pieces(&page) {
             let Piece::Prose(line) = piece else { continue };
-            let codes = line.split('`').skip(1).step_by(2);
-            for code in codes.filter(|code| code.starts_with("--set ")) {
-                let command = format!("genga run data/kick.bvh {code}");
-                said(&command, place.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
-                tried += 1;
-            }
+            codes.extend(line.split('`').skip(1).step_by(2).map(|code| (*name, code.to_owned())));
         }
     }
-    assert!(tried > 20, "{tried}");
+    codes
+}
+
+#[test]
+fn settings_named_in_the_prose_are_accepted() {
+    let place = place();
+    let codes: Vec<_> =
+        codes().into_iter().filter(|(_, code)| code.starts_with("--set ")).collect();
+    assert!(codes.len() > 20, "{codes:?}");
+    for (name, code) in codes {
+        let command = format!("genga run data/kick.bvh {code}");
+        said(&command, place.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}
+
+#[test]
+fn commands_and_options_named_in_the_prose_are_there() {
+    let place = place();
+    let help = said("genga help", place.path()).unwrap();
+    let (_, commands) = help.split_once("Commands:").unwrap();
+    let (commands, _) = commands.split_once("Options:").unwrap();
+    let begins = |line: &'_ str| line.starts_with("  ") && !line.starts_with("   ");
+    let lines = commands.lines().filter(|line| begins(line));
+    let commands: Vec<_> = lines.filter_map(|line| line.split_whitespace().next()).collect();
+    let helps = commands.iter().map(|command| said(&format!("genga help {command}"), place.path()));
+    let helps = helps.collect::<Result<String, _>>().unwrap();
+    let end = |letter: char| !(letter.is_ascii_lowercase() || letter == '-');
+    let options: Vec<_> = helps.split(end).filter(|word| word.starts_with("--")).collect();
+    let codes = codes().into_iter().filter(|(_, code)| !code.starts_with("cargo "));
+    for (name, code) in codes {
+        if let Some(command) = code.strip_prefix("genga ") {
+            let command = command.split_whitespace().next().unwrap();
+            assert!(commands.contains(&command), "{name}: {code}");
+        }
+        let mut named = code.split(end).filter(|word| word.starts_with("--"));
+        let missing = named.find(|word| !options.contains(word));
+        assert!(missing.is_none(), "{name}: {code}");
+    }
+}
+
+/// Pictures of the documentation, each with the run that draws it and its file there. `docs/pictures/make` makes them.
+const PICTURES: [(&str, &str, &str); 9] = [
+    ("kick-poses", "", "poses.svg"),
+    ("kick-sheet", "", "sheet.svg"),
+    ("kick-speed", "", "speed.svg"),
+    ("kick-strip", "--deliver strip", "strip.svg"),
+    ("kick-contact", "--deliver contact", "contact.svg"),
+    ("kick-onion", "--deliver onion", "onion.svg"),
+    ("kick-xsheet", "--deliver xsheet", "xsheet/0001.svg"),
+    ("kick-layers", "--layers limbs", "sheet.svg"),
+    (
+        "kick-exaggerated",
+        "--set exaggerate.cartoon=0.5 --set exaggerate.cartoon_parts=body",
+        "poses.svg",
+    ),
+];
+
+#[test]
+fn pictures_of_the_documentation_are_those_that_the_program_draws() {
+    let place = place();
+    let is_other = |(name, options, file): &(&str, &str, &str)| {
+        said(&format!("genga run data/kick.bvh {options}"), place.path()).unwrap();
+        let made = fs::read(place.path().join("kick-genga").join(file)).unwrap();
+        made != fs::read(here("docs/pictures").join(format!("{name}.svg"))).unwrap()
+    };
+    let others: Vec<_> = PICTURES.iter().filter(|picture| is_other(picture)).collect();
+    assert!(others.is_empty(), "docs/pictures/make draws others: {others:?}");
 }
 
 #[test]
