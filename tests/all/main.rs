@@ -16,6 +16,7 @@ mod known_keys; // clips made from known keys give them back
 mod layers; // layers with timing of their own, and a root on ones
 mod lead_ins; // the same lead-in in every dialect and at every rate
 mod lies; // files that say what is not so end fast
+mod links; // links between the pages of the documentation
 mod lying_files; // how such files are made
 mod mutated; // real files with anything changed: no panic, and what is read is written
 mod one_motion; // the same keys in any rig, at any rate, with noise
@@ -23,6 +24,8 @@ mod opened; // a file in blocks is the file from memory
 #[cfg(feature = "cli")]
 mod program; // the built binary, as a person or a script uses it
 mod quiet; // somebody sits, stands or talks
+#[cfg(all(feature = "cli", unix))]
+mod readme; // README and guide show what the program does
 mod real_clips; // the default recipe on every real clip
 mod rerig; // the same motion in another rig gives the same sheet
 mod rooms; // who may import whom

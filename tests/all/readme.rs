@@ -1,0 +1,366 @@
+//! What README and guide show is what the program does: each of their commands is run as a reader runs it.
+//!
+//! All blocks of a page are run from top to bottom in one folder with `data/` in it.
+//!
+//! - `console`: a line `$ command` is run. What follows it is what the program says, to the letter. A `…` stands
+//!   for a number that is another one on each run.
+//! - `sh`: each line is run and has to succeed.
+//! - below `<!-- file: NAME -->`: the block is written into that file.
+//! - `rust`: each line stands in a test below.
+//!
+//! `GENGA_PAGES=write cargo test --test all readme` writes what the program says into the pages.
+
+use std::fmt::Write;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use genga::{edits::Edits, motion::bvh, pipeline::Engine, recipe::Recipe};
+
+use crate::clips::here;
+
+/// The pages, each beside its translation.
+const PAGES: [[&str; 2]; 2] =
+    [["README.md", "README.ja.md"], ["docs/guide.md", "docs/guide.ja.md"]];
+
+/// The test command of the README.
+const TESTS: &str = "cargo test --release --locked";
+
+/// Commands that are not run here: they build all anew, or open a window.
+const ELSEWHERE: [&str; 5] = [
+    TESTS,
+    "cargo install --path . --locked",
+    "cargo install --path . --features studio --locked",
+    "cargo run --release --locked --features studio -- studio data/kick.bvh",
+    "env -u WAYLAND_DISPLAY genga studio data/kick.bvh",
+];
+
+/// What stands before a command of somebody who has not installed the program.
+const UNINSTALLED: &str = "cargo run --release --locked -- ";
+
+/// A fenced block of a page.
+struct Block<'a> {
+    language: &'a str,
+    /// What the comment above it says that it is written into.
+    file: Option<&'a str>,
+    lines: Vec<&'a str>,
+}
+
+/// Prose and fenced blocks of a page, in order.
+enum Piece<'a> {
+    Prose(&'a str),
+    Block(Block<'a>),
+}
+
+fn pieces(page: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    let mut lines = page.lines();
+    let mut before = "";
+    while let Some(line) = lines.next() {
+        if let Some(language) = line.strip_prefix("```") {
+            let file =
+                before.strip_prefix("<!-- file: ").and_then(|name| name.strip_suffix(" -->"));
+            let lines = lines.by_ref().take_while(|line| *line != "```").collect();
+            pieces.push(Piece::Block(Block { language, file, lines }));
+        } else {
+            pieces.push(Piece::Prose(line));
+        }
+        before = line;
+    }
+    pieces
+}
+
+fn blocks(page: &str) -> Vec<Block<'_>> {
+    let block = |piece| match piece {
+        Piece::Block(block) => Some(block),
+        Piece::Prose(_) => None,
+    };
+    pieces(page).into_iter().filter_map(block).collect()
+}
+
+/// The commands of a page, in order, without the comments behind them.
+fn commands(page: &str) -> Vec<String> {
+    let of = |block: Block| -> Vec<String> {
+        let lines = block.lines.into_iter();
+        match block.language {
+            "console" => lines.filter_map(|line| line.strip_prefix("$ ")).map(bare).collect(),
+            "sh" => lines.map(bare).collect(),
+            _ => Vec::new(),
+        }
+    };
+    blocks(page).into_iter().flat_map(of).collect()
+}
+
+fn bare(command: &str) -> String {
+    command.split(" # ").next().unwrap_or_default().trim_end().to_owned()
+}
+
+/// A folder of a reader, with the repository's motions in it.
+fn place() -> tempfile::TempDir {
+    let place = tempfile::tempdir().unwrap();
+    symlink(here("data"), place.path().join("data")).unwrap();
+    place
+}
+
+/// Runs a command of a page in a folder, and gives what it says, data and words together.
+fn said(command: &str, place: &Path) -> Result<String, String> {
+    if ELSEWHERE.contains(&command) {
+        return Ok(String::new());
+    }
+    let program = Path::new(env!("CARGO_BIN_EXE_genga")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let command = match command.strip_prefix(UNINSTALLED) {
+        Some(args) => format!("genga {args}"),
+        None => command.to_owned(),
+    };
+    let known = ["genga ", "cp "].iter().any(|begin| command.starts_with(begin));
+    if !known {
+        return Err(format!("{command}: this is no command of genga's"));
+    }
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("exec 2>&1\n{command}")]).env("PATH", path).current_dir(place);
+    let output = shell.stdin(Stdio::null()).output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    if output.status.success() { Ok(said) } else { Err(format!("{command}: {said}")) }
+}
+
+/// Whether a line is as shown, where each `…` may be any number.
+fn is_as_shown(line: &str, shown: &str) -> bool {
+    let mut pieces = shown.split('…');
+    let Some(rest) = pieces.next().and_then(|begin| line.strip_prefix(begin)) else {
+        return false;
+    };
+    let number = |text: char| text.is_ascii_digit() || text == '.';
+    let after = pieces.try_fold(rest, |rest, piece| {
+        let past = rest.trim_start_matches(number);
+        (past.len() < rest.len()).then(|| past.strip_prefix(piece)).flatten()
+    });
+    after == Some("")
+}
+
+/// A block of commands with what they say now. A shown line stays while it is as said.
+fn answered(block: &Block, place: &Path) -> Result<String, String> {
+    let mut text = String::new();
+    let mut lines = block.lines.iter().peekable();
+    while let Some(line) = lines.next() {
+        let Some(command) = line.strip_prefix("$ ") else {
+            return Err(format!("{line}: a block begins with a command"));
+        };
+        let mut shown = Vec::new();
+        while let Some(line) = lines.next_if(|line| !line.starts_with("$ ")) {
+            shown.push(*line);
+        }
+        writeln!(text, "{line}").unwrap();
+        for (at, line) in said(&bare(command), place)?.lines().enumerate() {
+            let shown = shown.get(at).filter(|shown| is_as_shown(line, shown));
+            writeln!(text, "{}", shown.unwrap_or(&line)).unwrap();
+        }
+    }
+    Ok(text)
+}
+
+/// The page with everything as the program says it now.
+fn made(page: &str) -> Result<String, String> {
+    let place = place();
+    let mut text = String::new();
+    for piece in pieces(page) {
+        let block = match piece {
+            Piece::Prose(line) => {
+                writeln!(text, "{line}").unwrap();
+                continue;
+            }
+            Piece::Block(block) => block,
+        };
+        let mut body = block.lines.iter().map(|line| format!("{line}\n")).collect::<String>();
+        match (block.file, block.language) {
+            (Some(name), _) => fs::write(place.path().join(name), &body).unwrap(),
+            (None, "console") => body = answered(&block, place.path())?,
+            (None, "sh") => {
+                for line in &block.lines {
+                    said(&bare(line), place.path())?;
+                }
+            }
+            (None, "rust") => are_of_the_test(&block)?,
+            (None, other) => return Err(format!("```{other}: nothing checks such a block")),
+        }
+        write!(text, "```{}\n{body}```\n", block.language).unwrap();
+    }
+    Ok(text)
+}
+
+fn are_of_the_test(block: &Block) -> Result<(), String> {
+    let bare = |line: &str| line.split("//").next().unwrap_or_default().trim().to_owned();
+    let tested: Vec<_> = include_str!("readme.rs").lines().map(bare).collect();
+    let missing = block.lines.iter().find(|line| !tested.contains(&bare(line)));
+    missing.map_or(Ok(()), |line| Err(format!("{line}: no test has this line")))
+}
+
+/// The first line in which a page differs from what it has to be; nothing where it does not.
+fn difference(name: &str, shown: &str, made: &str) -> String {
+    if shown == made {
+        return String::new();
+    }
+    let same = shown.lines().zip(made.lines()).take_while(|(shown, made)| shown == made).count();
+    let line = |text: &str| text.lines().nth(same).unwrap_or("(nothing)").to_owned();
+    format!("{name}:{}\n  shows {}\n  it is {}\n", same + 1, line(shown), line(made))
+}
+
+fn page(name: &str) -> String {
+    fs::read_to_string(here(name)).unwrap()
+}
+
+#[test]
+fn commands_of_the_pages_say_what_the_pages_show() {
+    let mut off = String::new();
+    for name in PAGES.as_flattened() {
+        let shown = page(name);
+        let made = made(&shown).unwrap_or_else(|error| panic!("{name}: {error}"));
+        if std::env::var_os("GENGA_PAGES").is_some_and(|wish| wish == "write") {
+            fs::write(here(name), made).unwrap();
+        } else {
+            off += &difference(name, &shown, &made);
+        }
+    }
+    assert!(off.is_empty(), "\n{off}GENGA_PAGES=write cargo test --test all readme\n");
+}
+
+#[test]
+fn a_page_and_its_translation_have_the_same_commands_in_one_order() {
+    for [english, japanese] in PAGES {
+        let [meant, shown] = [english, japanese].map(|name| commands(&page(name)).join("\n"));
+        let off = difference("command", &shown, &meant);
+        assert!(off.is_empty(), "{japanese}, {off}");
+    }
+}
+
+#[test]
+fn the_readme_begins_with_the_main_job_and_the_tests() {
+    for name in PAGES[0] {
+        let commands = commands(&page(name));
+        let main_job = UNINSTALLED.to_owned() + "run data/kick.bvh --out kick-genga";
+        assert_eq!(commands[..2], [main_job, TESTS.to_owned()], "{name}");
+    }
+}
+
+#[test]
+fn the_readme_has_at_most_150_lines() {
+    for name in PAGES[0] {
+        assert!(page(name).lines().count() <= 150, "{name}");
+    }
+}
+
+/// What stands between backticks in the prose of all pages, each with its page.
+fn codes() -> Vec<(&'static str, String)> {
+    let mut codes = Vec::new();
+    for name in PAGES.as_flattened() {
+        let page = page(name);
+        for piece in pieces(&page) {
+            let Piece::Prose(line) = piece else { continue };
+            codes.extend(line.split('`').skip(1).step_by(2).map(|code| (*name, code.to_owned())));
+        }
+    }
+    codes
+}
+
+#[test]
+fn settings_named_in_the_prose_are_accepted() {
+    let place = place();
+    let codes: Vec<_> =
+        codes().into_iter().filter(|(_, code)| code.starts_with("--set ")).collect();
+    assert!(codes.len() > 20, "{codes:?}");
+    for (name, code) in codes {
+        let command = format!("genga run data/kick.bvh {code}");
+        said(&command, place.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}
+
+#[test]
+fn commands_and_options_named_in_the_prose_are_there() {
+    let place = place();
+    let help = said("genga help", place.path()).unwrap();
+    let (_, commands) = help.split_once("Commands:").unwrap();
+    let (commands, _) = commands.split_once("Options:").unwrap();
+    let begins = |line: &'_ str| line.starts_with("  ") && !line.starts_with("   ");
+    let lines = commands.lines().filter(|line| begins(line));
+    let commands: Vec<_> = lines.filter_map(|line| line.split_whitespace().next()).collect();
+    let helps = commands.iter().map(|command| said(&format!("genga help {command}"), place.path()));
+    let helps = helps.collect::<Result<String, _>>().unwrap();
+    let end = |letter: char| !(letter.is_ascii_lowercase() || letter == '-');
+    let options: Vec<_> = helps.split(end).filter(|word| word.starts_with("--")).collect();
+    let codes = codes().into_iter().filter(|(_, code)| !code.starts_with("cargo "));
+    for (name, code) in codes {
+        if let Some(command) = code.strip_prefix("genga ") {
+            let command = command.split_whitespace().next().unwrap();
+            assert!(commands.contains(&command), "{name}: {code}");
+        }
+        let mut named = code.split(end).filter(|word| word.starts_with("--"));
+        let missing = named.find(|word| !options.contains(word));
+        assert!(missing.is_none(), "{name}: {code}");
+    }
+}
+
+/// Pictures of the documentation, each with the run that draws it and its file there. `docs/pictures/make` makes them.
+const PICTURES: [(&str, &str, &str); 9] = [
+    ("kick-poses", "", "poses.svg"),
+    ("kick-sheet", "", "sheet.svg"),
+    ("kick-speed", "", "speed.svg"),
+    ("kick-strip", "--deliver strip", "strip.svg"),
+    ("kick-contact", "--deliver contact", "contact.svg"),
+    ("kick-onion", "--deliver onion", "onion.svg"),
+    ("kick-xsheet", "--deliver xsheet", "xsheet/0001.svg"),
+    ("kick-layers", "--layers limbs", "sheet.svg"),
+    (
+        "kick-exaggerated",
+        "--set exaggerate.cartoon=0.5 --set exaggerate.cartoon_parts=body",
+        "poses.svg",
+    ),
+];
+
+#[test]
+fn pictures_of_the_documentation_are_those_that_the_program_draws() {
+    let place = place();
+    let is_other = |(name, options, file): &(&str, &str, &str)| {
+        said(&format!("genga run data/kick.bvh {options}"), place.path()).unwrap();
+        let made = fs::read(place.path().join("kick-genga").join(file)).unwrap();
+        made != fs::read(here("docs/pictures").join(format!("{name}.svg"))).unwrap()
+    };
+    let others: Vec<_> = PICTURES.iter().filter(|picture| is_other(picture)).collect();
+    assert!(others.is_empty(), "docs/pictures/make draws others: {others:?}");
+}
+
+#[test]
+fn the_library_does_what_the_guide_shows() -> Result<(), Box<dyn std::error::Error>> {
+    let read = bvh::read(&std::fs::read("data/kick.bvh")?)?;
+    let (clip, _note) = bvh::lead_in::strip(read.clip);
+    let mut engine = Engine::new(clip)?;
+    let result = engine.run(&Recipe::default(), &Edits::default())?;
+    #[allow(clippy::print_stdout, reason = "as the guide shows it")]
+    {
+        println!("{} drawings", result.sheet.layers[0].drawings.len());
+    }
+    assert!(!result.sheet.layers[0].drawings.is_empty());
+    Ok(())
+}
+
+#[test]
+fn a_line_is_as_shown_where_its_numbers_were_left_out() {
+    assert!(is_as_shown("time 0.129 ms", "time … ms"));
+    assert!(!is_as_shown("time ms", "time … ms"));
+    assert!(!is_as_shown("time 0.129 s", "time … ms"));
+    assert!(!is_as_shown("time 0.129 ms more", "time … ms"));
+    assert!(!is_as_shown("13 genga", "12 genga"));
+}
+
+#[test]
+fn a_wrong_output_is_seen() {
+    let page = "Before.\n\n```console\n$ genga recipe | head -1\nnot this\n```\n";
+    let right = made(page).unwrap();
+    assert!(!right.contains("not this"), "{right}");
+    assert!(difference("x.md", page, &right).contains("x.md:5\n  shows not this\n"));
+    for wrong in
+        ["```sh\ngenga run none.bvh\n```\n", "```text\nsaid\n```\n", "```rust\nlet x;\n```\n"]
+    {
+        assert!(made(wrong).is_err(), "{wrong}");
+    }
+}
