@@ -58,6 +58,17 @@ impl Edits {
     /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
     /// not in [0, 1); when a drawing is held twice or for no koma; when pins are to be the only keys and there
     /// are none; and when an action is to begin with the first frame, which begins one anyway, or outside.
+    ///
+    /// ```
+    /// use genga::edits::{Edits, Pin};
+    /// use genga::time::Frame;
+    ///
+    /// let edits = Edits { pins: vec![Pin::parse("42:contact@0.5")?], ..Edits::default() };
+    /// edits.validate(Frame(0), Frame(91))?;
+    /// let error = edits.validate(Frame(0), Frame(41)).unwrap_err();
+    /// assert!(error.to_string().contains("pinned frame 42 is not in the clip"));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn validate(&self, first: Frame, last: Frame) -> Result<(), Error> {
         let clip = Frames { first, last };
         self.check(clip)?;

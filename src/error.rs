@@ -119,6 +119,11 @@ impl Error {
     }
 
     /// Line and column in the file, from 1, where there is a file to point into.
+    ///
+    /// ```
+    /// let error = genga::motion::bvh::read(b"HIERARCHY\nJOIN Hips").unwrap_err();
+    /// assert_eq!(error.position(), Some((2, 1)));
+    /// ```
     pub fn position(&self) -> Option<(usize, usize)> {
         match self {
             Self::Bvh { line, column, .. } => Some((*line, *column)),

@@ -90,6 +90,17 @@ impl Exaggerate {
     ///
     /// # Errors
     /// Those of [`Exaggerate::validate`], and [`Error::Clip`] where a position would grow beyond 10¹².
+    ///
+    /// ```
+    /// use genga::exaggerate::Exaggerate;
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let cartoon = Exaggerate { cartoon: 0.5, ..Exaggerate::default() };
+    /// let exaggerated = cartoon.apply(&clip)?;
+    /// assert_eq!(exaggerated.len(), clip.len());
+    /// assert_ne!(exaggerated, clip);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn apply(&self, clip: &Clip) -> Result<Clip, Error> {
         self.validate()?;
         let posed = self.posed(clip);

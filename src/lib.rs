@@ -24,9 +24,9 @@
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
 //! result; before the speeds are measured, [`exaggerate`] may change the motion (誇張); [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
-//! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; no room stands on them. The
-//! program uses what is public here. So does the window, but for `plot::parts`: its figures, cells and colours are those
-//! of the pictures.
+//! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; no room stands on them. Both
+//! use what is public here. The one exception is `plot::parts`: figures, cells and colours that the window shares with the
+//! pictures.
 //!
 //! # Example
 //!
@@ -57,6 +57,9 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! More of them, of at most 40 lines each, are in `examples`: `cargo run --example keys` shows the genga of a clip with
+//! their reasons. `ARCHITECTURE.md` says in which file what is done.
 //!
 //! # Conventions
 //!
@@ -91,3 +94,5 @@ pub mod time;
 pub mod timing;
 
 pub use error::{Error, Warning};
+/// The vectors and rotations of skeletons and poses.
+pub use glam;

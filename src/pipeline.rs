@@ -153,6 +153,18 @@ impl Engine {
     /// # Errors
     /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold, and when two
     /// pins fall on one koma.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let (mut recipe, edits) = (Recipe::default(), Edits::default());
+    /// let mut engine = Engine::new(clip)?;
+    /// let keys = engine.run(&recipe, &edits)?.keys.keys.len();
+    /// // The motion is not measured again: spacing comes after the keys.
+    /// recipe.set("spacing.on", "3")?;
+    /// assert_eq!(engine.run(&recipe, &edits)?.keys.keys.len(), keys);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         self.make(recipe, edits, |_| {})
     }

@@ -108,6 +108,16 @@ impl Recipe {
     ///
     /// # Errors
     /// [`Error::Setting`] when there is no such knob, or the value is not one it takes.
+    ///
+    /// ```
+    /// use genga::recipe::Recipe;
+    ///
+    /// let mut recipe = Recipe::default();
+    /// recipe.set("filter.width", "0.2s")?;
+    /// assert_eq!(recipe.get("filter.width")?, "0.2s");
+    /// assert!(recipe.set("filter.width", "-1").is_err(), "and nothing is changed");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
         if let Some(joint) = name.strip_prefix(WEIGHTS).filter(|joint| !joint.is_empty()) {
             return self.set_weight(joint, text.trim());

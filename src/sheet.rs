@@ -315,6 +315,14 @@ impl Layer {
     }
 
     /// Each exposure with the koma it begins on, from 0.
+    ///
+    /// ```
+    /// use genga::sheet::{Exposure, Layer};
+    ///
+    /// let exposures = [3, 1, 2].map(|koma| Exposure { drawing: 0, koma }).to_vec();
+    /// let layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures };
+    /// assert!(layer.timed().map(|(begin, _)| begin).eq([0, 3, 4]));
+    /// ```
     pub fn timed(&self) -> impl Iterator<Item = (usize, Exposure)> + '_ {
         self.exposures.iter().scan(0, |koma, &exposure| {
             let begin = *koma;

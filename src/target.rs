@@ -65,6 +65,19 @@ const MOST_ROUNDS: usize = 4;
 /// # Errors
 /// [`Error::Setting`] named as the target when it can never be met or contradicts another, and those of
 /// [`Engine::run`].
+///
+/// ```
+/// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+/// use genga::target::{Target, meet};
+///
+/// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+/// let mut engine = Engine::new(clip)?;
+/// let (recipe, edits) = (Recipe::default(), Edits::default());
+/// let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(8)])?;
+/// assert_eq!(met.outcomes[0].reached, 8.0);
+/// assert_ne!(met.recipe, recipe, "the settings that do it");
+/// # Ok::<(), genga::Error>(())
+/// ```
 pub fn meet(
     engine: &mut Engine,
     recipe: &Recipe,

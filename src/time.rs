@@ -124,6 +124,15 @@ impl Clock {
     }
 
     /// The koma nearest to a place: ⌊time · 24 + ½⌋, and 0 for what lies before the first frame.
+    ///
+    /// ```
+    /// use genga::time::{Clock, Frame, FrameRate};
+    ///
+    /// let frame_rate = FrameRate::new(120.0)?;
+    /// let clock = Clock { first: Frame(0), frame_rate, koma_rate: 24.0 };
+    /// assert_eq!(clock.koma_from_place(52.0), 10, "frame 50 is the nearest koma");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn koma_from_place(&self, place: f64) -> usize {
         let koma = (place - self.first.0 as f64) * self.koma_rate / self.frame_rate.fps();
         (koma + 0.5).floor().max(0.0) as usize

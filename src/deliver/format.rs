@@ -247,6 +247,33 @@ impl Format {
     /// # Errors
     /// [`Error::Sheet`] as [`Sheet::check`]; what the format cannot be made of, what is wrong with a
     /// setting, and what `put` says.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+    /// use genga::deliver::{Cut, Format, Settings};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// # let mut engine = Engine::new(clip)?;
+    /// # let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
+    /// # let (clip, sheet) = (breakdown.clip, breakdown.sheet);
+    /// # let cut = Cut {
+    /// #     name: "c012",
+    /// #     clip_file: "kick.bvh",
+    /// #     clip,
+    /// #     exaggerated: None,
+    /// #     sheet,
+    /// #     spaced: None,
+    /// #     splits: &[],
+    /// #     made_with: None,
+    /// # };
+    /// let mut names = Vec::new();
+    /// Format::find("csv")?.write(&cut, &Settings::default(), &mut |name, _bytes| {
+    ///     names.push(name.to_owned());
+    ///     Ok(())
+    /// })?;
+    /// assert_eq!(names, ["keys.csv", "drawings.csv", "sheet.csv"]);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn write(
         &self,
         cut: &Cut<'_>,

@@ -37,6 +37,18 @@ pub struct BodyTurns {
 impl BodyTurns {
     /// The turns of a clip whose `reference` says how high it is, from where it is seen and how long a koma is: the
     /// velocities are smoothed by `filter` and a turn is to last for `persistence` to each side.
+    ///
+    /// ```
+    /// use genga::keys::{BodyTurns, Reference};
+    /// use genga::signal::LowPass;
+    /// use genga::time::Span;
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let reference = Reference::of(&clip, clip.clock(24.0));
+    /// let body = BodyTurns::of(&clip, &reference, &LowPass::default(), Span::Seconds(0.1));
+    /// assert_eq!(body.turns[0].0, 3, "the first frame at which the body turns");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn of(clip: &Clip, reference: &Reference, filter: &LowPass, persistence: Span) -> Self {
         let (build, own) = (Build::of(clip), vec![1.0; clip.skeleton().len()]);
         let motion = LayerMotion {

@@ -167,6 +167,37 @@ impl Choose {
     }
 
     /// The keys that are worth a drawing, with who voted for them; a person's pins among them.
+    ///
+    /// ```
+    /// # use genga::edits::Edits;
+    /// # use genga::keys::{BodyTurns, Choose, Chords, JointTurns, Judges, Reference, weights};
+    /// # use genga::signal::{LowPass, Spectrum, Speed, TurnFinder};
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// # let (clock, filter, finder) = (clip.clock(24.0), LowPass::default(), TurnFinder::default());
+    /// # let filtered = filter.apply(&Spectrum::of(&Speed::default().measure(&clip)?));
+    /// # let delay = filter.delay(clip.rate());
+    /// # let turns = finder.find(&filtered, delay);
+    /// # let reference = Reference::of(&clip, clock);
+    /// # let body = BodyTurns::of(&clip, &reference, &filter, finder.persistence);
+    /// # let own = vec![1.0; clip.skeleton().len()];
+    /// # let joints = JointTurns {
+    /// #     filtered: &filtered,
+    /// #     turns: &turns,
+    /// #     finder: &finder,
+    /// #     delay,
+    /// #     weights: &weights(&clip),
+    /// #     apart: clock.frames_in_koma(),
+    /// #     body: &body,
+    /// #     contacts: &[],
+    /// # };
+    /// let keys = Choose::default();
+    /// let chords = Chords::of(&clip, &reference, &own, keys.span());
+    /// let judges = Judges { reference: &reference, chords: &chords };
+    /// let candidates = keys.candidates(&joints);
+    /// let chosen = keys.choose(&clip, judges, &candidates, &joints, &Edits::default());
+    /// assert_eq!((candidates.keys.len(), chosen.keys.len()), (90, 13));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn choose(
         &self,
         clip: &Clip,

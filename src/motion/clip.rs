@@ -186,6 +186,13 @@ impl Clip {
     }
 
     /// The clock of a sheet of this clip: koma 0 shows its first frame.
+    ///
+    /// ```
+    /// let clip = genga::motion::bvh::open("data/kuroda-pitch.bvh".as_ref())?.clip;
+    /// assert_eq!(clip.rate().fps(), 100.0);
+    /// assert_eq!(clip.clock(24.0).place_from_koma(6), 25.0);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn clock(&self, koma_rate: f64) -> Clock {
         Clock { first: self.first, frame_rate: self.rate, koma_rate }
     }

@@ -16,8 +16,8 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// One along it.
-    pub(crate) fn unit(self) -> DVec3 {
+    /// The vector of length 1 along it.
+    pub fn unit(self) -> DVec3 {
         match self {
             Self::X => DVec3::X,
             Self::Y => DVec3::Y,

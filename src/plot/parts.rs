@@ -1,5 +1,10 @@
 //! What the studio draws with too, so that a figure is one thing everywhere.
 
+use glam::DVec3;
+
+use super::Camera;
+use crate::motion::Clip;
+
 pub(crate) use super::cells::{Cell, cells};
 pub(crate) use super::figure::{Drawn, Figure};
 pub(crate) use super::heat::color as heat;
@@ -11,3 +16,8 @@ pub(crate) use super::style::{
 };
 pub(crate) use crate::motion::BodySide;
 pub(crate) use crate::motion::view::View;
+
+/// What a camera sees of some poses of a clip, each the positions of its joints and then of its tips.
+pub(crate) fn seen_by(camera: Camera, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
+    camera.view(clip, poses)
+}

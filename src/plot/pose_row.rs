@@ -88,6 +88,18 @@ impl PoseRow {
     ///
     /// # Errors
     /// [`Error::Sheet`] or [`Error::Picture`] when clip and sheet have nothing to show.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+    /// use genga::plot::PoseRow;
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// # let mut engine = Engine::new(clip)?;
+    /// let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
+    /// let svg = PoseRow::default().draw_kept(breakdown.clip, breakdown.sheet)?;
+    /// assert!(svg.starts_with("<svg"));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
         let composite = composed(clip, sheet)?;

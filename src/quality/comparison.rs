@@ -114,6 +114,17 @@ impl Compare {
     ///
     /// # Errors
     /// Those of [`Compare::validate`], and [`Error::Clip`] for a clip without motion.
+    ///
+    /// ```
+    /// use genga::quality::{Compare, Method};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let compare = Compare { counts: vec![8], ..Compare::default() };
+    /// let comparison = compare.run(clip)?;
+    /// let mean = |method| comparison.row(method, 8).map(|row| row.mean);
+    /// assert!(mean(Method::Own) < mean(Method::Uniform), "% of body height off");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn run(&self, clip: impl Into<Arc<Clip>>) -> Result<Comparison, Error> {
         self.validate()?;
         let clip = clip.into();

@@ -76,6 +76,19 @@ impl Evaluation {
     /// # Errors
     /// [`Error::Sheet`] as [`Sheet::first_layer`], and where a layer has a joint that the clip has not;
     /// [`Error::Clip`] for a clip without motion.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+    /// use genga::quality::Evaluation;
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// # let mut engine = Engine::new(clip)?;
+    /// let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
+    /// let sheet = Evaluation::of(breakdown.clip, breakdown.sheet, None, 1.0)?;
+    /// assert_eq!(sheet.pace.drawings, 27);
+    /// assert!(sheet.shown.mean < 10.0, "% of body height off, in the mean over koma");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn of(
         clip: &Clip,
         sheet: &Sheet,

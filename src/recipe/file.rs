@@ -30,6 +30,14 @@ impl Recipe {
     /// # Errors
     /// [`Error::Recipe`] with line and column when it is no TOML, names a setting that does not exist
     /// or gives one a value of another kind; [`Error::Setting`] when a value is out of its range.
+    ///
+    /// ```
+    /// use genga::recipe::Recipe;
+    ///
+    /// let (recipe, edits) = Recipe::parse("rate = 12\n[edits]\npins = [{ frame = 42 }]")?;
+    /// assert_eq!((recipe.rate, edits.pins[0].frame.0), (12.0, 42));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn parse(text: &str) -> Result<(Self, Edits), Error> {
         let file: File = toml::from_str(text).map_err(|error| located(text, &error))?;
         let recipe = file.recipe();

@@ -66,6 +66,17 @@ impl LowPass {
 
     /// The filtered signals; those that went into the spectrum, untouched, where the width is no
     /// filter.
+    ///
+    /// ```
+    /// use genga::signal::{LowPass, Spectrum, Speed};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let spectrum = Spectrum::of(&Speed::default().measure(&clip)?);
+    /// let smooth = LowPass::default().apply(&spectrum);
+    /// assert_eq!(smooth.frames(), clip.len());
+    /// assert!(smooth.values.max() < spectrum.unfiltered().values.max());
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn apply(&self, spectrum: &Spectrum) -> Signals {
         let frames = spectrum.frames();
         match self.filtering_width(spectrum.rate()) {

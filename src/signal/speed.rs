@@ -61,6 +61,17 @@ impl Speed {
     ///
     /// # Errors
     /// Those of [`Speed::measure_on`].
+    ///
+    /// ```
+    /// use genga::signal::Speed;
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let speeds = Speed::default().measure(&clip)?;
+    /// let knee = clip.skeleton().find("RightLeg").expect("a kick has a knee");
+    /// let fastest = speeds.joint(knee).iter().copied().fold(0.0, f64::max);
+    /// assert_eq!((fastest * speeds.unit.for_people()).round(), 1157.0, "°/s");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn measure(&self, clip: &Clip) -> Result<Signals, Error> {
         self.measure_on(clip, &Screen::WORLD)
     }

@@ -122,6 +122,18 @@ impl TurnFinder {
     ///
     /// `delay` is [`LowPass::delay`](crate::signal::LowPass::delay) of the filter the signals went
     /// through, in frames; the `event` reading undoes it.
+    ///
+    /// ```
+    /// use genga::signal::{LowPass, Spectrum, Speed, TurnFinder};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let filter = LowPass::default();
+    /// let smooth = filter.apply(&Spectrum::of(&Speed::default().measure(&clip)?));
+    /// let turns = TurnFinder::default().find(&smooth, filter.delay(clip.rate()));
+    /// assert_eq!(turns.len(), clip.skeleton().len(), "a list a joint");
+    /// assert_eq!(turns[0][0].frame.0, 12, "the first turn of the hips");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn find(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
         self.confirmed(&self.candidates(filtered, delay), filtered)
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use crate::motion::{Clip, Stature, Unit};
 use crate::plot::Camera;
-use crate::plot::parts::{Figure, Posing, View};
+use crate::plot::parts::{Figure, Posing, View, seen_by};
 use crate::sheet::Source;
 use crate::time::KOMA_RATE;
 
@@ -43,7 +43,7 @@ impl Scene {
         let places = (0..koma).step_by(step).map(|koma| clock.place_from_koma(koma));
         let poses = Posing::of(clip).all(places.map(Source::At));
         let stature = Stature::of(clip);
-        let view = |camera: Camera| camera.view(clip, &poses);
+        let view = |camera: Camera| seen_by(camera, clip, &poses);
         let up = stature.up.unit();
         let floor = poses.iter().flatten().map(|point| point.dot(up)).fold(f64::INFINITY, f64::min);
         let figure = Figure::of(clip.skeleton(), &poses[0], up);

@@ -98,6 +98,19 @@ impl Study {
     ///
     /// # Errors
     /// Those of [`Study::validate`] and of [`Engine::run`].
+    ///
+    /// ```
+    /// # use genga::recipe::Recipe;
+    /// use genga::study::{Axis, Measure, Study};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let x = Axis::new("filter.width", "0.1s..0.3s:0.1s")?;
+    /// let measures = vec![Measure::Turns];
+    /// let study = Study { recipe: Recipe::default(), x, y: None, measures, keep_keys: false };
+    /// let grid = study.run(clip, || {})?;
+    /// assert_eq!(grid.values(Measure::Turns), Some(vec![17.0, 13.0, 12.0]));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn run(&self, clip: impl Into<Arc<Clip>>, done: impl Fn() + Sync) -> Result<Grid, Error> {
         self.validate()?;
         let order = self.chain_order();

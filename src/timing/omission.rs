@@ -97,6 +97,19 @@ impl Omission {
     ///
     /// # Errors
     /// Those of [`Omission::apply_by_action`].
+    ///
+    /// ```
+    /// use genga::sheet::Sheet;
+    /// use genga::timing::{Amount, Omission, Stills};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let sheet = Sheet::on_ones(clip.clock(24.0), clip.len());
+    /// let layer = &sheet.layers[0];
+    /// let omission = Omission { naka_nashi: Amount::Count(4), ..Omission::default() };
+    /// let left = omission.apply(layer, &Stills::of(&clip, layer), 1)?.layer;
+    /// assert_eq!((left.length(), left.drawings.len()), (92, 59));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn apply(&self, layer: &Layer, stills: &Stills, on: usize) -> Result<Omitted, Error> {
         self.apply_by_action(layer, stills, on, &[])
     }

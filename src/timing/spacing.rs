@@ -128,6 +128,22 @@ impl Spacing {
     /// voters. Of keys that stand too near for a drawing to stay, the dearer stays. In a rest the drawing on screen
     /// holds until the body has gone further from it than `drift`; a body that never moves has no other. Where `on`
     /// is a range the pace decides.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, keys::Reference, pipeline::Engine, recipe::Recipe};
+    /// use genga::timing::{On, Pace, Spacing};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// # let (clock, koma) = (clip.clock(24.0), clip.len());
+    /// # let mut engine = Engine::new(clip.clone())?;
+    /// # let (recipe, edits) = (Recipe::default(), Edits::default());
+    /// let keys = engine.find_keys(&recipe, &edits)?.keys;
+    /// let reference = Reference::of(&clip, clock);
+    /// let on_threes = Spacing { on: On::every(3), ..Spacing::default() };
+    /// let spaced = on_threes.place(keys, clip.skeleton(), clock, koma, &Pace::of(&reference));
+    /// assert_eq!((spaced.layer.length(), spaced.layer.drawings.len()), (92, 28));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn place(
         &self,
         layer: &LayerKeys,

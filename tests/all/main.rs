@@ -7,6 +7,7 @@ mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod defaults; // the method states every default as it is
 mod documented; // every format and setting is in the docs
+mod examples; // the examples print what they printed
 mod found; // what fuzzing found
 mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]
@@ -21,6 +22,7 @@ mod lying_files; // how such files are made
 mod mutated; // real files with anything changed: no panic, and what is read is written
 mod one_motion; // the same keys in any rig, at any rate, with noise
 mod opened; // a file in blocks is the file from memory
+mod pages; // what the pages for newcomers name is there
 #[cfg(feature = "cli")]
 mod program; // the built binary, as a person or a script uses it
 mod quiet; // somebody sits, stands or talks

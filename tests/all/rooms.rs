@@ -6,6 +6,9 @@ use std::path::Path;
 
 use crate::clips::here;
 
+mod picture;
+mod public;
+
 /// From left to right. The first entry is the ground, whose modules may know each other.
 const ROOMS: [&[&str]; 15] = [
     &["error", "time", "sheet", "edits"],

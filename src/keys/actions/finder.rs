@@ -72,6 +72,19 @@ impl ActionFinder {
 
     /// The actions of a clip: between a person's splits where there are any, else between those that are
     /// found. `rest` is the speed below which the body rests, as [`Choose::rest`](crate::keys::Choose::rest).
+    ///
+    /// ```
+    /// use genga::edits::Edits;
+    /// use genga::keys::{ActionFinder, Chords, Reference};
+    ///
+    /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let reference = Reference::of(&clip, clip.clock(24.0));
+    /// let own = vec![1.0; clip.skeleton().len()];
+    /// let chords = Chords::of(&clip, &reference, &own, f64::INFINITY);
+    /// let actions = ActionFinder::default().find(&clip, &chords, 15.0, &Edits::default());
+    /// assert_eq!(actions.iter().count(), 1, "a kick is one action");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
     pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, edits: &Edits) -> Actions {
         if !edits.splits.is_empty() {
             let asked = |frame: &Frame| Split { frame: *frame, why: SplitReason::Asked };

@@ -21,6 +21,14 @@ use crate::time::{Frame, FrameRate};
 ///
 /// # Errors
 /// As [`Options::read`].
+///
+/// ```
+/// let text = std::fs::read("data/kick.bvh").expect("it is part of the repository");
+/// let read = genga::motion::bvh::read(&text)?;
+/// assert_eq!((read.clip.len(), read.clip.rate().fps()), (92, 24.0));
+/// assert!(read.warnings.is_empty(), "a file as it should be");
+/// # Ok::<(), genga::Error>(())
+/// ```
 pub fn read(bytes: &[u8]) -> Result<Read, Error> {
     Options::default().read(bytes)
 }

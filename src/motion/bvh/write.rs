@@ -18,6 +18,15 @@ const MOST_TABS: usize = 32;
 ///
 /// A rate of one frame a second or less is written too, but the format's readers, this one among them,
 /// take such a frame time for a rate; [`super::Options::fps`] reads it.
+///
+/// ```
+/// use genga::motion::bvh;
+///
+/// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+/// let text = bvh::write(&clip);
+/// assert_eq!(bvh::read(text.as_bytes())?.clip, clip, "not a digit is lost");
+/// # Ok::<(), genga::Error>(())
+/// ```
 pub fn write(clip: &Clip) -> String {
     let mut writer = Writer::new(clip.skeleton(), clip.rate());
     writer.rows(clip.rows());
