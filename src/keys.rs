@@ -51,7 +51,7 @@ pub use merge::JointTurns;
 pub use reconstruction::Reconstruction;
 pub(crate) use reconstruction::with_ends;
 pub use reference::Reference;
-pub(crate) use rest::rest_frames;
+pub(crate) use rest::{rest_frames, rests};
 pub use voters::weights;
 pub use weights::JointWeights;
 

@@ -108,7 +108,8 @@ impl<'a> Cheapest<'a> {
         if wanted <= most {
             return Set { kept: free, over_limit: 0 };
         }
-        let mut kept = self.limited(price, most);
+        let many = if price > LOWEST { free.clone() } else { self.at(LOWEST) };
+        let mut kept = self.limited(price.max(LOWEST), many, most);
         self.thin(&mut kept, most);
         self.fill(&mut kept, price, most);
         if price == 0.0 && self.found(&kept) < most {
@@ -243,10 +244,8 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// The cheapest set at the least price, `price` or more, at which so few are worth it.
-    fn limited(&self, price: f64, most: usize) -> Vec<usize> {
-        let mut low = price.max(LOWEST);
-        let mut many = self.at(low);
+    /// The cheapest set at the least price, `low` or more, at which so few are worth it; `many` is that at `low`.
+    fn limited(&self, mut low: f64, mut many: Vec<usize>, most: usize) -> Vec<usize> {
         if self.found(&many) <= most {
             return many;
         }

@@ -1,6 +1,7 @@
 //! Which candidates are keys of the layer: those that together save most for their price.
 
 use std::iter::once;
+use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +15,7 @@ use crate::keys::{
     AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, rest,
 };
 use crate::motion::Clip;
-use crate::time::Span;
+use crate::time::{Frame, Span};
 
 /// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
 const MANY: f64 = 2.0;
@@ -206,21 +207,22 @@ impl Choose {
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> LayerKeys {
-        let keys = self.eligible(clip, judges.chords, candidates, joints, edits);
+        let rests = rest::rests(judges.chords, self.rest);
+        let keys = self.eligible(clip, (judges.chords, &rests), candidates, joints, edits);
         let picked = self.choice(clip, judges, &keys, joints.apart).pick(judges.chords);
-        self.drawn(judges.chords, keys, &picked, candidates, joints, edits)
+        self.drawn((judges.chords, &rests), keys, &picked, candidates, joints, edits)
     }
 
     /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
     pub(crate) fn eligible(
         &self,
         clip: &Clip,
-        chords: &Chords,
+        (chords, rests): (&Chords, &[RangeInclusive<usize>]),
         candidates: &Candidates,
         joints: &JointTurns<'_>,
         edits: &Edits,
     ) -> Vec<Key> {
-        let rests = rest::rest_ends(chords, self.rest);
+        let rests = rest::rest_ends(chords, rests);
         let contacts = if self.contacts == AtContacts::Keys { joints.contacts } else { &[] };
         corrected(candidates, (&rests, contacts), edits, clip, joints.apart)
     }
@@ -259,7 +261,7 @@ impl Choose {
     /// The keys that were picked, moved where a person wants them, with their voters.
     pub(crate) fn drawn(
         &self,
-        chords: &Chords,
+        (chords, rests): (&Chords, &[RangeInclusive<usize>]),
         keys: Vec<Key>,
         picked: &Picked,
         candidates: &Candidates,
@@ -270,11 +272,11 @@ impl Choose {
         let mut keys: Vec<Key> = kept.collect();
         moved(&mut keys, edits, joints.apart);
         let reach = self.reach.frames(chords.clock().frame_rate).max(joints.apart);
-        for key in &mut keys {
-            key.voters = voters(joints.turns, joints.weights, key.frame, reach);
-        }
+        let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
+        let voters = voters(joints.turns, joints.weights, &frames, reach);
+        keys.iter_mut().zip(voters).for_each(|(key, voters)| key.voters = voters);
         let over_limit = if edits.only_pins { 0 } else { picked.over_limit };
-        let rests = rest::rest_frames(chords, self.rest);
+        let rests = rest::rest_frames(chords, rests);
         LayerKeys { keys, walls: candidates.walls.clone(), rests, over_limit }
     }
 }

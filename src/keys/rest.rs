@@ -17,21 +17,22 @@ const SMOOTH: f64 = 0.125;
 /// How far the body may be from the posture that it holds, beside its unrest, in % of its height.
 const NEAR: f64 = 0.2;
 
-/// The rests by the frames of their begins and ends, both included. One that reaches the sheet's first or last
+/// Rests by the frames of their begins and ends, both included. One that reaches the sheet's first or last
 /// koma begins or ends there.
-pub(crate) fn rest_frames(chords: &Chords, speed: f64) -> Vec<RangeInclusive<Frame>> {
-    let frames = |rest: RangeInclusive<usize>| {
-        let (begin, end) = rest.into_inner();
-        chords.frame(begin)..=chords.frame(end)
-    };
-    rests(chords, speed).into_iter().map(frames).collect()
+pub(crate) fn rest_frames(
+    chords: &Chords,
+    rests: &[RangeInclusive<usize>],
+) -> Vec<RangeInclusive<Frame>> {
+    let frames =
+        |rest: &RangeInclusive<usize>| chords.frame(*rest.start())..=chords.frame(*rest.end());
+    rests.iter().map(frames).collect()
 }
 
 /// The frames on which rests begin and end. A rest that reaches the sheet's first or last koma only
 /// ends or only begins.
-pub(super) fn rest_ends(chords: &Chords, speed: f64) -> Vec<Frame> {
+pub(super) fn rest_ends(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<Frame> {
     let last = chords.len().saturating_sub(1);
-    let ends = rests(chords, speed).into_iter().flat_map(|rest| [*rest.start(), *rest.end()]);
+    let ends = rests.iter().flat_map(|rest| [*rest.start(), *rest.end()]);
     let inner = ends.filter(|end| (1..last).contains(end));
     let mut ends: Vec<Frame> = inner.map(|end| chords.frame(end)).collect();
     // A short movement may part two rests that are held in nearly one posture.
@@ -42,7 +43,7 @@ pub(super) fn rest_ends(chords: &Chords, speed: f64) -> Vec<Frame> {
 
 /// The instants from the first to the last of each rest: the posture changes by less than `speed`, in %
 /// of the body's height a second, for at least half a second.
-pub(super) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
+pub(crate) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
     let steps = |seconds: f64| (seconds * chords.clock().koma_rate).round() as usize;
     let speeds = smoothed(&chords.postures().speeds(chords.clock().koma_rate), steps(SMOOTH));
     let mut rests = Vec::new();
@@ -100,8 +101,9 @@ mod tests {
     use crate::keys::tests::{self, swing};
     use crate::motion::Clip;
 
-    fn chords(clip: &Clip) -> Chords {
-        tests::chords(clip, 2.0)
+    fn ends(clip: &Clip, speed: f64) -> Vec<Frame> {
+        let chords = tests::chords(clip, 2.0);
+        rest_ends(&chords, &rests(&chords, speed))
     }
 
     #[test]
@@ -115,20 +117,13 @@ mod tests {
             }
         }
         let clip = swing(&angles);
-        assert_eq!(
-            rest_ends(&chords(&clip), 15.0),
-            [Frame(11), Frame(31)],
-            "as long as it is held"
-        );
-        assert!(rest_ends(&chords(&clip), 0.0).is_empty(), "0 is no rest at all");
+        assert_eq!(ends(&clip, 15.0), [Frame(11), Frame(31)], "as long as it is held");
+        assert!(ends(&clip, 0.0).is_empty(), "0 is no rest at all");
     }
 
     #[test]
     fn a_rest_at_an_end_of_the_sheet_has_one_end_of_its_own() {
-        let ends = |angles: &[f64]| {
-            let clip = swing(angles);
-            rest_ends(&chords(&clip), 15.0)
-        };
+        let ends = |angles: &[f64]| ends(&swing(angles), 15.0);
         let swings = (0..12).map(|frame| 5.0 * f64::from(frame));
         let last: Vec<f64> = swings.chain([55.0; 20]).collect();
         assert_eq!(ends(&last), [Frame(11)], "it only begins");

@@ -17,25 +17,27 @@ pub fn weights(clip: &Clip) -> Vec<f64> {
     weights
 }
 
-/// The joints that have a key turn of their own within `reach` frames, the heaviest first.
+/// Of each of some frames in order the joints that have a key turn of their own within `reach` frames, the heaviest first.
 pub(super) fn voters(
     turns: &[Vec<Turn>],
     weights: &[f64],
-    frame: Frame,
+    frames: &[Frame],
     reach: f64,
-) -> Vec<JointId> {
-    let near =
-        |turn: &Turn| turn.kind == TurnKind::Key && (turn.frame.0.abs_diff(frame.0) as f64) < reach;
-    let from = Frame(frame.0.saturating_sub(reach.ceil() as usize));
-    let speaks = |turns: &Vec<Turn>| {
-        let begin = turns.partition_point(|turn| turn.frame < from);
-        turns[begin..]
-            .iter()
-            .take_while(|turn| turn.frame.0 <= frame.0.saturating_add(reach as usize))
-            .any(near)
-    };
-    let joints = turns.iter().enumerate().filter(|(_, turns)| speaks(turns));
-    let mut voters: Vec<JointId> = joints.map(|(joint, _)| JointId(joint)).collect();
-    voters.sort_by(|a, b| weights[b.0].total_cmp(&weights[a.0]));
+) -> Vec<Vec<JointId>> {
+    let mut heaviest: Vec<usize> = (0..turns.len()).collect();
+    heaviest.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
+    let mut voters = vec![Vec::new(); frames.len()];
+    for joint in heaviest {
+        let is_key = |turn: &&Turn| turn.kind == TurnKind::Key;
+        let mut turns = turns[joint].iter().filter(is_key).map(|turn| turn.frame).peekable();
+        for (frame, voters) in frames.iter().zip(&mut voters) {
+            let is_far = |turn: &Frame| frame.0.saturating_sub(turn.0) as f64 >= reach;
+            while turns.next_if(is_far).is_some() {}
+            let is_near = |turn: &Frame| (turn.0.abs_diff(frame.0) as f64) < reach;
+            if turns.peek().is_some_and(is_near) {
+                voters.push(JointId(joint));
+            }
+        }
+    }
     voters
 }

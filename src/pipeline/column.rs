@@ -1,5 +1,6 @@
 //! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use super::stage::{Made, Stage};
@@ -50,6 +51,8 @@ pub(super) struct Column {
     candidates: Stage<CandidateSettings, Candidates>,
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
     chords: Stage<f64, Chords>,
+    /// The instants from begin to end of each rest.
+    rests: Stage<f64, Vec<RangeInclusive<usize>>>,
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
     keys: Stage<KeySettings, LayerKeys>,
@@ -178,6 +181,8 @@ impl Column {
         let span = recipe.keys.span();
         self.chords
             .renew(made, &span, || Chords::of_part(clip, measured.build, reference, judged, span));
+        let (chords, rest) = (&self.chords, recipe.keys.rest);
+        self.rests.renew(chords.made, &rest, || keys::rests(chords.output(), rest));
     }
 
     fn choose(
@@ -202,17 +207,18 @@ impl Column {
             recipe,
         );
         let (clip, keys, spacing) = (measured.clip, &recipe.keys, &recipe.spacing);
-        let picked = &mut self.picked;
+        let (picked, rests) = (&mut self.picked, self.rests.output());
         let chords_made = self.chords.made;
         self.keys.renew(candidates_made, &settings, || {
-            let mut eligible = keys.eligible(clip, judges.chords, candidates, &joints, edits);
-            let rests = keys::rest_frames(judges.chords, keys.rest);
+            let still = (judges.chords, rests.as_slice());
+            let mut eligible = keys.eligible(clip, still, candidates, &joints, edits);
+            let held = keys::rest_frames(judges.chords, rests);
             let pace = Pace::of(reference);
-            let room = spacing.room(&rests, reference.clock(), reference.koma(), &pace);
+            let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
             eligible.retain(|key| !key.origin.is_found() || room(key.frame));
             let choice = keys.choice(clip, judges, &eligible, stay as f64 * joints.apart);
             picked.renew(chords_made, &choice, || choice.pick(judges.chords));
-            keys.drawn(judges.chords, eligible, picked.output(), candidates, &joints, edits)
+            keys.drawn(still, eligible, picked.output(), candidates, &joints, edits)
         })
     }
 

@@ -68,7 +68,9 @@ fn too_few(recipe: &Recipe, edits: &Edits) -> String {
     let limits = reasons::limits(recipe, edits);
     match (recipe.keys.merge, recipe.keys.fill) {
         (Merge::Body, Fill::On) => {
-            format!("there is no room for another{limits}: keys stand as far apart as a drawing stays")
+            format!(
+                "there is no room for another{limits}: keys stand as far apart as a drawing stays"
+            )
         }
         (Merge::Body, Fill::Off) => format!(
             "the body turns at no other moment{limits}; keys.fill=on takes every koma, and a smaller \

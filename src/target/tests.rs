@@ -64,7 +64,10 @@ fn what_stands_in_the_way_is_said() {
     assert!(few.starts_with("1 genga were asked for, and there are "), "{few}");
     assert!(few.contains("pins and ends of rests, which stay"), "{few}");
     let many = said(Target::Keys(500));
-    assert!(many.contains("there is no room for another: keys stand as far apart as a drawing stays"), "{many}");
+    assert!(
+        many.contains("there is no room for another: keys stand as far apart as a drawing stays"),
+        "{many}"
+    );
     let still = said(Target::DrawingsPerSecond(0.5));
     assert!(still.contains("0.5 drawings a second were asked for"), "{still}");
     assert!(still.contains("ends, pins and ends of rests stay"), "{still}");
