@@ -4,6 +4,7 @@
 //! that follows on it. The set is found as a whole, by dynamic programming over the chords between
 //! instants, so that a little noise or another rig of the same body changes little.
 
+use std::collections::BTreeMap;
 use std::iter::successors;
 use std::ops::Range;
 
@@ -54,27 +55,24 @@ pub(super) struct Cheapest<'a> {
     ends: Vec<usize>,
 }
 
-/// The cheapest ways to the entries found so far.
+/// The cheapest ways to the entries found so far. What stands before an entry is not kept, but looked up on the way
+/// back: few entries are on it.
 #[derive(Debug)]
 struct Ways {
-    /// What a set costs that ends on an entry; infinite where none is known.
+    /// What the way to an entry costs without the entry itself; infinite where none is known.
     costs: Vec<f64>,
-    /// What stands before the entry in that set.
-    before: Vec<usize>,
+    /// Entries that no known chord leads to, and what stands before each.
+    far: BTreeMap<usize, usize>,
 }
 
 impl Ways {
-    /// Takes the way through an entry to some others, of which these are the losses, where it is the cheaper one.
-    /// Both outcomes are computed, as which it is cannot be guessed.
+    /// Takes the way that costs so much up to its last chord to some others, of which these are the losses, where it is
+    /// the cheaper one.
     #[inline(always)]
-    fn pass_through(&mut self, from: usize, others: Range<usize>, losses: &[f32]) {
-        let cost = self.costs[from];
-        let others = self.costs[others.clone()].iter_mut().zip(&mut self.before[others]);
-        for ((least, before), loss) in others.zip(losses) {
+    fn pass_on(&mut self, cost: f64, others: Range<usize>, losses: &[f32]) {
+        for (least, loss) in self.costs[others].iter_mut().zip(losses) {
             let cost = cost + f64::from(*loss);
-            let is_less = cost < *least;
-            *least = if is_less { cost } else { *least };
-            *before = if is_less { from } else { *before };
+            *least = if cost < *least { cost } else { *least };
         }
     }
 }
@@ -172,13 +170,13 @@ impl<'a> Cheapest<'a> {
 
     /// The cheapest set at a price.
     fn at(&self, price: f64) -> Vec<usize> {
-        let before = wide(
+        let ways = wide(
             #[inline(always)]
-            || self.ways(price).before,
+            || self.ways(price),
         );
         let last = self.entries.len() - 1;
-        let mut kept: Vec<usize> =
-            successors(Some(last), |at| (*at > 0).then(|| before[*at])).collect();
+        let before = |at: &usize| (*at > 0).then(|| self.before(*at, price, &ways));
+        let mut kept: Vec<usize> = successors(Some(last), before).collect();
         kept.reverse();
         self.join(&mut kept, price);
         kept
@@ -188,23 +186,40 @@ impl<'a> Cheapest<'a> {
     #[inline(always)]
     fn ways(&self, price: f64) -> Ways {
         let count = self.entries.len();
-        let mut ways = Ways { costs: vec![f64::INFINITY; count], before: vec![0; count] };
+        let mut ways = Ways { costs: vec![f64::INFINITY; count], far: BTreeMap::new() };
         ways.costs[0] = 0.0;
         let (mut stayed, mut stays_next) = (0, 0);
         for (at, entry) in self.entries.iter().enumerate() {
             if ways.costs[at] == f64::INFINITY {
-                self.reach_far(at, stayed, &mut ways);
+                self.reach_far(at, stayed, price, &mut ways);
             }
             if entry.stays {
                 let stays = |other: &usize| self.entries[*other].stays;
                 stays_next = (at + 1..count).find(stays).unwrap_or(at);
                 stayed = at;
-            } else {
-                ways.costs[at] += price * entry.cost;
             }
-            self.go_on(at, stays_next, &mut ways);
+            self.go_on(at, stays_next, price, &mut ways);
         }
         ways
+    }
+
+    /// What a way costs with the entry on which it ends.
+    #[inline(always)]
+    fn cost(&self, at: usize, price: f64, ways: &Ways) -> f64 {
+        let Entry { stays, cost, .. } = self.entries[at];
+        ways.costs[at] + if stays { 0.0 } else { price * cost }
+    }
+
+    /// What stands before an entry on the cheapest way to it, of equals the nearest.
+    fn before(&self, at: usize, price: f64, ways: &Ways) -> usize {
+        if let Some(from) = ways.far.get(&at) {
+            return *from;
+        }
+        let is_before = |from: &usize| {
+            let way = self.cost(*from, price, ways) + self.loss(*from, at);
+            way == ways.costs[at] && self.are_apart(*from, at)
+        };
+        (0..at).rev().find(is_before).expect("the cheapest way came from somewhere")
     }
 
     /// Takes out what is there only because no known chord is as long as the way past it: in a rest, or
@@ -218,29 +233,30 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet,
-    /// of equals the first. The next that stays is not passed over.
+    /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet. The next
+    /// that stays is not passed over.
     #[inline(always)]
-    fn go_on(&self, from: usize, stays_next: usize, ways: &mut Ways) {
-        let begin = self.entries[from].koma;
+    fn go_on(&self, from: usize, stays_next: usize, price: f64, ways: &mut Ways) {
+        let (begin, cost) = (self.entries[from].koma, self.cost(from, price, ways));
         let first = (from + 1..=stays_next).find(|to| self.are_apart(from, *to));
         let mut to = first.unwrap_or(stays_next + 1);
         while to <= stays_next {
             let losses = self.chords.known(begin).get(self.entries[to].koma - begin..);
             let Some(losses) = losses.filter(|losses| !losses.is_empty()) else { break };
             let end = self.ends[to].min(stays_next + 1);
-            ways.pass_through(from, to..end, losses);
+            ways.pass_on(cost, to..end, losses);
             to = end;
         }
     }
 
     /// The way to an entry with nothing within reach that may be a key: from the last that may, or, if it stays,
     /// from the last that stays, which is further off.
-    fn reach_far(&self, to: usize, stayed: usize, ways: &mut Ways) {
+    fn reach_far(&self, to: usize, stayed: usize, price: f64, ways: &mut Ways) {
         let is_way = |from: &usize| ways.costs[*from] < f64::INFINITY && self.are_apart(*from, to);
         let stays = self.entries[to].stays.then_some(stayed);
         if let Some(from) = (stayed..to).rev().find(is_way).or(stays) {
-            (ways.costs[to], ways.before[to]) = (ways.costs[from] + self.loss(from, to), from);
+            ways.costs[to] = self.cost(from, price, ways) + self.loss(from, to);
+            ways.far.insert(to, from);
         }
     }
 
