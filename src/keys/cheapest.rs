@@ -51,7 +51,20 @@ pub(super) struct Cheapest<'a> {
     entries: &'a [Entry],
     /// Frames from one key to the next at least, unless both stay.
     apart: f64,
-    /// Behind each entry the first that does not stand on the next koma: as far its losses lie side by side.
+    /// The entries that are the first on their koma, those that are the second, and so on.
+    rows: Vec<Row>,
+    /// Where the cost of each entry stands: those of a row side by side.
+    slots: Vec<usize>,
+}
+
+/// Entries of different koma.
+#[derive(Debug, Clone)]
+struct Row {
+    /// By frame.
+    entries: Vec<usize>,
+    /// Where the cost of its first stands.
+    slot: usize,
+    /// Behind each the first that does not stand on the next koma: as far its losses lie side by side.
     ends: Vec<usize>,
 }
 
@@ -59,8 +72,10 @@ pub(super) struct Cheapest<'a> {
 /// back: few entries are on it.
 #[derive(Debug)]
 struct Ways {
-    /// What the way to an entry costs without the entry itself; infinite where none is known.
+    /// What the way to an entry costs without the entry itself, by its slot; infinite where none is known.
     costs: Vec<f64>,
+    /// Of each row the first behind the entry at hand.
+    next: Vec<usize>,
     /// Entries that no known chord leads to, and what stands before each.
     far: BTreeMap<usize, usize>,
 }
@@ -77,6 +92,18 @@ impl Ways {
     }
 }
 
+impl Row {
+    fn of(own: Vec<usize>, slot: usize, entries: &[Entry]) -> Self {
+        let mut ends: Vec<usize> = (1..=own.len()).collect();
+        for at in (1..own.len()).rev() {
+            if entries[own[at]].koma == entries[own[at - 1]].koma + 1 {
+                ends[at - 1] = ends[at];
+            }
+        }
+        Self { entries: own, slot, ends }
+    }
+}
+
 /// A set of entries by their place in the list.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Set {
@@ -88,13 +115,27 @@ pub(super) struct Set {
 impl<'a> Cheapest<'a> {
     /// Among entries in the order of their frames, so many frames apart at least.
     pub(super) fn among(entries: &'a [Entry], chords: &'a Chords, apart: f64) -> Self {
-        let mut ends: Vec<usize> = (1..=entries.len()).collect();
-        for at in (1..entries.len()).rev() {
-            if entries[at].koma == entries[at - 1].koma + 1 {
-                ends[at - 1] = ends[at];
+        let mut ranks: Vec<Vec<usize>> = Vec::new();
+        let mut rank = 0;
+        for (at, entry) in entries.iter().enumerate() {
+            let is_second = at > 0 && entries[at - 1].koma == entry.koma;
+            rank = if is_second { rank + 1 } else { 0 };
+            if rank == ranks.len() {
+                ranks.push(Vec::new());
             }
+            ranks[rank].push(at);
         }
-        Self { chords, entries, apart, ends }
+        let (mut slots, mut slot) = (vec![0; entries.len()], 0);
+        let row = |row: Vec<usize>| {
+            let begin = slot;
+            for at in &row {
+                slots[*at] = slot;
+                slot += 1;
+            }
+            Row::of(row, begin, entries)
+        };
+        let rows = ranks.into_iter().map(row).collect();
+        Self { chords, entries, apart, rows, slots }
     }
 
     /// The cheapest set in which no more than `most` entries are there of their own, at the least price
@@ -186,11 +227,15 @@ impl<'a> Cheapest<'a> {
     #[inline(always)]
     fn ways(&self, price: f64) -> Ways {
         let count = self.entries.len();
-        let mut ways = Ways { costs: vec![f64::INFINITY; count], far: BTreeMap::new() };
-        ways.costs[0] = 0.0;
+        let mut ways = Ways {
+            costs: vec![f64::INFINITY; count],
+            next: vec![0; self.rows.len()],
+            far: BTreeMap::new(),
+        };
+        ways.costs[self.slots[0]] = 0.0;
         let (mut stayed, mut stays_next) = (0, 0);
         for (at, entry) in self.entries.iter().enumerate() {
-            if ways.costs[at] == f64::INFINITY {
+            if ways.costs[self.slots[at]] == f64::INFINITY {
                 self.reach_far(at, stayed, price, &mut ways);
             }
             if entry.stays {
@@ -207,7 +252,7 @@ impl<'a> Cheapest<'a> {
     #[inline(always)]
     fn cost(&self, at: usize, price: f64, ways: &Ways) -> f64 {
         let Entry { stays, cost, .. } = self.entries[at];
-        ways.costs[at] + if stays { 0.0 } else { price * cost }
+        ways.costs[self.slots[at]] + if stays { 0.0 } else { price * cost }
     }
 
     /// What stands before an entry on the cheapest way to it, of equals the nearest.
@@ -217,7 +262,7 @@ impl<'a> Cheapest<'a> {
         }
         let is_before = |from: &usize| {
             let way = self.cost(*from, price, ways) + self.loss(*from, at);
-            way == ways.costs[at] && self.are_apart(*from, at)
+            way == ways.costs[self.slots[at]] && self.are_apart(*from, at)
         };
         (0..at).rev().find(is_before).expect("the cheapest way came from somewhere")
     }
@@ -238,24 +283,39 @@ impl<'a> Cheapest<'a> {
     #[inline(always)]
     fn go_on(&self, from: usize, stays_next: usize, price: f64, ways: &mut Ways) {
         let (begin, cost) = (self.entries[from].koma, self.cost(from, price, ways));
-        let first = (from + 1..=stays_next).find(|to| self.are_apart(from, *to));
-        let mut to = first.unwrap_or(stays_next + 1);
-        while to <= stays_next {
-            let losses = self.chords.known(begin).get(self.entries[to].koma - begin..);
-            let Some(losses) = losses.filter(|losses| !losses.is_empty()) else { break };
-            let end = self.ends[to].min(stays_next + 1);
-            ways.pass_on(cost, to..end, losses);
-            to = end;
+        let known = self.chords.known(begin);
+        for (rank, row) in self.rows.iter().enumerate() {
+            let is_behind = |at: usize| row.entries.get(at).is_some_and(|to| *to <= from);
+            while is_behind(ways.next[rank]) {
+                ways.next[rank] += 1;
+            }
+            let mut at = ways.next[rank];
+            let is_near =
+                |at: usize| row.entries.get(at).is_some_and(|to| !self.are_apart(from, *to));
+            while is_near(at) {
+                at += 1;
+            }
+            while let Some(to) = row.entries.get(at).filter(|to| **to <= stays_next) {
+                let Some(losses) = known.get(self.entries[*to].koma - begin..) else { break };
+                let span = self.entries[stays_next].koma - self.entries[*to].koma;
+                let mut end = row.ends[at].min(at + span + 1);
+                // On the koma of the next that stays, what stands behind it is not passed to.
+                end -= usize::from(row.entries[end - 1] > stays_next);
+                ways.pass_on(cost, row.slot + at..row.slot + end, losses);
+                at = end;
+            }
         }
     }
 
     /// The way to an entry with nothing within reach that may be a key: from the last that may, or, if it stays,
     /// from the last that stays, which is further off.
     fn reach_far(&self, to: usize, stayed: usize, price: f64, ways: &mut Ways) {
-        let is_way = |from: &usize| ways.costs[*from] < f64::INFINITY && self.are_apart(*from, to);
+        let is_way = |from: &usize| {
+            ways.costs[self.slots[*from]] < f64::INFINITY && self.are_apart(*from, to)
+        };
         let stays = self.entries[to].stays.then_some(stayed);
         if let Some(from) = (stayed..to).rev().find(is_way).or(stays) {
-            ways.costs[to] = self.cost(from, price, ways) + self.loss(from, to);
+            ways.costs[self.slots[to]] = self.cost(from, price, ways) + self.loss(from, to);
             ways.far.insert(to, from);
         }
     }

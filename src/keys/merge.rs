@@ -105,21 +105,16 @@ pub(super) fn is_taken<T>(
     beside.any(|moment| (frame_of(moment).0.abs_diff(frame.0) as f64) < apart)
 }
 
-/// The turns of the body and, to fill what lies between them, every koma without one. What is nearer to a turn than a
-/// koma is that turn, drawn beside its peak.
+/// The turns of the body and, to fill what lies between them, every koma. What is nearer to a turn than a koma is that
+/// turn, drawn beside its peak.
 fn moments(joints: &JointTurns<'_>, fill: Fill) -> Vec<Candidate> {
     let BodyTurns { first, turns, evidence, .. } = joints.body;
     let past = first.0 + evidence.len();
-    let frame = |koma: usize| Frame(first.0 + (koma as f64 * joints.apart).round() as usize);
-    let koma = |frame: &Frame| ((frame.0 - first.0) as f64 / joints.apart).round() as usize;
-    let mut frames = turns.clone();
-    if fill == Fill::On {
-        let turning: Vec<usize> = turns.iter().map(koma).collect();
-        let grid = (0..).map(|koma| (koma, frame(koma))).take_while(|(_, frame)| frame.0 < past);
-        let fills = grid.filter(|(koma, _)| turning.binary_search(koma).is_err());
-        frames.extend(fills.map(|(_, frame)| frame));
-        frames.sort_unstable();
-    }
+    let koma = |at: usize| Frame(first.0 + (at as f64 * joints.apart).round() as usize);
+    let grid = (0..).map(koma).take_while(|frame| fill == Fill::On && frame.0 < past);
+    let mut frames: Vec<Frame> = grid.chain(turns.iter().copied()).collect();
+    frames.sort_unstable();
+    frames.dedup();
     let candidate = |frame: Frame| Candidate {
         frame,
         strength: evidence[frame.0 - first.0],

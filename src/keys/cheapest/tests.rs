@@ -12,9 +12,14 @@ fn chords(koma: usize) -> Chords {
 
 /// One entry a frame of 24 fps, every third of them a turn.
 fn entries(count: usize, staying: &[usize]) -> Vec<Entry> {
+    several(count, staying, 1)
+}
+
+/// So many entries a koma, one a frame.
+fn several(count: usize, staying: &[usize], a_koma: usize) -> Vec<Entry> {
     let entry = |frame: usize| Entry {
         frame: Frame(frame),
-        koma: frame,
+        koma: frame / a_koma,
         stays: frame == 0 || frame + 1 == count || staying.contains(&frame),
         cost: if frame.is_multiple_of(3) { 0.1 } else { 1.0 },
     };
@@ -48,8 +53,9 @@ proptest! {
         staying in prop::collection::vec(0usize..12, 0..3),
         apart in prop::sample::select(&[1.0, 1.5, 3.0][..]),
         price in 0.01..400.0,
+        a_koma in 1usize..4,
     ) {
-        let (chords, entries) = (chords(count), entries(count, &staying));
+        let (chords, entries) = (chords(count), several(count, &staying, a_koma));
         let cheapest = Cheapest::among(&entries, &chords, apart);
         let set = cheapest.set(price, usize::MAX);
         let found = cost(&cheapest, &set.kept, price);
