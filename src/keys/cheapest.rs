@@ -27,6 +27,10 @@ const TRIES: usize = 40;
 /// How far a price that is tried stays from both ends of the span, as a share of it.
 const AWAY: f64 = 0.05;
 
+/// Koma without an entry that a row is carried over in one piece: to pass something on to nobody is cheaper than to begin
+/// anew.
+const GAP: usize = 16;
+
 /// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
 const CLOSE: usize = 4;
 
@@ -53,18 +57,19 @@ pub(super) struct Cheapest<'a> {
     apart: f64,
     /// The entries that are the first on their koma, those that are the second, and so on.
     rows: Vec<Row>,
-    /// Where the cost of each entry stands: those of a row side by side.
+    /// Where the cost of each entry stands.
     slots: Vec<usize>,
+    /// How many costs there are.
+    costs: usize,
 }
 
-/// Entries of different koma.
+/// Entries of different koma. The costs of those that follow each other closely stand as far apart as their koma, so
+/// that they lie beside their losses.
 #[derive(Debug, Clone)]
 struct Row {
     /// By frame.
     entries: Vec<usize>,
-    /// Where the cost of its first stands.
-    slot: usize,
-    /// Behind each the first that does not stand on the next koma: as far its losses lie side by side.
+    /// Of each the first behind it that does not follow closely.
     ends: Vec<usize>,
 }
 
@@ -74,8 +79,9 @@ struct Row {
 struct Ways {
     /// What the way to an entry costs without the entry itself, by its slot; infinite where none is known.
     costs: Vec<f64>,
-    /// Of each row the first behind the entry at hand.
+    /// Of each row the first behind the entry at hand, and the first behind the next that stays.
     next: Vec<usize>,
+    stops: Vec<usize>,
     /// Entries that no known chord leads to, and what stands before each.
     far: BTreeMap<usize, usize>,
 }
@@ -93,14 +99,28 @@ impl Ways {
 }
 
 impl Row {
-    fn of(own: Vec<usize>, slot: usize, entries: &[Entry]) -> Self {
+    /// A row of some entries whose costs stand from a slot on; writes where.
+    fn of(own: Vec<usize>, slot: usize, entries: &[Entry], slots: &mut [usize]) -> Self {
         let mut ends: Vec<usize> = (1..=own.len()).collect();
+        slots[own[0]] = slot;
+        for pair in own.windows(2) {
+            let ahead = entries[pair[1]].koma - entries[pair[0]].koma;
+            slots[pair[1]] = slots[pair[0]] + if ahead <= GAP { ahead } else { 1 };
+        }
         for at in (1..own.len()).rev() {
-            if entries[own[at]].koma == entries[own[at - 1]].koma + 1 {
+            if entries[own[at]].koma - entries[own[at - 1]].koma <= GAP {
                 ends[at - 1] = ends[at];
             }
         }
-        Self { entries: own, slot, ends }
+        Self { entries: own, ends }
+    }
+
+    /// The first of it that is none of those up to an entry, from one on that is known to be.
+    fn behind(&self, entry: usize, mut from: usize) -> usize {
+        while self.entries.get(from).is_some_and(|own| *own <= entry) {
+            from += 1;
+        }
+        from
     }
 }
 
@@ -127,15 +147,13 @@ impl<'a> Cheapest<'a> {
         }
         let (mut slots, mut slot) = (vec![0; entries.len()], 0);
         let row = |row: Vec<usize>| {
-            let begin = slot;
-            for at in &row {
-                slots[*at] = slot;
-                slot += 1;
-            }
-            Row::of(row, begin, entries)
+            let last = row[row.len() - 1];
+            let row = Row::of(row, slot, entries, &mut slots);
+            slot = slots[last] + 1;
+            row
         };
         let rows = ranks.into_iter().map(row).collect();
-        Self { chords, entries, apart, rows, slots }
+        Self { chords, entries, apart, rows, slots, costs: slot }
     }
 
     /// The cheapest set in which no more than `most` entries are there of their own, at the least price
@@ -228,8 +246,9 @@ impl<'a> Cheapest<'a> {
     fn ways(&self, price: f64) -> Ways {
         let count = self.entries.len();
         let mut ways = Ways {
-            costs: vec![f64::INFINITY; count],
+            costs: vec![f64::INFINITY; self.costs],
             next: vec![0; self.rows.len()],
+            stops: vec![0; self.rows.len()],
             far: BTreeMap::new(),
         };
         ways.costs[self.slots[0]] = 0.0;
@@ -285,23 +304,16 @@ impl<'a> Cheapest<'a> {
         let (begin, cost) = (self.entries[from].koma, self.cost(from, price, ways));
         let known = self.chords.known(begin);
         for (rank, row) in self.rows.iter().enumerate() {
-            let is_behind = |at: usize| row.entries.get(at).is_some_and(|to| *to <= from);
-            while is_behind(ways.next[rank]) {
-                ways.next[rank] += 1;
-            }
-            let mut at = ways.next[rank];
-            let is_near =
-                |at: usize| row.entries.get(at).is_some_and(|to| !self.are_apart(from, *to));
-            while is_near(at) {
-                at += 1;
-            }
-            while let Some(to) = row.entries.get(at).filter(|to| **to <= stays_next) {
-                let Some(losses) = known.get(self.entries[*to].koma - begin..) else { break };
-                let span = self.entries[stays_next].koma - self.entries[*to].koma;
-                let mut end = row.ends[at].min(at + span + 1);
-                // On the koma of the next that stays, what stands behind it is not passed to.
-                end -= usize::from(row.entries[end - 1] > stays_next);
-                ways.pass_on(cost, row.slot + at..row.slot + end, losses);
+            let next = row.behind(from, ways.next[rank]);
+            let stop = row.behind(stays_next, ways.stops[rank]);
+            (ways.next[rank], ways.stops[rank]) = (next, stop);
+            let is_apart = |at: &usize| self.are_apart(from, row.entries[*at]);
+            let mut at = (next..stop).find(is_apart).unwrap_or(stop);
+            while at < stop {
+                let end = row.ends[at].min(stop);
+                let [to, last] = [at, end - 1].map(|at| row.entries[at]);
+                let Some(losses) = known.get(self.entries[to].koma - begin..) else { break };
+                ways.pass_on(cost, self.slots[to]..self.slots[last] + 1, losses);
                 at = end;
             }
         }

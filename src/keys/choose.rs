@@ -20,7 +20,7 @@ use crate::time::{Frame, Span};
 /// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
 const MANY: f64 = 2.0;
 const CHEAP: f64 = 10.0;
-const FAR: f64 = 4.0;
+const FAR: f64 = 2.0;
 
 /// How much cheaper a key is that is a turn through and through.
 const DISCOUNT: f64 = 0.9;

@@ -139,7 +139,7 @@ impl Column {
 
     /// The candidates for keys.
     fn merge(&mut self, measured: &Measured<'_>, recipe: &Recipe, made: (Made, Made)) -> Made {
-        // What is asked of the ranked list does not change the candidates.
+        // Price, rests and limit choose among candidates and do not change them.
         let merging = keys::Choose {
             min_price: 0.0,
             rest: 0.0,

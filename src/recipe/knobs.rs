@@ -112,7 +112,7 @@ pub const KNOBS: &[Knob] = &[
         name: "exaggerate.cartoon",
         japanese: "誇張",
         kind: number(0.0, 2.0),
-        unit: "0 (off) to 3",
+        unit: "0 (off) to 2 on the slider, 3 at the most",
         help: "Anticipation before movements and follow-through after them (the cartoon animation filter), before \
                keys are chosen. 1 goes back and beyond by 36 % of a sudden movement. More breaks joints.",
         japanese_help: "原画を選ぶ前に、動きの前の予備動作と後の後追いを強める（カートゥーン・アニメーション・フィルタ）。\
@@ -291,7 +291,7 @@ pub const KNOBS: &[Knob] = &[
         name: "keys.min_strength",
         japanese: "最低の強さ",
         kind: number(0.0, 1.0),
-        unit: "0 to 1; for vote and union the share of all votes, for sum the depth of the valley",
+        unit: "0 to 1; for body how much of a turn it is, for vote and union the share of all votes, for sum the depth of the valley",
         help: "How strong a key must be at the least.",
         japanese_help: "原画に最低限必要な強さ。",
     },

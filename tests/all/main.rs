@@ -23,6 +23,7 @@ mod mutated; // real files with anything changed: no panic, and what is read is 
 mod one_motion; // the same keys in any rig, at any rate, with noise
 mod opened; // a file in blocks is the file from memory
 mod pages; // what the pages for newcomers name is there
+mod picked; // filter and persistence pick the genga
 #[cfg(feature = "cli")]
 mod program; // the built binary, as a person or a script uses it
 mod quiet; // somebody sits, stands or talks

@@ -38,15 +38,23 @@ pub(super) fn cheapest(places: &[Place], seconds: f64, lengths: Lengths) -> Vec<
     let mut cheapest = vec![0.0f64];
     for (at, place) in all.iter().enumerate().skip(1) {
         let mut least = (f64::INFINITY, 0);
+        // What a part costs at the least that is longer than the last one whose price was asked for.
+        let mut longer = 0.0;
         for (from, other) in all[..at].iter().enumerate().rev() {
             let long = place.at - other.at;
             if long < lengths.shortest || long <= 0.0 {
                 continue;
             }
+            if best[from].0 + longer + place.price > least.0 {
+                continue;
+            }
             let price = lengths.price(long);
-            // A part that is longer still costs more, and no take before it less.
-            if long > lengths.usual && cheapest[from] + price + place.price > least.0 {
-                break;
+            if long > lengths.usual {
+                longer = price;
+                // A part that is longer still costs more, and no take before it less.
+                if cheapest[from] + price + place.price > least.0 {
+                    break;
+                }
             }
             let cost = best[from].0 + price + place.price;
             if cost <= least.0 {

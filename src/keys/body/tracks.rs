@@ -184,7 +184,10 @@ fn measure(
         let mut write = |step: LaneVec| {
             let Some(columns) = columns.next() else { return };
             for (column, step) in columns.chunks_exact_mut(steps).zip([step.x, step.y, step.z]) {
-                column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()]);
+                match column[own.clone()].as_mut_array::<LANES>() {
+                    Some(whole) => *whole = step.0,
+                    None => column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()]),
+                }
             }
         };
         pose.take_rows(&rig, &array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
