@@ -1,40 +1,31 @@
 //! **Read** (読む): the file as written ⇄ [`Clip`], and the poses of a clip.
+//!
+//! Its rooms, each of which imports only those above it: `lanes` works on several numbers at once, `clip` is joints,
+//! channels and poses, `body` whoever moves, `seen` from where, `composite` layers put together again, `read` the files.
 
-mod build;
-pub mod bvh;
-mod camera;
-mod channels;
-mod clip;
-mod composite;
-mod contact;
-mod drawn;
-mod gltf_camera;
-mod kinematics;
-pub mod landmarks;
+mod axis;
+
 pub(crate) mod lanes;
-mod leg;
-pub(crate) mod mannequin;
-pub(crate) mod rig;
-pub(crate) mod sampler;
-mod screen;
-mod side;
-mod skeleton;
-mod stature;
-pub(crate) mod view;
 
-pub(crate) use build::Build;
-pub use camera::Camera;
-pub use channels::RowWriter;
-pub(crate) use channels::{rotation_axes, turn_columns};
-pub use clip::Clip;
+pub(crate) mod clip;
+
+pub(crate) mod body;
+
+pub(crate) mod seen;
+
+mod composite;
+
+mod read;
+
+pub use axis::Axis;
+pub use body::landmarks;
+pub(crate) use body::{BodySide, Build, below, plain_name};
+pub use body::{Contact, ContactFinder, Foot, Landmarks, Limb, Point, Stature, Unit};
+pub use clip::{
+    Body, Channel, Clip, EndSite, Joint, JointId, Pose, RowWriter, Skeleton, local_rotation,
+    local_translation,
+};
+pub(crate) use clip::{DrawnPose, rotation_axes, turn_columns};
 pub(crate) use composite::{Composite, CompositeRows, PosedComposite};
-pub use contact::{Contact, ContactFinder, Limb};
-pub(crate) use drawn::DrawnPose;
-pub use gltf_camera::GltfCamera;
-pub use kinematics::{Body, Pose, local_rotation, local_translation};
-pub(crate) use landmarks::below;
-pub use landmarks::{Foot, Landmarks, Point};
-pub use screen::{Eye, Screen, SeenFrom};
-pub(crate) use side::{BodySide, plain_name};
-pub use skeleton::{Axis, Channel, EndSite, Joint, JointId, Skeleton};
-pub use stature::{Stature, Unit};
+pub use read::{GltfCamera, bvh};
+pub use seen::{Camera, Eye, Screen, SeenFrom};

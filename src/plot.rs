@@ -8,7 +8,7 @@
 mod axis;
 mod canvas;
 mod cells;
-mod contact;
+mod contact_sheet;
 mod figure;
 mod flipbook;
 mod heat;
@@ -40,7 +40,7 @@ mod xsheet;
 mod tests;
 
 pub use crate::motion::Camera;
-pub use contact::ContactSheet;
+pub use contact_sheet::ContactSheet;
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;

@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use crate::keys::Reference;
 use crate::motion::Clip;
+use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{Arc, LANES, LaneQuat, LaneVec, Lanes, wide};
-use crate::motion::rig::Rig;
 use crate::time::Frame;
 use stances::Stances;
 

@@ -8,7 +8,7 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::mannequin::Mannequin;
+use crate::motion::body::mannequin::Mannequin;
 use crate::motion::{Clip, JointId, Landmarks, Skeleton, below};
 use crate::sheet::column_name;
 

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use crate::motion::clip::rig::Rig;
+use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::motion::{Body, Joint, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to

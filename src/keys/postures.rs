@@ -12,10 +12,10 @@ use std::array;
 use glam::DVec3;
 
 use crate::keys::points::Points;
+use crate::motion::body::mannequin::{BONES, Mannequin, POINTS, Stand};
+use crate::motion::clip::rig::Rig;
+use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LANES, LaneVec, wide};
-use crate::motion::mannequin::{BONES, Mannequin, POINTS, Stand};
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::motion::{Axis, Build, Clip, Point, Screen};
 use crate::time::Clock;
 

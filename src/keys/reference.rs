@@ -6,9 +6,9 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::keys::points::Points;
+use crate::motion::clip::rig::Rig;
+use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::motion::{Clip, Screen};
 use crate::time::{Clock, Frame};
 

@@ -1,7 +1,19 @@
 //! A motion clip: a skeleton and one flat table of channel values, frame after frame.
 
+mod channels;
+mod drawn;
+mod kinematics;
+pub(crate) mod rig;
+pub(crate) mod sampler;
+mod skeleton;
+
+pub use channels::RowWriter;
+pub(crate) use channels::{rotation_axes, turn_columns};
+pub(crate) use drawn::DrawnPose;
+pub use kinematics::{Body, Pose, local_rotation, local_translation};
+pub use skeleton::{Channel, EndSite, Joint, JointId, Skeleton};
+
 use crate::error::Error;
-use crate::motion::{Channel, Joint, Skeleton};
 use crate::time::{Clock, Frame, FrameRate};
 
 /// The largest value that a motion may hold: beyond it distances squared and summed could overflow.

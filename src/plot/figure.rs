@@ -3,7 +3,7 @@
 use glam::DVec3;
 use plotters::style::RGBColor;
 
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Joint, Skeleton};
 use crate::plot::canvas::Point;
 use crate::plot::style;
@@ -79,7 +79,7 @@ impl Figure {
         let head = skeleton.joints.iter().position(is_head);
         let end = |joint: usize| bones.iter().find(|bone| bone.from == joint).map(|bone| bone.to);
         let head = head.map(|joint| (joint, end(joint).unwrap_or(joint)));
-        let height = crate::motion::view::extent(first).dot(up).abs();
+        let height = crate::motion::seen::view::extent(first).dot(up).abs();
         Self { bones, head, height }
     }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Camera, Clip, Composite};
 use crate::plot::cells::{
     beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::Clip;
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses};
 use crate::plot::figure::Figure;

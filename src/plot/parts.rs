@@ -15,7 +15,7 @@ pub(crate) use super::style::{
     END, FAINT, FILTERED, GENGA, GENGA_LINE, INK, LEFT, PAPER, RAW, RIGHT, WALL,
 };
 pub(crate) use crate::motion::BodySide;
-pub(crate) use crate::motion::view::View;
+pub(crate) use crate::motion::seen::view::View;
 
 /// What a camera sees of some poses of a clip, each the positions of its joints and then of its tips.
 pub(crate) fn seen_by(camera: Camera, clip: &Clip, poses: &[Vec<DVec3>]) -> View {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Camera, Clip};
 use crate::plot::axis::number;
 use crate::plot::canvas::{Align, Canvas, Point, Type, paint};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::plot::canvas::Point;
 use crate::plot::figure::{Drawn, Figure};
 

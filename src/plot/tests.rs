@@ -7,7 +7,7 @@ use super::canvas::{Align, Type, paint};
 use super::sheet::fate::{Fate, fates};
 use super::*;
 use crate::error::Error;
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
 use crate::signal::{Signals, Turn, TurnKind, Unit};

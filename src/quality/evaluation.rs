@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::keys::{Figure, Reconstruction, Reference};
+use crate::keys::{DrawnBody, Reconstruction, Reference};
 use crate::motion::{Clip, Composite};
 use crate::quality::holds::Pops;
 use crate::quality::{Slip, Timing, shown};
@@ -105,17 +105,17 @@ impl Evaluation {
         let genga = frames(clip, genga.map(|drawing| drawing.source.place()));
         let on_screen: Vec<usize> = composite.layer().koma().collect();
         let koma = on_screen.len().min(source.koma());
-        let mut figure = Figure::of(clip, &source);
+        let mut body = DrawnBody::of(clip, &source);
         let contacts = ContactFinder::default().find(clip, sheet.clock);
         let made = shown::slerped(clip, sheet.clock, &genga);
         Ok(Self {
             pace: pace(sheet),
             keys: Off::of(Reconstruction::of(clip, &source, &genga).errors),
-            shown: Off::of(shown::errors(&mut figure, &composite, &on_screen[..koma])),
-            keys_slip: Slip::of(&mut figure, sheet.clock, &contacts, &made),
-            shown_slip: shown::slip(&mut figure, sheet.clock, &contacts, &composite, &on_screen),
+            shown: Off::of(shown::errors(&mut body, &composite, &on_screen[..koma])),
+            keys_slip: Slip::of(&mut body, sheet.clock, &contacts, &made),
+            shown_slip: shown::slip(&mut body, sheet.clock, &contacts, &composite, &on_screen),
             hand_contacts: contacts.iter().filter(|contact| contact.limb == Limb::Hand).count(),
-            pops: shown::pops(&mut figure, &composite, sheet.clock.koma_rate),
+            pops: shown::pops(&mut body, &composite, sheet.clock.koma_rate),
             timing: reference.map(|keys| timing(clip, sheet, &genga, keys, tolerance)),
         })
     }

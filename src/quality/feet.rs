@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::keys::Figure;
+use crate::keys::DrawnBody;
 use crate::motion::Stature;
 use crate::sheet::Source;
 use crate::signal::{Contact, Limb};
@@ -31,26 +31,26 @@ pub struct Slip {
 impl Slip {
     /// Measures what is shown at each koma; contacts are those of the source.
     pub fn of(
-        figure: &mut Figure<'_>,
+        body: &mut DrawnBody<'_>,
         clock: Clock,
         contacts: &[Contact],
         shown: impl Fn(usize) -> Source,
     ) -> Self {
         let place = |_: &Contact, koma| shown(koma).place();
-        Self::of_poses(figure, clock, contacts, place, |figure, koma| figure.take(shown(koma)))
+        Self::of_poses(body, clock, contacts, place, |body, koma| body.take(shown(koma)))
     }
 
-    /// The same of poses: `show` makes the figure stand as it is shown at a koma, and `place` is the
+    /// The same of poses: `show` makes the body stand as it is shown at a koma, and `place` is the
     /// instant of the source that the foot of a contact is of there.
     pub(super) fn of_poses(
-        figure: &mut Figure<'_>,
+        body: &mut DrawnBody<'_>,
         clock: Clock,
         contacts: &[Contact],
         place: impl Fn(&Contact, usize) -> f64,
-        mut show: impl FnMut(&mut Figure<'_>, usize),
+        mut show: impl FnMut(&mut DrawnBody<'_>, usize),
     ) -> Self {
-        let up = Stature::of(figure.clip()).up.unit();
-        let percent = 100.0 / figure.height();
+        let up = Stature::of(body.clip()).up.unit();
+        let percent = 100.0 / body.height();
         let (mut slips, mut in_source) = (Vec::new(), Vec::new());
         for contact in contacts.iter().filter(|contact| contact.limb == Limb::Foot) {
             let [begin, end] =
@@ -58,14 +58,14 @@ impl Slip {
             let own = |koma: &usize| (begin..=end).contains(&place(contact, *koma));
             let koma: Vec<usize> = contact.koma.clone().filter(own).collect();
             let foot =
-                |figure: &Figure<'_>| percent * figure.position(contact.point).reject_from(up);
+                |body: &DrawnBody<'_>| percent * body.position(contact.point).reject_from(up);
             slips.extend(furthest(koma.iter().map(|koma| {
-                show(figure, *koma);
-                foot(figure)
+                show(body, *koma);
+                foot(body)
             })));
             in_source.extend(furthest(koma.iter().map(|koma| {
-                figure.take(Source::At(clock.place_from_koma(*koma)));
-                foot(figure)
+                body.take(Source::At(clock.place_from_koma(*koma)));
+                foot(body)
             })));
         }
         Self {
@@ -119,24 +119,24 @@ mod tests {
     fn a_foot_slides_by_how_far_it_goes_on_screen_while_it_stands() {
         let clip = carried(&[0.0, 4.0, 8.0, 8.0, 8.0, 8.0, 12.0, 16.0]);
         let reference = Reference::of(&clip, clip.clock(24.0));
-        let mut figure = Figure::of(&clip, &reference);
+        let mut body = DrawnBody::of(&clip, &reference);
         let contacts = [contact(2..=5, Limb::Foot), contact(0..=7, Limb::Hand)];
         let clock = clip.clock(24.0);
-        let slip = |figure: &mut Figure<'_>, places: [f64; 8]| {
-            Slip::of(figure, clock, &contacts, |koma| Source::At(places[koma]))
+        let slip = |body: &mut DrawnBody<'_>, places: [f64; 8]| {
+            Slip::of(body, clock, &contacts, |koma| Source::At(places[koma]))
         };
         let ones = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         let none = Slip { contacts: 1, mean: Some(0.0), worst: Some(0.0), source: Some(0.0) };
-        assert_eq!(slip(&mut figure, ones), none);
+        assert_eq!(slip(&mut body, ones), none);
         // Late by a koma: the drawings before the contact and none after it are not counted.
         let late = [0.0, 0.0, 1.0, 1.0, 3.0, 3.0, 5.0, 5.0];
-        assert_eq!(slip(&mut figure, late), none);
+        assert_eq!(slip(&mut body, late), none);
         let blend = |koma: usize| Source::Between { from: 0.0, to: 7.0, share: koma as f64 / 7.0 };
-        let slid = Slip::of(&mut figure, clock, &contacts, blend);
+        let slid = Slip::of(&mut body, clock, &contacts, blend);
         let worst = slid.worst.unwrap();
         assert!((worst - 100.0 * (16.0 * 3.0 / 7.0) / 10.0).abs() < 1e-9, "{slid:?}");
         assert_eq!((slid.mean, slid.source), (slid.worst, Some(0.0)));
-        assert_eq!(slip(&mut figure, [0.0; 8]), Slip::default(), "it is never shown standing");
+        assert_eq!(slip(&mut body, [0.0; 8]), Slip::default(), "it is never shown standing");
     }
 
     #[test]
@@ -144,10 +144,10 @@ mod tests {
         let clip = carried(&[0.0, 4.0, 8.0, 8.5, 9.0, 9.5, 12.0, 16.0]);
         let clock = clip.clock(24.0);
         let reference = Reference::of(&clip, clock);
-        let mut figure = Figure::of(&clip, &reference);
+        let mut body = DrawnBody::of(&clip, &reference);
         let contacts = [contact(2..=5, Limb::Foot)];
         let late = [0.0, 0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 5.0];
-        let found = Slip::of(&mut figure, clock, &contacts, |koma| Source::At(late[koma]));
+        let found = Slip::of(&mut body, clock, &contacts, |koma| Source::At(late[koma]));
         // Shown are koma 3 to 5: 8, 8 and 8.5 on screen, 8.5 to 9.5 in the source.
         assert_eq!((found.mean, found.source), (Some(5.0), Some(10.0)));
     }

@@ -1,6 +1,6 @@
 //! What is on screen koma by koma.
 
-use crate::keys::{Figure, with_ends};
+use crate::keys::{DrawnBody, with_ends};
 use crate::motion::{Clip, Composite, PosedComposite};
 use crate::quality::Slip;
 use crate::quality::holds::Pops;
@@ -10,7 +10,7 @@ use crate::time::{Clock, Frame};
 
 /// How far what is on screen on each koma is from the source there, in % of body height.
 pub(super) fn errors(
-    figure: &mut Figure<'_>,
+    body: &mut DrawnBody<'_>,
     composite: &Composite<'_>,
     drawings: &[usize],
 ) -> Vec<f64> {
@@ -20,16 +20,16 @@ pub(super) fn errors(
         // A drawing stays for some koma.
         if composite.slides() || taken.replace(drawing) != Some(drawing) {
             posed.take(drawing, koma);
-            figure.stand(posed.pose());
+            body.stand(posed.pose());
         }
-        figure.off(koma)
+        body.off(koma)
     };
     drawings.iter().copied().enumerate().map(&mut error).collect()
 }
 
 /// How far feet slide on screen; `drawings` are those of each koma, of the last of them for all after it.
 pub(super) fn slip(
-    figure: &mut Figure<'_>,
+    body: &mut DrawnBody<'_>,
     clock: Clock,
     contacts: &[Contact],
     composite: &Composite<'_>,
@@ -39,15 +39,15 @@ pub(super) fn slip(
     let drawing = |koma: usize| drawings[koma.min(drawings.len() - 1)];
     let place =
         |contact: &Contact, koma| composite.source(drawing(koma), contact.point.joint.0).place();
-    Slip::of_poses(figure, clock, contacts, place, |figure, koma| {
+    Slip::of_poses(body, clock, contacts, place, |body, koma| {
         posed.take(drawing(koma), koma);
-        figure.stand(posed.pose());
+        body.stand(posed.pose());
     })
 }
 
 /// The pops of what is on screen. The drawing of the clip's end is there whatever stands before it, so the
 /// step into it is none.
-pub(super) fn pops(figure: &mut Figure<'_>, composite: &Composite<'_>, koma_rate: f64) -> Pops {
+pub(super) fn pops(body: &mut DrawnBody<'_>, composite: &Composite<'_>, koma_rate: f64) -> Pops {
     let layer = composite.layer();
     let is_end = |drawing: usize| layer.drawings[drawing].role == Role::End;
     let exposures = match layer.exposures.split_last() {
@@ -59,16 +59,16 @@ pub(super) fn pops(figure: &mut Figure<'_>, composite: &Composite<'_>, koma_rate
     let mut before = Vec::new();
     for (at, (begin, exposure)) in layer.timed().take(exposures.len()).enumerate() {
         posed.take(exposure.drawing, begin);
-        figure.stand(posed.pose());
+        body.stand(posed.pose());
         if at > 0 {
-            steps.push(figure.apart(&before));
+            steps.push(body.apart(&before));
         }
         if composite.slides() {
             posed.take(exposure.drawing, begin + exposure.koma - 1);
-            figure.stand(posed.pose());
+            body.stand(posed.pose());
         }
         before.clear();
-        before.extend_from_slice(figure.positions());
+        before.extend_from_slice(body.positions());
     }
     let exposures: Vec<usize> = exposures.iter().map(|exposure| exposure.koma).collect();
     Pops::of(&exposures, &steps, koma_rate)

@@ -7,8 +7,8 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, Lanes, wide};
-use crate::motion::rig::Rig;
 use crate::motion::{Body, Clip, Pose, Screen, local_rotation};
 use crate::signal::{Signals, Unit};
 use crate::time::Frame;

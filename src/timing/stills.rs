@@ -4,9 +4,9 @@ use std::array;
 
 use glam::DVec3;
 
+use crate::motion::clip::rig::Rig;
+use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LANES, Lanes, wide};
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::motion::{Clip, Screen};
 use crate::sheet::{Layer, Source};
 

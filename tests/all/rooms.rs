@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::clips::here;
 
+mod motion;
 mod picture;
 mod public;
 

@@ -6,10 +6,10 @@ use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
 
 use crate::keys::weights;
+use crate::motion::body::mannequin::Mannequin;
+use crate::motion::clip::rig::Rig;
+use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
-use crate::motion::mannequin::Mannequin;
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::motion::{Build, Clip, Joint, JointId, Point, Screen};
 use crate::signal::{Signals, Spectrum, Unit};
 

@@ -5,9 +5,9 @@ use std::array;
 use glam::DVec3;
 
 use crate::motion::Clip;
+use crate::motion::clip::rig::Rig;
+use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LANES, LaneQuat, wide};
-use crate::motion::rig::Rig;
-use crate::motion::sampler::LanePose;
 use crate::time::Frame;
 
 /// The local pose of each frame, read once for all bridges that begin or end there.

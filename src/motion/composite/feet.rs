@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::motion::leg::Leg;
+use crate::motion::body::leg::Leg;
 use crate::motion::{Body, Clip, Contact, ContactFinder, Landmarks, Point, Pose, landmarks};
 use crate::time::Clock;
 

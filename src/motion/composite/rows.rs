@@ -1,8 +1,8 @@
 //! A composite as rows of channel values.
 
 use super::{Composite, FootHold, is_position};
-use crate::motion::channels::{rotation_axes, turn_columns};
 use crate::motion::{Pose, RowWriter, local_rotation};
+use crate::motion::{rotation_axes, turn_columns};
 use crate::sheet::Source;
 
 /// Writes what is on screen as rows of channel values, with its buffers.

@@ -139,7 +139,7 @@ fn stage(preview: &Preview, composite: &Composite<'_>, size: (f64, f64)) -> (Sta
 fn against_root(
     all: &Bounds,
     figure: &Figure,
-    view: &crate::motion::view::View,
+    view: &crate::motion::seen::view::View,
     poses: &[Vec<DVec3>],
 ) -> Bounds {
     let half = poses.iter().fold(0.0, |half: f64, pose| {

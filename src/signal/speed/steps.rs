@@ -4,8 +4,8 @@ use std::array;
 
 use glam::DQuat;
 
+use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, LaneQuat, Lanes, ThreeAxes};
-use crate::motion::rig::Rig;
 
 /// Frames that are read for one joint before the next: their rows stay in the fastest cache.
 pub(super) const BLOCK: usize = PARTS * LANES;

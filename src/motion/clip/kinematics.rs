@@ -83,7 +83,7 @@ impl Pose {
     }
 
     /// Takes on the pose of a row of channel values.
-    pub(super) fn take_row(&mut self, skeleton: &Skeleton, row: &[f64]) {
+    pub(in crate::motion) fn take_row(&mut self, skeleton: &Skeleton, row: &[f64]) {
         for ((joint, rotation), translation) in
             skeleton.joints.iter().zip(&mut self.rotations).zip(&mut self.translations)
         {

@@ -10,7 +10,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::view::View;
+use crate::motion::seen::view::View;
 use crate::motion::{Body, Camera, Clip, Pose, Stature};
 use crate::time::Frame;
 
@@ -106,7 +106,7 @@ impl Screen {
 }
 
 /// Where the joints stand in some frames of a clip, evenly spread.
-pub(super) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
+pub(in crate::motion) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
     let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
     let step = clip.len().div_ceil(LOOKS).max(1);
     let stand = |row: usize| {

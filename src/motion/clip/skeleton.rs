@@ -2,29 +2,11 @@
 
 use glam::DVec3;
 
+use crate::motion::Axis;
+
 /// A joint by its place in the file, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JointId(pub usize);
-
-/// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Axis {
-    X,
-    Y,
-    Z,
-}
-
-impl Axis {
-    /// The vector of length 1 along it.
-    pub fn unit(self) -> DVec3 {
-        match self {
-            Self::X => DVec3::X,
-            Self::Y => DVec3::Y,
-            Self::Z => DVec3::Z,
-        }
-    }
-}
 
 /// What one column of the motion table drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! The build of a body (体つき): its landmarks, and the mannequin that fits it.
 
-use crate::motion::mannequin::Mannequin;
+use crate::motion::body::mannequin::Mannequin;
 use crate::motion::{Clip, Landmarks};
 
 /// What a body is like, looked for once: every stage that asks for limbs is given it.

@@ -2,8 +2,8 @@
 //!
 //! What [`Pose`](super::Pose) and [`Body`](super::Body) do for one instant.
 
+use crate::motion::clip::rig::{Rig, Rows};
 use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
-use crate::motion::rig::{Rig, Rows};
 use crate::motion::{Clip, Skeleton};
 use crate::time::Frame;
 

@@ -10,7 +10,7 @@ use crate::sheet::Source;
 /// A body that takes on the pose of one drawing after the other, measured over the points of
 /// its [`Reference`].
 #[derive(Debug, Clone)]
-pub struct Figure<'a> {
+pub struct DrawnBody<'a> {
     reference: &'a Reference,
     drawn: DrawnPose<'a>,
     body: Body,
@@ -18,7 +18,7 @@ pub struct Figure<'a> {
     positions: Vec<DVec3>,
 }
 
-impl<'a> Figure<'a> {
+impl<'a> DrawnBody<'a> {
     /// A body of the clip that `reference` was made of, as yet without a pose.
     pub fn of(clip: &'a Clip, reference: &'a Reference) -> Self {
         Self {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::view::{View, extent};
+use crate::motion::seen::view::{View, extent};
 use crate::motion::{BodySide, Clip, Skeleton, Stature};
 
 /// From where a picture looks (カメラ): level, without perspective, standing still.

@@ -7,7 +7,7 @@ mod tests;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::motion::screen::looks;
+use crate::motion::seen::looks;
 use crate::motion::{Axis, Clip, Eye, Stature, Unit};
 use document::Document;
 

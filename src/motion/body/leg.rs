@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 
-use crate::motion::channels::rotation_axes;
-use crate::motion::mannequin::Mannequin;
+use crate::motion::body::mannequin::Mannequin;
+use crate::motion::rotation_axes;
 use crate::motion::{Body, Clip, JointId, Landmarks, Pose};
 use crate::time::Frame;
 
@@ -23,10 +23,10 @@ const THROUGH: f64 = 4.0;
 
 /// The joints of a leg and the hinge of its knee.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Leg {
+pub(in crate::motion) struct Leg {
     hip: usize,
     knee: usize,
-    pub(super) ankle: usize,
+    pub(in crate::motion) ankle: usize,
     /// What carries knee and ankle: the hip itself, or a joint of a twist below it.
     over_knee: usize,
     over_ankle: usize,
@@ -47,7 +47,7 @@ struct Reach {
 impl Leg {
     /// The legs of a body in the order of its feet; none where a leg can't be turned freely at hip, knee
     /// and ankle, or its knee never bends. A body without head, two arms and two legs has none.
-    pub(super) fn both(clip: &Clip, landmarks: &Landmarks) -> Vec<Option<Self>> {
+    pub(in crate::motion) fn both(clip: &Clip, landmarks: &Landmarks) -> Vec<Option<Self>> {
         let joints = Mannequin::of(clip, landmarks).map(|mannequin| mannequin.legs());
         joints.into_iter().flatten().map(|joints| Self::of(clip, joints)).collect()
     }
@@ -83,14 +83,20 @@ impl Leg {
     }
 
     /// The joints that [`Leg::carry`] turns.
-    pub(super) fn joints(&self) -> [usize; 3] {
+    pub(in crate::motion) fn joints(&self) -> [usize; 3] {
         [self.hip, self.knee, self.ankle]
     }
 
     /// Brings the foot to where it is `way` from where it was, as far as the leg reaches, and turned in the
     /// world as before. Hip and bones keep their place and length, the knee bends as knees of this body do.
     /// `body` and `positions` are those of the pose.
-    pub(super) fn carry(&self, pose: &mut Pose, body: &Body, positions: &[DVec3], way: DVec3) {
+    pub(in crate::motion) fn carry(
+        &self,
+        pose: &mut Pose,
+        body: &Body,
+        positions: &[DVec3],
+        way: DVec3,
+    ) {
         let world = body.rotations();
         let hinge = world[self.over_knee] * self.hinge;
         let [hip, knee, ankle] = self.joints().map(|joint| positions[joint]);

@@ -1,0 +1,16 @@
+//! **Body** (体): what is known of whoever moves in a clip, by bones, names and ground.
+
+mod build;
+mod contact;
+pub mod landmarks;
+pub(crate) mod leg;
+pub(crate) mod mannequin;
+mod side;
+mod stature;
+
+pub(crate) use build::Build;
+pub use contact::{Contact, ContactFinder, Limb};
+pub(crate) use landmarks::below;
+pub use landmarks::{Foot, Landmarks, Point};
+pub(crate) use side::{BodySide, plain_name};
+pub use stature::{Stature, Unit};
