@@ -33,13 +33,13 @@ mod stage;
 mod strip;
 mod study;
 mod style;
-mod svg;
 mod xsheet;
 
 #[cfg(test)]
 mod tests;
 
 pub use crate::motion::Camera;
+pub(crate) use canvas::escaped;
 pub use contact_sheet::ContactSheet;
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;
@@ -56,5 +56,4 @@ pub use speed::{SpeedCurves, SpeedPlot};
 pub use ssd::SsdPlot;
 pub use strip::Strip;
 pub use study::StudyPlot;
-pub(crate) use svg::escaped;
 pub use xsheet::{HoldLine, InbetweenMark, XSheet};

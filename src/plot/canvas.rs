@@ -1,18 +1,15 @@
-//! A sheet of paper in px with fractions: the few strokes that the pictures are made of.
+//! The paper that pictures are drawn on: an SVG that grows by a few strokes.
+//!
+//! Nothing here can fail. What is no number stands at 0, what is too far away at the edge of what an SVG can
+//! hold, and words are escaped.
 
-use plotters::backend::SVGBackend;
-use plotters::prelude::DrawingBackend;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};
+use std::fmt::{Arguments, Write};
 
-use crate::error::Error;
+use plotters::style::RGBColor;
+
+use crate::motion::BodySide;
+use crate::plot::figure::Drawn;
 use crate::plot::style;
-
-/// Length of a dash, and of the gap after it, in px.
-const DASH: f64 = 5.0;
-
-/// Units of the drawing library in one px. It counts in whole units, too coarse for thin lines.
-const FINE: f64 = 8.0;
 
 /// Where the text stands against its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,197 +47,243 @@ impl Type {
     }
 }
 
+/// How the lines of a figure are coloured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Inks {
+    /// Left, right and trunk apart.
+    Sides,
+    /// The same, mixed with so much paper, 0 to 1.
+    Faded(f64),
+    /// All in one colour.
+    One(RGBColor),
+}
+
+impl Inks {
+    pub(super) fn of(self, side: BodySide) -> RGBColor {
+        match self {
+            Self::Sides => side.color(),
+            Self::Faded(paper) => style::mixed(side.color(), style::PAPER, paper),
+            Self::One(color) => color,
+        }
+    }
+}
+
 /// A point in px, from the upper left corner.
 pub(super) type Point = (f64, f64);
 
-/// The paper while it is being drawn on.
-pub(super) struct Canvas<'a> {
-    backend: SVGBackend<'a>,
+/// A picture as it grows. Lengths are px, written to a tenth.
+pub(super) struct Canvas {
+    svg: String,
 }
 
-/// Draws a picture of that size in px and gives its SVG.
-///
-/// # Errors
-/// What `draw` says, or [`Error::Picture`] from the drawing library.
-pub(super) fn paint(
-    (width, height): (u32, u32),
-    draw: impl FnOnce(&mut Canvas<'_>) -> Result<(), Error>,
-) -> Result<String, Error> {
-    let mut svg = String::new();
-    let units = (width * FINE as u32, height * FINE as u32);
-    let mut canvas = Canvas { backend: SVGBackend::with_string(&mut svg, units) };
-    canvas.rect((0.0, 0.0), (f64::from(width), f64::from(height)), style::PAPER)?;
-    draw(&mut canvas)?;
-    done(canvas.backend.present())?;
-    drop(canvas);
-    // The viewBox keeps the units; the size is the one in px.
-    let of_size = |(width, height): (u32, u32)| format!("width=\"{width}\" height=\"{height}\"");
-    let size = of_size(units);
-    if let Some(at) = svg.find(&size) {
-        svg.replace_range(at..at + size.len(), &of_size((width, height)));
+impl Canvas {
+    /// White paper of a size in px.
+    pub(super) fn new((width, height): (f64, f64)) -> Self {
+        let mut canvas = Self::clear((width, height));
+        canvas.rect((0.0, 0.0), (width.ceil(), height.ceil()), style::PAPER);
+        canvas
     }
-    // Opaque is what a stroke is anyhow. Quotes in words are escaped, so no word can hold this.
-    Ok(without(svg, " opacity=\"1\""))
-}
 
-/// A text with every occurrence of a word taken out, in its own memory: pictures of long clips are
-/// large.
-fn without(text: String, word: &str) -> String {
-    let mut bytes = text.into_bytes();
-    let (mut read, mut kept) = (0, 0);
-    while read < bytes.len() {
-        if bytes[read..].starts_with(word.as_bytes()) {
-            read += word.len();
-        } else {
-            bytes[kept] = bytes[read];
-            (read, kept) = (read + 1, kept + 1);
+    /// Nothing at all, of a size in px.
+    pub(super) fn clear((width, height): (f64, f64)) -> Self {
+        let (width, height) = (width.ceil(), height.ceil());
+        let fonts = escaped(style::FONTS);
+        Self {
+            svg: format!(
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+                 viewBox=\"0 0 {width} {height}\" font-family=\"{fonts}\" stroke-linejoin=\"round\" \
+                 fill=\"none\">\n"
+            ),
         }
     }
-    bytes.truncate(kept);
-    String::from_utf8(bytes).expect("whole words were taken out of a text")
-}
 
-impl Canvas<'_> {
-    pub(super) fn line(
-        &mut self,
-        from: Point,
-        to: Point,
-        color: RGBColor,
-        width: f64,
-    ) -> Result<(), Error> {
-        done(self.backend.draw_line(units(from), units(to), &stroke(color, width)))
+    pub(super) fn finish(mut self) -> String {
+        self.svg.push_str("</svg>\n");
+        self.svg
     }
 
-    /// A dashed line from the top down.
-    pub(super) fn dashes(
-        &mut self,
-        (x, top): Point,
-        bottom: f64,
-        color: RGBColor,
-        width: f64,
-    ) -> Result<(), Error> {
-        let mut y = top;
-        while y < bottom {
-            self.line((x, y), (x, (y + DASH).min(bottom)), color, width)?;
-            y += 2.0 * DASH;
-        }
-        Ok(())
+    pub(super) fn line(&mut self, from: Point, to: Point, color: RGBColor, width: f64) {
+        self.segment(from, to, color, width, "");
     }
 
-    pub(super) fn path(
-        &mut self,
-        points: &[Point],
-        color: RGBColor,
-        width: f64,
-    ) -> Result<(), Error> {
-        let points = points.iter().map(|point| units(*point));
-        done(self.backend.draw_path(points, &stroke(color, width)))
+    /// A line of dashes.
+    pub(super) fn dashes(&mut self, from: Point, to: Point, color: RGBColor, width: f64) {
+        self.segment(from, to, color, width, " stroke-dasharray=\"5 4\"");
     }
 
-    pub(super) fn area(&mut self, points: &[Point], color: RGBColor) -> Result<(), Error> {
-        let points = points.iter().map(|point| units(*point));
-        done(self.backend.fill_polygon(points, &color.filled()))
+    fn segment(&mut self, from: Point, to: Point, color: RGBColor, width: f64, more: &str) {
+        let (x1, y1, x2, y2) = (tenth(from.0), tenth(from.1), tenth(to.0), tenth(to.1));
+        let stroke = stroke(color, width);
+        self.tag(format_args!(
+            "<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"{stroke}{more}/>"
+        ));
+    }
+
+    /// An open line through points.
+    pub(super) fn path(&mut self, points: &[Point], color: RGBColor, width: f64) {
+        let (points, stroke) = (list(points), stroke(color, width));
+        self.tag(format_args!("<polyline points=\"{points}\"{stroke}/>"));
+    }
+
+    /// What lies inside a line through points and back to the first.
+    pub(super) fn area(&mut self, points: &[Point], color: RGBColor) {
+        let (points, color) = (list(points), hex(color));
+        self.tag(format_args!("<polygon points=\"{points}\" fill=\"{color}\"/>"));
     }
 
     /// A filled rectangle between two corners.
-    pub(super) fn rect(&mut self, from: Point, to: Point, color: RGBColor) -> Result<(), Error> {
-        done(self.backend.draw_rect(units(from), units(to), &color.filled(), true))
+    pub(super) fn rect(&mut self, from: Point, to: Point, color: RGBColor) {
+        let (x, y) = (tenth(from.0), tenth(from.1));
+        // From what is written, so that neighbours meet.
+        let (width, height) = (tenth(tenth(to.0) - x), tenth(tenth(to.1) - y));
+        let color = hex(color);
+        self.tag(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{color}\"/>"
+        ));
     }
 
-    pub(super) fn disc(
-        &mut self,
-        center: Point,
-        radius: f64,
-        color: RGBColor,
-    ) -> Result<(), Error> {
-        done(self.backend.draw_circle(units(center), length(radius), &color.filled(), true))
+    /// The edge of a card from its upper left corner, its own corners of a radius.
+    pub(super) fn frame(&mut self, (x, y): Point, size: (f64, f64), color: RGBColor, radius: f64) {
+        let (x, y, width, height) = (tenth(x), tenth(y), tenth(size.0), tenth(size.1));
+        let (radius, color) = (tenth(radius), hex(color));
+        self.tag(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\" \
+             stroke=\"{color}\"/>"
+        ));
+    }
+
+    pub(super) fn disc(&mut self, center: Point, radius: f64, color: RGBColor) {
+        self.circle(center, radius, Some(color), None);
+    }
+
+    /// A disc with a white rim, which keeps it apart from what lies behind.
+    pub(super) fn spot(&mut self, center: Point, radius: f64, color: RGBColor) {
+        self.circle(center, radius + 0.5, Some(color), Some((style::PAPER, 1.0)));
     }
 
     /// A circle, white inside.
-    pub(super) fn ring(
+    pub(super) fn ring(&mut self, center: Point, radius: f64, color: RGBColor, width: f64) {
+        self.circle(center, radius, Some(style::PAPER), Some((color, width)));
+    }
+
+    /// A circle through which one sees.
+    pub(super) fn hoop(&mut self, center: Point, radius: f64, color: RGBColor, width: f64) {
+        self.circle(center, radius, None, Some((color, width)));
+    }
+
+    fn circle(
         &mut self,
-        center: Point,
+        (x, y): Point,
         radius: f64,
-        color: RGBColor,
-        width: f64,
-    ) -> Result<(), Error> {
-        self.disc(center, radius, style::PAPER)?;
-        let stroke = stroke(color, width);
-        done(self.backend.draw_circle(units(center), length(radius), &stroke, false))
+        fill: Option<RGBColor>,
+        edge: Option<(RGBColor, f64)>,
+    ) {
+        let (x, y, radius) = (tenth(x), tenth(y), tenth(radius));
+        let fill = fill.map(|color| format!(" fill=\"{}\"", hex(color))).unwrap_or_default();
+        let edge = edge.map(|(color, width)| stroke(color, width)).unwrap_or_default();
+        self.tag(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{fill}{edge}/>"));
     }
 
     /// A triangle standing on its base.
-    pub(super) fn triangle(
-        &mut self,
-        (x, y): Point,
-        radius: f64,
-        color: RGBColor,
-    ) -> Result<(), Error> {
+    pub(super) fn triangle(&mut self, (x, y): Point, radius: f64, color: RGBColor) {
         let (half, low) = (0.95 * radius, 0.65 * radius);
-        self.area(&[(x, y - radius), (x + half, y + low), (x - half, y + low)], color)
+        self.area(&[(x, y - radius), (x + half, y + low), (x - half, y + low)], color);
     }
 
     /// An ×.
-    pub(super) fn cross(
-        &mut self,
-        (x, y): Point,
-        radius: f64,
-        color: RGBColor,
-        width: f64,
-    ) -> Result<(), Error> {
-        self.line((x - radius, y - radius), (x + radius, y + radius), color, width)?;
-        self.line((x - radius, y + radius), (x + radius, y - radius), color, width)
+    pub(super) fn cross(&mut self, (x, y): Point, radius: f64, color: RGBColor, width: f64) {
+        self.line((x - radius, y - radius), (x + radius, y + radius), color, width);
+        self.line((x - radius, y + radius), (x + radius, y - radius), color, width);
     }
 
     /// A text whose base line goes through the point. Control characters become spaces.
-    pub(super) fn text(&mut self, text: &str, (x, base): Point, look: Type) -> Result<(), Error> {
-        let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let h_pos = match look.align {
-            Align::Left => HPos::Left,
-            Align::Center => HPos::Center,
-            Align::Right => HPos::Right,
+    pub(super) fn text(&mut self, text: &str, (x, base): Point, look: Type) {
+        if text.is_empty() {
+            return;
+        }
+        let anchor = match look.align {
+            Align::Left => "",
+            Align::Center => " text-anchor=\"middle\"",
+            Align::Right => " text-anchor=\"end\"",
         };
-        let weight = if look.bold { FontStyle::Bold } else { FontStyle::Normal };
-        // The library divides by 1.24 and goes 0.76 em down from the top to the base line.
-        let size = look.size * FINE * 1.24;
-        let font = FontDesc::new(FontFamily::Name(style::FONTS), size, weight);
-        let text_style = TextStyle::from(font).color(&look.color).pos(Pos::new(h_pos, VPos::Top));
-        done(self.backend.draw_text(&text, &text_style, units((x, base - 0.76 * look.size))))
+        let weight = if look.bold { " font-weight=\"bold\"" } else { "" };
+        let (x, base, size) = (tenth(x), tenth(base), tenth(look.size));
+        let (color, text) = (hex(look.color), escaped(text));
+        self.tag(format_args!(
+            "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" fill=\"{color}\"{anchor}{weight}>{text}</text>"
+        ));
     }
 
     /// A number in a circle (丸数字). Pinned ones are filled.
-    pub(super) fn badge(
-        &mut self,
-        center: Point,
-        number: usize,
-        color: RGBColor,
-        filled: bool,
-    ) -> Result<(), Error> {
-        if filled {
-            self.disc(center, style::BADGE, color)?;
-        } else {
-            self.ring(center, style::BADGE - 0.6, color, 1.25)?;
-        }
+    pub(super) fn badge(&mut self, center: Point, number: usize, color: RGBColor, filled: bool) {
+        let (fill, ink) = if filled { (color, style::PAPER) } else { (style::PAPER, color) };
+        self.circle(center, style::BADGE - 0.6, Some(fill), Some((color, 1.2)));
         let size = [11.0, 10.0, 8.0][number.to_string().len().clamp(1, 3) - 1];
-        let ink = if filled { style::PAPER } else { color };
         let look = Type::new(size).bold().color(ink).align(Align::Center);
-        self.text(&number.to_string(), (center.0, center.1 + 0.37 * size), look)
+        self.text(&number.to_string(), (center.0, center.1 + 0.36 * size), look);
+    }
+
+    /// A stick figure: neighbouring strokes of one look are one path.
+    pub(super) fn figure(&mut self, drawn: &Drawn, inks: Inks) {
+        self.tag(format_args!("<g stroke-linecap=\"round\">"));
+        for run in drawn.strokes.chunk_by(|a, b| a.side == b.side && a.width == b.width) {
+            let bone = |bone: &crate::plot::figure::Stroke| {
+                format!("M{}L{}", pair(bone.from, ' '), pair(bone.to, ' '))
+            };
+            let way: String = run.iter().map(bone).collect();
+            let stroke = stroke(inks.of(run[0].side), run[0].width);
+            self.tag(format_args!("<path d=\"{way}\"{stroke}/>"));
+        }
+        let ink = inks.of(BodySide::Trunk);
+        if let Some((center, radius)) = drawn.head {
+            self.ring(center, radius, ink, (0.24 * radius).clamp(0.8, 4.0));
+        }
+        if let Some(dot) = drawn.dot {
+            self.disc(dot, 4.0, ink);
+        }
+        self.tag(format_args!("</g>"));
+    }
+
+    fn tag(&mut self, tag: Arguments<'_>) {
+        self.svg.write_fmt(tag).expect("a String takes every text");
+        self.svg.push('\n');
     }
 }
 
-fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
-    color.stroke_width(length(width))
+/// To a tenth of a px, without a needless zero; what no picture can hold is cut.
+fn tenth(px: f64) -> f64 {
+    let px = if px.is_nan() { 0.0 } else { px };
+    (px.clamp(-1e6, 1e6) * 10.0).round() / 10.0 + 0.0
 }
 
-fn length(px: f64) -> u32 {
-    (px * FINE).round().clamp(1.0, 1e6) as u32
+fn pair((x, y): Point, between: char) -> String {
+    format!("{}{between}{}", tenth(x), tenth(y))
 }
 
-fn units((x, y): Point) -> (i32, i32) {
-    let unit = |px: f64| (px * FINE).round().clamp(-1e9, 1e9) as i32;
-    (unit(x), unit(y))
+fn list(points: &[Point]) -> String {
+    points.iter().map(|point| pair(*point, ',')).collect::<Vec<_>>().join(" ")
 }
 
-fn done(result: Result<(), impl std::fmt::Display>) -> Result<(), Error> {
-    result.map_err(|error| style::cannot(error.to_string()))
+fn stroke(color: RGBColor, width: f64) -> String {
+    format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(color), tenth(width))
+}
+
+pub(super) fn hex(color: RGBColor) -> String {
+    format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
+}
+
+/// Text as XML and HTML have it.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            control if control.is_control() => escaped.push(' '),
+            other => escaped.push(other),
+        }
+    }
+    escaped
 }

@@ -35,8 +35,8 @@ impl Cell<'_> {
         self.drawing.why.pinned.is_some()
     }
 
-    /// In a few words: what a person called it, or why it is there.
-    pub(super) fn reason(&self) -> String {
+    /// In a few words each: what a person called it, and why it is there.
+    pub(super) fn reasons(&self) -> Vec<String> {
         let why = &self.drawing.why;
         let mut reasons = Vec::new();
         match why.pinned.as_deref() {
@@ -65,7 +65,7 @@ impl Cell<'_> {
         if let Some(price) = why.price.filter(|_| why.omitted_before == 0) {
             reasons.push(format!("{price:.1} %"));
         }
-        reasons.join(" · ")
+        reasons
     }
 }
 

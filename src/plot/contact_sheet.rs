@@ -7,13 +7,12 @@ use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::plot::axis::number;
-use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 use crate::sheet::{Role, Sheet};
 
 /// The contact sheet (原画一覧): a card a genga, with its number, koma, frame and why it is there. All
@@ -49,9 +48,11 @@ impl Default for ContactSheet {
 }
 
 const GAP: f64 = 10.0;
-/// Above the figure in a card, and below the floor.
+/// Above the figure in a card, and below the floor without the reasons.
 const TOP: f64 = 32.0;
-const LABELS: f64 = 58.0;
+const LABELS: f64 = 43.0;
+/// A line of reasons, of which there are as many as the card with most needs.
+const LINE: f64 = 15.0;
 
 impl ContactSheet {
     /// Checks the settings.
@@ -80,7 +81,7 @@ impl ContactSheet {
         if cards.is_empty() {
             return Err(style::cannot("the sheet has no genga to show"));
         }
-        let table = self.table(clip, &poses, cards.len());
+        let table = self.table(clip, &poses, &cards);
         let on_page = table.columns * self.rows;
         let pages = cards.len().div_ceil(on_page);
         let page = |(at, cards): (usize, &[Cell<'_>])| {
@@ -92,7 +93,7 @@ impl ContactSheet {
         Ok(cards.chunks(on_page).enumerate().map(page).collect())
     }
 
-    fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: usize) -> Table {
+    fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: &[Cell<'_>]) -> Table {
         let view = self.camera.view(clip, poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let floor = Bounds::of(&figure, &view, poses).floor;
@@ -104,10 +105,12 @@ impl ContactSheet {
         let columns = (((room + GAP) / least).floor().max(1.0) as usize).min(self.in_row);
         let card = (room + GAP) / columns as f64 - GAP;
         let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
-        let columns = columns.min(cards);
+        let columns = columns.min(cards.len());
+        let lines = cards.iter().map(|cell| reasons(cell, card).len()).max().unwrap_or_default();
+        let labels = LABELS + LINE * lines.max(1) as f64;
         let width =
             (2.0 * style::MARGIN + (card + GAP) * columns as f64 - GAP).max(page::NARROWEST);
-        Table { stage, columns, card: (card, TOP + high + LABELS), width }
+        Table { stage, columns, card: (card, TOP + high + labels), labels, width }
     }
 }
 
@@ -117,7 +120,14 @@ struct Table {
     columns: usize,
     /// Width and height of a card.
     card: (f64, f64),
+    /// Px of a card below the floor.
+    labels: f64,
     width: f64,
+}
+
+/// Why a drawing is there, on the lines of a card.
+fn reasons(cell: &Cell<'_>, width: f64) -> Vec<String> {
+    style::lines(&cell.reasons(), style::SMALL, width - 14.0)
 }
 
 impl Table {
@@ -130,20 +140,20 @@ impl Table {
     ) -> String {
         let rows = cards.len().div_ceil(self.columns);
         let height = page::HEAD + (self.card.1 + GAP) * rows as f64 - GAP + style::MARGIN;
-        let mut svg = Svg::new((self.width, height));
-        head.draw(&mut svg, self.width);
+        let mut canvas = Canvas::new((self.width, height));
+        head.draw(&mut canvas, self.width);
         for (at, cell) in cards.iter().enumerate() {
             let (row, column) = (at / self.columns, at % self.columns);
             let x = style::MARGIN + (self.card.0 + GAP) * column as f64;
             let y = page::HEAD + (self.card.1 + GAP) * row as f64;
-            self.draw_card(&mut svg, cell, &poses[cell.index], (x, y), koma_rate);
+            self.draw_card(&mut canvas, cell, &poses[cell.index], (x, y), koma_rate);
         }
-        svg.finish()
+        canvas.finish()
     }
 
     fn draw_card(
         &self,
-        svg: &mut Svg,
+        canvas: &mut Canvas,
         cell: &Cell<'_>,
         pose: &[DVec3],
         (x, y): Point,
@@ -151,30 +161,32 @@ impl Table {
     ) {
         let (width, height) = self.card;
         let (middle, right) = (x + 0.5 * width, x + width - 10.0);
-        svg.rect((x, y), self.card, None, Some(style::GRID), 6.0);
+        canvas.frame((x, y), self.card, style::GRID, 6.0);
         let color = style::of_role(cell.drawing.role);
         match cell.genga {
-            Some(genga) => svg.badge((x + 18.0, y + 18.0), genga, color, cell.is_pinned()),
-            None => svg.disc((x + 18.0, y + 18.0), 3.0, Some(color), None),
+            Some(genga) => canvas.badge((x + 18.0, y + 18.0), genga, color, cell.is_pinned()),
+            None => canvas.disc((x + 18.0, y + 18.0), 3.0, color),
         }
         let faint = Type::new(style::SMALL).color(style::FAINT);
-        svg.text(&format!("drawing {}", cell.number()), (x + 32.0, y + 22.0), faint);
+        canvas.text(&format!("drawing {}", cell.number()), (x + 32.0, y + 22.0), faint);
         let time = seconds_and_koma(cell.koma, koma_rate);
-        svg.text(&time, (right, y + 22.0), faint.align(Align::Right));
-        let floor = y + height - LABELS;
-        svg.line((x + 10.0, floor), (right, floor), style::GRID, 1.25);
+        canvas.text(&time, (right, y + 22.0), faint.align(Align::Right));
+        let floor = y + height - self.labels;
+        canvas.line((x + 10.0, floor), (right, floor), style::GRID, 1.25);
         let inks =
             if cell.drawing.role == Role::Inbetween { Inks::Faded(0.5) } else { Inks::Sides };
-        svg.figure(&self.stage.draw_over(pose, (middle, floor)), inks);
+        canvas.figure(&self.stage.draw_over(pose, (middle, floor)), inks);
         let look = Type::new(style::WORDS).color(color).align(Align::Center);
         let look = if cell.genga.is_some() { look.bold() } else { look };
-        svg.text(&format!("koma {}", cell.koma + 1), (middle, floor + 19.0), look);
+        canvas.text(&format!("koma {}", cell.koma + 1), (middle, floor + 19.0), look);
         let place = number((cell.drawing.source.place() * 10.0).round() / 10.0);
         let held = if cell.held == 1 { String::new() } else { format!(" · {} koma", cell.held) };
         let facts = format!("frame {place}{held}");
-        svg.text(&facts, (middle, floor + 34.0), faint.align(Align::Center));
+        canvas.text(&facts, (middle, floor + 34.0), faint.align(Align::Center));
         let look = if cell.is_pinned() { faint.color(style::INK) } else { faint };
-        let reason = style::fitted(&cell.reason(), style::SMALL, width - 14.0);
-        svg.text(&reason, (middle, floor + 49.0), look.align(Align::Center));
+        for (at, line) in reasons(cell, width).iter().enumerate() {
+            let base = floor + 49.0 + LINE * at as f64;
+            canvas.text(line, (middle, base), look.align(Align::Center));
+        }
     }
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Camera, Clip, Composite};
+use crate::plot::canvas::escaped;
 use crate::plot::cells::{
     beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
 };
@@ -13,7 +14,6 @@ use crate::plot::figure::Figure;
 use crate::plot::points::Posing;
 use crate::plot::stage::Bounds;
 use crate::plot::style;
-use crate::plot::svg::escaped;
 use crate::sheet::{Layer, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one HTML file that needs nothing else, to play, to step

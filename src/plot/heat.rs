@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::plot::axis::number;
-use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::study::{headline, name, shown, title};
 use crate::plot::style;
 use crate::study::{Axis, Grid, Measure, Plateau};
@@ -77,20 +77,20 @@ impl HeatMap {
         let (width, height) = map.size();
         let height =
             height + if plateaus.is_some() { LEGEND - BOTTOM + style::MARGIN } else { 0.0 };
-        paint((width as u32, height as u32), |canvas| {
-            title(canvas, self.show)?;
-            let of_clips = format!("median of {} clips", grids.len());
-            let faint = Type::new(style::WORDS).color(style::FAINT);
-            if grids.len() > 1 {
-                canvas.text(&of_clips, (style::MARGIN, 58.0), faint)?;
-            }
-            map.bar(canvas)?;
-            map.cells(canvas, &values)?;
-            if let Some(plateaus) = plateaus {
-                map.edges(canvas, grid, plateaus)?;
-            }
-            map.axes(canvas, grid)
-        })
+        let mut canvas = Canvas::new((width, height));
+        title(&mut canvas, self.show);
+        let of_clips = format!("median of {} clips", grids.len());
+        let faint = Type::new(style::WORDS).color(style::FAINT);
+        if grids.len() > 1 {
+            canvas.text(&of_clips, (style::MARGIN, 58.0), faint);
+        }
+        map.bar(&mut canvas);
+        map.cells(&mut canvas, &values);
+        if let Some(plateaus) = plateaus {
+            map.edges(&mut canvas, grid, plateaus);
+        }
+        map.axes(&mut canvas, grid);
+        Ok(canvas.finish())
     }
 }
 
@@ -160,51 +160,45 @@ impl Map {
         if self.high > self.low { (value - self.low) / (self.high - self.low) } else { 0.0 }
     }
 
-    fn cells(&self, canvas: &mut Canvas<'_>, values: &[f64]) -> Result<(), Error> {
+    fn cells(&self, canvas: &mut Canvas, values: &[f64]) {
         // A hair of paper between cells that are large enough to show it.
         let hair = if self.cell.0.min(self.cell.1) >= 14.0 { 0.5 } else { 0.0 };
         for (at, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
             let (left, top) = self.corner(at / self.rows, at % self.rows);
             let (right, bottom) = (left + self.cell.0, top + self.cell.1);
             let share = self.share(*value);
-            canvas.rect((left + hair, top + hair), (right - hair, bottom - hair), color(share))?;
+            canvas.rect((left + hair, top + hair), (right - hair, bottom - hair), color(share));
             if let Some(size) = self.type_size {
                 let ink = if share > 0.55 { style::PAPER } else { style::INK };
                 let look = Type::new(size).color(ink).align(Align::Center);
                 let base = 0.5 * (top + bottom) + 0.36 * size;
-                canvas.text(&written(*value), (0.5 * (left + right), base), look)?;
+                canvas.text(&written(*value), (0.5 * (left + right), base), look);
             }
         }
-        Ok(())
     }
 
-    fn axes(&self, canvas: &mut Canvas<'_>, grid: &Grid) -> Result<(), Error> {
+    fn axes(&self, canvas: &mut Canvas, grid: &Grid) {
         let look = Type::new(style::SMALL);
         let widest = grid.x.values().iter().map(|value| style::text_width(value, style::SMALL));
         let every = every(widest.fold(0.0, f64::max) + 8.0, self.cell.0);
         for (x, value) in grid.x.values().iter().enumerate().step_by(every) {
             let middle = self.left + (x as f64 + 0.5) * self.cell.0;
-            canvas.text(value, (middle, self.bottom() + 17.0), look.align(Align::Center))?;
+            canvas.text(value, (middle, self.bottom() + 17.0), look.align(Align::Center));
         }
         let words = Type::new(style::WORDS);
         let middle = (0.5 * (self.left + self.right())).max(0.5 * self.size().0.min(560.0));
         let place = (middle, self.bottom() + 42.0);
-        canvas.text(&name(&grid.x, unit(&grid.x)), place, words.align(Align::Center))?;
-        let Some(axis) = &grid.y else { return Ok(()) };
+        canvas.text(&name(&grid.x, unit(&grid.x)), place, words.align(Align::Center));
+        let Some(axis) = &grid.y else { return };
         for (y, value) in axis.values().iter().enumerate().step_by(self::every(14.0, self.cell.1)) {
             let middle = self.bottom() - (y as f64 + 0.5) * self.cell.1;
-            canvas.text(value, (self.left - 8.0, middle + 4.0), look.align(Align::Right))?;
+            canvas.text(value, (self.left - 8.0, middle + 4.0), look.align(Align::Right));
         }
-        canvas.text(&name(axis, unit(axis)), (style::MARGIN, TOP - 10.0), words)
+        canvas.text(&name(axis, unit(axis)), (style::MARGIN, TOP - 10.0), words);
     }
 
     /// The edges of plateaus and the recipe's own cell, and below the map what they are.
-    fn edges(
-        &self,
-        canvas: &mut Canvas<'_>,
-        grid: &Grid,
-        plateaus: &[Option<Plateau>; 2],
-    ) -> Result<(), Error> {
+    fn edges(&self, canvas: &mut Canvas, grid: &Grid, plateaus: &[Option<Plateau>; 2]) {
         let base = self.bottom() + LEGEND;
         let mut left = style::MARGIN;
         let looks = [(style::GENGA, 2.0), (style::RIGHT, 4.0)];
@@ -213,32 +207,26 @@ impl Map {
         for ((plateau, (color, width)), words) in plateaus.iter().zip(looks).zip(words).rev() {
             let Some(plateau) = plateau else { continue };
             for (from, to) in self.edge_of(grid, plateau) {
-                canvas.line(from, to, color, width)?;
+                canvas.line(from, to, color, width);
             }
-            canvas.line((left, base - 4.0), (left + 18.0, base - 4.0), color, width)?;
-            left = self.legend(canvas, left, base, words)?;
+            canvas.line((left, base - 4.0), (left + 18.0, base - 4.0), color, width);
+            left = self.legend(canvas, left, base, words);
         }
-        let Some(own) = grid.own else { return Ok(()) };
+        let Some(own) = grid.own else { return };
         let (x, y) = self.corner(own / self.rows, own % self.rows);
         let radius = (0.2 * self.cell.0.min(self.cell.1)).clamp(2.0, 4.5);
         let place = (x + self.cell.0 - radius - 2.0, y + radius + 2.0);
         for place in [place, (left + 9.0, base - 4.0)] {
-            canvas.disc(place, radius + 1.0, style::PAPER)?;
-            canvas.disc(place, radius, style::GENGA)?;
+            canvas.disc(place, radius + 1.0, style::PAPER);
+            canvas.disc(place, radius, style::GENGA);
         }
-        self.legend(canvas, left, base, "the recipe 現在のレシピ").map(drop)
+        self.legend(canvas, left, base, "the recipe 現在のレシピ");
     }
 
     /// Words of the legend behind a mark; where the next mark begins.
-    fn legend(
-        &self,
-        canvas: &mut Canvas<'_>,
-        left: f64,
-        base: f64,
-        words: &str,
-    ) -> Result<f64, Error> {
-        canvas.text(words, (left + 25.0, base), Type::new(style::SMALL))?;
-        Ok(left + 25.0 + style::text_width(words, style::SMALL) + 22.0)
+    fn legend(&self, canvas: &mut Canvas, left: f64, base: f64, words: &str) -> f64 {
+        canvas.text(words, (left + 25.0, base), Type::new(style::SMALL));
+        left + 25.0 + style::text_width(words, style::SMALL) + 22.0
     }
 
     /// The sides of cells behind which the plateau ends.
@@ -268,7 +256,7 @@ impl Map {
     }
 
     /// What the colours mean, at the upper right.
-    fn bar(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+    fn bar(&self, canvas: &mut Canvas) {
         const STEPS: usize = 24;
         let (width, right) = (96.0, self.size().0 - style::MARGIN);
         let look = Type::new(style::SMALL);
@@ -277,11 +265,11 @@ impl Map {
         for step in 0..STEPS {
             let left = right - width + width * step as f64 / STEPS as f64;
             let share = step as f64 / (STEPS - 1) as f64;
-            canvas.rect((left, 50.0), (left + width / STEPS as f64, 60.0), color(share))?;
+            canvas.rect((left, 50.0), (left + width / STEPS as f64, 60.0), color(share));
         }
-        canvas.text(&most, (right + 6.0, 59.0), look)?;
+        canvas.text(&most, (right + 6.0, 59.0), look);
         let least = written(self.low);
-        canvas.text(&least, (right - width - 6.0, 59.0), look.align(Align::Right))
+        canvas.text(&least, (right - width - 6.0, 59.0), look.align(Align::Right));
     }
 }
 

@@ -6,12 +6,11 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::{Body, BodySide, Clip, Pose, Skeleton};
-use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::stage::{Bounds, Stage, fitting};
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 
 /// The hierarchy of a skeleton (階層構造): on the left the rest pose, each joint with its number, on the
 /// right the tree of joints by number and name.
@@ -83,15 +82,15 @@ impl SkeletonPlot {
         let tree = Tree::of(skeleton, shown, left + wide + GAP);
         let width = (tree.right() + style::MARGIN).max(page::NARROWEST);
         let height = (floor + PAD).max(page::HEAD + LINE * shown as f64) + style::MARGIN;
-        let mut svg = Svg::new((width, height));
+        let mut canvas = Canvas::new((width, height));
         let title = "Skeleton 階層構造";
         Head { title, cut: name, facts: facts(skeleton, shown), page: (1, 1) }
-            .draw(&mut svg, width);
-        svg.figure(&stage.draw(&poses[0]), Inks::Faded(0.45));
+            .draw(&mut canvas, width);
+        canvas.figure(&stage.draw(&poses[0]), Inks::Faded(0.45));
         let places = poses[0].iter().map(|point| stage.place(*point)).collect::<Vec<_>>();
-        numbers(&mut svg, skeleton, &places[..shown]);
-        tree.draw(&mut svg);
-        Ok(svg.finish())
+        numbers(&mut canvas, skeleton, &places[..shown]);
+        tree.draw(&mut canvas);
+        Ok(canvas.finish())
     }
 }
 
@@ -125,11 +124,11 @@ fn facts(skeleton: &Skeleton, shown: usize) -> String {
 }
 
 /// A dot a joint and its number beside it, as long as there is room.
-fn numbers(svg: &mut Svg, skeleton: &Skeleton, places: &[Point]) {
+fn numbers(canvas: &mut Canvas, skeleton: &Skeleton, places: &[Point]) {
     let mut taken: Vec<Point> = Vec::new();
     for ((id, joint), &(x, y)) in skeleton.iter().zip(places) {
         let side = BodySide::of(&joint.name);
-        svg.disc((x, y), 3.0, Some(side.color()), Some((style::PAPER, 1.0)));
+        canvas.spot((x, y), 3.0, side.color());
         let from = joint.parent.and_then(|parent| places.get(parent.0)).copied().unwrap_or((x, y));
         // Beside the bone that leads here, outside the figure.
         let is_level = (x - from.0).abs() > (y - from.1).abs();
@@ -142,7 +141,7 @@ fn numbers(svg: &mut Svg, skeleton: &Skeleton, places: &[Point]) {
             |other: &Point| (other.0 - middle).abs() > 15.0 || (other.1 - base).abs() > 11.0;
         if taken.iter().all(is_free) {
             let look = Type::new(style::SMALL).bold().color(side.color()).align(Align::Center);
-            svg.text(&(id.0 + 1).to_string(), (middle, base), look);
+            canvas.text(&(id.0 + 1).to_string(), (middle, base), look);
             taken.push((middle, base));
         }
     }
@@ -187,21 +186,21 @@ impl<'a> Tree<'a> {
         style::fitted(self.lines[line].name, style::WORDS, 360.0)
     }
 
-    fn draw(&self, svg: &mut Svg) {
+    fn draw(&self, canvas: &mut Canvas) {
         for (at, line) in self.lines.iter().enumerate() {
             let (x, y) = self.at(at);
             if let Some(parent) = line.parent {
                 let above = self.at(parent);
                 let stem = (above.0 + 5.0).min(x - 5.0);
-                svg.path(&[(stem, above.1 + 7.0), (stem, y), (x - 3.0, y)], style::RAW, 1.0);
+                canvas.path(&[(stem, above.1 + 7.0), (stem, y), (x - 3.0, y)], style::RAW, 1.0);
             }
         }
         for (at, line) in self.lines.iter().enumerate() {
             let (x, y) = self.at(at);
             let color = BodySide::of(line.name).color();
             let look = Type::new(style::SMALL).bold().color(color).align(Align::Right);
-            svg.text(&line.number.to_string(), (self.left + 14.0, y + 4.0), look);
-            svg.text(&self.name(at), (x, y + 4.5), Type::new(style::WORDS).color(color));
+            canvas.text(&line.number.to_string(), (self.left + 14.0, y + 4.0), look);
+            canvas.text(&self.name(at), (x, y + 4.5), Type::new(style::WORDS).color(color));
         }
     }
 }

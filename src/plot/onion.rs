@@ -7,13 +7,12 @@ use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::motion::seen::view::View;
-use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::stage::{Bounds, Stage, fitting};
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 use crate::sheet::Sheet;
 
 /// Onion skin (オニオンスキン): a panel from each genga to the next, all drawings of the way in their
@@ -148,8 +147,8 @@ impl Page<'_> {
         let width = self.room + 2.0 * style::MARGIN;
         let row = TOP + self.high + LABELS;
         let height = page::HEAD + (row + GAP) * rows.len() as f64 - GAP + style::MARGIN;
-        let mut svg = Svg::new((width, height));
-        head.draw(&mut svg, width);
+        let mut canvas = Canvas::new((width, height));
+        head.draw(&mut canvas, width);
         for (at, panels) in rows.iter().enumerate() {
             let y = page::HEAD + (row + GAP) * at as f64;
             let widths: f64 = panels.iter().map(|panel| panel.width(self.stage.scale) + GAP).sum();
@@ -159,31 +158,31 @@ impl Page<'_> {
             let mut x = style::MARGIN;
             for panel in *panels {
                 let wide = panel.width(self.stage.scale) + spare;
-                self.panel(&mut svg, panel, (x, y), (wide, row));
+                self.panel(&mut canvas, panel, (x, y), (wide, row));
                 x += wide + GAP;
             }
         }
-        svg.finish()
+        canvas.finish()
     }
 
-    fn panel(&self, svg: &mut Svg, panel: &Panel<'_>, (x, y): Point, size: (f64, f64)) {
+    fn panel(&self, canvas: &mut Canvas, panel: &Panel<'_>, (x, y): Point, size: (f64, f64)) {
         let floor = y + TOP + self.high;
         let middle = 0.5 * (panel.bounds.left + panel.bounds.right);
         let origin = (middle, self.stage.origin.1);
         let stage = Stage { origin, at: (x + 0.5 * size.0, floor), ..self.stage.clone() };
-        svg.rect((x, y), size, None, Some(style::GRID), 6.0);
-        svg.line((x + 10.0, floor), (x + size.0 - 10.0, floor), style::GRID, 1.25);
+        canvas.frame((x, y), size, style::GRID, 6.0);
+        canvas.line((x + 10.0, floor), (x + size.0 - 10.0, floor), style::GRID, 1.25);
         let last = panel.way.len() - 1;
         for (at, cell) in panel.way.iter().enumerate() {
             let drawn = stage.draw(&self.poses[cell.index]);
-            svg.figure(&drawn, inks(at, last));
+            canvas.figure(&drawn, inks(at, last));
         }
-        self.arc(svg, panel.way, &stage);
-        self.words(svg, panel.way, (x, y), size);
+        self.arc(canvas, panel.way, &stage);
+        self.words(canvas, panel.way, (x, y), size);
     }
 
     /// The path of the joint that goes furthest, with a dot a drawing.
-    fn arc(&self, svg: &mut Svg, way: &[Cell<'_>], stage: &Stage) {
+    fn arc(&self, canvas: &mut Canvas, way: &[Cell<'_>], stage: &Stage) {
         let joint = |cell: &Cell<'_>, joint: usize| self.poses[cell.index][joint];
         let length = |at: usize| -> f64 {
             way.windows(2).map(|pair| joint(&pair[0], at).distance(joint(&pair[1], at))).sum()
@@ -195,15 +194,21 @@ impl Page<'_> {
             return;
         };
         let path: Vec<Point> = way.iter().map(|cell| stage.place(joint(cell, lead))).collect();
-        svg.path(&path, style::GENGA_LINE, 1.25);
+        canvas.path(&path, style::GENGA_LINE, 1.25);
         for (cell, point) in way.iter().zip(&path) {
             let radius = if cell.genga.is_some() { 3.2 } else { 2.0 };
-            svg.disc(*point, radius, Some(style::GENGA), Some((style::PAPER, 0.8)));
+            canvas.spot(*point, radius, style::GENGA);
         }
     }
 
     /// Which genga, which koma, how many drawings between.
-    fn words(&self, svg: &mut Svg, way: &[Cell<'_>], (x, y): Point, (wide, high): (f64, f64)) {
+    fn words(
+        &self,
+        canvas: &mut Canvas,
+        way: &[Cell<'_>],
+        (x, y): Point,
+        (wide, high): (f64, f64),
+    ) {
         let (Some(from), Some(to)) = (way.first(), way.last()) else {
             return;
         };
@@ -211,21 +216,26 @@ impl Page<'_> {
         let ends = if way.len() > 1 { vec![from, to] } else { vec![from] };
         for (place, cell) in ends.into_iter().enumerate() {
             if place > 0 {
-                svg.line((at - 17.0, y + 19.0), (at - 11.0, y + 19.0), style::FAINT, 1.25);
+                canvas.line((at - 17.0, y + 19.0), (at - 11.0, y + 19.0), style::FAINT, 1.25);
             }
             let color = style::of_role(cell.drawing.role);
-            svg.badge((at, y + 19.0), cell.genga.unwrap_or(cell.number()), color, cell.is_pinned());
+            canvas.badge(
+                (at, y + 19.0),
+                cell.genga.unwrap_or(cell.number()),
+                color,
+                cell.is_pinned(),
+            );
             at += 28.0;
         }
         let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
         let koma = format!("koma {}–{}", from.koma + 1, to.koma + 1);
-        svg.text(&koma, (x + wide - 10.0, y + 23.0), look);
+        canvas.text(&koma, (x + wide - 10.0, y + 23.0), look);
         let between = match way.len().saturating_sub(2) {
             0 => "no inbetween 中なし".to_owned(),
             count => format!("{count} between 中{count}枚"),
         };
         let look = Type::new(style::SMALL).color(style::INK).align(Align::Center);
-        svg.text(&between, (x + 0.5 * wide, y + high - 9.0), look);
+        canvas.text(&between, (x + 0.5 * wide, y + high - 9.0), look);
     }
 }
 

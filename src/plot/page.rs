@@ -1,10 +1,9 @@
 //! What the pages of figures have in common: a title, the length of the cut, a legend.
 
 use crate::motion::BodySide;
-use crate::plot::canvas::{Align, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::cells::seconds_and_koma;
 use crate::plot::style;
-use crate::plot::svg::Svg;
 use crate::sheet::{Layer, Sheet};
 
 /// Height of the head, in px.
@@ -25,29 +24,29 @@ pub(super) struct Head<'a> {
 }
 
 impl Head<'_> {
-    pub(super) fn draw(&self, svg: &mut Svg, width: f64) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, width: f64) {
         let right = width - style::MARGIN;
-        svg.text(self.title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
+        canvas.text(self.title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
         let mut x = right;
         for (side, word) in [(BodySide::Right, "right 右"), (BodySide::Left, "left 左")] {
             let look = Type::new(style::WORDS).align(Align::Right);
-            svg.text(word, (x, 34.0), look);
+            canvas.text(word, (x, 34.0), look);
             x -= style::text_width(word, style::WORDS) + 10.0;
-            svg.line((x - 16.0, 29.5), (x, 29.5), side.color(), 4.0);
+            canvas.line((x - 16.0, 29.5), (x, 29.5), side.color(), 4.0);
             x -= 34.0;
         }
         let begin = style::MARGIN + style::text_width(self.title, style::TITLE) * 1.06 + 16.0;
         let cut = style::fitted(self.cut, style::WORDS, x - begin);
-        svg.text(&cut, (begin, 34.0), Type::new(style::WORDS).color(style::FAINT));
+        canvas.text(&cut, (begin, 34.0), Type::new(style::WORDS).color(style::FAINT));
         let (page, pages) = self.page;
         let mut room = right - style::MARGIN;
         if pages > 1 {
             let look = Type::new(style::WORDS).color(style::FAINT).align(Align::Right);
-            svg.text(&format!("page {page} of {pages}"), (right, 56.0), look);
+            canvas.text(&format!("page {page} of {pages}"), (right, 56.0), look);
             room -= 110.0;
         }
         let facts = style::fitted(&self.facts, style::WORDS, room);
-        svg.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
+        canvas.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
     }
 }
 

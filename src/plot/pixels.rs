@@ -8,11 +8,10 @@ use resvg::tiny_skia::{
 
 use crate::error::Error;
 use crate::motion::BodySide;
-use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::figure::Drawn;
 use crate::plot::raster::pixels_from_svg;
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 
 /// Pixels to draw on.
 #[derive(Clone)]
@@ -112,10 +111,10 @@ impl Digits {
         let wide = (0.62 * size).ceil();
         let base = size.ceil();
         let digit = |digit: u8| {
-            let mut svg = Svg::clear((wide, base + 2.0));
+            let mut canvas = Canvas::clear((wide, base + 2.0));
             let look = Type::new(size).bold().color(color).align(Align::Center);
-            svg.text(&digit.to_string(), (0.5 * wide, base), look);
-            pixels_from_svg(&svg.finish(), 1.0)
+            canvas.text(&digit.to_string(), (0.5 * wide, base), look);
+            pixels_from_svg(&canvas.finish(), 1.0)
         };
         Ok(Self { digits: (0..10).map(digit).collect::<Result<_, _>>()?, wide, base })
     }

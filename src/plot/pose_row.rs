@@ -4,13 +4,13 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Camera, Clip};
 use crate::plot::axis::number;
-use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, composed};
 use crate::plot::figure::Figure;
 use crate::plot::points::{Posing, Showing};
+use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;
 use crate::sheet::{Role, Sheet, Source};
 
@@ -42,15 +42,6 @@ const LABELS: f64 = 42.0;
 const BETWEEN_LINES: f64 = 16.0;
 /// The narrowest picture: its title has to fit.
 const NARROWEST: f64 = 380.0;
-
-/// The figures of a row, on one floor and of one scale.
-struct Row {
-    figure: Figure,
-    view: View,
-    floor: f64,
-    /// px for a unit of the file.
-    scale: f64,
-}
 
 impl PoseRow {
     /// Checks the settings.
@@ -126,13 +117,15 @@ impl PoseRow {
             return Err(style::cannot("no pose to draw"));
         }
         let (all, frames) = (frames.len(), &frames[..poses.len()]);
-        let mut figures = Row::of(clip, poses);
-        let (widest, tallest) = figures.size(poses);
+        let view = Camera::Auto.view(clip, poses);
+        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
+        let floor = Bounds::of(&figure, &view, poses).floor;
+        let size = largest(&figure, &view, poses, floor);
         let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;
-        figures.scale =
-            (f64::from(self.figure_height) / tallest.max(1e-9)).min(room / widest.max(1e-9));
-        let high = tallest * figures.scale;
-        let least = (widest * figures.scale + GAP).max(70.0);
+        let scale = fitting(size, (room, f64::from(self.figure_height)));
+        let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
+        let high = size.1 * scale;
+        let least = (size.0 * scale + GAP).max(70.0);
         let fit = ((room + GAP) / least).floor().max(1.0) as usize;
         let in_line = fit.min(self.in_line).min(frames.len());
         let cell = if frames.len() >= in_line.max(8) {
@@ -145,104 +138,51 @@ impl PoseRow {
         let width = (cell * in_line as f64 + 2.0 * style::MARGIN).max(NARROWEST);
         let width = width.min(f64::from(self.width).max(NARROWEST));
         let height = HEAD + line * lines as f64 + 10.0;
-        paint((width.ceil() as u32, height.ceil() as u32), |canvas| {
-            head(canvas, (frames.len(), all))?;
-            for (at, row) in frames.chunks(in_line).enumerate() {
-                let floor = HEAD + line * at as f64 + 12.0 + high;
-                let end = style::MARGIN + cell * row.len() as f64;
-                canvas.line((style::MARGIN, floor), (end, floor), style::RAW, 1.25)?;
-                for (column, frame) in row.iter().enumerate() {
-                    let x = style::MARGIN + cell * (column as f64 + 0.5);
-                    figures.draw(canvas, &poses[at * in_line + column], (x, floor))?;
-                    label(canvas, frame, (x, floor), cell)?;
-                }
+        let mut canvas = Canvas::new((width, height));
+        head(&mut canvas, (frames.len(), all));
+        for (at, row) in frames.chunks(in_line).enumerate() {
+            let floor = HEAD + line * at as f64 + 12.0 + high;
+            let end = style::MARGIN + cell * row.len() as f64;
+            canvas.line((style::MARGIN, floor), (end, floor), style::RAW, 1.25);
+            for (column, frame) in row.iter().enumerate() {
+                let x = style::MARGIN + cell * (column as f64 + 0.5);
+                let pose = &poses[at * in_line + column];
+                canvas.figure(&stage.draw_over(pose, (x, floor)), Inks::Sides);
+                label(&mut canvas, frame, (x, floor), cell);
             }
-            Ok(())
-        })
+        }
+        Ok(canvas.finish())
     }
 }
 
 /// The title, which colour is which side, and how many figures of how many there are.
-fn head(canvas: &mut Canvas<'_>, (shown, all): (usize, usize)) -> Result<(), Error> {
-    canvas.text("Poses ポーズ", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
+fn head(canvas: &mut Canvas, (shown, all): (usize, usize)) {
+    canvas.text("Poses ポーズ", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
     let mut x = 170.0;
     for (side, word) in [(BodySide::Left, "left 左"), (BodySide::Right, "right 右")] {
-        canvas.line((x, 29.0), (x + 20.0, 29.0), side.color(), 4.0)?;
-        canvas.text(word, (x + 26.0, 34.0), Type::new(style::WORDS))?;
+        canvas.line((x, 29.0), (x + 20.0, 29.0), side.color(), 4.0);
+        canvas.text(word, (x + 26.0, 34.0), Type::new(style::WORDS));
         x += style::text_width(word, style::WORDS) + 46.0;
     }
     if shown < all {
         let words = format!("the first {shown} of {all}");
-        canvas.text(&words, (x, 34.0), Type::new(style::WORDS).color(style::FAINT))?;
+        canvas.text(&words, (x, 34.0), Type::new(style::WORDS).color(style::FAINT));
     }
-    Ok(())
 }
 
 /// The label in its role's colour and the frame below.
 fn label(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     (place, label, role): &(f64, String, Role),
     (x, floor): Point,
     cell: f64,
-) -> Result<(), Error> {
+) {
     let color = if *role == Role::Inbetween { style::FAINT } else { style::of_role(*role) };
     let look = Type::new(style::WORDS).color(color).align(Align::Center);
     let look = if *role == Role::Inbetween { look } else { look.bold() };
     let text = style::fitted(label, style::WORDS, cell - 4.0);
-    canvas.text(&text, (x, floor + 18.0), look)?;
+    canvas.text(&text, (x, floor + 18.0), look);
     let frame = format!("frame {}", number((place * 10.0).round() / 10.0));
     let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Center);
-    canvas.text(&frame, (x, floor + 34.0), look)
-}
-
-impl Row {
-    fn of(clip: &Clip, poses: &[Vec<DVec3>]) -> Self {
-        let view = Camera::Auto.view(clip, poses);
-        let up = |point: &DVec3| view.see(*point).1;
-        let floor = poses.iter().flatten().map(up).fold(f64::INFINITY, f64::min);
-        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
-        Self { figure, view, floor, scale: 1.0 }
-    }
-
-    /// The largest width of a figure and the largest height over the floor, in units of the file.
-    fn size(&self, poses: &[Vec<DVec3>]) -> (f64, f64) {
-        let radius = self.figure.head_radius(&poses[0]);
-        let size = |pose: &Vec<DVec3>| {
-            let (low, high) = self.view.sides(pose);
-            let top = pose.iter().map(|point| self.view.see(*point).1 - self.floor);
-            (high - low, top.fold(0.0, f64::max))
-        };
-        let sizes = poses.iter().map(size);
-        let (wide, high) = sizes.fold((0.0, 0.0), |(wide, high): (f64, f64), size| {
-            (wide.max(size.0), high.max(size.1))
-        });
-        (wide + radius, high + radius)
-    }
-
-    /// One figure, its middle over `x`.
-    fn draw(
-        &self,
-        canvas: &mut Canvas<'_>,
-        pose: &[DVec3],
-        (x, floor): Point,
-    ) -> Result<(), Error> {
-        let (low, high) = self.view.sides(pose);
-        let middle = 0.5 * (low + high);
-        let at = |point: DVec3| {
-            let (right, up, _) = self.view.see(point);
-            (x + (right - middle) * self.scale, floor - (up - self.floor) * self.scale)
-        };
-        let drawn = self.figure.draw(pose, &self.view, self.scale, at);
-        for stroke in drawn.strokes {
-            canvas.line(stroke.from, stroke.to, stroke.side.color(), stroke.width)?;
-            canvas.disc(stroke.to, 0.5 * stroke.width, stroke.side.color())?;
-        }
-        if let Some((center, radius)) = drawn.head {
-            canvas.ring(center, radius, style::INK, 2.0)?;
-        }
-        if let Some(dot) = drawn.dot {
-            canvas.disc(dot, 4.0, style::INK)?;
-        }
-        Ok(())
-    }
+    canvas.text(&frame, (x, floor + 34.0), look);
 }

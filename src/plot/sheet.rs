@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::SeenFrom;
-use crate::plot::canvas::{Canvas, Type, paint};
+use crate::plot::canvas::{Canvas, Type};
 use crate::plot::sheet::fate::row_before;
 use crate::plot::sheet::paper::{Band, LEFT, Paper, badges};
 use crate::plot::style;
@@ -72,13 +72,12 @@ impl SheetPlot {
         let lines = paper.koma.div_ceil(paper.in_line).max(1);
         let line = paper.line_height();
         let height = words + line * lines as f64;
-        paint((self.width, height.ceil() as u32), |canvas| {
-            self.head(canvas, sheet, spaced.is_some())?;
-            for at in 0..lines {
-                paper.line(canvas, at, words + line * at as f64)?;
-            }
-            Ok(())
-        })
+        let mut canvas = Canvas::new((f64::from(self.width), height));
+        self.head(&mut canvas, sheet, spaced.is_some());
+        for at in 0..lines {
+            paper.line(&mut canvas, at, words + line * at as f64);
+        }
+        Ok(canvas.finish())
     }
 
     fn paper<'a>(
@@ -121,21 +120,19 @@ impl SheetPlot {
         }
     }
 
-    fn head(&self, canvas: &mut Canvas<'_>, sheet: &Sheet, spaced: bool) -> Result<(), Error> {
+    fn head(&self, canvas: &mut Canvas, sheet: &Sheet, spaced: bool) {
         let title = Type::new(style::TITLE).bold();
-        canvas.text("Timesheet タイムシート", (style::MARGIN, 34.0), title)?;
+        canvas.text("Timesheet タイムシート", (style::MARGIN, 34.0), title);
         for (at, layer) in sheet.layers.iter().enumerate() {
             let base = HEAD + 3.0 + COUNTS * at as f64;
             let width = f64::from(self.width) - 2.0 * style::MARGIN;
             let counts = counts(layer, sheet.clock.koma_rate);
             let text = style::fitted(&counts, style::WORDS, width);
-            canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS))?;
+            canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS));
         }
         let room = if self.splits.is_empty() { 760 } else { 1080 };
         if self.width >= room {
-            legend(canvas, f64::from(self.width), (spaced, !self.splits.is_empty()))
-        } else {
-            Ok(())
+            legend(canvas, f64::from(self.width), (spaced, !self.splits.is_empty()));
         }
     }
 }
@@ -159,7 +156,7 @@ fn counts(layer: &Layer, koma_rate: f64) -> String {
 }
 
 /// What the strokes mean, on the right of the title.
-fn legend(canvas: &mut Canvas<'_>, width: f64, (spaced, split): (bool, bool)) -> Result<(), Error> {
+fn legend(canvas: &mut Canvas, width: f64, (spaced, split): (bool, bool)) {
     let words = [
         "genga 原画",
         "inbetween 中割り",
@@ -180,16 +177,15 @@ fn legend(canvas: &mut Canvas<'_>, width: f64, (spaced, split): (bool, bool)) ->
     for (at, word) in shown() {
         let base = 34.0;
         match at {
-            0 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::GENGA)?,
-            1 => canvas.rect((x + 5.0, base - 7.0), (x + 12.0, base + 2.0), style::INBETWEEN)?,
-            2 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::END)?,
-            3 => canvas.line((x, base - 4.5), (x + 15.0, base - 4.5), style::INBETWEEN, 2.5)?,
-            4 => canvas.cross((x + 9.0, base - 5.0), 4.0, style::GENGA, 1.75)?,
-            5 => canvas.ring((x + 9.0, base - 5.0), 3.25, style::FAINT, 1.25)?,
-            _ => canvas.dashes((x + 9.0, base - 14.0), base + 4.0, style::INK, 1.25)?,
+            0 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::GENGA),
+            1 => canvas.rect((x + 5.0, base - 7.0), (x + 12.0, base + 2.0), style::INBETWEEN),
+            2 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::END),
+            3 => canvas.line((x, base - 4.5), (x + 15.0, base - 4.5), style::INBETWEEN, 2.5),
+            4 => canvas.cross((x + 9.0, base - 5.0), 4.0, style::GENGA, 1.75),
+            5 => canvas.ring((x + 9.0, base - 5.0), 3.25, style::FAINT, 1.25),
+            _ => canvas.dashes((x + 9.0, base - 14.0), (x + 9.0, base + 4.0), style::INK, 1.25),
         }
-        canvas.text(word, (x + 20.0, base), Type::new(style::WORDS))?;
+        canvas.text(word, (x + 20.0, base), Type::new(style::WORDS));
         x += wide(word);
     }
-    Ok(())
 }

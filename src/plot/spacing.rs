@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Clip, JointId};
 use crate::plot::axis::{Scale, number, range_with_zero};
-use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::cells::{cells, shown};
 use crate::plot::style;
 use crate::sheet::Sheet;
@@ -113,21 +113,20 @@ impl SpacingPlot {
         let walls: Vec<f64> = walls.iter().filter(inside).map(|wall| wall.0 as f64).collect();
         let begin = TOP + if speed.is_some() { SPEEDS + AXIS } else { 0.0 };
         let height = begin + ROW * rows.len() as f64 + 10.0;
-        paint((self.width, height as u32), |canvas| {
-            head(canvas, right, !walls.is_empty())?;
-            if let Some((speed, joint)) = speed {
-                speeds(canvas, speed, joint, range, right, &walls)?;
+        let mut canvas = Canvas::new((f64::from(self.width), height));
+        head(&mut canvas, right, !walls.is_empty());
+        if let Some((speed, joint)) = speed {
+            speeds(&mut canvas, speed, joint, range, right, &walls);
+        }
+        for (at, row) in rows.iter().enumerate() {
+            let top = begin + ROW * at as f64;
+            for wall in &walls {
+                let (x, y) = (time.at(*wall), top + SOURCE);
+                canvas.line((x, y - 17.0), (x, y + 17.0), style::WALL, 1.0);
             }
-            for (at, row) in rows.iter().enumerate() {
-                let top = begin + ROW * at as f64;
-                for wall in &walls {
-                    let (x, y) = (time.at(*wall), top + SOURCE);
-                    canvas.line((x, y - 17.0), (x, y + 17.0), style::WALL, 1.0)?;
-                }
-                row.draw(canvas, &time, (top, right))?;
-            }
-            Ok(())
-        })
+            row.draw(&mut canvas, &time, (top, right));
+        }
+        Ok(canvas.finish())
     }
 
     fn row<'a>(&self, clip: &Clip, name: &'a str, sheet: &Sheet) -> Result<Row<'a>, Error> {
@@ -155,8 +154,8 @@ impl SpacingPlot {
 }
 
 /// The title and, on its right, what the marks mean.
-fn head(canvas: &mut Canvas<'_>, right: f64, has_wall: bool) -> Result<(), Error> {
-    canvas.text("Spacing 詰め", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
+fn head(canvas: &mut Canvas, right: f64, has_wall: bool) {
+    canvas.text("Spacing 詰め", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
     let words = ["genga 原画", "inbetween 中割り", "even place 均等割り", "wall 壁"];
     let words = &words[..if has_wall { 4 } else { 3 }];
     let wide = |word: &&str| style::text_width(word, style::WORDS) + 36.0;
@@ -164,26 +163,25 @@ fn head(canvas: &mut Canvas<'_>, right: f64, has_wall: bool) -> Result<(), Error
     for (at, word) in words.iter().enumerate() {
         let middle = (x + 6.0, 29.0);
         match at {
-            0 => canvas.disc(middle, 6.0, style::GENGA)?,
-            1 => canvas.disc(middle, 6.0, style::INBETWEEN)?,
-            2 => canvas.ring(middle, 4.0, style::INBETWEEN, 1.25)?,
-            _ => canvas.triangle(middle, 5.5, style::WALL)?,
+            0 => canvas.disc(middle, 6.0, style::GENGA),
+            1 => canvas.disc(middle, 6.0, style::INBETWEEN),
+            2 => canvas.ring(middle, 4.0, style::INBETWEEN, 1.25),
+            _ => canvas.triangle(middle, 5.5, style::WALL),
         }
-        canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS))?;
+        canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS));
         x += wide(word);
     }
-    Ok(())
 }
 
 /// The joint's speed over the interval, its walls on it, and the frames below.
 fn speeds(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     speed: &Signals,
     joint: JointId,
     (from, to): (f64, f64),
     right: f64,
     walls: &[f64],
-) -> Result<(), Error> {
+) {
     let (people, first) = (speed.unit.for_people(), speed.first.0 as f64);
     let bottom = TOP + SPEEDS;
     let time = Scale::new((from, to), (LEFT, right));
@@ -199,98 +197,86 @@ fn speeds(
     let look = Type::new(style::SMALL).align(Align::Right);
     for value in values.ticks(34.0) {
         let y = values.at(value);
-        canvas.line((LEFT, y), (right, y), style::GRID, 1.0)?;
-        canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look)?;
+        canvas.line((LEFT, y), (right, y), style::GRID, 1.0);
+        canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look);
     }
     let words = format!("speed 速度 ({})", speed.unit.symbol());
-    canvas.text(&words, (LEFT + 6.0, TOP + 14.0), Type::new(style::SMALL).bold())?;
+    canvas.text(&words, (LEFT + 6.0, TOP + 14.0), Type::new(style::SMALL).bold());
     for frame in time.ticks(64.0) {
         let x = time.at(frame);
-        canvas.line((x, bottom), (x, bottom + 5.0), style::FAINT, 1.0)?;
-        canvas.text(&number(frame), (x, bottom + 18.0), look.align(Align::Center))?;
+        canvas.line((x, bottom), (x, bottom + 5.0), style::FAINT, 1.0);
+        canvas.text(&number(frame), (x, bottom + 18.0), look.align(Align::Center));
     }
-    canvas.text("frame", (LEFT - 18.0, bottom + 18.0), look)?;
+    canvas.text("frame", (LEFT - 18.0, bottom + 18.0), look);
     let at = |point: &(f64, f64)| (time.at(point.0), values.at(point.1));
-    canvas.path(&curve.iter().map(at).collect::<Vec<Point>>(), style::FILTERED, 1.75)?;
+    canvas.path(&curve.iter().map(at).collect::<Vec<Point>>(), style::FILTERED, 1.75);
     for wall in walls {
         let x = time.at(*wall);
-        canvas.line((x, TOP), (x, bottom), style::WALL, 1.0)?;
+        canvas.line((x, TOP), (x, bottom), style::WALL, 1.0);
         if let Some(point) = curve.iter().find(|point| point.0 >= *wall) {
-            canvas.triangle(at(point), 6.0, style::WALL)?;
+            canvas.triangle(at(point), 6.0, style::WALL);
         }
     }
-    Ok(())
 }
 
 impl Row<'_> {
-    fn draw(
-        &self,
-        canvas: &mut Canvas<'_>,
-        time: &Scale,
-        (top, right): (f64, f64),
-    ) -> Result<(), Error> {
+    fn draw(&self, canvas: &mut Canvas, time: &Scale, (top, right): (f64, f64)) {
         let words = style::fitted(self.name, style::WORDS, right - style::MARGIN);
-        canvas.text(&words, (style::MARGIN, top + NAME), Type::new(style::WORDS).bold())?;
+        canvas.text(&words, (style::MARGIN, top + NAME), Type::new(style::WORDS).bold());
         let look = Type::new(style::SMALL).color(style::FAINT);
         for (word, y) in [("source 素材", top + SOURCE), ("way 移動", top + WAY)] {
-            canvas.text(word, (style::MARGIN, y + 4.0), look)?;
-            canvas.line((LEFT, y), (right, y), style::RAW, 1.0)?;
+            canvas.text(word, (style::MARGIN, y + 4.0), look);
+            canvas.line((LEFT, y), (right, y), style::RAW, 1.0);
         }
         let last = self.stands.len() - 1;
         for (at, stand) in self.stands.iter().enumerate().filter(|(at, _)| *at > 0 && *at < last) {
             let y = top + SOURCE;
             let (even, x) = (time.at(stand.even), time.at(stand.place));
-            canvas.ring((even, y), 4.0, style::INBETWEEN, 1.25)?;
-            arrow(canvas, (even, x), y)?;
-            ball(canvas, (x, y), at, style::INBETWEEN)?;
+            canvas.ring((even, y), 4.0, style::INBETWEEN, 1.25);
+            arrow(canvas, (even, x), y);
+            ball(canvas, (x, y), at, style::INBETWEEN);
         }
         let way = Scale::new((0.0, 1.0), (LEFT, right));
         for (at, stand) in self.stands.iter().enumerate() {
             let is_genga = at == 0 || at == last;
             let color = if is_genga { style::GENGA } else { style::INBETWEEN };
             if is_genga {
-                ball(canvas, (time.at(stand.place), top + SOURCE), at, color)?;
+                ball(canvas, (time.at(stand.place), top + SOURCE), at, color);
             }
             if let Some(share) = stand.way {
-                ball(canvas, (way.at(share), top + WAY), at, color)?;
+                ball(canvas, (way.at(share), top + WAY), at, color);
             }
         }
         for (at, letter) in [(0, "A"), (last, "B")] {
             let look = Type::new(style::SMALL).bold().color(style::PAPER).align(Align::Center);
             let x = time.at(self.stands[at].place);
-            canvas.text(letter, (x, top + SOURCE + 4.0), look)?;
+            canvas.text(letter, (x, top + SOURCE + 4.0), look);
             if let Some(share) = self.stands[at].way {
-                canvas.text(letter, (way.at(share), top + WAY + 4.0), look)?;
+                canvas.text(letter, (way.at(share), top + WAY + 4.0), look);
             }
         }
-        Ok(())
     }
 }
 
 /// A drawing: inbetweens have their number, from 1.
-fn ball(
-    canvas: &mut Canvas<'_>,
-    (x, y): Point,
-    number: usize,
-    color: plotters::style::RGBColor,
-) -> Result<(), Error> {
-    canvas.disc((x, y), BALL + 1.0, style::PAPER)?;
-    canvas.disc((x, y), BALL, color)?;
+fn ball(canvas: &mut Canvas, (x, y): Point, number: usize, color: plotters::style::RGBColor) {
+    canvas.disc((x, y), BALL + 1.0, style::PAPER);
+    canvas.disc((x, y), BALL, color);
     if color == style::GENGA {
-        return Ok(());
+        return;
     }
     let look = Type::new(style::SMALL).bold().align(Align::Center);
-    canvas.text(&number.to_string(), (x, y + 4.0), look)
+    canvas.text(&number.to_string(), (x, y + 4.0), look);
 }
 
 /// From an even place to the edge of the ball that was drawn away from it, where there is room for one.
-fn arrow(canvas: &mut Canvas<'_>, (from, to): (f64, f64), y: f64) -> Result<(), Error> {
+fn arrow(canvas: &mut Canvas, (from, to): (f64, f64), y: f64) {
     let way = (to - from).signum();
     let (begin, end) = (from + 5.0 * way, to - (BALL + 2.0) * way);
     if (end - begin) * way < 6.0 {
-        return Ok(());
+        return;
     }
-    canvas.line((begin, y), (end, y), style::FAINT, 1.25)?;
+    canvas.line((begin, y), (end, y), style::FAINT, 1.25);
     let back = end - 6.0 * way;
-    canvas.area(&[(end, y), (back, y - 3.5), (back, y + 3.5)], style::FAINT)
+    canvas.area(&[(end, y), (back, y - 3.5), (back, y + 3.5)], style::FAINT);
 }

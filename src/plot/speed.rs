@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::JointId;
 use crate::plot::axis::{Scale, number, range_with_zero};
-use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::style;
 use crate::signal::{Signals, Turn, TurnKind};
 use crate::time::Frame;
@@ -136,14 +136,14 @@ impl SpeedPlot {
             top: top + step * row as f64,
             bottom: top + step * (row + 1) as f64 - GAP,
         });
-        paint((self.width, self.height), |canvas| {
-            legend::head(canvas, width, &legend)?;
-            time_axis(canvas, &shared, (top, bottom))?;
-            for panel in panels {
-                panel.draw(canvas, &shared)?;
-            }
-            numbers(canvas, &shared.keys, &lanes, top)
-        })
+        let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
+        legend::head(&mut canvas, width, &legend);
+        time_axis(&mut canvas, &shared, (top, bottom));
+        for panel in panels {
+            panel.draw(&mut canvas, &shared);
+        }
+        numbers(&mut canvas, &shared.keys, &lanes, top);
+        Ok(canvas.finish())
     }
 }
 
@@ -181,17 +181,13 @@ fn check(
 }
 
 /// Source frames on the upper line under the panels, seconds on the lower.
-fn time_axis(
-    canvas: &mut Canvas<'_>,
-    shared: &Shared<'_>,
-    (top, bottom): (f64, f64),
-) -> Result<(), Error> {
+fn time_axis(canvas: &mut Canvas, shared: &Shared<'_>, (top, bottom): (f64, f64)) {
     let fps = shared.speed.rate.fps();
     let look = Type::new(style::SMALL).align(Align::Center);
     for frame in shared.time.ticks(64.0) {
         let x = shared.time.at(frame);
-        canvas.line((x, top), (x, bottom), style::GRID, 1.0)?;
-        canvas.text(&number(frame), (x, bottom + 17.0), look)?;
+        canvas.line((x, top), (x, bottom), style::GRID, 1.0);
+        canvas.text(&number(frame), (x, bottom + 17.0), look);
     }
     let first = shared.speed.first.0 as f64;
     let last = first + (shared.speed.frames() - 1) as f64;
@@ -199,33 +195,27 @@ fn time_axis(
         Scale::new((first / fps, last / fps), (shared.time.at(first), shared.time.at(last)));
     for second in seconds.ticks(90.0) {
         let x = shared.time.at(second * fps);
-        canvas.line((x, bottom + 25.0), (x, bottom + 30.0), style::FAINT, 1.0)?;
-        canvas.text(&number(second), (x, bottom + 42.0), look.color(style::FAINT))?;
+        canvas.line((x, bottom + 25.0), (x, bottom + 30.0), style::FAINT, 1.0);
+        canvas.text(&number(second), (x, bottom + 42.0), look.color(style::FAINT));
     }
     let words = Type::new(style::SMALL).align(Align::Right);
-    canvas.text("frame", (LEFT - 18.0, bottom + 17.0), words)?;
-    canvas.text("s 秒", (LEFT - 18.0, bottom + 42.0), words.color(style::FAINT))
+    canvas.text("frame", (LEFT - 18.0, bottom + 17.0), words);
+    canvas.text("s 秒", (LEFT - 18.0, bottom + 42.0), words.color(style::FAINT));
 }
 
 /// The numbers of the layer's keys above the panels; where they would lie on each other only as many
 /// as there is room for.
-fn numbers(
-    canvas: &mut Canvas<'_>,
-    keys: &[f64],
-    lanes: &[Option<usize>],
-    top: f64,
-) -> Result<(), Error> {
+fn numbers(canvas: &mut Canvas, keys: &[f64], lanes: &[Option<usize>], top: f64) {
     for (at, (&x, lane)) in keys.iter().zip(lanes).enumerate() {
         let Some(lane) = *lane else { continue };
         let y = top - style::BADGE - 3.0 - 2.0 * style::BADGE * lane as f64;
-        canvas.line((x, y + style::BADGE), (x, top), style::GENGA_LINE, 1.0)?;
-        canvas.badge((x, y), at + 1, style::GENGA, false)?;
+        canvas.line((x, y + style::BADGE), (x, top), style::GENGA_LINE, 1.0);
+        canvas.badge((x, y), at + 1, style::GENGA, false);
     }
-    Ok(())
 }
 
 impl Panel<'_> {
-    fn draw(&self, canvas: &mut Canvas<'_>, shared: &Shared<'_>) -> Result<(), Error> {
+    fn draw(&self, canvas: &mut Canvas, shared: &Shared<'_>) {
         let unit = shared.speed.unit;
         let raw = shared.speed.joint(self.joint);
         let filtered = shared.filtered.joint(self.joint);
@@ -246,12 +236,12 @@ impl Panel<'_> {
         // A little air, so that no peak touches the name or the edge.
         let (low, high) = (least * people * 1.04, greatest * people * 1.08);
         let values = Scale::new((low, high), (self.bottom, self.top));
-        self.value_axis(canvas, shared, &values)?;
+        self.value_axis(canvas, shared, &values);
         for &x in &shared.keys {
-            canvas.line((x, self.top), (x, self.bottom), style::GENGA_LINE, 1.0)?;
+            canvas.line((x, self.top), (x, self.bottom), style::GENGA_LINE, 1.0);
         }
         for &x in &shared.splits {
-            canvas.dashes((x, self.top), self.bottom, style::INK, 1.25)?;
+            canvas.dashes((x, self.top), (x, self.bottom), style::INK, 1.25);
         }
         let place = |at: usize, value: f64| {
             let y = values.at(value * people).clamp(self.top, self.bottom);
@@ -266,12 +256,12 @@ impl Panel<'_> {
         };
         for (curve, color, width) in curves {
             for run in curve::runs(curve, place) {
-                canvas.path(&run, color, width)?;
+                canvas.path(&run, color, width);
             }
         }
         if shared.curves == SpeedCurves::Kept {
             let corners: Vec<Point> = kept.iter().map(|(row, value)| place(*row, *value)).collect();
-            canvas.path(&corners, style::GENGA, curve::KEPT)?;
+            canvas.path(&corners, style::GENGA, curve::KEPT);
         }
         let right = shared.right();
         let radius = (0.36 * (right - LEFT) / self.turns.len() as f64).clamp(2.0, 4.0);
@@ -281,60 +271,55 @@ impl Panel<'_> {
             let Some((at, &value)) = at.and_then(|at| Some((at, marked.get(at)?))) else {
                 continue;
             };
-            mark(canvas, place(at, value), radius, turn.kind)?;
+            mark(canvas, place(at, value), radius, turn.kind);
         }
         let is_cut = most.1 * people > high || most.0 * people < low;
         if shared.curves == SpeedCurves::Both && is_cut {
             let beyond = if most.1 * people > high { most.1 } else { most.0 };
             let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
             let text = format!("raw goes to {}", number((beyond * people).round()));
-            self.words(canvas, &text, right - 4.0, look)?;
+            self.words(canvas, &text, right - 4.0, look);
         }
         let title = format!("{} ({})", self.name, unit.symbol());
         let title = style::fitted(&title, style::WORDS, 400.0);
-        self.words(canvas, &title, LEFT + 6.0, Type::new(style::WORDS).bold())
+        self.words(canvas, &title, LEFT + 6.0, Type::new(style::WORDS).bold());
     }
 
     /// Words at the panel's upper edge, on white.
-    fn words(&self, canvas: &mut Canvas<'_>, text: &str, x: f64, look: Type) -> Result<(), Error> {
+    fn words(&self, canvas: &mut Canvas, text: &str, x: f64, look: Type) {
         let wide = style::text_width(text, look.size) + 4.0;
         let left = if look.align == Align::Right { x - wide } else { x - 4.0 };
         let corner = (left + wide + 4.0, self.top + 20.0);
-        canvas.rect((left, self.top), corner, style::PAPER)?;
-        canvas.text(text, (x, self.top + 15.0), look)
+        canvas.rect((left, self.top), corner, style::PAPER);
+        canvas.text(text, (x, self.top + 15.0), look);
     }
 
-    fn value_axis(
-        &self,
-        canvas: &mut Canvas<'_>,
-        shared: &Shared<'_>,
-        values: &Scale,
-    ) -> Result<(), Error> {
+    fn value_axis(&self, canvas: &mut Canvas, shared: &Shared<'_>, values: &Scale) {
         let right = shared.right();
         let look = Type::new(style::SMALL).align(Align::Right);
         for value in values.ticks(34.0) {
             let y = values.at(value);
             let color = if value == 0.0 { style::FAINT } else { style::GRID };
-            canvas.line((LEFT, y), (right, y), color, 1.0)?;
-            canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look)?;
+            canvas.line((LEFT, y), (right, y), color, 1.0);
+            canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look);
         }
-        canvas.line((LEFT, self.top), (LEFT, self.bottom), style::FAINT, 1.0)
+        canvas.line((LEFT, self.top), (LEFT, self.bottom), style::FAINT, 1.0);
     }
 }
 
-fn mark(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, kind: TurnKind) -> Result<(), Error> {
+fn mark(canvas: &mut Canvas, (x, y): Point, radius: f64, kind: TurnKind) {
     // A white rim keeps a mark apart from the curve; small ones stand too close for it.
     let rim = radius > 3.0;
     match kind {
         TurnKind::Key => {
             if rim {
-                canvas.disc((x, y), radius + 1.0, style::PAPER)?;
+                canvas.disc((x, y), radius + 1.0, style::PAPER);
             }
             canvas.disc((x, y), radius, style::GENGA)
         }
         TurnKind::Wall => {
             if rim {
-                canvas.triangle((x, y), radius + 2.5, style::PAPER)?;
+                canvas.triangle((x, y), radius + 2.5, style::PAPER);
             }
             canvas.triangle((x, y), radius + 1.0, style::WALL)
         }

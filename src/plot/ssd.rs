@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Clip, Screen, SeenFrom};
 use crate::plot::axis::{Scale, number};
-use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::cells::shown;
 use crate::plot::sheet::fate::{Fate, fates};
 use crate::plot::style;
@@ -124,24 +124,26 @@ impl SsdPlot {
             floors: (floor, floor + SIGNS + BETWEEN + high),
             high,
         };
-        paint((self.width, self.height), |canvas| paper.draw(canvas))
+        let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
+        paper.draw(&mut canvas);
+        Ok(canvas.finish())
     }
 }
 
 impl Paper<'_> {
-    fn draw(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
-        self.head(canvas)?;
+    fn draw(&self, canvas: &mut Canvas) {
+        self.head(canvas);
         let most = self.source.largest().max(self.result.largest());
         let (above, below) = self.floors;
         for (floor, words) in [(above, "source 素材"), (below, "result 結果")] {
-            self.grid(canvas, floor, most)?;
+            self.grid(canvas, floor, most);
             let base = floor - self.high - 7.0;
-            canvas.text(words, (style::MARGIN, base), Type::new(style::WORDS).bold())?;
+            canvas.text(words, (style::MARGIN, base), Type::new(style::WORDS).bold());
         }
         let scale = |floor: f64| Scale::new((0.0, most.sqrt()), (floor, floor - self.high));
-        self.above(canvas, &scale(above))?;
-        self.below(canvas, &scale(below))?;
-        self.koma_numbers(canvas)
+        self.above(canvas, &scale(above));
+        self.below(canvas, &scale(below));
+        self.koma_numbers(canvas);
     }
 
     /// The left edge of a koma.
@@ -150,7 +152,7 @@ impl Paper<'_> {
     }
 
     /// What was done, in numbers, and what the signs mean.
-    fn head(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+    fn head(&self, canvas: &mut Canvas) {
         let title = Type::new(style::TITLE).bold();
         let (words, seen) = if self.seen_from.is_world() {
             ("Movement into each koma 動きの大きさ", String::new())
@@ -158,7 +160,7 @@ impl Paper<'_> {
             let seen = format!("  ·  seen from 見る位置 {}", self.seen_from);
             ("Movement on screen into each koma 画面での動きの大きさ", seen)
         };
-        canvas.text(words, (style::MARGIN, 34.0), title)?;
+        canvas.text(words, (style::MARGIN, 34.0), title);
         let count = |fate| self.fates.iter().filter(|of_drawing| **of_drawing == fate).count();
         let (left_out, held) = (count(Fate::LeftOut), count(Fate::Held));
         let (was, is) = (self.source.largest(), self.result.largest());
@@ -169,58 +171,53 @@ impl Paper<'_> {
             self.koma
         );
         let facts = style::fitted(&facts, style::WORDS, self.right - style::MARGIN);
-        canvas.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT))?;
-        if self.right < 736.0 { Ok(()) } else { self.legend(canvas) }
+        canvas.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
+        if self.right >= 736.0 {
+            self.legend(canvas);
+        }
     }
 
-    fn legend(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+    fn legend(&self, canvas: &mut Canvas) {
         let words = ["left out 中無し", "held コマ撮り", "a koma longer", "own drawing"];
         let wide = |word: &str| style::text_width(word, style::WORDS) + 34.0;
         let mut x = self.right + 14.0 - words.iter().map(|word| wide(word)).sum::<f64>();
         for (at, word) in words.into_iter().enumerate() {
             let sign = (x + 7.0, 29.0);
             match at {
-                0 => canvas.cross(sign, 4.0, style::GENGA, 1.75)?,
-                1 => canvas.ring(sign, 3.25, style::FAINT, 1.25)?,
-                2 => plus(canvas, sign, 3.5)?,
-                _ => canvas.rect((x + 5.0, 23.0), (x + 9.0, 35.0), OWN)?,
+                0 => canvas.cross(sign, 4.0, style::GENGA, 1.75),
+                1 => canvas.ring(sign, 3.25, style::FAINT, 1.25),
+                2 => plus(canvas, sign, 3.5),
+                _ => canvas.rect((x + 5.0, 23.0), (x + 9.0, 35.0), OWN),
             }
-            canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS))?;
+            canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS));
             x += wide(word);
         }
-        Ok(())
     }
 
     /// Lines to read the SSD and the seconds by.
-    fn grid(&self, canvas: &mut Canvas<'_>, floor: f64, most: f64) -> Result<(), Error> {
+    fn grid(&self, canvas: &mut Canvas, floor: f64, most: f64) {
         let top = floor - self.high;
         for koma in (0..=self.koma).step_by(self.second) {
-            canvas.line((self.x(koma), top), (self.x(koma), floor), style::GRID, 1.0)?;
+            canvas.line((self.x(koma), top), (self.x(koma), floor), style::GRID, 1.0);
         }
         let scale = Scale::new((0.0, most.sqrt()), (floor, top));
         let look = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
         for root in scale.ticks(30.0) {
             let y = scale.at(root);
-            canvas.line((LEFT, y), (self.right, y), style::GRID, 1.0)?;
-            canvas.text(&number(root * root), (LEFT - 8.0, y + 4.0), look)?;
+            canvas.line((LEFT, y), (self.right, y), style::GRID, 1.0);
+            canvas.text(&number(root * root), (LEFT - 8.0, y + 4.0), look);
         }
-        canvas.line((LEFT, floor), (self.right, floor), style::FAINT, 1.0)
+        canvas.line((LEFT, floor), (self.right, floor), style::FAINT, 1.0);
     }
 
-    fn bar(
-        &self,
-        canvas: &mut Canvas<'_>,
-        (koma, ssd): (usize, f64),
-        scale: &Scale,
-        color: RGBColor,
-    ) -> Result<(), Error> {
+    fn bar(&self, canvas: &mut Canvas, (koma, ssd): (usize, f64), scale: &Scale, color: RGBColor) {
         let gap = (0.12 * self.slot).clamp(0.0, 3.0);
         let (left, right) = (self.x(koma) + gap, self.x(koma + 1) - gap);
-        canvas.rect((left, scale.at(ssd.sqrt())), (right, scale.at(0.0)), color)
+        canvas.rect((left, scale.at(ssd.sqrt())), (right, scale.at(0.0)), color);
     }
 
     /// The source, and what was done to each of its drawings.
-    fn above(&self, canvas: &mut Canvas<'_>, scale: &Scale) -> Result<(), Error> {
+    fn above(&self, canvas: &mut Canvas, scale: &Scale) {
         let floor = scale.at(0.0);
         let radius = (0.42 * self.slot).clamp(1.5, 4.0);
         for ((koma, exposure), begin) in self.before.timed().zip(&self.source.begins) {
@@ -230,20 +227,19 @@ impl Paper<'_> {
                 Fate::LeftOut => style::GENGA,
                 Fate::Held => style::RAW,
             };
-            self.bar(canvas, (koma, self.source.ssd[*begin]), scale, color)?;
+            self.bar(canvas, (koma, self.source.ssd[*begin]), scale, color);
             let sign = (self.x(koma) + 0.5 * self.slot, floor + 10.0);
             match fate {
-                Fate::LeftOut => canvas.cross(sign, radius, style::GENGA, 1.5)?,
-                Fate::Held => canvas.ring(sign, 0.8 * radius, style::FAINT, 1.0)?,
+                Fate::LeftOut => canvas.cross(sign, radius, style::GENGA, 1.5),
+                Fate::Held => canvas.ring(sign, 0.8 * radius, style::FAINT, 1.0),
                 Fate::Stays => {
                     for more in 0..self.given(exposure.drawing) {
                         let y = sign.1 + 2.4 * radius * more as f64;
-                        plus(canvas, (sign.0, y), radius)?;
+                        plus(canvas, (sign.0, y), radius);
                     }
                 }
             }
         }
-        Ok(())
     }
 
     /// Koma that naka-nashi gave to a drawing.
@@ -254,41 +250,40 @@ impl Paper<'_> {
     }
 
     /// The result; red where drawings are left out before it.
-    fn below(&self, canvas: &mut Canvas<'_>, scale: &Scale) -> Result<(), Error> {
+    fn below(&self, canvas: &mut Canvas, scale: &Scale) {
         let floor = scale.at(0.0);
         for (koma, exposure) in self.after.timed() {
             let omitted = self.after.drawings[exposure.drawing].why.omitted_before;
             let color = if omitted > 0 { style::GENGA } else { OWN };
             let ssd = self.result.ssd[koma];
-            self.bar(canvas, (koma, ssd), scale, color)?;
+            self.bar(canvas, (koma, ssd), scale, color);
             let x = self.x(koma) + 0.5 * self.slot;
             let half = (0.25 * self.slot).clamp(0.5, 2.0);
-            canvas.rect((x - half, floor + 4.0), (x + half, floor + STROKES), OWN)?;
+            canvas.rect((x - half, floor + 4.0), (x + half, floor + STROKES), OWN);
             if omitted > 0 {
                 let look = Type::new(style::SMALL).bold().color(style::GENGA);
                 let at: Point = (self.x(koma + 1) + 5.0, scale.at(ssd.sqrt()) + 10.0);
-                canvas.text(&format!("中無し {omitted}"), at, look)?;
+                canvas.text(&format!("中無し {omitted}"), at, look);
             }
         }
-        Ok(())
     }
 
-    fn koma_numbers(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+    fn koma_numbers(&self, canvas: &mut Canvas) {
         let base = self.floors.1 + STROKES + 18.0;
         let look = Type::new(style::SMALL).align(Align::Center);
         let steps = [1, 6, 12, 24, 48, 144, 480];
         let step = steps.into_iter().find(|step| *step as f64 * self.slot > 36.0).unwrap_or(1440);
         for koma in (0..self.koma).filter(|koma| *koma == 0 || (koma + 1) % step == 0) {
             let x = self.x(koma) + 0.5 * self.slot;
-            canvas.text(&(koma + 1).to_string(), (x, base), look)?;
+            canvas.text(&(koma + 1).to_string(), (x, base), look);
         }
         let look = look.align(Align::Right).color(style::FAINT);
-        canvas.text("koma", (LEFT - 8.0, base), look)
+        canvas.text("koma", (LEFT - 8.0, base), look);
     }
 }
 
 /// A +: a koma more.
-fn plus(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64) -> Result<(), Error> {
-    canvas.line((x - radius, y), (x + radius, y), OWN, 1.75)?;
-    canvas.line((x, y - radius), (x, y + radius), OWN, 1.75)
+fn plus(canvas: &mut Canvas, (x, y): Point, radius: f64) {
+    canvas.line((x - radius, y), (x + radius, y), OWN, 1.75);
+    canvas.line((x, y - radius), (x, y + radius), OWN, 1.75);
 }

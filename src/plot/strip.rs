@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::Clip;
-use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{
     Cell, beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
 };
@@ -15,7 +15,6 @@ use crate::plot::page::{self, Head};
 use crate::plot::points::Posing;
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 use crate::sheet::{Sheet, Source};
 
 /// Source above, result below, koma by koma (\[KKMFT\] figures 4 to 7). What naka-nashi left out is
@@ -177,12 +176,12 @@ impl Lines<'_> {
     fn page(&self, lines: std::ops::Range<usize>, width: f64, head: &Head<'_>) -> String {
         let line = NUMBERS + 2.0 * self.high + BETWEEN + BRACKETS + BETWEEN_LINES;
         let height = page::HEAD + line * lines.len() as f64 - BETWEEN_LINES + style::MARGIN;
-        let mut svg = Svg::new((width, height));
-        head.draw(&mut svg, width);
+        let mut canvas = Canvas::new((width, height));
+        head.draw(&mut canvas, width);
         for (at, number) in lines.enumerate() {
-            self.line(&mut svg, number * self.in_line, page::HEAD + line * at as f64);
+            self.line(&mut canvas, number * self.in_line, page::HEAD + line * at as f64);
         }
-        svg.finish()
+        canvas.finish()
     }
 
     fn x(&self, koma: usize) -> f64 {
@@ -190,63 +189,69 @@ impl Lines<'_> {
     }
 
     /// One line, from a koma on.
-    fn line(&self, svg: &mut Svg, begin: usize, y: f64) {
+    fn line(&self, canvas: &mut Canvas, begin: usize, y: f64) {
         let end = (begin + self.in_line).min(self.source.len());
         let above = y + NUMBERS + self.high;
         let below = above + BETWEEN + self.high;
         let right = self.x(end - 1) + self.column;
         for (floor, words) in [(above, ["source", "素材"]), (below, ["result", "結果"])] {
-            svg.line((style::MARGIN + SIDE, floor), (right, floor), style::RAW, 1.0);
+            canvas.line((style::MARGIN + SIDE, floor), (right, floor), style::RAW, 1.0);
             let look = Type::new(style::WORDS).bold();
-            svg.text(words[0], (style::MARGIN, floor - 18.0), look);
-            svg.text(words[1], (style::MARGIN, floor - 2.0), Type::new(style::WORDS));
+            canvas.text(words[0], (style::MARGIN, floor - 18.0), look);
+            canvas.text(words[1], (style::MARGIN, floor - 2.0), Type::new(style::WORDS));
         }
         for koma in begin..end {
             let middle = self.x(koma) + 0.5 * self.column;
-            self.koma_number(svg, koma, (middle, y + 13.0));
+            self.koma_number(canvas, koma, (middle, y + 13.0));
             let inks = if self.passed[koma] { Inks::Faded(0.45) } else { Inks::Sides };
-            svg.figure(&self.stage.draw_over(&self.source[koma], (middle, above)), inks);
+            canvas.figure(&self.stage.draw_over(&self.source[koma], (middle, above)), inks);
             if self.passed[koma] {
-                svg.cross((middle, above + 9.0), 4.5, style::GENGA, 1.75);
+                canvas.cross((middle, above + 9.0), 4.5, style::GENGA, 1.75);
             }
         }
         // Cells in time's order: those of this line lie together.
         let from = self.cells.partition_point(|cell| cell.koma + cell.held <= begin);
         for cell in self.cells[from..].iter().take_while(|cell| cell.koma < end) {
             let on_line = cell.koma.max(begin)..(cell.koma + cell.held).min(end);
-            self.exposure(svg, cell, on_line, below);
+            self.exposure(canvas, cell, on_line, below);
         }
     }
 
-    fn koma_number(&self, svg: &mut Svg, koma: usize, at: Point) {
+    fn koma_number(&self, canvas: &mut Canvas, koma: usize, at: Point) {
         let second = self.koma_rate.round().max(1.0) as usize;
         let look = Type::new(style::SMALL).align(Align::Center);
         if koma.is_multiple_of(second) {
             let text = format!("{} · {}", koma + 1, seconds_and_koma(koma, self.koma_rate));
-            svg.text(&text, at, look.bold());
+            canvas.text(&text, at, look.bold());
         } else {
-            svg.text(&(koma + 1).to_string(), at, look.color(style::FAINT));
+            canvas.text(&(koma + 1).to_string(), at, look.color(style::FAINT));
         }
     }
 
     /// A drawing below, its repeats, its bracket and the gap before it.
-    fn exposure(&self, svg: &mut Svg, cell: &Cell<'_>, koma: std::ops::Range<usize>, floor: f64) {
+    fn exposure(
+        &self,
+        canvas: &mut Canvas,
+        cell: &Cell<'_>,
+        koma: std::ops::Range<usize>,
+        floor: f64,
+    ) {
         for at in koma.clone() {
             let pose = self.sliding.as_ref().map_or(&self.result[cell.index], |poses| &poses[at]);
             let inks = if at == cell.koma { Inks::Sides } else { Inks::Faded(REPEATED) };
             let middle = self.x(at) + 0.5 * self.column;
-            svg.figure(&self.stage.draw_over(pose, (middle, floor)), inks);
+            canvas.figure(&self.stage.draw_over(pose, (middle, floor)), inks);
         }
         let color = style::of_role(cell.drawing.role);
         let label = (self.x(koma.start) + 0.5 * self.column, floor + 15.0);
         if koma.start == cell.koma {
             match cell.genga {
-                Some(genga) => svg.badge(label, genga, color, cell.is_pinned()),
-                None => svg.disc(label, 3.0, Some(color), None),
+                Some(genga) => canvas.badge(label, genga, color, cell.is_pinned()),
+                None => canvas.disc(label, 3.0, color),
             }
             let look = Type::new(style::SMALL).color(style::FAINT);
-            svg.text(&cell.number().to_string(), (label.0 + 12.0, label.1 + 4.0), look);
-            self.gap(svg, cell, floor);
+            canvas.text(&cell.number().to_string(), (label.0 + 12.0, label.1 + 4.0), look);
+            self.gap(canvas, cell, floor);
         }
         if cell.held > 1 {
             let (left, right) =
@@ -260,19 +265,19 @@ impl Lines<'_> {
             if koma.end == cell.koma + cell.held {
                 path.push((right, y - 4.0));
             }
-            svg.path(&path, color, 1.5);
+            canvas.path(&path, color, 1.5);
         }
     }
 
-    fn gap(&self, svg: &mut Svg, cell: &Cell<'_>, floor: f64) {
+    fn gap(&self, canvas: &mut Canvas, cell: &Cell<'_>, floor: f64) {
         let omitted = cell.drawing.why.omitted_before;
         if omitted == 0 {
             return;
         }
         let x = self.x(cell.koma);
         let top = floor - self.high + 8.0;
-        svg.dashes((x, top), (x, floor + 24.0), style::GENGA, 1.5);
+        canvas.dashes((x, top), (x, floor + 24.0), style::GENGA, 1.5);
         let look = Type::new(style::SMALL).bold().color(style::GENGA).align(Align::Center);
-        svg.text(&format!("中無し {omitted}"), (x, top - 6.0), look);
+        canvas.text(&format!("中無し {omitted}"), (x, top - 6.0), look);
     }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::plot::axis::{Scale, number, range_with_zero};
-use crate::plot::canvas::{Align, Canvas, Point, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::style;
 use crate::study::{Axis, Grid, Measure, medians};
 
@@ -95,35 +95,34 @@ impl StudyPlot {
         };
         let at = Places::of(&grid.x);
         let chart = Chart::new(self, &at, medians.iter().chain(clips.iter().flatten()), &paper);
-        paint((self.width, self.height), |canvas| {
-            chart.axes(canvas, &at)?;
-            chart.words(canvas, self.show, grids)?;
-            for (y, color) in colors(grid.rows()).into_iter().enumerate() {
-                for values in &clips {
-                    let faded = style::mixed(color, style::PAPER, 0.65);
-                    canvas.path(&chart.line(&at, values, y, grid.rows()), faded, 1.0)?;
-                }
+        let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
+        chart.axes(&mut canvas, &at);
+        chart.words(&mut canvas, self.show, grids);
+        for (y, color) in colors(grid.rows()).into_iter().enumerate() {
+            for values in &clips {
+                let faded = style::mixed(color, style::PAPER, 0.65);
+                canvas.path(&chart.line(&at, values, y, grid.rows()), faded, 1.0);
             }
-            for Mark { at, line } in &paper {
-                let color = line.map_or(style::FAINT, |y| colors(grid.rows())[y]);
-                canvas.ring((chart.x.at(at.0), chart.y.at(at.1)), 5.5, color, 1.75)?;
-            }
-            let mut ends = Vec::new();
-            for (y, color) in colors(grid.rows()).into_iter().enumerate() {
-                let line = chart.line(&at, &medians, y, grid.rows());
-                canvas.path(&line, color, 2.0)?;
-                let radius = if at.numbers.len() > 30 { 2.5 } else { 4.0 };
-                line.iter().try_for_each(|point| canvas.disc(*point, radius, color))?;
-                ends.extend(line.last().map(|end| (*end, y, color)));
-            }
-            if self.paper {
-                chart.legend_of_paper(canvas)?;
-            }
-            match &grid.y {
-                Some(y) => chart.names(canvas, y, ends),
-                None => Ok(()),
-            }
-        })
+        }
+        for Mark { at, line } in &paper {
+            let color = line.map_or(style::FAINT, |y| colors(grid.rows())[y]);
+            canvas.ring((chart.x.at(at.0), chart.y.at(at.1)), 5.5, color, 1.75);
+        }
+        let mut ends = Vec::new();
+        for (y, color) in colors(grid.rows()).into_iter().enumerate() {
+            let line = chart.line(&at, &medians, y, grid.rows());
+            canvas.path(&line, color, 2.0);
+            let radius = if at.numbers.len() > 30 { 2.5 } else { 4.0 };
+            line.iter().for_each(|point| canvas.disc(*point, radius, color));
+            ends.extend(line.last().map(|end| (*end, y, color)));
+        }
+        if self.paper {
+            chart.legend_of_paper(&mut canvas);
+        }
+        if let Some(y) = &grid.y {
+            chart.names(&mut canvas, y, ends);
+        }
+        Ok(canvas.finish())
     }
 }
 
@@ -247,59 +246,54 @@ impl Chart {
         points
     }
 
-    fn axes(&self, canvas: &mut Canvas<'_>, at: &Places) -> Result<(), Error> {
+    fn axes(&self, canvas: &mut Canvas, at: &Places) {
         let (right, bottom) = (self.width - RIGHT, self.height - BOTTOM);
         let look = Type::new(style::SMALL);
         for value in self.y.ticks(44.0) {
             let at = self.y.at(value);
-            canvas.line((LEFT, at), (right, at), style::GRID, 1.0)?;
+            canvas.line((LEFT, at), (right, at), style::GRID, 1.0);
             let look = look.align(Align::Right);
-            canvas.text(&number(value), (LEFT - 8.0, at + 4.0), look)?;
+            canvas.text(&number(value), (LEFT - 8.0, at + 4.0), look);
         }
-        canvas.line((LEFT, bottom), (right, bottom), style::FAINT, 1.0)?;
+        canvas.line((LEFT, bottom), (right, bottom), style::FAINT, 1.0);
         let ticks: Vec<(f64, String)> = match &at.words {
             Some(words) => at.numbers.iter().copied().zip(words.iter().cloned()).collect(),
             None => self.x.ticks(70.0).into_iter().map(|tick| (tick, number(tick))).collect(),
         };
         for (value, word) in ticks {
             let at = self.x.at(value);
-            canvas.line((at, bottom), (at, bottom + 5.0), style::FAINT, 1.0)?;
-            canvas.text(&word, (at, bottom + 19.0), look.align(Align::Center))?;
+            canvas.line((at, bottom), (at, bottom + 5.0), style::FAINT, 1.0);
+            canvas.text(&word, (at, bottom + 19.0), look.align(Align::Center));
         }
         let middle = 0.5 * (LEFT + right);
         let look = Type::new(style::WORDS).align(Align::Center);
-        canvas.text(&at.name, (middle, bottom + 44.0), look)
+        canvas.text(&at.name, (middle, bottom + 44.0), look);
     }
 
     /// The title and what the lines are.
-    fn words(&self, canvas: &mut Canvas<'_>, show: Measure, grids: &[Grid]) -> Result<(), Error> {
-        title(canvas, show)?;
+    fn words(&self, canvas: &mut Canvas, show: Measure, grids: &[Grid]) {
+        title(canvas, show);
         let faint = Type::new(style::WORDS).color(style::FAINT);
         let of_clips = match grids.len() {
             1 => String::new(),
             clips => format!("median of {clips} clips, each of them a thin line"),
         };
-        canvas.text(&of_clips, (style::MARGIN, 58.0), faint)?;
-        let Some(y) = &grids[0].y else { return Ok(()) };
+        canvas.text(&of_clips, (style::MARGIN, 58.0), faint);
+        let Some(y) = &grids[0].y else { return };
         let unit = y.scale().map_or("", |(_, unit)| unit);
         let place = (self.width - style::MARGIN, 58.0);
-        canvas.text(&name(y, unit), place, faint.align(Align::Right))
+        canvas.text(&name(y, unit), place, faint.align(Align::Right));
     }
 
-    fn legend_of_paper(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+    fn legend_of_paper(&self, canvas: &mut Canvas) {
         let right = self.width - style::MARGIN;
-        canvas.ring((right - 158.0, 29.0), 5.5, style::INK, 1.75)?;
-        canvas.text("Kuroda & Tokoi, Table 1", (right - 146.0, 34.0), Type::new(style::WORDS))
+        canvas.ring((right - 158.0, 29.0), 5.5, style::INK, 1.75);
+        canvas.text("Kuroda & Tokoi, Table 1", (right - 146.0, 34.0), Type::new(style::WORDS));
     }
 
     /// The values of the second setting beside the ends of their lines, moved apart where they would
     /// lie on each other; of many lines, whose colours are in order, a few.
-    fn names(
-        &self,
-        canvas: &mut Canvas<'_>,
-        y: &Axis,
-        mut ends: Vec<(Point, usize, RGBColor)>,
-    ) -> Result<(), Error> {
+    fn names(&self, canvas: &mut Canvas, y: &Axis, mut ends: Vec<(Point, usize, RGBColor)>) {
         const LINE: f64 = 17.0;
         let (last, every) = (ends.len() - 1, ends.len().div_ceil(COLORS.len()));
         ends.retain(|(_, y, _)| every == 1 || *y == last || (y % every == 0 && y + every <= last));
@@ -318,15 +312,14 @@ impl Chart {
         }
         for ((end, y_at, color), base) in ends.into_iter().zip(bases) {
             let look = Type::new(style::WORDS).bold().color(color);
-            canvas.text(&y.values()[y_at], (end.0 + 12.0, base), look)?;
+            canvas.text(&y.values()[y_at], (end.0 + 12.0, base), look);
         }
-        Ok(())
     }
 }
 
 /// What is drawn, in both languages.
-pub(super) fn title(canvas: &mut Canvas<'_>, show: Measure) -> Result<(), Error> {
-    canvas.text(&headline(show), (style::MARGIN, 34.0), Type::new(style::TITLE).bold())
+pub(super) fn title(canvas: &mut Canvas, show: Measure) {
+    canvas.text(&headline(show), (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
 }
 
 /// The measure in both languages.

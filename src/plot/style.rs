@@ -89,6 +89,19 @@ pub(super) fn fitted(text: &str, size: f64, width: f64) -> String {
     kept + "…"
 }
 
+/// Reasons, one after the other, on as many lines as they need; one that is wider than a line is cut.
+pub(super) fn lines(reasons: &[String], size: f64, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for reason in reasons {
+        let longer = lines.last().map(|line| format!("{line} · {reason}"));
+        match longer.filter(|line| text_width(line, size) <= width) {
+            Some(longer) => *lines.last_mut().expect("there is one to be longer") = longer,
+            None => lines.push(fitted(reason, size, width)),
+        }
+    }
+    lines
+}
+
 /// Puts marks of a width at places from left to right into the first lane with room; none where
 /// all lanes are full.
 pub(super) fn lanes(places: &[f64], width: f64, lanes: usize) -> Vec<Option<usize>> {

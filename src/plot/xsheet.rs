@@ -107,10 +107,10 @@ impl XSheet {
             .collect();
         let mut pages = Vec::new();
         for page in Page::all(self, cut, sheet, &leaves) {
-            pages.push(page::draw(&page)?);
+            pages.push(page::draw(&page));
         }
         if self.gauges {
-            pages.extend(gauge_page::draw(self, cut, clip, sheet, &leaves)?);
+            pages.extend(gauge_page::draw(self, cut, clip, sheet, &leaves));
         }
         Ok(pages)
     }

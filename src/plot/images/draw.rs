@@ -3,13 +3,13 @@
 use super::NumberedImages;
 use crate::error::Error;
 use crate::motion::{Clip, Composite};
+use crate::plot::canvas::{Canvas, Inks};
 use crate::plot::cells::{composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};
 use crate::plot::points::Showing;
 use crate::plot::stage::{Bounds, Stage};
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 use crate::sheet::Sheet;
 
 /// The share of the picture on each side that figures stay out of: the safe area's edge.
@@ -67,23 +67,26 @@ impl NumberedImages {
     /// What all images have behind the figure.
     fn backdrop(&self, stage: &Stage) -> String {
         let (width, height) = self.inside(1.0);
-        let mut svg =
-            if self.transparent { Svg::clear((width, height)) } else { Svg::new((width, height)) };
+        let mut canvas = if self.transparent {
+            Canvas::clear((width, height))
+        } else {
+            Canvas::new((width, height))
+        };
         if !self.marks {
-            return svg.finish();
+            return canvas.finish();
         }
         let (x, y) = self.inside(SAFE);
-        svg.rect((x, y), (width - 2.0 * x, height - 2.0 * y), None, Some(style::GRID), 0.0);
-        svg.line((x, stage.at.1), (width - x, stage.at.1), style::GRID, 1.25);
+        canvas.frame((x, y), (width - 2.0 * x, height - 2.0 * y), style::GRID, 0.0);
+        canvas.line((x, stage.at.1), (width - x, stage.at.1), style::GRID, 1.25);
         let arm = 0.02 * height;
         for x in [1.5 * arm, width - 1.5 * arm] {
             for y in [1.5 * arm, height - 1.5 * arm] {
-                svg.line((x - arm, y), (x + arm, y), style::INK, 1.0);
-                svg.line((x, y - arm), (x, y + arm), style::INK, 1.0);
-                svg.disc((x, y), 0.5 * arm, None, Some((style::INK, 1.0)));
+                canvas.line((x - arm, y), (x + arm, y), style::INK, 1.0);
+                canvas.line((x, y - arm), (x, y + arm), style::INK, 1.0);
+                canvas.hoop((x, y), 0.5 * arm, style::INK, 1.0);
             }
         }
-        svg.finish()
+        canvas.finish()
     }
 }
 

@@ -5,14 +5,13 @@ use glam::DVec3;
 use super::Preview;
 use crate::error::Error;
 use crate::motion::Composite;
-use crate::plot::canvas::{Align, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};
 use crate::plot::points::{Posing, Showing};
 use crate::plot::stage::{Bounds, Stage};
 use crate::plot::style;
-use crate::plot::svg::{Inks, Svg};
 use crate::sheet::{Layer, Role, Sheet, Source};
 use crate::time::Clock;
 
@@ -165,36 +164,36 @@ fn backdrop(
 ) -> String {
     let (width, height) = size;
     let half = 0.5 * width;
-    let mut svg = Svg::new(size);
+    let mut canvas = Canvas::new(size);
     let floor = height - BOTTOM;
     for (panel, words) in [(0.0, "source 素材"), (1.0, "result 結果")] {
         let x = panel * half;
-        svg.text(words, (x + PAD, 27.0), Type::new(style::WORDS).bold());
-        svg.line((x + PAD, floor), (x + half - PAD, floor), style::RAW, 1.25);
+        canvas.text(words, (x + PAD, 27.0), Type::new(style::WORDS).bold());
+        canvas.line((x + PAD, floor), (x + half - PAD, floor), style::RAW, 1.25);
     }
-    svg.line((half, 12.0), (half, floor), style::GRID, 1.0);
+    canvas.line((half, 12.0), (half, floor), style::GRID, 1.0);
     let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Right);
-    svg.text("drawing 動画", (width - PAD - 46.0, 27.0), look);
+    canvas.text("drawing 動画", (width - PAD - 46.0, 27.0), look);
     if follows {
-        svg.text("camera goes along", (half - PAD, 27.0), look);
+        canvas.text("camera goes along", (half - PAD, 27.0), look);
     }
-    bars(&mut svg, cells, koma, size);
+    bars(&mut canvas, cells, koma, size);
     let base = height - 10.0;
-    svg.text("koma", (PAD, base), Type::new(style::WORDS).color(style::FAINT));
+    canvas.text("koma", (PAD, base), Type::new(style::WORDS).color(style::FAINT));
     let length = seconds_and_koma(layer.length(), sheet.clock.koma_rate);
     let more =
         if koma < layer.length() { format!(", the first {koma} shown") } else { String::new() };
     let of = format!("of {} (尺 {length}){more}", layer.length());
     let faint = Type::new(style::WORDS).color(style::FAINT);
-    svg.text(&of, (PAD + 76.0, base), faint);
+    canvas.text(&of, (PAD + 76.0, base), faint);
     let left = PAD + 90.0 + style::text_width(&of, style::WORDS);
     let cut = style::fitted(cut, style::WORDS, width - PAD - left);
-    svg.text(&cut, (width - PAD, base), faint.align(Align::Right));
-    svg.finish()
+    canvas.text(&cut, (width - PAD, base), faint.align(Align::Right));
+    canvas.finish()
 }
 
 /// A bar an exposure, its colour by its role.
-fn bars(svg: &mut Svg, cells: &[Cell<'_>], koma: usize, size: (f64, f64)) {
+fn bars(canvas: &mut Canvas, cells: &[Cell<'_>], koma: usize, size: (f64, f64)) {
     let one = bar_width(size, koma);
     let (high, up) = BARS;
     let y = size.1 - up;
@@ -206,6 +205,6 @@ fn bars(svg: &mut Svg, cells: &[Cell<'_>], koma: usize, size: (f64, f64)) {
             role => style::of_role(role),
         };
         let gap = if one >= 3.0 { 1.0 } else { 0.0 };
-        svg.rect(from, (one * held as f64 - gap, high), Some(color), None, 0.0);
+        canvas.rect(from, (from.0 + one * held as f64 - gap, y + high), color);
     }
 }

@@ -1,6 +1,5 @@
 //! The lines of koma that a timesheet is drawn on.
 
-use crate::error::Error;
 use crate::plot::axis::number;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::sheet::fate::Fate;
@@ -100,40 +99,34 @@ impl Paper<'_> {
     }
 
     /// One line of koma, from its seconds above to its koma numbers below.
-    pub(super) fn line(&self, canvas: &mut Canvas<'_>, at: usize, top: f64) -> Result<(), Error> {
+    pub(super) fn line(&self, canvas: &mut Canvas, at: usize, top: f64) {
         let begin = at * self.in_line;
         let koma = self.in_line.min(self.koma - begin.min(self.koma));
         let bottom = top + self.line_height() - KOMA - BETWEEN_LINES;
-        self.grid(canvas, (begin, koma), (top, bottom))?;
+        self.grid(canvas, (begin, koma), (top, bottom));
         for split in self.splits.iter().filter(|split| (begin..begin + koma).contains(*split)) {
             let x = self.x(split - begin);
-            canvas.dashes((x, top + SECONDS - 3.0), bottom + 9.0, style::INK, 1.25)?;
+            canvas.dashes((x, top + SECONDS - 3.0), (x, bottom + 9.0), style::INK, 1.25);
         }
         let mut y = top + SECONDS;
         if let Some(ssd) = self.ssd {
             let end = ssd.len().min(begin + koma);
-            self.ssd(canvas, &ssd[begin.min(end)..end], y + SSD)?;
+            self.ssd(canvas, &ssd[begin.min(end)..end], y + SSD);
             y += self.ssd_height();
         }
         for (at, band) in self.bands.iter().enumerate() {
             if at > 0 {
                 let middle = y + 0.5 * BETWEEN_BANDS;
-                canvas.line((LEFT, middle), (self.x(koma), middle), style::GRID, 1.0)?;
+                canvas.line((LEFT, middle), (self.x(koma), middle), style::GRID, 1.0);
                 y += BETWEEN_BANDS;
             }
-            self.band(canvas, band, (begin, koma), y)?;
+            self.band(canvas, band, (begin, koma), y);
             y += self.band_height(band);
         }
-        Ok(())
     }
 
     /// Lines between seconds and every six koma, and the numbers of both.
-    fn grid(
-        &self,
-        canvas: &mut Canvas<'_>,
-        (begin, koma): (usize, usize),
-        (top, bottom): (f64, f64),
-    ) -> Result<(), Error> {
+    fn grid(&self, canvas: &mut Canvas, (begin, koma): (usize, usize), (top, bottom): (f64, f64)) {
         let look = Type::new(style::SMALL).align(Align::Center);
         let second = (self.koma_rate.round() as usize).max(1);
         for edge in 0..=koma {
@@ -143,23 +136,23 @@ impl Paper<'_> {
                 () if (begin + edge) % 6 == 0 => (6.0, style::FAINT),
                 () => (3.0, style::RAW),
             };
-            canvas.line((x, bottom), (x, bottom + length), color, 1.0)?;
+            canvas.line((x, bottom), (x, bottom + length), color, 1.0);
             if whole {
-                canvas.line((x, top + SECONDS - 3.0), (x, bottom), style::GRID, 1.25)?;
+                canvas.line((x, top + SECONDS - 3.0), (x, bottom), style::GRID, 1.25);
                 let seconds = number((begin + edge) as f64 / second as f64);
-                canvas.text(&format!("{seconds} s"), (x, top + 10.0), look.color(style::FAINT))?;
+                canvas.text(&format!("{seconds} s"), (x, top + 10.0), look.color(style::FAINT));
             }
         }
-        canvas.line((LEFT, bottom), (self.x(koma), bottom), style::FAINT, 1.0)?;
+        canvas.line((LEFT, bottom), (self.x(koma), bottom), style::FAINT, 1.0);
         for slot in 0..koma {
             let label = begin + slot + 1;
             if label == 1 || label % self.label_step() == 0 {
                 let x = self.x(slot) + 0.5 * self.slot;
-                canvas.text(&label.to_string(), (x, bottom + 22.0), look)?;
+                canvas.text(&label.to_string(), (x, bottom + 22.0), look);
             }
         }
         let words = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
-        canvas.text("koma", (LEFT - 10.0, bottom + 22.0), words)
+        canvas.text("koma", (LEFT - 10.0, bottom + 22.0), words);
     }
 
     /// Koma from number to number: what leaves the numbers room.
@@ -171,11 +164,11 @@ impl Paper<'_> {
     }
 
     /// How far the body moves into each koma, as the root of the SSD: in proportion to the way.
-    fn ssd(&self, canvas: &mut Canvas<'_>, ssd: &[f64], floor: f64) -> Result<(), Error> {
+    fn ssd(&self, canvas: &mut Canvas, ssd: &[f64], floor: f64) {
         let words = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
-        canvas.text("√SSD", (LEFT - 10.0, floor), words)?;
+        canvas.text("√SSD", (LEFT - 10.0, floor), words);
         if self.is_on_screen {
-            canvas.text("画面", (LEFT - 10.0, floor - 13.0), words)?;
+            canvas.text("画面", (LEFT - 10.0, floor - 13.0), words);
         }
         let mut hull = vec![(LEFT, floor)];
         for (koma, value) in ssd.iter().enumerate() {
@@ -188,35 +181,29 @@ impl Paper<'_> {
             hull.extend([(self.x(koma), y), (self.x(koma + 1), y)]);
         }
         hull.push((self.x(ssd.len()), floor));
-        canvas.area(&hull, style::GRID)?;
-        canvas.line((LEFT, floor), (self.x(ssd.len()), floor), style::RAW, 1.0)
+        canvas.area(&hull, style::GRID);
+        canvas.line((LEFT, floor), (self.x(ssd.len()), floor), style::RAW, 1.0);
     }
 
-    fn band(
-        &self,
-        canvas: &mut Canvas<'_>,
-        band: &Band<'_>,
-        (begin, koma): (usize, usize),
-        top: f64,
-    ) -> Result<(), Error> {
+    fn band(&self, canvas: &mut Canvas, band: &Band<'_>, (begin, koma): (usize, usize), top: f64) {
         let here = |at: &usize| (begin..begin + koma).contains(at);
         let mut y = top;
         if let Some(before) = &band.before {
             let middle = y + 10.0;
             let words = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
-            canvas.text("before", (LEFT - 10.0, middle + 4.0), words)?;
+            canvas.text("before", (LEFT - 10.0, middle + 4.0), words);
             for (at, role, fate) in before.iter().filter(|(at, ..)| here(at)) {
-                self.before(canvas, self.x(at - begin), middle, (*role, *fate))?;
+                self.before(canvas, self.x(at - begin), middle, (*role, *fate));
             }
             y += SPACED;
         }
         let floor = y + self.badges_height() + TALL;
         let name = style::fitted(&band.layer.name, 18.0, LEFT - 20.0);
         let look = Type::new(18.0).bold().align(Align::Right);
-        canvas.text(&name, (LEFT - 12.0, floor - 6.0), look)?;
+        canvas.text(&name, (LEFT - 12.0, floor - 6.0), look);
         for (at, shown) in band.layer.timed() {
             let role = band.layer.drawings[shown.drawing].role;
-            self.shown(canvas, role, (at, at + shown.koma), (begin, begin + koma), floor)?;
+            self.shown(canvas, role, (at, at + shown.koma), (begin, begin + koma), floor);
         }
         for badge in band.badges.iter().filter(|badge| here(&badge.koma)) {
             let Some(lane) = badge.lane else { continue };
@@ -224,20 +211,13 @@ impl Paper<'_> {
             let low = floor - TALL - 2.0;
             let y = low - style::BADGE - 2.0 * style::BADGE * lane as f64;
             let colour = style::of_role(badge.role);
-            canvas.line((x, y), (x, low + 2.0), colour, 1.0)?;
-            canvas.badge((x, y), badge.number, colour, badge.pinned)?;
+            canvas.line((x, y), (x, low + 2.0), colour, 1.0);
+            canvas.badge((x, y), badge.number, colour, badge.pinned);
         }
-        Ok(())
     }
 
     /// A drawing of the sheet before omission: a small stroke, or the sign of how it went.
-    fn before(
-        &self,
-        canvas: &mut Canvas<'_>,
-        x: f64,
-        middle: f64,
-        (role, fate): (Role, Fate),
-    ) -> Result<(), Error> {
+    fn before(&self, canvas: &mut Canvas, x: f64, middle: f64, (role, fate): (Role, Fate)) {
         let x = x + 0.5 * self.slot;
         let radius = (0.42 * self.slot).clamp(1.5, 4.0);
         match fate {
@@ -254,29 +234,28 @@ impl Paper<'_> {
     /// A bar on the first koma and a line over the koma held, as far as they lie on this line.
     fn shown(
         &self,
-        canvas: &mut Canvas<'_>,
+        canvas: &mut Canvas,
         role: Role,
         (first, past): (usize, usize),
         (begin, end): (usize, usize),
         floor: f64,
-    ) -> Result<(), Error> {
+    ) {
         let color = style::of_role(role);
         let gap = (0.12 * self.slot).clamp(0.5, 3.0);
         let high = if role == Role::Inbetween { SHORT } else { TALL };
         if (begin..end).contains(&first) {
             let x = self.x(first - begin);
             let corner = (x + self.slot - gap, floor);
-            canvas.rect((x + gap, floor - high), corner, color)?;
+            canvas.rect((x + gap, floor - high), corner, color);
         }
         let (from, to) = ((first + 1).max(begin), past.min(end));
         if from < to {
             let (y, left) = (floor - 0.5 * SHORT, self.x(from - begin) - gap);
             let right = self.x(to - begin) - 2.0 * gap;
-            canvas.line((left, y), (right, y), color, 2.5)?;
+            canvas.line((left, y), (right, y), color, 2.5);
             if past <= end {
-                canvas.line((right, y - 4.0), (right, y + 4.0), color, 1.5)?;
+                canvas.line((right, y - 4.0), (right, y + 4.0), color, 1.5);
             }
         }
-        Ok(())
     }
 }

@@ -1,6 +1,5 @@
 //! The head of the speeds: a title, and what the strokes mean.
 
-use crate::error::Error;
 use crate::plot::canvas::{Canvas, Point, Type};
 use crate::plot::speed::SpeedCurves;
 use crate::plot::speed::curve::KEPT;
@@ -28,16 +27,15 @@ pub(super) fn of(
 }
 
 /// The title and, on its right, what the strokes mean.
-pub(super) fn head(canvas: &mut Canvas<'_>, width: f64, legend: &[Stroke]) -> Result<(), Error> {
-    canvas.text("Speed 速度", (style::MARGIN, 34.0), Type::new(style::TITLE).bold())?;
+pub(super) fn head(canvas: &mut Canvas, width: f64, legend: &[Stroke]) {
+    canvas.text("Speed 速度", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
     let wide = |stroke: &Stroke| style::text_width(stroke.words(), style::WORDS) + 48.0;
     let mut x = width - style::MARGIN - legend.iter().map(wide).sum::<f64>() + 16.0;
     for stroke in legend {
-        stroke.draw(canvas, (x + 12.0, 29.0))?;
-        canvas.text(stroke.words(), (x + 30.0, 34.0), Type::new(style::WORDS))?;
+        stroke.draw(canvas, (x + 12.0, 29.0));
+        canvas.text(stroke.words(), (x + 30.0, 34.0), Type::new(style::WORDS));
         x += wide(stroke);
     }
-    Ok(())
 }
 
 /// What the legend explains.
@@ -68,7 +66,7 @@ impl Stroke {
     }
 
     /// An example about the point.
-    fn draw(self, canvas: &mut Canvas<'_>, (x, y): Point) -> Result<(), Error> {
+    fn draw(self, canvas: &mut Canvas, (x, y): Point) {
         match self {
             Self::Raw => canvas.line((x - 12.0, y), (x + 12.0, y), style::RAW, 1.5),
             Self::Measured => canvas.line((x - 12.0, y), (x + 12.0, y), style::FAINT, 1.25),
@@ -77,7 +75,7 @@ impl Stroke {
             Self::Key => canvas.disc((x, y), 4.5, style::GENGA),
             Self::Wall => canvas.triangle((x, y), 5.5, style::WALL),
             Self::Genga => canvas.line((x, y - 9.0), (x, y + 9.0), style::GENGA_LINE, 1.25),
-            Self::Split => canvas.dashes((x, y - 9.0), y + 9.0, style::INK, 1.25),
+            Self::Split => canvas.dashes((x, y - 9.0), (x, y + 9.0), style::INK, 1.25),
         }
     }
 }

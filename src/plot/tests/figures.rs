@@ -3,9 +3,9 @@
 use serde_json::Value;
 
 use super::*;
+use crate::plot::canvas::Canvas;
 use crate::plot::cells::cells;
 use crate::plot::points::Posing;
-use crate::plot::svg::Svg;
 
 /// A walker's sheet: end, inbetween, genga, inbetween, end on 1, 2, 3, 1 and 1 koma, of which the genga
 /// came after two left out, and is pinned.
@@ -63,11 +63,11 @@ pub(super) fn said(pages: &[String]) -> Vec<String> {
 }
 
 fn heads(pages: &[String]) -> usize {
-    // A head is the one white disc with an edge that is not a number's: those are 1.25 wide.
+    // A head is the one white disc with an edge that is not a number's: those are 1.2 wide.
     let is_head = |line: &&str| {
         line.starts_with("<circle")
             && line.contains("fill=\"#ffffff\" stroke=")
-            && !line.contains("stroke-width=\"1.3\"")
+            && !line.contains("stroke-width=\"1.2\"")
     };
     pages.iter().map(|page| page.lines().filter(is_head).count()).sum()
 }
@@ -309,7 +309,7 @@ fn the_same_clip_and_sheet_give_the_same_pages() {
 fn a_long_row_of_poses_shows_the_first_and_says_so() {
     let row = PoseRow { most: 10, ..PoseRow::default() };
     let svg = row.draw(&walker(30), &super::frames(26)).unwrap();
-    assert_eq!(tags(&svg, "circle", "fill=\"none\"").len(), 10, "heads");
+    assert_eq!(tags(&svg, "circle", "fill=\"#ffffff\"").len(), 10, "heads");
     assert!(words(&svg).contains(&"the first 10 of 26"));
     let all = PoseRow::default().draw(&walker(30), &super::frames(26)).unwrap();
     assert!(!words(&all).iter().any(|word| word.starts_with("the first")));
@@ -317,7 +317,7 @@ fn a_long_row_of_poses_shows_the_first_and_says_so() {
 
 #[test]
 fn svg_has_no_letter_that_xml_forbids_and_no_number_that_is_none() {
-    let mut svg = Svg::new((10.2, 20.0));
+    let mut svg = Canvas::new((10.2, 20.0));
     svg.text("a\u{1}<\"&", (f64::NAN, 1e300), Type::new(10.0));
     let svg = svg.finish();
     assert!(svg.contains("width=\"11\"") && svg.contains(">a &lt;&quot;&amp;</text>"), "{svg}");

@@ -3,8 +3,8 @@
 use super::figures::{said, walk};
 use super::*;
 
-const INBETWEEN: &str = "#969CA3";
-const WALL: &str = "#0068B0";
+const INBETWEEN: &str = "#969ca3";
+const WALL: &str = "#0068b0";
 
 #[test]
 fn a_skeleton_has_each_joint_on_the_figure_and_in_the_tree() {
@@ -16,12 +16,12 @@ fn a_skeleton_has_each_joint_on_the_figure_and_in_the_tree() {
         let count = words.iter().filter(|word| **word == number).count();
         assert_eq!(count, 2, "{number} in the tree and on the figure");
     }
-    assert_eq!(tags(&svg, "circle", "r=\"3\"").len(), 6);
+    assert_eq!(tags(&svg, "circle", "r=\"3.5\"").len(), 6);
     let facts = "6 joints 関節 · 1 end site · 3 channels · rest pose 基準姿勢";
     assert!(words.contains(&facts.to_owned()), "{words:?}");
     // Five children hang on the first, each on an elbow of three points.
-    let elbows = svg.lines().filter(|line| line.matches('L').count() == 2);
-    assert_eq!(elbows.filter(|line| line.contains("stroke=\"#b8bec5\"")).count(), 5);
+    let elbows = tags(&svg, "polyline", "stroke=\"#b8bec5\"").into_iter();
+    assert_eq!(elbows.filter(|line| line.matches(',').count() == 3).count(), 5);
 }
 
 #[test]
@@ -58,14 +58,14 @@ fn a_skeleton_plot_refuses_what_cannot_be_drawn_and_says_what_it_leaves_out() {
 
 /// The circles about a px across, of a look.
 fn circles(svg: &str, x: f64, look: &str) -> usize {
-    let cx = format!("cx=\"{}\"", (8.0 * x).round());
+    let cx = format!("cx=\"{}\"", (10.0 * x).round() / 10.0);
     tags(svg, "circle", &cx).iter().filter(|circle| circle.contains(look)).count()
 }
 
 #[test]
 fn an_inbetween_stands_at_its_place_with_a_ring_where_it_would_be_evenly() {
     let (clip, sheet) = walk();
-    let ring = format!("fill=\"none\" stroke=\"{INBETWEEN}\"");
+    let ring = format!("fill=\"#ffffff\" stroke=\"{INBETWEEN}\"");
     let disc = format!("fill=\"{INBETWEEN}\"");
     // The interval lies from 108 to 716 px.
     let x = |share: f64| 108.0 + 608.0 * share;

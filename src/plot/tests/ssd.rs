@@ -39,14 +39,14 @@ fn settings_that_cannot_be_are_refused() {
 fn every_drawing_has_a_bar_and_its_fate_a_sign() {
     let (clip, before, after) = omitted();
     let svg = SsdPlot::default().draw(&clip, &before, &after).unwrap();
-    assert_eq!(rects(&svg, "#969CA3").len(), 4, "stay");
-    assert_eq!(rects(&svg, "#B8BEC5").len(), 1, "held");
+    assert_eq!(rects(&svg, "#969ca3").len(), 4, "stay");
+    assert_eq!(rects(&svg, "#b8bec5").len(), 1, "held");
     assert_eq!(rects(&svg, GENGA).len(), 1 + 1, "left out, and the jump over it");
     // Bars and strokes of four drawings, of which one is a jump, and the legend.
-    assert_eq!(rects(&svg, "#0068B0").len(), 4 + 3 + 1);
+    assert_eq!(rects(&svg, "#0068b0").len(), 4 + 3 + 1);
     let crosses = tags(&svg, "line", GENGA);
     assert_eq!(crosses.len(), 2 + 2, "and the legend's");
-    assert_eq!(tags(&svg, "line", "#0068B0").len(), 2 + 2, "one koma given, and the legend's");
+    assert_eq!(tags(&svg, "line", "#0068b0").len(), 2 + 2, "one koma given, and the legend's");
     assert!(words(&svg).contains(&"中無し 1"), "{:?}", words(&svg));
 }
 

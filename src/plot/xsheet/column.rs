@@ -1,6 +1,5 @@
 //! What is written into the columns: key numbers and marks in ACTION, every drawing in CELL.
 
-use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
@@ -11,12 +10,12 @@ use crate::sheet::Exposure;
 
 /// The ACTION column (原画): keys by number, a mark an inbetween.
 pub(super) fn action(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     page: &Page<'_>,
     leaf: &Leaf<'_>,
     half: Half,
     place: Place,
-) -> Result<(), Error> {
+) {
     column(
         canvas,
         page,
@@ -30,40 +29,40 @@ pub(super) fn action(
                 InbetweenMark::Circle => canvas.ring(center, 4.0, style::INK, 1.1),
             },
         },
-    )?;
-    carried_over(canvas, leaf, half, place, &|drawing| leaf.genga[drawing])
+    );
+    carried_over(canvas, leaf, half, place, &|drawing| leaf.genga[drawing]);
 }
 
 /// The CELL column (動画): every drawing by number, those of keys circled, END under the highest.
 pub(super) fn cell(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     page: &Page<'_>,
     leaf: &Leaf<'_>,
     half: Half,
     place: Place,
-) -> Result<(), Error> {
+) {
     column(canvas, page, leaf, half, place, &|canvas, shown, center| {
         let number = shown.drawing + 1;
         match leaf.genga[shown.drawing] {
             Some(_) => key(canvas, leaf, shown.drawing, number, center),
             None => written(canvas, number, center, Type::new(10.5)),
         }
-    })?;
-    carried_over(canvas, leaf, half, place, &|drawing| Some(drawing + 1))?;
-    mark_end(canvas, leaf, half, place)
+    });
+    carried_over(canvas, leaf, half, place, &|drawing| Some(drawing + 1));
+    mark_end(canvas, leaf, half, place);
 }
 
-type Write<'a> = dyn Fn(&mut Canvas<'_>, Exposure, Point) -> Result<(), Error> + 'a;
+type Write<'a> = dyn Fn(&mut Canvas, Exposure, Point) + 'a;
 
 /// Each exposure by its mark and hold line, and what is empty after the last.
 fn column(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     page: &Page<'_>,
     leaf: &Leaf<'_>,
     half: Half,
     place: Place,
     write: &Write<'_>,
-) -> Result<(), Error> {
+) {
     let x = place.middle();
     let one_for_all = leaf.layer.exposures.len() == 1 && leaf.layer.length() > 3;
     for (begin, shown) in leaf.on(half) {
@@ -72,54 +71,41 @@ fn column(
             let (from, to) = ((begin + 1).max(half.begin), end.min(half.end()));
             if from < to {
                 let top = half.y(from) + if from == begin + 1 { 0.5 } else { 0.0 };
-                canvas.line((x, top), (x, half.y(to) - 3.0), style::INK, 1.1)?;
+                canvas.line((x, top), (x, half.y(to) - 3.0), style::INK, 1.1);
             }
         }
         if half.shows(begin) {
-            write(canvas, shown, (x, half.y(begin) + 0.5 * ROW))?;
+            write(canvas, shown, (x, half.y(begin) + 0.5 * ROW));
         }
         if one_for_all {
-            held(canvas, half, x, begin, end)?;
+            held(canvas, half, x, begin, end);
         }
     }
-    empty(canvas, page, half, place, leaf.layer.length())
+    empty(canvas, page, half, place, leaf.layer.length());
 }
 
 /// HOLD (止メ) down a column with one drawing.
-fn held(
-    canvas: &mut Canvas<'_>,
-    half: Half,
-    x: f64,
-    begin: usize,
-    end: usize,
-) -> Result<(), Error> {
+fn held(canvas: &mut Canvas, half: Half, x: f64, begin: usize, end: usize) {
     let look = Type::new(10.0).bold().align(Align::Center);
     for (at, word) in ["止", "メ", "H", "O", "L", "D"].into_iter().enumerate() {
         let koma = begin + 2 + at;
         if half.shows(koma) && koma < end {
             let y = half.y(koma);
-            canvas.rect((x - 6.0, y + 1.0), (x + 6.0, y + ROW - 1.0), style::PAPER)?;
-            canvas.text(word, (x, y + 0.5 * ROW + 3.7), look)?;
+            canvas.rect((x - 6.0, y + 1.0), (x + 6.0, y + ROW - 1.0), style::PAPER);
+            canvas.text(word, (x, y + 0.5 * ROW + 3.7), look);
         }
     }
-    Ok(())
 }
 
 /// × (カラ) where a layer ends before the sheet does, and a wave down to the sheet's end.
-fn empty(
-    canvas: &mut Canvas<'_>,
-    page: &Page<'_>,
-    half: Half,
-    place: Place,
-    begin: usize,
-) -> Result<(), Error> {
+fn empty(canvas: &mut Canvas, page: &Page<'_>, half: Half, place: Place, begin: usize) {
     let x = place.middle();
     if page.has(begin) && half.shows(begin) {
-        canvas.cross((x, half.y(begin) + 0.5 * ROW), 4.5, style::INK, 1.4)?;
+        canvas.cross((x, half.y(begin) + 0.5 * ROW), 4.5, style::INK, 1.4);
     }
     let (from, to) = ((begin + 1).max(half.begin), page.sheet.length().min(half.end()));
     if from >= to {
-        return Ok(());
+        return;
     }
     let quarters = 4 * (to - from);
     let wave = |at: usize| {
@@ -127,67 +113,62 @@ fn empty(
         (x + side, half.y(from) + 0.25 * ROW * at as f64)
     };
     let wave: Vec<_> = (0..=quarters).map(wave).collect();
-    canvas.path(&wave, style::FAINT, 1.0)
+    canvas.path(&wave, style::FAINT, 1.0);
 }
 
 /// The number of a drawing that was there before this half, in brackets on its first koma.
 fn carried_over(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     leaf: &Leaf<'_>,
     half: Half,
     place: Place,
     number: &dyn Fn(usize) -> Option<usize>,
-) -> Result<(), Error> {
+) {
     let before = leaf.on(half).next().filter(|(begin, _)| *begin < half.begin);
-    let Some((_, shown)) = before else { return Ok(()) };
+    let Some((_, shown)) = before else { return };
     let center = (place.middle(), half.y(half.begin) + 0.5 * ROW);
     let text = number(shown.drawing).map_or("(・)".into(), |number| format!("({number})"));
-    blank_out(canvas, center, style::text_width(&text, 9.0))?;
+    blank_out(canvas, center, style::text_width(&text, 9.0));
     let look = Type::new(9.0).color(style::FAINT).align(Align::Center);
-    canvas.text(&text, (center.0, center.1 + 3.3), look)
+    canvas.text(&text, (center.0, center.1 + 3.3), look);
 }
 
 /// END under the highest number, so that nobody looks for more drawings.
-fn mark_end(
-    canvas: &mut Canvas<'_>,
-    leaf: &Leaf<'_>,
-    half: Half,
-    place: Place,
-) -> Result<(), Error> {
-    let Some(begin) = leaf.end.filter(|begin| half.shows(*begin)) else { return Ok(()) };
+fn mark_end(canvas: &mut Canvas, leaf: &Leaf<'_>, half: Half, place: Place) {
+    let Some(begin) = leaf.end.filter(|begin| half.shows(*begin)) else { return };
     let center = (place.middle(), half.y(begin) + 1.5 * ROW);
-    blank_out(canvas, center, style::text_width("END", 8.5))?;
+    blank_out(canvas, center, style::text_width("END", 8.5));
     let look = Type::new(8.5).bold().align(Align::Center);
-    canvas.text("END", (center.0, center.1 + 3.2), look)
+    canvas.text("END", (center.0, center.1 + 3.2), look);
 }
 
-fn blank_out(canvas: &mut Canvas<'_>, (x, y): Point, width: f64) -> Result<(), Error> {
+fn blank_out(canvas: &mut Canvas, (x, y): Point, width: f64) {
     let half = 0.5 * width + 1.0;
-    canvas.rect((x - half, y - 0.5 * ROW + 1.5), (x + half, y + 0.5 * ROW - 1.5), style::PAPER)
+    canvas.rect((x - half, y - 0.5 * ROW + 1.5), (x + half, y + 0.5 * ROW - 1.5), style::PAPER);
 }
 
 /// A number in a circle; a pinned key's is filled.
 pub(super) fn key(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     leaf: &Leaf<'_>,
     drawing: usize,
     number: usize,
     center: Point,
-) -> Result<(), Error> {
+) {
     let drawing = &leaf.layer.drawings[drawing];
     let color = style::of_role(drawing.role);
     let look = if drawing.why.pinned.is_some() {
-        canvas.disc(center, 7.6, color)?;
+        canvas.disc(center, 7.6, color);
         Type::new(10.0).color(style::PAPER)
     } else {
-        canvas.ring(center, 7.2, color, 1.2)?;
+        canvas.ring(center, 7.2, color, 1.2);
         Type::new(10.0).color(color)
     };
-    written(canvas, number, center, look.bold())
+    written(canvas, number, center, look.bold());
 }
 
-fn written(canvas: &mut Canvas<'_>, number: usize, (x, y): Point, look: Type) -> Result<(), Error> {
+fn written(canvas: &mut Canvas, number: usize, (x, y): Point, look: Type) {
     let text = number.to_string();
     let size = if text.len() > 2 { 8.0 } else { look.size };
-    canvas.text(&text, (x, y + 0.36 * size), Type { size, ..look }.align(Align::Center))
+    canvas.text(&text, (x, y + 0.36 * size), Type { size, ..look }.align(Align::Center));
 }

@@ -1,8 +1,7 @@
 //! The spacing gauges (ツメ指示) once more, lying and large enough to copy onto the keys.
 
-use crate::error::Error;
 use crate::motion::Clip;
-use crate::plot::canvas::{Align, Canvas, Type, paint};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::style;
 use crate::plot::xsheet::XSheet;
 use crate::plot::xsheet::column::key;
@@ -28,67 +27,66 @@ pub(super) fn draw(
     clip: &Clip,
     sheet: &Sheet,
     leaves: &[Leaf<'_>],
-) -> Result<Vec<String>, Error> {
+) -> Vec<String> {
     let all = leaves.iter().flat_map(|leaf| leaf.gauges.iter().map(move |gauge| (leaf, gauge)));
     let all: Vec<_> = all.filter(|(_, gauge)| !gauge.between().is_empty()).collect();
     let of = all.len().div_ceil(2 * ROWS);
     let page = |(at, gauges): (usize, &[(&Leaf<'_>, &Gauge)])| {
         let number = at + 1;
         let page = Page { settings, cut, sheet, leaves, begin: 0, number, of };
-        paint(SIZE, |canvas| {
-            boxes(canvas, &page, &format!("ツメ {number} / {of}"))?;
-            title(canvas)?;
-            for (at, (leaf, gauge)) in gauges.iter().enumerate() {
-                let left = WIDTH.0 + (at / ROWS) as f64 * WIDE;
-                let top = TOP + (at % ROWS) as f64 * HIGH;
-                entry(canvas, clip, leaf, gauge, (left, top))?;
-            }
-            Ok(())
-        })
+        let mut canvas = Canvas::new(SIZE);
+        boxes(&mut canvas, &page, &format!("ツメ {number} / {of}"));
+        title(&mut canvas);
+        for (at, (leaf, gauge)) in gauges.iter().enumerate() {
+            let left = WIDTH.0 + (at / ROWS) as f64 * WIDE;
+            let top = TOP + (at % ROWS) as f64 * HIGH;
+            entry(&mut canvas, clip, leaf, gauge, (left, top));
+        }
+        canvas.finish()
     };
     all.chunks(2 * ROWS).enumerate().map(page).collect()
 }
 
-fn title(canvas: &mut Canvas<'_>) -> Result<(), Error> {
+fn title(canvas: &mut Canvas) {
     let words = "ツメ指示 spacing gauges";
-    canvas.text(words, (WIDTH.0 + 2.0, 82.0), Type::new(15.0).bold())?;
+    canvas.text(words, (WIDTH.0 + 2.0, 82.0), Type::new(15.0).bold());
     let words = "From key to key, along the path of the joint that travels furthest. Above a tick the \
                  drawing (CELL number), below it the nearest fraction. Keys without inbetweens (中無し) \
                  are left out.";
-    canvas.text(words, (WIDTH.0 + 2.0, 101.0), Type::new(11.5).color(style::FAINT))
+    canvas.text(words, (WIDTH.0 + 2.0, 101.0), Type::new(11.5).color(style::FAINT));
 }
 
 fn entry(
-    canvas: &mut Canvas<'_>,
+    canvas: &mut Canvas,
     clip: &Clip,
     leaf: &Leaf<'_>,
     gauge: &Gauge,
     (left, top): (f64, f64),
-) -> Result<(), Error> {
+) {
     let layer = leaf.layer;
     let koma = |exposure: usize| leaf.begins[exposure] + 1;
     let last = gauge.first + gauge.shares.len() - 1;
     let base = top + 0.5 * HIGH;
-    canvas.line((left, top), (left + WIDE - 8.0, top), style::GRID, 1.0)?;
+    canvas.line((left, top), (left + WIDE - 8.0, top), style::GRID, 1.0);
     let range = format!("{}  {}–{}", layer.name, koma(gauge.first), koma(last));
-    canvas.text(&range, (left + 4.0, base - 3.0), Type::new(12.0).bold())?;
+    canvas.text(&range, (left + 4.0, base - 3.0), Type::new(12.0).bold());
     let joint = style::fitted(&clip.skeleton().joints[gauge.joint.0].name, 10.0, BEFORE - 22.0);
-    canvas.text(&joint, (left + 4.0, base + 12.0), Type::new(10.0).color(style::FAINT))?;
+    canvas.text(&joint, (left + 4.0, base + 12.0), Type::new(10.0).color(style::FAINT));
     let from = left + BEFORE;
-    canvas.line((from, base), (from + LONG, base), FRAME, 1.3)?;
-    ticks(canvas, leaf, gauge, (from, base))?;
+    canvas.line((from, base), (from + LONG, base), FRAME, 1.3);
+    ticks(canvas, leaf, gauge, (from, base));
     for (exposure, x) in [(gauge.first, from), (last, from + LONG)] {
         let drawing = layer.exposures[exposure].drawing;
         if let Some(number) = leaf.genga[drawing] {
-            key(canvas, leaf, drawing, number, (x, base))?;
+            key(canvas, leaf, drawing, number, (x, base));
         }
     }
-    let Some(packing) = gauge.packing() else { return Ok(()) };
+    let Some(packing) = gauge.packing() else { return };
     let x = from + LONG + 16.0;
-    canvas.text(packing.japanese(), (x, base - 3.0), Type::new(12.0).bold())?;
+    canvas.text(packing.japanese(), (x, base - 3.0), Type::new(12.0).bold());
     let room = left + WIDE - 8.0 - x;
     let english = style::fitted(packing.english(), 9.5, room);
-    canvas.text(&english, (x, base + 12.0), Type::new(9.5).color(style::FAINT))
+    canvas.text(&english, (x, base + 12.0), Type::new(9.5).color(style::FAINT));
 }
 
 /// The fraction that a person would write; none beside a key, where it would be 0 or 1.
@@ -97,29 +95,23 @@ pub(super) fn written(share: f64) -> Option<&'static str> {
 }
 
 /// A tick a drawing, with its number above and its fraction below where they have room.
-fn ticks(
-    canvas: &mut Canvas<'_>,
-    leaf: &Leaf<'_>,
-    gauge: &Gauge,
-    (from, base): (f64, f64),
-) -> Result<(), Error> {
+fn ticks(canvas: &mut Canvas, leaf: &Leaf<'_>, gauge: &Gauge, (from, base): (f64, f64)) {
     let small = Type::new(10.0).align(Align::Center);
     // Above the circles of the keys there is room for a number, below them no fraction is needed.
     let mut free = [from - 9.0; 2];
     for (at, share) in gauge.between().iter().enumerate() {
         let x = from + share * LONG;
         // Longer than a circle is high: a drawing close to a key must not hide behind it.
-        canvas.line((x, base - 10.5), (x, base + 10.5), style::INK, 1.2)?;
+        canvas.line((x, base - 10.5), (x, base + 10.5), style::INK, 1.2);
         let number = (leaf.layer.exposures[gauge.first + 1 + at].drawing + 1).to_string();
         let below = written(*share).unwrap_or_default();
         let labels = [(number.as_str(), base - 13.0), (below, base + 21.0)];
         for ((text, y), free) in labels.into_iter().zip(&mut free) {
             let half = 0.5 * style::text_width(text, 10.0);
             if x - half >= *free && x + half <= from + LONG + 9.0 {
-                canvas.text(text, (x, y), small)?;
+                canvas.text(text, (x, y), small);
                 *free = x + half + 2.0;
             }
         }
     }
-    Ok(())
 }

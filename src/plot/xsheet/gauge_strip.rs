@@ -1,6 +1,5 @@
 //! The spacing gauges (ツメ指示) beside ACTION, upright like the time.
 
-use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::style;
 use crate::plot::xsheet::gauge_page::written;
@@ -16,25 +15,18 @@ const KEY_TICK: f64 = 5.5;
 const APART: f64 = 9.5;
 
 /// The strip of one layer; the first alone has room for words and fractions.
-pub(super) fn draw(
-    canvas: &mut Canvas<'_>,
-    page: &Page<'_>,
-    leaf: &Leaf<'_>,
-    half: Half,
-    at: usize,
-) -> Result<(), Error> {
+pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>, leaf: &Leaf<'_>, half: Half, at: usize) {
     let lane = STRIP / page.leaves.len() as f64;
     let alone = page.leaves.len() == 1;
     let left = half.left + NUMBERS + lane * at as f64;
     let x = left + if alone { 12.0 } else { 0.5 * lane };
     for (gauge, from, to) in leaf.gauges_on(half) {
         let span = Span { half, x, from, to };
-        span.line(canvas, gauge)?;
+        span.line(canvas, gauge);
         if alone {
-            span.words(canvas, gauge, left + STRIP)?;
+            span.words(canvas, gauge, left + STRIP);
         }
     }
-    Ok(())
 }
 
 /// From the middle of a key's koma to that of the next key's.
@@ -53,22 +45,21 @@ impl Span {
         here.then(|| self.half.y_at(koma))
     }
 
-    fn line(&self, canvas: &mut Canvas<'_>, gauge: &Gauge) -> Result<(), Error> {
+    fn line(&self, canvas: &mut Canvas, gauge: &Gauge) {
         let (x, half) = (self.x, self.half);
         let top = self.y(0.0).unwrap_or(half.y(half.begin));
         let bottom = self.y(1.0).unwrap_or(half.y(half.end()));
-        canvas.line((x, top), (x, bottom), style::FAINT, 1.0)?;
+        canvas.line((x, top), (x, bottom), style::FAINT, 1.0);
         for y in [self.y(0.0), self.y(1.0)].into_iter().flatten() {
-            canvas.line((x - KEY_TICK, y), (x + KEY_TICK, y), style::INK, 1.3)?;
+            canvas.line((x - KEY_TICK, y), (x + KEY_TICK, y), style::INK, 1.3);
         }
         for y in gauge.between().iter().filter_map(|share| self.y(*share)) {
-            canvas.line((x - TICK, y), (x + TICK, y), style::INK, 1.0)?;
+            canvas.line((x - TICK, y), (x + TICK, y), style::INK, 1.0);
         }
-        Ok(())
     }
 
     /// The fractions beside the ticks, and how the drawings are packed.
-    fn words(&self, canvas: &mut Canvas<'_>, gauge: &Gauge, right: f64) -> Result<(), Error> {
+    fn words(&self, canvas: &mut Canvas, gauge: &Gauge, right: f64) {
         let mut last = self.y(0.0).unwrap_or(f64::NEG_INFINITY) - 0.5 * APART;
         let end = self.y(1.0).unwrap_or(f64::INFINITY) + 0.5 * APART;
         let small = Type::new(8.5).color(style::FAINT);
@@ -78,11 +69,16 @@ impl Span {
                 continue;
             };
             let (left, width) = (self.x + KEY_TICK + 1.0, style::text_width(fraction, 8.5) + 2.0);
-            canvas.rect((left, y - 4.0), (left + width, y + 4.5), style::PAPER)?;
-            canvas.text(fraction, (self.x + KEY_TICK + 2.0, y + 3.0), small)?;
+            canvas.rect((left, y - 4.0), (left + width, y + 4.5), style::PAPER);
+            canvas.text(fraction, (self.x + KEY_TICK + 2.0, y + 3.0), small);
             last = y;
         }
-        let Some(y) = self.y(0.5) else { return Ok(()) };
+        // In the koma in the middle, clear of the lines between koma and on one half alone.
+        let middle = (self.from + self.to) / 2;
+        if !self.half.shows(middle) {
+            return;
+        }
+        let y = self.half.y(middle) + 0.5 * ROW;
         let look = Type::new(11.0).align(Align::Right);
         match gauge.packing() {
             None if self.to - self.from > 1 => {
@@ -92,7 +88,7 @@ impl Span {
             Some(packing) if (self.to - self.from) as f64 * ROW > 20.0 => {
                 canvas.text(kanji(packing), (right - 3.0, y + 4.0), look.bold())
             }
-            _ => Ok(()),
+            _ => {}
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use plotters::style::RGBColor;
 
-use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::style;
 use crate::plot::xsheet::half::{Half, ROW, ROWS, TOP};
@@ -20,10 +19,10 @@ const TINT: RGBColor = RGBColor(234, 241, 238);
 const NAMES: f64 = 44.0;
 const LETTERS: f64 = 17.0;
 
-pub(super) fn draw(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half) -> Result<(), Error> {
+pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
     let (blocks, right) = Page::blocks(half);
     let (top, bottom) = (TOP - NAMES, half.y(half.end()));
-    canvas.rect((half.left, top), (right, TOP), TINT)?;
+    canvas.rect((half.left, top), (right, TOP), TINT);
     for koma in half.begin..=half.end() {
         let y = half.y(koma);
         let (color, width) = match koma {
@@ -31,11 +30,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half) -> Resu
             koma if koma % 6 == 0 => (MIDDLE, 1.1),
             _ => (THIN, 0.6),
         };
-        canvas.line((half.left, y), (right, y), color, width)?;
+        canvas.line((half.left, y), (right, y), color, width);
     }
-    columns(canvas, page, half, bottom)?;
+    columns(canvas, page, half, bottom);
     for (left, english, japanese) in blocks {
-        canvas.line((left, top), (left, bottom), HEAVY, 1.5)?;
+        canvas.line((left, top), (left, bottom), HEAVY, 1.5);
         let next = blocks.iter().map(|block| block.0).find(|other| *other > left);
         let middle = 0.5 * (left + next.unwrap_or(right));
         let center = |size: f64| Type::new(size).align(Align::Center);
@@ -43,35 +42,34 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half) -> Resu
             english,
             (middle, top + 12.5),
             center(if next == Some(left + NUMBERS) { 9.0 } else { 10.5 }).bold(),
-        )?;
-        canvas.text(japanese, (middle, top + 24.5), center(9.0).color(style::FAINT))?;
+        );
+        canvas.text(japanese, (middle, top + 24.5), center(9.0).color(style::FAINT));
     }
-    canvas.line((right, top), (right, bottom), HEAVY, 1.5)?;
+    canvas.line((right, top), (right, bottom), HEAVY, 1.5);
     for y in [top, TOP, bottom] {
-        canvas.line((half.left, y), (right, y), HEAVY, 1.8)?;
+        canvas.line((half.left, y), (right, y), HEAVY, 1.8);
     }
-    numbers(canvas, page, half)
+    numbers(canvas, page, half);
 }
 
 /// The columns of cels in both blocks, and their letters.
-fn columns(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half, bottom: f64) -> Result<(), Error> {
+fn columns(canvas: &mut Canvas, page: &Page<'_>, half: Half, bottom: f64) {
     for at in 0..page.columns() {
         for place in [page.action(half, at), page.cell(half, at)] {
             if at > 0 {
-                canvas.line((place.left, TOP - LETTERS), (place.left, bottom), MIDDLE, 0.8)?;
+                canvas.line((place.left, TOP - LETTERS), (place.left, bottom), MIDDLE, 0.8);
             }
             if let Some(leaf) = page.leaves.get(at) {
                 let name = style::fitted(&leaf.layer.name, 12.0, place.width - 2.0);
                 let look = Type::new(12.0).bold().align(Align::Center);
-                canvas.text(&name, (place.middle(), TOP - 4.5), look)?;
+                canvas.text(&name, (place.middle(), TOP - 4.5), look);
             }
         }
     }
-    Ok(())
 }
 
 /// Koma from 1, those of seconds and of every sixth stronger.
-fn numbers(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half) -> Result<(), Error> {
+fn numbers(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
     for koma in half.begin..half.end() {
         let number = koma + 1;
         let look = match number {
@@ -81,34 +79,27 @@ fn numbers(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half) -> Result<(), E
         };
         let y = half.y(koma) + 0.5 * ROW + 0.36 * look.size;
         let x = half.left + NUMBERS - 4.0;
-        canvas.text(&number.to_string(), (x, y), look.align(Align::Right))?;
+        canvas.text(&number.to_string(), (x, y), look.align(Align::Right));
     }
-    Ok(())
 }
 
 /// A heavy line under the last koma, and slashes below it.
-pub(super) fn end(canvas: &mut Canvas<'_>, page: &Page<'_>, half: Half) -> Result<(), Error> {
+pub(super) fn end(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
     let length = page.sheet.length();
     if length == 0 || !half.shows(length - 1) {
-        return Ok(());
+        return;
     }
     let (left, right) = (half.left + NUMBERS, Page::blocks(half).1);
     let y = half.y(length);
-    canvas.line((half.left, y), (right, y), style::INK, 3.2)?;
+    canvas.line((half.left, y), (right, y), style::INK, 3.2);
     // Into the margin where the page is full.
     let high = if length == half.end() { 0.7 * ROW } else { ROW };
     let step = 13.0;
     let slashes = ((right - left) / step) as usize;
     for at in 1..slashes {
         let x = left + step * at as f64;
-        canvas.line(
-            (x - 0.5 * high, y + high - 1.5),
-            (x + 0.5 * high, y + 3.0),
-            style::INK,
-            1.1,
-        )?;
+        canvas.line((x - 0.5 * high, y + high - 1.5), (x + 0.5 * high, y + 3.0), style::INK, 1.1);
     }
-    Ok(())
 }
 
 /// Where the rows of a full half end.

@@ -1,7 +1,6 @@
 //! What stands above and below the koma: whose sheet it is, how long, how many drawings, and what the
 //! marks mean.
 
-use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::cells::seconds_and_koma;
 use crate::plot::style;
@@ -15,19 +14,18 @@ const TOP: f64 = 8.0;
 const HIGH: f64 = 50.0;
 
 /// The boxes and the line of counts.
-pub(super) fn draw(canvas: &mut Canvas<'_>, page: &Page<'_>) -> Result<(), Error> {
+pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>) {
     let sheet = format!("{} / {}", page.number, page.of);
-    boxes(canvas, page, &sheet)?;
+    boxes(canvas, page, &sheet);
     let base = TOP + HIGH + 18.0;
     for (at, line) in counts(page.leaves, page.sheet).into_iter().enumerate() {
         let text = style::fitted(&line, 12.0, WIDTH.1 - WIDTH.0);
-        canvas.text(&text, (WIDTH.0 + 2.0, base + 16.0 * at as f64), Type::new(12.0))?;
+        canvas.text(&text, (WIDTH.0 + 2.0, base + 16.0 * at as f64), Type::new(12.0));
     }
-    Ok(())
 }
 
 /// The boxes along the upper edge.
-pub(super) fn boxes(canvas: &mut Canvas<'_>, page: &Page<'_>, sheet: &str) -> Result<(), Error> {
+pub(super) fn boxes(canvas: &mut Canvas, page: &Page<'_>, sheet: &str) {
     let settings = page.settings;
     let time = seconds_and_koma(page.sheet.length(), page.sheet.clock.koma_rate);
     let boxes = [
@@ -41,8 +39,8 @@ pub(super) fn boxes(canvas: &mut Canvas<'_>, page: &Page<'_>, sheet: &str) -> Re
     ];
     let mut left = WIDTH.0;
     for (width, label, value, size) in boxes {
-        canvas.line((left, TOP), (left, TOP + HIGH), FRAME, 1.5)?;
-        canvas.text(label, (left + 5.0, TOP + 13.0), Type::new(9.5).color(style::FAINT))?;
+        canvas.line((left, TOP), (left, TOP + HIGH), FRAME, 1.5);
+        canvas.text(label, (left + 5.0, TOP + 13.0), Type::new(9.5).color(style::FAINT));
         // A long name is smaller before it is cut off.
         let size = [size, 13.0, 11.0]
             .into_iter()
@@ -50,14 +48,13 @@ pub(super) fn boxes(canvas: &mut Canvas<'_>, page: &Page<'_>, sheet: &str) -> Re
             .unwrap_or(11.0);
         let value = style::fitted(value, size, width - 10.0);
         let look = Type::new(size).bold().align(Align::Center);
-        canvas.text(&value, (left + 0.5 * width, TOP + HIGH - 11.0), look)?;
+        canvas.text(&value, (left + 0.5 * width, TOP + HIGH - 11.0), look);
         left += width;
     }
-    canvas.line((left, TOP), (left, TOP + HIGH), FRAME, 1.5)?;
+    canvas.line((left, TOP), (left, TOP + HIGH), FRAME, 1.5);
     for y in [TOP, TOP + HIGH] {
-        canvas.line((WIDTH.0, y), (left, y), FRAME, 1.8)?;
+        canvas.line((WIDTH.0, y), (left, y), FRAME, 1.8);
     }
-    Ok(())
 }
 
 /// What there is to draw: a line a layer, or of many layers their names alone.
@@ -103,7 +100,7 @@ fn count(leaf: &Leaf<'_>) -> String {
 }
 
 /// What the marks mean, below the koma.
-pub(super) fn legend(canvas: &mut Canvas<'_>, page: &Page<'_>) -> Result<(), Error> {
+pub(super) fn legend(canvas: &mut Canvas, page: &Page<'_>) {
     let y = bottom() + 26.0;
     let mut x = WIDTH.0 + 8.0;
     for (mark, words) in [
@@ -115,13 +112,13 @@ pub(super) fn legend(canvas: &mut Canvas<'_>, page: &Page<'_>) -> Result<(), Err
         (Sign::Blank, "blank カラ"),
         (Sign::CarriedOver, "from the half before"),
     ] {
-        sign(canvas, page, mark, (x, y))?;
-        canvas.text(words, (x + 13.0, y + 4.0), Type::new(11.0))?;
+        sign(canvas, page, mark, (x, y));
+        canvas.text(words, (x + 13.0, y + 4.0), Type::new(11.0));
         x += style::text_width(words, 11.0) + 36.0;
     }
     let words = "spacing ツメ指示, on the line from key to key a tick where each drawing stands:  \
                  先 sakizume, slow-out · 後 atozume, slow-in · 両 both · 均 even · 中無し no inbetween";
-    canvas.text(words, (WIDTH.0 + 2.0, y + 23.0), Type::new(11.0).color(style::FAINT))
+    canvas.text(words, (WIDTH.0 + 2.0, y + 23.0), Type::new(11.0).color(style::FAINT));
 }
 
 #[derive(Clone, Copy)]
@@ -135,19 +132,19 @@ enum Sign {
     CarriedOver,
 }
 
-fn sign(canvas: &mut Canvas<'_>, page: &Page<'_>, sign: Sign, (x, y): Point) -> Result<(), Error> {
+fn sign(canvas: &mut Canvas, page: &Page<'_>, sign: Sign, (x, y): Point) {
     let look = Type::new(10.0).bold().align(Align::Center);
     match sign {
         Sign::Key => {
-            canvas.ring((x, y), 7.2, style::GENGA, 1.2)?;
+            canvas.ring((x, y), 7.2, style::GENGA, 1.2);
             canvas.text("2", (x, y + 3.6), look.color(style::GENGA))
         }
         Sign::End => {
-            canvas.ring((x, y), 7.2, style::END, 1.2)?;
+            canvas.ring((x, y), 7.2, style::END, 1.2);
             canvas.text("1", (x, y + 3.6), look.color(style::END))
         }
         Sign::Pinned => {
-            canvas.disc((x, y), 7.6, style::GENGA)?;
+            canvas.disc((x, y), 7.6, style::GENGA);
             canvas.text("3", (x, y + 3.6), look.color(style::PAPER))
         }
         Sign::Inbetween => match page.settings.inbetween {

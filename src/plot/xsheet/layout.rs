@@ -7,7 +7,7 @@ use crate::sheet::Sheet;
 
 /// Width and height of a page in px: a little wider than A4 and B4 inside their margins are, so that a
 /// page as wide as the paper is never too high for it.
-pub(super) const SIZE: (u32, u32) = (1000, 1440);
+pub(super) const SIZE: (f64, f64) = (1000.0, 1440.0);
 /// White at the edges.
 pub(super) const MARGIN: f64 = 8.0;
 /// Layers on a page.
@@ -59,7 +59,7 @@ impl<'a> Page<'a> {
     }
 
     pub(super) fn halves(&self) -> [Half; 2] {
-        let right = f64::from(SIZE.0) - MARGIN - HALF;
+        let right = SIZE.0 - MARGIN - HALF;
         [Half { left: MARGIN, begin: self.begin }, Half { left: right, begin: self.begin + ROWS }]
     }
 

@@ -41,12 +41,12 @@ fn pages(settings: &XSheet, layers: Vec<Layer>) -> Vec<String> {
 
 /// The words of a page, without the koma numbers, which stand right-aligned.
 fn words(page: &str) -> Vec<String> {
-    let lines: Vec<&str> = page.lines().collect();
-    let texts = lines.windows(2).filter(|pair| pair[0].starts_with("<text"));
-    texts
-        .filter(|pair| !(pair[0].contains("\"end\"") && pair[1].parse::<usize>().is_ok()))
-        .map(|pair| pair[1].to_owned())
-        .collect()
+    let text = |line: &'_ str| {
+        let (look, word) = line.strip_suffix("</text>")?.rsplit_once('>')?;
+        let is_koma = look.contains("\"end\"") && word.parse::<usize>().is_ok();
+        (!is_koma).then(|| word.to_owned())
+    };
+    page.lines().filter_map(text).collect()
 }
 
 /// How many lines of ink stand upright: hold lines, and that of the legend.
@@ -56,7 +56,7 @@ fn hold_lines(page: &str) -> usize {
         rest.split('"').next().unwrap().parse::<f64>().unwrap()
     };
     let upright = |line: &&str| {
-        let ink = line.contains("stroke=\"#22252B\"");
+        let ink = line.contains("stroke=\"#22252b\"");
         ink && number(line, "x1") == number(line, "x2") && number(line, "y1") != number(line, "y2")
     };
     page.lines().filter(|line| line.starts_with("<line")).filter(upright).count()
@@ -115,19 +115,19 @@ fn a_hold_line_stands_under_what_stays_for_more_than_three_koma() {
 #[test]
 fn keys_are_circled_in_both_columns_and_inbetweens_are_marks_in_one() {
     let settings = XSheet { gauges: false, ..XSheet::default() };
-    let circles = |settings: &XSheet, radius: u32| {
+    let circles = |settings: &XSheet, radius: f64| {
         let page = &pages(settings, vec![layer("A", &CUT)])[0];
         let circle = format!(" r=\"{radius}\"");
         let outer = |line: &&str| line.starts_with("<circle") && line.contains(&circle);
         page.lines().filter(outer).filter(|line| line.contains("stroke=\"#")).count()
     };
     // Four keys in two columns, and two in the legend.
-    let rings = |settings| circles(settings, 58);
+    let rings = |settings| circles(settings, 7.2);
     assert_eq!(rings(&settings), 10);
-    let dots = pages(&settings, vec![layer("A", &CUT)])[0].matches(" r=\"18\"").count();
+    let dots = pages(&settings, vec![layer("A", &CUT)])[0].matches(" r=\"2.2\"").count();
     assert_eq!(dots, 4, "three inbetweens and the legend");
     let round = XSheet { inbetween: InbetweenMark::Circle, ..settings };
-    assert_eq!(circles(&round, 32), 4);
+    assert_eq!(circles(&round, 4.0), 4);
 }
 
 #[test]

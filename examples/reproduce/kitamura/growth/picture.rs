@@ -2,6 +2,7 @@
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters_svg::SVGBackend;
 
 use crate::Outcome;
 use crate::kitamura::growth::knee::{knee, last_within};
