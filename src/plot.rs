@@ -2,18 +2,19 @@
 //!
 //! A picture is a settings struct with one verb, `draw`. Same input, same bytes: no time stamps and
 //! no order that could change. Text names a list of fonts; the last, `sans-serif`, is always there.
-//! Charts are drawn with a library, figures by an SVG writer of our own; only what is by the hundred goes straight to
-//! pixels.
+//! One canvas writes SVG. A library draws the axes and curves of charts on it; only what is by the hundred goes
+//! straight to pixels.
 
-mod axis;
 mod canvas;
 mod cells;
+mod chart;
 mod contact_sheet;
 mod figure;
 mod flipbook;
 mod heat;
 mod hierarchy;
 mod images;
+mod legend;
 mod onion;
 mod page;
 #[cfg(feature = "studio")]

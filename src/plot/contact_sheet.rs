@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::Clip;
-use crate::plot::axis::number;
+use crate::plot::chart::number;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;

@@ -4,8 +4,8 @@ use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::plot::axis::number;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::chart::{self, Plot, bar, number};
 use crate::plot::study::{headline, name, shown, title};
 use crate::plot::style;
 use crate::study::{Axis, Grid, Measure, Plateau};
@@ -85,20 +85,20 @@ impl HeatMap {
             canvas.text(&of_clips, (style::MARGIN, 58.0), faint);
         }
         map.bar(&mut canvas);
-        map.cells(&mut canvas, &values);
+        map.cells(&mut canvas, &values)?;
         if let Some(plateaus) = plateaus {
             map.edges(&mut canvas, grid, plateaus);
         }
-        map.axes(&mut canvas, grid);
+        map.names(&mut canvas, grid);
         Ok(canvas.finish())
     }
 }
 
 /// Where the cells stand.
 struct Map {
-    columns: usize,
+    /// Its values are columns from the left and rows from below.
+    plot: Plot,
     rows: usize,
-    left: f64,
     /// Px that the words above and below the cells need.
     words: f64,
     /// Px of a cell.
@@ -125,11 +125,19 @@ impl Map {
         let title = style::text_width(&headline(show), 1.1 * style::TITLE);
         let axes = [Some(&grid.x), grid.y.as_ref()].into_iter().flatten();
         let words = axes.map(|axis| style::text_width(&name(axis, unit(axis)), style::WORDS));
+        let left = style::MARGIN + label + if grid.y.is_some() { 30.0 } else { 0.0 };
+        let widest = grid.x.values().iter().map(|value| style::text_width(value, style::SMALL));
+        let below = labels_of(&grid.x, (widest.fold(0.0, f64::max) + 8.0) / cell.0);
+        let beside = grid.y.as_ref().map(|axis| labels_of(axis, 14.0 / cell.1));
         Self {
-            columns,
+            plot: Plot {
+                from: (left, TOP),
+                to: (left + columns as f64 * cell.0, TOP + rows as f64 * cell.1),
+                x: chart::Axis::labelled((0.0, columns as f64), below).plain(),
+                y: chart::Axis::labelled((0.0, rows as f64), beside.unwrap_or_default()).plain(),
+            },
             rows,
             words: words.fold(title, f64::max),
-            left: style::MARGIN + label + if grid.y.is_some() { 30.0 } else { 0.0 },
             cell,
             low: finite().fold(f64::INFINITY, f64::min),
             high: finite().fold(f64::NEG_INFINITY, f64::max),
@@ -137,22 +145,14 @@ impl Map {
         }
     }
 
-    fn right(&self) -> f64 {
-        self.left + self.columns as f64 * self.cell.0
-    }
-
-    fn bottom(&self) -> f64 {
-        TOP + self.rows as f64 * self.cell.1
-    }
-
     fn size(&self) -> (f64, f64) {
-        let width = self.right().max(style::MARGIN + self.words) + style::MARGIN;
-        (width.max(560.0), self.bottom() + BOTTOM)
+        let width = self.plot.to.0.max(style::MARGIN + self.words) + style::MARGIN;
+        (width.max(560.0), self.plot.to.1 + BOTTOM)
     }
 
     /// The upper left corner of a cell; the first row is the lowest.
     fn corner(&self, x: usize, y: usize) -> Point {
-        (self.left + x as f64 * self.cell.0, self.bottom() - (y + 1) as f64 * self.cell.1)
+        self.plot.at(x as f64, (y + 1) as f64)
     }
 
     /// 0 for the least, 1 for the most.
@@ -160,46 +160,45 @@ impl Map {
         if self.high > self.low { (value - self.low) / (self.high - self.low) } else { 0.0 }
     }
 
-    fn cells(&self, canvas: &mut Canvas, values: &[f64]) {
+    /// The cells and their axes, and the values in them.
+    fn cells(&self, canvas: &mut Canvas, values: &[f64]) -> Result<(), Error> {
         // A hair of paper between cells that are large enough to show it.
         let hair = if self.cell.0.min(self.cell.1) >= 14.0 { 0.5 } else { 0.0 };
-        for (at, value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-            let (left, top) = self.corner(at / self.rows, at % self.rows);
-            let (right, bottom) = (left + self.cell.0, top + self.cell.1);
-            let share = self.share(*value);
-            canvas.rect((left + hair, top + hair), (right - hair, bottom - hair), color(share));
-            if let Some(size) = self.type_size {
-                let ink = if share > 0.55 { style::PAPER } else { style::INK };
-                let look = Type::new(size).color(ink).align(Align::Center);
-                let base = 0.5 * (top + bottom) + 0.36 * size;
-                canvas.text(&written(*value), (0.5 * (left + right), base), look);
-            }
+        let (wide, high) = (hair / self.cell.0, hair / self.cell.1);
+        let place = |at: usize| ((at / self.rows) as f64, (at % self.rows) as f64);
+        let finite = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
+        let cells = finite().map(|(at, value)| {
+            let (x, y) = place(at);
+            let to = (x + 1.0 - wide, y + 1.0 - high);
+            bar((x + wide, y + high), to, color(self.share(*value)))
+        });
+        self.plot.draw(canvas, |chart| chart.draw_series(cells).map(drop))?;
+        let Some(size) = self.type_size else { return Ok(()) };
+        for (at, value) in finite() {
+            let (x, y) = place(at);
+            let (middle, base) = self.plot.at(x + 0.5, y + 0.5);
+            let ink = if self.share(*value) > 0.55 { style::PAPER } else { style::INK };
+            let look = Type::new(size).color(ink).align(Align::Center);
+            canvas.text(&written(*value), (middle, base + 0.36 * size), look);
         }
+        Ok(())
     }
 
-    fn axes(&self, canvas: &mut Canvas, grid: &Grid) {
-        let look = Type::new(style::SMALL);
-        let widest = grid.x.values().iter().map(|value| style::text_width(value, style::SMALL));
-        let every = every(widest.fold(0.0, f64::max) + 8.0, self.cell.0);
-        for (x, value) in grid.x.values().iter().enumerate().step_by(every) {
-            let middle = self.left + (x as f64 + 0.5) * self.cell.0;
-            canvas.text(value, (middle, self.bottom() + 17.0), look.align(Align::Center));
-        }
+    /// What both axes are called.
+    fn names(&self, canvas: &mut Canvas, grid: &Grid) {
         let words = Type::new(style::WORDS);
-        let middle = (0.5 * (self.left + self.right())).max(0.5 * self.size().0.min(560.0));
-        let place = (middle, self.bottom() + 42.0);
+        // A name may be wider than a map of few columns.
+        let middle = self.plot.at(0.5 * grid.x.len() as f64, 0.0).0;
+        let place = (middle.max(0.5 * self.size().0.min(560.0)), self.plot.to.1 + 42.0);
         canvas.text(&name(&grid.x, unit(&grid.x)), place, words.align(Align::Center));
-        let Some(axis) = &grid.y else { return };
-        for (y, value) in axis.values().iter().enumerate().step_by(self::every(14.0, self.cell.1)) {
-            let middle = self.bottom() - (y as f64 + 0.5) * self.cell.1;
-            canvas.text(value, (self.left - 8.0, middle + 4.0), look.align(Align::Right));
+        if let Some(axis) = &grid.y {
+            canvas.text(&name(axis, unit(axis)), (style::MARGIN, TOP - 10.0), words);
         }
-        canvas.text(&name(axis, unit(axis)), (style::MARGIN, TOP - 10.0), words);
     }
 
     /// The edges of plateaus and the recipe's own cell, and below the map what they are.
     fn edges(&self, canvas: &mut Canvas, grid: &Grid, plateaus: &[Option<Plateau>; 2]) {
-        let base = self.bottom() + LEGEND;
+        let base = self.plot.to.1 + LEGEND;
         let mut left = style::MARGIN;
         let looks = [(style::GENGA, 2.0), (style::RIGHT, 4.0)];
         let words = ["same keys of the layer 原画が同じ", "nearly the same ほぼ同じ"];
@@ -217,8 +216,7 @@ impl Map {
         let radius = (0.2 * self.cell.0.min(self.cell.1)).clamp(2.0, 4.5);
         let place = (x + self.cell.0 - radius - 2.0, y + radius + 2.0);
         for place in [place, (left + 9.0, base - 4.0)] {
-            canvas.disc(place, radius + 1.0, style::PAPER);
-            canvas.disc(place, radius, style::GENGA);
+            canvas.spot(place, radius, style::GENGA);
         }
         self.legend(canvas, left, base, "the recipe 現在のレシピ");
     }
@@ -297,7 +295,9 @@ fn written(value: f64) -> String {
     }
 }
 
-/// Every how many labels of a size have room.
-fn every(label: f64, cell: f64) -> usize {
-    (label / cell).ceil().max(1.0) as usize
+/// The values of an axis in the middle of their cells, as many as have room: a label is so many cells long.
+fn labels_of(axis: &Axis, cells: f64) -> Vec<(f64, String)> {
+    let every = cells.ceil().max(1.0) as usize;
+    let values = axis.values().iter().enumerate().step_by(every);
+    values.map(|(at, value)| (at as f64 + 0.5, value.clone())).collect()
 }

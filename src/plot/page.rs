@@ -1,8 +1,8 @@
 //! What the pages of figures have in common: a title, the length of the cut, a legend.
 
-use crate::motion::BodySide;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::cells::seconds_and_koma;
+use crate::plot::legend::{self, SIDES};
 use crate::plot::style;
 use crate::sheet::{Layer, Sheet};
 
@@ -27,16 +27,9 @@ impl Head<'_> {
     pub(super) fn draw(&self, canvas: &mut Canvas, width: f64) {
         let right = width - style::MARGIN;
         canvas.text(self.title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
-        let mut x = right;
-        for (side, word) in [(BodySide::Right, "right 右"), (BodySide::Left, "left 左")] {
-            let look = Type::new(style::WORDS).align(Align::Right);
-            canvas.text(word, (x, 34.0), look);
-            x -= style::text_width(word, style::WORDS) + 10.0;
-            canvas.line((x - 16.0, 29.5), (x, 29.5), side.color(), 4.0);
-            x -= 34.0;
-        }
+        let room = legend::draw(canvas, right, &SIDES) - 18.0;
         let begin = style::MARGIN + style::text_width(self.title, style::TITLE) * 1.06 + 16.0;
-        let cut = style::fitted(self.cut, style::WORDS, x - begin);
+        let cut = style::fitted(self.cut, style::WORDS, room - begin);
         canvas.text(&cut, (begin, 34.0), Type::new(style::WORDS).color(style::FAINT));
         let (page, pages) = self.page;
         let mut room = right - style::MARGIN;

@@ -4,11 +4,12 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::motion::{BodySide, Camera, Clip};
-use crate::plot::axis::number;
+use crate::motion::{Camera, Clip};
+use crate::plot::chart::number;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, composed};
 use crate::plot::figure::Figure;
+use crate::plot::legend::{self, SIDES};
 use crate::plot::points::{Posing, Showing};
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;
@@ -139,7 +140,7 @@ impl PoseRow {
         let width = width.min(f64::from(self.width).max(NARROWEST));
         let height = HEAD + line * lines as f64 + 10.0;
         let mut canvas = Canvas::new((width, height));
-        head(&mut canvas, (frames.len(), all));
+        head(&mut canvas, (frames.len(), all), width - style::MARGIN);
         for (at, row) in frames.chunks(in_line).enumerate() {
             let floor = HEAD + line * at as f64 + 12.0 + high;
             let end = style::MARGIN + cell * row.len() as f64;
@@ -155,19 +156,14 @@ impl PoseRow {
     }
 }
 
-/// The title, which colour is which side, and how many figures of how many there are.
-fn head(canvas: &mut Canvas, (shown, all): (usize, usize)) {
+/// The title, how many figures of how many there are, and which colour is which side.
+fn head(canvas: &mut Canvas, (shown, all): (usize, usize), right: f64) {
     canvas.text("Poses ポーズ", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
-    let mut x = 170.0;
-    for (side, word) in [(BodySide::Left, "left 左"), (BodySide::Right, "right 右")] {
-        canvas.line((x, 29.0), (x + 20.0, 29.0), side.color(), 4.0);
-        canvas.text(word, (x + 26.0, 34.0), Type::new(style::WORDS));
-        x += style::text_width(word, style::WORDS) + 46.0;
-    }
     if shown < all {
         let words = format!("the first {shown} of {all}");
-        canvas.text(&words, (x, 34.0), Type::new(style::WORDS).color(style::FAINT));
+        canvas.text(&words, (style::MARGIN + 126.0, 34.0), Type::new(style::WORDS).color(style::FAINT));
     }
+    legend::draw(canvas, right, &SIDES);
 }
 
 /// The label in its role's colour and the frame below.

@@ -3,11 +3,13 @@
 pub(super) mod fate;
 mod paper;
 
+use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::SeenFrom;
-use crate::plot::canvas::{Canvas, Type};
+use crate::plot::canvas::{Canvas, Point, Type};
+use crate::plot::legend::{self, Entry, SPLIT};
 use crate::plot::sheet::fate::row_before;
 use crate::plot::sheet::paper::{Band, LEFT, Paper, badges};
 use crate::plot::style;
@@ -37,6 +39,7 @@ impl Default for SheetPlot {
 const HEAD: f64 = 52.0;
 /// Height of the lines of words about the layers, in the title.
 const COUNTS: f64 = 19.0;
+
 impl SheetPlot {
     /// Checks the settings.
     ///
@@ -132,7 +135,9 @@ impl SheetPlot {
         }
         let room = if self.splits.is_empty() { 760 } else { 1080 };
         if self.width >= room {
-            legend(canvas, f64::from(self.width), (spaced, !self.splits.is_empty()));
+            let mut entries = LEGEND[..if spaced { 6 } else { 4 }].to_vec();
+            entries.extend((!self.splits.is_empty()).then_some(SPLIT));
+            legend::draw(canvas, f64::from(self.width) - style::MARGIN, &entries);
         }
     }
 }
@@ -155,37 +160,16 @@ fn counts(layer: &Layer, koma_rate: f64) -> String {
     )
 }
 
-/// What the strokes mean, on the right of the title.
-fn legend(canvas: &mut Canvas, width: f64, (spaced, split): (bool, bool)) {
-    let words = [
-        "genga 原画",
-        "inbetween 中割り",
-        "end",
-        "hold",
-        "naka-nashi 中無し",
-        "koma-dori コマ撮り",
-        "next action 区切り",
-    ];
-    let is_shown = |at: &usize| match at {
-        0..4 => true,
-        4 | 5 => spaced,
-        _ => split,
-    };
-    let shown = || (0..words.len()).filter(is_shown).map(|at| (at, words[at]));
-    let wide = |word: &str| style::text_width(word, style::WORDS) + 38.0;
-    let mut x = width - style::MARGIN - shown().map(|(_, word)| wide(word)).sum::<f64>() + 16.0;
-    for (at, word) in shown() {
-        let base = 34.0;
-        match at {
-            0 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::GENGA),
-            1 => canvas.rect((x + 5.0, base - 7.0), (x + 12.0, base + 2.0), style::INBETWEEN),
-            2 => canvas.rect((x + 5.0, base - 13.0), (x + 12.0, base + 2.0), style::END),
-            3 => canvas.line((x, base - 4.5), (x + 15.0, base - 4.5), style::INBETWEEN, 2.5),
-            4 => canvas.cross((x + 9.0, base - 5.0), 4.0, style::GENGA, 1.75),
-            5 => canvas.ring((x + 9.0, base - 5.0), 3.25, style::FAINT, 1.25),
-            _ => canvas.dashes((x + 9.0, base - 14.0), (x + 9.0, base + 4.0), style::INK, 1.25),
-        }
-        canvas.text(word, (x + 20.0, base), Type::new(style::WORDS));
-        x += wide(word);
-    }
+/// What the strokes mean: the last two of them only beside the sheet before omission.
+const LEGEND: [Entry; 6] = [
+    ("genga 原画", |canvas, at| bar(canvas, at, 15.0, style::GENGA)),
+    ("inbetween 中割り", |canvas, at| bar(canvas, at, 9.0, style::INBETWEEN)),
+    ("end", |canvas, at| bar(canvas, at, 15.0, style::END)),
+    ("hold", |canvas, (x, y)| canvas.line((x - 7.5, y), (x + 7.5, y), style::INBETWEEN, 2.5)),
+    ("naka-nashi 中無し", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
+    ("koma-dori コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
+];
+
+fn bar(canvas: &mut Canvas, (x, y): Point, high: f64, color: RGBColor) {
+    canvas.rect((x - 3.5, y + 7.0 - high), (x + 3.5, y + 7.0), color);
 }

@@ -1,13 +1,15 @@
 //! The spacing of one interval (詰め) [KT11 Figs. 7 to 10]: where inbetweens would stand evenly, where
 //! they are taken from, and how far that is on the way.
 
+use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::{Clip, JointId};
-use crate::plot::axis::{Scale, number, range_with_zero};
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::cells::{cells, shown};
+use crate::plot::chart::{Axis, Plot, curve, range_with_zero};
+use crate::plot::legend::{self, Entry};
 use crate::plot::style;
 use crate::sheet::Sheet;
 use crate::signal::Signals;
@@ -108,7 +110,7 @@ impl SpacingPlot {
         let range = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
             (low.min(place), high.max(place))
         });
-        let time = Scale::new(range, (LEFT, right));
+        let time = Axis::round(range, (right - LEFT) / 64.0).plain();
         let inside = |wall: &&Frame| (range.0..=range.1).contains(&(wall.0 as f64));
         let walls: Vec<f64> = walls.iter().filter(inside).map(|wall| wall.0 as f64).collect();
         let begin = TOP + if speed.is_some() { SPEEDS + AXIS } else { 0.0 };
@@ -116,12 +118,12 @@ impl SpacingPlot {
         let mut canvas = Canvas::new((f64::from(self.width), height));
         head(&mut canvas, right, !walls.is_empty());
         if let Some((speed, joint)) = speed {
-            speeds(&mut canvas, speed, joint, range, right, &walls);
+            speeds(&mut canvas, (speed, joint), (range, &time), right, &walls)?;
         }
         for (at, row) in rows.iter().enumerate() {
             let top = begin + ROW * at as f64;
             for wall in &walls {
-                let (x, y) = (time.at(*wall), top + SOURCE);
+                let (x, y) = (time.at(*wall, (LEFT, right)), top + SOURCE);
                 canvas.line((x, y - 17.0), (x, y + 17.0), style::WALL, 1.0);
             }
             row.draw(&mut canvas, &time, (top, right));
@@ -156,71 +158,57 @@ impl SpacingPlot {
 /// The title and, on its right, what the marks mean.
 fn head(canvas: &mut Canvas, right: f64, has_wall: bool) {
     canvas.text("Spacing 詰め", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
-    let words = ["genga 原画", "inbetween 中割り", "even place 均等割り", "wall 壁"];
-    let words = &words[..if has_wall { 4 } else { 3 }];
-    let wide = |word: &&str| style::text_width(word, style::WORDS) + 36.0;
-    let mut x = right + 20.0 - words.iter().map(wide).sum::<f64>();
-    for (at, word) in words.iter().enumerate() {
-        let middle = (x + 6.0, 29.0);
-        match at {
-            0 => canvas.disc(middle, 6.0, style::GENGA),
-            1 => canvas.disc(middle, 6.0, style::INBETWEEN),
-            2 => canvas.ring(middle, 4.0, style::INBETWEEN, 1.25),
-            _ => canvas.triangle(middle, 5.5, style::WALL),
-        }
-        canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS));
-        x += wide(word);
+    let mut entries: Vec<Entry> = vec![
+        ("genga 原画", |canvas, at| canvas.disc(at, 6.0, style::GENGA)),
+        ("inbetween 中割り", |canvas, at| canvas.disc(at, 6.0, style::INBETWEEN)),
+        ("even place 均等割り", |canvas, at| canvas.ring(at, 4.0, style::INBETWEEN, 1.25)),
+    ];
+    if has_wall {
+        entries.push(("wall 壁", |canvas, at| canvas.triangle(at, 5.5, style::WALL)));
     }
+    legend::draw(canvas, right, &entries);
 }
 
 /// The joint's speed over the interval, its walls on it, and the frames below.
 fn speeds(
     canvas: &mut Canvas,
-    speed: &Signals,
-    joint: JointId,
-    (from, to): (f64, f64),
+    (speed, joint): (&Signals, JointId),
+    ((from, to), time): ((f64, f64), &Axis),
     right: f64,
     walls: &[f64],
-) {
+) -> Result<(), Error> {
     let (people, first) = (speed.unit.for_people(), speed.first.0 as f64);
-    let bottom = TOP + SPEEDS;
-    let time = Scale::new((from, to), (LEFT, right));
-    let curve: Vec<(f64, f64)> = speed
+    let points: Vec<(f64, f64)> = speed
         .joint(joint)
         .iter()
         .enumerate()
         .map(|(row, value)| (first + row as f64, value * people))
         .filter(|(frame, value)| (from..=to).contains(frame) && value.is_finite())
         .collect();
-    let (low, high) = range_with_zero(&curve.iter().map(|point| point.1).collect::<Vec<_>>());
-    let values = Scale::new((1.08 * low, 1.08 * high), (bottom, TOP));
-    let look = Type::new(style::SMALL).align(Align::Right);
-    for value in values.ticks(34.0) {
-        let y = values.at(value);
-        canvas.line((LEFT, y), (right, y), style::GRID, 1.0);
-        canvas.text(&number(value), (LEFT - 7.0, y + 4.0), look);
-    }
-    let words = format!("speed 速度 ({})", speed.unit.symbol());
-    canvas.text(&words, (LEFT + 6.0, TOP + 14.0), Type::new(style::SMALL).bold());
-    for frame in time.ticks(64.0) {
-        let x = time.at(frame);
-        canvas.line((x, bottom), (x, bottom + 5.0), style::FAINT, 1.0);
-        canvas.text(&number(frame), (x, bottom + 18.0), look.align(Align::Center));
-    }
-    canvas.text("frame", (LEFT - 18.0, bottom + 18.0), look);
-    let at = |point: &(f64, f64)| (time.at(point.0), values.at(point.1));
-    canvas.path(&curve.iter().map(at).collect::<Vec<Point>>(), style::FILTERED, 1.75);
-    for wall in walls {
-        let x = time.at(*wall);
-        canvas.line((x, TOP), (x, bottom), style::WALL, 1.0);
-        if let Some(point) = curve.iter().find(|point| point.0 >= *wall) {
-            canvas.triangle(at(point), 6.0, style::WALL);
+    let (low, high) = range_with_zero(&points.iter().map(|point| point.1).collect::<Vec<_>>());
+    let bottom = TOP + SPEEDS;
+    let y = Axis::round((1.08 * low, 1.08 * high), SPEEDS / 34.0);
+    let plot = Plot { from: (LEFT, TOP), to: (right, bottom), x: time.clone(), y };
+    plot.draw(canvas, |chart| {
+        chart.draw_series(curve(points.iter().copied(), style::FILTERED, 1.75)).map(drop)
+    })?;
+    for &wall in walls {
+        canvas.line(plot.at(wall, 1.08 * low), plot.at(wall, 1.08 * high), style::WALL, 1.0);
+        if let Some(&(frame, value)) = points.iter().find(|point| point.0 >= wall) {
+            canvas.triangle(plot.at(frame, value), 6.0, style::WALL);
         }
     }
+    let look = Type::new(style::SMALL);
+    let words = format!("speed 速度 ({})", speed.unit.symbol());
+    canvas.text(&words, (LEFT + 6.0, TOP + 14.0), look.bold());
+    canvas.text("frame", (LEFT - 18.0, bottom + 17.0), look.align(Align::Right));
+    Ok(())
 }
 
 impl Row<'_> {
-    fn draw(&self, canvas: &mut Canvas, time: &Scale, (top, right): (f64, f64)) {
+    fn draw(&self, canvas: &mut Canvas, time: &Axis, (top, right): (f64, f64)) {
+        let px = |place: f64| time.at(place, (LEFT, right));
+        let way = |share: f64| LEFT + share * (right - LEFT);
         let words = style::fitted(self.name, style::WORDS, right - style::MARGIN);
         canvas.text(&words, (style::MARGIN, top + NAME), Type::new(style::WORDS).bold());
         let look = Type::new(style::SMALL).color(style::FAINT);
@@ -231,37 +219,35 @@ impl Row<'_> {
         let last = self.stands.len() - 1;
         for (at, stand) in self.stands.iter().enumerate().filter(|(at, _)| *at > 0 && *at < last) {
             let y = top + SOURCE;
-            let (even, x) = (time.at(stand.even), time.at(stand.place));
+            let (even, x) = (px(stand.even), px(stand.place));
             canvas.ring((even, y), 4.0, style::INBETWEEN, 1.25);
             arrow(canvas, (even, x), y);
             ball(canvas, (x, y), at, style::INBETWEEN);
         }
-        let way = Scale::new((0.0, 1.0), (LEFT, right));
         for (at, stand) in self.stands.iter().enumerate() {
             let is_genga = at == 0 || at == last;
             let color = if is_genga { style::GENGA } else { style::INBETWEEN };
             if is_genga {
-                ball(canvas, (time.at(stand.place), top + SOURCE), at, color);
+                ball(canvas, (px(stand.place), top + SOURCE), at, color);
             }
             if let Some(share) = stand.way {
-                ball(canvas, (way.at(share), top + WAY), at, color);
+                ball(canvas, (way(share), top + WAY), at, color);
             }
         }
         for (at, letter) in [(0, "A"), (last, "B")] {
             let look = Type::new(style::SMALL).bold().color(style::PAPER).align(Align::Center);
-            let x = time.at(self.stands[at].place);
+            let x = px(self.stands[at].place);
             canvas.text(letter, (x, top + SOURCE + 4.0), look);
             if let Some(share) = self.stands[at].way {
-                canvas.text(letter, (way.at(share), top + WAY + 4.0), look);
+                canvas.text(letter, (way(share), top + WAY + 4.0), look);
             }
         }
     }
 }
 
 /// A drawing: inbetweens have their number, from 1.
-fn ball(canvas: &mut Canvas, (x, y): Point, number: usize, color: plotters::style::RGBColor) {
-    canvas.disc((x, y), BALL + 1.0, style::PAPER);
-    canvas.disc((x, y), BALL, color);
+fn ball(canvas: &mut Canvas, (x, y): Point, number: usize, color: RGBColor) {
+    canvas.spot((x, y), BALL, color);
     if color == style::GENGA {
         return;
     }

@@ -1,16 +1,18 @@
 //! How far the body moves into each koma, before and after omission [KKMFT Figs. 1, 2, 8].
 
+use plotters::element::Rectangle;
 use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::{Clip, Screen, SeenFrom};
-use crate::plot::axis::{Scale, number};
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::cells::shown;
+use crate::plot::chart::{Axis, Plot, bar, number};
+use crate::plot::legend::{self, Entry};
 use crate::plot::sheet::fate::{Fate, fates};
 use crate::plot::style;
-use crate::sheet::{Layer, Sheet};
+use crate::sheet::{Drawing, Exposure, Layer, Sheet};
 use crate::timing::Stills;
 
 /// The movement into each koma (動きの大きさ): a bar a koma of the source, under it a sign for what
@@ -41,6 +43,13 @@ const BOTTOM: f64 = 44.0;
 const BETWEEN: f64 = 20.0;
 /// A koma with a drawing of its own: blue, as in the paper's Fig. 8.
 const OWN: RGBColor = style::WALL;
+
+const LEGEND: [Entry; 4] = [
+    ("left out 中無し", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
+    ("held コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
+    ("a koma longer", |canvas, at| plus(canvas, at, 3.5)),
+    ("own drawing", |canvas, (x, y)| canvas.rect((x - 2.0, y - 6.0), (x + 2.0, y + 6.0), OWN)),
+];
 
 /// A layer koma by koma.
 pub(crate) struct Moves {
@@ -73,12 +82,10 @@ struct Paper<'a> {
     result: Moves,
     fates: Vec<Fate>,
     koma: usize,
-    second: usize,
+    /// Px of a koma.
     slot: f64,
-    right: f64,
-    /// Where the bars of the source and of the result stand, and how high the highest may be.
-    floors: (f64, f64),
-    high: f64,
+    /// The bars of the source, and of the result.
+    charts: [Plot; 2],
 }
 
 impl SsdPlot {
@@ -106,49 +113,57 @@ impl SsdPlot {
         let (before, after) = (shown(clip, before)?, shown(clip, after)?);
         let koma = before.length().max(after.length());
         let (width, height) = (f64::from(self.width), f64::from(self.height));
-        let high = 0.5 * (height - TOP - SIGNS - BETWEEN - STROKES - BOTTOM);
-        let floor = TOP + high;
-        let right = width - style::MARGIN;
         let screen = Screen::of(self.seen_from, clip);
+        let (source, result) =
+            (Moves::of(clip, before, &screen), Moves::of(clip, after, &screen));
         let paper = Paper {
             seen_from: self.seen_from,
-            source: Moves::of(clip, before, &screen),
-            result: Moves::of(clip, after, &screen),
+            charts: charts((width, height), (koma, second), source.largest().max(result.largest())),
+            source,
+            result,
             fates: fates(before, after),
             before,
             after,
             koma,
-            second,
-            slot: (right - LEFT) / koma as f64,
-            right,
-            floors: (floor, floor + SIGNS + BETWEEN + high),
-            high,
+            slot: (width - style::MARGIN - LEFT) / koma as f64,
         };
-        let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
-        paper.draw(&mut canvas);
+        let mut canvas = Canvas::new((width, height));
+        paper.draw(&mut canvas)?;
         Ok(canvas.finish())
     }
 }
 
+/// One over the other, of one scale: lines at the seconds and at round roots of SSD.
+fn charts((width, height): (f64, f64), (koma, second): (usize, usize), most: f64) -> [Plot; 2] {
+    let high = 0.5 * (height - TOP - SIGNS - BETWEEN - STROKES - BOTTOM);
+    let seconds = (0..=koma).step_by(second).map(|koma| (koma as f64, String::new()));
+    let x = Axis::labelled((0.0, koma as f64), seconds.collect());
+    let y = Axis::round((0.0, most.sqrt()), high / 30.0).written(|root| number(root * root));
+    [TOP, TOP + high + SIGNS + BETWEEN].map(|top| Plot {
+        from: (LEFT, top),
+        to: (width - style::MARGIN, top + high),
+        x: x.clone(),
+        y: y.clone(),
+    })
+}
+
 impl Paper<'_> {
-    fn draw(&self, canvas: &mut Canvas) {
+    fn draw(&self, canvas: &mut Canvas) -> Result<(), Error> {
         self.head(canvas);
-        let most = self.source.largest().max(self.result.largest());
-        let (above, below) = self.floors;
-        for (floor, words) in [(above, "source 素材"), (below, "result 結果")] {
-            self.grid(canvas, floor, most);
-            let base = floor - self.high - 7.0;
-            canvas.text(words, (style::MARGIN, base), Type::new(style::WORDS).bold());
+        let words = ["source 素材", "result 結果"];
+        let bars = [self.source_bars(), self.result_bars()];
+        for ((plot, words), bars) in self.charts.iter().zip(words).zip(bars) {
+            let place = (style::MARGIN, plot.from.1 - 7.0);
+            canvas.text(words, place, Type::new(style::WORDS).bold());
+            plot.draw(canvas, |chart| chart.draw_series(bars).map(drop))?;
         }
-        let scale = |floor: f64| Scale::new((0.0, most.sqrt()), (floor, floor - self.high));
-        self.above(canvas, &scale(above));
-        self.below(canvas, &scale(below));
-        self.koma_numbers(canvas);
+        self.signs(canvas);
+        self.strokes(canvas);
+        self.koma_numbers(canvas)
     }
 
-    /// The left edge of a koma.
-    fn x(&self, koma: usize) -> f64 {
-        LEFT + koma as f64 * self.slot
+    fn right(&self) -> f64 {
+        self.charts[0].to.0
     }
 
     /// What was done, in numbers, and what the signs mean.
@@ -170,72 +185,56 @@ impl Paper<'_> {
              largest SSD {was:.0} → {is:.0}{times}  ·  bars are √SSD high{seen}",
             self.koma
         );
-        let facts = style::fitted(&facts, style::WORDS, self.right - style::MARGIN);
+        let facts = style::fitted(&facts, style::WORDS, self.right() - style::MARGIN);
         canvas.text(&facts, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
-        if self.right >= 736.0 {
-            self.legend(canvas);
+        if self.right() >= 736.0 {
+            legend::draw(canvas, self.right(), &LEGEND);
         }
     }
 
-    fn legend(&self, canvas: &mut Canvas) {
-        let words = ["left out 中無し", "held コマ撮り", "a koma longer", "own drawing"];
-        let wide = |word: &str| style::text_width(word, style::WORDS) + 34.0;
-        let mut x = self.right + 14.0 - words.iter().map(|word| wide(word)).sum::<f64>();
-        for (at, word) in words.into_iter().enumerate() {
-            let sign = (x + 7.0, 29.0);
-            match at {
-                0 => canvas.cross(sign, 4.0, style::GENGA, 1.75),
-                1 => canvas.ring(sign, 3.25, style::FAINT, 1.25),
-                2 => plus(canvas, sign, 3.5),
-                _ => canvas.rect((x + 5.0, 23.0), (x + 9.0, 35.0), OWN),
-            }
-            canvas.text(word, (x + 17.0, 34.0), Type::new(style::WORDS));
-            x += wide(word);
-        }
+    /// A bar as high as the root of an SSD, with a little air between koma.
+    fn bar(&self, koma: usize, ssd: f64, color: RGBColor) -> Rectangle<(f64, f64)> {
+        let gap = f64::min(0.12, 3.0 / self.slot);
+        bar((koma as f64 + gap, 0.0), ((koma + 1) as f64 - gap, ssd.sqrt()), color)
     }
 
-    /// Lines to read the SSD and the seconds by.
-    fn grid(&self, canvas: &mut Canvas, floor: f64, most: f64) {
-        let top = floor - self.high;
-        for koma in (0..=self.koma).step_by(self.second) {
-            canvas.line((self.x(koma), top), (self.x(koma), floor), style::GRID, 1.0);
-        }
-        let scale = Scale::new((0.0, most.sqrt()), (floor, top));
-        let look = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
-        for root in scale.ticks(30.0) {
-            let y = scale.at(root);
-            canvas.line((LEFT, y), (self.right, y), style::GRID, 1.0);
-            canvas.text(&number(root * root), (LEFT - 8.0, y + 4.0), look);
-        }
-        canvas.line((LEFT, floor), (self.right, floor), style::FAINT, 1.0);
-    }
-
-    fn bar(&self, canvas: &mut Canvas, (koma, ssd): (usize, f64), scale: &Scale, color: RGBColor) {
-        let gap = (0.12 * self.slot).clamp(0.0, 3.0);
-        let (left, right) = (self.x(koma) + gap, self.x(koma + 1) - gap);
-        canvas.rect((left, scale.at(ssd.sqrt())), (right, scale.at(0.0)), color);
-    }
-
-    /// The source, and what was done to each of its drawings.
-    fn above(&self, canvas: &mut Canvas, scale: &Scale) {
-        let floor = scale.at(0.0);
-        let radius = (0.42 * self.slot).clamp(1.5, 4.0);
-        for ((koma, exposure), begin) in self.before.timed().zip(&self.source.begins) {
-            let fate = self.fates[exposure.drawing];
-            let color = match fate {
+    fn source_bars(&self) -> Vec<Rectangle<(f64, f64)>> {
+        let bar = |((koma, exposure), begin): ((usize, Exposure), &usize)| {
+            let color = match self.fates[exposure.drawing] {
                 Fate::Stays => style::INBETWEEN,
                 Fate::LeftOut => style::GENGA,
                 Fate::Held => style::RAW,
             };
-            self.bar(canvas, (koma, self.source.ssd[*begin]), scale, color);
-            let sign = (self.x(koma) + 0.5 * self.slot, floor + 10.0);
-            match fate {
+            self.bar(koma, self.source.ssd[*begin], color)
+        };
+        self.before.timed().zip(&self.source.begins).map(bar).collect()
+    }
+
+    /// Red where drawings are left out before it.
+    fn result_bars(&self) -> Vec<Rectangle<(f64, f64)>> {
+        let bar = |(koma, exposure): (usize, Exposure)| {
+            let color = if self.omitted_before(exposure) > 0 { style::GENGA } else { OWN };
+            self.bar(koma, self.result.ssd[koma], color)
+        };
+        self.after.timed().map(bar).collect()
+    }
+
+    fn omitted_before(&self, exposure: Exposure) -> usize {
+        self.after.drawings[exposure.drawing].why.omitted_before
+    }
+
+    /// What was done to each drawing of the source, under it.
+    fn signs(&self, canvas: &mut Canvas) {
+        let radius = (0.42 * self.slot).clamp(1.5, 4.0);
+        for (koma, exposure) in self.before.timed() {
+            let (x, floor) = self.charts[0].at(koma as f64 + 0.5, 0.0);
+            let sign = (x, floor + 10.0);
+            match self.fates[exposure.drawing] {
                 Fate::LeftOut => canvas.cross(sign, radius, style::GENGA, 1.5),
                 Fate::Held => canvas.ring(sign, 0.8 * radius, style::FAINT, 1.0),
                 Fate::Stays => {
                     for more in 0..self.given(exposure.drawing) {
-                        let y = sign.1 + 2.4 * radius * more as f64;
-                        plus(canvas, (sign.0, y), radius);
+                        plus(canvas, (x, sign.1 + 2.4 * radius * more as f64), radius);
                     }
                 }
             }
@@ -245,40 +244,38 @@ impl Paper<'_> {
     /// Koma that naka-nashi gave to a drawing.
     fn given(&self, drawing: usize) -> usize {
         let place = self.before.drawings[drawing].source.place();
-        let same = |other: &&crate::sheet::Drawing| (other.source.place() - place).abs() <= 1e-6;
+        let same = |other: &&Drawing| (other.source.place() - place).abs() <= 1e-6;
         self.after.drawings.iter().find(same).map_or(0, |same| same.why.lengthened)
     }
 
-    /// The result; red where drawings are left out before it.
-    fn below(&self, canvas: &mut Canvas, scale: &Scale) {
-        let floor = scale.at(0.0);
+    /// A stroke under each drawing of the result, and how many were left out before it.
+    fn strokes(&self, canvas: &mut Canvas) {
+        let half = (0.25 * self.slot).clamp(0.5, 2.0);
         for (koma, exposure) in self.after.timed() {
-            let omitted = self.after.drawings[exposure.drawing].why.omitted_before;
-            let color = if omitted > 0 { style::GENGA } else { OWN };
-            let ssd = self.result.ssd[koma];
-            self.bar(canvas, (koma, ssd), scale, color);
-            let x = self.x(koma) + 0.5 * self.slot;
-            let half = (0.25 * self.slot).clamp(0.5, 2.0);
-            canvas.rect((x - half, floor + 4.0), (x + half, floor + STROKES), OWN);
+            let (x, floor) = self.charts[1].at(koma as f64 + 0.5, 0.0);
+            canvas.rect((x - half, floor + 5.0), (x + half, floor + STROKES), OWN);
+            let omitted = self.omitted_before(exposure);
             if omitted > 0 {
+                let (x, top) = self.charts[1].at((koma + 1) as f64, self.result.ssd[koma].sqrt());
                 let look = Type::new(style::SMALL).bold().color(style::GENGA);
-                let at: Point = (self.x(koma + 1) + 5.0, scale.at(ssd.sqrt()) + 10.0);
-                canvas.text(&format!("中無し {omitted}"), at, look);
+                canvas.text(&format!("中無し {omitted}"), (x + 5.0, top + 10.0), look);
             }
         }
     }
 
-    fn koma_numbers(&self, canvas: &mut Canvas) {
-        let base = self.floors.1 + STROKES + 18.0;
-        let look = Type::new(style::SMALL).align(Align::Center);
+    /// Koma from 1, below both.
+    fn koma_numbers(&self, canvas: &mut Canvas) -> Result<(), Error> {
         let steps = [1, 6, 12, 24, 48, 144, 480];
         let step = steps.into_iter().find(|step| *step as f64 * self.slot > 36.0).unwrap_or(1440);
-        for koma in (0..self.koma).filter(|koma| *koma == 0 || (koma + 1) % step == 0) {
-            let x = self.x(koma) + 0.5 * self.slot;
-            canvas.text(&(koma + 1).to_string(), (x, base), look);
-        }
-        let look = look.align(Align::Right).color(style::FAINT);
-        canvas.text("koma", (LEFT - 8.0, base), look);
+        let has_room = |koma: &usize| *koma == 1 || koma.is_multiple_of(step);
+        let numbers = (1..=self.koma).filter(has_room);
+        let numbers = numbers.map(|koma| (koma as f64 - 0.5, koma.to_string())).collect();
+        let y = self.charts[1].to.1 + STROKES + 5.0;
+        let axis = Axis::labelled((0.0, self.koma as f64), numbers);
+        Plot::ruler((LEFT, self.right()), y, axis).draw(canvas, |_| Ok(()))?;
+        let look = Type::new(style::SMALL).align(Align::Right).color(style::FAINT);
+        canvas.text("koma", (LEFT - 8.0, y + 17.0), look);
+        Ok(())
     }
 }
 

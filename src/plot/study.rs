@@ -4,8 +4,8 @@ use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::plot::axis::{Scale, number, range_with_zero};
 use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::chart::{self, Plot, curve, range_with_zero};
 use crate::plot::style;
 use crate::study::{Axis, Grid, Measure, medians};
 
@@ -94,35 +94,80 @@ impl StudyPlot {
             several => several.iter().filter_map(|grid| grid.values(self.show)).collect(),
         };
         let at = Places::of(&grid.x);
-        let chart = Chart::new(self, &at, medians.iter().chain(clips.iter().flatten()), &paper);
+        let plot = self.plot(&at, medians.iter().chain(clips.iter().flatten()), &paper);
+        let colors = colors(grid.rows());
         let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
-        chart.axes(&mut canvas, &at);
-        chart.words(&mut canvas, self.show, grids);
-        for (y, color) in colors(grid.rows()).into_iter().enumerate() {
-            for values in &clips {
-                let faded = style::mixed(color, style::PAPER, 0.65);
-                canvas.path(&chart.line(&at, values, y, grid.rows()), faded, 1.0);
+        self.words(&mut canvas, grids);
+        plot.draw(&mut canvas, |chart| {
+            for (line, color) in clips.iter().flat_map(|values| at.lines(values).zip(&colors)) {
+                let faded = style::mixed(*color, style::PAPER, 0.65);
+                chart.draw_series(curve(line, faded, 1.0))?;
             }
-        }
-        for Mark { at, line } in &paper {
-            let color = line.map_or(style::FAINT, |y| colors(grid.rows())[y]);
-            canvas.ring((chart.x.at(at.0), chart.y.at(at.1)), 5.5, color, 1.75);
+            for (line, color) in at.lines(&medians).zip(&colors) {
+                chart.draw_series(curve(line, *color, 2.0))?;
+            }
+            Ok(())
+        })?;
+        for Mark { at: (width, keys), line } in &paper {
+            let color = line.map_or(style::FAINT, |y| colors[y]);
+            canvas.ring(plot.at(*width, *keys), 5.5, color, 1.75);
         }
         let mut ends = Vec::new();
-        for (y, color) in colors(grid.rows()).into_iter().enumerate() {
-            let line = chart.line(&at, &medians, y, grid.rows());
-            canvas.path(&line, color, 2.0);
+        for (y, (line, color)) in at.lines(&medians).zip(colors).enumerate() {
             let radius = if at.numbers.len() > 30 { 2.5 } else { 4.0 };
-            line.iter().for_each(|point| canvas.disc(*point, radius, color));
-            ends.extend(line.last().map(|end| (*end, y, color)));
-        }
-        if self.paper {
-            chart.legend_of_paper(&mut canvas);
+            let points = line.into_iter().map(|(number, value)| plot.at(number, value));
+            let end = points.inspect(|point| canvas.disc(*point, radius, color)).last();
+            ends.extend(end.map(|end| (end, y, color)));
         }
         if let Some(y) = &grid.y {
-            chart.names(&mut canvas, y, ends);
+            names(&mut canvas, y, ends, plot.to.1);
         }
         Ok(canvas.finish())
+    }
+
+    fn plot<'a>(
+        &self,
+        at: &Places,
+        values: impl Iterator<Item = &'a f64>,
+        paper: &[Mark],
+    ) -> Plot {
+        let to = (f64::from(self.width) - RIGHT, f64::from(self.height) - BOTTOM);
+        let numbers = at.numbers.iter().copied().chain(paper.iter().map(|mark| mark.at.0));
+        let values: Vec<f64> = values.copied().chain(paper.iter().map(|mark| mark.at.1)).collect();
+        let (_, most) = range_with_zero(&values);
+        let range = padded(numbers);
+        let x = match &at.words {
+            Some(words) => {
+                let ticks = at.numbers.iter().copied().zip(words.iter().cloned());
+                chart::Axis::labelled(range, ticks.collect())
+            }
+            None => chart::Axis::round(range, (to.0 - LEFT) / 70.0),
+        };
+        Plot {
+            from: (LEFT, TOP),
+            to,
+            x: x.plain().named(at.name.clone()),
+            y: chart::Axis::round((0.0, 1.08 * most), (to.1 - TOP) / 44.0),
+        }
+    }
+
+    /// The title and what the lines are.
+    fn words(&self, canvas: &mut Canvas, grids: &[Grid]) {
+        title(canvas, self.show);
+        let right = f64::from(self.width) - style::MARGIN;
+        if self.paper {
+            canvas.ring((right - 158.0, 29.0), 5.5, style::INK, 1.75);
+            canvas.text("Kuroda & Tokoi, Table 1", (right - 146.0, 34.0), Type::new(style::WORDS));
+        }
+        let faint = Type::new(style::WORDS).color(style::FAINT);
+        if grids.len() > 1 {
+            let of_clips = format!("median of {} clips, each of them a thin line", grids.len());
+            canvas.text(&of_clips, (style::MARGIN, 58.0), faint);
+        }
+        if let Some(y) = &grids[0].y {
+            let unit = y.scale().map_or("", |(_, unit)| unit);
+            canvas.text(&name(y, unit), (right, 58.0), faint.align(Align::Right));
+        }
     }
 }
 
@@ -181,6 +226,18 @@ impl Places {
         };
         Self { numbers, words, name: name(axis, unit) }
     }
+
+    /// The lines of all values, each from left to right; the value of the second axis runs fastest.
+    fn lines<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = Vec<(f64, f64)>> + 'a {
+        let rows = values.len() / self.numbers.len().max(1);
+        (0..rows).map(move |y| {
+            let of_line = values.iter().skip(y).step_by(rows).copied();
+            let mut points: Vec<(f64, f64)> = self.numbers.iter().copied().zip(of_line).collect();
+            points.retain(|(_, value)| value.is_finite());
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            points
+        })
+    }
 }
 
 /// What an axis is called: its name, its unit, its Japanese name.
@@ -206,114 +263,33 @@ fn colors(lines: usize) -> Vec<RGBColor> {
     (0..lines).map(|line| style::mixed(style::WALL, style::GENGA, share(line))).collect()
 }
 
-/// The scales, and the size of the paper.
-struct Chart {
-    x: Scale,
-    y: Scale,
-    width: f64,
-    height: f64,
-}
-
-impl Chart {
-    fn new<'a>(
-        plot: &StudyPlot,
-        at: &Places,
-        values: impl Iterator<Item = &'a f64>,
-        paper: &[Mark],
-    ) -> Self {
-        let (width, height) = (f64::from(plot.width), f64::from(plot.height));
-        let numbers = at.numbers.iter().copied().chain(paper.iter().map(|mark| mark.at.0));
-        let values: Vec<f64> = values.copied().chain(paper.iter().map(|mark| mark.at.1)).collect();
-        let (_, most) = range_with_zero(&values);
-        Self {
-            x: Scale::new(padded(numbers), (LEFT, width - RIGHT)),
-            y: Scale::new((0.0, 1.08 * most), (height - BOTTOM, TOP)),
-            width,
-            height,
-        }
+/// The values of the second setting beside the ends of their lines, moved apart where they would
+/// lie on each other; of many lines, whose colours are in order, a few.
+fn names(
+    canvas: &mut Canvas,
+    y: &Axis,
+    mut ends: Vec<(Point, usize, RGBColor)>,
+    bottom: f64,
+) {
+    const LINE: f64 = 17.0;
+    let (last, every) = (ends.len().saturating_sub(1), ends.len().div_ceil(COLORS.len()));
+    ends.retain(|(_, y, _)| every == 1 || *y == last || (y % every == 0 && y + every <= last));
+    ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
+    let mut above = f64::NEG_INFINITY;
+    let mut bases: Vec<f64> = Vec::new();
+    for (end, ..) in &ends {
+        above = (end.1 + 5.0).max(above + LINE);
+        bases.push(above);
     }
-
-    /// The points of a line, from left to right; the value of `y` runs fastest.
-    fn line(&self, at: &Places, values: &[f64], y: usize, rows: usize) -> Vec<Point> {
-        let of_line = values.iter().skip(y).step_by(rows);
-        let mut points: Vec<Point> = at
-            .numbers
-            .iter()
-            .zip(of_line)
-            .map(|(number, value)| (self.x.at(*number), self.y.at(*value)))
-            .collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        points
+    // What would hang over the axis is pushed up again.
+    let mut below = bottom - 3.0 + LINE;
+    for base in bases.iter_mut().rev() {
+        *base = base.min(below - LINE);
+        below = *base;
     }
-
-    fn axes(&self, canvas: &mut Canvas, at: &Places) {
-        let (right, bottom) = (self.width - RIGHT, self.height - BOTTOM);
-        let look = Type::new(style::SMALL);
-        for value in self.y.ticks(44.0) {
-            let at = self.y.at(value);
-            canvas.line((LEFT, at), (right, at), style::GRID, 1.0);
-            let look = look.align(Align::Right);
-            canvas.text(&number(value), (LEFT - 8.0, at + 4.0), look);
-        }
-        canvas.line((LEFT, bottom), (right, bottom), style::FAINT, 1.0);
-        let ticks: Vec<(f64, String)> = match &at.words {
-            Some(words) => at.numbers.iter().copied().zip(words.iter().cloned()).collect(),
-            None => self.x.ticks(70.0).into_iter().map(|tick| (tick, number(tick))).collect(),
-        };
-        for (value, word) in ticks {
-            let at = self.x.at(value);
-            canvas.line((at, bottom), (at, bottom + 5.0), style::FAINT, 1.0);
-            canvas.text(&word, (at, bottom + 19.0), look.align(Align::Center));
-        }
-        let middle = 0.5 * (LEFT + right);
-        let look = Type::new(style::WORDS).align(Align::Center);
-        canvas.text(&at.name, (middle, bottom + 44.0), look);
-    }
-
-    /// The title and what the lines are.
-    fn words(&self, canvas: &mut Canvas, show: Measure, grids: &[Grid]) {
-        title(canvas, show);
-        let faint = Type::new(style::WORDS).color(style::FAINT);
-        let of_clips = match grids.len() {
-            1 => String::new(),
-            clips => format!("median of {clips} clips, each of them a thin line"),
-        };
-        canvas.text(&of_clips, (style::MARGIN, 58.0), faint);
-        let Some(y) = &grids[0].y else { return };
-        let unit = y.scale().map_or("", |(_, unit)| unit);
-        let place = (self.width - style::MARGIN, 58.0);
-        canvas.text(&name(y, unit), place, faint.align(Align::Right));
-    }
-
-    fn legend_of_paper(&self, canvas: &mut Canvas) {
-        let right = self.width - style::MARGIN;
-        canvas.ring((right - 158.0, 29.0), 5.5, style::INK, 1.75);
-        canvas.text("Kuroda & Tokoi, Table 1", (right - 146.0, 34.0), Type::new(style::WORDS));
-    }
-
-    /// The values of the second setting beside the ends of their lines, moved apart where they would
-    /// lie on each other; of many lines, whose colours are in order, a few.
-    fn names(&self, canvas: &mut Canvas, y: &Axis, mut ends: Vec<(Point, usize, RGBColor)>) {
-        const LINE: f64 = 17.0;
-        let (last, every) = (ends.len() - 1, ends.len().div_ceil(COLORS.len()));
-        ends.retain(|(_, y, _)| every == 1 || *y == last || (y % every == 0 && y + every <= last));
-        ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
-        let mut above = f64::NEG_INFINITY;
-        let mut bases: Vec<f64> = Vec::new();
-        for (end, ..) in &ends {
-            above = (end.1 + 5.0).max(above + LINE);
-            bases.push(above);
-        }
-        // What would hang over the axis is pushed up again.
-        let mut below = self.height - BOTTOM - 3.0 + LINE;
-        for base in bases.iter_mut().rev() {
-            *base = base.min(below - LINE);
-            below = *base;
-        }
-        for ((end, y_at, color), base) in ends.into_iter().zip(bases) {
-            let look = Type::new(style::WORDS).bold().color(color);
-            canvas.text(&y.values()[y_at], (end.0 + 12.0, base), look);
-        }
+    for ((end, y_at, color), base) in ends.into_iter().zip(bases) {
+        let look = Type::new(style::WORDS).bold().color(color);
+        canvas.text(&y.values()[y_at], (end.0 + 12.0, base), look);
     }
 }
 

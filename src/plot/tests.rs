@@ -4,11 +4,12 @@ use glam::DVec3;
 use nalgebra::DMatrix;
 
 use super::canvas::{Align, Canvas, Type};
+use super::chart::{Axis, Plot};
 use super::sheet::fate::{Fate, fates};
 use super::*;
 use crate::error::Error;
 use crate::motion::seen::view::View;
-use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
+use crate::motion::{self, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
 use crate::signal::{Signals, Turn, TurnKind, Unit};
 use crate::time::{Clock, Frame, FrameRate};
@@ -386,7 +387,7 @@ fn a_small_sheet_looks_as_it_did() {
 // Poses.
 
 fn joint(name: &str, parent: Option<usize>, offset: DVec3, root: bool) -> Joint {
-    let position = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position).to_vec();
+    let position = [motion::Axis::X, motion::Axis::Y, motion::Axis::Z].map(Channel::Position).to_vec();
     Joint {
         name: name.into(),
         parent: parent.map(JointId),
@@ -509,14 +510,34 @@ fn a_mark_goes_into_the_first_lane_with_room() {
 }
 
 #[test]
-fn ticks_are_round_and_inside() {
-    let ticks = axis::Scale::new((0.0, 1.0), (0.0, 100.0)).ticks(20.0);
-    assert_eq!(
-        ticks.iter().map(|tick| axis::number(*tick)).collect::<Vec<_>>(),
-        ["0", "0.2", "0.4", "0.6", "0.8", "1"]
-    );
-    assert_eq!(axis::Scale::new((-7.0, 12.0), (0.0, 100.0)).ticks(20.0), [-5.0, 0.0, 5.0, 10.0]);
-    assert_eq!(axis::Scale::new((3.0, 3.0), (0.0, 10.0)).ticks(20.0), [3.0, 4.0][..].to_vec());
+fn a_chart_stands_in_its_box_whatever_its_values_are() {
+    let ranges = [(0.0, 1.0), (-7.0, 12.0), (3.0, 3.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)];
+    for range in ranges.into_iter().chain([(-1e300, 1e300), (0.0, 1e-300)]) {
+        let (x, y) = (Axis::round(range, 5.0), Axis::round(range, 1.0));
+        let plot = Plot { from: (40.0, 10.0), to: (240.0, 90.0), x, y };
+        let mut canvas = Canvas::new((300.0, 120.0));
+        plot.draw(&mut canvas, |_| Ok(())).unwrap();
+        let svg = canvas.finish();
+        for line in tags(&svg, "line", "#e4e7ea") {
+            let inside = |name, from, to| (from..=to).contains(&number_of(line, name));
+            assert!(inside("x1", 40.0, 240.0) && inside("x2", 40.0, 240.0), "{range:?}: {line}");
+            assert!(inside("y1", 10.0, 90.0) && inside("y2", 10.0, 90.0), "{range:?}: {line}");
+        }
+        assert!(!svg.contains("NaN") && words(&svg).len() <= 5 + 2, "{range:?}: {svg}");
+    }
+}
+
+#[test]
+fn a_chart_has_round_values_at_their_places() {
+    let (x, y) = (Axis::round((0.0, 1.0), 6.0), Axis::labelled((0.0, 2.0), vec![]));
+    let plot = Plot { from: (40.0, 10.0), to: (240.0, 90.0), x, y };
+    assert_eq!(plot.at(0.5, 0.5), (140.0, 70.0));
+    let mut canvas = Canvas::new((300.0, 120.0));
+    plot.draw(&mut canvas, |_| Ok(())).unwrap();
+    let svg = canvas.finish();
+    assert_eq!(words(&svg), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+    let places: Vec<f64> = tags(&svg, "text", "").iter().map(|tag| number_of(tag, "x")).collect();
+    assert_eq!(places, [40.0, 80.0, 120.0, 160.0, 200.0, 240.0]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The lines of koma that a timesheet is drawn on.
 
-use crate::plot::axis::number;
+use crate::plot::chart::number;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::sheet::fate::Fate;
 use crate::plot::style;

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::plot::canvas::Point;
 use crate::signal::{Turn, TurnKind};
 use crate::time::Frame;
 
@@ -25,15 +24,15 @@ pub enum SpeedCurves {
 /// Width of the line that is left of the keys alone, in px.
 pub(super) const KEPT: f64 = 1.5;
 
-/// The curve as lines of points, broken where a value is not finite. Where a px holds several
-/// frames, it gets the first, least and greatest of them, in their order.
-pub(super) fn runs(curve: &[f64], place: impl Fn(usize, f64) -> Point) -> Vec<Vec<Point>> {
+/// The curve as lines of rows and values, broken where a value is not finite. Where a px holds several
+/// frames, it gets the first, least and greatest of them, in their order. `px` says where a row stands.
+pub(super) fn runs(curve: &[f64], px: impl Fn(usize) -> f64) -> Vec<Vec<(usize, f64)>> {
     let mut runs = Vec::new();
     let mut at = 0;
     for run in curve.split(|value| !value.is_finite()) {
         if !run.is_empty() {
-            let kept = thinned(run, |frame| place(at + frame, 0.0).0);
-            runs.push(kept.into_iter().map(|frame| place(at + frame, run[frame])).collect());
+            let kept = thinned(run, |frame| px(at + frame));
+            runs.push(kept.into_iter().map(|frame| (at + frame, run[frame])).collect());
         }
         at += run.len() + 1;
     }
