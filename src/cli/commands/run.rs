@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::failure::Failure;
-use crate::cli::formats::{FormatArgs, Formats, Written, help};
+use crate::cli::formats::{FormatArgs, Formats, Written, help, long_help};
 use crate::cli::plan::{Plan, PlanArgs};
 use crate::cli::results::{ALWAYS, OWN, RECIPE, Results};
 use crate::cli::words::{Words, counted};
@@ -16,7 +16,7 @@ use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
 
 #[derive(Debug, Args)]
-#[command(after_help = help())]
+#[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct RunArgs {
     #[command(flatten)]
     plan: PlanArgs,
