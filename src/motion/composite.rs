@@ -3,7 +3,7 @@
 
 mod feet;
 mod flat;
-mod posed;
+mod poser;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -16,7 +16,7 @@ use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Source};
 use crate::time::Clock;
 
 use feet::{FootHold, HeldFeet};
-pub(crate) use posed::PosedComposite;
+pub(crate) use poser::CompositePoser;
 pub(crate) use rows::CompositeRows;
 
 /// What is on screen of all layers together, as one column of drawings.

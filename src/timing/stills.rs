@@ -4,11 +4,10 @@ use std::array;
 
 use glam::DVec3;
 
-use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
-use crate::motion::lanes::{LANES, Lanes, wide};
+use crate::motion::clip::lane_poser::LanePoser;
+use crate::motion::lanes::{LANES, wide};
 use crate::motion::{Clip, Screen};
-use crate::sheet::{Layer, Source};
+use crate::sheet::Layer;
 
 /// Sums kept side by side, so that a distance is computed several coordinates at a time.
 const WIDE: usize = 8;
@@ -45,16 +44,19 @@ impl Stills {
     pub fn on(clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
         let mut stills = Self::new(clip.skeleton().len());
         stills.coordinates.reserve_exact(stills.width() * layer.drawings.len());
-        let mut sampler = Sampler::new(clip);
+        let mut poser = LanePoser::of(clip);
         for drawings in layer.drawings.chunks(LANES) {
             let last = drawings.len() - 1;
             let sources = array::from_fn(|lane| drawings[lane.min(last)].source);
             wide(
                 #[inline(always)]
-                || sampler.place(sources),
+                || {
+                    poser.drawings(sources);
+                    poser.stand();
+                },
             );
             for lane in 0..drawings.len() {
-                let places = sampler.pose.translations.iter().map(|place| place.lane(lane));
+                let places = poser.pose().translations.iter().map(|place| place.lane(lane));
                 stills.add(places.map(|place| screen.see(place)));
             }
         }
@@ -125,46 +127,11 @@ impl Stills {
     }
 }
 
-/// Buffers that turn sources into world positions, several at a time.
-struct Sampler<'a> {
-    clip: &'a Clip,
-    rig: Rig,
-    pose: LanePose,
-    from: LanePose,
-    to: LanePose,
-}
-
-impl<'a> Sampler<'a> {
-    fn new(clip: &'a Clip) -> Self {
-        let rest = LanePose::rest(clip.skeleton());
-        let rig = Rig::of(clip.skeleton());
-        Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
-    }
-
-    #[inline(always)]
-    fn place(&mut self, sources: [Source; LANES]) {
-        let Self { clip, rig, pose, from, to } = self;
-        if sources.iter().all(|source| matches!(source, Source::At(_))) {
-            pose.take_places(clip, rig, sources.map(Source::place));
-        } else {
-            // What is no blend is one of a pose with itself.
-            let blends = sources.map(|source| match source {
-                Source::At(place) => (place, place, 0.0),
-                Source::Between { from, to, share } => (from, to, share),
-            });
-            from.take_places(clip, rig, blends.map(|blend| blend.0));
-            to.take_places(clip, rig, blends.map(|blend| blend.1));
-            pose.take_blends(from, to, Lanes(blends.map(|blend| blend.2)));
-        }
-        pose.place(rig);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::motion::{Axis, Channel, Joint, JointId, Skeleton};
-    use crate::sheet::{Drawing, Role, Why};
+    use crate::sheet::{Drawing, Role, Source, Why};
     use crate::time::{Frame, FrameRate};
 
     /// A root that walks along x and an arm of length 1 that turns about z.

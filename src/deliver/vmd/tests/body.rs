@@ -83,16 +83,15 @@ pub(super) fn each_koma(clip: &Clip, vmd: &Vmd, look: impl Fn(usize, &Stood, &Pl
     let mut row = vec![0.0; clip.skeleton().channels()];
     let mut pose = Pose::rest(clip.skeleton());
     let mut body = Body::new(clip.skeleton());
-    let mut places = vec![DVec3::ZERO; clip.skeleton().len()];
     for (at, drawing) in sheet.layers[0].drawings.iter().enumerate() {
         writer.write(drawing.source, &mut row);
         for (index, joint) in clip.skeleton().joints.iter().enumerate() {
             pose.rotations[index] = local_rotation(joint, &row);
             pose.translations[index] = local_translation(joint, &row);
         }
-        body.place(&pose, &mut places);
+        body.place(&pose);
         let frame = (at as f64 * 1.25).round() as u32;
-        look(at, &stood[&frame], &Places { clip, places: &places });
+        look(at, &stood[&frame], &Places { clip, places: body.positions() });
     }
 }
 

@@ -1,39 +1,34 @@
-//! A composite as poses.
+//! The poses of a composite.
 
 use super::{Composite, FootHold};
-use crate::motion::{DrawnPose, Pose};
+use crate::motion::{Pose, Poser};
 use crate::sheet::Source;
 
-/// Takes on what is on screen, one drawing after the other, with its buffers.
+/// Gives the poses of what is on screen, one after the other, with its buffers.
 #[derive(Debug, Clone)]
-pub(crate) struct PosedComposite<'a> {
+pub(crate) struct CompositePoser<'a> {
     composite: &'a Composite<'a>,
     /// What each part shows, and the whole body so: a layer's drawing stays while others change.
-    parts: Vec<(Option<Source>, DrawnPose<'a>)>,
-    root: DrawnPose<'a>,
+    parts: Vec<(Option<Source>, Poser<'a>)>,
+    root: Poser<'a>,
     feet: Option<FootHold<'a>>,
     pose: Pose,
 }
 
-impl<'a> PosedComposite<'a> {
+impl<'a> CompositePoser<'a> {
     /// For the drawings of a composite.
     pub(crate) fn of(composite: &'a Composite<'a>) -> Self {
-        let root = DrawnPose::of(composite.clip());
+        let root = Poser::of(composite.clip());
         let parts = vec![(None, root.clone()); composite.parts()];
         Self { composite, parts, pose: root.pose().clone(), root, feet: composite.foot_hold() }
     }
 
-    /// The pose that was last taken on.
-    pub(crate) fn pose(&self) -> &Pose {
-        &self.pose
-    }
-
-    /// Takes on a drawing as it is on screen on a koma.
-    pub(crate) fn take(&mut self, drawing: usize, koma: usize) {
+    /// The pose of a drawing as it is on screen on a koma.
+    pub(crate) fn drawing(&mut self, drawing: usize, koma: usize) -> &Pose {
         let composite = self.composite;
-        for ((taken, drawn), source) in self.parts.iter_mut().zip(&composite.drawings[drawing]) {
+        for ((taken, poser), source) in self.parts.iter_mut().zip(&composite.drawings[drawing]) {
             if taken.replace(*source) != Some(*source) {
-                drawn.take(*source);
+                poser.drawing(*source);
             }
         }
         for (joint, part) in composite.part_of.iter().enumerate() {
@@ -42,13 +37,14 @@ impl<'a> PosedComposite<'a> {
             self.pose.translations[joint] = own.translations[joint];
         }
         if composite.slides() {
-            self.root.take(Source::At(composite.place(koma)));
+            let root = self.root.place(composite.place(koma));
             for &joint in composite.travellers() {
-                self.pose.translations[joint] = self.root.pose().translations[joint];
+                self.pose.translations[joint] = root.translations[joint];
             }
         }
         if let Some(feet) = &mut self.feet {
             feet.hold(|joint| composite.source(drawing, joint).place(), &mut self.pose);
         }
+        &self.pose
     }
 }
