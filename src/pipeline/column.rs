@@ -3,32 +3,28 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use super::stage::{Made, Stage};
+use super::stage::{Of, Stage};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, BodySpeeds, BodyTurns, Candidates, Choice, Chords, JointTurns, JointWeights, Judges,
-    LayerKeys, LayerMotion, Part, PartMotion, Picked, Reconstruction, Reference, Tracks,
+    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, JointTurns, JointWeights,
+    Judges, Key, LayerKeys, LayerMotion, Part, PartMotion, Picked, Reconstruction, Reference,
+    Tracks,
 };
 use crate::motion::{Build, Clip, Screen, Skeleton};
 use crate::recipe::Recipe;
 use crate::sheet::Layer;
 use crate::signal::{LowPass, Signals, Turn, TurnFinder};
-use crate::time::{Clock, Frame};
+use crate::time::Frame;
 use crate::timing::{Omission, Omitted, Pace, Report, Spaced, Spacing, Stills};
 
 /// What is known of the whole body, measured once for all layers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured<'a> {
-    pub(super) clip: &'a Arc<Clip>,
-    /// Which clip this is.
-    pub(super) clip_made: Made,
-    pub(super) filtered: &'a Signals,
-    pub(super) turns: &'a [Vec<Turn>],
-    /// Which turns these are.
-    pub(super) made: Made,
-    /// The build of the body.
-    pub(super) build: &'a Build,
+    pub(super) clip: Of<'a, Arc<Clip>>,
+    pub(super) filtered: Of<'a, Signals>,
+    pub(super) turns: Of<'a, Vec<Vec<Turn>>>,
+    pub(super) build: Of<'a, Build>,
     /// The body's height in the file's unit, for a layer that is only a part of it.
     pub(super) height: Option<f64>,
     /// From where it is seen.
@@ -40,31 +36,39 @@ pub(super) struct Measured<'a> {
 pub(super) struct Column {
     /// The motion of its joints, and how much each counts.
     motion: Stage<(Part, JointWeights), PartMotion>,
-    /// The turns of those that have a say, and the weight of each one's vote.
-    voices: Stage<Made, Voices>,
-    /// When feet and hands of the layer come down or leave, where that counts.
-    contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
-    /// How all that moves in the layer moves, how fast that is, and when it turns as a whole.
-    tracks: Stage<(Screen, f64), Tracks>,
-    speeds: Stage<LowPass, BodySpeeds>,
-    body: Stage<(f64, f64), BodyTurns>,
-    candidates: Stage<CandidateSettings, Candidates>,
+    /// What the layer is judged beside: rate, height of the body, screen.
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
+    /// What is lost from any koma to another, up to a span in seconds.
     chords: Stage<f64, Chords>,
     /// The instants from begin to end of each rest.
     rests: Stage<f64, Vec<RangeInclusive<usize>>>,
+    /// The turns of joints that have a say, and the weight of each one's vote.
+    voices: Stage<(), Voices>,
+    /// When feet and hands of the layer come down or leave, where that counts.
+    contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
+    /// How all that moves in the layer moves, how fast that is, and when it turns as a whole.
+    tracks: Stage<Screen, Tracks>,
+    speeds: Stage<LowPass, BodySpeeds>,
+    /// Persistence and the least distance of two turns, in frames.
+    body: Stage<(f64, f64), BodyTurns>,
+    /// What may be a key, before a person and the sheet have their say, and after.
+    candidates: Stage<(Choose, Finding), Candidates>,
+    eligible: Stage<(Choose, Edits, Spacing, f64), Vec<Key>>,
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
-    keys: Stage<KeySettings, LayerKeys>,
-    spaced: Stage<(Spacing, f64, Part), Spaced>,
-    stills: Stage<Screen, Stills>,
+    keys: Stage<(Choose, Edits, Finding), LayerKeys>,
+    spaced: Stage<(Spacing, Part), Spaced>,
+    stills: Stage<(), Stills>,
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
 }
 
-type CandidateSettings = (keys::Choose, (TurnFinder, LowPass, f64), Made);
-
-/// At the end the rate, how long drawings stay and how far the body may go in a rest.
-type KeySettings = (keys::Choose, Edits, Screen, (f64, usize, f64));
+/// What finds turns, the delay of the filter and the least distance of two keys, both in frames.
+#[derive(Debug, Clone, PartialEq)]
+struct Finding {
+    finder: TurnFinder,
+    delay: f64,
+    apart: f64,
+}
 
 /// What was found and decided for one layer.
 #[derive(Debug, Clone, Copy)]
@@ -94,157 +98,174 @@ impl Column {
         weights: &JointWeights,
     ) -> Result<(), Error> {
         let settings = (part.clone(), weights.clone());
-        let motion = || PartMotion::of(measured.clip, part, weights);
-        self.motion.refresh(measured.clip_made, &settings, motion)?;
-        Ok(())
+        self.motion.try_make((measured.clip,), settings, |(clip,), (part, weights)| {
+            PartMotion::of(&clip, part, weights)
+        })
     }
 
-    /// The keys and walls of the layer.
-    pub(super) fn find(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) -> Made {
-        let voices = |motion: &PartMotion| Voices::of(measured.clip, motion, measured.turns);
-        let motion = self.motion.made;
-        let made = self.voices.renew(measured.made, &motion, || voices(self.motion.output()));
-        self.touch(measured, recipe);
+    /// Finds the keys and walls of the layer.
+    pub(super) fn find(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
         self.compare(measured, recipe);
-        let turns_made = self.turn(measured, recipe);
-        let made = self.merge(measured, recipe, (made, turns_made));
-        self.choose(measured, recipe, edits, made)
+        self.hear(measured, recipe);
+        self.turn(measured, recipe);
+        self.choose(measured, recipe, edits);
     }
 
-    /// The ends of contacts, which are not looked for where they do not count.
-    fn touch(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
-        let (clip, heard) = (measured.clip, &self.motion.output().heard);
+    /// What the layer is judged beside.
+    fn refer(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let settings = (recipe.rate, measured.height, measured.screen);
+        self.reference.make((self.motion.output(),), settings, |(motion,), settings| {
+            let (rate, height, screen) = *settings;
+            let PartMotion { clip, judged, .. } = motion.value();
+            let own = Reference::weighted(clip, clip.clock(rate), judged).on(screen);
+            match height {
+                None => own,
+                Some(height) => own.beside(height),
+            }
+        });
+    }
+
+    /// What is lost from any koma to another, and where nothing is.
+    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        self.refer(measured, recipe);
+        let inputs = (self.motion.output(), measured.build, self.reference.output());
+        self.chords.make(inputs, recipe.keys.span(), |(motion, build, reference), span| {
+            Chords::of_part(&motion.clip, &build, &reference, &motion.judged, *span)
+        });
+        let chords = (self.chords.output(),);
+        self.rests.make(chords, recipe.keys.rest, |(chords,), rest| keys::rests(&chords, *rest));
+    }
+
+    /// The turns of single joints, and the ends of contacts, which are not looked for where they do not count.
+    fn hear(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let motion = self.motion.output();
+        self.voices.make((measured.clip, motion, measured.turns), (), |inputs, ()| {
+            let (clip, motion, turns) = inputs;
+            Voices::of(&clip, &motion, &turns)
+        });
         let settings = (recipe.keys.contacts, recipe.rate);
-        self.contacts.renew(self.motion.made, &settings, || match recipe.keys.contacts {
-            keys::AtContacts::Off => Vec::new(),
-            _ => keys::contact_ends(clip, clip.clock(recipe.rate), heard),
+        self.contacts.make((measured.clip, motion), settings, |(clip, motion), settings| {
+            match *settings {
+                (keys::AtContacts::Off, _) => Vec::new(),
+                (_, rate) => keys::contact_ends(&clip, clip.clock(rate), &motion.heard),
+            }
         });
     }
 
     /// The turns of the layer as a whole.
-    fn turn(&mut self, measured: &Measured<'_>, recipe: &Recipe) -> Made {
-        let PartMotion { clip, judged, heard } = self.motion.output();
-        let Measured { build, screen, .. } = measured;
-        let height = self.reference.output().height();
-        let motion = LayerMotion { clip, build, heard, judged, screen, height };
-        let settings = (*screen, recipe.rate);
-        let made = self.tracks.renew(self.motion.made, &settings, || Tracks::of(&motion));
-        let (filter, tracks) = (&recipe.filter, self.tracks.output());
-        let made = self.speeds.renew(made, filter, || BodySpeeds::of(tracks, filter));
-        let persistence = recipe.turns.persistence.frames(clip.rate());
-        let apart = clip.clock(recipe.rate).frames_in_koma();
-        let speeds = self.speeds.output();
-        self.body.renew(made, &(persistence, apart), || speeds.turns(persistence, apart))
+    fn turn(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let inputs = (self.motion.output(), measured.build, self.reference.output());
+        self.tracks.make(inputs, measured.screen, |(motion, build, reference), screen| {
+            let PartMotion { clip, judged, heard } = motion.value();
+            let height = reference.height();
+            let build = build.value();
+            Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height })
+        });
+        let tracks = (self.tracks.output(),);
+        self.speeds.make(tracks, recipe.filter.clone(), |(tracks,), filter| {
+            BodySpeeds::of(&tracks, filter)
+        });
+        let rate = measured.clip.rate();
+        let settings = (recipe.turns.persistence.frames(rate), apart(measured, recipe));
+        self.body.make((self.speeds.output(),), settings, |(speeds,), settings| {
+            speeds.turns(settings.0, settings.1)
+        });
     }
 
-    /// The candidates for keys.
-    fn merge(&mut self, measured: &Measured<'_>, recipe: &Recipe, made: (Made, Made)) -> Made {
-        // Price, rests and limit choose among candidates and do not change them.
-        let merging = keys::Choose {
-            min_price: 0.0,
-            rest: 0.0,
-            per_second: f64::INFINITY,
-            ..recipe.keys.clone()
+    /// The keys among what may be one.
+    fn choose(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
+        let finding = Finding {
+            finder: recipe.turns.clone(),
+            delay: recipe.filter.delay(measured.clip.rate()),
+            apart: apart(measured, recipe),
         };
-        let (voices_made, turns_made) = made;
-        let finding = (recipe.turns.clone(), recipe.filter.clone(), recipe.rate);
-        let settings = (merging, finding, turns_made);
-        let joints = joints(
-            self.voices.output(),
-            self.body.output(),
-            self.contacts.output(),
-            measured,
-            recipe,
-        );
-        self.candidates.renew(voices_made, &settings, || recipe.keys.candidates(&joints))
+        // Price, rests and limit choose among candidates and do not change them.
+        let merging =
+            Choose { min_price: 0.0, rest: 0.0, per_second: f64::INFINITY, ..recipe.keys.clone() };
+        let Measured { filtered, turns, .. } = *measured;
+        let contacts = self.contacts.output();
+        let known = (filtered, turns, self.voices.output(), self.body.output(), contacts);
+        self.candidates.make(known, (merging, finding.clone()), |known, (choose, finding)| {
+            choose.candidates(&joints(known, finding))
+        });
+        self.admit(measured, recipe, edits, finding.apart);
+        self.pick(measured, recipe, finding.apart);
+        let (chords, rests) = (self.chords.output(), self.rests.output());
+        let (eligible, picked) = (self.eligible.output(), self.picked.output());
+        let voices = self.voices.output();
+        let inputs = (chords, rests, eligible, picked, self.candidates.output(), turns, voices);
+        let settings = (recipe.keys.clone(), edits.clone(), finding);
+        self.keys.make(inputs, settings, |inputs, (choose, edits, finding)| {
+            let (chords, rests, eligible, picked, candidates, turns, voices) = inputs;
+            let heard = (voices.turns(turns.value()), &voices.weights[..]);
+            let still = (chords.value(), &rests[..]);
+            choose.drawn(
+                still,
+                &eligible,
+                &picked,
+                &candidates.walls,
+                heard,
+                (edits, finding.apart),
+            )
+        });
     }
 
-    /// What the layer is judged beside.
-    fn refer(&mut self, measured: &Measured<'_>, recipe: &Recipe) -> Made {
-        let PartMotion { clip, judged, .. } = self.motion.output();
-        let settings = (recipe.rate, measured.height, measured.screen);
-        self.reference.renew(self.motion.made, &settings, || {
-            let own =
-                Reference::weighted(clip, clip.clock(recipe.rate), judged).on(measured.screen);
-            match measured.height {
-                None => own,
-                Some(height) => own.beside(height),
-            }
-        })
-    }
-
-    /// What is lost from any koma to another.
-    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
-        let made = self.refer(measured, recipe);
-        let PartMotion { clip, judged, .. } = self.motion.output();
+    /// What may be a key beside what a person asks for and where the sheet has room.
+    fn admit(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits, apart: f64) {
+        let (chords, rests) = (self.chords.output(), self.rests.output());
+        let (candidates, contacts) = (self.candidates.output(), self.contacts.output());
         let reference = self.reference.output();
-        let span = recipe.keys.span();
-        self.chords
-            .renew(made, &span, || Chords::of_part(clip, measured.build, reference, judged, span));
-        let (chords, rest) = (&self.chords, recipe.keys.rest);
-        self.rests.renew(chords.made, &rest, || keys::rests(chords.output(), rest));
-    }
-
-    fn choose(
-        &mut self,
-        measured: &Measured<'_>,
-        recipe: &Recipe,
-        edits: &Edits,
-        candidates_made: Made,
-    ) -> Made {
-        // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
-        let stay = recipe.spacing.on.stay();
-        let sheet = (recipe.rate, stay, recipe.spacing.drift);
-        let settings = (recipe.keys.clone(), edits.clone(), measured.screen, sheet);
-        let reference = self.reference.output();
-        let judges = Judges { reference, chords: self.chords.output() };
-        let candidates = self.candidates.output();
-        let joints = joints(
-            self.voices.output(),
-            self.body.output(),
-            self.contacts.output(),
-            measured,
-            recipe,
-        );
-        let (clip, keys, spacing) = (measured.clip, &recipe.keys, &recipe.spacing);
-        let (picked, rests) = (&mut self.picked, self.rests.output());
-        let chords_made = self.chords.made;
-        self.keys.renew(candidates_made, &settings, || {
-            let still = (judges.chords, rests.as_slice());
-            let mut eligible = keys.eligible(clip, still, candidates, &joints, edits);
-            let held = keys::rest_frames(judges.chords, rests);
-            let pace = Pace::of(reference);
+        let inputs = (measured.clip, chords, rests, candidates, contacts, reference);
+        // How long a drawing stays and what still counts as rest is all that keys hang on of spacing.
+        let Spacing { on, drift, .. } = recipe.spacing;
+        let room = Spacing { on, drift, ..Spacing::default() };
+        let settings = (recipe.keys.clone(), edits.clone(), room, apart);
+        self.eligible.make(inputs, settings, |inputs, (choose, edits, spacing, apart)| {
+            let (clip, chords, rests, candidates, contacts, reference) = inputs;
+            let still = (chords.value(), &rests[..]);
+            let mut keys = choose.eligible(&clip, still, &candidates, &contacts, (edits, *apart));
+            let (held, pace) = (keys::rest_frames(&chords, &rests), Pace::of(&reference));
             let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
-            eligible.retain(|key| !key.origin.is_found() || room(key.frame));
-            let choice = keys.choice(clip, judges, &eligible, stay as f64 * joints.apart);
-            picked.renew(chords_made, &choice, || choice.pick(judges.chords));
-            keys.drawn(still, eligible, picked.output(), candidates, &joints, edits)
-        })
+            keys.retain(|key| !key.origin.is_found() || room(key.frame));
+            keys
+        });
+    }
+
+    /// Which of them are drawn.
+    fn pick(&mut self, measured: &Measured<'_>, recipe: &Recipe, apart: f64) {
+        let (chords, reference) = (self.chords.output(), self.reference.output());
+        let judges = Judges { reference: reference.value(), chords: chords.value() };
+        // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
+        let apart = recipe.spacing.on.stay() as f64 * apart;
+        let choice = recipe.keys.choice(&measured.clip, judges, &self.eligible.output(), apart);
+        self.picked.make((chords,), choice, |(chords,), choice| choice.pick(&chords));
     }
 
     /// The column, before and after omission; `later` are the koma on which actions begin after the first.
     pub(super) fn time(
         &mut self,
-        (clip, part): (&Clip, &Part),
+        measured: &Measured<'_>,
+        part: &Part,
         recipe: &Recipe,
-        clock: Clock,
-        (keys_made, later): (Made, &[usize]),
-    ) -> Result<Made, Error> {
-        let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-        let (keys, reference) = (self.keys.output(), self.reference.output());
-        let settings = (recipe.spacing.clone(), recipe.rate, part.clone());
-        let made = self.spaced.renew(keys_made, &settings, || {
-            let spaced =
-                recipe.spacing.place(keys, clip.skeleton(), clock, koma, &Pace::of(reference));
-            named(spaced, part, clip.skeleton())
+        later: &[usize],
+    ) -> Result<(), Error> {
+        let inputs = (measured.clip, self.keys.output(), self.reference.output());
+        let settings = (recipe.spacing.clone(), part.clone());
+        self.spaced.make(inputs, settings, |(clip, keys, reference), (spacing, part)| {
+            let (skeleton, pace) = (clip.skeleton(), Pace::of(&reference));
+            let koma = clip.rate().koma_from_frames(clip.len(), reference.clock().koma_rate);
+            named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), part, skeleton)
         });
-        let layer = &self.spaced.output().layer;
-        let screen = reference.screen();
-        let made = self.stills.renew(made, screen, || Stills::on(clip, layer, screen));
-        let stills = self.stills.output();
-        let on = recipe.spacing.on.most;
-        let omit = || recipe.omission.apply_by_action(layer, stills, on, later);
-        self.omitted.refresh(made, &(recipe.omission, on, later.to_vec()), omit)
+        let spaced = self.spaced.output();
+        let inputs = (measured.clip, spaced, self.reference.output());
+        self.stills.make(inputs, (), |(clip, spaced, reference), ()| {
+            Stills::on(&clip, &spaced.layer, reference.screen())
+        });
+        let settings = (recipe.omission, recipe.spacing.on.most, later.to_vec());
+        self.omitted.try_make((spaced, self.stills.output()), settings, |inputs, settings| {
+            let ((spaced, stills), (omission, on, later)) = (inputs, settings);
+            omission.apply_by_action(&spaced.layer, &stills, *on, later)
+        })
     }
 
     /// Drops what only another run would use, and what is large.
@@ -258,11 +279,11 @@ impl Column {
     }
 
     pub(super) fn breakdown(&self) -> LayerBreakdown<'_> {
-        let (spaced, omitted) = (self.spaced.output(), self.omitted.output());
+        let (spaced, omitted) = (self.spaced.output().value(), self.omitted.output().value());
         LayerBreakdown {
-            body: self.body.output(),
-            candidates: self.candidates.output(),
-            keys: self.keys.output(),
+            body: self.body.output().value(),
+            candidates: self.candidates.output().value(),
+            keys: self.keys.output().value(),
             did_not_fit: spaced.did_not_fit,
             spaced: &spaced.layer,
             layer: &omitted.layer,
@@ -270,14 +291,19 @@ impl Column {
         }
     }
 
-    /// What is lost from any instant to another, and which output that is.
-    pub(super) fn chords(&self) -> (Made, &Chords) {
-        (self.chords.made, self.chords.output())
+    /// What is lost from any instant to another.
+    pub(super) fn chords(&self) -> Of<'_, Chords> {
+        self.chords.output()
     }
 
     /// Its turns as a whole, and its keys.
     pub(super) fn keys(&self) -> (&BodyTurns, &LayerKeys) {
-        (self.body.output(), self.keys.output())
+        (self.body.output().value(), self.keys.output().value())
+    }
+
+    /// The layer before and after omission.
+    pub(super) fn timed(&self) -> (Of<'_, Spaced>, Of<'_, Omitted>) {
+        (self.spaced.output(), self.omitted.output())
     }
 
     /// Runs its stages up to its turns as a whole.
@@ -288,33 +314,43 @@ impl Column {
 
     /// Its turns as a whole.
     pub(super) fn body_turns(&self) -> &BodyTurns {
-        self.body.output()
+        self.body.output().value()
     }
 
     /// How far off the layer is when nothing but its keys is left.
     pub(super) fn reconstruction(&self) -> Reconstruction {
         let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
-        Reconstruction::of(&self.motion.output().clip, self.reference.output(), &keys)
+        Reconstruction::of(&self.motion.output().clip, &self.reference.output(), &keys)
     }
 }
 
-/// What is known of the joints once their turns are found.
-fn joints<'a>(
-    voices: &'a Voices,
-    body: &'a BodyTurns,
-    contacts: &'a [Frame],
-    measured: &Measured<'a>,
-    recipe: &'a Recipe,
-) -> JointTurns<'a> {
+/// The least distance of two keys in frames: a koma.
+fn apart(measured: &Measured<'_>, recipe: &Recipe) -> f64 {
+    measured.clip.clock(recipe.rate).frames_in_koma()
+}
+
+/// What is known of the joints once their turns are found: smoothed speeds, turns, who has a say, turns as a
+/// whole, and contacts.
+type Known<'a> = (
+    Of<'a, Signals>,
+    Of<'a, Vec<Vec<Turn>>>,
+    Of<'a, Voices>,
+    Of<'a, BodyTurns>,
+    Of<'a, Vec<Frame>>,
+);
+
+fn joints<'a>(known: Known<'a>, finding: &'a Finding) -> JointTurns<'a> {
+    let (filtered, turns, voices, body, contacts) = known;
+    let Finding { finder, delay, apart } = finding;
     JointTurns {
-        filtered: measured.filtered,
-        turns: voices.turns.as_deref().unwrap_or(measured.turns),
-        finder: &recipe.turns,
-        delay: recipe.filter.delay(measured.clip.rate()),
-        weights: &voices.weights,
-        apart: measured.clip.clock(recipe.rate).frames_in_koma(),
-        contacts,
-        body,
+        filtered: filtered.value(),
+        turns: voices.value().turns(turns.value()),
+        finder,
+        delay: *delay,
+        weights: &voices.value().weights,
+        apart: *apart,
+        contacts: contacts.value(),
+        body: body.value(),
     }
 }
 
@@ -347,5 +383,10 @@ impl Voices {
         let some_are_mute = own.contains(&0.0);
         let turns = some_are_mute.then(|| turns.iter().zip(own).map(heard).collect());
         Self { weights, turns }
+    }
+
+    /// The turns of those that have a say, of all turns.
+    fn turns<'a>(&'a self, all: &'a [Vec<Turn>]) -> &'a [Vec<Turn>] {
+        self.turns.as_deref().unwrap_or(all)
     }
 }

@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 
+use super::stage::Inputs;
 use super::*;
 use crate::edits::{Forbidden, Move, Pin};
 use crate::keys::{self, Origin};
@@ -189,13 +190,13 @@ fn another_persistence_needs_no_new_search() {
     let mut engine = Engine::new(pitch()).unwrap();
     let mut recipe = Recipe::default();
     let few = engine.find_turns(&recipe).unwrap().concat().len();
-    let searched = engine.turning.made;
+    let searched = (engine.turning.output(),).made();
     recipe.set("turns.persistence", "1").unwrap();
     assert!(engine.find_turns(&recipe).unwrap().concat().len() > few);
-    assert!(engine.turning.made == searched, "the same candidates");
+    assert!((engine.turning.output(),).made() == searched, "the same candidates");
     recipe.set("turns.steady", "50").unwrap();
     engine.find_turns(&recipe).unwrap();
-    assert!(engine.turning.made != searched);
+    assert!((engine.turning.output(),).made() != searched);
 }
 
 #[test]
