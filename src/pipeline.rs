@@ -11,15 +11,14 @@ use crate::edits::{Edits, Hold};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{
-    ActionFinder, Actions, BodyTurns, Candidates, LayerKeys, Layers, Part, Reconstruction,
-    Reference,
+    ActionFinder, Actions, BodyTurns, LayerKeys, Layers, Part, Reconstruction, Reference,
 };
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{Feet, RootMotion, Sheet};
 use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
-use crate::timing::{Omitted, Report, Spaced, with_holds};
+use crate::timing::{Omitted, Spaced, with_holds};
 
 pub use column::LayerBreakdown;
 use column::{Column, Measured};
@@ -73,22 +72,12 @@ pub struct Breakdown<'a> {
     pub filtered: &'a Signals,
     /// Confirmed keys and walls of each joint, by frame.
     pub turns: &'a [Vec<Turn>],
-    /// The turns of the body; of the first layer, as the next ones and `omission`.
-    pub body: &'a BodyTurns,
-    /// What may be a key, before it was asked what it is worth. [`Breakdown::layers`] has them all.
-    pub candidates: &'a Candidates,
-    /// Keys and walls of the layer.
-    pub keys: &'a LayerKeys,
     /// The actions that the take consists of.
     pub actions: &'a Actions,
-    /// Inbetweens that were asked for and did not fit.
-    pub did_not_fit: usize,
     /// The sheet before anything was left out.
     pub spaced: &'a Sheet,
     /// The result.
     pub sheet: &'a Sheet,
-    /// What was left out, and what could not be.
-    pub omission: &'a Report,
     columns: &'a [Column],
 }
 
@@ -107,6 +96,11 @@ impl<'a> Breakdown<'a> {
     /// What was found and decided for each layer of the sheet.
     pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
         self.columns.iter().map(Column::breakdown)
+    }
+
+    /// The first layer of the sheet: the whole body where a recipe asks for no others.
+    pub fn first_layer(&self) -> LayerBreakdown<'a> {
+        self.columns[0].breakdown()
     }
 }
 
@@ -159,10 +153,10 @@ impl Engine {
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let (mut recipe, edits) = (Recipe::default(), Edits::default());
     /// let mut engine = Engine::new(clip)?;
-    /// let keys = engine.run(&recipe, &edits)?.keys.keys.len();
+    /// let keys = engine.run(&recipe, &edits)?.first_layer().keys.keys.len();
     /// // The motion is not measured again: spacing comes after the keys.
     /// recipe.set("spacing.on", "3")?;
-    /// assert_eq!(engine.run(&recipe, &edits)?.keys.keys.len(), keys);
+    /// assert_eq!(engine.run(&recipe, &edits)?.first_layer().keys.keys.len(), keys);
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
@@ -204,8 +198,6 @@ impl Engine {
     fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
         let [spaced, sheet] = self.sheets.output().value();
         let columns = &self.columns[..sheet.layers.len()];
-        let LayerBreakdown { body, candidates, keys, did_not_fit, omission, .. } =
-            columns[0].breakdown();
         Breakdown {
             source: &self.clip,
             clip: self.drawn.output().value(),
@@ -215,14 +207,9 @@ impl Engine {
             speed: self.speed.output().value().unfiltered(),
             filtered: self.filtered.output().value(),
             turns: self.turns.output().value(),
-            body,
-            candidates,
-            keys,
             actions: self.actions.output().value(),
-            did_not_fit,
             spaced,
             sheet,
-            omission,
             columns,
         }
     }

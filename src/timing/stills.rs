@@ -5,12 +5,12 @@ use std::array;
 use glam::DVec3;
 
 use crate::motion::clip::lane_poser::LanePoser;
-use crate::motion::lanes::{LANES, wide};
+use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Clip, Screen};
 use crate::sheet::Layer;
 
-/// Sums kept side by side, so that a distance is computed several coordinates at a time.
-const WIDE: usize = 8;
+/// Coordinates side by side, so that a distance is computed several at a time.
+type Row = [Lanes; 2];
 
 /// Where the joints are in a layer's drawings (静止画), in the world or on a screen, in the file's unit:
 /// what the omission stages measure movement by, over the whole body.
@@ -18,8 +18,8 @@ const WIDE: usize = 8;
 pub struct Stills {
     joints: usize,
     drawings: usize,
-    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows of [`WIDE`].
-    coordinates: Vec<[f64; WIDE]>,
+    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows.
+    coordinates: Vec<Row>,
 }
 
 impl Stills {
@@ -74,11 +74,10 @@ impl Stills {
 
     fn add(&mut self, positions: impl Iterator<Item = DVec3>) {
         let begin = self.coordinates.len();
-        self.coordinates.resize(begin + self.width(), [0.0; WIDE]);
-        let row = self.coordinates[begin..].as_flattened_mut();
-        for (xyz, position) in row.chunks_exact_mut(3).zip(positions) {
-            xyz.copy_from_slice(&position.to_array());
-        }
+        self.coordinates.resize(begin + self.width(), Row::default());
+        let values = self.coordinates[begin..].iter_mut().flatten().flat_map(|lanes| &mut lanes.0);
+        let coordinates = positions.flat_map(|position| position.to_array());
+        values.zip(coordinates).for_each(|(value, coordinate)| *value = coordinate);
         self.drawings += 1;
     }
 
@@ -98,14 +97,14 @@ impl Stills {
     /// # Panics
     /// When there is no such drawing.
     pub fn ssd(&self, a: usize, b: usize) -> f64 {
-        let mut sums = [0.0; WIDE];
+        let mut sums = Row::default();
         for (a, b) in self.row(a).iter().zip(self.row(b)) {
-            for lane in 0..WIDE {
-                let apart = a[lane] - b[lane];
-                sums[lane] += apart * apart;
+            for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+                let apart = *a - *b;
+                *sum = *sum + apart * apart;
             }
         }
-        sums.iter().sum()
+        sums.iter().flat_map(|sum| sum.0).sum()
     }
 
     /// Where a joint stands in a drawing, in the file's unit.
@@ -114,14 +113,15 @@ impl Stills {
     /// When there is no such drawing or joint.
     pub fn position(&self, drawing: usize, joint: usize) -> DVec3 {
         assert!(joint < self.joints, "there is such a joint");
-        DVec3::from_slice(&self.row(drawing).as_flattened()[3 * joint..])
+        let of = |at: usize| self.row(drawing)[at / (2 * LANES)][at / LANES % 2].0[at % LANES];
+        DVec3::from_array([0, 1, 2].map(|axis| of(3 * joint + axis)))
     }
 
     fn width(&self) -> usize {
-        (3 * self.joints).div_ceil(WIDE)
+        (3 * self.joints).div_ceil(2 * LANES)
     }
 
-    fn row(&self, drawing: usize) -> &[[f64; WIDE]] {
+    fn row(&self, drawing: usize) -> &[Row] {
         let width = self.width();
         &self.coordinates[drawing * width..(drawing + 1) * width]
     }

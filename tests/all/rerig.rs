@@ -183,7 +183,7 @@ fn gives_the_same_sheet(clip: &Clip, name: &str, recipe: &Recipe) {
     let sheet = |clip: &Clip| {
         let mut engine = Engine::new(clip.clone()).unwrap();
         let breakdown = engine.run(recipe, &Edits::default()).unwrap();
-        let keys: Vec<_> = breakdown.keys.keys.iter().map(|key| key.frame).collect();
+        let keys: Vec<_> = breakdown.first_layer().keys.keys.iter().map(|key| key.frame).collect();
         (keys, seen(clip, breakdown.spaced), seen(clip, breakdown.sheet))
     };
     let expected = sheet(clip);
