@@ -1,6 +1,6 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
-mod column;
+mod layer;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -11,7 +11,7 @@ use crate::edits::{Edits, Hold};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{
-    ActionFinder, Actions, BodyTurns, LayerKeys, Layers, Part, Reconstruction, Reference,
+    ActionFinder, Actions, BodyTurns, LayerJoints, LayerKeys, Layers, Reconstruction, Reference,
 };
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
@@ -20,8 +20,8 @@ use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
 use crate::timing::{Omitted, Spaced, with_holds};
 
-pub use column::LayerBreakdown;
-use column::{Column, Measured};
+pub use layer::LayerBreakdown;
+use layer::{LayerStages, Measured};
 use stage::{Of, Stage};
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
@@ -40,11 +40,11 @@ pub struct Engine {
     /// The turns whatever the persistence, and those that it confirms.
     turning: Stage<(TurnFinder, f64), Vec<Vec<Turn>>>,
     turns: Stage<TurnFinder, Vec<Vec<Turn>>>,
-    parts: Stage<Layers, Vec<Part>>,
-    /// The height of the whole body, beside which its parts are judged.
+    split: Stage<Layers, Vec<LayerJoints>>,
+    /// The height of the whole body, beside which its layers are judged.
     height: Stage<Clock, f64>,
     /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
-    columns: Vec<Column>,
+    layers: Vec<LayerStages>,
     /// The actions of the take, by the body or the first of its layers.
     actions: Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
@@ -78,7 +78,7 @@ pub struct Breakdown<'a> {
     pub spaced: &'a Sheet,
     /// The result.
     pub sheet: &'a Sheet,
-    columns: &'a [Column],
+    layers: &'a [LayerStages],
 }
 
 /// What was found up to the keys of the first layer.
@@ -95,12 +95,12 @@ pub struct FoundKeys<'a> {
 impl<'a> Breakdown<'a> {
     /// What was found and decided for each layer of the sheet.
     pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
-        self.columns.iter().map(Column::breakdown)
+        self.layers.iter().map(LayerStages::breakdown)
     }
 
     /// The first layer of the sheet: the whole body where a recipe asks for no others.
     pub fn first_layer(&self) -> LayerBreakdown<'a> {
-        self.columns[0].breakdown()
+        self.layers[0].breakdown()
     }
 }
 
@@ -124,9 +124,9 @@ impl Engine {
             filtered: Stage::default(),
             turning: Stage::default(),
             turns: Stage::default(),
-            parts: Stage::default(),
+            split: Stage::default(),
             height: Stage::default(),
-            columns: Vec::new(),
+            layers: Vec::new(),
             actions: Stage::default(),
             sheets: Stage::default(),
         })
@@ -169,7 +169,7 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         // One layer after the other, so that what is large is there for one of them at a time.
-        self.make(recipe, edits, Column::forget)?;
+        self.make(recipe, edits, LayerStages::forget)?;
         self.turning.forget();
         Ok(self.breakdown(recipe))
     }
@@ -179,17 +179,17 @@ impl Engine {
         &mut self,
         recipe: &Recipe,
         edits: &Edits,
-        done: impl Fn(&mut Column),
+        done: impl Fn(&mut LayerStages),
     ) -> Result<Breakdown<'_>, Error> {
         self.find(recipe, edits)?;
         self.split(recipe, edits);
         let later = self.actions.output().koma(self.clip.clock(recipe.rate));
-        let (measured, parts, columns) = self.layers();
-        for (part, column) in parts.iter().zip(columns) {
-            column.take(&measured, part, &recipe.keys.weights)?;
-            column.find(&measured, recipe, &edits.of_layer(&part.name));
-            column.time(&measured, part, recipe, &later)?;
-            done(column);
+        let (measured, split, layers) = self.layers();
+        for (joints, layer) in split.iter().zip(layers) {
+            layer.take(&measured, joints, &recipe.keys.weights)?;
+            layer.find(&measured, recipe, &edits.of_layer(&joints.name));
+            layer.time(&measured, joints, recipe, &later)?;
+            done(layer);
         }
         self.sheet(recipe, &edits.holds);
         Ok(self.breakdown(recipe))
@@ -197,7 +197,7 @@ impl Engine {
 
     fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
         let [spaced, sheet] = self.sheets.output().value();
-        let columns = &self.columns[..sheet.layers.len()];
+        let layers = &self.layers[..sheet.layers.len()];
         Breakdown {
             source: &self.clip,
             clip: self.drawn.output().value(),
@@ -210,7 +210,7 @@ impl Engine {
             actions: self.actions.output().value(),
             spaced,
             sheet,
-            columns,
+            layers,
         }
     }
 
@@ -230,7 +230,7 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
         self.find(recipe, edits)?;
-        let (body, keys) = self.columns[0].keys();
+        let (body, keys) = self.layers[0].keys();
         Ok(FoundKeys { turns: self.turns.output().value(), body, keys })
     }
 
@@ -243,10 +243,10 @@ impl Engine {
         recipe: &Recipe,
     ) -> Result<(&[Vec<Turn>], &BodyTurns), Error> {
         self.check_and_measure(recipe, &Edits::default())?;
-        let (measured, parts, columns) = self.layers();
-        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
-        columns[0].find_body_turns(&measured, recipe);
-        Ok((self.turns.output().value(), self.columns[0].body_turns()))
+        let (measured, split, layers) = self.layers();
+        layers[0].take(&measured, &split[0], &recipe.keys.weights)?;
+        layers[0].find_body_turns(&measured, recipe);
+        Ok((self.turns.output().value(), self.layers[0].body_turns()))
     }
 
     /// Runs the chain as far as it takes to tell the actions of the take.
@@ -269,22 +269,22 @@ impl Engine {
         edits: &Edits,
     ) -> Result<Reconstruction, Error> {
         self.find(recipe, edits)?;
-        Ok(self.columns[0].reconstruction())
+        Ok(self.layers[0].reconstruction())
     }
 
     /// The keys of the first layer.
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
         self.check_and_measure(recipe, edits)?;
-        let (measured, parts, columns) = self.layers();
-        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
-        columns[0].find(&measured, recipe, &edits.of_layer(&parts[0].name));
+        let (measured, split, layers) = self.layers();
+        layers[0].take(&measured, &split[0], &recipe.keys.weights)?;
+        layers[0].find(&measured, recipe, &edits.of_layer(&split[0].name));
         Ok(())
     }
 
     /// The take split into its actions, by what is lost between the instants of the first layer.
     fn split(&mut self, recipe: &Recipe, edits: &Edits) {
         let settings = (recipe.actions.clone(), recipe.keys.rest, edits.splits.clone());
-        let inputs = (self.drawn.output(), self.columns[0].chords());
+        let inputs = (self.drawn.output(), self.layers[0].chords());
         self.actions.make(inputs, settings, |(clip, chords), (finder, rest, splits)| {
             finder.find(&clip, &chords, *rest, splits)
         });
@@ -294,19 +294,19 @@ impl Engine {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
         // What is wrong with them is said before the work.
-        self.parts.try_make(
+        self.split.try_make(
             (Of::given(&self.clip),),
             recipe.layers.clone(),
             |(clip,), layers| layers.split(&clip),
         )?;
-        let parts = self.parts.output();
-        let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+        let split = self.split.output();
+        let names: Vec<&str> = split.iter().map(|joints| joints.name.as_str()).collect();
         edits.check_layers(&names)?;
         let clock = self.clip.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.of(self.clip.skeleton())?;
-        let count = parts.len();
-        self.columns.resize_with(count.max(self.columns.len()), Column::default);
+        let count = split.len();
+        self.layers.resize_with(count.max(self.layers.len()), LayerStages::default);
         self.exaggerate(recipe)?;
         if count > 1 {
             self.height.make((self.drawn.output(),), clock, |(clip,), clock| {
@@ -316,18 +316,18 @@ impl Engine {
         self.measure(recipe)
     }
 
-    /// What was measured of the whole body, its parts, and their stages.
-    fn layers(&mut self) -> (Measured<'_>, &[Part], &mut [Column]) {
-        let parts = self.parts.output().value();
+    /// What was measured of the whole body, its layers, and their stages.
+    fn layers(&mut self) -> (Measured<'_>, &[LayerJoints], &mut [LayerStages]) {
+        let split = self.split.output().value();
         let measured = Measured {
             clip: self.drawn.output(),
             filtered: self.filtered.output(),
             turns: self.turns.output(),
             build: self.build.output(),
-            height: (parts.len() > 1).then(|| *self.height.output()),
+            height: (split.len() > 1).then(|| *self.height.output()),
             screen: *self.screen.output(),
         };
-        (measured, parts, &mut self.columns[..parts.len()])
+        (measured, split, &mut self.layers[..split.len()])
     }
 
     /// The motion that is drawn.
@@ -375,8 +375,8 @@ impl Engine {
 
     /// The sheet, before and after omission and what a person holds.
     fn sheet(&mut self, recipe: &Recipe, holds: &[Hold]) {
-        let columns = &self.columns[..self.parts.output().len()];
-        let layers: Vec<_> = columns.iter().map(Column::timed).collect();
+        let layers = &self.layers[..self.split.output().len()];
+        let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
         let Recipe { root, feet, .. } = *recipe;
         let settings = ((self.clip.clock(recipe.rate), root, feet), holds.to_vec());
         self.sheets.make(layers, settings, |layers, &((clock, root, feet), ref holds)| {

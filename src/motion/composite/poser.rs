@@ -8,8 +8,8 @@ use crate::sheet::Source;
 #[derive(Debug, Clone)]
 pub(crate) struct CompositePoser<'a> {
     composite: &'a Composite<'a>,
-    /// What each part shows, and the whole body so: a layer's drawing stays while others change.
-    parts: Vec<(Option<Source>, Poser<'a>)>,
+    /// What each layer shows, and the whole body so: a layer's drawing stays while others change.
+    layers: Vec<(Option<Source>, Poser<'a>)>,
     root: Poser<'a>,
     feet: Option<FootHold<'a>>,
     pose: Pose,
@@ -19,20 +19,20 @@ impl<'a> CompositePoser<'a> {
     /// For the drawings of a composite.
     pub(crate) fn of(composite: &'a Composite<'a>) -> Self {
         let root = Poser::of(composite.clip());
-        let parts = vec![(None, root.clone()); composite.parts()];
-        Self { composite, parts, pose: root.pose().clone(), root, feet: composite.foot_hold() }
+        let layers = vec![(None, root.clone()); composite.layers()];
+        Self { composite, layers, pose: root.pose().clone(), root, feet: composite.foot_hold() }
     }
 
     /// The pose of a drawing as it is on screen on a koma.
     pub(crate) fn drawing(&mut self, drawing: usize, koma: usize) -> &Pose {
         let composite = self.composite;
-        for ((taken, poser), source) in self.parts.iter_mut().zip(&composite.drawings[drawing]) {
+        for ((taken, poser), source) in self.layers.iter_mut().zip(&composite.drawings[drawing]) {
             if taken.replace(*source) != Some(*source) {
                 poser.drawing(*source);
             }
         }
-        for (joint, part) in composite.part_of.iter().enumerate() {
-            let own = self.parts[*part].1.pose();
+        for (joint, layer) in composite.layer_of.iter().enumerate() {
+            let own = self.layers[*layer].1.pose();
             self.pose.rotations[joint] = own.rotations[joint];
             self.pose.translations[joint] = own.translations[joint];
         }

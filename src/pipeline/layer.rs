@@ -8,7 +8,7 @@ use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
     self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, JointTurns, JointWeights,
-    Judges, Key, LayerKeys, LayerMotion, Part, PartMotion, Picked, Reconstruction, Reference,
+    Judges, Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked, Reconstruction, Reference,
     Tracks,
 };
 use crate::motion::{Build, Clip, Screen, Skeleton};
@@ -25,7 +25,7 @@ pub(super) struct Measured<'a> {
     pub(super) filtered: Of<'a, Signals>,
     pub(super) turns: Of<'a, Vec<Vec<Turn>>>,
     pub(super) build: Of<'a, Build>,
-    /// The body's height in the file's unit, for a layer that is only a part of it.
+    /// The body's height in the file's unit, for a layer that is not all of it.
     pub(super) height: Option<f64>,
     /// From where it is seen.
     pub(super) screen: Screen,
@@ -33,9 +33,9 @@ pub(super) struct Measured<'a> {
 
 /// The stages of one layer, each with its last output.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Column {
+pub(super) struct LayerStages {
     /// The motion of its joints, and how much each counts.
-    motion: Stage<(Part, JointWeights), PartMotion>,
+    motion: Stage<(LayerJoints, JointWeights), LayerClip>,
     /// What the layer is judged beside: rate, height of the body, screen.
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
     /// What is lost from any koma to another, up to a span in seconds.
@@ -57,7 +57,7 @@ pub(super) struct Column {
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
     keys: Stage<(Choose, Edits, Finding), LayerKeys>,
-    spaced: Stage<(Spacing, Part), Spaced>,
+    spaced: Stage<(Spacing, LayerJoints), Spaced>,
     stills: Stage<(), Stills>,
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
 }
@@ -89,17 +89,17 @@ pub struct LayerBreakdown<'a> {
     pub omission: &'a Report,
 }
 
-impl Column {
-    /// Takes on a part of the body.
+impl LayerStages {
+    /// Takes on the joints of the layer.
     pub(super) fn take(
         &mut self,
         measured: &Measured<'_>,
-        part: &Part,
+        joints: &LayerJoints,
         weights: &JointWeights,
     ) -> Result<(), Error> {
-        let settings = (part.clone(), weights.clone());
-        self.motion.try_make((measured.clip,), settings, |(clip,), (part, weights)| {
-            PartMotion::of(&clip, part, weights)
+        let settings = (joints.clone(), weights.clone());
+        self.motion.try_make((measured.clip,), settings, |(clip,), (joints, weights)| {
+            LayerClip::of(&clip, joints, weights)
         })
     }
 
@@ -116,7 +116,7 @@ impl Column {
         let settings = (recipe.rate, measured.height, measured.screen);
         self.reference.make((self.motion.output(),), settings, |(motion,), settings| {
             let (rate, height, screen) = *settings;
-            let PartMotion { clip, judged, .. } = motion.value();
+            let LayerClip { clip, judged, .. } = motion.value();
             let own = Reference::weighted(clip, clip.clock(rate), judged).on(screen);
             match height {
                 None => own,
@@ -130,7 +130,7 @@ impl Column {
         self.refer(measured, recipe);
         let inputs = (self.motion.output(), measured.build, self.reference.output());
         self.chords.make(inputs, recipe.keys.span(), |(motion, build, reference), span| {
-            Chords::of_part(&motion.clip, &build, &reference, &motion.judged, *span)
+            Chords::of_layer(&motion.clip, &build, &reference, &motion.judged, *span)
         });
         let chords = (self.chords.output(),);
         self.rests.make(chords, recipe.keys.rest, |(chords,), rest| keys::rests(&chords, *rest));
@@ -156,7 +156,7 @@ impl Column {
     fn turn(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
         let inputs = (self.motion.output(), measured.build, self.reference.output());
         self.tracks.make(inputs, measured.screen, |(motion, build, reference), screen| {
-            let PartMotion { clip, judged, heard } = motion.value();
+            let LayerClip { clip, judged, heard } = motion.value();
             let height = reference.height();
             let build = build.value();
             Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height })
@@ -245,16 +245,16 @@ impl Column {
     pub(super) fn time(
         &mut self,
         measured: &Measured<'_>,
-        part: &Part,
+        joints: &LayerJoints,
         recipe: &Recipe,
         later: &[usize],
     ) -> Result<(), Error> {
         let inputs = (measured.clip, self.keys.output(), self.reference.output());
-        let settings = (recipe.spacing.clone(), part.clone());
-        self.spaced.make(inputs, settings, |(clip, keys, reference), (spacing, part)| {
+        let settings = (recipe.spacing.clone(), joints.clone());
+        self.spaced.make(inputs, settings, |(clip, keys, reference), (spacing, joints)| {
             let (skeleton, pace) = (clip.skeleton(), Pace::of(&reference));
             let koma = clip.rate().koma_from_frames(clip.len(), reference.clock().koma_rate);
-            named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), part, skeleton)
+            named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), joints, skeleton)
         });
         let spaced = self.spaced.output();
         let inputs = (measured.clip, spaced, self.reference.output());
@@ -355,11 +355,11 @@ fn joints<'a>(known: Known<'a>, finding: &'a Finding) -> JointTurns<'a> {
 }
 
 /// A column under the name of its layer. A layer that is the whole body need not name its joints.
-fn named(mut spaced: Spaced, part: &Part, skeleton: &Skeleton) -> Spaced {
-    spaced.layer.name.clone_from(&part.name);
-    if !part.is_whole(skeleton) {
+fn named(mut spaced: Spaced, joints: &LayerJoints, skeleton: &Skeleton) -> Spaced {
+    spaced.layer.name.clone_from(&joints.name);
+    if !joints.is_whole(skeleton) {
         let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
-        spaced.layer.joints = part.joints.iter().map(name).collect();
+        spaced.layer.joints = joints.joints.iter().map(name).collect();
     }
     spaced
 }
@@ -374,7 +374,7 @@ struct Voices {
 }
 
 impl Voices {
-    fn of(clip: &Clip, motion: &PartMotion, turns: &[Vec<Turn>]) -> Self {
+    fn of(clip: &Clip, motion: &LayerClip, turns: &[Vec<Turn>]) -> Self {
         let (weights, own) = (keys::weights(clip), &motion.heard);
         let weights = weights.iter().zip(own).map(|(by_bones, own)| by_bones * own).collect();
         let heard = |(turns, own): (&Vec<Turn>, &f64)| {
