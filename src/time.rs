@@ -11,6 +11,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Range, Setting, as_word, by_word};
 
 /// Koma a second, unless the recipe says otherwise: film, and so TV animation.
 pub const KOMA_RATE: f64 = 24.0;
@@ -151,8 +152,7 @@ impl Clock {
 }
 
 /// A length of time: source frames (`20`) or seconds (`0.2s`), so that one recipe serves every rate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "SpanText", into = "String")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Span {
     /// Source frames.
     Frames(f64),
@@ -206,33 +206,17 @@ impl FromStr for Span {
     }
 }
 
-impl From<Span> for String {
-    fn from(span: Span) -> String {
-        span.to_string()
+impl Setting for Span {
+    const KIND: Kind = Kind::Span;
+    as_word!();
+
+    fn is_in(&self, range: Range) -> bool {
+        let (Self::Frames(length) | Self::Seconds(length)) = *self;
+        self.is_length() && range.contains(length)
     }
 }
 
-/// What a recipe file may write for a span: `20` or `"0.2s"`.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum SpanText {
-    Number(f64),
-    Text(String),
-}
-
-impl TryFrom<SpanText> for Span {
-    type Error = String;
-
-    fn try_from(text: SpanText) -> Result<Self, String> {
-        match text {
-            SpanText::Number(frames) if Self::Frames(frames).is_length() => {
-                Ok(Self::Frames(frames))
-            }
-            SpanText::Number(frames) => Err(format!("{frames} frames is no length")),
-            SpanText::Text(text) => text.parse(),
-        }
-    }
-}
+by_word!(Span);
 
 #[cfg(test)]
 mod tests {

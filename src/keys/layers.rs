@@ -8,6 +8,7 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Setting};
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::{Clip, JointId, Landmarks, Skeleton, below};
 use crate::sheet::column_name;
@@ -131,6 +132,24 @@ impl LayerJoints {
     /// Whether it has every joint of a body.
     pub fn is_whole(&self, skeleton: &Skeleton) -> bool {
         self.joints.len() == skeleton.len()
+    }
+}
+
+impl Setting for Layers {
+    const KIND: Kind = Kind::Choice(&["body", "limbs", "joints"]);
+
+    fn word(&self) -> String {
+        match toml::Value::try_from(self).expect("names are plain text") {
+            toml::Value::String(word) => word,
+            list => list.to_string(),
+        }
+    }
+
+    /// A word, or what TOML has as a list.
+    fn of_word(word: &str) -> Option<Self> {
+        let list = || toml::from_str::<toml::Table>(&format!("list = {word}")).ok()?.remove("list");
+        let list = word.starts_with('[').then(list).flatten();
+        list.unwrap_or_else(|| word.into()).try_into().ok()
     }
 }
 

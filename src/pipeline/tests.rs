@@ -38,6 +38,7 @@ fn values(knob: &Knob) -> Vec<String> {
         Kind::Band => vec!["0".into(), "900".into(), "20%".into()],
         Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
         Kind::Flag => vec!["true".into(), "false".into()],
+        Kind::Text => vec!["genga".into()],
     };
     values.push(Recipe::default().get(knob.name).unwrap());
     values.dedup();

@@ -192,7 +192,7 @@ pub(super) fn name(axis: &Axis, unit: &str) -> String {
         ("s", _) => " (seconds)".to_owned(),
         ("%", _) => " (%)".to_owned(),
         (_, "source frames or seconds") if axis.scale().is_some() => " (source frames)".to_owned(),
-        (_, "" | "a whole number") => String::new(),
+        (_, "") => String::new(),
         (_, own) => format!(" ({own})"),
     };
     format!("{}{unit}  {}", axis.name(), axis.knob().japanese)

@@ -71,6 +71,7 @@ fn any_setting() -> impl Strategy<Value = (String, String)> {
             Kind::Band => ["0", "1", "100", "1e9", "5%", "100%"].map(String::from).to_vec(),
             Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
             Kind::Flag => vec!["true".into(), "false".into()],
+            Kind::Text => vec!["genga".into()],
         };
         (Just(knob.name.to_owned()), prop::sample::select(words))
     })

@@ -35,7 +35,7 @@ fn a_slider_sets_its_knob_and_a_drag_is_one_step() {
 #[test]
 fn every_knob_has_a_control_of_its_name() {
     let mut table = Table::with_kick();
-    for section in ["Sheet", "Exaggeration", "Speed", "Turns of joints", "Actions"] {
+    for section in ["Sheet", "Exaggeration", "Turns of joints", "Actions", "For studies"] {
         table.harness.get_by_label(section).click();
         table.harness.run();
     }

@@ -7,9 +7,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Setting, as_word, by_word};
 use crate::motion::seen::view::View;
 use crate::motion::{Body, Camera, Clip, Poser, Stature};
 use crate::time::Frame;
@@ -22,8 +22,7 @@ const LOOKS: usize = 200;
 const NEAREST: f64 = 0.05;
 
 /// From where movement is measured (見る位置).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum SeenFrom {
     /// From nowhere: ways are those through the world [KKMFT §3.1]. The default.
     #[default]
@@ -121,17 +120,6 @@ impl SeenFrom {
     pub fn is_world(self) -> bool {
         self == Self::World
     }
-
-    /// Checks that it can see.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] for a camera that stands at what it looks at, or nowhere.
-    pub fn validate(self) -> Result<(), Error> {
-        match self {
-            Self::Eye(eye) if !eye.is_eye() => Err(nowhere(&self.to_string())),
-            _ => Ok(()),
-        }
-    }
 }
 
 /// That nothing is seen from there, and from where it is.
@@ -182,19 +170,12 @@ fn place(text: &str) -> Option<DVec3> {
     numbers.next().is_none().then_some(place)
 }
 
-impl TryFrom<String> for SeenFrom {
-    type Error = Error;
-
-    fn try_from(text: String) -> Result<Self, Error> {
-        text.parse()
-    }
+impl Setting for SeenFrom {
+    const KIND: Kind = Kind::SeenFrom;
+    as_word!();
 }
 
-impl From<SeenFrom> for String {
-    fn from(seen_from: SeenFrom) -> Self {
-        seen_from.to_string()
-    }
-}
+by_word!(SeenFrom);
 
 #[cfg(test)]
 mod tests {
