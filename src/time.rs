@@ -88,9 +88,10 @@ impl From<FrameRate> for f64 {
     }
 }
 
+/// As people write it: four places at the most.
 impl fmt::Display for FrameRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
+        ((self.0 * 1e4).round() / 1e4).fmt(f)
     }
 }
 
@@ -239,6 +240,15 @@ mod tests {
         for fps in [f64::NAN, f64::INFINITY, 0.0, -24.0, 1e-4, 1e7] {
             assert!(FrameRate::new(fps).is_err(), "{fps}");
         }
+    }
+
+    #[test]
+    fn a_rate_is_printed_as_people_write_it() {
+        let printed = |seconds: f64| FrameRate::from_frame_time(seconds).unwrap().to_string();
+        assert_eq!(
+            [0.034483, 0.0083333, 1.0 / 29.97].map(printed),
+            ["28.9998", "120", "29.97"].map(String::from)
+        );
     }
 
     #[test]

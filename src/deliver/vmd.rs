@@ -1,10 +1,10 @@
 //! The limited motion for MikuMikuDance (MMD): a VMD file for a model with the standard bones.
 
 mod bones;
+mod capture;
 mod map;
 mod record;
 mod retarget;
-mod source;
 mod stance;
 #[cfg(test)]
 mod tests;
@@ -21,11 +21,11 @@ use crate::knob::{Knobs, knob, knobs};
 use crate::motion::{Clip, Composite, JointId, Skeleton};
 use crate::sheet::{Exposure, Sheet};
 use bones::{Model, Side};
+use capture::Capture;
 pub use map::BoneMap;
 use map::Found;
 pub use record::{VmdKey, VmdMotion};
 use retarget::{Local, Retarget};
-use source::Source;
 use stance::Stance;
 
 /// The longest name of a model, in bytes of CP932.
@@ -156,9 +156,9 @@ impl Vmd {
         let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
         let map = self.map();
         let found = map.find(clip.skeleton())?;
-        let source = Source::of(clip, &map, &found);
-        let stance = Stance::of(&source, self.arm_angle.to_radians());
-        let mut retarget = Retarget::new(&composite, &map.model, &source, &stance, self.leg);
+        let capture = Capture::of(clip, &map, &found);
+        let stance = Stance::of(&capture, self.arm_angle.to_radians());
+        let mut retarget = Retarget::new(&composite, &map.model, &capture, &stance, self.leg);
         let (model, _) = cut(&self.model)?;
         let report = report(clip.skeleton(), &map.model, &found, retarget.scale);
         let notes = self.notes(clip, sheet)?;

@@ -12,10 +12,11 @@ use crate::keys::choice::{By, Choice, Picked};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::voters::voters;
 use crate::keys::{
-    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, rest,
+    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, Wall, rest,
 };
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::Clip;
+use crate::signal::Turn;
 use crate::time::{Frame, Span};
 
 /// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
@@ -270,9 +271,11 @@ impl Choose {
         edits: &Edits,
     ) -> LayerKeys {
         let rests = rest::rests(judges.chords, self.rest);
-        let keys = self.eligible(clip, (judges.chords, &rests), candidates, joints, edits);
+        let (still, corrections) = ((judges.chords, &rests[..]), (edits, joints.apart));
+        let keys = self.eligible(clip, still, candidates, joints.contacts, corrections);
         let picked = self.choice(clip, judges, &keys, joints.apart).pick(judges.chords);
-        self.drawn((judges.chords, &rests), keys, &picked, candidates, joints, edits)
+        let heard = (joints.turns, joints.weights);
+        self.drawn(still, &keys, &picked, &candidates.walls, heard, corrections)
     }
 
     /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
@@ -281,12 +284,12 @@ impl Choose {
         clip: &Clip,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
         candidates: &Candidates,
-        joints: &JointTurns<'_>,
-        edits: &Edits,
+        contacts: &[Frame],
+        (edits, apart): (&Edits, f64),
     ) -> Vec<Key> {
         let rests = rest::rest_ends(chords, rests);
-        let contacts = if self.contacts == AtContacts::Keys { joints.contacts } else { &[] };
-        corrected(candidates, (&rests, contacts), edits, clip, joints.apart)
+        let contacts = if self.contacts == AtContacts::Keys { contacts } else { &[] };
+        corrected(candidates, (&rests, contacts), edits, clip, apart)
     }
 
     /// On what it hangs which of some keys are picked.
@@ -324,21 +327,21 @@ impl Choose {
     pub(crate) fn drawn(
         &self,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
-        keys: Vec<Key>,
+        keys: &[Key],
         picked: &Picked,
-        candidates: &Candidates,
-        joints: &JointTurns<'_>,
-        edits: &Edits,
+        walls: &[Wall],
+        (turns, weights): (&[Vec<Turn>], &[f64]),
+        (edits, apart): (&Edits, f64),
     ) -> LayerKeys {
         let kept = picked.kept.iter().map(|(at, price)| Key { price: *price, ..keys[*at].clone() });
         let mut keys: Vec<Key> = kept.collect();
-        moved(&mut keys, edits, joints.apart);
-        let reach = self.reach.frames(chords.clock().frame_rate).max(joints.apart);
+        moved(&mut keys, edits, apart);
+        let reach = self.reach.frames(chords.clock().frame_rate).max(apart);
         let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
-        let voters = voters(joints.turns, joints.weights, &frames, reach);
+        let voters = voters(turns, weights, &frames, reach);
         keys.iter_mut().zip(voters).for_each(|(key, voters)| key.voters = voters);
         let over_limit = if edits.only_pins { 0 } else { picked.over_limit };
         let rests = rest::rest_frames(chords, rests);
-        LayerKeys { keys, walls: candidates.walls.clone(), rests, over_limit }
+        LayerKeys { keys, walls: walls.to_vec(), rests, over_limit }
     }
 }

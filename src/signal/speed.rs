@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, Lanes, wide};
-use crate::motion::{Body, Clip, Pose, Screen, local_rotation};
+use crate::motion::{Body, Clip, Poser, Screen, local_rotation};
 use crate::signal::{Signals, Unit};
 use crate::time::Frame;
 
@@ -165,13 +165,13 @@ fn angle_of(q: DQuat) -> f64 {
 fn displacement(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     let (fps, skeleton) = (clip.rate().fps(), clip.skeleton());
     let mut values = still(clip);
-    let (mut pose, mut body) = (Pose::rest(skeleton), Body::new(skeleton));
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(skeleton));
     let mut before = vec![DVec3::ZERO; skeleton.len()];
     let mut now = before.clone();
     for row in 0..clip.len() {
-        pose.take_frame(clip, Frame(clip.first().0 + row));
-        body.place(&pose, &mut now);
-        now.iter_mut().for_each(|place| *place = screen.see(*place));
+        body.place(poser.frame(Frame(clip.first().0 + row)));
+        let seen = body.positions().iter().map(|place| screen.see(*place));
+        now.iter_mut().zip(seen).for_each(|(now, seen)| *now = seen);
         if row > 0 {
             for (joint, (before, now)) in before.iter().zip(&now).enumerate() {
                 values[(row, joint)] = before.distance(*now) * fps;

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::JointId;
-use crate::motion::lanes::wide;
+use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::signal::Signals;
 use crate::time::{Frame, Span};
 
@@ -215,15 +215,12 @@ impl TurnFinder {
     }
 }
 
-/// The largest size of a value, 0 for none; four side by side, as each waits for the last.
+/// The largest size of a value, 0 for none; some side by side, as each waits for the last.
 fn largest(values: &[f64]) -> f64 {
-    let greater = |most: f64, value: f64| if value.abs() > most { value.abs() } else { most };
-    let (fours, rest) = values.as_chunks::<4>();
-    let mut most = [0.0; 4];
-    for four in fours {
-        most = std::array::from_fn(|lane| greater(most[lane], four[lane]));
-    }
-    most.iter().chain(rest).copied().fold(0.0, greater)
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    let size = |values: &[f64; LANES]| Lanes(*values).map(f64::abs);
+    let most = chunks.iter().fold(Lanes::ZERO, |most, values| most.max(size(values)));
+    most.0.iter().chain(rest).fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 /// One joint after another, with the buffers they share. Rows count from 0 here.

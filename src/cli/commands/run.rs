@@ -34,6 +34,9 @@ pub(super) struct RunArgs {
 /// the settings do not hold. A run after an edit is how a recipe is tuned, so it is kept and not refused.
 const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is";
 
+/// Actions after the first whose begins are said: a long take has hundreds.
+const ACTIONS: usize = 8;
+
 /// The same where the run has more than the file says.
 const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your own writing, and stays as it is: the \
                             corrections and settings that this run adds are not in it; write them there, or \
@@ -178,12 +181,13 @@ fn of_body(words: &Words, report: &Report) {
         report.longest_hold
     ));
     if report.actions.len() > 1 {
-        let begins = report.actions[1..].iter().map(|action| action.from.to_string());
+        let later = report.actions[1..].iter().map(|action| action.from.to_string());
+        let more = if report.actions.len() > 1 + ACTIONS { " …, all in report.json" } else { "" };
         words.say(format_args!(
-            "actions     動作       {}, beginning with frames {} and {}",
+            "actions     動作       {}, beginning with frames {} and {}{more}",
             report.actions.len(),
             report.first_frame,
-            begins.collect::<Vec<_>>().join(" ")
+            later.take(ACTIONS).collect::<Vec<_>>().join(" ")
         ));
     }
     let omission = &report.omission;

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::Chords;
 use crate::keys::actions::changes::changes;
@@ -96,21 +95,20 @@ impl ActionFinder {
     /// found. `rest` is the speed below which the body rests, as [`Choose::rest`](crate::keys::Choose::rest).
     ///
     /// ```
-    /// use genga::edits::Edits;
     /// use genga::keys::{ActionFinder, Chords, Reference};
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let reference = Reference::of(&clip, clip.clock(24.0));
     /// let own = vec![1.0; clip.skeleton().len()];
     /// let chords = Chords::of(&clip, &reference, &own, f64::INFINITY);
-    /// let actions = ActionFinder::default().find(&clip, &chords, 15.0, &Edits::default());
+    /// let actions = ActionFinder::default().find(&clip, &chords, 15.0, &[]);
     /// assert_eq!(actions.iter().count(), 1, "a kick is one action");
     /// # Ok::<(), genga::Error>(())
     /// ```
-    pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, edits: &Edits) -> Actions {
-        if !edits.splits.is_empty() {
-            let asked = |frame: &Frame| Split { frame: *frame, why: SplitReason::Asked };
-            return Actions::split(clip, edits.splits.iter().map(asked).collect());
+    pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, asked: &[Frame]) -> Actions {
+        if !asked.is_empty() {
+            let asked = asked.iter().map(|frame| Split { frame: *frame, why: SplitReason::Asked });
+            return Actions::split(clip, asked.collect());
         }
         let splits =
             if self.split { self.found(clip, &candidates(chords, rest)) } else { Vec::new() };

@@ -11,7 +11,7 @@ use glam::DVec3;
 use crate::error::Error;
 use crate::knob::{Kind, Setting, as_word, by_word};
 use crate::motion::seen::view::View;
-use crate::motion::{Body, Camera, Clip, Pose, Stature};
+use crate::motion::{Body, Camera, Clip, Poser, Stature};
 use crate::time::Frame;
 
 /// Frames that are looked at for the side of a [`Camera`]: enough to know where the body goes.
@@ -106,13 +106,11 @@ impl Screen {
 
 /// Where the joints stand in some frames of a clip, evenly spread.
 pub(in crate::motion) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
-    let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
     let step = clip.len().div_ceil(LOOKS).max(1);
     let stand = |row: usize| {
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
-        pose.take_frame(clip, Frame(clip.first().0 + row));
-        body.place(&pose, &mut positions);
-        positions
+        body.place(poser.frame(Frame(clip.first().0 + row)));
+        body.positions().to_vec()
     };
     (0..clip.len()).step_by(step).map(stand).collect()
 }
