@@ -12,9 +12,7 @@ printf '%s, %s cores, %s; %s; load %s.\n\n' "${processor:-unknown processor}" "$
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-if [ ! -x /usr/bin/time ]; then
-  apt-get update -qq && apt-get install -y -qq --no-install-recommends time >/dev/null
-fi
+tests/needs time
 
 # A long take: the rows of a clip again and again, about 100 MB.
 clip=../shared/data/bvh/cmu-01_06-playground-long.bvh

@@ -24,7 +24,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     for price in ["7.5", "15", "30"] {
         recipe.set("keys.min_price", price)?;
         let breakdown = engine.run(&recipe, &edits)?;
-        let (keys, layer) = (breakdown.keys.keys.len(), breakdown.sheet.first_layer()?);
+        let (keys, layer) =
+            (breakdown.first_layer().keys.keys.len(), breakdown.sheet.first_layer()?);
         println!(
             "keys.min_price = {price:<4} {keys:>2} genga, {:>2} drawings",
             layer.drawings.len()

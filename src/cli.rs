@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! commands    the commands, a file each
+//! asked       the command line, and what to type where it was not understood
 //! clip        the motion: which, which part of it, and how it is read
 //! corrections the recipe, and what a person corrects
 //! pins        keys that are marked in a file
@@ -16,6 +17,7 @@
 //! failure     why the program stops, and its exit code
 //! ```
 
+mod asked;
 mod clip;
 mod commands;
 mod corrections;
@@ -31,9 +33,6 @@ mod words;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use commands::Args;
 use failure::Failure;
 use words::Words;
 
@@ -42,7 +41,7 @@ pub use commands::Disk;
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = asked::args();
     let words = Words::new(args.quiet);
     match args.run(&words) {
         Ok(()) => ExitCode::SUCCESS,

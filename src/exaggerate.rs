@@ -12,14 +12,12 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knob, knobs};
 use crate::motion::{Clip, RowWriter};
 use crate::sheet::Source;
 use crate::time::Span;
 
 pub use parts::CartoonParts;
-
-/// The strongest cartoon filter: three times the swing is beyond what a body can be read in.
-const STRONGEST: f64 = 3.0;
 
 /// Exaggeration (誇張) of a motion: the cartoon filter of Wang, Drucker, Agrawala and Cohen 2006, then
 /// slow-in and slow-out by a bilateral filter after Kwon and Lee 2011. Both are off by default.
@@ -57,27 +55,56 @@ impl Default for Exaggerate {
     }
 }
 
+knobs!(exaggerate::Exaggerate {
+    cartoon: knob(
+        "誇張",
+        "Anticipation before movements and follow-through after them (the cartoon animation \
+         filter), before keys are chosen. 1 goes back and beyond by 36 % of a sudden movement. \
+         More breaks joints.",
+        "原画を選ぶ前に、\
+         動きの前の予備動作と後の後追いを強める（カートゥーン・アニメーション・フィルタ）。1で、\
+         急な動きの36％だけ逆へ引き、行き過ぎる。強すぎると関節が壊れる。",
+    )
+    .unit("strength (0 is off)")
+    .at_most(3.0) // three times the swing is beyond what a body can be read in
+    .slider(0.0, 2.0),
+    cartoon_width: knob(
+        "予備動作から後追いまで",
+        "The time from the anticipation of a sudden movement to its follow-through. Longer \
+         exaggerates slow movements too.",
+        "急な動きの予備動作から後追いまでの時間。長いほど、ゆっくりした動きも誇張される。",
+    ),
+    cartoon_parts: knob(
+        "誇張する部位",
+        "What is exaggerated so: all that no foot hangs on, so that feet stand where they stood \
+         (upper), or legs and the way of the body too (body): feet slide a little then.",
+        "誇張する部位。足につながらない部位だけで、接地した足は動かない（upper）か、\
+         脚と体の移動も含む全身（body）で、足は少し滑る。",
+    ),
+    ease: knob(
+        "スローイン・スローアウト",
+        "Slow-in and slow-out: poses gather round rests and turning points, and the movement \
+         between is faster. No pose is changed, only its time.",
+        "止まりや折り返しの近くに時間を集め、あいだの動きを速くする。ポーズは変わらず、\
+         時刻だけが変わる。",
+    )
+    .unit("strength (0 is off)")
+    .at_most(1.0),
+    ease_reach: knob(
+        "時間を集める範囲",
+        "How far in time poses are drawn to the slow ones beside them. Longer draws short \
+         movements to the rests beside them.",
+        "近くの遅いポーズに引き寄せる時間の範囲。長いほど、短い動きは隣の止めに引き寄せられる。",
+    ),
+});
+
 impl Exaggerate {
     /// Whether the settings can be used.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        let strengths = [("cartoon", self.cartoon, STRONGEST), ("ease", self.ease, 1.0)];
-        for (name, strength, most) in strengths {
-            if !(0.0..=most).contains(&strength) {
-                let message = format!("{strength} is no strength; it is 0 (none) to {most}");
-                return Err(Error::setting(format!("exaggerate.{name}"), message));
-            }
-        }
-        let lengths = [("cartoon_width", self.cartoon_width), ("ease_reach", self.ease_reach)];
-        for (name, length) in lengths {
-            if !length.is_length() {
-                let message = format!("{length} is no length; give frames (20) or seconds (0.2s)");
-                return Err(Error::setting(format!("exaggerate.{name}"), message));
-            }
-        }
-        Ok(())
+        self.check()
     }
 
     /// Whether nothing is exaggerated.

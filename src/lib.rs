@@ -12,7 +12,7 @@
 //!
 //! # The rooms
 //!
-//! Data flows one way; a module imports only from rooms to its left, or from the ground: [`error`],
+//! Data flows one way; a module imports only from rooms to its left, or from the ground: [`error`], [`knob`],
 //! [`time`], [`sheet`] and [`edits`], which are plain data.
 //!
 //! ```text
@@ -79,6 +79,7 @@ pub mod edits;
 pub mod error;
 pub mod exaggerate;
 pub mod keys;
+pub mod knob;
 pub mod motion;
 pub mod pipeline;
 pub mod plot;

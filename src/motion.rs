@@ -22,10 +22,10 @@ pub use body::landmarks;
 pub(crate) use body::{BodySide, Build, below, plain_name};
 pub use body::{Contact, ContactFinder, Foot, Landmarks, Limb, Point, Stature, Unit};
 pub use clip::{
-    Body, Channel, Clip, EndSite, Joint, JointId, Pose, RowWriter, Skeleton, local_rotation,
+    Body, Channel, Clip, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, local_rotation,
     local_translation,
 };
-pub(crate) use clip::{DrawnPose, rotation_axes, turn_columns};
-pub(crate) use composite::{Composite, CompositeRows, PosedComposite};
+pub(crate) use clip::{rotation_axes, turn_columns};
+pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
 pub use read::{GltfCamera, bvh};
 pub use seen::{Camera, Eye, Screen, SeenFrom};

@@ -1,6 +1,6 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
-mod column;
+mod layer;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -11,19 +11,18 @@ use crate::edits::{Edits, Hold};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{
-    ActionFinder, Actions, BodyTurns, Candidates, LayerKeys, Layers, Part, Reconstruction,
-    Reference,
+    ActionFinder, Actions, BodyTurns, LayerJoints, LayerKeys, Layers, Reconstruction, Reference,
 };
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{Feet, RootMotion, Sheet};
 use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
-use crate::timing::{Report, with_holds};
+use crate::timing::{Omitted, Spaced, with_holds};
 
-pub use column::LayerBreakdown;
-use column::{Column, Measured};
-use stage::{Made, Stage};
+pub use layer::LayerBreakdown;
+use layer::{LayerStages, Measured};
+use stage::{Of, Stage};
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
 /// starts again at the first stage whose input changed. A clone shares what was made so far.
@@ -39,20 +38,20 @@ pub struct Engine {
     speed: Stage<(Speed, Screen), Spectrum>,
     filtered: Stage<LowPass, Signals>,
     /// The turns whatever the persistence, and those that it confirms.
-    turning: Stage<(TurnFinder, LowPass), Vec<Vec<Turn>>>,
-    turns: Stage<Span, Vec<Vec<Turn>>>,
-    parts: Stage<Layers, Vec<Part>>,
-    /// The height of the whole body, beside which its parts are judged.
-    height: Stage<f64, f64>,
+    turning: Stage<(TurnFinder, f64), Vec<Vec<Turn>>>,
+    turns: Stage<TurnFinder, Vec<Vec<Turn>>>,
+    split: Stage<Layers, Vec<LayerJoints>>,
+    /// The height of the whole body, beside which its layers are judged.
+    height: Stage<Clock, f64>,
     /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
-    columns: Vec<Column>,
+    layers: Vec<LayerStages>,
     /// The actions of the take, by the body or the first of its layers.
     actions: Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
 }
 
-/// Rate, root, feet, what a person holds, and which outputs of the layers.
-type SheetSettings = (f64, RootMotion, Feet, Vec<Hold>, Vec<Made>);
+/// Of which time and motion the sheet is, and what a person holds.
+type SheetSettings = ((Clock, RootMotion, Feet), Vec<Hold>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
@@ -73,23 +72,13 @@ pub struct Breakdown<'a> {
     pub filtered: &'a Signals,
     /// Confirmed keys and walls of each joint, by frame.
     pub turns: &'a [Vec<Turn>],
-    /// The turns of the body; of the first layer, as the next ones and `omission`.
-    pub body: &'a BodyTurns,
-    /// What may be a key, before it was asked what it is worth. [`Breakdown::layers`] has them all.
-    pub candidates: &'a Candidates,
-    /// Keys and walls of the layer.
-    pub keys: &'a LayerKeys,
     /// The actions that the take consists of.
     pub actions: &'a Actions,
-    /// Inbetweens that were asked for and did not fit.
-    pub did_not_fit: usize,
     /// The sheet before anything was left out.
     pub spaced: &'a Sheet,
     /// The result.
     pub sheet: &'a Sheet,
-    /// What was left out, and what could not be.
-    pub omission: &'a Report,
-    columns: &'a [Column],
+    layers: &'a [LayerStages],
 }
 
 /// What was found up to the keys of the first layer.
@@ -106,7 +95,12 @@ pub struct FoundKeys<'a> {
 impl<'a> Breakdown<'a> {
     /// What was found and decided for each layer of the sheet.
     pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
-        self.columns.iter().map(Column::breakdown)
+        self.layers.iter().map(LayerStages::breakdown)
+    }
+
+    /// The first layer of the sheet: the whole body where a recipe asks for no others.
+    pub fn first_layer(&self) -> LayerBreakdown<'a> {
+        self.layers[0].breakdown()
     }
 }
 
@@ -130,9 +124,9 @@ impl Engine {
             filtered: Stage::default(),
             turning: Stage::default(),
             turns: Stage::default(),
-            parts: Stage::default(),
+            split: Stage::default(),
             height: Stage::default(),
-            columns: Vec::new(),
+            layers: Vec::new(),
             actions: Stage::default(),
             sheets: Stage::default(),
         })
@@ -159,10 +153,10 @@ impl Engine {
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let (mut recipe, edits) = (Recipe::default(), Edits::default());
     /// let mut engine = Engine::new(clip)?;
-    /// let keys = engine.run(&recipe, &edits)?.keys.keys.len();
+    /// let keys = engine.run(&recipe, &edits)?.first_layer().keys.keys.len();
     /// // The motion is not measured again: spacing comes after the keys.
     /// recipe.set("spacing.on", "3")?;
-    /// assert_eq!(engine.run(&recipe, &edits)?.keys.keys.len(), keys);
+    /// assert_eq!(engine.run(&recipe, &edits)?.first_layer().keys.keys.len(), keys);
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn run(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
@@ -175,7 +169,7 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         // One layer after the other, so that what is large is there for one of them at a time.
-        self.make(recipe, edits, Column::forget)?;
+        self.make(recipe, edits, LayerStages::forget)?;
         self.turning.forget();
         Ok(self.breakdown(recipe))
     }
@@ -185,47 +179,38 @@ impl Engine {
         &mut self,
         recipe: &Recipe,
         edits: &Edits,
-        done: impl Fn(&mut Column),
+        done: impl Fn(&mut LayerStages),
     ) -> Result<Breakdown<'_>, Error> {
-        let turns_made = self.find(recipe, edits)?;
+        self.find(recipe, edits)?;
         self.split(recipe, edits);
-        let clock = self.clip.clock(recipe.rate);
-        let later = self.actions.output().koma(clock);
-        let (measured, parts, columns) = self.layers(turns_made);
-        let mut made = Vec::with_capacity(parts.len());
-        for (part, column) in parts.iter().zip(columns) {
-            column.take(&measured, part, &recipe.keys.weights)?;
-            let keys = column.find(&measured, recipe, &edits.of_layer(&part.name));
-            made.push(column.time((measured.clip, part), recipe, clock, (keys, &later))?);
-            done(column);
+        let later = self.actions.output().koma(self.clip.clock(recipe.rate));
+        let (measured, split, layers) = self.layers();
+        for (joints, layer) in split.iter().zip(layers) {
+            layer.take(&measured, joints, &recipe.keys.weights)?;
+            layer.find(&measured, recipe, &edits.of_layer(&joints.name));
+            layer.time(&measured, joints, recipe, &later)?;
+            done(layer);
         }
-        self.sheet(recipe, &edits.holds, clock, made);
+        self.sheet(recipe, &edits.holds);
         Ok(self.breakdown(recipe))
     }
 
     fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
-        let [spaced, sheet] = self.sheets.output();
-        let columns = &self.columns[..sheet.layers.len()];
-        let LayerBreakdown { body, candidates, keys, did_not_fit, omission, .. } =
-            columns[0].breakdown();
+        let [spaced, sheet] = self.sheets.output().value();
+        let layers = &self.layers[..sheet.layers.len()];
         Breakdown {
             source: &self.clip,
-            clip: self.drawn.output(),
+            clip: self.drawn.output().value(),
             seen_from: recipe.seen_from,
-            screen: self.screen.output(),
+            screen: self.screen.output().value(),
             clock: self.clip.clock(recipe.rate),
-            speed: self.speed.output().unfiltered(),
-            filtered: self.filtered.output(),
-            turns: self.turns.output(),
-            body,
-            candidates,
-            keys,
-            actions: self.actions.output(),
-            did_not_fit,
+            speed: self.speed.output().value().unfiltered(),
+            filtered: self.filtered.output().value(),
+            turns: self.turns.output().value(),
+            actions: self.actions.output().value(),
             spaced,
             sheet,
-            omission,
-            columns,
+            layers,
         }
     }
 
@@ -236,7 +221,7 @@ impl Engine {
     pub fn find_turns(&mut self, recipe: &Recipe) -> Result<&[Vec<Turn>], Error> {
         recipe.validate()?;
         self.measure(recipe)?;
-        Ok(self.turns.output())
+        Ok(self.turns.output().value())
     }
 
     /// Runs the chain up to the keys of the first layer.
@@ -245,8 +230,8 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
         self.find(recipe, edits)?;
-        let (body, keys) = self.columns[0].keys();
-        Ok(FoundKeys { turns: self.turns.output(), body, keys })
+        let (body, keys) = self.layers[0].keys();
+        Ok(FoundKeys { turns: self.turns.output().value(), body, keys })
     }
 
     /// Runs the chain up to the turns: every joint's, and those of the body, or of the first of its layers.
@@ -257,12 +242,11 @@ impl Engine {
         &mut self,
         recipe: &Recipe,
     ) -> Result<(&[Vec<Turn>], &BodyTurns), Error> {
-        let edits = Edits::default();
-        let turns_made = self.check_and_measure(recipe, &edits)?;
-        let (measured, parts, columns) = self.layers(turns_made);
-        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
-        columns[0].find_body_turns(&measured, recipe);
-        Ok((self.turns.output(), self.columns[0].body_turns()))
+        self.check_and_measure(recipe, &Edits::default())?;
+        let (measured, split, layers) = self.layers();
+        layers[0].take(&measured, &split[0], &recipe.keys.weights)?;
+        layers[0].find_body_turns(&measured, recipe);
+        Ok((self.turns.output().value(), self.layers[0].body_turns()))
     }
 
     /// Runs the chain as far as it takes to tell the actions of the take.
@@ -272,7 +256,7 @@ impl Engine {
     pub fn find_actions(&mut self, recipe: &Recipe, edits: &Edits) -> Result<&Actions, Error> {
         self.find(recipe, edits)?;
         self.split(recipe, edits);
-        Ok(self.actions.output())
+        Ok(self.actions.output().value())
     }
 
     /// How far off the body, or the first of its layers, is when nothing but the keys of a recipe is left.
@@ -285,112 +269,122 @@ impl Engine {
         edits: &Edits,
     ) -> Result<Reconstruction, Error> {
         self.find(recipe, edits)?;
-        Ok(self.columns[0].reconstruction())
+        Ok(self.layers[0].reconstruction())
     }
 
-    /// The keys of the first layer. Says which turns they were found in.
-    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
-        let turns_made = self.check_and_measure(recipe, edits)?;
-        let (measured, parts, columns) = self.layers(turns_made);
-        columns[0].take(&measured, &parts[0], &recipe.keys.weights)?;
-        columns[0].find(&measured, recipe, &edits.of_layer(&parts[0].name));
-        Ok(turns_made)
+    /// The keys of the first layer.
+    fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
+        self.check_and_measure(recipe, edits)?;
+        let (measured, split, layers) = self.layers();
+        layers[0].take(&measured, &split[0], &recipe.keys.weights)?;
+        layers[0].find(&measured, recipe, &edits.of_layer(&split[0].name));
+        Ok(())
     }
 
     /// The take split into its actions, by what is lost between the instants of the first layer.
     fn split(&mut self, recipe: &Recipe, edits: &Edits) {
-        let (finder, rest) = (&recipe.actions, recipe.keys.rest);
-        let settings = (finder.clone(), rest, edits.splits.clone());
-        let (made, chords) = self.columns[0].chords();
-        let clip = self.drawn.output();
-        self.actions.renew(made, &settings, || finder.find(clip, chords, rest, edits));
+        let settings = (recipe.actions.clone(), recipe.keys.rest, edits.splits.clone());
+        let inputs = (self.drawn.output(), self.layers[0].chords());
+        self.actions.make(inputs, settings, |(clip, chords), (finder, rest, splits)| {
+            finder.find(&clip, &chords, *rest, splits)
+        });
     }
 
-    fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Made, Error> {
+    fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
         // What is wrong with them is said before the work.
-        self.parts.refresh(Made::CLIP, &recipe.layers, || recipe.layers.split(&self.clip))?;
-        let parts = self.parts.output();
-        let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+        self.split.try_make(
+            (Of::given(&self.clip),),
+            recipe.layers.clone(),
+            |(clip,), layers| layers.split(&clip),
+        )?;
+        let split = self.split.output();
+        let names: Vec<&str> = split.iter().map(|joints| joints.name.as_str()).collect();
         edits.check_layers(&names)?;
         let clock = self.clip.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.of(self.clip.skeleton())?;
-        let count = parts.len();
-        self.columns.resize_with(count.max(self.columns.len()), Column::default);
+        let count = split.len();
+        self.layers.resize_with(count.max(self.layers.len()), LayerStages::default);
+        self.exaggerate(recipe)?;
         if count > 1 {
-            let made = self.exaggerate(recipe)?;
-            let drawn = self.drawn.output();
-            self.height.renew(made, &recipe.rate, || Reference::of(drawn, clock).height());
+            self.height.make((self.drawn.output(),), clock, |(clip,), clock| {
+                Reference::of(&clip, *clock).height()
+            });
         }
         self.measure(recipe)
     }
 
-    /// What was measured of the whole body, its parts, and their stages.
-    fn layers(&mut self, turns_made: Made) -> (Measured<'_>, &[Part], &mut [Column]) {
-        let parts = self.parts.output();
+    /// What was measured of the whole body, its layers, and their stages.
+    fn layers(&mut self) -> (Measured<'_>, &[LayerJoints], &mut [LayerStages]) {
+        let split = self.split.output().value();
         let measured = Measured {
             clip: self.drawn.output(),
-            clip_made: self.drawn.made,
             filtered: self.filtered.output(),
             turns: self.turns.output(),
-            made: turns_made,
             build: self.build.output(),
-            height: (parts.len() > 1).then(|| *self.height.output()),
+            height: (split.len() > 1).then(|| *self.height.output()),
             screen: *self.screen.output(),
         };
-        (measured, parts, &mut self.columns[..parts.len()])
+        (measured, split, &mut self.layers[..split.len()])
     }
 
     /// The motion that is drawn.
-    fn exaggerate(&mut self, recipe: &Recipe) -> Result<Made, Error> {
-        let clip = &self.clip;
+    fn exaggerate(&mut self, recipe: &Recipe) -> Result<(), Error> {
         // What is off is off whatever its other settings.
         let settings = (!recipe.exaggerate.is_off()).then(|| recipe.exaggerate.clone());
-        self.drawn.refresh(Made::CLIP, &settings, || match &settings {
-            None => Ok(Arc::clone(clip)),
-            Some(exaggerate) => exaggerate.apply(clip).map(Arc::new),
-        })
+        self.drawn.try_make(
+            (Of::given(&self.clip),),
+            settings,
+            |(clip,), settings| match settings {
+                None => Ok(Arc::clone(&clip)),
+                Some(exaggerate) => exaggerate.apply(&clip).map(Arc::new),
+            },
+        )
     }
 
     /// Speeds, smoothed, and where they turn.
-    fn measure(&mut self, recipe: &Recipe) -> Result<Made, Error> {
-        let made = self.exaggerate(recipe)?;
-        let clip = &**self.drawn.output();
-        self.screen.renew(made, &recipe.seen_from, || Screen::of(recipe.seen_from, clip));
-        self.build.renew(made, &(), || Build::of(clip));
+    fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
+        self.exaggerate(recipe)?;
+        let clip = self.drawn.output();
+        self.screen.make((clip,), recipe.seen_from, |(clip,), from| Screen::of(*from, &clip));
+        self.build.make((clip,), (), |(clip,), ()| Build::of(&clip));
         // A rotation is the same from everywhere.
         let is_seen = recipe.speed.measure.is_seen();
         let screen = if is_seen { *self.screen.output() } else { Screen::WORLD };
-        let measure = || recipe.speed.measure_on(clip, &screen).map(Spectrum::from);
-        let made = self.speed.refresh(made, &(recipe.speed.clone(), screen), measure)?;
-        let spectrum = self.speed.output();
-        let made =
-            self.filtered.refresh(made, &recipe.filter, || Ok(recipe.filter.apply(spectrum)))?;
-        let filtered = self.filtered.output();
-        let delay = recipe.filter.delay(clip.rate());
+        self.speed.try_make((clip,), (recipe.speed.clone(), screen), |(clip,), settings| {
+            let (speed, screen) = settings;
+            speed.measure_on(&clip, screen).map(Spectrum::from)
+        })?;
+        let speed = (self.speed.output(),);
+        self.filtered.make(speed, recipe.filter.clone(), |(speed,), filter| filter.apply(&speed));
         // A candidate knows for how long it is confirmed: another persistence needs no new search.
-        let persistence = recipe.turns.persistence;
         let search = TurnFinder { persistence: Span::Frames(0.0), ..recipe.turns.clone() };
-        let settings = (search, recipe.filter.clone());
-        let made = self.turning.renew(made, &settings, || recipe.turns.candidates(filtered, delay));
-        let candidates = self.turning.output();
-        let confirm = || recipe.turns.confirmed(candidates, filtered);
-        Ok(self.turns.renew(made, &persistence, confirm))
+        let settings = (search, recipe.filter.delay(clip.rate()));
+        let filtered = self.filtered.output();
+        self.turning.make((filtered,), settings, |(filtered,), (search, delay)| {
+            search.candidates(&filtered, *delay)
+        });
+        let inputs = (self.turning.output(), filtered);
+        self.turns.make(inputs, recipe.turns.clone(), |(candidates, filtered), finder| {
+            finder.confirmed(&candidates, &filtered)
+        });
+        Ok(())
     }
 
     /// The sheet, before and after omission and what a person holds.
-    fn sheet(&mut self, recipe: &Recipe, holds: &[Hold], clock: Clock, made: Vec<Made>) {
-        let columns = &self.columns[..made.len()];
+    fn sheet(&mut self, recipe: &Recipe, holds: &[Hold]) {
+        let layers = &self.layers[..self.split.output().len()];
+        let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
         let Recipe { root, feet, .. } = *recipe;
-        let settings = (recipe.rate, root, feet, holds.to_vec(), made);
-        self.sheets.renew(Made::CLIP, &settings, || {
-            let held = |column: LayerBreakdown<'_>| {
-                let held = with_holds(column.layer, column.spaced, holds, clock);
-                (column.spaced.clone(), held)
+        let settings = ((self.clip.clock(recipe.rate), root, feet), holds.to_vec());
+        self.sheets.make(layers, settings, |layers, &((clock, root, feet), ref holds)| {
+            let held = |(spaced, omitted): (Of<'_, Spaced>, Of<'_, Omitted>)| {
+                let spaced = &spaced.value().layer;
+                (spaced.clone(), with_holds(&omitted.layer, spaced, holds, clock))
             };
-            let (spaced, layers) = columns.iter().map(Column::breakdown).map(held).unzip();
+            let (spaced, layers) = layers.into_iter().map(held).unzip();
             [spaced, layers].map(|layers| Sheet { clock, layers, root, feet })
         });
     }

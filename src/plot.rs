@@ -26,6 +26,7 @@ mod pose_row;
 mod preview;
 #[cfg(feature = "cli")]
 mod raster;
+mod shared;
 mod sheet;
 mod spacing;
 mod speed;

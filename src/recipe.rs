@@ -5,22 +5,19 @@ mod file;
 mod knobs;
 
 use serde::{Deserialize, Serialize};
-use toml::{Table, Value};
 
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{ActionFinder, Choose, Layers};
+use crate::knob::{Knobs, knob, knobs};
 use crate::motion::SeenFrom;
 use crate::sheet::{Feet, RootMotion};
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
 
-pub use knobs::{KNOBS, Kind, Knob};
-
-/// Koma a second that a sheet may have: fewer would be written as a frame time that reads as a rate, and
-/// more are of no use and their table would not fit into memory.
-pub(crate) const KOMA_RATES: std::ops::RangeInclusive<f64> = 2.0..=1000.0;
+pub use crate::knob::{Kind, Knob, Who};
+pub use knobs::KNOBS;
 
 /// What the weight of a joint is set by, in front of its name.
 const WEIGHTS: &str = "keys.weights.";
@@ -83,25 +80,61 @@ impl Default for Recipe {
     }
 }
 
+knobs!(Recipe {
+    rate: knob(
+        "コマ数",
+        "Koma a second of the sheet: 24 in film and TV animation.",
+        "シートの毎秒コマ数。映画やテレビアニメは24。",
+    )
+    .unit("koma a second")
+    // Fewer would be written as a frame time that reads as a rate; the table of more would not fit into memory.
+    .at_least(2.0)
+    .at_most(1000.0)
+    .slider(2.0, 60.0),
+    layers: knob(
+        "セル分け",
+        "The layers of the sheet, each with keys and timing of its own: the whole body, trunk and \
+         each limb, or every joint that moves. A recipe may name them too: [{ name = \"A\", joints \
+         = [\"Hips\", \"*Arm*\"] }].",
+        "シートのセル分け。全身を一枚（body）、胴と手足（limbs）、動く部位ごと（joints）。\
+         セルごとに原画とタイミングを持つ。レシピでは名前を付けて分けることもできる。",
+    ),
+    root: knob(
+        "移動",
+        "What carries the body through the room: its drawings, or the source on ones, so that held \
+         drawings slide on (1コマ打ち).",
+        "体を運ぶのは絵（drawings）か、1コマ打ちの元の動き（ones）か。\
+         onesでは止めた絵のまま体が滑っていく。",
+    ),
+    seen_from: knob(
+        "見る位置",
+        "From where movement is measured: in the world, or on the screen of a camera, where what \
+         comes straight at us hardly moves. It counts for displacements, keys, rests and omission, \
+         not for rotations.",
+        "動きをどこから測るか。空間（world）か、カメラの画面の上か。\
+         画面ではこちらへ真っすぐ来る動きは小さい。移動・原画・止め・省略に効き、\
+         回転には効かない。",
+    )
+    .unit("world | auto | front | side | three-quarter, or X,Y,Z:X,Y,Z (where a camera stands : what it looks at)"),
+    feet: knob(
+        "接地",
+        "Whether a foot stays where it stands: where its drawing has it (free), or on one place \
+         for as long as it stands in the source, hip and knee giving way (held).",
+        "接地した足を止めるか。絵のまま（free）か、素材で接地している間は一か所に止め、\
+         股と膝で合わせる（held）か。",
+    ),
+    ..[exaggerate, speed, filter, turns, keys, actions, spacing, omission]
+});
+
 impl Recipe {
     /// Checks every setting.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if !KOMA_RATES.contains(&self.rate) {
-            return Err(Error::setting("rate", "must be 2 to 1000 koma a second; 24 is usual"));
-        }
+        self.check()?;
         self.layers.validate()?;
-        self.seen_from.validate()?;
-        self.exaggerate.validate()?;
-        self.speed.validate()?;
-        self.filter.validate()?;
-        self.turns.validate()?;
-        self.keys.validate()?;
-        self.actions.validate()?;
-        self.spacing.validate()?;
-        self.omission.validate()
+        self.keys.weights.validate()
     }
 
     /// Sets one knob from text, as `--set KEY=VALUE` does; `none` clears one that may be absent.
@@ -122,21 +155,8 @@ impl Recipe {
         if let Some(joint) = name.strip_prefix(WEIGHTS).filter(|joint| !joint.is_empty()) {
             return self.set_weight(joint, text.trim());
         }
-        let knob = Knob::find(name)?;
-        let mut table = self.table();
-        let (section, field) = knob.path();
-        let target = match section {
-            None => &mut table,
-            Some(section) => match table.get_mut(section) {
-                Some(Value::Table(table)) => table,
-                _ => return Err(Error::setting(name, "is in no section of the recipe")),
-            },
-        };
-        match text.trim() {
-            "none" if knob.is_optional() => target.remove(field),
-            text => target.insert(field.into(), value_from_text(text)),
-        };
-        let changed: Self = Value::Table(table).try_into().map_err(|_| knob.refusal(text))?;
+        let mut changed = self.clone();
+        changed.turn(name, text).ok_or_else(|| knobs::unknown(name))??;
         changed.validate()?;
         *self = changed;
         Ok(())
@@ -159,11 +179,12 @@ impl Recipe {
         Ok(())
     }
 
-    /// Every setting with its value, in the words of [`Recipe::set`]: all knobs, and the weights of joints
-    /// that have one.
+    /// Every setting with its value, in the words of [`Recipe::set`]: all of [`KNOBS`], and the weights of
+    /// joints that have one.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let table = self.table();
-        let knobs = KNOBS.iter().map(|knob| (knob.name.to_owned(), value_in(&table, knob)));
+        let mut values = self.values();
+        values.sort_by_key(|(knob, _)| knob.who);
+        let knobs = values.into_iter().map(|(knob, value)| (knob.name.to_owned(), value.text()));
         let weights = self.keys.weights.0.iter();
         let weights =
             weights.map(|(joint, weight)| (format!("{WEIGHTS}{joint}"), weight.to_string()));
@@ -175,46 +196,8 @@ impl Recipe {
     /// # Errors
     /// [`Error::Setting`] when there is no such knob.
     pub fn get(&self, name: &str) -> Result<String, Error> {
-        Ok(value_in(&self.table(), Knob::find(name)?))
-    }
-
-    fn table(&self) -> Table {
-        Table::try_from(self).expect("a recipe is plain numbers, words and tables")
-    }
-}
-
-/// A knob's value as text.
-fn value_in(table: &Table, knob: &Knob) -> String {
-    let (section, field) = knob.path();
-    let value = match section {
-        None => table.get(field),
-        Some(section) => table.get(section).and_then(|section| section.get(field)),
-    };
-    value.map_or_else(|| "none".into(), text_from_value)
-}
-
-/// The TOML value that a word on the command line means; in brackets it is a list.
-fn value_from_text(text: &str) -> Value {
-    let list = || toml::from_str::<Table>(&format!("list = {text}")).ok()?.remove("list");
-    if let Some(list) = text.starts_with('[').then(list).flatten() {
-        return list;
-    }
-    match text {
-        "true" => Value::Boolean(true),
-        "false" => Value::Boolean(false),
-        _ => match (text.parse::<i64>(), text.parse::<f64>()) {
-            (Ok(whole), _) => Value::Integer(whole),
-            (_, Ok(number)) => Value::Float(number),
-            _ => Value::String(text.into()),
-        },
-    }
-}
-
-fn text_from_value(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Float(number) => number.to_string(),
-        other => other.to_string(),
+        let own = self.values().into_iter().find(|(knob, _)| knob.name == name);
+        own.map(|(_, value)| value.text()).ok_or_else(|| knobs::unknown(name))
     }
 }
 
@@ -234,12 +217,10 @@ mod tests {
     }
 
     #[test]
-    fn every_field_has_a_knob() {
-        let table = Recipe::default().table();
-        let fields: usize =
-            table.values().map(|value| value.as_table().map_or(1, Table::len)).sum();
-        let optional = ["spacing.inbetweens"].len();
-        assert_eq!(KNOBS.len(), fields + optional);
+    fn settings_are_in_the_order_of_the_knobs() {
+        let settings = Recipe::default().settings().into_iter();
+        let names: Vec<String> = settings.map(|(name, _)| name).collect();
+        assert_eq!(names, KNOBS.iter().map(|knob| knob.name).collect::<Vec<_>>());
     }
 
     #[test]

@@ -8,6 +8,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::choices;
 use crate::time::Clock;
 
 /// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and
@@ -30,8 +31,7 @@ pub struct Sheet {
 }
 
 /// Whether a foot on the ground (接地) stays where it is in the motion that is handed over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Feet {
     /// It is where its drawing has it.
     #[default]
@@ -41,9 +41,10 @@ pub enum Feet {
     Held,
 }
 
+choices!(Feet { Free: "free", Held: "held" });
+
 /// What carries the body through the room (移動) from koma to koma.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RootMotion {
     /// Its drawings: the body stays where its drawing has it for as long as that is held.
     #[default]
@@ -52,6 +53,8 @@ pub enum RootMotion {
     /// where the body is follows, not how it is turned.
     Ones,
 }
+
+choices!(RootMotion { Drawings: "drawings", Ones: "ones" });
 
 /// A group of joints with a column of its own on the sheet (セル).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -11,6 +11,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Range, Setting, as_word, by_word};
 
 /// Koma a second, unless the recipe says otherwise: film, and so TV animation.
 pub const KOMA_RATE: f64 = 24.0;
@@ -87,9 +88,10 @@ impl From<FrameRate> for f64 {
     }
 }
 
+/// As people write it: four places at the most.
 impl fmt::Display for FrameRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
+        ((self.0 * 1e4).round() / 1e4).fmt(f)
     }
 }
 
@@ -150,8 +152,7 @@ impl Clock {
 }
 
 /// A length of time: source frames (`20`) or seconds (`0.2s`), so that one recipe serves every rate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "SpanText", into = "String")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Span {
     /// Source frames.
     Frames(f64),
@@ -205,33 +206,17 @@ impl FromStr for Span {
     }
 }
 
-impl From<Span> for String {
-    fn from(span: Span) -> String {
-        span.to_string()
+impl Setting for Span {
+    const KIND: Kind = Kind::Span;
+    as_word!();
+
+    fn is_in(&self, range: Range) -> bool {
+        let (Self::Frames(length) | Self::Seconds(length)) = *self;
+        self.is_length() && range.contains(length)
     }
 }
 
-/// What a recipe file may write for a span: `20` or `"0.2s"`.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum SpanText {
-    Number(f64),
-    Text(String),
-}
-
-impl TryFrom<SpanText> for Span {
-    type Error = String;
-
-    fn try_from(text: SpanText) -> Result<Self, String> {
-        match text {
-            SpanText::Number(frames) if Self::Frames(frames).is_length() => {
-                Ok(Self::Frames(frames))
-            }
-            SpanText::Number(frames) => Err(format!("{frames} frames is no length")),
-            SpanText::Text(text) => text.parse(),
-        }
-    }
-}
+by_word!(Span);
 
 #[cfg(test)]
 mod tests {
@@ -255,6 +240,15 @@ mod tests {
         for fps in [f64::NAN, f64::INFINITY, 0.0, -24.0, 1e-4, 1e7] {
             assert!(FrameRate::new(fps).is_err(), "{fps}");
         }
+    }
+
+    #[test]
+    fn a_rate_is_printed_as_people_write_it() {
+        let printed = |seconds: f64| FrameRate::from_frame_time(seconds).unwrap().to_string();
+        assert_eq!(
+            [0.034483, 0.0083333, 1.0 / 29.97].map(printed),
+            ["28.9998", "120", "29.97"].map(String::from)
+        );
     }
 
     #[test]

@@ -199,11 +199,10 @@ fn each_pose(mut look: impl FnMut(&Score, &Moment)) {
         let clip = clip(&text(&score));
         let (skeleton, mut pose) = (clip.skeleton(), Pose::rest(clip.skeleton()));
         let mut body = Body::new(skeleton);
-        let mut positions = vec![DVec3::ZERO; skeleton.len()];
         for frame in 0..clip.len() {
             pose.take_frame(&clip, Frame(frame));
-            body.place(&pose, &mut positions);
-            let (pose, body, positions) = (&pose, &body, &positions[..]);
+            body.place(&pose);
+            let (pose, body, positions) = (&pose, &body, body.positions());
             look(&score, &Moment { frame, skeleton, pose, body, positions });
         }
     }

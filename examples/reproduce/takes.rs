@@ -117,7 +117,14 @@ impl Run {
             spaced: breakdown.spaced.clone(),
             sheet: breakdown.sheet.clone(),
             limited_bvh: deliver::limited_bvh(breakdown.clip, breakdown.sheet)?,
-            omitted: breakdown.omission.naka_nashi.gone.iter().map(|gone| gone.place).collect(),
+            omitted: breakdown
+                .first_layer()
+                .omission
+                .naka_nashi
+                .gone
+                .iter()
+                .map(|gone| gone.place)
+                .collect(),
         })
     }
 

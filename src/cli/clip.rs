@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::words::Words;
-use super::{files, paths};
+use super::{asked, files, paths};
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
@@ -132,6 +132,9 @@ impl Part {
 impl Reading {
     /// Reads the whole file, with everything that stands in front of the motion.
     fn read(&self, path: &Path) -> Result<bvh::Read, Failure> {
+        if path.is_dir() {
+            return Err(Failure::AskedWrongly(folder(path)));
+        }
         let Self { fps, root, repair, strict } = self;
         let options =
             bvh::Options { strict: *strict, repair: *repair, fps: *fps, root: root.clone() };
@@ -177,6 +180,17 @@ impl OfSheet {
     /// What the drawings are of.
     pub(super) fn clip(&self) -> &Clip {
         self.drawn.as_ref().unwrap_or(&self.source)
+    }
+}
+
+/// What to say where a folder stands in place of a clip.
+fn folder(path: &Path) -> String {
+    let name = path.display();
+    match asked::first_clip(path) {
+        Some(clip) => {
+            format!("{name} is a folder: name a clip in it, such as {}", clip.display())
+        }
+        None => format!("{name} is a folder without a BVH file: name a clip"),
     }
 }
 

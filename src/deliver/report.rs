@@ -138,6 +138,7 @@ impl Report {
         let koma = layer.length();
         let koma_rate = breakdown.clock.koma_rate;
         let per_second = |count: usize| count as f64 * koma_rate / koma as f64;
+        let first = breakdown.first_layer();
         Self {
             frames: breakdown.clip.len(),
             first_frame: breakdown.clip.first().0,
@@ -151,18 +152,18 @@ impl Report {
                 total: study::total(breakdown.turns),
                 union: study::union(breakdown.turns),
             },
-            candidates: breakdown.candidates.keys.len(),
+            candidates: first.candidates.keys.len(),
             genga: layer.count(Role::Genga),
             genga_per_second: per_second(layer.count(Role::Genga)),
-            genga_over_limit: breakdown.keys.over_limit,
+            genga_over_limit: first.keys.over_limit,
             drawings: layer.shown().count(),
             drawings_per_second: per_second(layer.shown().count()),
             drawings_before_omission: breakdown.spaced.layers[0].drawings.len(),
             longest_hold: layer.longest_hold(),
             held_koma: layer.held_koma(),
-            inbetweens_that_did_not_fit: breakdown.did_not_fit,
+            inbetweens_that_did_not_fit: first.did_not_fit,
             actions: several(breakdown.actions),
-            omission: breakdown.omission.into(),
+            omission: first.omission.into(),
             layers: layers(breakdown),
             notes,
         }

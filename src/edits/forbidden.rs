@@ -3,14 +3,12 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
-
+use crate::knob::by_word;
 use crate::time::Frame;
 
 /// A frame, or a range of frames, near which no key may be found. Written `150`, `120..140`, `120..` or
 /// `..140`; the last is not in it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "ForbiddenText", into = "ForbiddenText")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forbidden {
     /// The first frame.
     pub from: Frame,
@@ -72,31 +70,4 @@ impl FromStr for Forbidden {
     }
 }
 
-/// What a file may write: `150` or `"120..140"`.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected a frame (150) or a range (\"120..140\")")]
-enum ForbiddenText {
-    Frame(usize),
-    Range(String),
-}
-
-impl TryFrom<ForbiddenText> for Forbidden {
-    type Error = String;
-
-    fn try_from(text: ForbiddenText) -> Result<Self, String> {
-        match text {
-            ForbiddenText::Frame(frame) => Ok(Self::one(Frame(frame))),
-            ForbiddenText::Range(text) => text.parse(),
-        }
-    }
-}
-
-impl From<Forbidden> for ForbiddenText {
-    fn from(forbidden: Forbidden) -> Self {
-        if forbidden.is_one() {
-            Self::Frame(forbidden.from.0)
-        } else {
-            Self::Range(forbidden.to_string())
-        }
-    }
-}
+by_word!(Forbidden, or_number);

@@ -1,12 +1,10 @@
 //! What of a body the cartoon filter moves.
 
-use serde::{Deserialize, Serialize};
-
+use crate::knob::choices;
 use crate::motion::{Clip, JointId, Landmarks, below};
 
 /// What of a body the cartoon filter moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CartoonParts {
     /// What no foot hangs on (上半身): root, legs and feet stay as they were, and feet stand where they stood. Of a
     /// body without feet it is everything.
@@ -15,6 +13,8 @@ pub enum CartoonParts {
     /// Everything (全身), and the way of the root: kicks and jumps as well. Feet that stand slide a little.
     Body,
 }
+
+choices!(CartoonParts { Upper: "upper", Body: "body" });
 
 impl CartoonParts {
     /// Which joints are moved.

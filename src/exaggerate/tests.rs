@@ -9,7 +9,7 @@ use super::cartoon::MET_BEST;
 use super::smooth::Smooth;
 use super::*;
 use crate::motion::{
-    Axis, Body, Channel, Joint, JointId, Landmarks, Pose, Skeleton, bvh, local_rotation,
+    Axis, Body, Channel, Joint, JointId, Landmarks, Poser, Skeleton, bvh, local_rotation,
     turn_columns,
 };
 use crate::time::{Frame, FrameRate};
@@ -234,13 +234,11 @@ fn standing_feet_stay_where_they_are_unless_the_whole_body_is_asked_for() {
     let clip = kick();
     let feet = Landmarks::of(&clip).feet;
     let soles = |clip: &Clip| -> Vec<DVec3> {
-        let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+        let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
         let mut soles = Vec::new();
         for frame in clip.first().0..=clip.last().0 {
-            pose.take_frame(clip, Frame(frame));
-            body.place(&pose, &mut positions);
-            soles.extend(feet.iter().map(|foot| foot.sole.position(&body, &positions)));
+            body.place(poser.frame(Frame(frame)));
+            soles.extend(feet.iter().map(|foot| foot.sole.position(&body)));
         }
         soles
     };

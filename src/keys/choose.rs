@@ -12,9 +12,11 @@ use crate::keys::choice::{By, Choice, Picked};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::voters::voters;
 use crate::keys::{
-    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, rest,
+    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, Wall, rest,
 };
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::Clip;
+use crate::signal::Turn;
 use crate::time::{Frame, Span};
 
 /// Where keys are as many a second and as cheap as these two, none is further from the next than so many seconds.
@@ -29,8 +31,7 @@ const DISCOUNT: f64 = 0.9;
 const LEAST_COST: f64 = 0.05;
 
 /// What may be a key of a layer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Merge {
     /// The turns of the body.
     #[default]
@@ -43,9 +44,10 @@ pub enum Merge {
     Union,
 }
 
+choices!(Merge { Body: "body", Union: "union", Vote: "vote", Sum: "sum" });
+
 /// Whether moments that are no turn may be keys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Fill {
     /// Where the body would go astray without them.
     #[default]
@@ -54,9 +56,10 @@ pub enum Fill {
     Off,
 }
 
+choices!(Fill { On: "on", Off: "off" });
+
 /// By what the keys are ranked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Rank {
     /// By what they save: of all sets of keys the one that loses least, each key at a price.
     #[default]
@@ -64,6 +67,8 @@ pub enum Rank {
     /// By how strong it is.
     Strength,
 }
+
+choices!(Rank { Price: "price", Strength: "strength" });
 
 /// Chooses the keys (原画) of a layer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -132,31 +137,89 @@ pub struct Judges<'a> {
     pub chords: &'a Chords,
 }
 
+knobs!(keys::Choose {
+    merge: knob(
+        "原画の候補",
+        "What picks the keys: turns of the whole body (body). For studies: a turn of any joint \
+         (union), what joints elect that vote with the length of what hangs on them, or turns of \
+         their speeds added up (sum).",
+        "原画を選ぶもの。全身の変わり目 (body)。研究用に、いずれかの部位の変わり目 \
+         (union)、先につながる長さを票とする部位の投票 (vote)、速さの合計の変わり目 (sum)。",
+    )
+    .for_studies(),
+    fill: knob(
+        "補いの原画",
+        "Whether moments that are no turn become keys where the body would go astray without them.",
+        "変わり目でない瞬間も、ないと動きが崩れるところでは原画にするか。",
+    ),
+    reach: knob(
+        "票の届く範囲",
+        "How far a joint's vote carries: longer joins turns that lie further apart into one key. \
+         With union it decides which of two turns nearer than a koma stays.",
+        "部位の票が届く範囲。長いほど離れた変わり目が一枚の原画にまとまる。union \
+         では、1コマより近い二つの変わり目のどちらを残すかを決める。",
+    )
+    .for_studies(),
+    rank: knob(
+        "原画の選び方",
+        "What decides between keys: what they save together at a price a drawing, or how much of a \
+         turn each is.",
+        "原画どうしの選び方。一枚の値段に対して全体で減る誤差か、変わり目としての強さか。",
+    )
+    .for_studies(),
+    min_price: knob(
+        "最低の価値",
+        "What a key costs that is no turn: it must save an error so large for an eighth of a \
+         second. A clear turn costs a tenth. Higher keeps fewer; small gestures go first.",
+        "変わり目でない原画一枚の値段。これだけの誤差を8分の1秒のあいだ減らすものだけが残る。\
+         はっきりした変わり目は十分の一の値段。上げると原画は減り、小さな芝居から消える。",
+    )
+    .unit("% of body height")
+    .slider(0.0, 20.0),
+    rest: knob(
+        "止めとみなす速さ",
+        "Slower than this for half a second, the whole body rests: both ends of a rest are keys.",
+        "全身がこれより遅い状態が半秒続けば止めとみなし、その両端を原画にする。",
+    )
+    .unit("% of body height a second")
+    .slider(0.0, 60.0),
+    contacts: knob(
+        "接地を原画に",
+        "What the moments are at which a foot or a hand comes down or leaves: like all others \
+         (off), candidates even where no joint turns, or keys whatever they save.",
+        "足や手が着く瞬間と離れる瞬間をどう扱うか。特別扱いしない（off）、\
+         部位が変わらなくても候補にする（candidates）、必ず原画にする（keys）。",
+    ),
+    min_strength: knob(
+        "最低の強さ",
+        "How strong a key must be at the least: for body how much of a turn it is, 0 to 1; for \
+         vote and union the share of all votes; for sum the depth of the valley.",
+        "原画に最低限必要な強さ。",
+    )
+    .unit("strength")
+    .slider(0.0, 1.0)
+    .for_studies(),
+    per_second: knob(
+        "毎秒の原画数",
+        "That many found keys at the most; pins, ends of rests and contacts that are keys come on \
+         top. Where more are worth it the price rises until they fit.",
+        "見つける原画の毎秒の上限。固定した原画、止めの両端、原画にした接地は別に数える。\
+         超えるときは収まるまで値段が上がる。",
+    )
+    .unit("keys a second")
+    .above(0.0)
+    .or_inf()
+    .slider(0.1, 12.0),
+    ..weights
+});
+
 impl Choose {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        let at_least_0 = |value: f64| value >= 0.0 && value.is_finite();
-        if !self.reach.is_length() {
-            return Err(Error::setting("keys.reach", "must be a length of time, 0 or more"));
-        }
-        if !at_least_0(self.min_price) {
-            return Err(Error::setting("keys.min_price", "must be 0 or more, in % of body height"));
-        }
-        if !at_least_0(self.rest) {
-            return Err(Error::setting(
-                "keys.rest",
-                "must be 0 or more, in % of body height a second",
-            ));
-        }
-        if !at_least_0(self.min_strength) {
-            return Err(Error::setting("keys.min_strength", "must be 0 or more"));
-        }
-        if self.per_second.is_nan() || self.per_second <= 0.0 {
-            return Err(Error::setting("keys.per_second", "must be above 0, or inf for no limit"));
-        }
+        self.check()?;
         self.weights.validate()
     }
 
@@ -208,9 +271,11 @@ impl Choose {
         edits: &Edits,
     ) -> LayerKeys {
         let rests = rest::rests(judges.chords, self.rest);
-        let keys = self.eligible(clip, (judges.chords, &rests), candidates, joints, edits);
+        let (still, corrections) = ((judges.chords, &rests[..]), (edits, joints.apart));
+        let keys = self.eligible(clip, still, candidates, joints.contacts, corrections);
         let picked = self.choice(clip, judges, &keys, joints.apart).pick(judges.chords);
-        self.drawn((judges.chords, &rests), keys, &picked, candidates, joints, edits)
+        let heard = (joints.turns, joints.weights);
+        self.drawn(still, &keys, &picked, &candidates.walls, heard, corrections)
     }
 
     /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
@@ -219,12 +284,12 @@ impl Choose {
         clip: &Clip,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
         candidates: &Candidates,
-        joints: &JointTurns<'_>,
-        edits: &Edits,
+        contacts: &[Frame],
+        (edits, apart): (&Edits, f64),
     ) -> Vec<Key> {
         let rests = rest::rest_ends(chords, rests);
-        let contacts = if self.contacts == AtContacts::Keys { joints.contacts } else { &[] };
-        corrected(candidates, (&rests, contacts), edits, clip, joints.apart)
+        let contacts = if self.contacts == AtContacts::Keys { contacts } else { &[] };
+        corrected(candidates, (&rests, contacts), edits, clip, apart)
     }
 
     /// On what it hangs which of some keys are picked.
@@ -262,21 +327,21 @@ impl Choose {
     pub(crate) fn drawn(
         &self,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
-        keys: Vec<Key>,
+        keys: &[Key],
         picked: &Picked,
-        candidates: &Candidates,
-        joints: &JointTurns<'_>,
-        edits: &Edits,
+        walls: &[Wall],
+        (turns, weights): (&[Vec<Turn>], &[f64]),
+        (edits, apart): (&Edits, f64),
     ) -> LayerKeys {
         let kept = picked.kept.iter().map(|(at, price)| Key { price: *price, ..keys[*at].clone() });
         let mut keys: Vec<Key> = kept.collect();
-        moved(&mut keys, edits, joints.apart);
-        let reach = self.reach.frames(chords.clock().frame_rate).max(joints.apart);
+        moved(&mut keys, edits, apart);
+        let reach = self.reach.frames(chords.clock().frame_rate).max(apart);
         let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
-        let voters = voters(joints.turns, joints.weights, &frames, reach);
+        let voters = voters(turns, weights, &frames, reach);
         keys.iter_mut().zip(voters).for_each(|(key, voters)| key.voters = voters);
         let over_limit = if edits.only_pins { 0 } else { picked.over_limit };
         let rests = rest::rest_frames(chords, rests);
-        LayerKeys { keys, walls: candidates.walls.clone(), rests, over_limit }
+        LayerKeys { keys, walls: walls.to_vec(), rests, over_limit }
     }
 }

@@ -47,11 +47,11 @@ impl Chords {
     /// `seconds`, 2 or more; infinite for as many as there is memory for. `own` is how much each joint counts beside its
     /// bones: 0 or more, one of them above.
     pub fn of(clip: &Clip, reference: &Reference, own: &[f64], seconds: f64) -> Self {
-        Self::of_part(clip, &Build::of(clip), reference, own, seconds)
+        Self::of_layer(clip, &Build::of(clip), reference, own, seconds)
     }
 
     /// The same of a part of the body, which alone moves in `part`; `build` is that of the whole.
-    pub(crate) fn of_part(
+    pub(crate) fn of_layer(
         part: &Clip,
         build: &Build,
         reference: &Reference,

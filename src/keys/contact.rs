@@ -1,13 +1,11 @@
 //! Contacts (接地) as moments for keys: where a foot or a hand comes down, and where it leaves.
 
-use serde::{Deserialize, Serialize};
-
+use crate::knob::choices;
 use crate::motion::{Clip, ContactFinder};
 use crate::time::{Clock, Frame};
 
 /// What the begin and the end of a contact are to the keys of a layer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtContacts {
     /// Moments like all others.
     #[default]
@@ -17,6 +15,8 @@ pub enum AtContacts {
     /// Keys whatever they save, as the ends of rests are.
     Keys,
 }
+
+choices!(AtContacts { Off: "off", Candidates: "candidates", Keys: "keys" });
 
 /// The frames on which contacts of joints that have a say begin and end, in order. One that is there at the
 /// sheet's first or last koma only ends or only begins.

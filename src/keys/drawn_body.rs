@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::keys::Reference;
 use crate::motion::landmarks::Point;
-use crate::motion::{Body, Clip, DrawnPose, Pose};
+use crate::motion::{Body, Clip, Pose, Poser};
 use crate::sheet::Source;
 
 /// A body that takes on the pose of one drawing after the other, measured over the points of
@@ -12,26 +12,19 @@ use crate::sheet::Source;
 #[derive(Debug, Clone)]
 pub struct DrawnBody<'a> {
     reference: &'a Reference,
-    drawn: DrawnPose<'a>,
+    poser: Poser<'a>,
     body: Body,
-    /// Where the joints stand, and behind them the tips.
-    positions: Vec<DVec3>,
 }
 
 impl<'a> DrawnBody<'a> {
     /// A body of the clip that `reference` was made of, as yet without a pose.
     pub fn of(clip: &'a Clip, reference: &'a Reference) -> Self {
-        Self {
-            reference,
-            drawn: DrawnPose::of(clip),
-            body: Body::new(clip.skeleton()),
-            positions: vec![DVec3::ZERO; reference.points().len()],
-        }
+        Self { reference, poser: Poser::of(clip), body: Body::new(clip.skeleton()) }
     }
 
     /// The motion.
     pub fn clip(&self) -> &'a Clip {
-        self.drawn.clip()
+        self.poser.clip()
     }
 
     /// The height of the body in the file's unit: that of the reference.
@@ -41,28 +34,22 @@ impl<'a> DrawnBody<'a> {
 
     /// Takes on the pose of a drawing.
     pub fn take(&mut self, source: Source) {
-        self.drawn.take(source);
-        Self::place(self.reference, self.drawn.pose(), &mut self.body, &mut self.positions);
+        self.body.place(self.poser.drawing(source));
     }
 
     /// Takes on a pose.
     pub(crate) fn stand(&mut self, pose: &Pose) {
-        Self::place(self.reference, pose, &mut self.body, &mut self.positions);
-    }
-
-    fn place(reference: &Reference, pose: &Pose, body: &mut Body, positions: &mut [DVec3]) {
-        body.place(pose, &mut positions[..pose.rotations.len()]);
-        reference.points().place_still(body, positions);
+        self.body.place(pose);
     }
 
     /// Where the joints and the tips of the bones stand in the world, in the file's unit.
     pub fn positions(&self) -> &[DVec3] {
-        &self.positions
+        self.body.points()
     }
 
     /// Where a point of the body stands in the world, in the file's unit.
     pub fn position(&self, point: Point) -> DVec3 {
-        point.position(&self.body, &self.positions)
+        point.position(&self.body)
     }
 
     /// How far the body is from where the source has it at a koma: root mean square over its points, in
@@ -71,11 +58,11 @@ impl<'a> DrawnBody<'a> {
     /// # Panics
     /// When the source has no such koma.
     pub fn off(&self, koma: usize) -> f64 {
-        self.reference.off(koma, &self.positions)
+        self.reference.off(koma, self.positions())
     }
 
     /// How far the body is from other positions of the same points, in the same measure.
     pub fn apart(&self, positions: &[DVec3]) -> f64 {
-        self.reference.way(self.positions.iter().copied(), positions.iter().copied())
+        self.reference.way(self.positions().iter().copied(), positions.iter().copied())
     }
 }

@@ -1,19 +1,20 @@
 //! How a body is split into layers (セル分け): groups of joints with keys and a column of their own.
 
+mod clip;
 mod named;
-mod part;
 #[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Setting};
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::{Clip, JointId, Landmarks, Skeleton, below};
 use crate::sheet::column_name;
 
+pub(crate) use clip::LayerClip;
 pub use named::NamedLayer;
-pub(crate) use part::PartMotion;
 
 /// How the body is split into layers, each with its own keys, spacing and omission.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -33,7 +34,7 @@ pub enum Layers {
 
 /// A layer and its joints.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct LayerJoints {
     /// The column's name.
     pub name: String,
     /// Its joints in their order; never none.
@@ -58,13 +59,13 @@ impl Layers {
     /// # Errors
     /// [`Error::Setting`] as [`Layers::validate`]; when a named joint is not there or is of two layers;
     /// when a body without head, two arms and two legs is to be split into its limbs.
-    pub fn split(&self, clip: &Clip) -> Result<Vec<Part>, Error> {
+    pub fn split(&self, clip: &Clip) -> Result<Vec<LayerJoints>, Error> {
         self.validate()?;
         let skeleton = clip.skeleton();
         match self {
-            Self::Body => Ok(parts(vec![0; skeleton.len()])),
-            Self::Limbs => limbs(clip).map(parts),
-            Self::Joints => Ok(parts(moving(clip))),
+            Self::Body => Ok(layers(vec![0; skeleton.len()])),
+            Self::Limbs => limbs(clip).map(layers),
+            Self::Joints => Ok(layers(moving(clip))),
             Self::Named(layers) => named::split(layers, skeleton),
         }
     }
@@ -88,13 +89,15 @@ impl Layers {
 }
 
 /// Layers A, B, C … from the number of each joint's layer.
-fn parts(layer_of: Vec<usize>) -> Vec<Part> {
+fn layers(layer_of: Vec<usize>) -> Vec<LayerJoints> {
     let layers = layer_of.iter().max().map_or(0, |last| last + 1);
     let joints = |layer: usize| {
         let own = layer_of.iter().enumerate().filter(|(_, of)| **of == layer);
         own.map(|(joint, _)| JointId(joint)).collect()
     };
-    (0..layers).map(|layer| Part { name: column_name(layer), joints: joints(layer) }).collect()
+    (0..layers)
+        .map(|layer| LayerJoints { name: column_name(layer), joints: joints(layer) })
+        .collect()
 }
 
 /// Trunk and head 0, the arms 1 and 2, the legs 3 and 4.
@@ -125,10 +128,28 @@ fn moving(clip: &Clip) -> Vec<usize> {
     layer_of
 }
 
-impl Part {
+impl LayerJoints {
     /// Whether it has every joint of a body.
     pub fn is_whole(&self, skeleton: &Skeleton) -> bool {
         self.joints.len() == skeleton.len()
+    }
+}
+
+impl Setting for Layers {
+    const KIND: Kind = Kind::Choice(&["body", "limbs", "joints"]);
+
+    fn word(&self) -> String {
+        match toml::Value::try_from(self).expect("names are plain text") {
+            toml::Value::String(word) => word,
+            list => list.to_string(),
+        }
+    }
+
+    /// A word, or what TOML has as a list.
+    fn of_word(word: &str) -> Option<Self> {
+        let list = || toml::from_str::<toml::Table>(&format!("list = {word}")).ok()?.remove("list");
+        let list = word.starts_with('[').then(list).flatten();
+        list.unwrap_or_else(|| word.into()).try_into().ok()
     }
 }
 

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
-use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
+use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
-use crate::motion::{Body, Joint, Skeleton};
+use crate::motion::{Joint, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -51,16 +50,9 @@ impl Points {
         self.weights.len()
     }
 
-    /// Places poses in the world and writes where each of their points stands, in the file's unit.
+    /// Writes where each point of poses that stand in the world is, in the file's unit.
     #[inline(always)]
-    pub(super) fn place(&self, rig: &Rig, pose: &mut LanePose, positions: &mut [LaneVec]) {
-        pose.place(rig);
-        self.placed(pose, positions);
-    }
-
-    /// Writes where the points of poses that are placed already stand.
-    #[inline(always)]
-    pub(super) fn placed(&self, pose: &LanePose, positions: &mut [LaneVec]) {
+    pub(super) fn place(&self, pose: &LanePose, positions: &mut [LaneVec]) {
         positions[..self.joints].copy_from_slice(&pose.translations);
         self.place_tips(&pose.rotations, positions);
     }
@@ -76,14 +68,6 @@ impl Points {
         let (joints, tips) = positions.split_at_mut(self.joints);
         for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
             *tip = joints[*joint] + rotations[*joint].rotate(LaneVec::splat(*offset));
-        }
-    }
-
-    /// The same for one pose, whose joints a body has placed.
-    pub(super) fn place_still(&self, body: &Body, positions: &mut [DVec3]) {
-        let (joints, tips) = positions.split_at_mut(self.joints);
-        for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
-            *tip = joints[*joint] + body.rotations()[*joint] * *offset;
         }
     }
 
@@ -106,8 +90,13 @@ impl Points {
 
 #[cfg(test)]
 mod tests {
+    use glam::DQuat;
+
     use super::*;
-    use crate::motion::{EndSite, JointId};
+    use crate::motion::clip::lane_poser::LanePoser;
+    use crate::motion::lanes::LANES;
+    use crate::motion::{Clip, EndSite, JointId};
+    use crate::time::{Frame, FrameRate};
 
     /// A chain of bones along x with a tip at its end.
     fn chain(bones: &[f64], tip: f64) -> Skeleton {
@@ -152,9 +141,12 @@ mod tests {
     fn a_joint_more_on_the_same_bone_changes_nothing_that_turns_with_it() {
         let apart = |skeleton: &Skeleton| {
             let points = Points::of(skeleton, &vec![1.0; skeleton.len()]);
-            let (rig, mut pose) = (Rig::of(skeleton), LanePose::rest(skeleton));
+            let rate = FrameRate::new(24.0).unwrap();
+            let clip = Clip::new(skeleton.clone(), rate, Frame(0), 1, vec![]).unwrap();
             let mut positions = vec![LaneVec::default(); points.len()];
-            points.place(&rig, &mut pose, &mut positions);
+            let mut poser = LanePoser::of(&clip);
+            poser.rows(&[&[]; LANES]);
+            points.place(poser.stand(), &mut positions);
             let up = LaneVec::splat(DVec3::Y);
             let moved: Vec<LaneVec> = positions.iter().map(|position| *position + up).collect();
             points.apart(&positions, &moved).0[0]
@@ -167,11 +159,13 @@ mod tests {
     fn a_tip_turns_with_its_joint() {
         let skeleton = chain(&[2.0], 1.0);
         let points = Points::of(&skeleton, &[1.0; 2]);
-        let mut pose = LanePose::rest(&skeleton);
-        let quarter = glam::DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
-        pose.rotations[1] = crate::motion::lanes::LaneQuat::splat(quarter);
+        let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        let pose = LanePose {
+            rotations: [DQuat::IDENTITY, quarter].map(LaneQuat::splat).to_vec(),
+            translations: [9.0, 11.0].map(|x| LaneVec::splat(DVec3::X * x)).to_vec(),
+        };
         let mut positions = vec![LaneVec::default(); points.len()];
-        points.place(&Rig::of(&skeleton), &mut pose, &mut positions);
+        points.place(&pose, &mut positions);
         let tip = positions[2].lane(0);
         assert!(tip.abs_diff_eq(DVec3::new(11.0, 1.0, 0.0), 1e-12), "{tip}");
     }

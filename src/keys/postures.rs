@@ -13,8 +13,7 @@ use glam::DVec3;
 
 use crate::keys::points::Points;
 use crate::motion::body::mannequin::{BONES, Mannequin, POINTS, Stand};
-use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
+use crate::motion::clip::lane_poser::{LanePose, LanePoser};
 use crate::motion::lanes::{LANES, LaneVec, wide};
 use crate::motion::{Axis, Build, Clip, Point, Screen};
 use crate::time::Clock;
@@ -193,7 +192,7 @@ fn of_points(
     let mut positions = vec![LaneVec::default(); points.len()];
     each_pose(clip, clock, instants, |instant, pose, lane| {
         if lane == 0 {
-            points.placed(pose, &mut positions);
+            points.place(pose, &mut positions);
         }
         let row = rows[instant * columns..(instant + 1) * columns].chunks_exact_mut(3);
         for ((column, position), weight) in row.zip(&positions).zip(points.weights()) {
@@ -211,18 +210,17 @@ fn each_pose(
     instants: usize,
     mut each: impl FnMut(usize, &LanePose, usize),
 ) {
-    let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
+    let mut poser = LanePoser::of(clip);
     for block in 0..instants.div_ceil(LANES) {
-        let place = |lane: usize| clock.place_from_koma((LANES * block + lane).min(instants - 1));
         wide(
             #[inline(always)]
             || {
-                pose.take_places(clip, &rig, array::from_fn(place));
-                pose.place(&rig);
+                poser.koma(clock, block, instants);
+                poser.stand();
             },
         );
         for (lane, instant) in (LANES * block..instants).take(LANES).enumerate() {
-            each(instant, &pose, lane);
+            each(instant, poser.pose(), lane);
         }
     }
 }

@@ -1,13 +1,11 @@
 //! The source koma after koma: what the body made again from keys is judged against.
 
-use std::array;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use crate::keys::points::Points;
-use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
+use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
 use crate::motion::{Clip, Screen};
 use crate::time::{Clock, Frame};
@@ -44,17 +42,15 @@ impl Reference {
         let points = Points::of(clip.skeleton(), own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
-        let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
+        let mut poser = LanePoser::of(clip);
         let mut sides = Vec::with_capacity(koma + LANES);
         let blocks = positions.chunks_exact_mut(points.len().max(1)).enumerate();
         wide(
             #[inline(always)]
             || {
                 for (block, row) in blocks {
-                    let place =
-                        |lane: usize| clock.place_from_koma((LANES * block + lane).min(koma - 1));
-                    pose.take_places(clip, &rig, array::from_fn(place));
-                    points.place(&rig, &mut pose, row);
+                    poser.koma(clock, block, koma);
+                    points.place(poser.stand(), row);
                     sides.extend(longest_sides(row).0);
                 }
             },

@@ -1,16 +1,16 @@
 //! A motion clip: a skeleton and one flat table of channel values, frame after frame.
 
 mod channels;
-mod drawn;
 mod kinematics;
+pub(crate) mod lane_poser;
+mod poser;
 pub(crate) mod rig;
-pub(crate) mod sampler;
 mod skeleton;
 
 pub use channels::RowWriter;
 pub(crate) use channels::{rotation_axes, turn_columns};
-pub(crate) use drawn::DrawnPose;
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
+pub use poser::Poser;
 pub use skeleton::{Channel, EndSite, Joint, JointId, Skeleton};
 
 use crate::error::Error;

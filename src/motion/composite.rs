@@ -3,7 +3,7 @@
 
 mod feet;
 mod flat;
-mod posed;
+mod poser;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -16,7 +16,7 @@ use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Source};
 use crate::time::Clock;
 
 use feet::{FootHold, HeldFeet};
-pub(crate) use posed::PosedComposite;
+pub(crate) use poser::CompositePoser;
 pub(crate) use rows::CompositeRows;
 
 /// What is on screen of all layers together, as one column of drawings.
@@ -28,10 +28,10 @@ pub(crate) struct Composite<'a> {
     clip: &'a Clip,
     clock: Clock,
     layer: Cow<'a, Layer>,
-    /// For each drawing what its parts show: one source for each layer that has joints.
+    /// For each drawing what its layers show: one source for each layer that has joints.
     drawings: Vec<Vec<Source>>,
-    /// Which part each joint is of.
-    part_of: Vec<usize>,
+    /// Which layer each joint is of.
+    layer_of: Vec<usize>,
     /// Joints whose place is the source's on every koma.
     travellers: Vec<usize>,
     /// Feet that stay where they stand, where they are to.
@@ -50,16 +50,17 @@ impl<'a> Composite<'a> {
         let mut layers: Vec<usize> = std::iter::once(0).chain(layer_of.iter().copied()).collect();
         layers.sort_unstable();
         layers.dedup();
-        let part = |layer: &usize| layers.partition_point(|other| other < layer);
-        let part_of = layer_of.iter().map(part).collect();
-        let parts: Vec<&Layer> = layers.iter().map(|layer| &sheet.layers[*layer]).collect();
-        let (layer, drawings) = match parts.as_slice() {
+        // Layers without a joint do not count.
+        let rank = |layer: &usize| layers.partition_point(|other| other < layer);
+        let layer_of = layer_of.iter().map(rank).collect();
+        let layers: Vec<&Layer> = layers.iter().map(|layer| &sheet.layers[*layer]).collect();
+        let (layer, drawings) = match layers.as_slice() {
             [_] => {
                 let alone = first.drawings.iter().map(|drawing| vec![drawing.source]).collect();
                 (Cow::Borrowed(first), alone)
             }
-            parts => {
-                let (layer, drawings) = flat::flattened(parts);
+            layers => {
+                let (layer, drawings) = flat::flattened(layers);
                 (Cow::Owned(layer), drawings)
             }
         };
@@ -71,7 +72,7 @@ impl<'a> Composite<'a> {
             Feet::Free => None,
             Feet::Held => HeldFeet::of(clip, sheet.clock),
         };
-        Ok(Self { clip, clock: sheet.clock, layer, drawings, part_of, travellers, feet })
+        Ok(Self { clip, clock: sheet.clock, layer, drawings, layer_of, travellers, feet })
     }
 
     /// The motion.
@@ -96,7 +97,7 @@ impl<'a> Composite<'a> {
 
     /// What a joint shows in a drawing.
     pub(crate) fn source(&self, drawing: usize, joint: usize) -> Source {
-        self.drawings[drawing][self.part_of[joint]]
+        self.drawings[drawing][self.layer_of[joint]]
     }
 
     /// Whether the body goes on through the room while a drawing is held.
@@ -125,9 +126,9 @@ impl<'a> Composite<'a> {
         self.clock.place_from_koma(koma)
     }
 
-    /// Number of parts.
-    fn parts(&self) -> usize {
-        self.part_of.iter().max().map_or(1, |last| last + 1)
+    /// Number of layers.
+    fn layers(&self) -> usize {
+        self.layer_of.iter().max().map_or(1, |last| last + 1)
     }
 }
 

@@ -1,5 +1,9 @@
 //! A stage of the chain: its last output, and what it was made of.
+//!
+//! A stage is made by a function that captures nothing: all it sees are outputs of other stages and its
+//! settings, and those are what its output is kept by. So no input can be forgotten.
 
+use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::error::Error;
@@ -9,16 +13,84 @@ use crate::error::Error;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Made(u64);
 
-impl Made {
-    /// The clip as it was given never changes.
-    pub(super) const CLIP: Self = Self(0);
+/// The output of a stage, and which one it is.
+#[derive(Debug)]
+pub(super) struct Of<'a, T> {
+    made: Made,
+    value: &'a T,
 }
 
-/// A stage's last output with the input and the settings that made it.
+impl<'a, T> Of<'a, T> {
+    /// What was given and never changes.
+    pub(super) fn given(value: &'a T) -> Self {
+        Self { made: Made(0), value }
+    }
+
+    pub(super) fn value(self) -> &'a T {
+        self.value
+    }
+}
+
+impl<T> Clone for Of<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Of<'_, T> {}
+
+impl<T> Deref for Of<'_, T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        self.value
+    }
+}
+
+/// Outputs that a stage is made of.
+pub(super) trait Inputs {
+    fn made(&self) -> Vec<Made>;
+}
+
+macro_rules! inputs {
+    ($($input:ident)*) => {
+        impl<$($input),*> Inputs for ($(Of<'_, $input>,)*) {
+            #[allow(non_snake_case, reason = "an input is named by its type")]
+            fn made(&self) -> Vec<Made> {
+                let ($($input,)*) = *self;
+                vec![$($input.made),*]
+            }
+        }
+    };
+}
+
+inputs!(A);
+inputs!(A B);
+inputs!(A B C);
+inputs!(A B C D);
+inputs!(A B C D E);
+inputs!(A B C D E F);
+inputs!(A B C D E F G);
+
+/// As many as there are layers.
+impl<T: Inputs> Inputs for Vec<T> {
+    fn made(&self) -> Vec<Made> {
+        self.iter().flat_map(Inputs::made).collect()
+    }
+}
+
+/// A stage's last output with the inputs and the settings that made it.
 #[derive(Debug)]
 pub(super) struct Stage<Settings, Output> {
-    last: Option<Arc<(Made, Settings, Output)>>,
-    pub(super) made: Made,
+    last: Option<Arc<Last<Settings, Output>>>,
+    made: Made,
+}
+
+#[derive(Debug)]
+struct Last<Settings, Output> {
+    inputs: Vec<Made>,
+    settings: Settings,
+    output: Output,
 }
 
 impl<Settings, Output> Clone for Stage<Settings, Output> {
@@ -33,33 +105,46 @@ impl<Settings, Output> Default for Stage<Settings, Output> {
     }
 }
 
-impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
-    /// Makes the output again if its input or its settings changed. Says which output it holds now.
-    pub(super) fn refresh(
+impl<Settings: PartialEq, Output> Stage<Settings, Output> {
+    /// Makes the output again if its inputs or its settings changed.
+    pub(super) fn make<I: Inputs>(
         &mut self,
-        input: Made,
-        settings: &Settings,
-        make: impl FnOnce() -> Result<Output, Error>,
-    ) -> Result<Made, Error> {
-        let is_fresh =
-            self.last.as_deref().is_some_and(|(from, with, _)| *from == input && with == settings);
-        if !is_fresh {
-            // Forgotten first: should `make` fail, a later run must not take the old output for the new.
-            self.last = None;
-            self.last = Some(Arc::new((input, settings.clone(), make()?)));
-            self.made = Made(self.made.0 + 1);
+        inputs: I,
+        settings: Settings,
+        make: fn(I, &Settings) -> Output,
+    ) {
+        let made = inputs.made();
+        if !self.is_fresh(&made, &settings) {
+            let output = make(inputs, &settings);
+            self.keep(made, settings, output);
         }
-        Ok(self.made)
     }
 
-    /// [`Stage::refresh`] for a stage that cannot fail.
-    pub(super) fn renew(
+    /// The same for a stage that can fail.
+    pub(super) fn try_make<I: Inputs>(
         &mut self,
-        input: Made,
-        settings: &Settings,
-        make: impl FnOnce() -> Output,
-    ) -> Made {
-        self.refresh(input, settings, || Ok(make())).expect("this stage cannot fail")
+        inputs: I,
+        settings: Settings,
+        make: fn(I, &Settings) -> Result<Output, Error>,
+    ) -> Result<(), Error> {
+        let made = inputs.made();
+        if !self.is_fresh(&made, &settings) {
+            // Forgotten first: should `make` fail, a later run must not take the old output for the new.
+            self.last = None;
+            let output = make(inputs, &settings)?;
+            self.keep(made, settings, output);
+        }
+        Ok(())
+    }
+
+    fn is_fresh(&self, inputs: &[Made], settings: &Settings) -> bool {
+        let last = self.last.as_deref();
+        last.is_some_and(|last| last.inputs == inputs && last.settings == *settings)
+    }
+
+    fn keep(&mut self, inputs: Vec<Made>, settings: Settings, output: Output) {
+        self.last = Some(Arc::new(Last { inputs, settings, output }));
+        self.made = Made(self.made.0 + 1);
     }
 
     /// Drops the output; asked for again, it is made again.
@@ -67,7 +152,12 @@ impl<Settings: Clone + PartialEq, Output> Stage<Settings, Output> {
         self.last = None;
     }
 
-    pub(super) fn output(&self) -> &Output {
-        &self.last.as_ref().expect("the stage was run before its output is asked for").2
+    /// The last output.
+    ///
+    /// # Panics
+    /// Unless the stage was made.
+    pub(super) fn output(&self) -> Of<'_, Output> {
+        let last = self.last.as_deref().expect("the stage was made before its output is asked for");
+        Of { made: self.made, value: &last.output }
     }
 }

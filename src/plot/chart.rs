@@ -7,8 +7,6 @@ use std::convert::Infallible;
 
 use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::combinators::WithKeyPoints;
-use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::{DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::element::Rectangle;
 use plotters::series::LineSeries;
@@ -27,10 +25,8 @@ const TICK: f64 = 4.0;
 const LABELS: f64 = 24.0;
 const NAME: f64 = 24.0;
 
-type Values = WithKeyPoints<RangedCoordf64>;
-
 /// A chart that series are drawn on.
-pub(super) type Chart<'a> = ChartContext<'a, Tenths<'a>, Cartesian2d<Values, Values>>;
+pub(super) type Chart<'a> = ChartContext<'a, Tenths<'a>, Cartesian2d<Axis, Axis>>;
 
 /// How drawing a series ended.
 pub(super) type Outcome = Result<(), DrawingAreaErrorKind<Infallible>>;
@@ -83,7 +79,7 @@ impl Plot {
             .margin_left(units(self.from.0) - left)
             .y_label_area_size(left)
             .x_label_area_size(below)
-            .build_cartesian_2d(self.x.spec(), self.y.spec())?;
+            .build_cartesian_2d(self.x.clone(), self.y.clone())?;
         self.mesh(&mut chart)?;
         series(&mut chart)
     }
@@ -100,8 +96,6 @@ impl Plot {
             .axis_style(pen(style::FAINT, 1.0))
             .set_all_tick_mark_size(units(TICK))
             .label_style(words(style::SMALL))
-            .x_label_formatter(&|x| self.x.word(*x))
-            .y_label_formatter(&|y| self.y.word(*y))
             .x_desc(self.x.name.as_str())
             .axis_desc_style(words(style::WORDS))
             .draw()
@@ -129,5 +123,6 @@ fn pen(color: RGBColor, width: f64) -> ShapeStyle {
 /// The canvas has a font of its own: only the size counts.
 fn words(size: f64) -> TextStyle<'static> {
     let size = f64::from(units(size));
-    TextStyle::from(FontDesc::new(FontFamily::SansSerif, size, FontStyle::Normal)).color(&style::INK)
+    TextStyle::from(FontDesc::new(FontFamily::SansSerif, size, FontStyle::Normal))
+        .color(&style::INK)
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::Camera;
-use crate::motion::{Body, BodySide, Clip, Pose, Skeleton};
+use crate::motion::{Body, BodySide, Clip, Skeleton};
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
@@ -96,14 +96,7 @@ impl SkeletonPlot {
 
 /// The points of the rest pose: the joints, then the tips.
 fn rest(skeleton: &Skeleton) -> Vec<DVec3> {
-    let mut points = vec![DVec3::ZERO; skeleton.len()];
-    let mut body = Body::new(skeleton);
-    body.place(&Pose::rest(skeleton), &mut points);
-    for (joint, data) in skeleton.iter() {
-        let at = points[joint.0];
-        points.extend(data.end_sites.iter().map(|end| at + end.offset));
-    }
-    points
+    Body::new(skeleton).points().to_vec()
 }
 
 fn facts(skeleton: &Skeleton, shown: usize) -> String {

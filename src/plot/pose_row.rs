@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::{Camera, Clip};
-use crate::plot::chart::number;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
 use crate::plot::cells::{Cell, cells, composed};
+use crate::plot::chart::number;
 use crate::plot::figure::Figure;
 use crate::plot::legend::{self, SIDES};
 use crate::plot::points::{Posing, Showing};
@@ -161,7 +161,11 @@ fn head(canvas: &mut Canvas, (shown, all): (usize, usize), right: f64) {
     canvas.text("Poses ポーズ", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
     if shown < all {
         let words = format!("the first {shown} of {all}");
-        canvas.text(&words, (style::MARGIN + 126.0, 34.0), Type::new(style::WORDS).color(style::FAINT));
+        canvas.text(
+            &words,
+            (style::MARGIN + 126.0, 34.0),
+            Type::new(style::WORDS).color(style::FAINT),
+        );
     }
     legend::draw(canvas, right, &SIDES);
 }

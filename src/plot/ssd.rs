@@ -114,8 +114,7 @@ impl SsdPlot {
         let koma = before.length().max(after.length());
         let (width, height) = (f64::from(self.width), f64::from(self.height));
         let screen = Screen::of(self.seen_from, clip);
-        let (source, result) =
-            (Moves::of(clip, before, &screen), Moves::of(clip, after, &screen));
+        let (source, result) = (Moves::of(clip, before, &screen), Moves::of(clip, after, &screen));
         let paper = Paper {
             seen_from: self.seen_from,
             charts: charts((width, height), (koma, second), source.largest().max(result.largest())),

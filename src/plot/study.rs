@@ -125,12 +125,7 @@ impl StudyPlot {
         Ok(canvas.finish())
     }
 
-    fn plot<'a>(
-        &self,
-        at: &Places,
-        values: impl Iterator<Item = &'a f64>,
-        paper: &[Mark],
-    ) -> Plot {
+    fn plot<'a>(&self, at: &Places, values: impl Iterator<Item = &'a f64>, paper: &[Mark]) -> Plot {
         let to = (f64::from(self.width) - RIGHT, f64::from(self.height) - BOTTOM);
         let numbers = at.numbers.iter().copied().chain(paper.iter().map(|mark| mark.at.0));
         let values: Vec<f64> = values.copied().chain(paper.iter().map(|mark| mark.at.1)).collect();
@@ -248,7 +243,7 @@ pub(super) fn name(axis: &Axis, unit: &str) -> String {
         ("s", _) => " (seconds)".to_owned(),
         ("%", _) => " (%)".to_owned(),
         (_, "source frames or seconds") if axis.scale().is_some() => " (source frames)".to_owned(),
-        (_, "" | "a whole number") => String::new(),
+        (_, "") => String::new(),
         (_, own) => format!(" ({own})"),
     };
     format!("{}{unit}  {}", axis.name(), axis.knob().japanese)
@@ -265,12 +260,7 @@ fn colors(lines: usize) -> Vec<RGBColor> {
 
 /// The values of the second setting beside the ends of their lines, moved apart where they would
 /// lie on each other; of many lines, whose colours are in order, a few.
-fn names(
-    canvas: &mut Canvas,
-    y: &Axis,
-    mut ends: Vec<(Point, usize, RGBColor)>,
-    bottom: f64,
-) {
+fn names(canvas: &mut Canvas, y: &Axis, mut ends: Vec<(Point, usize, RGBColor)>, bottom: f64) {
     const LINE: f64 = 17.0;
     let (last, every) = (ends.len().saturating_sub(1), ends.len().div_ceil(COLORS.len()));
     ends.retain(|(_, y, _)| every == 1 || *y == last || (y % every == 0 && y + every <= last));

@@ -1,7 +1,7 @@
 //! What is on screen koma by koma.
 
 use crate::keys::{DrawnBody, with_ends};
-use crate::motion::{Clip, Composite, PosedComposite};
+use crate::motion::{Clip, Composite, CompositePoser};
 use crate::quality::Slip;
 use crate::quality::holds::Pops;
 use crate::sheet::{Role, Source};
@@ -14,13 +14,12 @@ pub(super) fn errors(
     composite: &Composite<'_>,
     drawings: &[usize],
 ) -> Vec<f64> {
-    let mut posed = PosedComposite::of(composite);
+    let mut poser = CompositePoser::of(composite);
     let mut taken = None;
     let mut error = |(koma, drawing): (usize, usize)| {
         // A drawing stays for some koma.
         if composite.slides() || taken.replace(drawing) != Some(drawing) {
-            posed.take(drawing, koma);
-            body.stand(posed.pose());
+            body.stand(poser.drawing(drawing, koma));
         }
         body.off(koma)
     };
@@ -35,13 +34,12 @@ pub(super) fn slip(
     composite: &Composite<'_>,
     drawings: &[usize],
 ) -> Slip {
-    let mut posed = PosedComposite::of(composite);
+    let mut poser = CompositePoser::of(composite);
     let drawing = |koma: usize| drawings[koma.min(drawings.len() - 1)];
     let place =
         |contact: &Contact, koma| composite.source(drawing(koma), contact.point.joint.0).place();
     Slip::of_poses(body, clock, contacts, place, |body, koma| {
-        posed.take(drawing(koma), koma);
-        body.stand(posed.pose());
+        body.stand(poser.drawing(drawing(koma), koma));
     })
 }
 
@@ -54,18 +52,16 @@ pub(super) fn pops(body: &mut DrawnBody<'_>, composite: &Composite<'_>, koma_rat
         Some((last, rest)) if is_end(last.drawing) => rest,
         _ => &layer.exposures,
     };
-    let mut posed = PosedComposite::of(composite);
+    let mut poser = CompositePoser::of(composite);
     let mut steps = Vec::new();
     let mut before = Vec::new();
     for (at, (begin, exposure)) in layer.timed().take(exposures.len()).enumerate() {
-        posed.take(exposure.drawing, begin);
-        body.stand(posed.pose());
+        body.stand(poser.drawing(exposure.drawing, begin));
         if at > 0 {
             steps.push(body.apart(&before));
         }
         if composite.slides() {
-            posed.take(exposure.drawing, begin + exposure.koma - 1);
-            body.stand(posed.pose());
+            body.stand(poser.drawing(exposure.drawing, begin + exposure.koma - 1));
         }
         before.clear();
         before.extend_from_slice(body.positions());

@@ -1,21 +1,28 @@
 //! The recipe as a file (ファイル): TOML with a comment for every knob, and a person's corrections beside it.
 
-use serde::{Deserialize, Serialize};
-use toml::{Table, Value};
+use std::collections::BTreeSet;
+use std::ops::Range;
 
-use super::knobs::KNOBS;
-use super::{Recipe, value_from_text};
+use serde::de::IntoDeserializer;
+use serde::{Deserialize, Serialize};
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Value};
+
+use super::knobs::{KNOBS, unknown};
+use super::{Knob, Recipe, Who};
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::exaggerate::Exaggerate;
-use crate::keys::{ActionFinder, Choose, Layers};
-use crate::motion::SeenFrom;
-use crate::sheet::{Feet, RootMotion};
-use crate::signal::{LowPass, Speed, TurnFinder};
-use crate::time::KOMA_RATE;
-use crate::timing::{Omission, Spacing};
 
-/// The knob behind which they are written: a table in a section comes after its values.
+/// The section of the knobs that nobody draws with, by their whole names. A file may have them in their own sections too.
+const STUDIES: &str = "studies";
+
+/// What a written recipe says of it.
+const ABOUT_STUDIES: &str =
+    "\n# For studies (研究用): nothing here is of use to somebody who draws.";
+
+/// The section of the weights of joints, and the knob behind which it is written: a table in a section comes after
+/// its values.
+const WEIGHTS: &str = "keys.weights";
 const LAST_OF_KEYS: &str = "keys.per_second";
 
 /// What a written recipe says of them.
@@ -28,8 +35,8 @@ impl Recipe {
     /// A recipe and corrections from TOML. Settings that are not named keep their defaults.
     ///
     /// # Errors
-    /// [`Error::Recipe`] with line and column when it is no TOML, names a setting that does not exist
-    /// or gives one a value of another kind; [`Error::Setting`] when a value is out of its range.
+    /// [`Error::Recipe`] with line and column when it is no TOML, names a setting that does not exist, names
+    /// one twice, or gives one a value that it does not take.
     ///
     /// ```
     /// use genga::recipe::Recipe;
@@ -39,10 +46,7 @@ impl Recipe {
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn parse(text: &str) -> Result<(Self, Edits), Error> {
-        let file: File = toml::from_str(text).map_err(|error| located(text, &error))?;
-        let recipe = file.recipe();
-        recipe.validate()?;
-        Ok((recipe, file.edits))
+        Self::default().overlaid(text)
     }
 
     /// [`Recipe::parse`] on top of this recipe: settings that are not named keep its values.
@@ -50,18 +54,14 @@ impl Recipe {
     /// # Errors
     /// Those of [`Recipe::parse`].
     pub fn overlaid(&self, text: &str) -> Result<(Self, Edits), Error> {
-        // First by itself: its errors know their place in the file.
-        let (_, edits) = Self::parse(text)?;
-        let mut table = self.table();
-        let named: Table = toml::from_str(text).map_err(|error| located(text, &error))?;
-        for (section, value) in named.into_iter().filter(|(section, _)| section != "edits") {
-            match (table.get_mut(&section), value) {
-                (Some(Value::Table(under)), Value::Table(over)) => under.extend(over),
-                (_, value) => drop(table.insert(section, value)),
-            }
-        }
-        let recipe = Value::Table(table).try_into().map_err(|error| located(text, &error))?;
-        Ok((recipe, edits))
+        let not_read = |error: toml::de::Error| located(text, error.span(), error.message());
+        let mut table = DeTable::parse(text).map_err(not_read)?.into_inner();
+        let edits =
+            table.remove("edits").map(|edits| Edits::deserialize(edits.into_deserializer()));
+        let edits = edits.transpose().map_err(not_read)?.unwrap_or_default();
+        let mut file = File { text, recipe: self.clone(), named: BTreeSet::new() };
+        file.take("", &table)?;
+        Ok((file.recipe, edits))
     }
 
     /// The recipe with a comment for every knob, and the corrections, as TOML that
@@ -72,18 +72,22 @@ impl Recipe {
              # Lengths of time are source frames (20) or seconds (\"0.2s\").\n",
         );
         let mut section = None;
-        for knob in KNOBS {
-            let (inside, field) = knob.path();
+        for (knob, (_, value)) in KNOBS.iter().zip(self.settings()) {
+            let (inside, field) = match knob.who {
+                Who::Animator => knob.path(),
+                Who::Researcher => (Some(STUDIES), knob.name),
+            };
             if inside != section {
-                text.push_str(&format!("\n[{}]\n", inside.unwrap_or_default()));
+                let about = if inside == Some(STUDIES) { ABOUT_STUDIES } else { "" };
+                text.push_str(&format!("{about}\n[{}]\n", inside.unwrap_or_default()));
                 section = inside;
             } else {
                 text.push('\n');
             }
             knob.comment().lines().for_each(|line| text.push_str(&format!("# {line}\n")));
-            match self.get(knob.name).as_deref() {
-                Ok("none") | Err(_) => text.push_str(&format!("# {field} = none\n")),
-                Ok(value) => text.push_str(&format!("{field} = {}\n", value_from_text(value))),
+            match value.as_str() {
+                "none" => text.push_str(&format!("# {field} = none\n")),
+                word => text.push_str(&format!("{field} = {}\n", written(word))),
             }
             if knob.name == LAST_OF_KEYS {
                 text.push_str(&self.written_weights());
@@ -101,51 +105,18 @@ impl Recipe {
     fn written_weights(&self) -> String {
         let weights = &self.keys.weights;
         if weights.is_empty() {
-            return format!("\n{ABOUT_WEIGHTS}# [keys.weights]\n# \"*Hand*\" = 2.0\n");
+            return format!("\n{ABOUT_WEIGHTS}# [{WEIGHTS}]\n# \"*Hand*\" = 2.0\n");
         }
         let lines = toml::to_string(weights).expect("names and numbers");
-        format!("\n{ABOUT_WEIGHTS}[keys.weights]\n{lines}")
+        format!("\n{ABOUT_WEIGHTS}[{WEIGHTS}]\n{lines}")
     }
 }
 
-/// The file: the recipe's sections and the corrections side by side.
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct File {
-    rate: Option<f64>,
-    layers: Layers,
-    root: RootMotion,
-    seen_from: SeenFrom,
-    feet: Feet,
-    exaggerate: Exaggerate,
-    speed: Speed,
-    filter: LowPass,
-    turns: TurnFinder,
-    keys: Choose,
-    actions: ActionFinder,
-    spacing: Spacing,
-    omission: Omission,
-    edits: Edits,
-}
-
-impl File {
-    fn recipe(&self) -> Recipe {
-        Recipe {
-            rate: self.rate.unwrap_or(KOMA_RATE),
-            layers: self.layers.clone(),
-            root: self.root,
-            seen_from: self.seen_from,
-            feet: self.feet,
-            exaggerate: self.exaggerate.clone(),
-            speed: self.speed.clone(),
-            filter: self.filter.clone(),
-            turns: self.turns.clone(),
-            keys: self.keys.clone(),
-            actions: self.actions.clone(),
-            spacing: self.spacing.clone(),
-            omission: self.omission,
-        }
-    }
+/// A word as TOML has it: a number, a list or true without quotes.
+fn written(word: &str) -> String {
+    let is_plain =
+        word.starts_with('[') || word.parse::<f64>().is_ok() || word.parse::<bool>().is_ok();
+    if is_plain { word.into() } else { Value::from(word).to_string() }
 }
 
 #[derive(Serialize)]
@@ -153,15 +124,72 @@ struct Corrections<'a> {
     edits: &'a Edits,
 }
 
-/// An error of the TOML reader as one line with the place in the file.
-fn located(text: &str, error: &toml::de::Error) -> Error {
-    let place = error.span().map(|span| {
+/// A file that is read: its settings are set one by one, by their names.
+struct File<'a> {
+    text: &'a str,
+    recipe: Recipe,
+    named: BTreeSet<String>,
+}
+
+impl File<'_> {
+    /// Takes a table whose settings have that name in front of theirs.
+    fn take(&mut self, section: &str, table: &DeTable<'_>) -> Result<(), Error> {
+        for (key, value) in table {
+            let own = key.get_ref().as_ref();
+            let name = if section.is_empty() { own.to_owned() } else { format!("{section}.{own}") };
+            match value.get_ref() {
+                DeValue::Table(table) if name == STUDIES => self.take("", table)?,
+                DeValue::Table(table) if is_section(&name) => self.take(&name, table)?,
+                DeValue::Table(_) => return Err(self.wrong(key.span(), unknown(&name))),
+                _ => self.set(name, key.span(), value)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn set(
+        &mut self,
+        name: String,
+        key: Range<usize>,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Result<(), Error> {
+        let place = if is_known(&name) { value.span() } else { key.clone() };
+        let plain = Value::deserialize(value.clone().into_deserializer());
+        let word = match plain.map_err(|error| located(self.text, error.span(), error.message()))? {
+            Value::String(word) => word,
+            plain => plain.to_string(),
+        };
+        self.recipe.set(&name, &word).map_err(|error| self.wrong(place, error))?;
+        if !self.named.insert(name.clone()) {
+            return Err(self.wrong(key, Error::setting(name, "is set twice")));
+        }
+        Ok(())
+    }
+
+    fn wrong(&self, place: Range<usize>, error: Error) -> Error {
+        located(self.text, Some(place), &error.to_string())
+    }
+}
+
+/// Whether a setting has that name.
+fn is_known(name: &str) -> bool {
+    name.starts_with(WEIGHTS) || Knob::find(name).is_ok()
+}
+
+/// Whether settings have that name in front of theirs.
+fn is_section(name: &str) -> bool {
+    name == WEIGHTS || KNOBS.iter().any(|knob| knob.path().0 == Some(name))
+}
+
+/// What is wrong with a file, in one line with the place.
+fn located(text: &str, span: Option<Range<usize>>, message: &str) -> Error {
+    let place = span.map(|span| {
         let before = &text[..span.start.min(text.len())];
         let line = before.matches('\n').count() + 1;
         let column = before.len() - before.rfind('\n').map_or(0, |newline| newline + 1) + 1;
         format!("{line}:{column}: ")
     });
-    let message = error.message().lines().next().unwrap_or_default();
+    let message = message.lines().next().unwrap_or_default();
     Error::Recipe { message: format!("{}{message}", place.unwrap_or_default()) }
 }
 
@@ -234,10 +262,40 @@ mod tests {
     }
 
     #[test]
+    fn a_value_is_what_toml_has_and_stands_in_any_section_that_is_its_own() {
+        let same =
+            |a: &str, b: &str| assert_eq!(Recipe::parse(a).unwrap(), Recipe::parse(b).unwrap());
+        same("[studies]\nturns.side = \"both\"", "[turns]\nside = \"both\"");
+        same("[studies.turns]\nside = \"both\"", "turns.side = \"both\"");
+        same("rate = 0x18", "rate = 24.0");
+        same("[keys]\nper_second = +inf", "[keys]\nper_second = \"inf\"");
+        same("[omission]\nnaka_nashi = 1.0", "[omission]\nnaka_nashi = \"100%\"");
+        let list = "layers = [{ name = \"A\", joints = [\"Hips\"] }]";
+        same("[[layers]]\nname = \"A\"\njoints = [\"Hips\"]", list);
+    }
+
+    #[test]
     fn a_wrong_file_is_refused_with_its_place() {
         let error = Recipe::parse("rate = 24\n[filter]\nwitdh = 3\n").unwrap_err().to_string();
-        assert!(error.starts_with("recipe: 3:1: unknown field `witdh`"), "{error}");
-        assert!(Recipe::parse("[spacing]\non = 0\n").is_err());
+        let said =
+            "recipe: 3:1: filter.witdh: there is no such setting; did you mean filter.width?";
+        assert_eq!(error, said);
+        for (wrong, says) in [
+            ("[spacing]\non = 0\n", "2:6: spacing.on: expected koma, 1 (ones) to 1000"),
+            ("[filter]\nwidth = []\n", "2:9: filter.width: expected source frames or seconds"),
+            ("[filtre]\n", "1:2: filtre: there is no such setting"),
+            ("filter = 3\n", "1:1: filter: there is no such setting"),
+            ("layers = []\n", "layers: the list has no layer"),
+            ("[keys.weights]\nHips = -1\n", "2:8: keys.weights.Hips: expected a number, 0"),
+            (
+                "[turns]\nside = \"both\"\n[studies]\nturns.side = \"after\"\n",
+                "turns.side: is set twice",
+            ),
+            ("[edits]\npins = 3\n", "recipe: 2:8: invalid type"),
+        ] {
+            let said = Recipe::parse(wrong).unwrap_err().to_string();
+            assert!(said.contains(says), "{said}");
+        }
         assert!(Recipe::parse("[spacing\n").is_err());
     }
 }

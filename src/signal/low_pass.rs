@@ -8,6 +8,7 @@ mod spectrum;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::lanes::wide;
 use crate::signal::Signals;
 use crate::time::{FrameRate, Span};
@@ -16,8 +17,7 @@ use moving::Window;
 pub use spectrum::Spectrum;
 
 /// The kinds of low-pass filter. The paper names none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FilterKind {
     /// Moving average over a window W frames wide: each sample counts by the overlap of its cell, one
     /// frame wide, with the window.
@@ -31,6 +31,13 @@ pub enum FilterKind {
     /// little.
     Butterworth,
 }
+
+choices!(FilterKind {
+    Box: "box",
+    Gaussian: "gaussian",
+    Ideal: "ideal",
+    Butterworth: "butterworth"
+});
 
 /// Low-pass filter (ローパスフィルタ) of speeds [KT11 §3.2]: no shift in time, gain 1 for what is
 /// steady, as many frames out as in; beyond its ends the clip is mirrored (… c b a | a b c …).
@@ -51,17 +58,24 @@ impl Default for LowPass {
     }
 }
 
+knobs!(filter::LowPass {
+    kind: knob("ローパスフィルタ", "How the speeds are smoothed.", "速さをならす方法。")
+        .for_studies(),
+    width: knob(
+        "フィルタの適用範囲",
+        "How wide the smoothing is. Wider finds fewer turns, so fewer genga, and blurs quick \
+         double actions.",
+        "ならす幅。広いほど原画は減り、素早い二段の動きはぼやける。",
+    ),
+});
+
 impl LowPass {
     /// Whether the settings can be used.
     ///
     /// # Errors
     /// [`Error::Setting`] named `filter.width` unless the width is finite and not below 0.
     pub fn validate(&self) -> Result<(), Error> {
-        if self.width.is_length() {
-            return Ok(());
-        }
-        let message = format!("{} is no width; give frames (20) or seconds (0.2s)", self.width);
-        Err(Error::setting("filter.width", message))
+        self.check()
     }
 
     /// The filtered signals; those that went into the spectrum, untouched, where the width is no

@@ -7,17 +7,17 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, Lanes, wide};
-use crate::motion::{Body, Clip, Pose, Screen, local_rotation};
+use crate::motion::{Body, Clip, Poser, Screen, local_rotation};
 use crate::signal::{Signals, Unit};
 use crate::time::Frame;
 
 use steps::{BLOCK, JointSteps, PARTS, block};
 
 /// What of the motion is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Measure {
     /// Angular speed (角速度) of the local rotation, rad/s: the paper's measure. Blind to a joint that
     /// is only carried along.
@@ -32,6 +32,13 @@ pub enum Measure {
     /// where the axis turns at a constant angle, and jumps in sign where the angle passes half a turn.
     Angle,
 }
+
+choices!(Measure {
+    Rotation: "rotation",
+    Displacement: "displacement",
+    Combined: "combined",
+    Angle: "angle"
+});
 
 /// Speed (速さ) of every joint at every frame [KT11 §3.1].
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -48,13 +55,24 @@ impl Measure {
     }
 }
 
+knobs!(speed::Speed {
+    measure: knob(
+        "速さの測り方",
+        "How fast a joint is: its rotation against its parent, its way through the world (or on \
+         the screen), both, or the signed change of its own rotation angle.",
+        "部位の速さの測り方。親に対する回転、空間での移動、その両方、\
+         または自身の回転角の符号つき変化。",
+    )
+    .for_studies(),
+});
+
 impl Speed {
     /// Whether the settings can be used; there is none here that could be wrong.
     ///
     /// # Errors
     /// None today.
     pub fn validate(&self) -> Result<(), Error> {
-        Ok(())
+        self.check()
     }
 
     /// Speeds of a clip in the world: see [`Speed::measure_on`].
@@ -147,13 +165,13 @@ fn angle_of(q: DQuat) -> f64 {
 fn displacement(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     let (fps, skeleton) = (clip.rate().fps(), clip.skeleton());
     let mut values = still(clip);
-    let (mut pose, mut body) = (Pose::rest(skeleton), Body::new(skeleton));
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(skeleton));
     let mut before = vec![DVec3::ZERO; skeleton.len()];
     let mut now = before.clone();
     for row in 0..clip.len() {
-        pose.take_frame(clip, Frame(clip.first().0 + row));
-        body.place(&pose, &mut now);
-        now.iter_mut().for_each(|place| *place = screen.see(*place));
+        body.place(poser.frame(Frame(clip.first().0 + row)));
+        let seen = body.positions().iter().map(|place| screen.see(*place));
+        now.iter_mut().zip(seen).for_each(|(now, seen)| *now = seen);
         if row > 0 {
             for (joint, (before, now)) in before.iter().zip(&now).enumerate() {
                 values[(row, joint)] = before.distance(*now) * fps;

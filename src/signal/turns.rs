@@ -10,8 +10,9 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::JointId;
-use crate::motion::lanes::wide;
+use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::signal::Signals;
 use crate::time::{Frame, Span};
 
@@ -44,8 +45,7 @@ pub struct Turn {
 }
 
 /// How the paper's rule for keys is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Reading {
     /// By whole valleys and hills of the speed, with the filter's delay undone: ends of movements
     /// (動き終わり) count as much as starts.
@@ -56,9 +56,10 @@ pub enum Reading {
     Literal,
 }
 
+choices!(Reading { Event: "event", Literal: "literal" });
+
 /// Which frames confirm a candidate of the `literal` reading; `event` does not ask.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
     /// The M frames after a key are all faster than it (a wall: slower): the words of [KT11 §3.3].
     #[default]
@@ -69,6 +70,8 @@ pub enum Side {
     /// which the speed increases").
     Rising,
 }
+
+choices!(Side { After: "after", Both: "both", Rising: "rising" });
 
 /// Finds the keys (原画) and walls (壁フレーム) of every joint in its filtered speed
 /// [KT11 §3.3, §3.4].
@@ -98,6 +101,41 @@ impl Default for TurnFinder {
     }
 }
 
+knobs!(turns::TurnFinder {
+    reading: knob(
+        "読み方",
+        "What a turn is: every rest and slowing has its end and its start (event), or the first \
+         paper to the letter (literal), which loses the ends of movements.",
+        "動きの変わり目の読み方。止まりや減速ごとに終わりと始まりを取る (event) \
+         か、第一論文の文言どおり (literal) で、この場合は動き終わりが失われる。",
+    )
+    .for_studies(),
+    steady: knob(
+        "定速とみなす加速度",
+        "Accelerations of a joint up to this count as none. Raised, slow joints turn less often. \
+         Turns of the body do not ask for it.",
+        "部位のこの加速度までは等速とみなす。上げると、ゆっくりした部位の変わり目がなくなる。\
+         全身の変わり目には効かない。",
+    )
+    .unit("°/s², or a share of the joint's own 95th percentile (\"5%\")")
+    .for_studies(),
+    persistence: knob(
+        "連続フレーム数",
+        "How long before and after a turn the body must be faster. Longer finds fewer turns, and \
+         short pauses and quick back-and-forth movements go.",
+        "変わり目の前後でどれだけの間より速ければ数えるか。長いほど変わり目は減り、\
+         短い間や素早い往復は消える。",
+    ),
+    side: knob(
+        "連続を見る側",
+        "Where it must last, in the literal reading: after the turn, on both sides of it, or after \
+         it with every step rising.",
+        "literal \
+         のとき、どちら側で続けばよいか。変わり目の後、前後の両方、または後で毎フレーム速くなり続けること。",
+    )
+    .for_studies(),
+});
+
 impl TurnFinder {
     /// Whether the settings can be used.
     ///
@@ -105,17 +143,7 @@ impl TurnFinder {
     /// [`Error::Setting`] named `turns.steady` or `turns.persistence`, for what is not finite or below
     /// 0, or a share above 100 %.
     pub fn validate(&self) -> Result<(), Error> {
-        if !self.steady.is_band() {
-            let message =
-                format!("{} is no dead band; give °/s² (100) or a share (5%)", self.steady);
-            return Err(Error::setting("turns.steady", message));
-        }
-        if !self.persistence.is_length() {
-            let message =
-                format!("{} is no length; give frames (5) or seconds (0.1s)", self.persistence);
-            return Err(Error::setting("turns.persistence", message));
-        }
-        Ok(())
+        self.check()
     }
 
     /// The confirmed turns, one list a joint (a column), by frame.
@@ -187,15 +215,12 @@ impl TurnFinder {
     }
 }
 
-/// The largest size of a value, 0 for none; four side by side, as each waits for the last.
+/// The largest size of a value, 0 for none; some side by side, as each waits for the last.
 fn largest(values: &[f64]) -> f64 {
-    let greater = |most: f64, value: f64| if value.abs() > most { value.abs() } else { most };
-    let (fours, rest) = values.as_chunks::<4>();
-    let mut most = [0.0; 4];
-    for four in fours {
-        most = std::array::from_fn(|lane| greater(most[lane], four[lane]));
-    }
-    most.iter().chain(rest).copied().fold(0.0, greater)
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    let size = |values: &[f64; LANES]| Lanes(*values).map(f64::abs);
+    let most = chunks.iter().fold(Lanes::ZERO, |most, values| most.max(size(values)));
+    most.0.iter().chain(rest).fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 /// One joint after another, with the buffers they share. Rows count from 0 here.

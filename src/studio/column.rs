@@ -49,7 +49,7 @@ impl<'a> Column<'a> {
     pub(super) fn of(breakdown: &Breakdown<'a>) -> Self {
         let layer: &'a Layer = &breakdown.sheet.layers[0];
         let with_key = |on_paper: parts::Cell<'a>| {
-            let key = key_at(&breakdown.keys.keys, on_paper.drawing.source);
+            let key = key_at(&breakdown.first_layer().keys.keys, on_paper.drawing.source);
             KeyedCell { on_paper, key }
         };
         let cells = parts::cells(layer).into_iter().map(with_key).collect();

@@ -13,7 +13,7 @@ use super::icon::{self, Icon};
 use super::map::Map;
 use super::shown::Shown;
 use super::words::Words;
-use crate::recipe::{KNOBS, Kind, Knob, Recipe};
+use crate::recipe::{KNOBS, Kind, Knob, Recipe, Who};
 
 /// Koma a drawing that are offered; a recipe may have others.
 const ON: [&str; 8] = ["1", "2", "3", "4", "1-2", "1-3", "2-3", "2-4"];
@@ -66,7 +66,7 @@ impl Knobs {
                     ui,
                     |ui| {
                         for (at, knob) in KNOBS.iter().enumerate() {
-                            if knob.path().0 == section {
+                            if section_of(knob) == section {
                                 self.row(ui, at, knob, words, commands);
                             }
                         }
@@ -165,6 +165,12 @@ fn control(ui: &mut Ui, knob: &'static Knob, value: &str, set: &mut impl FnMut(S
         Kind::On => choice(ui, knob, value, &ON, set),
         Kind::SeenFrom => choice(ui, knob, value, &SEEN_FROM, set),
         Kind::Choice(choices) => choice(ui, knob, value, choices, set),
+        Kind::Text => {
+            let mut text = value.to_owned();
+            if ui.text_edit_singleline(&mut text).changed() {
+                set(text);
+            }
+        }
         Kind::Flag => {
             let mut is_on = value == "true";
             if ui.checkbox(&mut is_on, "").accessible_name(knob.name).changed() {
@@ -216,9 +222,20 @@ fn choice(
     combo.response.accessible_name(knob.name);
 }
 
+/// The section of the knobs that nobody draws with.
+const STUDIES: &str = "studies";
+
+/// The section in which a knob is shown.
+fn section_of(knob: &Knob) -> Option<&'static str> {
+    match knob.who {
+        Who::Animator => knob.path().0,
+        Who::Researcher => Some(STUDIES),
+    }
+}
+
 /// The sections in their order, each once.
 fn sections() -> Vec<Option<&'static str>> {
-    let mut sections: Vec<_> = KNOBS.iter().map(|knob| knob.path().0).collect();
+    let mut sections: Vec<_> = KNOBS.iter().map(section_of).collect();
     sections.dedup();
     sections
 }
@@ -228,13 +245,13 @@ fn named(section: Option<&'static str>, words: Words) -> (&'static str, bool) {
     match section {
         None => (words.say("Sheet", "シート"), false),
         Some("exaggerate") => (words.say("Exaggeration", "誇張"), false),
-        Some("speed") => (words.say("Speed", "速さ"), false),
         Some("filter") => (words.say("Smoothing", "ローパスフィルタ"), true),
         Some("turns") => (words.say("Turns of joints", "部位の動きの変わり目"), false),
         Some("keys") => (words.say("Genga", "原画"), true),
         Some("actions") => (words.say("Actions", "動作"), false),
         Some("spacing") => (words.say("Inbetweens", "中割りと詰め"), true),
         Some("omission") => (words.say("Left out and held", "中無しとコマ撮り"), true),
+        Some(STUDIES) => (words.say("For studies", "研究用"), false),
         Some(other) => (other, false),
     }
 }
@@ -259,8 +276,13 @@ fn label(knob: &Knob, words: Words) -> String {
     if words.is_japanese() {
         return knob.japanese.into();
     }
-    let (_, field) = knob.path();
-    let mut label = field.replace('_', " ");
+    let (section, field) = knob.path();
+    let mut label = match (knob.who, section) {
+        // Beside knobs of other sections.
+        (Who::Researcher, Some(section)) => format!("{section}: {field}"),
+        _ => field.to_owned(),
+    }
+    .replace('_', " ");
     if let Some(first) = label.get_mut(..1) {
         first.make_ascii_uppercase();
     }

@@ -30,19 +30,15 @@ impl Setting {
     /// # Errors
     /// [`Error::Setting`] when there is no such knob, or the value is not one it takes.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
-        let refused = |expected: &str| {
-            Error::setting(name, format!("expected {expected}, found \"{}\"", text.trim()))
-        };
+        let text = text.trim();
         match name {
             "noise" => {
-                let degrees = text.trim().parse().map_err(|_| refused("degrees, as in 0.5"))?;
+                let degrees = text.parse().map_err(|_| NOISE.refusal(text))?;
                 let noise = Noise { degrees, ..self.noise };
                 noise.validate()?;
                 self.noise = noise;
             }
-            "noise.seed" => {
-                self.noise.seed = text.trim().parse().map_err(|_| refused("a whole number"))?;
-            }
+            "noise.seed" => self.noise.seed = text.parse().map_err(|_| SEED.refusal(text))?,
             _ => self.recipe.set(name, text)?,
         }
         Ok(())
@@ -218,8 +214,8 @@ mod tests {
             ("filter.kind=box,box", "filter.kind: box stands twice"),
             ("spacing.on=1..2:0.5", "spacing.on: expected"),
             ("noise=loud", "noise: expected degrees"),
-            ("noise=-1", "noise: -1 is not 0 to 180"),
-            ("noise.seed=0.5", "noise.seed: expected a whole number"),
+            ("noise=-1", "noise: expected degrees, 0 to 180"),
+            ("noise.seed=0.5", "noise.seed: expected whole number, 0 or more"),
         ] {
             let said = wrong.parse::<Axis>().unwrap_err().to_string();
             assert!(said.contains(says), "{wrong}: {said}");

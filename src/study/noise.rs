@@ -1,28 +1,31 @@
 //! Noise on the rotations of a clip: what a capture might as well have been.
 
 use crate::error::Error;
+use crate::knob::{Setting, knob};
 use crate::motion::{Channel, Clip};
-use crate::recipe::{Kind, Knob};
+use crate::recipe::Knob;
 
 /// How strong the noise is; no knob of a recipe, but an axis of a study.
-pub(super) const NOISE: Knob = Knob {
-    name: "noise",
-    japanese: "ノイズ",
-    kind: Kind::Number { min: 0.0, max: 10.0, whole: false, optional: false },
-    unit: "degrees",
-    help: "Gaussian noise on every rotation channel of the clip, as a standard deviation.",
-    japanese_help: "クリップのすべての回転に加えるガウスノイズの標準偏差。",
-};
+pub(super) const NOISE: Knob = knob(
+    "ノイズ",
+    "Gaussian noise on every rotation channel of the clip, as a standard deviation.",
+    "クリップのすべての回転に加えるガウスノイズの標準偏差。",
+)
+.unit("degrees")
+.at_most(180.0)
+.slider(0.0, 10.0)
+.for_studies()
+.named("noise", f64::KIND);
 
 /// Which noise of that strength.
-pub(super) const SEED: Knob = Knob {
-    name: "noise.seed",
-    japanese: "ノイズの種",
-    kind: Kind::Number { min: 0.0, max: 1e9, whole: true, optional: false },
-    unit: "a whole number",
-    help: "Another number is another noise of the same strength.",
-    japanese_help: "数を変えると、同じ強さの別のノイズになる。",
-};
+pub(super) const SEED: Knob = knob(
+    "ノイズの種",
+    "Another number is another noise of the same strength.",
+    "数を変えると、同じ強さの別のノイズになる。",
+)
+.slider(0.0, 1e9)
+.for_studies()
+.named("noise.seed", usize::KIND);
 
 /// Noise (ノイズ) that a study adds to every rotation channel of a clip, frame by frame and each
 /// channel by itself.
@@ -43,10 +46,10 @@ impl Noise {
     /// # Errors
     /// [`Error::Setting`] named `noise` outside 0 to 180 degrees.
     pub fn validate(&self) -> Result<(), Error> {
-        if (0.0..=180.0).contains(&self.degrees) {
+        if self.degrees.is_in(NOISE.range) {
             return Ok(());
         }
-        Err(Error::setting(NOISE.name, format!("{} is not 0 to 180 degrees", self.degrees)))
+        Err(NOISE.refusal(&self.degrees.to_string()))
     }
 
     /// The clip with the noise on it.

@@ -241,7 +241,7 @@ impl Bench {
             Reach::Sheet => {
                 let run = self.engine.run(recipe, &edits)?;
                 let layer = Some((&run.sheet.layers[0], run.clock.koma_rate));
-                let (body, keys) = (Some(run.body), Some(run.keys));
+                let (body, keys) = (Some(run.first_layer().body), Some(run.first_layer().keys));
                 Found { clip: run.clip, turns: run.turns, body, keys, layer }
             }
         })

@@ -85,7 +85,8 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             let mut engine = Engine::new(setting.noise.on(clip)).unwrap();
             let run = engine.run(&setting.recipe, &Edits::default()).unwrap();
             let layer = &run.sheet.layers[0];
-            let frames: Vec<Frame> = run.keys.keys.iter().map(|key| key.frame).collect();
+            let frames: Vec<Frame> =
+                run.first_layer().keys.keys.iter().map(|key| key.frame).collect();
             let mut union: Vec<Frame> = keys(run.turns).map(|turn| turn.frame).collect();
             union.sort();
             union.dedup();
@@ -100,11 +101,15 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             let value = |measure: &Measure| match measure {
                 Measure::Union => union.len() as f64,
                 Measure::Total => keys(run.turns).count() as f64,
-                Measure::Turns => run.body.turns.len() as f64,
+                Measure::Turns => run.first_layer().body.turns.len() as f64,
                 Measure::Genga => frames.len() as f64,
-                Measure::Fills => {
-                    run.keys.keys.iter().filter(|key| key.origin == Origin::Fill).count() as f64
-                }
+                Measure::Fills => run
+                    .first_layer()
+                    .keys
+                    .keys
+                    .iter()
+                    .filter(|key| key.origin == Origin::Fill)
+                    .count() as f64,
                 Measure::Drawings => layer.drawings.len() as f64,
                 Measure::DrawingsPerSecond => layer.drawings.len() as f64 / seconds,
                 Measure::GengaPerSecond => genga as f64 / seconds,

@@ -126,7 +126,7 @@ impl Search<'_> {
         let drawings = layer(&breakdown).shown().count() as f64;
         let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
         let excess = drawings - self.per_second * seconds;
-        let done = breakdown.omission.koma_dori.done;
+        let done = breakdown.first_layer().omission.koma_dori.done;
         Ok((Found { recipe: recipe.clone(), excess }, done))
     }
 

@@ -3,12 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
+use crate::knob::{Kind, Setting, as_word, by_word};
 
 /// How many drawings or koma: a count (`4`) or a share (`4%`, `0.04`, `1/3`), so that one recipe
 /// serves clips of every length.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "AmountText", into = "String")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Amount {
     /// So many.
     Count(usize),
@@ -76,36 +75,17 @@ impl FromStr for Amount {
     }
 }
 
-impl From<Amount> for String {
-    fn from(amount: Amount) -> String {
-        amount.to_string()
-    }
+impl Setting for Amount {
+    const KIND: Kind = Kind::Amount;
+    as_word!();
 }
 
-/// What a recipe file may write for an amount: `4`, `0.04`, `"4%"` or `"1/3"`.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum AmountText {
-    Count(usize),
-    Share(f64),
-    Text(String),
-}
-
-impl TryFrom<AmountText> for Amount {
-    type Error = String;
-
-    fn try_from(text: AmountText) -> Result<Self, String> {
-        match text {
-            AmountText::Count(count) => Ok(Self::Count(count)),
-            AmountText::Share(share) if Self::Share(share).is_amount() => Ok(Self::Share(share)),
-            AmountText::Share(share) => Err(format!("{share} is no share; it must be 0 to 1")),
-            AmountText::Text(text) => text.parse(),
-        }
-    }
-}
+by_word!(Amount);
 
 #[cfg(test)]
 mod tests {
+    use serde::Deserialize;
+
     use super::*;
 
     #[derive(Deserialize)]

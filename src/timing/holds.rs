@@ -20,17 +20,17 @@ pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -
     }
     let mut row = Row::of(layer, spaced);
     for hold in holds {
-        if let Some(cell) = row.nearest(hold.frame.0 as f64, clock) {
-            row.cells[cell].asked = Some(hold.koma.max(1));
+        if let Some(index) = row.nearest(hold.frame.0 as f64, clock) {
+            row.drawings[index].asked = Some(hold.koma.max(1));
         }
     }
     // From the first on: what a hold takes from the next drawing, that one's own hold gets back.
-    let mut cell = 0;
-    while cell < row.cells.len() {
-        if let Some(koma) = row.cells[cell].asked {
-            row.hold(cell, koma);
+    let mut index = 0;
+    while index < row.drawings.len() {
+        if let Some(koma) = row.drawings[index].asked {
+            row.hold(index, koma);
         }
-        cell += 1;
+        index += 1;
     }
     row.into_layer(layer)
 }
@@ -47,7 +47,7 @@ pub fn held_for(layer: &Layer, hold: Hold, clock: Clock) -> Option<usize> {
 }
 
 /// A drawing on screen.
-struct Cell {
+struct OnScreen {
     drawing: Drawing,
     koma: usize,
     /// For how many koma a person wants it.
@@ -56,98 +56,98 @@ struct Cell {
 
 /// The drawings of a layer in their order.
 struct Row<'a> {
-    cells: Vec<Cell>,
+    drawings: Vec<OnScreen>,
     spaced: &'a Layer,
 }
 
 impl<'a> Row<'a> {
     fn of(layer: &Layer, spaced: &'a Layer) -> Self {
-        let cell = |shown: &Exposure| Cell {
+        let on_screen = |shown: &Exposure| OnScreen {
             drawing: layer.drawings[shown.drawing].clone(),
             koma: shown.koma,
             asked: None,
         };
-        Self { cells: layer.exposures.iter().map(cell).collect(), spaced }
+        Self { drawings: layer.exposures.iter().map(on_screen).collect(), spaced }
     }
 
-    fn place(&self, cell: usize) -> f64 {
-        self.cells[cell].drawing.source.place()
+    fn place(&self, index: usize) -> f64 {
+        self.drawings[index].drawing.source.place()
     }
 
     /// The drawing nearest to a place; none where there is none near it.
     fn nearest(&self, place: f64, clock: Clock) -> Option<usize> {
-        let away = |cell: usize| (self.place(cell) - place).abs();
-        let nearest = (0..self.cells.len()).min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+        let away = |index: usize| (self.place(index) - place).abs();
+        let nearest = (0..self.drawings.len()).min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
         (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest)
     }
 
     /// The next drawing that stays on its koma; the number of drawings at the end.
-    fn next_kept(&self, cell: usize) -> usize {
-        let after = self.cells.iter().skip(cell + 1);
-        let is_kept = |cell: &Cell| cell.drawing.role.is_kept();
-        cell + 1 + after.take_while(|cell| !is_kept(cell)).count()
+    fn next_kept(&self, index: usize) -> usize {
+        let after = self.drawings.iter().skip(index + 1);
+        let is_kept = |shown: &OnScreen| shown.drawing.role.is_kept();
+        index + 1 + after.take_while(|shown| !is_kept(shown)).count()
     }
 
     /// Holds a drawing for so many koma.
-    fn hold(&mut self, cell: usize, koma: usize) {
-        let why = &mut self.cells[cell].drawing.why;
+    fn hold(&mut self, index: usize, koma: usize) {
+        let why = &mut self.drawings[index].drawing.why;
         (why.hold_set, why.lengthened) = (true, 0);
-        match koma.cmp(&self.cells[cell].koma) {
-            Ordering::Greater => self.lengthen(cell, koma),
-            Ordering::Less => self.shorten(cell, koma),
+        match koma.cmp(&self.drawings[index].koma) {
+            Ordering::Greater => self.lengthen(index, koma),
+            Ordering::Less => self.shorten(index, koma),
             Ordering::Equal => {}
         }
     }
 
     /// Takes koma from the inbetweens after it, as far as there are any.
-    fn lengthen(&mut self, cell: usize, koma: usize) {
-        let mut missing = koma - self.cells[cell].koma;
-        while missing > 0 && self.next_kept(cell) > cell + 1 {
-            let next = &mut self.cells[cell + 1];
+    fn lengthen(&mut self, index: usize, koma: usize) {
+        let mut missing = koma - self.drawings[index].koma;
+        while missing > 0 && self.next_kept(index) > index + 1 {
+            let next = &mut self.drawings[index + 1];
             let taken = missing.min(next.koma);
             next.koma -= taken;
             missing -= taken;
-            self.cells[cell].koma += taken;
-            if self.cells[cell + 1].koma == 0 {
-                self.cover(cell);
+            self.drawings[index].koma += taken;
+            if self.drawings[index + 1].koma == 0 {
+                self.cover(index);
             }
         }
-        if self.next_kept(cell) > cell + 1 && self.cells[cell + 1].asked.is_none() {
-            self.let_stay(cell);
+        if self.next_kept(index) > index + 1 && self.drawings[index + 1].asked.is_none() {
+            self.let_stay(index);
         }
     }
 
     /// Covers the inbetween after a drawing with it.
-    fn cover(&mut self, cell: usize) -> usize {
-        let Cell { koma, drawing, .. } = self.cells.remove(cell + 1);
+    fn cover(&mut self, index: usize) -> usize {
+        let OnScreen { koma, drawing, .. } = self.drawings.remove(index + 1);
         // What was left out round a covered drawing is under the hold too.
-        self.cells[cell].drawing.why.held_for +=
+        self.drawings[index].drawing.why.held_for +=
             drawing.why.omitted_before + 1 + drawing.why.held_for;
         koma
     }
 
     /// Sees to it that the inbetween after a drawing stays for as long as drawings do there: by koma of those behind
     /// it that have more, else the next takes its place, and where there is none the hold lasts up to the genga.
-    fn let_stay(&mut self, cell: usize) {
-        let least = self.least(cell);
-        for behind in cell + 2..self.next_kept(cell) {
-            let missing = least.saturating_sub(self.cells[cell + 1].koma);
-            let given = missing.min(self.cells[behind].koma.saturating_sub(least));
-            self.cells[behind].koma -= given;
-            self.cells[cell + 1].koma += given;
+    fn let_stay(&mut self, index: usize) {
+        let least = self.least(index);
+        for behind in index + 2..self.next_kept(index) {
+            let missing = least.saturating_sub(self.drawings[index + 1].koma);
+            let given = missing.min(self.drawings[behind].koma.saturating_sub(least));
+            self.drawings[behind].koma -= given;
+            self.drawings[index + 1].koma += given;
         }
-        if self.cells[cell + 1].koma < least {
-            let heir = cell + usize::from(self.next_kept(cell) > cell + 2);
-            let koma = self.cover(cell);
-            self.cells[heir].koma += koma;
+        if self.drawings[index + 1].koma < least {
+            let heir = index + usize::from(self.next_kept(index) > index + 2);
+            let koma = self.cover(index);
+            self.drawings[heir].koma += koma;
         }
     }
 
     /// For how many koma drawings stay at the least between the two genga round a drawing: two, unless some were
     /// spaced for one there.
-    fn least(&self, cell: usize) -> usize {
-        let is_kept = |cell: &&Cell| cell.drawing.role.is_kept();
-        let opener = self.cells[..=cell].iter().rev().find(is_kept);
+    fn least(&self, index: usize) -> usize {
+        let is_kept = |shown: &&OnScreen| shown.drawing.role.is_kept();
+        let opener = self.drawings[..=index].iter().rev().find(is_kept);
         let from = opener.map_or(f64::NEG_INFINITY, |opener| opener.drawing.source.place());
         let place = |shown: &Exposure| self.spaced.drawings[shown.drawing].source.place();
         let role = |shown: &Exposure| self.spaced.drawings[shown.drawing].role;
@@ -158,25 +158,25 @@ impl<'a> Row<'a> {
     }
 
     /// Gives koma to a drawing that was left out after it, else to the next inbetween.
-    fn shorten(&mut self, cell: usize, koma: usize) {
-        let freed = self.cells[cell].koma - koma;
-        let left_out = self.left_out(cell, koma).filter(|_| freed >= self.least(cell));
+    fn shorten(&mut self, index: usize, koma: usize) {
+        let freed = self.drawings[index].koma - koma;
+        let left_out = self.left_out(index, koma).filter(|_| freed >= self.least(index));
         if let Some((at, drawing)) = left_out {
-            self.come_back(cell, at, Cell { drawing, koma: freed, asked: None });
-        } else if self.next_kept(cell) > cell + 1 {
-            self.cells[cell + 1].koma += freed;
+            self.come_back(index, at, OnScreen { drawing, koma: freed, asked: None });
+        } else if self.next_kept(index) > index + 1 {
+            self.drawings[index + 1].koma += freed;
         } else {
             return;
         }
-        self.cells[cell].koma = koma;
+        self.drawings[index].koma = koma;
     }
 
     /// Of the drawings that were left out after one the nearest in time to what its hold gives free, and which of
     /// them it is.
-    fn left_out(&self, cell: usize, koma: usize) -> Option<(usize, Drawing)> {
-        let begin: usize = self.cells[..cell].iter().map(|cell| cell.koma).sum();
+    fn left_out(&self, index: usize, koma: usize) -> Option<(usize, Drawing)> {
+        let begin: usize = self.drawings[..index].iter().map(|shown| shown.koma).sum();
         let (from, to) =
-            (self.place(cell), self.cells.get(cell + 1).map(|_| self.place(cell + 1))?);
+            (self.place(index), self.drawings.get(index + 1).map(|_| self.place(index + 1))?);
         let between = self.spaced.timed().filter(|(_, shown)| {
             let place = self.spaced.drawings[shown.drawing].source.place();
             from + SAME < place && place < to - SAME
@@ -186,23 +186,23 @@ impl<'a> Row<'a> {
     }
 
     /// Puts a drawing back behind another, and shares out what was said of those that were left out between.
-    fn come_back(&mut self, cell: usize, at: usize, mut back: Cell) {
-        let held = self.cells[cell].drawing.why.held_for;
-        let all = held + self.cells[cell + 1].drawing.why.omitted_before;
+    fn come_back(&mut self, index: usize, at: usize, mut back: OnScreen) {
+        let held = self.drawings[index].drawing.why.held_for;
+        let all = held + self.drawings[index + 1].drawing.why.omitted_before;
         let after = all.saturating_sub(at + 1);
         let held_after = held.saturating_sub(at + 1);
-        self.cells[cell].drawing.why.held_for = held.min(at);
+        self.drawings[index].drawing.why.held_for = held.min(at);
         back.drawing.why.omitted_before = at.saturating_sub(held);
         back.drawing.why.held_for = held_after;
-        self.cells[cell + 1].drawing.why.omitted_before = after - held_after;
-        self.cells.insert(cell + 1, back);
+        self.drawings[index + 1].drawing.why.omitted_before = after - held_after;
+        self.drawings.insert(index + 1, back);
     }
 
     fn into_layer(self, like: &Layer) -> Layer {
-        let koma = self.cells.iter().map(|cell| cell.koma);
+        let koma = self.drawings.iter().map(|shown| shown.koma);
         let exposures =
             koma.enumerate().map(|(drawing, koma)| Exposure { drawing, koma }).collect();
-        let drawings = self.cells.into_iter().map(|cell| cell.drawing).collect();
+        let drawings = self.drawings.into_iter().map(|shown| shown.drawing).collect();
         Layer { name: like.name.clone(), joints: like.joints.clone(), drawings, exposures }
     }
 }

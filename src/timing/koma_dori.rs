@@ -2,7 +2,7 @@
 //! Algorithm 2).
 
 use crate::timing::report::Shortfall;
-use crate::timing::strip::{Cell, Strip};
+use crate::timing::strip::{Link, Strip};
 use crate::timing::tournament::{OUT, Tournament};
 
 /// What the stage did.
@@ -20,31 +20,31 @@ pub(super) fn run(count: usize, strip: &mut Strip<'_>) -> Replaced {
     if count == 0 {
         return replaced;
     }
-    let mut smallest = Tournament::new(strip.cells.iter().map(smallness));
+    let mut smallest = Tournament::new(strip.links.iter().map(smallness));
     while replaced.gone.len() < count {
         let Some((drawing, _)) = smallest.best() else {
             replaced.shortfall = Some(why_not_more(strip, refused));
             break;
         };
         smallest.set(drawing, OUT);
-        let Cell { before, after, koma, .. } = strip.cells[drawing];
+        let Link { before, after, koma, .. } = strip.links[drawing];
         // For good: the one before only grows, and so does what stands before it.
-        if strip.cells[before].koma + koma > strip.bound {
+        if strip.links[before].koma + koma > strip.bound {
             refused = true;
             continue;
         }
-        strip.cells[before].koma += strip.remove(drawing);
-        strip.cells[before].held_for += 1;
+        strip.links[before].koma += strip.remove(drawing);
+        strip.links[before].held_for += 1;
         replaced.gone.push(drawing);
         smallest.set(before, OUT);
-        smallest.set(after, smallness(&strip.cells[after]));
+        smallest.set(after, smallness(&strip.links[after]));
     }
     replaced
 }
 
 /// `refused`: whether a hold would have grown too long.
 fn why_not_more(strip: &Strip<'_>, refused: bool) -> Shortfall {
-    match strip.cells.iter().any(|cell| cell.koma > 0 && !cell.kept) {
+    match strip.links.iter().any(|link| link.koma > 0 && !link.kept) {
         false => Shortfall::NoneLeft,
         true if refused => Shortfall::NoRoom,
         true => Shortfall::AllHolds,
@@ -53,7 +53,7 @@ fn why_not_more(strip: &Strip<'_>, refused: bool) -> Shortfall {
 
 /// SSD to the drawing before. Kept drawings stay, and replacing one that is itself held longer would
 /// only shift the hold.
-fn smallness(cell: &Cell) -> f64 {
-    let out = cell.kept || cell.koma == 0 || cell.given > 0 || cell.held_for > 0;
-    if out { OUT } else { cell.step }
+fn smallness(link: &Link) -> f64 {
+    let out = link.kept || link.koma == 0 || link.given > 0 || link.held_for > 0;
+    if out { OUT } else { link.step }
 }

@@ -76,14 +76,14 @@ struct Stage<'a, 'b> {
 
 impl<'a, 'b> Stage<'a, 'b> {
     fn new(rules: &'a NakaNashi, strip: &'a mut Strip<'b>) -> Self {
-        let count = strip.cells.len();
-        let live = |drawing: &usize| strip.cells[*drawing].koma > 0;
+        let count = strip.links.len();
+        let live = |drawing: &usize| strip.links[*drawing].koma > 0;
         let room = |range: &Range<usize>| {
             range.clone().filter(live).map(|drawing| strip.room(drawing)).sum()
         };
-        let speed = |drawing: usize| match &strip.cells[drawing] {
-            cell if cell.kept || cell.koma == 0 => OUT,
-            cell => -cell.step,
+        let speed = |drawing: usize| match &strip.links[drawing] {
+            link if link.kept || link.koma == 0 => OUT,
+            link => -link.step,
         };
         let slowness = |drawing| if live(&drawing) { slowness(strip, drawing) } else { OUT };
         Self {
@@ -122,7 +122,7 @@ impl<'a, 'b> Stage<'a, 'b> {
             self.fastest.set(drawing, OUT);
             return;
         }
-        let interval = self.strip.cells[drawing].interval;
+        let interval = self.strip.links[drawing].interval;
         let freed = if self.stays(drawing) { self.shorten(drawing) } else { self.omit(drawing) };
         self.taken.done += 1;
         if self.rules.keep_length {
@@ -135,28 +135,28 @@ impl<'a, 'b> Stage<'a, 'b> {
 
     /// Whether a drawing only loses a koma.
     fn stays(&self, drawing: usize) -> bool {
-        self.strip.by_koma && self.strip.cells[drawing].koma > 1
+        self.strip.by_koma && self.strip.links[drawing].koma > 1
     }
 
     /// Whether the koma that a drawing sets free find room in its interval.
     fn fits(&self, drawing: usize) -> bool {
-        let cell = &self.strip.cells[drawing];
-        let others = self.room[cell.interval] - self.strip.room(drawing);
+        let link = &self.strip.links[drawing];
+        let others = self.room[link.interval] - self.strip.room(drawing);
         let (freed, own) = if self.stays(drawing) {
-            (1, self.strip.room_of(cell.given, cell.koma - 1))
+            (1, self.strip.room_of(link.given, link.koma - 1))
         } else {
-            (cell.koma, 0)
+            (link.koma, 0)
         };
-        others + own >= self.owed[cell.interval] + freed
+        others + own >= self.owed[link.interval] + freed
     }
 
     /// Takes one koma from a drawing, as Algorithm 1 does with the first of several equal frames.
     fn shorten(&mut self, drawing: usize) -> usize {
         let before = self.strip.room(drawing);
-        let cell = &mut self.strip.cells[drawing];
-        cell.koma -= 1;
-        cell.taken += 1;
-        let interval = cell.interval;
+        let link = &mut self.strip.links[drawing];
+        link.koma -= 1;
+        link.taken += 1;
+        let interval = link.interval;
         self.room[interval] = self.room[interval] - before + self.strip.room(drawing);
         self.slowest.set(drawing, slowness(self.strip, drawing));
         if self.rules.all_at_once {
@@ -167,16 +167,16 @@ impl<'a, 'b> Stage<'a, 'b> {
 
     /// Takes a whole drawing out.
     fn omit(&mut self, drawing: usize) -> usize {
-        let cell = &self.strip.cells[drawing];
-        let (before, after) = (cell.before, cell.after);
-        self.room[cell.interval] -= self.strip.room(drawing);
+        let link = &self.strip.links[drawing];
+        let (before, after) = (link.before, link.after);
+        self.room[link.interval] -= self.strip.room(drawing);
         let freed = self.strip.remove(drawing);
-        self.strip.cells[after].omitted_before += 1;
+        self.strip.links[after].omitted_before += 1;
         self.taken.gone.push(drawing);
         self.fastest.set(drawing, OUT);
         self.slowest.set(drawing, OUT);
         self.slowest.set(before, slowness(self.strip, before));
-        let next = &self.strip.cells[after];
+        let next = &self.strip.links[after];
         if !(self.rules.all_at_once || next.kept || self.barred[after]) {
             self.fastest.set(after, -next.step);
         }
@@ -188,9 +188,9 @@ impl<'a, 'b> Stage<'a, 'b> {
         while self.owed[interval] > 0 {
             let slowest = self.slowest.best_in(self.strip.intervals[interval].clone());
             let (drawing, _) = slowest.expect("what does not fit is not taken");
-            let cell = &mut self.strip.cells[drawing];
-            cell.koma += 1;
-            cell.given += 1;
+            let link = &mut self.strip.links[drawing];
+            link.koma += 1;
+            link.given += 1;
             self.room[interval] -= 1;
             self.owed[interval] -= 1;
             self.taken.given += 1;
@@ -206,14 +206,14 @@ impl<'a, 'b> Stage<'a, 'b> {
 
 /// SSD to the drawing after, by which the next koma is given; out when it can take none.
 fn slowness(strip: &Strip<'_>, drawing: usize) -> f64 {
-    let cell = &strip.cells[drawing];
+    let link = &strip.links[drawing];
     if strip.room(drawing) == 0 {
         return OUT;
     }
-    match strip.cells.get(cell.after) {
+    match strip.links.get(link.after) {
         None => OUT,
         // Koma by koma the frame after a held one is its own copy.
-        Some(_) if strip.by_koma && cell.koma > 1 => 0.0,
+        Some(_) if strip.by_koma && link.koma > 1 => 0.0,
         Some(next) => next.step,
     }
 }

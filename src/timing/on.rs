@@ -5,9 +5,8 @@ use std::cell::OnceCell;
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
-
 use crate::keys::Reference;
+use crate::knob::{Kind, Setting, as_word, by_word};
 
 /// Koma between two drawings beyond which nobody spaces.
 const MOST: usize = 1000;
@@ -17,8 +16,7 @@ pub(super) const STAY: usize = 2;
 
 /// A drawing every so many koma: `2` is on twos everywhere, `1-3` on ones to threes (1〜3コマ打ち), as the
 /// motion of each interval asks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "OnText", into = "OnText")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct On {
     /// The fewest koma, where the body is fast; 1 to 1000.
     pub least: usize,
@@ -131,30 +129,12 @@ impl FromStr for On {
     }
 }
 
-/// What a recipe file may write: `2` or `"1-3"`.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged)]
-enum OnText {
-    Every(usize),
-    Text(String),
+impl Setting for On {
+    const KIND: Kind = Kind::On;
+    as_word!();
 }
 
-impl TryFrom<OnText> for On {
-    type Error = String;
-
-    fn try_from(text: OnText) -> Result<Self, String> {
-        match text {
-            OnText::Every(koma) => koma.to_string().parse(),
-            OnText::Text(text) => text.parse(),
-        }
-    }
-}
-
-impl From<On> for OnText {
-    fn from(on: On) -> Self {
-        if on.is_fixed() { Self::Every(on.least) } else { Self::Text(on.to_string()) }
-    }
-}
+by_word!(On, or_number);
 
 #[cfg(test)]
 mod tests {

@@ -14,14 +14,14 @@ use self::rests::Rests;
 use self::station::{Station, stations};
 use crate::error::Error;
 use crate::keys::LayerKeys;
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::Skeleton;
 use crate::sheet::{Drawing, Exposure, Layer};
 use crate::time::{Clock, Frame};
 use crate::timing::on::{On, Pace, STAY};
 
 /// What an inbetween shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InbetweenSource {
     /// The source at the inbetween's place: the performer's own arc.
     #[default]
@@ -30,8 +30,7 @@ pub enum InbetweenSource {
     Blend,
 }
 
-/// Drawings between two keys beyond which nobody spaces.
-const MOST: usize = 1000;
+choices!(InbetweenSource { Sample: "sample", Blend: "blend" });
 
 /// Puts inbetweens (中割り) between keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -94,32 +93,72 @@ pub struct Pull {
     pub weight: f64,
 }
 
+knobs!(spacing::Spacing {
+    on: knob(
+        "何コマ打ち",
+        "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes. 1-3 chooses for each \
+         interval: fast on ones, slow on threes (打ち分け).",
+        "何コマごとに絵を置くか。1は1コマ打ち、2は2コマ打ち、3は3コマ打ち。1-3 \
+         は区間ごとに選び、速いところは1コマ、遅いところは3コマ（打ち分け）。",
+    )
+    .unit("koma, 1 (ones) to 1000, or the fewest and the most (\"1-3\")"),
+    step: knob(
+        "一枚で動く量",
+        "Where spacing.on is a range: how far the body may go from one drawing to the next. More \
+         puts more of the motion on threes.",
+        "spacing.on が範囲のとき、次の絵までに体が動いてよい量。大きいほど3コマ打ちが増える。",
+    )
+    .unit("% of body height")
+    .above(0.0)
+    .slider(0.1, 50.0),
+    drift: knob(
+        "止めのずれ",
+        "How far the body may be from the drawing that a rest holds; further on, an inbetween \
+         stands there. 0 has inbetweens in rests as everywhere. More loses small gestures.",
+        "止めのあいだ、体が今の絵からどこまで離れてよいか。それより離れたところには中割りを置く。\
+         0なら止めの中にも普段どおり中割りを置く。大きいほど小さな芝居が消える。",
+    )
+    .unit("% of body height")
+    .slider(0.0, 20.0),
+    inbetweens: knob(
+        "中割り枚数",
+        "A fixed number of inbetweens between two keys instead.",
+        "コマ打ちの代わりに、原画のあいだの中割りを決まった枚数にする。",
+    )
+    .unit("drawings")
+    .at_most(1000.0)
+    .slider(0.0, 12.0),
+    weight: knob(
+        "詰めの重み",
+        "How far inbetweens crowd towards their key (spacing, 詰め). More makes the middle of a \
+         movement snap.",
+        "中割りを近い原画にどれだけ寄せるか（詰め）。大きいほど動きの真ん中が飛び、\
+         メリハリが出る。",
+    )
+    .unit("weight (0 is even)")
+    .below(1.0)
+    .slider(0.0, 0.95),
+    max_shift: knob(
+        "詰めの上限",
+        "How far an inbetween may be taken from its own time.",
+        "中割りを本来の時刻からどれだけずらしてよいか。",
+    )
+    .unit("koma")
+    .slider(0.0, 6.0),
+    source: knob(
+        "中割りの元",
+        "What an inbetween shows: the performer's own arc, or a blend of the two keys alone.",
+        "中割りに何を描くか。演者の実際の軌道 (sample) か、前後の原画だけを混ぜたもの (blend) か。",
+    ),
+});
+
 impl Spacing {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if !self.on.is_spacing() {
-            let message = "must be 1 (ones) to 1000 koma, or the fewest and the most, as 1-3";
-            return Err(Error::setting("spacing.on", message));
-        }
-        if !(self.step > 0.0 && self.step.is_finite()) {
-            return Err(Error::setting("spacing.step", "must be above 0, in % of body height"));
-        }
-        if !(self.drift >= 0.0 && self.drift.is_finite()) {
-            return Err(Error::setting("spacing.drift", "must be 0 or more, in % of body height"));
-        }
-        if self.inbetweens.is_some_and(|count| count > MOST) {
-            return Err(Error::setting("spacing.inbetweens", "must be 1000 at the most, or none"));
-        }
-        if !(0.0..1.0).contains(&self.weight) {
-            return Err(Error::setting("spacing.weight", "must be at least 0 (even) and below 1"));
-        }
-        if !(self.max_shift >= 0.0 && self.max_shift.is_finite()) {
-            return Err(Error::setting("spacing.max_shift", "must be 0 koma or more"));
-        }
-        Ok(())
+        self.check()
     }
 
     /// Places the keys of a layer and the inbetweens between them on a sheet of `koma` koma.

@@ -4,14 +4,13 @@ use std::array;
 
 use glam::DVec3;
 
-use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
+use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Clip, Screen};
-use crate::sheet::{Layer, Source};
+use crate::sheet::Layer;
 
-/// Sums kept side by side, so that a distance is computed several coordinates at a time.
-const WIDE: usize = 8;
+/// Coordinates side by side, so that a distance is computed several at a time.
+type Row = [Lanes; 2];
 
 /// Where the joints are in a layer's drawings (静止画), in the world or on a screen, in the file's unit:
 /// what the omission stages measure movement by, over the whole body.
@@ -19,8 +18,8 @@ const WIDE: usize = 8;
 pub struct Stills {
     joints: usize,
     drawings: usize,
-    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows of [`WIDE`].
-    coordinates: Vec<[f64; WIDE]>,
+    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows.
+    coordinates: Vec<Row>,
 }
 
 impl Stills {
@@ -45,16 +44,19 @@ impl Stills {
     pub fn on(clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
         let mut stills = Self::new(clip.skeleton().len());
         stills.coordinates.reserve_exact(stills.width() * layer.drawings.len());
-        let mut sampler = Sampler::new(clip);
+        let mut poser = LanePoser::of(clip);
         for drawings in layer.drawings.chunks(LANES) {
             let last = drawings.len() - 1;
             let sources = array::from_fn(|lane| drawings[lane.min(last)].source);
             wide(
                 #[inline(always)]
-                || sampler.place(sources),
+                || {
+                    poser.drawings(sources);
+                    poser.stand();
+                },
             );
             for lane in 0..drawings.len() {
-                let places = sampler.pose.translations.iter().map(|place| place.lane(lane));
+                let places = poser.pose().translations.iter().map(|place| place.lane(lane));
                 stills.add(places.map(|place| screen.see(place)));
             }
         }
@@ -72,11 +74,10 @@ impl Stills {
 
     fn add(&mut self, positions: impl Iterator<Item = DVec3>) {
         let begin = self.coordinates.len();
-        self.coordinates.resize(begin + self.width(), [0.0; WIDE]);
-        let row = self.coordinates[begin..].as_flattened_mut();
-        for (xyz, position) in row.chunks_exact_mut(3).zip(positions) {
-            xyz.copy_from_slice(&position.to_array());
-        }
+        self.coordinates.resize(begin + self.width(), Row::default());
+        let values = self.coordinates[begin..].iter_mut().flatten().flat_map(|lanes| &mut lanes.0);
+        let coordinates = positions.flat_map(|position| position.to_array());
+        values.zip(coordinates).for_each(|(value, coordinate)| *value = coordinate);
         self.drawings += 1;
     }
 
@@ -96,14 +97,14 @@ impl Stills {
     /// # Panics
     /// When there is no such drawing.
     pub fn ssd(&self, a: usize, b: usize) -> f64 {
-        let mut sums = [0.0; WIDE];
+        let mut sums = Row::default();
         for (a, b) in self.row(a).iter().zip(self.row(b)) {
-            for lane in 0..WIDE {
-                let apart = a[lane] - b[lane];
-                sums[lane] += apart * apart;
+            for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+                let apart = *a - *b;
+                *sum = *sum + apart * apart;
             }
         }
-        sums.iter().sum()
+        sums.iter().flat_map(|sum| sum.0).sum()
     }
 
     /// Where a joint stands in a drawing, in the file's unit.
@@ -112,51 +113,17 @@ impl Stills {
     /// When there is no such drawing or joint.
     pub fn position(&self, drawing: usize, joint: usize) -> DVec3 {
         assert!(joint < self.joints, "there is such a joint");
-        DVec3::from_slice(&self.row(drawing).as_flattened()[3 * joint..])
+        let of = |at: usize| self.row(drawing)[at / (2 * LANES)][at / LANES % 2].0[at % LANES];
+        DVec3::from_array([0, 1, 2].map(|axis| of(3 * joint + axis)))
     }
 
     fn width(&self) -> usize {
-        (3 * self.joints).div_ceil(WIDE)
+        (3 * self.joints).div_ceil(2 * LANES)
     }
 
-    fn row(&self, drawing: usize) -> &[[f64; WIDE]] {
+    fn row(&self, drawing: usize) -> &[Row] {
         let width = self.width();
         &self.coordinates[drawing * width..(drawing + 1) * width]
-    }
-}
-
-/// Buffers that turn sources into world positions, several at a time.
-struct Sampler<'a> {
-    clip: &'a Clip,
-    rig: Rig,
-    pose: LanePose,
-    from: LanePose,
-    to: LanePose,
-}
-
-impl<'a> Sampler<'a> {
-    fn new(clip: &'a Clip) -> Self {
-        let rest = LanePose::rest(clip.skeleton());
-        let rig = Rig::of(clip.skeleton());
-        Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
-    }
-
-    #[inline(always)]
-    fn place(&mut self, sources: [Source; LANES]) {
-        let Self { clip, rig, pose, from, to } = self;
-        if sources.iter().all(|source| matches!(source, Source::At(_))) {
-            pose.take_places(clip, rig, sources.map(Source::place));
-        } else {
-            // What is no blend is one of a pose with itself.
-            let blends = sources.map(|source| match source {
-                Source::At(place) => (place, place, 0.0),
-                Source::Between { from, to, share } => (from, to, share),
-            });
-            from.take_places(clip, rig, blends.map(|blend| blend.0));
-            to.take_places(clip, rig, blends.map(|blend| blend.1));
-            pose.take_blends(from, to, Lanes(blends.map(|blend| blend.2)));
-        }
-        pose.place(rig);
     }
 }
 
@@ -164,7 +131,7 @@ impl<'a> Sampler<'a> {
 mod tests {
     use super::*;
     use crate::motion::{Axis, Channel, Joint, JointId, Skeleton};
-    use crate::sheet::{Drawing, Role, Why};
+    use crate::sheet::{Drawing, Role, Source, Why};
     use crate::time::{Frame, FrameRate};
 
     /// A root that walks along x and an arm of length 1 that turns about z.

@@ -11,7 +11,7 @@ pub(super) const MOST_LENGTHENINGS: usize = 3;
 
 /// A drawing while drawings are left out round it. Indices are those of the layer that came in.
 #[derive(Debug, Clone)]
-pub(super) struct Cell {
+pub(super) struct Link {
     /// The drawing before it; itself for the first.
     pub(super) before: usize,
     /// The drawing after it; the number of drawings for the last.
@@ -37,7 +37,7 @@ pub(super) struct Cell {
 /// A layer as a linked list of drawings, with the distance between neighbours.
 pub(super) struct Strip<'a> {
     pub(super) stills: &'a Stills,
-    pub(super) cells: Vec<Cell>,
+    pub(super) links: Vec<Link>,
     /// A kept drawing and the inbetweens up to the next kept one, as index ranges.
     pub(super) intervals: Vec<Range<usize>>,
     /// Koma an exposure may grow to.
@@ -62,7 +62,7 @@ impl<'a> Strip<'a> {
     ) -> Result<Self, Error> {
         check(layer, stills)?;
         let count = layer.drawings.len();
-        let mut cells: Vec<Cell> = Vec::with_capacity(count);
+        let mut links: Vec<Link> = Vec::with_capacity(count);
         let mut intervals: Vec<Range<usize>> = Vec::new();
         for (index, (drawing, exposure)) in layer.drawings.iter().zip(&layer.exposures).enumerate()
         {
@@ -74,7 +74,7 @@ impl<'a> Strip<'a> {
             let interval = intervals.len() - 1;
             intervals[interval].end = index + 1;
             let before = index.saturating_sub(1);
-            cells.push(Cell {
+            links.push(Link {
                 before,
                 after: index + 1,
                 koma: exposure.koma,
@@ -88,12 +88,12 @@ impl<'a> Strip<'a> {
             });
         }
         let by_koma = on == 1 && intervals.len() <= 2;
-        Ok(Self { stills, cells, intervals, bound, by_koma, drawings: count })
+        Ok(Self { stills, links, intervals, bound, by_koma, drawings: count })
     }
 
     /// Koma that naka-nashi may still give to a drawing.
     pub(super) fn room(&self, drawing: usize) -> usize {
-        let Cell { given, koma, .. } = self.cells[drawing];
+        let Link { given, koma, .. } = self.links[drawing];
         self.room_of(given, koma)
     }
 
@@ -109,15 +109,15 @@ impl<'a> Strip<'a> {
 
     /// Takes an inbetween out of the list and gives its koma; its neighbours are measured anew.
     pub(super) fn remove(&mut self, drawing: usize) -> usize {
-        let Cell { before, after, omitted_before, .. } = self.cells[drawing];
-        self.cells[before].after = after;
+        let Link { before, after, omitted_before, .. } = self.links[drawing];
+        self.links[before].after = after;
         let step = self.stills.ssd(before, after);
-        let next = &mut self.cells[after];
+        let next = &mut self.links[after];
         next.before = before;
         next.step = step;
         next.omitted_before += omitted_before;
         self.drawings -= 1;
-        std::mem::take(&mut self.cells[drawing].koma)
+        std::mem::take(&mut self.links[drawing].koma)
     }
 
     /// The layer that is left, its drawings numbered anew.
@@ -128,22 +128,22 @@ impl<'a> Strip<'a> {
             drawings: Vec::with_capacity(self.drawings),
             exposures: Vec::with_capacity(self.drawings),
         };
-        for (cell, drawing) in self.cells.iter().zip(&layer.drawings) {
-            if cell.koma > 0 {
+        for (link, drawing) in self.links.iter().zip(&layer.drawings) {
+            if link.koma > 0 {
                 let drawing_index = left.drawings.len();
-                left.exposures.push(Exposure { drawing: drawing_index, koma: cell.koma });
-                left.drawings.push(with_reasons(drawing, cell));
+                left.exposures.push(Exposure { drawing: drawing_index, koma: link.koma });
+                left.drawings.push(with_reasons(drawing, link));
             }
         }
         left
     }
 }
 
-fn with_reasons(drawing: &Drawing, cell: &Cell) -> Drawing {
+fn with_reasons(drawing: &Drawing, link: &Link) -> Drawing {
     let mut drawing = drawing.clone();
-    drawing.why.lengthened += cell.given.saturating_sub(cell.taken);
-    drawing.why.omitted_before += cell.omitted_before;
-    drawing.why.held_for += cell.held_for;
+    drawing.why.lengthened += link.given.saturating_sub(link.taken);
+    drawing.why.omitted_before += link.omitted_before;
+    drawing.why.held_for += link.held_for;
     drawing
 }
 

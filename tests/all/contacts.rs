@@ -42,7 +42,7 @@ fn where_a_foot_comes_down_or_leaves_is_a_key_if_it_is_to_be() {
     assert!(!ends.is_empty());
     let mut engine = Engine::new(clip.clone()).unwrap();
     let made = engine.run(&recipe(&on_ones), &Edits::default()).unwrap();
-    let keys = &made.keys.keys;
+    let keys = &made.first_layer().keys.keys;
     for end in &ends {
         assert!(is_near(&clip, *end, keys.iter().map(|key| key.frame)), "{end}");
     }
@@ -57,7 +57,10 @@ fn where_a_foot_comes_down_or_leaves_is_a_key_if_it_is_to_be() {
     assert_eq!(said, own.iter().map(|frame| frame.0 as f64).collect::<Vec<_>>());
     let edits = Edits { forbidden: vec![own[0].to_string().parse().unwrap()], ..Edits::default() };
     let made = engine.run(&recipe(&on_ones), &edits).unwrap();
-    assert!(!is_near(&clip, own[0], made.keys.keys.iter().map(|key| key.frame)), "forbidden");
+    assert!(
+        !is_near(&clip, own[0], made.first_layer().keys.keys.iter().map(|key| key.frame)),
+        "forbidden"
+    );
 }
 
 #[test]
@@ -68,7 +71,8 @@ fn as_candidates_contacts_count_where_joints_name_the_moments_and_nowhere_else()
     let mut candidates = |merge: &str, contacts: &str| {
         let recipe = recipe(&[("keys.merge", merge), ("keys.contacts", contacts)]);
         let made = engine.run(&recipe, &Edits::default()).unwrap();
-        let frames: Vec<Frame> = made.candidates.keys.iter().map(|found| found.frame).collect();
+        let frames: Vec<Frame> =
+            made.first_layer().candidates.keys.iter().map(|found| found.frame).collect();
         (frames, made.sheet.clone())
     };
     assert_eq!(candidates("body", "off"), candidates("body", "candidates"));

@@ -1,4 +1,4 @@
-//! The page of the method states the default of every setting, once and as the program has it.
+//! The page of the method states default, words and range of every setting, once and as the program has it.
 
 use std::fs;
 
@@ -26,6 +26,16 @@ fn mistakes(page: &str) -> Vec<String> {
         if let Kind::Choice(words) = knob.kind {
             let missing = words.iter().filter(|word| !takes.contains(&format!("`{word}`")));
             found.extend(missing.map(|word| format!("{name}: the page does not name {word}")));
+        }
+        let range = knob.range.to_string();
+        let is_said = match knob.kind {
+            Kind::Number { .. } => takes.contains(&range),
+            // A span is 0 or more where nothing else is said.
+            Kind::Span => takes.contains(&range) || range == "0 or more",
+            _ => true,
+        };
+        if !is_said {
+            found.push(format!("{name}: the page does not say {range}"));
         }
     }
     for knob in KNOBS {
@@ -94,4 +104,7 @@ fn a_default_that_is_wrong_missing_doubled_or_of_nothing_is_found() {
     let side = line("turns.side");
     let found = mistakes(&page.replacen(&side, &side.replacen("`both`", "", 1), 1));
     assert_eq!(found, ["turns.side: the page does not name both"]);
+    let rate = line("rate");
+    let found = mistakes(&page.replacen(&rate, &rate.replacen("1000", "60", 1), 1));
+    assert_eq!(found, ["rate: the page does not say 2 to 1000"]);
 }

@@ -16,6 +16,7 @@ mod known_keys; // clips made from known keys give them back
 #[cfg(feature = "cli")]
 mod layers; // layers with timing of their own, and a root on ones
 mod lead_ins; // the same lead-in in every dialect and at every rate
+mod licences; // what genga is built of may be handed on
 mod lies; // files that say what is not so end fast
 mod links; // links between the pages of the documentation
 mod lying_files; // how such files are made

@@ -435,7 +435,6 @@ fn what_cannot_be_done_is_code_1_and_what_is_asked_wrongly_is_code_2() {
         "keys none.bvh",
         "keys empty.bvh",
         "keys picture.bvh",
-        "inspect .",
         "omit data/kick.bvh --out none/o.bvh",
         "study data/kick.bvh --plot none/s.svg",
         "run data/kick.bvh --out empty.bvh",
@@ -463,6 +462,7 @@ fn what_cannot_be_done_is_code_1_and_what_is_asked_wrongly_is_code_2() {
         "study data/kick.bvh --filter blur",
         "study data/kick.bvh --persistence -3",
         "dance data/kick.bvh",
+        "inspect .",
         "completions tcl",
         "",
     ] {
@@ -1075,7 +1075,7 @@ fn tables_begin_with_a_mark_where_that_is_asked_for() {
     assert!(
         place
             .refused(2, "run data/kick.bvh --with csv.bom=1 --out c")
-            .contains("csv.bom: cannot be \"1\"")
+            .contains("csv.bom: expected true | false, found \"1\"")
     );
 }
 
@@ -1118,4 +1118,42 @@ fn the_motion_for_mmd_says_which_joints_it_leaves_out_and_takes_a_table_of_bones
     fs::write(place.path("bones.toml"), "[bones]\n\"左うで\" = \"A\"\n").unwrap();
     let said = place.refused(2, again);
     assert!(said.contains("--bones: ") && said.contains("2:1: there is no bone 左うで"), "{said}");
+}
+
+#[test]
+fn a_command_line_that_was_not_understood_says_what_to_type() {
+    let place = Place::new();
+    fs::copy(here("data/kick.bvh"), place.path("kick.bvh")).unwrap();
+    fs::copy(here("data/kick.bvh"), place.path("more.bvh")).unwrap();
+    fs::create_dir(place.path("takes")).unwrap();
+    fs::copy(here("data/kick.bvh"), place.path("takes/first.bvh")).unwrap();
+    fs::create_dir(place.path("empty")).unwrap();
+    for (args, say) in [
+        ("kick.bvh", "genga run kick.bvh"),
+        ("kick.bvh --keys 8", "genga run kick.bvh"),
+        ("takes", "genga run takes/first.bvh"),
+        ("rnu kick.bvh", "did you mean run or recipe?"),
+        ("inspct kick.bvh", "'inspect'"),
+        ("run kick.bvh more.bvh", "one clip at a time"),
+        ("keys kick.bvh more.bvh", "one clip at a time"),
+        ("run takes", "such as takes/first.bvh"),
+        ("inspect takes", "such as takes/first.bvh"),
+        ("run empty", "a folder without a BVH file"),
+    ] {
+        let output = place.genga(args);
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{args}: {errors}");
+        assert!(errors.contains(say), "genga {args} says:\n{errors}");
+    }
+}
+
+#[test]
+fn a_study_says_where_its_files_are() {
+    let place = Place::new();
+    let args = "study data/kick.bvh --filter-width 10,20 --persistence 5 --out table.csv --plot curves.svg";
+    let said = text(&place.genga(args).stderr);
+    assert!(said.contains("files       curves.svg table.csv"), "{said}");
+    let said =
+        text(&place.genga("study data/kick.bvh --filter-width 10,20 --persistence 5").stderr);
+    assert!(!said.contains("files"), "what goes to stdout is seen: {said}");
 }

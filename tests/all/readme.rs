@@ -162,7 +162,10 @@ fn answered(block: &Block, place: &Path) -> Result<String, String> {
 
 /// The page with everything as the program says it now.
 fn made(page: &str) -> Result<String, String> {
-    let place = place();
+    made_in(place().path(), page)
+}
+
+fn made_in(place: &Path, page: &str) -> Result<String, String> {
     let mut text = String::new();
     for piece in pieces(page) {
         let block = match piece {
@@ -174,11 +177,11 @@ fn made(page: &str) -> Result<String, String> {
         };
         let mut body = block.lines.iter().map(|line| format!("{line}\n")).collect::<String>();
         match (block.file, block.language) {
-            (Some(name), _) => fs::write(place.path().join(name), &body).unwrap(),
-            (None, "console") => body = answered(&block, place.path())?,
+            (Some(name), _) => fs::write(place.join(name), &body).unwrap(),
+            (None, "console") => body = answered(&block, place)?,
             (None, "sh") => {
                 for line in &block.lines {
-                    said(&bare(line), place.path())?;
+                    said(&bare(line), place)?;
                 }
             }
             (None, "rust") => are_of_the_test(&block)?,
@@ -247,6 +250,41 @@ fn the_readme_begins_with_the_main_job_and_the_tests() {
 fn the_readme_has_at_most_150_lines() {
     for name in PAGES[0] {
         assert!(page(name).lines().count() <= 150, "{name}");
+    }
+}
+
+#[test]
+fn the_pictures_of_the_readme_are_in_the_package() {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["package", "--list", "--allow-dirty", "--offline"]).current_dir(here(""));
+    let output = cargo.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let files = String::from_utf8(output.stdout).unwrap();
+    for name in PAGES[0] {
+        let page = page(name);
+        let after = page.split("![").skip(1).filter_map(|rest| rest.split_once("]("));
+        let pictures: Vec<_> =
+            after.filter_map(|(_, rest)| rest.split_once(')')).map(|(path, _)| path).collect();
+        assert!(!pictures.is_empty(), "{name}");
+        for picture in pictures {
+            assert!(files.lines().any(|file| file == picture), "{name} shows {picture}");
+        }
+    }
+}
+
+#[test]
+fn what_the_readme_writes_is_no_part_of_the_repository() {
+    let ignored = fs::read_to_string(here(".gitignore")).unwrap();
+    let endings: Vec<_> = ignored.lines().filter_map(|line| line.strip_prefix('*')).collect();
+    for name in PAGES[0] {
+        let place = place();
+        made_in(place.path(), &page(name)).unwrap();
+        let entries = fs::read_dir(place.path()).unwrap().map(|entry| entry.unwrap());
+        for entry in entries.filter(|entry| entry.file_name() != "data") {
+            let mut written = entry.file_name().to_string_lossy().into_owned();
+            written += if entry.path().is_dir() { "/" } else { "" };
+            assert!(endings.iter().any(|end| written.ends_with(end)), "{name} writes {written}");
+        }
     }
 }
 

@@ -29,7 +29,8 @@ fn each(look: impl Fn(&str, &Clip, &Breakdown)) {
 /// the body rests there.
 fn moving(breakdown: &Breakdown<'_>) -> (f64, Vec<(usize, bool)>) {
     let koma = |frame: &Frame| breakdown.clock.koma_from_place(frame.0 as f64);
-    let rests = breakdown.keys.rests.iter().map(|rest| koma(rest.start())..koma(rest.end()));
+    let rests =
+        breakdown.first_layer().keys.rests.iter().map(|rest| koma(rest.start())..koma(rest.end()));
     let rests: Vec<_> = rests.collect();
     let is_still = |koma: usize| rests.iter().any(|rest| rest.contains(&koma));
     let layer = &breakdown.sheet.layers[0];
@@ -98,8 +99,13 @@ fn source_places_run_forward_and_none_lies_in_the_lead_in() {
             assert!(places.is_sorted_by(|a, b| a < b), "{name}: {places:?}");
             assert_eq!(places[0], first, "{name}");
         }
-        let gone =
-            breakdown.omission.naka_nashi.gone.iter().chain(&breakdown.omission.koma_dori.gone);
+        let gone = breakdown
+            .first_layer()
+            .omission
+            .naka_nashi
+            .gone
+            .iter()
+            .chain(&breakdown.first_layer().omission.koma_dori.gone);
         for gone in gone {
             assert!(gone.place > first, "{name}: {gone:?}");
         }

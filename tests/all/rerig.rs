@@ -2,7 +2,7 @@
 
 use genga::edits::Edits;
 use genga::motion::{
-    Axis, Body, Channel, Clip, EndSite, Joint, Pose, Skeleton, bvh, local_rotation,
+    Axis, Body, Channel, Clip, EndSite, Joint, Poser, Skeleton, bvh, local_rotation,
     local_translation,
 };
 use genga::pipeline::Engine;
@@ -132,13 +132,11 @@ fn angles(rotation: DQuat, order: [Axis; 3]) -> [f64; 3] {
 
 /// World positions of all joints in all frames.
 fn world(clip: &Clip) -> Vec<DVec3> {
-    let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
     let mut all = Vec::new();
-    let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
     for frame in clip.first().0..=clip.last().0 {
-        pose.take_frame(clip, Frame(frame));
-        body.place(&pose, &mut positions);
-        all.extend_from_slice(&positions);
+        body.place(poser.frame(Frame(frame)));
+        all.extend_from_slice(body.positions());
     }
     all
 }
@@ -185,7 +183,7 @@ fn gives_the_same_sheet(clip: &Clip, name: &str, recipe: &Recipe) {
     let sheet = |clip: &Clip| {
         let mut engine = Engine::new(clip.clone()).unwrap();
         let breakdown = engine.run(recipe, &Edits::default()).unwrap();
-        let keys: Vec<_> = breakdown.keys.keys.iter().map(|key| key.frame).collect();
+        let keys: Vec<_> = breakdown.first_layer().keys.keys.iter().map(|key| key.frame).collect();
         (keys, seen(clip, breakdown.spaced), seen(clip, breakdown.sheet))
     };
     let expected = sheet(clip);

@@ -113,7 +113,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     // A koma is a frame in this clip: no key that moved further is the same.
     assert!(numbers(&table, "largest_move").iter().all(|frames| *frames <= 1.0));
     let lines: Vec<&str> = said.lines().collect();
-    assert_eq!(lines.len(), 3, "{said}");
+    assert_eq!((lines.len(), lines[3]), (4, "files       h.svg"), "{said}");
     assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
     // The recipe's own 0.15 s are 3.6 frames here, so the cell of 4 and 2.

@@ -92,7 +92,7 @@ fn the_body_is_nowhere_further_off_than_asked_for() {
             // A turn is drawn on its own frame and leaves no room for a key on the koma beside it.
             assert!(left < 2 || most < 5.0, "{name}: {left} koma beyond {most}");
             assert_eq!(met.outcomes[0].shortfall.is_some(), left > 0, "{name}: {most}");
-            let found = engine.run(&met.recipe, &edits).unwrap().keys.keys.iter();
+            let found = engine.run(&met.recipe, &edits).unwrap().first_layer().keys.keys.iter();
             let found = found.filter(|key| key.origin.is_found()).count();
             assert!(found >= fewest, "{name}: {found} keys for {most} %, and {fewest} for more");
             fewest = found;
@@ -126,7 +126,7 @@ fn genga_go_before_anything_that_moves_is_held_for_eight_koma() {
             let met = met(engine, &[Target::DrawingsPerSecond(rate)]);
             let breakdown = engine.run(&met.recipe, &Edits::default()).unwrap();
             let koma = |frame: &Frame| breakdown.clock.koma_from_place(frame.0 as f64);
-            let rests = breakdown.keys.rests.iter();
+            let rests = breakdown.first_layer().keys.rests.iter();
             let rests: Vec<_> = rests.map(|rest| koma(rest.start())..koma(rest.end())).collect();
             let layer = &breakdown.sheet.layers[0];
             let rests_in = |begin: usize, past: usize| {
@@ -137,7 +137,7 @@ fn genga_go_before_anything_that_moves_is_held_for_eight_koma() {
             let longest = moving.map(|(_, shown)| shown.koma).max().unwrap_or(0);
             assert!(longest < 8, "{name}: {longest} koma at {rate} a second");
             let is_found = |key: &&Key| key.origin.is_found();
-            let found = breakdown.keys.keys.iter().filter(is_found).count();
+            let found = breakdown.first_layer().keys.keys.iter().filter(is_found).count();
             let (genga, drawings) = (layer.count(Role::Genga), layer.shown().count());
             let is_mixed = genga as f64 <= 0.75 * drawings as f64 + 1.0;
             assert!(is_mixed || found == 0, "{name}: {genga} of {drawings} at {rate} a second");

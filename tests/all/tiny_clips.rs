@@ -71,6 +71,7 @@ fn any_setting() -> impl Strategy<Value = (String, String)> {
             Kind::Band => ["0", "1", "100", "1e9", "5%", "100%"].map(String::from).to_vec(),
             Kind::Choice(words) => words.iter().map(|word| (*word).into()).collect(),
             Kind::Flag => vec!["true".into(), "false".into()],
+            Kind::Text => vec!["genga".into()],
         };
         (Just(knob.name.to_owned()), prop::sample::select(words))
     })
@@ -121,7 +122,7 @@ fn hand_over(breakdown: &Breakdown) {
     let report = Report::of(breakdown, vec![]);
     assert!(report.genga_per_second.is_finite() && report.drawings_per_second.is_finite());
     let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
-    let keys: Vec<Frame> = breakdown.keys.keys.iter().map(|key| key.frame).collect();
+    let keys: Vec<Frame> = breakdown.first_layer().keys.keys.iter().map(|key| key.frame).collect();
     let order: Vec<JointId> = (0..names.len()).map(JointId).collect();
     SpeedPlot::default().draw(&names, speed, filtered, turns, &keys, &order).unwrap();
     SheetPlot::default().draw(sheet, Some(spaced), None).unwrap();
@@ -194,8 +195,8 @@ fn one_two_and_three_frames_are_one_two_and_three_drawings() {
 fn a_body_that_does_not_move_has_no_genga_and_loses_nothing_to_naka_nashi() {
     let mut engine = Engine::new(clip(3, 100, 50.0, |_| 30.0)).unwrap();
     let breakdown = engine.run(&Recipe::default(), &Edits::default()).unwrap();
-    assert!(breakdown.keys.keys.is_empty());
-    assert_eq!(breakdown.omission.naka_nashi.done, 0);
+    assert!(breakdown.first_layer().keys.keys.is_empty());
+    assert_eq!(breakdown.first_layer().omission.naka_nashi.done, 0);
     assert_eq!(breakdown.sheet.layers[0].count(Role::Genga), 0);
     hand_over(&breakdown);
 }
@@ -209,8 +210,8 @@ fn far_too_much_asked_is_reported_and_not_done() {
     recipe.set("spacing.inbetweens", "500").unwrap();
     let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
     is_sensible(&breakdown, &recipe);
-    assert_eq!(breakdown.omission.shortfalls().count(), 2);
-    assert!(breakdown.did_not_fit > 0);
+    assert_eq!(breakdown.first_layer().omission.shortfalls().count(), 2);
+    assert!(breakdown.first_layer().did_not_fit > 0);
     assert!(breakdown.sheet.layers[0].longest_hold() <= 4);
 }
 

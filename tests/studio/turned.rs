@@ -35,8 +35,9 @@ fn a_slider_sets_its_knob_and_a_drag_is_one_step() {
 #[test]
 fn every_knob_has_a_control_of_its_name() {
     let mut table = Table::with_kick();
-    for section in ["Sheet", "Exaggeration", "Speed", "Turns of joints", "Actions"] {
-        table.harness.get_by_label(section).click();
+    for section in ["Sheet", "Exaggeration", "Turns of joints", "Actions", "For studies"] {
+        // The last of them stands below the window's edge by then.
+        table.harness.get_by_label(section).click_accesskit();
         table.harness.run();
     }
     for knob in KNOBS {

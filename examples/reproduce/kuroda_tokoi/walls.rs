@@ -63,10 +63,10 @@ fn told(clip: Clip) -> Outcome<Told> {
         let spacing = Spacing { weight, ..recipe.spacing.clone() };
         spacing.place(keys, &skeleton, breakdown.clock, koma, &Pace::default()).layer
     };
-    let without = LayerKeys { walls: Vec::new(), ..breakdown.keys.clone() };
+    let without = LayerKeys { walls: Vec::new(), ..breakdown.first_layer().keys.clone() };
     let even = layer(&without, 0.0);
     let nearer = layer(&without, recipe.spacing.weight);
-    let wall = layer(breakdown.keys, recipe.spacing.weight);
+    let wall = layer(breakdown.first_layer().keys, recipe.spacing.weight);
     let mut told = Told::default();
     for ((even, nearer), wall) in places(&even).zip(places(&nearer)).zip(places(&wall)) {
         if (nearer - even) * (wall - even) >= 0.0 {

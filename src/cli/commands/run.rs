@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::failure::Failure;
-use crate::cli::formats::{FormatArgs, Formats, Written, help};
+use crate::cli::formats::{FormatArgs, Formats, Written, help, long_help};
 use crate::cli::plan::{Plan, PlanArgs};
 use crate::cli::results::{ALWAYS, OWN, RECIPE, Results};
 use crate::cli::words::{Words, counted};
@@ -16,7 +16,7 @@ use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
 
 #[derive(Debug, Args)]
-#[command(after_help = help())]
+#[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct RunArgs {
     #[command(flatten)]
     plan: PlanArgs,
@@ -33,6 +33,9 @@ pub(super) struct RunArgs {
 /// A recipe that is used in its place and is not as genga writes it is somebody's text, with comments that
 /// the settings do not hold. A run after an edit is how a recipe is tuned, so it is kept and not refused.
 const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is";
+
+/// Actions after the first whose begins are said: a long take has hundreds.
+const ACTIONS: usize = 8;
 
 /// The same where the run has more than the file says.
 const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your own writing, and stays as it is: the \
@@ -178,12 +181,13 @@ fn of_body(words: &Words, report: &Report) {
         report.longest_hold
     ));
     if report.actions.len() > 1 {
-        let begins = report.actions[1..].iter().map(|action| action.from.to_string());
+        let later = report.actions[1..].iter().map(|action| action.from.to_string());
+        let more = if report.actions.len() > 1 + ACTIONS { " …, all in report.json" } else { "" };
         words.say(format_args!(
-            "actions     動作       {}, beginning with frames {} and {}",
+            "actions     動作       {}, beginning with frames {} and {}{more}",
             report.actions.len(),
             report.first_frame,
-            begins.collect::<Vec<_>>().join(" ")
+            later.take(ACTIONS).collect::<Vec<_>>().join(" ")
         ));
     }
     let omission = &report.omission;

@@ -143,6 +143,11 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     if let Some(plateaus) = plateaus {
         say_plateaus(words, &names, &grids, &plateaus);
     }
+    let files = targets().filter(|path| !paths::is_stream(path));
+    let files: Vec<String> = files.map(|path| path.display().to_string()).collect();
+    if !files.is_empty() {
+        words.say(format_args!("files       {}", files.join(" ")));
+    }
     Ok(())
 }
 

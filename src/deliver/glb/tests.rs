@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::deliver::limited_bvh;
 use crate::edits::Edits;
-use crate::motion::{Body, Channel, EndSite, Joint, JointId, Pose, Skeleton, bvh};
+use crate::motion::{Body, Channel, EndSite, Joint, JointId, Poser, Skeleton, bvh};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::sheet::{Drawing, Exposure, Role, Source};
@@ -56,13 +56,10 @@ fn chain(names: &[&str], frames: usize) -> (Clip, Sheet) {
 fn by_limited_bvh(clip: &Clip, sheet: &Sheet, glb: &Glb) -> Vec<Vec<DVec3>> {
     let limited = bvh::read(limited_bvh(clip, sheet).unwrap().as_bytes()).unwrap().clip;
     let space = glb.space(clip);
-    let mut pose = Pose::rest(clip.skeleton());
-    let mut body = Body::new(clip.skeleton());
+    let (mut poser, mut body) = (Poser::of(&limited), Body::new(clip.skeleton()));
     let koma = |koma| {
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
-        pose.take_frame(&limited, Frame(koma));
-        body.place(&pose, &mut positions);
-        positions.into_iter().map(|position| space.position(position)).collect()
+        body.place(poser.frame(Frame(koma)));
+        body.positions().iter().map(|position| space.position(*position)).collect()
     };
     (0..limited.len()).map(koma).collect()
 }

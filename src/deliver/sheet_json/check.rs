@@ -2,7 +2,7 @@
 
 use super::{MadeOf, SheetFile};
 use crate::error::{Error, nearest};
-use crate::recipe::KOMA_RATES;
+use crate::recipe::Knob;
 use crate::sheet::{Source, Why};
 
 impl SheetFile {
@@ -38,10 +38,9 @@ impl SheetFile {
 
 /// Whether a sheet can have so many koma a second.
 pub(super) fn koma_rate(rate: f64) -> Result<(), String> {
-    let (least, most) = (KOMA_RATES.start(), KOMA_RATES.end());
-    let wrong =
-        || format!("fps is {rate}; a sheet has {least} to {most} koma a second, 24 is usual");
-    KOMA_RATES.contains(&rate).then_some(()).ok_or_else(wrong)
+    let range = Knob::find("rate").expect("it is a setting").range;
+    let wrong = || format!("fps is {rate}; a sheet has {range} koma a second, 24 is usual");
+    range.contains(rate).then_some(()).ok_or_else(wrong)
 }
 
 /// Whether the clip has some joints.

@@ -5,7 +5,7 @@
 use glam::{DQuat, DVec3};
 
 use super::bones::{Model, Part};
-use super::source::Source;
+use super::capture::Capture;
 use super::stance::Stance;
 use crate::motion::{
     Body, Clip, Composite, CompositeRows, JointId, Pose, Stature, Unit, local_rotation,
@@ -30,7 +30,6 @@ pub(super) struct Retarget<'a> {
     row: Vec<f64>,
     pose: Pose,
     body: Body,
-    places: Vec<DVec3>,
     driven: Vec<Driven>,
     waist: Option<JointId>,
     /// Which bone moves, and from where it stands at rest, in the capture's unit after `up`.
@@ -52,7 +51,7 @@ impl<'a> Retarget<'a> {
     pub(super) fn new(
         composite: &'a Composite<'a>,
         model: &'a Model,
-        source: &Source<'_>,
+        capture: &Capture<'_>,
         stance: &Stance,
         leg: f64,
     ) -> Self {
@@ -62,9 +61,9 @@ impl<'a> Retarget<'a> {
             if model.bones[bone].part == Part::Center {
                 return None;
             }
-            Some(Driven { bone, joint: source.joint(bone)?, right: stance.right[bone]? })
+            Some(Driven { bone, joint: capture.joint(bone)?, right: stance.right[bone]? })
         };
-        let center = model.find("センター").filter(|bone| source.joint(*bone).is_some());
+        let center = model.find("センター").filter(|bone| capture.joint(*bone).is_some());
         Self {
             clip,
             model,
@@ -72,12 +71,11 @@ impl<'a> Retarget<'a> {
             row: vec![0.0; skeleton.channels()],
             pose: Pose::rest(skeleton),
             body: Body::new(skeleton),
-            places: vec![DVec3::ZERO; skeleton.len()],
             driven: (0..model.bones.len()).filter_map(driven).collect(),
-            waist: source.waist(),
-            center: center.map(|bone| (bone, standing(source, stance))),
+            waist: capture.waist(),
+            center: center.map(|bone| (bone, standing(capture, stance))),
             up: stance.up,
-            scale: source.leg().map_or_else(|| without_legs(clip), |own| leg / own),
+            scale: capture.leg().map_or_else(|| without_legs(clip), |own| leg / own),
         }
     }
 
@@ -103,9 +101,9 @@ impl<'a> Retarget<'a> {
             self.pose.rotations[index] = local_rotation(joint, &self.row);
             self.pose.translations[index] = local_translation(joint, &self.row);
         }
-        self.body.place(&self.pose, &mut self.places);
+        self.body.place(&self.pose);
         let center = self.center.zip(self.waist).map(|((_, stands), waist)| {
-            let moved = self.up * self.places[waist.0] - stands;
+            let moved = self.up * self.body.positions()[waist.0] - stands;
             Local { translation: self.scale * moved, rotation: DQuat::IDENTITY }
         });
         center.into_iter().chain(self.turned()).collect()
@@ -147,9 +145,9 @@ fn without_legs(clip: &Clip) -> f64 {
 ///
 /// The model's upper and lower body turn about the waist, so it is the waist that is followed and not the
 /// root of the pelvis: so the legs hang where they should when it tilts.
-fn standing(source: &Source<'_>, stance: &Stance) -> DVec3 {
-    let over_legs = source.waist_over_legs().map_or(0.0, |way| (stance.pelvis * way).y);
-    let leg = source.leg().unwrap_or(0.0);
-    let ankle = source.standing_ankle(stance.up).unwrap_or(0.0);
+fn standing(capture: &Capture<'_>, stance: &Stance) -> DVec3 {
+    let over_legs = capture.waist_over_legs().map_or(0.0, |way| (stance.pelvis * way).y);
+    let leg = capture.leg().unwrap_or(0.0);
+    let ankle = capture.standing_ankle(stance.up).unwrap_or(0.0);
     DVec3::new(0.0, over_legs + leg + ankle, 0.0)
 }

@@ -9,7 +9,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::bones::{Bone, Part, Side};
-use super::source::Source;
+use super::capture::Capture;
 
 /// Bones this near to an axis lie along it.
 const ALONG: f64 = 0.999;
@@ -30,29 +30,29 @@ pub(super) struct Stance {
 
 impl Stance {
     /// The stance of a capture for a model whose arms hang `arm_angle` radians below the horizontal.
-    pub(super) fn of(source: &Source<'_>, arm_angle: f64) -> Self {
-        let upright = upright_rest(source);
+    pub(super) fn of(capture: &Capture<'_>, arm_angle: f64) -> Self {
+        let upright = upright_rest(capture);
         // A rest that lies on its back in a Y-up file does not occur; one of a Z-up file does.
-        let file_up = upright.map_or_else(|| source.up(), |basis| basis.y_axis);
+        let file_up = upright.map_or_else(|| capture.up(), |basis| basis.y_axis);
         let up = DQuat::from_rotation_arc(file_up, DVec3::Y);
         let turns = match upright {
             Some(basis) => {
                 let turn = DQuat::from_mat3(&basis).inverse();
-                vec![Some(turn); source.model().bones.len()]
+                vec![Some(turn); capture.model().bones.len()]
             }
-            None => built(source, file_up),
+            None => built(capture, file_up),
         };
         // Facing is kept: only what is up is brought to +Y.
         let mut aligned: Vec<Option<DQuat>> = Vec::new();
-        for (index, bone) in source.model().bones.iter().enumerate() {
+        for (index, bone) in capture.model().bones.iter().enumerate() {
             let carried = bone.parent.and_then(|parent| aligned[parent]).unwrap_or_default();
-            aligned.push(Some(alignment(source, index, bone, turns[index], carried, arm_angle)));
+            aligned.push(Some(alignment(capture, index, bone, turns[index], carried, arm_angle)));
         }
         let right = |index: usize| {
-            source.joint(index)?;
+            capture.joint(index)?;
             Some(turns[index]?.inverse() * aligned[index]?)
         };
-        let pelvis = source.model().find("下半身").and_then(|bone| turns[bone]);
+        let pelvis = capture.model().find("下半身").and_then(|bone| turns[bone]);
         let right = (0..turns.len()).map(right).collect();
         Self { up, pelvis: pelvis.unwrap_or_default(), right }
     }
@@ -61,14 +61,14 @@ impl Stance {
 /// The rotation from the model's rest to the stance of a bone: limbs are brought to where the capture's
 /// point in the stance, by the shortest way from where their parent brings them.
 fn alignment(
-    source: &Source<'_>,
+    capture: &Capture<'_>,
     index: usize,
     bone: &Bone,
     turn: Option<DQuat>,
     carried: DQuat,
     arm_angle: f64,
 ) -> DQuat {
-    match (bone.part.rest_direction(arm_angle), turn, source.direction(index)) {
+    match (bone.part.rest_direction(arm_angle), turn, capture.direction(index)) {
         (None, ..) if bone.part == Part::Follows => carried,
         (None, ..) => DQuat::IDENTITY,
         (Some(rest), Some(turn), Some(own)) => {
@@ -80,12 +80,13 @@ fn alignment(
 }
 
 /// Left, up and forward of the rest as columns, when it is a body that stands.
-fn upright_rest(source: &Source<'_>) -> Option<DMat3> {
-    let left = source.rest_across("足").or_else(|| source.rest_across("腕"))?;
-    let up = source.rest_up()?;
-    let down = |side| source.rest_span(side, "足", "足首").or(source.rest_span(side, "足", "ひざ"));
+fn upright_rest(capture: &Capture<'_>) -> Option<DMat3> {
+    let left = capture.rest_across("足").or_else(|| capture.rest_across("腕"))?;
+    let up = capture.rest_up()?;
+    let down =
+        |side| capture.rest_span(side, "足", "足首").or(capture.rest_span(side, "足", "ひざ"));
     let legs_hang = Side::BOTH.iter().filter_map(|side| down(*side)).all(|leg| leg.dot(up) < -0.7);
-    let arm = |side: Side| source.rest_span(side, "腕", "手首");
+    let arm = |side: Side| capture.rest_span(side, "腕", "手首");
     let crosses = |side: &Side| arm(*side).is_some_and(|arm| side.sign() * arm.dot(left) < -0.3);
     if !legs_hang || left.dot(up).abs() > 0.3 || Side::BOTH.iter().any(crosses) {
         return None;
@@ -102,47 +103,47 @@ fn snapped(direction: DVec3) -> DVec3 {
 }
 
 /// The stance of a rest that is no body, built bone by bone.
-fn built(source: &Source<'_>, up: DVec3) -> Vec<Option<DQuat>> {
-    let model = source.model();
+fn built(capture: &Capture<'_>, up: DVec3) -> Vec<Option<DQuat>> {
+    let model = capture.model();
     let mut turns: Vec<Option<DQuat>> = vec![None; model.bones.len()];
     for (index, bone) in model.bones.iter().enumerate() {
         let parent = bone.parent.and_then(|parent| turns[parent]);
         turns[index] = match bone.part {
             Part::Center => None,
             Part::Follows => parent,
-            Part::Arm(side) | Part::Leg(side) if starts_limb(source, bone) => {
-                limb(source, index, bone.part, side, &turns)
+            Part::Arm(side) | Part::Leg(side) if starts_limb(capture, bone) => {
+                limb(capture, index, bone.part, side, &turns)
             }
             Part::Arm(_) | Part::Leg(_) => {
-                toward(source, index, bone.part.rest_direction(0.0), parent)
+                toward(capture, index, bone.part.rest_direction(0.0), parent)
             }
-            Part::Trunk => trunk(source, index, &bone.name, &turns, up),
+            Part::Trunk => trunk(capture, index, &bone.name, &turns, up),
         };
     }
     // Collar bones share the axes of the arm that hangs on them.
     for side in Side::BOTH {
         if let (Some(collar), Some(arm)) = (model.sided(side, "肩"), model.sided(side, "腕")) {
             let sideways = Part::Arm(side).rest_direction(0.0);
-            turns[collar] = toward(source, collar, sideways, turns[arm]);
+            turns[collar] = toward(capture, collar, sideways, turns[arm]);
         }
     }
     turns
 }
 
 /// Upper arm and thigh hang on the trunk, forearm and shin on a part of their limb.
-fn starts_limb(source: &Source<'_>, bone: &Bone) -> bool {
-    bone.parent.is_some_and(|parent| source.model().bones[parent].part != bone.part)
+fn starts_limb(capture: &Capture<'_>, bone: &Bone) -> bool {
+    bone.parent.is_some_and(|parent| capture.model().bones[parent].part != bone.part)
 }
 
 /// The turn of a bone that in the stance points to `target`: nearest to the one it goes on from.
 fn toward(
-    source: &Source<'_>,
+    capture: &Capture<'_>,
     index: usize,
     target: Option<DVec3>,
     from: Option<DQuat>,
 ) -> Option<DQuat> {
     let from = from?;
-    match (source.direction(index), target) {
+    match (capture.direction(index), target) {
         (Some(own), Some(target)) => {
             Some(DQuat::from_rotation_arc((from * own).normalize(), target) * from)
         }
@@ -152,48 +153,48 @@ fn toward(
 
 /// Pelvis and spine.
 fn trunk(
-    source: &Source<'_>,
+    capture: &Capture<'_>,
     index: usize,
     name: &str,
     turns: &[Option<DQuat>],
     up: DVec3,
 ) -> Option<DQuat> {
-    let model = source.model();
+    let model = capture.model();
     let turn_of = |name: &str| model.find(name).and_then(|bone| turns[bone]);
     match name {
         "下半身" => {
-            let left = source.rest_across("足")?;
-            Some(turn(source.spine_way()?, left, DVec3::Y, DVec3::X))
+            let left = capture.rest_across("足")?;
+            Some(turn(capture.spine_way()?, left, DVec3::Y, DVec3::X))
         }
         // The chest knows left from where the shoulders hang on it.
         "上半身" | "上半身2" | "首" | "頭" => {
-            let chest = chest(source, turns);
-            toward(source, index, Some(DVec3::Y), chest)
+            let chest = chest(capture, turns);
+            toward(capture, index, Some(DVec3::Y), chest)
         }
         _ => {
             let side = Side::BOTH.into_iter().find(|side| name.starts_with(side.word()))?;
             match name.strip_prefix(side.word())? {
-                "足首" => foot(source, index, side, up).or_else(|| turn_of("下半身")),
+                "足首" => foot(capture, index, side, up).or_else(|| turn_of("下半身")),
                 _ => None,
             }
         }
     }
 }
 
-fn chest(source: &Source<'_>, turns: &[Option<DQuat>]) -> Option<DQuat> {
-    let model = source.model();
+fn chest(capture: &Capture<'_>, turns: &[Option<DQuat>]) -> Option<DQuat> {
+    let model = capture.model();
     let chest = ["上半身2", "上半身"].into_iter().find_map(|name| {
         let bone = model.find(name)?;
-        source.joint(bone).map(|_| bone)
+        capture.joint(bone).map(|_| bone)
     })?;
     let pelvis = model.find("下半身").and_then(|bone| turns[bone]);
-    let up = source.direction(chest)?;
-    let across = source.rest_across("肩").or_else(|| source.rest_across("腕"));
+    let up = capture.direction(chest)?;
+    let across = capture.rest_across("肩").or_else(|| capture.rest_across("腕"));
     let left = across.filter(|left| left.cross(up).length() > 0.5).or_else(|| {
         // Else it is where the pelvis has it, on average.
-        let (joint, from) = (source.joint(chest)?, model.find("下半身")?);
-        let (pelvis, carrier) = (pelvis?, source.joint(from)?);
-        source.mean_local(joint, |world| world[carrier.0] * (pelvis.inverse() * DVec3::X))
+        let (joint, from) = (capture.joint(chest)?, model.find("下半身")?);
+        let (pelvis, carrier) = (pelvis?, capture.joint(from)?);
+        capture.mean_local(joint, |world| world[carrier.0] * (pelvis.inverse() * DVec3::X))
     })?;
     Some(turn(up, left, DVec3::Y, DVec3::X))
 }
@@ -201,7 +202,7 @@ fn chest(source: &Source<'_>, turns: &[Option<DQuat>]) -> Option<DQuat> {
 /// Upper arm or thigh: along the limb, and turned so that the joint below bends as a body's does: elbows
 /// bring the hand forward, knees take the foot back.
 fn limb(
-    source: &Source<'_>,
+    capture: &Capture<'_>,
     index: usize,
     part: Part,
     side: Side,
@@ -212,31 +213,31 @@ fn limb(
         Part::Arm(_) => (-side.sign() * DVec3::Y, "ひじ", "上半身2"),
         _ => (DVec3::X, "ひざ", "下半身"),
     };
-    let own = source.direction(index)?;
-    let joint = source.joint(index)?;
+    let own = capture.direction(index)?;
+    let joint = capture.joint(index)?;
     let bend = || {
-        let below = source.model().sided(side, below)?;
-        let (lower, direction) = (source.joint(below)?, source.direction(below)?);
+        let below = capture.model().sided(side, below)?;
+        let (lower, direction) = (capture.joint(below)?, capture.direction(below)?);
         let cross = |world: &[DQuat]| (world[joint.0] * own).cross(world[lower.0] * direction);
-        source.mean_local(joint, cross)
+        capture.mean_local(joint, cross)
     };
     let carried = || {
-        let carrier = source.model().find(carrier)?;
-        let (turn, carrier) = (turns[carrier]?, source.joint(carrier)?);
-        source.mean_local(joint, |world| world[carrier.0] * (turn.inverse() * hinge))
+        let carrier = capture.model().find(carrier)?;
+        let (turn, carrier) = (turns[carrier]?, capture.joint(carrier)?);
+        capture.mean_local(joint, |world| world[carrier.0] * (turn.inverse() * hinge))
     };
     Some(turn(own, bend().or_else(carried)?, target, hinge))
 }
 
 /// The foot: it points ahead, as far down as it mostly does in the clip, and does not lean.
-fn foot(source: &Source<'_>, index: usize, side: Side, up: DVec3) -> Option<DQuat> {
-    let own = source.direction(index)?;
-    let joint = source.joint(index)?;
-    let above = source.model().sided(side, "ひざ")?;
-    let (shin, along) = (source.joint(above)?, source.direction(above)?);
+fn foot(capture: &Capture<'_>, index: usize, side: Side, up: DVec3) -> Option<DQuat> {
+    let own = capture.direction(index)?;
+    let joint = capture.joint(index)?;
+    let above = capture.model().sided(side, "ひざ")?;
+    let (shin, along) = (capture.joint(above)?, capture.direction(above)?);
     let cross = |world: &[DQuat]| (world[shin.0] * along).cross(world[joint.0] * own);
-    let hinge = source.mean_local(joint, cross)?;
-    let drop = source.median(|world| up.dot(world[joint.0] * own).clamp(-1.0, 1.0));
+    let hinge = capture.mean_local(joint, cross)?;
+    let drop = capture.median(|world| up.dot(world[joint.0] * own).clamp(-1.0, 1.0));
     let target = DVec3::new(0.0, drop, (1.0 - drop * drop).sqrt());
     Some(turn(own, hinge, target, DVec3::NEG_X))
 }

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::Chords;
 use crate::keys::actions::changes::changes;
@@ -10,6 +9,7 @@ use crate::keys::actions::division::{Lengths, Place, cheapest};
 use crate::keys::actions::lulls::lulls;
 use crate::keys::actions::{Actions, Split, SplitReason};
 use crate::keys::rest::rests;
+use crate::knob::{Knobs, knob, knobs};
 use crate::motion::Clip;
 use crate::time::{Frame, Span};
 
@@ -51,44 +51,64 @@ struct Candidate {
     clear: f64,
 }
 
+knobs!(actions::ActionFinder {
+    split: knob(
+        "動作に分ける",
+        "Whether a long take is split into actions: what is left out is then counted in each of \
+         them.",
+        "長いテイクを動作に分けるか。抜く枚数は動作ごとに数える。",
+    ),
+    length: knob(
+        "動作の普通の長さ",
+        "How long an action usually is: 4.4 s in the second paper. Longer makes fewer actions.",
+        "一つの動作の普通の長さ（第二の論文では4.4秒）。長くすると動作の数が減る。",
+    )
+    .above(0.0),
+    contrast: knob(
+        "区切りの明瞭さ",
+        "How clear a split has to be: the body so many times slower than before and after (4: or \
+         half of the movement goes over to other parts). Less will do where an action would be too \
+         long.",
+        "区切りがどれほどはっきりしていればよいか。前後の何分の一まで遅くなるか（4）、\
+         または動きの半分がほかの部位へ移るか。動作が長すぎるときは、もっと弱くても区切る。",
+    )
+    .unit("times")
+    .at_least(1.0)
+    .slider(1.0, 20.0),
+    shortest: knob(
+        "最短の動作",
+        "How short an action may be. Longer joins short movements with those beside them.",
+        "動作の最短の長さ。長くすると短い動きは隣の動作に入る。",
+    ),
+});
+
 impl ActionFinder {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first knob that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        let (Span::Frames(length) | Span::Seconds(length)) = self.length;
-        if !self.length.is_length() || length <= 0.0 {
-            return Err(Error::setting("actions.length", "must be a length of time above 0"));
-        }
-        if !(self.contrast >= 1.0 && self.contrast.is_finite()) {
-            return Err(Error::setting("actions.contrast", "must be 1 or more; 4 is usual"));
-        }
-        if !self.shortest.is_length() {
-            return Err(Error::setting("actions.shortest", "must be a length of time, 0 or more"));
-        }
-        Ok(())
+        self.check()
     }
 
     /// The actions of a clip: between a person's splits where there are any, else between those that are
     /// found. `rest` is the speed below which the body rests, as [`Choose::rest`](crate::keys::Choose::rest).
     ///
     /// ```
-    /// use genga::edits::Edits;
     /// use genga::keys::{ActionFinder, Chords, Reference};
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let reference = Reference::of(&clip, clip.clock(24.0));
     /// let own = vec![1.0; clip.skeleton().len()];
     /// let chords = Chords::of(&clip, &reference, &own, f64::INFINITY);
-    /// let actions = ActionFinder::default().find(&clip, &chords, 15.0, &Edits::default());
+    /// let actions = ActionFinder::default().find(&clip, &chords, 15.0, &[]);
     /// assert_eq!(actions.iter().count(), 1, "a kick is one action");
     /// # Ok::<(), genga::Error>(())
     /// ```
-    pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, edits: &Edits) -> Actions {
-        if !edits.splits.is_empty() {
-            let asked = |frame: &Frame| Split { frame: *frame, why: SplitReason::Asked };
-            return Actions::split(clip, edits.splits.iter().map(asked).collect());
+    pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, asked: &[Frame]) -> Actions {
+        if !asked.is_empty() {
+            let asked = asked.iter().map(|frame| Split { frame: *frame, why: SplitReason::Asked });
+            return Actions::split(clip, asked.collect());
         }
         let splits =
             if self.split { self.found(clip, &candidates(chords, rest)) } else { Vec::new() };

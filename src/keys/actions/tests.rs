@@ -1,7 +1,6 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::edits::Edits;
 use crate::keys::tests::swing;
 use crate::keys::{Chords, Reference};
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
@@ -31,15 +30,15 @@ fn arms(angles: &[(f64, f64)]) -> Clip {
     Clip::new(skeleton, FrameRate::new(24.0).unwrap(), Frame(0), angles.len(), values).unwrap()
 }
 
-fn found(clip: &Clip, finder: &ActionFinder, edits: &Edits) -> Actions {
+fn found(clip: &Clip, finder: &ActionFinder, asked: &[Frame]) -> Actions {
     let reference = Reference::of(clip, clip.clock(24.0));
     let chords = Chords::of(clip, &reference, &vec![1.0; clip.skeleton().len()], 2.0);
-    finder.find(clip, &chords, 15.0, edits)
+    finder.find(clip, &chords, 15.0, asked)
 }
 
 /// The splits that the defaults find.
 fn splits(clip: &Clip) -> Vec<(usize, SplitReason)> {
-    let actions = found(clip, &ActionFinder::default(), &Edits::default());
+    let actions = found(clip, &ActionFinder::default(), &[]);
     actions.splits().iter().map(|split| (split.frame.0, split.why)).collect()
 }
 
@@ -84,7 +83,7 @@ fn a_rest_between_two_movements_parts_them_in_its_middle() {
     assert_eq!(why, SplitReason::Rest);
     assert!(frame.abs_diff(96 + 12) <= 1, "{frame}");
     let off = ActionFinder { split: false, ..ActionFinder::default() };
-    assert!(found(&clip, &off, &Edits::default()).splits().is_empty());
+    assert!(found(&clip, &off, &[]).splits().is_empty());
 }
 
 #[test]
@@ -96,9 +95,9 @@ fn a_short_pause_parts_what_would_be_too_long_and_not_what_is_usual() {
     assert!(frame.abs_diff(144 + 2) <= 2, "{frame}");
     let clip = swing(&bursts(&[(144, 5), (144, 0)]));
     let strict = ActionFinder { contrast: 200.0, ..ActionFinder::default() };
-    assert!(found(&clip, &strict, &Edits::default()).splits().is_empty());
+    assert!(found(&clip, &strict, &[]).splits().is_empty());
     let long = ActionFinder { length: Span::Seconds(40.0), contrast: 20.0, ..Default::default() };
-    assert!(found(&clip, &long, &Edits::default()).splits().is_empty());
+    assert!(found(&clip, &long, &[]).splits().is_empty());
 }
 
 #[test]
@@ -121,7 +120,7 @@ fn no_action_is_shorter_than_the_shortest() {
     let clip = swing(&bursts(&[(96, 24), (26, 24), (96, 0)]));
     let frames = |shortest| -> Vec<usize> {
         let finder = ActionFinder { shortest: Span::Seconds(shortest), ..Default::default() };
-        let actions = found(&clip, &finder, &Edits::default());
+        let actions = found(&clip, &finder, &[]);
         actions.splits().iter().map(|split| split.frame.0).collect()
     };
     assert_eq!(frames(1.0).len(), 2, "{:?}", frames(1.0));
@@ -146,10 +145,10 @@ fn where_another_limb_takes_over_a_new_action_begins() {
 #[test]
 fn a_person_s_splits_are_all_there_are() {
     let clip = swing(&bursts(&[(48, 24), (48, 0)]));
-    let edits = Edits { splits: vec![Frame(100), Frame(7), Frame(100)], ..Edits::default() };
+    let asked = [Frame(100), Frame(7), Frame(100)];
     let off = ActionFinder { split: false, ..ActionFinder::default() };
     for finder in [ActionFinder::default(), off] {
-        let actions = found(&clip, &finder, &edits);
+        let actions = found(&clip, &finder, &asked);
         let all: Vec<_> =
             actions.iter().map(|action| (action.from.0, action.past.0, action.why)).collect();
         let asked = Some(SplitReason::Asked);
@@ -183,7 +182,7 @@ proptest! {
     ) {
         let clip = arms(&angles);
         let finder = ActionFinder { contrast, shortest: Span::Seconds(shortest), ..Default::default() };
-        let actions = found(&clip, &finder, &Edits::default());
+        let actions = found(&clip, &finder, &[]);
         let mut next = clip.first();
         for action in actions.iter() {
             prop_assert_eq!(action.from, next);

@@ -7,8 +7,7 @@ use nalgebra::DMatrix;
 
 use crate::keys::weights;
 use crate::motion::body::mannequin::Mannequin;
-use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
+use crate::motion::clip::lane_poser::{LanePose, LanePoser};
 use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
 use crate::motion::{Build, Clip, Joint, JointId, Point, Screen};
 use crate::signal::{Signals, Spectrum, Unit};
@@ -171,7 +170,7 @@ fn measure(
 ) {
     let (clip, frames) = (motion.clip, motion.clip.len());
     let steps = frames - 1;
-    let (rig, mut pose) = (Rig::of(clip.skeleton()), LanePose::rest(clip.skeleton()));
+    let mut poser = LanePoser::of(clip);
     let rows: Vec<&[f64]> = clip.rows().collect();
     let sight = Sight::of(motion);
     let mut turned = vec![DQuat::IDENTITY; turning.len()];
@@ -190,7 +189,7 @@ fn measure(
                 }
             }
         };
-        pose.take_rows(&rig, &array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
+        let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
         for (track, before) in turning.iter().zip(&mut turned) {
             let now = pose.rotations[track.joint];
             if begin == 0 {
@@ -200,9 +199,9 @@ fn measure(
             write(now.shifted(*before).way_to(now) * speed);
             *before = now.lane(LANES - 1);
         }
-        pose.place(&rig);
+        let pose = poser.stand();
         for (track, before) in travelling.iter().zip(&mut stood) {
-            let now = sight.see(track.what, &pose);
+            let now = sight.see(track.what, pose);
             if begin == 0 {
                 *before = now.lane(0);
             }

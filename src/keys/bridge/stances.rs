@@ -5,8 +5,8 @@ use std::array;
 use glam::DVec3;
 
 use crate::motion::Clip;
+use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::clip::rig::Rig;
-use crate::motion::clip::sampler::LanePose;
 use crate::motion::lanes::{LANES, LaneQuat, wide};
 use crate::time::Frame;
 
@@ -28,14 +28,17 @@ impl Stances {
         let groups = rig.len().div_ceil(LANES);
         let mut rotations = vec![LaneQuat::default(); frames.len() * groups];
         let mut translations = Vec::with_capacity(frames.len() * moving.len());
-        let mut pose = LanePose::rest(clip.skeleton());
+        let mut poser = LanePoser::of(clip);
         let into = rotations.chunks_mut((LANES * groups).max(1));
         for (frames, rotations) in frames.chunks(LANES).zip(into) {
             let frame = |lane: usize| frames[lane.min(frames.len() - 1)];
             wide(
                 #[inline(always)]
-                || pose.take_rows(rig, &array::from_fn(|lane| clip.row(frame(lane)))),
+                || {
+                    poser.rows(&array::from_fn(|lane| clip.row(frame(lane))));
+                },
             );
+            let pose = poser.pose();
             for (lane, groups) in rotations.chunks_exact_mut(groups).enumerate() {
                 for (joint, rotation) in pose.rotations.iter().enumerate() {
                     groups[joint / LANES].set_lane(joint % LANES, rotation.lane(lane));

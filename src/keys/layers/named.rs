@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, nearest};
-use crate::keys::layers::Part;
+use crate::keys::layers::LayerJoints;
 use crate::keys::weights::fits;
 use crate::motion::{JointId, Skeleton};
 
@@ -45,7 +45,7 @@ pub(super) fn validate(layers: &[NamedLayer]) -> Result<(), Error> {
 }
 
 /// The named layers of a body; joints that none names are of the first.
-pub(super) fn split(layers: &[NamedLayer], skeleton: &Skeleton) -> Result<Vec<Part>, Error> {
+pub(super) fn split(layers: &[NamedLayer], skeleton: &Skeleton) -> Result<Vec<LayerJoints>, Error> {
     let mut layer_of = vec![None; skeleton.len()];
     for (at, layer) in layers.iter().enumerate() {
         for pattern in &layer.joints {
@@ -67,8 +67,10 @@ pub(super) fn split(layers: &[NamedLayer], skeleton: &Skeleton) -> Result<Vec<Pa
         let own = layer_of.iter().enumerate().filter(move |(_, of)| of.unwrap_or(0) == layer);
         own.map(|(joint, _)| JointId(joint)).collect()
     };
-    let part =
-        |(at, layer): (usize, &NamedLayer)| Part { name: layer.name.clone(), joints: joints(at) };
+    let part = |(at, layer): (usize, &NamedLayer)| LayerJoints {
+        name: layer.name.clone(),
+        joints: joints(at),
+    };
     Ok(layers.iter().enumerate().map(part).collect())
 }
 

@@ -26,7 +26,7 @@ fn named(layers: &[(&str, &[&str])]) -> Layers {
     Layers::Named(layers.iter().map(layer).collect())
 }
 
-fn assert_covers_once(clip: &Clip, parts: &[Part]) {
+fn assert_covers_once(clip: &Clip, parts: &[LayerJoints]) {
     let mut joints: Vec<usize> =
         parts.iter().flat_map(|part| part.joints.iter().map(|joint| joint.0)).collect();
     joints.sort_unstable();

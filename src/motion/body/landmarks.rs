@@ -7,7 +7,7 @@ use std::iter;
 
 use glam::DVec3;
 
-use crate::motion::{Axis, Body, Clip, JointId, Pose, Skeleton, Stature};
+use crate::motion::{Axis, Body, Clip, JointId, Poser, Skeleton, Stature};
 use crate::time::{Clock, Frame};
 
 /// Frames that are looked at: enough to know which limb is usually low.
@@ -35,9 +35,9 @@ impl Point {
         Self { joint: JointId(joint), offset: DVec3::ZERO }
     }
 
-    /// Where it stands in the world, given where the joints do.
-    pub fn position(&self, body: &Body, positions: &[DVec3]) -> DVec3 {
-        positions[self.joint.0] + body.rotations()[self.joint.0] * self.offset
+    /// Where it stands in the world.
+    pub fn position(&self, body: &Body) -> DVec3 {
+        body.positions()[self.joint.0] + body.rotations()[self.joint.0] * self.offset
     }
 }
 
@@ -106,15 +106,12 @@ impl Landmarks {
 /// Where some points stand in the world at each koma of a clock: one path a point, in the file's unit.
 pub fn paths(clip: &Clip, clock: Clock, points: &[Point]) -> Vec<Vec<DVec3>> {
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-    let mut pose = Pose::rest(clip.skeleton());
-    let mut body = Body::new(clip.skeleton());
-    let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
     let mut paths = vec![Vec::with_capacity(koma); points.len()];
     for koma in 0..koma {
-        pose.take_place(clip, clock.place_from_koma(koma));
-        body.place(&pose, &mut positions);
+        body.place(poser.place(clock.place_from_koma(koma)));
         for (path, point) in paths.iter_mut().zip(points) {
-            path.push(point.position(&body, &positions));
+            path.push(point.position(&body));
         }
     }
     paths
@@ -137,19 +134,17 @@ impl Looks {
         });
         let mut looks =
             Self { levels: vec![0.0; skeleton.len()], tips: tips.collect(), height: 0.0 };
-        let mut pose = Pose::rest(skeleton);
-        let mut body = Body::new(skeleton);
-        let mut positions = vec![DVec3::ZERO; skeleton.len()];
+        let (mut poser, mut body) = (Poser::of(clip), Body::new(skeleton));
         let mut sides = Vec::new();
         for look in 0..clip.len().min(LOOKS) {
             let row = look * clip.len() / clip.len().min(LOOKS);
-            pose.take_frame(clip, Frame(clip.first().0 + row));
-            body.place(&pose, &mut positions);
-            for (level, position) in looks.levels.iter_mut().zip(&positions) {
+            body.place(poser.frame(Frame(clip.first().0 + row)));
+            let positions = body.positions();
+            for (level, position) in looks.levels.iter_mut().zip(positions) {
                 *level += position.dot(up);
             }
             for (tip, level) in &mut looks.tips {
-                *level += tip.position(&body, &positions).dot(up);
+                *level += tip.position(&body).dot(up);
             }
             let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
             let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();

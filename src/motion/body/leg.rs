@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::rotation_axes;
-use crate::motion::{Body, Clip, JointId, Landmarks, Pose};
+use crate::motion::{Body, Clip, JointId, Landmarks, Pose, Poser};
 use crate::time::Frame;
 
 /// Frames that are looked at to see how a knee bends.
@@ -67,13 +67,11 @@ impl Leg {
 
     /// The axis about which the knee mostly bends, in the axes of what carries it.
     fn seen_hinge(&self, clip: &Clip) -> Option<DVec3> {
-        let mut pose = Pose::rest(clip.skeleton());
-        let mut body = Body::new(clip.skeleton());
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
+        let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
         let looks = clip.len().min(LOOKS);
         let bend = |look: usize| {
-            pose.take_frame(clip, Frame(clip.first().0 + look * clip.len() / looks));
-            body.place(&pose, &mut positions);
+            body.place(poser.frame(Frame(clip.first().0 + look * clip.len() / looks)));
+            let positions = body.positions();
             let [thigh, shin] = [self.hip, self.ankle]
                 .map(|end| (positions[end] - positions[self.knee]).normalize_or_zero());
             body.rotations()[self.over_knee].inverse() * thigh.cross(shin)
@@ -89,17 +87,11 @@ impl Leg {
 
     /// Brings the foot to where it is `way` from where it was, as far as the leg reaches, and turned in the
     /// world as before. Hip and bones keep their place and length, the knee bends as knees of this body do.
-    /// `body` and `positions` are those of the pose.
-    pub(in crate::motion) fn carry(
-        &self,
-        pose: &mut Pose,
-        body: &Body,
-        positions: &[DVec3],
-        way: DVec3,
-    ) {
+    /// `body` is that of the pose.
+    pub(in crate::motion) fn carry(&self, pose: &mut Pose, body: &Body, way: DVec3) {
         let world = body.rotations();
         let hinge = world[self.over_knee] * self.hinge;
-        let [hip, knee, ankle] = self.joints().map(|joint| positions[joint]);
+        let [hip, knee, ankle] = self.joints().map(|joint| body.positions()[joint]);
         let Some(Reach { swing, bend }) = reach([hip, knee, ankle], hinge, ankle + way) else {
             return;
         };

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::motion::{Axis, Body, Clip, Pose};
+use crate::motion::{Axis, Body, Clip, Poser};
 
 /// How much taller than along one axis a body has to be along the other to stand along it.
 const CLEARLY: f64 = 1.25;
@@ -23,24 +23,22 @@ impl Stature {
     /// Up is Y as BVH has it by custom. It is Z where the first frame is clearly taller along Z than
     /// along Y, unless the rest pose stands along Y: somebody who begins on hands and knees.
     pub fn of(clip: &Clip) -> Self {
-        let mut pose = Pose::rest(clip.skeleton());
-        let rest = extent(clip, &pose);
+        let mut body = Body::new(clip.skeleton());
+        let rest = extent(&body);
         if !clip.is_empty() {
-            pose.take_frame(clip, clip.first());
+            body.place(Poser::of(clip).frame(clip.first()));
         }
-        let first = extent(clip, &pose);
+        let first = extent(&body);
         let is_clearly_z = first.z > CLEARLY * first.y && rest.y <= CLEARLY * rest.z;
         let up = if is_clearly_z { Axis::Z } else { Axis::Y };
         Self { size: if clip.is_empty() { 0.0 } else { first.max_element() }, up }
     }
 }
 
-/// The size of the box round the joints of a pose.
-fn extent(clip: &Clip, pose: &Pose) -> DVec3 {
-    let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
-    Body::new(clip.skeleton()).place(pose, &mut positions);
-    let low = positions.iter().copied().reduce(DVec3::min);
-    let high = positions.iter().copied().reduce(DVec3::max);
+/// The size of the box round the joints of a body.
+fn extent(body: &Body) -> DVec3 {
+    let low = body.positions().iter().copied().reduce(DVec3::min);
+    let high = body.positions().iter().copied().reduce(DVec3::max);
     low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
 }
 

@@ -2,27 +2,27 @@
 
 use glam::{DMat3, DQuat};
 
-use crate::motion::{Axis, Channel, Clip, DrawnPose, Joint};
+use crate::motion::{Axis, Channel, Clip, Joint, Poser};
 use crate::sheet::Source;
 use crate::time::Frame;
 
 /// Writes drawings as rows of channel values, with its buffers.
 #[derive(Debug, Clone)]
 pub struct RowWriter<'a> {
-    drawn: DrawnPose<'a>,
+    poser: Poser<'a>,
 }
 
 impl<'a> RowWriter<'a> {
     /// A writer for drawings of that clip.
     pub fn new(clip: &'a Clip) -> Self {
-        Self { drawn: DrawnPose::of(clip) }
+        Self { poser: Poser::of(clip) }
     }
 
     /// Writes a drawing into `row`, as wide as the skeleton has channels. A source frame comes out as
     /// the numbers it was read from. An instant between frames is slerped, and its angles are the ones
     /// nearest to those of the frame before, so that they run on past ±180° as the file's do.
     pub fn write(&mut self, source: Source, row: &mut [f64]) {
-        let clip = self.drawn.clip();
+        let clip = self.poser.clip();
         let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
         let place = source.place().clamp(first, last);
         let before = clip.row(Frame(place.floor() as usize));
@@ -31,7 +31,7 @@ impl<'a> RowWriter<'a> {
             return;
         }
         let after = clip.row(Frame((place.floor() as usize + 1).min(clip.last().0)));
-        self.drawn.take(source);
+        self.poser.drawing(source);
         for (index, joint) in clip.skeleton().joints.iter().enumerate() {
             let columns = joint.first_channel..joint.first_channel + joint.channels.len();
             let (before, after) = (&before[columns.clone()], &after[columns.clone()]);
@@ -53,7 +53,7 @@ impl<'a> RowWriter<'a> {
         row: &mut [f64],
     ) {
         let [before, after] = rows;
-        let pose = self.drawn.pose();
+        let pose = self.poser.pose();
         let translation = pose.translations[index];
         let angles = rotation_axes(joint)
             .map(|axes| angles_from_rotation(pose.rotations[index], axes, &near(joint, before)));

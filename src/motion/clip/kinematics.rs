@@ -137,29 +137,37 @@ fn lerp(from: DVec3, to: DVec3, share: f64) -> DVec3 {
     if from == to { from } else { from.lerp(to, share) }
 }
 
-/// A body in the world: the buffer that turns local poses into joint positions.
+/// A body in the world (forward kinematics): where a local pose puts joints and tips of bones.
 #[derive(Debug, Clone)]
 pub struct Body {
     parents: Vec<Option<usize>>,
+    /// The joint of each tip, and where it is from there.
+    tips: Vec<(usize, DVec3)>,
     rotations: Vec<DQuat>,
+    points: Vec<DVec3>,
 }
 
 impl Body {
-    /// A body of that skeleton.
+    /// A body of that skeleton in its rest pose.
     pub fn new(skeleton: &Skeleton) -> Self {
-        Self {
-            parents: skeleton
-                .joints
-                .iter()
-                .map(|joint| joint.parent.map(|parent| parent.0))
-                .collect(),
+        let parent = |joint: &Joint| joint.parent.map(|parent| parent.0);
+        let tips = skeleton
+            .iter()
+            .flat_map(|(joint, data)| data.end_sites.iter().map(move |end| (joint.0, end.offset)));
+        let tips: Vec<(usize, DVec3)> = tips.collect();
+        let mut body = Self {
+            parents: skeleton.joints.iter().map(parent).collect(),
             rotations: vec![DQuat::IDENTITY; skeleton.len()],
-        }
+            points: vec![DVec3::ZERO; skeleton.len() + tips.len()],
+            tips,
+        };
+        body.place(&Pose::rest(skeleton));
+        body
     }
 
-    /// Writes the world position of every joint into `positions`, in joint order and in the file's
-    /// unit.
-    pub fn place(&mut self, pose: &Pose, positions: &mut [DVec3]) {
+    /// Takes on a pose.
+    pub fn place(&mut self, pose: &Pose) {
+        let (positions, tips) = self.points.split_at_mut(self.parents.len());
         for (joint, parent) in self.parents.iter().enumerate() {
             let (rotation, translation) = (pose.rotations[joint], pose.translations[joint]);
             (self.rotations[joint], positions[joint]) = match *parent {
@@ -170,9 +178,22 @@ impl Body {
                 ),
             };
         }
+        for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
+            *tip = positions[*joint] + self.rotations[*joint] * *offset;
+        }
     }
 
-    /// World rotations of the joints as of the last [`Body::place`].
+    /// World positions of the joints, in joint order and in the file's unit.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.points[..self.parents.len()]
+    }
+
+    /// The same and behind them the tips (End Sites), in the order of their joints.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// World rotations of the joints.
     pub fn rotations(&self) -> &[DQuat] {
         &self.rotations
     }
@@ -224,8 +245,9 @@ mod tests {
         let clip = clip(skeleton, &[90.0, 0.0, 0.0]);
         let mut pose = Pose::rest(clip.skeleton());
         pose.take_frame(&clip, Frame(0));
-        let mut positions = [DVec3::ZERO; 2];
-        Body::new(clip.skeleton()).place(&pose, &mut positions);
+        let mut body = Body::new(clip.skeleton());
+        body.place(&pose);
+        let positions = body.positions();
         assert_eq!(positions[0], DVec3::Y);
         assert!(positions[1].abs_diff_eq(DVec3::new(-1.0, 1.0, 0.0), 1e-15), "{}", positions[1]);
     }

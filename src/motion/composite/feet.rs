@@ -114,13 +114,11 @@ impl Edge {
 pub(super) struct FootHold<'a> {
     feet: &'a HeldFeet,
     body: Body,
-    positions: Vec<DVec3>,
 }
 
 impl<'a> FootHold<'a> {
     pub(super) fn of(feet: &'a HeldFeet, clip: &Clip) -> Self {
-        let positions = vec![DVec3::ZERO; clip.skeleton().len()];
-        Self { feet, body: Body::new(clip.skeleton()), positions }
+        Self { feet, body: Body::new(clip.skeleton()) }
     }
 
     /// The joints that are turned to hold them.
@@ -131,12 +129,12 @@ impl<'a> FootHold<'a> {
     /// Brings the feet of a drawing's pose to where they are held; `place` is the instant that it shows of
     /// a joint.
     pub(super) fn hold(&mut self, place: impl Fn(usize) -> f64, pose: &mut Pose) {
-        self.body.place(pose, &mut self.positions);
+        self.body.place(pose);
         for foot in &self.feet.0 {
-            let sole = foot.sole.position(&self.body, &self.positions);
+            let sole = foot.sole.position(&self.body);
             let way = way(&foot.stands, place(foot.leg.ankle), sole);
             if way != DVec3::ZERO {
-                foot.leg.carry(pose, &self.body, &self.positions, way);
+                foot.leg.carry(pose, &self.body, way);
             }
         }
     }
@@ -149,7 +147,7 @@ mod tests {
 
     use super::*;
     use crate::motion::bvh;
-    use crate::motion::composite::{Composite, CompositeRows, PosedComposite};
+    use crate::motion::composite::{Composite, CompositePoser, CompositeRows};
     use crate::sheet::{Feet, RootMotion, Sheet, Source};
     use crate::time::Frame;
 
@@ -204,11 +202,10 @@ mod tests {
 
     /// Where the joints stand, how they are turned in the world, and where the soles are.
     fn placed(pose: &Pose, clip: &Clip, feet: &HeldFeet) -> (Vec<DVec3>, Vec<DQuat>, Vec<DVec3>) {
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
         let mut body = Body::new(clip.skeleton());
-        body.place(pose, &mut positions);
-        let soles = feet.0.iter().map(|foot| foot.sole.position(&body, &positions)).collect();
-        (positions, body.rotations().to_vec(), soles)
+        body.place(pose);
+        let soles = feet.0.iter().map(|foot| foot.sole.position(&body)).collect();
+        (body.positions().to_vec(), body.rotations().to_vec(), soles)
     }
 
     /// A sheet on ones of some sources.
@@ -241,16 +238,15 @@ mod tests {
             let [free, held] = [Feet::Free, Feet::Held].map(|feet| sheet(&clip, &sources, root, feet));
             let [free, held] = [&free, &held].map(|sheet| Composite::of(&clip, sheet).unwrap());
             let feet = held.feet.as_ref().unwrap();
-            let (mut own, mut posed) = (PosedComposite::of(&free), PosedComposite::of(&held));
+            let (mut own, mut posed) = (CompositePoser::of(&free), CompositePoser::of(&held));
             let (mut own_rows, mut rows) = (CompositeRows::of(&free), CompositeRows::of(&held));
             let (mut own_row, mut row) = (vec![0.0; clip.skeleton().channels()], vec![0.0; clip.skeleton().channels()]);
             for (koma, source) in sources.iter().enumerate() {
-                own.take(koma, koma);
-                posed.take(koma, koma);
+                let (own, posed) = (own.drawing(koma, koma), posed.drawing(koma, koma));
                 own_rows.write(koma, koma, &mut own_row);
                 rows.write(koma, koma, &mut row);
-                let (before, turned, soles) = placed(own.pose(), &clip, feet);
-                let (after, now, held_soles) = placed(posed.pose(), &clip, feet);
+                let (before, turned, soles) = placed(own, &clip, feet);
+                let (after, now, held_soles) = placed(posed, &clip, feet);
                 for (foot, (sole, was)) in feet.0.iter().zip(held_soles.iter().zip(&soles)) {
                     let wanted = was + way(&foot.stands, source.place(), *was);
                     let [hip, knee, ankle] = foot.leg.joints();
@@ -273,9 +269,9 @@ mod tests {
                 written.take_row(clip.skeleton(), &row);
                 let legs = feet.joints();
                 for joint in 0..clip.skeleton().len() {
-                    let [pose, row] = [posed.pose(), &written].map(|pose| pose.rotations[joint]);
+                    let [pose, row] = [posed, &written].map(|pose| pose.rotations[joint]);
                     prop_assert!(pose.is_finite() && pose.dot(row).abs() > 1.0 - 1e-9, "as the row has it");
-                    prop_assert!(legs.contains(&joint) || pose == own.pose().rotations[joint]);
+                    prop_assert!(legs.contains(&joint) || pose == own.rotations[joint]);
                 }
             }
         }

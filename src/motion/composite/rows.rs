@@ -10,8 +10,8 @@ use crate::sheet::Source;
 pub(crate) struct CompositeRows<'a> {
     composite: &'a Composite<'a>,
     writer: RowWriter<'a>,
-    /// What each part shows, and the whole body so: a layer's drawing stays while others change.
-    parts: Vec<(Option<Source>, Vec<f64>)>,
+    /// What each layer shows, and the whole body so: a layer's drawing stays while others change.
+    layers: Vec<(Option<Source>, Vec<f64>)>,
     /// The source at a koma.
     root: Vec<f64>,
     /// What holds the feet, and the pose in which it does.
@@ -25,7 +25,7 @@ impl<'a> CompositeRows<'a> {
         Self {
             composite,
             writer: RowWriter::new(composite.clip()),
-            parts: vec![(None, row.clone()); composite.parts()],
+            layers: vec![(None, row.clone()); composite.layers()],
             root: row,
             feet: composite.foot_hold().map(|feet| (feet, Pose::rest(composite.clip().skeleton()))),
         }
@@ -35,15 +35,15 @@ impl<'a> CompositeRows<'a> {
     pub(crate) fn write(&mut self, drawing: usize, koma: usize, row: &mut [f64]) {
         let composite = self.composite;
         let sources = &composite.drawings[drawing];
-        for ((taken, own), source) in self.parts.iter_mut().zip(sources) {
+        for ((taken, own), source) in self.layers.iter_mut().zip(sources) {
             if taken.replace(*source) != Some(*source) {
                 self.writer.write(*source, own);
             }
         }
         let joints = &composite.clip().skeleton().joints;
-        for (joint, part) in joints.iter().zip(&composite.part_of) {
+        for (joint, layer) in joints.iter().zip(&composite.layer_of) {
             let columns = joint.first_channel..joint.first_channel + joint.channels.len();
-            row[columns.clone()].copy_from_slice(&self.parts[*part].1[columns]);
+            row[columns.clone()].copy_from_slice(&self.layers[*layer].1[columns]);
         }
         if composite.slides() {
             self.writer.write(Source::At(composite.place(koma)), &mut self.root);

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::motion::{DrawnPose, RowWriter, bvh, local_rotation, local_translation};
+use crate::motion::{Poser, RowWriter, bvh, local_rotation, local_translation};
 use crate::sheet::{Role, Why};
 
 fn kick() -> Clip {
@@ -126,27 +126,27 @@ proptest! {
         sheet.root = if ones { RootMotion::Ones } else { RootMotion::Drawings };
         let composite = Composite::of(&clip, &sheet).unwrap();
         let mut rows = CompositeRows::of(&composite);
-        let mut posed = PosedComposite::of(&composite);
+        let mut posed = CompositePoser::of(&composite);
         let (mut row, mut own) = (vec![0.0; clip.skeleton().channels()], vec![0.0; clip.skeleton().channels()]);
-        let (mut writer, mut drawn) = (RowWriter::new(&clip), DrawnPose::of(&clip));
+        let (mut writer, mut own_pose) = (RowWriter::new(&clip), Poser::of(&clip));
         for (koma, drawing) in composite.layer().koma().enumerate() {
             rows.write(drawing, koma, &mut row);
-            posed.take(drawing, koma);
+            let shown = posed.drawing(drawing, koma);
             for (joint, data) in names.iter().enumerate() {
                 let layer = &sheet.layers[chosen[joint]];
                 let index = layer.koma().nth(koma).unwrap_or(layer.exposures.last().unwrap().drawing);
                 let source = layer.drawings[index].source;
                 writer.write(source, &mut own);
-                drawn.take(source);
+                own_pose.drawing(source);
                 prop_assert_eq!(local_rotation(data, &row), local_rotation(data, &own));
-                prop_assert_eq!(posed.pose().rotations[joint], drawn.pose().rotations[joint]);
+                prop_assert_eq!(shown.rotations[joint], own_pose.pose().rotations[joint]);
                 if ones && joint == 0 {
                     let there = Source::At(sheet.clock.place_from_koma(koma));
                     writer.write(there, &mut own);
-                    drawn.take(there);
+                    own_pose.drawing(there);
                 }
                 prop_assert_eq!(local_translation(data, &row), local_translation(data, &own));
-                prop_assert_eq!(posed.pose().translations[joint], drawn.pose().translations[joint]);
+                prop_assert_eq!(shown.translations[joint], own_pose.pose().translations[joint]);
             }
         }
     }

@@ -7,11 +7,11 @@ use std::fmt;
 use std::str::FromStr;
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Setting, as_word, by_word};
 use crate::motion::seen::view::View;
-use crate::motion::{Body, Camera, Clip, Pose, Stature};
+use crate::motion::{Body, Camera, Clip, Poser, Stature};
 use crate::time::Frame;
 
 /// Frames that are looked at for the side of a [`Camera`]: enough to know where the body goes.
@@ -22,8 +22,7 @@ const LOOKS: usize = 200;
 const NEAREST: f64 = 0.05;
 
 /// From where movement is measured (見る位置).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum SeenFrom {
     /// From nowhere: ways are those through the world [KKMFT §3.1]. The default.
     #[default]
@@ -107,13 +106,11 @@ impl Screen {
 
 /// Where the joints stand in some frames of a clip, evenly spread.
 pub(in crate::motion) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
-    let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
     let step = clip.len().div_ceil(LOOKS).max(1);
     let stand = |row: usize| {
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
-        pose.take_frame(clip, Frame(clip.first().0 + row));
-        body.place(&pose, &mut positions);
-        positions
+        body.place(poser.frame(Frame(clip.first().0 + row)));
+        body.positions().to_vec()
     };
     (0..clip.len()).step_by(step).map(stand).collect()
 }
@@ -122,17 +119,6 @@ impl SeenFrom {
     /// Whether there is a screen.
     pub fn is_world(self) -> bool {
         self == Self::World
-    }
-
-    /// Checks that it can see.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] for a camera that stands at what it looks at, or nowhere.
-    pub fn validate(self) -> Result<(), Error> {
-        match self {
-            Self::Eye(eye) if !eye.is_eye() => Err(nowhere(&self.to_string())),
-            _ => Ok(()),
-        }
     }
 }
 
@@ -184,19 +170,12 @@ fn place(text: &str) -> Option<DVec3> {
     numbers.next().is_none().then_some(place)
 }
 
-impl TryFrom<String> for SeenFrom {
-    type Error = Error;
-
-    fn try_from(text: String) -> Result<Self, Error> {
-        text.parse()
-    }
+impl Setting for SeenFrom {
+    const KIND: Kind = Kind::SeenFrom;
+    as_word!();
 }
 
-impl From<SeenFrom> for String {
-    fn from(seen_from: SeenFrom) -> Self {
-        seen_from.to_string()
-    }
-}
+by_word!(SeenFrom);
 
 #[cfg(test)]
 mod tests {

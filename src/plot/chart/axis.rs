@@ -1,7 +1,8 @@
 //! The values along one side of a chart, and what is written beside them.
 
-use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
-use plotters::coord::ranged1d::Ranged;
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 
 /// One side of a chart.
@@ -26,7 +27,7 @@ impl Axis {
         Self { low, high, ticks, lines: true, name: String::new() }
     }
 
-    /// Round values, `most` of them or 2 at the most.
+    /// Round values: at most as many as `most`, where that is more than 2.
     pub(in crate::plot) fn round(range: (f64, f64), most: f64) -> Self {
         let axis = Self::labelled(range, vec![]);
         let values = RangedCoordf64::from(axis.low..axis.high).key_points(most.max(2.0) as usize);
@@ -54,16 +55,31 @@ impl Axis {
     pub(in crate::plot) fn at(&self, value: f64, (from, to): (f64, f64)) -> f64 {
         from + (value - self.low) / (self.high - self.low) * (to - from)
     }
+}
 
-    /// The axis as the library has it.
-    pub(super) fn spec(&self) -> WithKeyPoints<RangedCoordf64> {
-        let ticks = self.ticks.iter().map(|tick| tick.0).collect();
-        (self.low..self.high).with_key_points(ticks)
+/// The axis as the library has it.
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
+        self.at(*value, (f64::from(from), f64::from(to))).round() as i32
     }
 
-    /// What is written beside a tick.
-    pub(super) fn word(&self, value: f64) -> String {
-        let tick = self.ticks.iter().find(|tick| tick.0 == value);
+    /// There are no lines but those at the ticks.
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        let is_finer = hint.weight().allow_light_points();
+        if is_finer { Vec::new() } else { self.ticks.iter().map(|tick| tick.0).collect() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        let tick = self.ticks.iter().find(|tick| tick.0 == *value);
         tick.map(|tick| tick.1.clone()).unwrap_or_default()
     }
 }

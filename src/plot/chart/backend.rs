@@ -22,7 +22,7 @@ pub(super) fn units(px: f64) -> u32 {
 
 /// The canvas up to a lower right corner, in units. It takes what charts are made of: lines, filled boxes,
 /// words. Marks are drawn on the canvas itself.
-pub(super) struct Tenths<'a> {
+pub(in crate::plot) struct Tenths<'a> {
     pub(super) canvas: &'a mut Canvas,
     pub(super) size: (u32, u32),
 }
@@ -49,7 +49,12 @@ impl DrawingBackend for Tenths<'_> {
         Ok(())
     }
 
-    fn draw_line<S: BackendStyle>(&mut self, a: BackendCoord, b: BackendCoord, look: &S) -> Outcome {
+    fn draw_line<S: BackendStyle>(
+        &mut self,
+        a: BackendCoord,
+        b: BackendCoord,
+        look: &S,
+    ) -> Outcome {
         self.canvas.line(px(a), px(b), ink(look.color()), width(look));
         Ok(())
     }
@@ -75,7 +80,12 @@ impl DrawingBackend for Tenths<'_> {
         Ok(())
     }
 
-    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, look: &S, at: BackendCoord) -> Outcome {
+    fn draw_text<S: BackendTextStyle>(
+        &mut self,
+        text: &str,
+        look: &S,
+        at: BackendCoord,
+    ) -> Outcome {
         let size = look.size() / UNITS;
         let align = match look.anchor().h_pos {
             HPos::Left => Align::Left,

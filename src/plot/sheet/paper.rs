@@ -1,7 +1,7 @@
 //! The lines of koma that a timesheet is drawn on.
 
-use crate::plot::chart::number;
 use crate::plot::canvas::{Align, Canvas, Type};
+use crate::plot::chart::number;
 use crate::plot::sheet::fate::Fate;
 use crate::plot::style;
 use crate::sheet::{Drawing, Exposure, Layer, Role};

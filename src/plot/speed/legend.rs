@@ -12,7 +12,8 @@ use crate::signal::{Turn, TurnKind};
 const RAW: Entry = ("raw", |canvas, at| level(canvas, at, style::RAW, 1.5));
 const MEASURED: Entry = ("as measured", |canvas, at| level(canvas, at, style::FAINT, 1.25));
 const FILTERED: Entry = ("filtered", |canvas, at| level(canvas, at, style::FILTERED, 1.75));
-const ALONE: Entry = ("keys alone 原画のみ", |canvas, at| level(canvas, at, style::GENGA, KEPT));
+const ALONE: Entry =
+    ("keys alone 原画のみ", |canvas, at| level(canvas, at, style::GENGA, KEPT));
 const KEY: Entry = ("key 原画", |canvas, at| canvas.disc(at, 4.5, style::GENGA));
 const WALL: Entry = ("wall 壁", |canvas, at| canvas.triangle(at, 5.5, style::WALL));
 const GENGA: Entry = ("genga of the layer ①", |canvas, (x, y)| {
@@ -40,5 +41,5 @@ pub(super) fn of(
 }
 
 fn level(canvas: &mut Canvas, (x, y): Point, color: RGBColor, width: f64) {
-    canvas.line((x - 11.0, y), (x + 11.0, y), color, width);
+    canvas.line((x - 9.0, y), (x + 9.0, y), color, width);
 }

@@ -52,7 +52,7 @@ fn a_study_plot_refuses_what_cannot_be() {
 fn a_study_has_a_line_a_value_and_the_papers_marks_beside() {
     let plot = StudyPlot { paper: true, ..StudyPlot::default() };
     let svg = plot.draw(&[small()]).unwrap();
-    assert_eq!(tags(&svg, "polyline", "").len(), 2);
+    assert_eq!(curves(&svg).len(), 2);
     assert_eq!(tags(&svg, "circle", "fill=\"#ffffff\"").len(), 6 + 1, "six values and the legend");
     assert!(words(&svg).contains(&"filter.width (source frames)  フィルタの適用範囲"));
     let svg = StudyPlot::default().draw(&[small()]).unwrap();
@@ -78,7 +78,7 @@ fn a_mark_of_the_paper_stands_where_the_same_count_would() {
     };
     assert_eq!(rings.len(), 6 + 1);
     assert_eq!(rings.iter().filter(is_on_a_disc).count(), 6);
-    for line in tags(&svg, "polyline", "") {
+    for line in curves(&svg) {
         let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
         let x = |point: &str| point.split(',').next().unwrap().parse::<f64>().unwrap();
         assert!(points.split_whitespace().map(x).is_sorted(), "a line runs to the right: {line}");
@@ -99,7 +99,7 @@ fn a_study_draws_the_measure_it_is_asked_for() {
 fn several_clips_are_thin_lines_behind_their_median() {
     let clip = |value: f64| grid("filter.width=10,20,30", None, &[value, value + 1.0, value]);
     let svg = StudyPlot::default().draw(&[clip(1.0), clip(9.0), clip(5.0)]).unwrap();
-    assert_eq!(tags(&svg, "polyline", "").len(), 3 + 1);
+    assert_eq!(curves(&svg).len(), 3 + 1);
     let heat = HeatMap::default().draw(&[clip(1.0), clip(9.0), clip(5.0)], None).unwrap();
     let words = words(&heat);
     assert_eq!(words.iter().filter(|word| **word == "5").count(), 2 + 1, "two cells and the scale");
@@ -124,7 +124,7 @@ fn words_stand_on_an_axis_one_after_the_other() {
 fn of_many_lines_a_few_are_named() {
     let many = grid("filter.width=1,2", Some("turns.persistence=1..100:1"), &[7.0; 200]);
     let svg = StudyPlot::default().draw(&[many]).unwrap();
-    assert_eq!(tags(&svg, "polyline", "").len(), 100);
+    assert_eq!(curves(&svg).len(), 100);
     let named = ["1", "18", "35", "52", "69", "100"];
     let is_named = |y: &String| words(&svg).contains(&y.as_str());
     let found: Vec<String> = (10..=100).map(|y| y.to_string()).filter(is_named).collect();

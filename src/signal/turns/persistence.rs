@@ -1,6 +1,7 @@
 //! For how many frames in a row a joint stays faster, or slower, than at a given frame.
 
 use super::{Side, TurnKind};
+use crate::motion::lanes::{LANES, Lanes};
 
 /// How many entries of one line are summed up by one of the line above.
 const SPAN: usize = 16;
@@ -165,15 +166,12 @@ fn lows(values: &[f64; SPAN], bottom: f64, floor: f64) -> u32 {
     (0..SPAN).fold(0, |bits, at| bits | bit(at))
 }
 
-/// The least of some values, four side by side: one after the other each would wait for the last.
+/// The least of some values, some side by side: one after the other each would wait for the last.
 #[inline(always)]
 fn least(values: &[f64; SPAN]) -> f64 {
-    let lesser = |a: f64, b: f64| if b < a { b } else { a };
-    let mut low = [f64::INFINITY; 4];
-    for four in values.as_chunks::<4>().0 {
-        low = std::array::from_fn(|lane| lesser(low[lane], four[lane]));
-    }
-    low.into_iter().fold(f64::INFINITY, lesser)
+    let chunks = values.as_chunks::<LANES>().0;
+    let low = chunks.iter().fold(Lanes::splat(f64::INFINITY), |low, next| low.min(Lanes(*next)));
+    low.0.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// Of each row, the number of steps from it that each gain more than `floor`.

@@ -3,11 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
+use crate::knob::{Kind, Setting, as_word, by_word};
 
 /// The largest acceleration that still counts as steady (等速): `100` or `"5%"`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "SteadyText", into = "SteadyText")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Steady {
     /// In °/s² for angles, else in the signal's own unit a second; 0 or more.
     Acceleration(f64),
@@ -98,40 +97,17 @@ impl FromStr for Steady {
     }
 }
 
-/// What a recipe file may write: `100` or `"5%"`.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged)]
-enum SteadyText {
-    Number(f64),
-    Text(String),
+impl Setting for Steady {
+    const KIND: Kind = Kind::Band;
+    as_word!();
 }
 
-impl From<Steady> for SteadyText {
-    fn from(steady: Steady) -> Self {
-        match steady {
-            Steady::Acceleration(size) => Self::Number(size),
-            Steady::Share(_) => Self::Text(steady.to_string()),
-        }
-    }
-}
-
-impl TryFrom<SteadyText> for Steady {
-    type Error = String;
-
-    fn try_from(text: SteadyText) -> Result<Self, String> {
-        match text {
-            SteadyText::Number(size) if Self::Acceleration(size).is_band() => {
-                Ok(Self::Acceleration(size))
-            }
-            SteadyText::Number(size) => Err(format!("{size} °/s² is no dead band")),
-            SteadyText::Text(text) => text.parse(),
-        }
-    }
-}
+by_word!(Steady, or_number);
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use serde::{Deserialize, Serialize};
 
     use super::*;
 
@@ -169,10 +145,9 @@ mod tests {
         ] {
             assert_eq!(toml::from_str::<Table>(text).unwrap(), Table { steady }, "{text}");
         }
-        let written = SteadyText::from(Steady::Share(0.05));
-        assert!(matches!(written, SteadyText::Text(text) if text == "5%"));
-        let written = SteadyText::from(Steady::Acceleration(100.0));
-        assert!(matches!(written, SteadyText::Number(100.0)));
+        let written = |steady| toml::to_string(&Table { steady }).unwrap();
+        assert_eq!(written(Steady::Share(0.05)), "steady = \"5%\"\n");
+        assert_eq!(written(Steady::Acceleration(100.0)), "steady = 100\n");
         for wrong in ["steady = -1", "steady = true", "steady = \"200%\"", "steady = nan"] {
             assert!(toml::from_str::<Table>(wrong).is_err(), "{wrong}");
         }

@@ -108,7 +108,7 @@ impl<'a> Ruler<'a> {
     fn key(&self, at: Pos2) -> Option<&'a Key> {
         let away = |key: &Key| self.away(key.frame.0 as f64, at);
         let near = |key: &&Key| away(key) < NEAR && at.y < self.top.max.y;
-        let keys = self.shown.breakdown.keys.keys.iter();
+        let keys = self.shown.breakdown.first_layer().keys.keys.iter();
         keys.filter(near).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
@@ -141,8 +141,9 @@ fn pulled<'a>(koma: usize, place: f64, shown: &Shown<'a>) -> Option<(&'a Key, f6
     let breakdown = &shown.breakdown;
     let spaced = &breakdown.spaced.layers[0];
     let spacing = &shown.wanted.recipe.spacing;
-    let pull = spacing.pulled(breakdown.keys, spaced, breakdown.clock, koma, place)?;
-    let keys = &breakdown.keys.keys;
+    let pull =
+        spacing.pulled(breakdown.first_layer().keys, spaced, breakdown.clock, koma, place)?;
+    let keys = &breakdown.first_layer().keys.keys;
     let at = keys.binary_search_by_key(&pull.key, |key| key.frame).ok()?;
     Some((&keys[at], (pull.weight * HUNDREDTHS).round() / HUNDREDTHS))
 }

@@ -34,13 +34,13 @@ fn without(spaced: &Layer, gone: &[usize]) -> Layer {
     for drawing in gone
         .iter()
         .rev()
-        .filter(|at| !row.cells[**at].drawing.role.is_kept())
+        .filter(|at| !row.drawings[**at].drawing.role.is_kept())
         .copied()
         .collect::<Vec<_>>()
     {
-        let Cell { koma, drawing: covered, .. } = row.cells.remove(drawing);
-        row.cells[drawing - 1].koma += koma;
-        row.cells[drawing - 1].drawing.why.held_for += 1 + covered.why.held_for;
+        let OnScreen { koma, drawing: covered, .. } = row.drawings.remove(drawing);
+        row.drawings[drawing - 1].koma += koma;
+        row.drawings[drawing - 1].drawing.why.held_for += 1 + covered.why.held_for;
     }
     row.into_layer(spaced)
 }
@@ -52,9 +52,9 @@ fn held(layer: &Layer, spaced: &Layer, holds: &[&str]) -> Layer {
 
 /// The frame of each drawing and its koma.
 fn row(layer: &Layer) -> Vec<(usize, usize)> {
-    let cell =
+    let index =
         |shown: &Exposure| (layer.drawings[shown.drawing].source.place() as usize, shown.koma);
-    layer.exposures.iter().map(cell).collect()
+    layer.exposures.iter().map(index).collect()
 }
 
 #[test]
@@ -126,8 +126,8 @@ proptest! {
         prop_assert_eq!(result.length(), layer.length());
         prop_assert!(result.exposures.iter().all(|shown| shown.koma > 0));
         let kept = |layer: &Layer| -> Vec<(usize, f64)> {
-            let cells = layer.timed().map(|(koma, shown)| (koma, &layer.drawings[shown.drawing]));
-            cells.filter(|(_, drawing)| drawing.role.is_kept()).map(|(koma, drawing)| (koma, drawing.source.place())).collect()
+            let drawings = layer.timed().map(|(koma, shown)| (koma, &layer.drawings[shown.drawing]));
+            drawings.filter(|(_, drawing)| drawing.role.is_kept()).map(|(koma, drawing)| (koma, drawing.source.place())).collect()
         };
         prop_assert_eq!(kept(&result), kept(&layer));
         let places: Vec<f64> = result.drawings.iter().map(|drawing| drawing.source.place()).collect();

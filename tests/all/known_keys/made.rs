@@ -4,7 +4,6 @@ use genga::motion::{Body, Channel, Clip, Landmarks, Pose, RowWriter};
 use genga::sheet::Source;
 use genga::study::Noise;
 use genga::time::{Frame, FrameRate};
-use glam::DVec3;
 
 /// Frames in a koma of the clips that are made, 120 a second.
 pub(crate) const FRAMES: usize = 5;
@@ -88,13 +87,12 @@ fn known(clip: &Clip, lot: &mut Lot) -> Vec<Known> {
 fn distance(clip: &Clip, one: (f64, f64), other: (f64, f64)) -> f64 {
     let stands = [one, other].map(|(place, root)| {
         let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
-        let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
         pose.take_place(clip, root);
         let (rotation, translation) = (pose.rotations[0], pose.translations[0]);
         pose.take_place(clip, place);
         (pose.rotations[0], pose.translations[0]) = (rotation, TRAVEL * translation);
-        body.place(&pose, &mut positions);
-        positions
+        body.place(&pose);
+        body.positions().to_vec()
     });
     let ways = stands[0].iter().zip(&stands[1]).map(|(a, b)| a.distance_squared(*b));
     (ways.sum::<f64>() / stands[0].len() as f64).sqrt() / Landmarks::of(clip).height

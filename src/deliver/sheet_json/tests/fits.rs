@@ -62,7 +62,10 @@ fn a_sheet_of_an_exaggerated_motion_knows_its_source_and_makes_that_motion_again
     assert!(!validator.is_valid(&serde_json::from_str(&wrong).unwrap()));
     let error = read(wrong.as_bytes()).unwrap_err();
     assert!(error.position().is_some(), "{error}");
-    assert!(error.to_string().contains("exaggerate.ease: 1.5 is no strength"), "{error}");
+    assert!(
+        error.to_string().contains("exaggerate.ease: expected strength (0 is off), 0 to 1"),
+        "{error}"
+    );
 }
 
 #[test]

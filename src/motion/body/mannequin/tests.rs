@@ -72,10 +72,8 @@ fn mannequin(clip: &Clip) -> Option<Mannequin> {
 }
 
 fn stand(clip: &Clip) -> Stand {
-    let mut positions = vec![DVec3::ZERO; clip.skeleton().len()];
-    let mut body = crate::motion::Body::new(clip.skeleton());
-    body.place(&crate::motion::Pose::rest(clip.skeleton()), &mut positions);
-    mannequin(clip).unwrap().stand(|point| point.position(&body, &positions))
+    let body = crate::motion::Body::new(clip.skeleton());
+    mannequin(clip).unwrap().stand(|point| point.position(&body))
 }
 
 #[test]

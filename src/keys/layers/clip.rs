@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::error::Error;
 use crate::keys::JointWeights;
-use crate::keys::layers::Part;
+use crate::keys::layers::LayerJoints;
 use crate::motion::{Clip, Skeleton};
 
 /// The motion of a layer: its joints move, all others stay as in the clip's first frame.
@@ -12,7 +12,7 @@ use crate::motion::{Clip, Skeleton};
 /// So a hand that is carried along by a walk has no keys for it, whatever the hips do: what counts is how
 /// a joint turns and what hangs on it, and both are the same whichever way the rest of the body stands.
 #[derive(Debug, Clone)]
-pub(crate) struct PartMotion {
+pub(crate) struct LayerClip {
     pub(crate) clip: Arc<Clip>,
     /// How much each joint's turns count; 0 outside the layer.
     pub(crate) heard: Vec<f64>,
@@ -20,22 +20,26 @@ pub(crate) struct PartMotion {
     pub(crate) judged: Vec<f64>,
 }
 
-impl PartMotion {
-    /// The motion of a part; of the whole body it is the clip itself.
+impl LayerClip {
+    /// The motion of some joints; of the whole body it is the clip itself.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`JointWeights::of`], and where no joint of the part has a say.
-    pub(crate) fn of(clip: &Arc<Clip>, part: &Part, weights: &JointWeights) -> Result<Self, Error> {
+    /// [`Error::Setting`] as [`JointWeights::of`], and where none of them has a say.
+    pub(crate) fn of(
+        clip: &Arc<Clip>,
+        layer: &LayerJoints,
+        weights: &JointWeights,
+    ) -> Result<Self, Error> {
         let skeleton = clip.skeleton();
         let own = weights.of(skeleton)?;
-        if part.is_whole(skeleton) {
+        if layer.is_whole(skeleton) {
             return Ok(Self { clip: Arc::clone(clip), judged: own.clone(), heard: own });
         }
         let mut moves = vec![false; skeleton.len()];
-        part.joints.iter().for_each(|joint| moves[joint.0] = true);
+        layer.joints.iter().for_each(|joint| moves[joint.0] = true);
         let heard = only(&own, &moves);
         if heard.iter().all(|weight| *weight == 0.0) {
-            let name = &part.name;
+            let name = &layer.name;
             let message = format!(
                 "every joint of layer {name} has 0: leave one that has a say, or take the layer away"
             );

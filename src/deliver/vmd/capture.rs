@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::bones::{Model, Side};
 use super::map::{BoneMap, Found};
-use crate::motion::{Body, Clip, JointId, Pose, Stature, local_translation};
+use crate::motion::{Body, Clip, JointId, Poser, Stature, local_translation};
 use crate::time::Frame;
 
 /// Frames that are looked at; of longer clips every second, third … one.
@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-9;
 const LOWER: f64 = 0.05;
 
 /// The clip as the retargeting sees it.
-pub(super) struct Source<'a> {
+pub(super) struct Capture<'a> {
     clip: &'a Clip,
     map: &'a BoneMap,
     found: &'a Found,
@@ -27,7 +27,7 @@ pub(super) struct Source<'a> {
     looks: Vec<(Vec<DQuat>, Vec<DVec3>)>,
 }
 
-impl<'a> Source<'a> {
+impl<'a> Capture<'a> {
     pub(super) fn of(clip: &'a Clip, map: &'a BoneMap, found: &'a Found) -> Self {
         let skeleton = clip.skeleton();
         let mut rest: Vec<DVec3> = Vec::with_capacity(skeleton.len());
@@ -200,13 +200,10 @@ impl<'a> Source<'a> {
 }
 
 fn looks(clip: &Clip) -> Vec<(Vec<DQuat>, Vec<DVec3>)> {
-    let mut pose = Pose::rest(clip.skeleton());
-    let mut body = Body::new(clip.skeleton());
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
     let look = |frame| {
-        pose.take_frame(clip, Frame(frame));
-        let mut places = vec![DVec3::ZERO; clip.skeleton().len()];
-        body.place(&pose, &mut places);
-        (body.rotations().to_vec(), places)
+        body.place(poser.frame(Frame(frame)));
+        (body.rotations().to_vec(), body.positions().to_vec())
     };
     let frames = clip.first().0..clip.first().0 + clip.len();
     frames.step_by(clip.len().div_ceil(LOOKS).max(1)).map(look).collect()

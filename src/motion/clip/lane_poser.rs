@@ -1,11 +1,79 @@
 //! Several instants of a clip at once: local poses, their blends, and where every joint stands.
 //!
-//! What [`Pose`](super::Pose) and [`Body`](super::Body) do for one instant.
+//! What [`Poser`](super::Poser) and [`Body`](super::Body) do for one instant.
+
+use std::array;
 
 use crate::motion::clip::rig::{Rig, Rows};
 use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
 use crate::motion::{Clip, Skeleton};
-use crate::time::Frame;
+use crate::sheet::Source;
+use crate::time::{Clock, Frame};
+
+/// Gives poses of a clip, several at a time, with its buffers.
+#[derive(Debug, Clone)]
+pub(crate) struct LanePoser<'a> {
+    clip: &'a Clip,
+    rig: Rig,
+    pose: LanePose,
+    from: LanePose,
+    to: LanePose,
+}
+
+impl<'a> LanePoser<'a> {
+    pub(crate) fn of(clip: &'a Clip) -> Self {
+        let rest = LanePose::rest(clip.skeleton());
+        let rig = Rig::of(clip.skeleton());
+        Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
+    }
+
+    /// The poses that were last given.
+    pub(crate) fn pose(&self) -> &LanePose {
+        &self.pose
+    }
+
+    /// The poses of rows of the table.
+    #[inline(always)]
+    pub(crate) fn rows(&mut self, rows: &Rows<'_>) -> &LanePose {
+        self.pose.take_rows(&self.rig, rows);
+        &self.pose
+    }
+
+    /// The poses at a block of [`LANES`] koma of a clock; behind the last koma the last again.
+    #[inline(always)]
+    pub(crate) fn koma(&mut self, clock: Clock, block: usize, koma: usize) -> &LanePose {
+        let place = |lane: usize| clock.place_from_koma((LANES * block + lane).min(koma - 1));
+        self.pose.take_places(self.clip, &self.rig, array::from_fn(place));
+        &self.pose
+    }
+
+    /// The poses of drawings.
+    #[inline(always)]
+    pub(crate) fn drawings(&mut self, sources: [Source; LANES]) -> &LanePose {
+        let Self { clip, rig, pose, from, to } = self;
+        if sources.iter().all(|source| matches!(source, Source::At(_))) {
+            pose.take_places(clip, rig, sources.map(Source::place));
+        } else {
+            // What is no blend is one of a pose with itself.
+            let blends = sources.map(|source| match source {
+                Source::At(place) => (place, place, 0.0),
+                Source::Between { from, to, share } => (from, to, share),
+            });
+            from.take_places(clip, rig, blends.map(|blend| blend.0));
+            to.take_places(clip, rig, blends.map(|blend| blend.1));
+            pose.take_blends(from, to, Lanes(blends.map(|blend| blend.2)));
+        }
+        &self.pose
+    }
+
+    /// The poses that were last given, put into the world: rotations become world rotations, translations
+    /// positions.
+    #[inline(always)]
+    pub(crate) fn stand(&mut self) -> &LanePose {
+        self.pose.place(&self.rig);
+        &self.pose
+    }
+}
 
 /// A local pose a lane: a rotation and a translation a joint, in joint order.
 #[derive(Debug, Clone)]
@@ -16,7 +84,7 @@ pub(crate) struct LanePose {
 
 impl LanePose {
     /// A buffer for poses of a skeleton.
-    pub(crate) fn rest(skeleton: &Skeleton) -> Self {
+    fn rest(skeleton: &Skeleton) -> Self {
         let offsets = skeleton.joints.iter().map(|joint| LaneVec::splat(joint.offset));
         Self {
             rotations: vec![LaneQuat::default(); skeleton.len()],
@@ -27,7 +95,7 @@ impl LanePose {
     /// Takes on the poses at some places, fractional frame numbers: slerp between the two neighbouring
     /// frames. Places outside the clip give its first or last frame.
     #[inline(always)]
-    pub(crate) fn take_places(&mut self, clip: &Clip, rig: &Rig, places: [f64; LANES]) {
+    fn take_places(&mut self, clip: &Clip, rig: &Rig, places: [f64; LANES]) {
         let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
         let places = places.map(|place| place.clamp(first, last));
         let row = |place: f64| clip.row(Frame(place as usize));
@@ -47,7 +115,7 @@ impl LanePose {
 
     /// Takes on the poses of rows of the table.
     #[inline(always)]
-    pub(crate) fn take_rows(&mut self, rig: &Rig, rows: &Rows<'_>) {
+    fn take_rows(&mut self, rig: &Rig, rows: &Rows<'_>) {
         for joint in 0..rig.len() {
             self.rotations[joint] = rig.rotation(joint, rows);
             self.translations[joint] = rig.translation(joint, rows);
@@ -56,7 +124,7 @@ impl LanePose {
 
     /// Takes on the poses `shares` of the way from some poses to others: slerp of every joint.
     #[inline(always)]
-    pub(crate) fn take_blends(&mut self, from: &Self, to: &Self, shares: Lanes) {
+    fn take_blends(&mut self, from: &Self, to: &Self, shares: Lanes) {
         for joint in 0..self.rotations.len() {
             let (a, b) = (from.rotations[joint], to.rotations[joint]);
             self.rotations[joint] = a.slerp(b, shares);
@@ -67,15 +135,13 @@ impl LanePose {
 
     /// Into the world: rotations become world rotations, translations positions.
     #[inline(always)]
-    pub(crate) fn place(&mut self, rig: &Rig) {
+    fn place(&mut self, rig: &Rig) {
         rig.place(&mut self.rotations, &mut self.translations);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::array;
-
     use glam::DVec3;
     use proptest::prelude::*;
 
@@ -136,11 +202,10 @@ mod tests {
             to.take_place(&clip, places[1]);
             let mut mix = from.clone();
             mix.take_blend(&from, &to, share);
-            let mut positions = vec![DVec3::ZERO; skeleton.len()];
             let mut body = Body::new(skeleton);
             for (pose, wide, lane) in [(&to, &wide, 0), (&from, &wide, 1), (&mix, &blend, 0)] {
-                body.place(pose, &mut positions);
-                for (joint, position) in positions.iter().enumerate() {
+                body.place(pose);
+                for (joint, position) in body.positions().iter().enumerate() {
                     let found = wide.translations[joint].lane(lane);
                     // At half a turn apart either way round is a shortest one; nothing else may differ.
                     let half_turn = pose == &mix

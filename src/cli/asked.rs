@@ -1,0 +1,64 @@
+//! The command line; where it was not understood, what to type in its place.
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser};
+
+use super::commands::Args;
+
+/// What this process was asked for.
+pub(super) fn args() -> Args {
+    Args::try_parse().unwrap_or_else(|error| with_tip(error).exit())
+}
+
+fn with_tip(mut error: clap::Error) -> clap::Error {
+    if let Some(tip) = tip(&error) {
+        let tips = vec![StyledStr::from(tip)];
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+    }
+    error
+}
+
+fn tip(error: &clap::Error) -> Option<String> {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.as_str()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let word = word(ContextKind::InvalidSubcommand)?;
+            let is_suggested = error.get(ContextKind::SuggestedSubcommand).is_some();
+            clip_of(Path::new(word)).or_else(|| commands_like(word).filter(|_| !is_suggested))
+        }
+        ErrorKind::UnknownArgument => {
+            let path = Path::new(word(ContextKind::InvalidArg)?);
+            path.exists().then(|| "it takes one clip at a time: type it once for each".into())
+        }
+        _ => None,
+    }
+}
+
+/// Somebody named a clip, or a folder of them, and no command.
+fn clip_of(path: &Path) -> Option<String> {
+    let clip = if path.is_dir() { first_clip(path)? } else { path.to_owned() };
+    let is_clip = clip.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"));
+    (is_clip || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
+}
+
+/// The commands that begin as a word with a slip in it does.
+fn commands_like(word: &str) -> Option<String> {
+    let commands = Args::command();
+    let names = commands.get_subcommands().map(clap::Command::get_name);
+    let like = names.filter(|name| name.chars().next() == word.chars().next());
+    let like = like.collect::<Vec<_>>().join(" or ");
+    (!like.is_empty()).then(|| format!("did you mean {like}?"))
+}
+
+/// The first BVH file of a folder, by name.
+pub(super) fn first_clip(folder: &Path) -> Option<PathBuf> {
+    let entries = folder.read_dir().ok()?.flatten().map(|entry| entry.path());
+    let is_clip = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "bvh");
+    entries.filter(is_clip).min()
+}

@@ -1,0 +1,392 @@
+//! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use super::stage::{Of, Stage};
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::{
+    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, JointTurns, JointWeights,
+    Judges, Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked, Reconstruction, Reference,
+    Tracks,
+};
+use crate::motion::{Build, Clip, Screen, Skeleton};
+use crate::recipe::Recipe;
+use crate::sheet::Layer;
+use crate::signal::{LowPass, Signals, Turn, TurnFinder};
+use crate::time::Frame;
+use crate::timing::{Omission, Omitted, Pace, Report, Spaced, Spacing, Stills};
+
+/// What is known of the whole body, measured once for all layers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured<'a> {
+    pub(super) clip: Of<'a, Arc<Clip>>,
+    pub(super) filtered: Of<'a, Signals>,
+    pub(super) turns: Of<'a, Vec<Vec<Turn>>>,
+    pub(super) build: Of<'a, Build>,
+    /// The body's height in the file's unit, for a layer that is not all of it.
+    pub(super) height: Option<f64>,
+    /// From where it is seen.
+    pub(super) screen: Screen,
+}
+
+/// The stages of one layer, each with its last output.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LayerStages {
+    /// The motion of its joints, and how much each counts.
+    motion: Stage<(LayerJoints, JointWeights), LayerClip>,
+    /// What the layer is judged beside: rate, height of the body, screen.
+    reference: Stage<(f64, Option<f64>, Screen), Reference>,
+    /// What is lost from any koma to another, up to a span in seconds.
+    chords: Stage<f64, Chords>,
+    /// The instants from begin to end of each rest.
+    rests: Stage<f64, Vec<RangeInclusive<usize>>>,
+    /// The turns of joints that have a say, and the weight of each one's vote.
+    voices: Stage<(), Voices>,
+    /// When feet and hands of the layer come down or leave, where that counts.
+    contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
+    /// How all that moves in the layer moves, how fast that is, and when it turns as a whole.
+    tracks: Stage<Screen, Tracks>,
+    speeds: Stage<LowPass, BodySpeeds>,
+    /// Persistence and the least distance of two turns, in frames.
+    body: Stage<(f64, f64), BodyTurns>,
+    /// What may be a key, before a person and the sheet have their say, and after.
+    candidates: Stage<(Choose, Finding), Candidates>,
+    eligible: Stage<(Choose, Edits, Spacing, f64), Vec<Key>>,
+    /// What was picked: not made again where all that changed is how strong its keys are.
+    picked: Stage<Choice, Picked>,
+    keys: Stage<(Choose, Edits, Finding), LayerKeys>,
+    spaced: Stage<(Spacing, LayerJoints), Spaced>,
+    stills: Stage<(), Stills>,
+    omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
+}
+
+/// What finds turns, the delay of the filter and the least distance of two keys, both in frames.
+#[derive(Debug, Clone, PartialEq)]
+struct Finding {
+    finder: TurnFinder,
+    delay: f64,
+    apart: f64,
+}
+
+/// What was found and decided for one layer.
+#[derive(Debug, Clone, Copy)]
+pub struct LayerBreakdown<'a> {
+    /// When it turns as a whole.
+    pub body: &'a BodyTurns,
+    /// What may be a key, before it was asked what it is worth.
+    pub candidates: &'a Candidates,
+    /// Keys and walls.
+    pub keys: &'a LayerKeys,
+    /// Inbetweens that were asked for and did not fit.
+    pub did_not_fit: usize,
+    /// The layer before anything was left out.
+    pub spaced: &'a Layer,
+    /// The layer on the sheet.
+    pub layer: &'a Layer,
+    /// What was left out, and what could not be.
+    pub omission: &'a Report,
+}
+
+impl LayerStages {
+    /// Takes on the joints of the layer.
+    pub(super) fn take(
+        &mut self,
+        measured: &Measured<'_>,
+        joints: &LayerJoints,
+        weights: &JointWeights,
+    ) -> Result<(), Error> {
+        let settings = (joints.clone(), weights.clone());
+        self.motion.try_make((measured.clip,), settings, |(clip,), (joints, weights)| {
+            LayerClip::of(&clip, joints, weights)
+        })
+    }
+
+    /// Finds the keys and walls of the layer.
+    pub(super) fn find(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
+        self.compare(measured, recipe);
+        self.hear(measured, recipe);
+        self.turn(measured, recipe);
+        self.choose(measured, recipe, edits);
+    }
+
+    /// What the layer is judged beside.
+    fn refer(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let settings = (recipe.rate, measured.height, measured.screen);
+        self.reference.make((self.motion.output(),), settings, |(motion,), settings| {
+            let (rate, height, screen) = *settings;
+            let LayerClip { clip, judged, .. } = motion.value();
+            let own = Reference::weighted(clip, clip.clock(rate), judged).on(screen);
+            match height {
+                None => own,
+                Some(height) => own.beside(height),
+            }
+        });
+    }
+
+    /// What is lost from any koma to another, and where nothing is.
+    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        self.refer(measured, recipe);
+        let inputs = (self.motion.output(), measured.build, self.reference.output());
+        self.chords.make(inputs, recipe.keys.span(), |(motion, build, reference), span| {
+            Chords::of_layer(&motion.clip, &build, &reference, &motion.judged, *span)
+        });
+        let chords = (self.chords.output(),);
+        self.rests.make(chords, recipe.keys.rest, |(chords,), rest| keys::rests(&chords, *rest));
+    }
+
+    /// The turns of single joints, and the ends of contacts, which are not looked for where they do not count.
+    fn hear(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let motion = self.motion.output();
+        self.voices.make((measured.clip, motion, measured.turns), (), |inputs, ()| {
+            let (clip, motion, turns) = inputs;
+            Voices::of(&clip, &motion, &turns)
+        });
+        let settings = (recipe.keys.contacts, recipe.rate);
+        self.contacts.make((measured.clip, motion), settings, |(clip, motion), settings| {
+            match *settings {
+                (keys::AtContacts::Off, _) => Vec::new(),
+                (_, rate) => keys::contact_ends(&clip, clip.clock(rate), &motion.heard),
+            }
+        });
+    }
+
+    /// The turns of the layer as a whole.
+    fn turn(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        let inputs = (self.motion.output(), measured.build, self.reference.output());
+        self.tracks.make(inputs, measured.screen, |(motion, build, reference), screen| {
+            let LayerClip { clip, judged, heard } = motion.value();
+            let height = reference.height();
+            let build = build.value();
+            Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height })
+        });
+        let tracks = (self.tracks.output(),);
+        self.speeds.make(tracks, recipe.filter.clone(), |(tracks,), filter| {
+            BodySpeeds::of(&tracks, filter)
+        });
+        let rate = measured.clip.rate();
+        let settings = (recipe.turns.persistence.frames(rate), apart(measured, recipe));
+        self.body.make((self.speeds.output(),), settings, |(speeds,), settings| {
+            speeds.turns(settings.0, settings.1)
+        });
+    }
+
+    /// The keys among what may be one.
+    fn choose(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
+        let finding = Finding {
+            finder: recipe.turns.clone(),
+            delay: recipe.filter.delay(measured.clip.rate()),
+            apart: apart(measured, recipe),
+        };
+        // Price, rests and limit choose among candidates and do not change them.
+        let merging =
+            Choose { min_price: 0.0, rest: 0.0, per_second: f64::INFINITY, ..recipe.keys.clone() };
+        let Measured { filtered, turns, .. } = *measured;
+        let contacts = self.contacts.output();
+        let known = (filtered, turns, self.voices.output(), self.body.output(), contacts);
+        self.candidates.make(known, (merging, finding.clone()), |known, (choose, finding)| {
+            choose.candidates(&joints(known, finding))
+        });
+        self.admit(measured, recipe, edits, finding.apart);
+        self.pick(measured, recipe, finding.apart);
+        let (chords, rests) = (self.chords.output(), self.rests.output());
+        let (eligible, picked) = (self.eligible.output(), self.picked.output());
+        let voices = self.voices.output();
+        let inputs = (chords, rests, eligible, picked, self.candidates.output(), turns, voices);
+        let settings = (recipe.keys.clone(), edits.clone(), finding);
+        self.keys.make(inputs, settings, |inputs, (choose, edits, finding)| {
+            let (chords, rests, eligible, picked, candidates, turns, voices) = inputs;
+            let heard = (voices.turns(turns.value()), &voices.weights[..]);
+            let still = (chords.value(), &rests[..]);
+            choose.drawn(
+                still,
+                &eligible,
+                &picked,
+                &candidates.walls,
+                heard,
+                (edits, finding.apart),
+            )
+        });
+    }
+
+    /// What may be a key beside what a person asks for and where the sheet has room.
+    fn admit(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits, apart: f64) {
+        let (chords, rests) = (self.chords.output(), self.rests.output());
+        let (candidates, contacts) = (self.candidates.output(), self.contacts.output());
+        let reference = self.reference.output();
+        let inputs = (measured.clip, chords, rests, candidates, contacts, reference);
+        // How long a drawing stays and what still counts as rest is all that keys hang on of spacing.
+        let Spacing { on, drift, .. } = recipe.spacing;
+        let room = Spacing { on, drift, ..Spacing::default() };
+        let settings = (recipe.keys.clone(), edits.clone(), room, apart);
+        self.eligible.make(inputs, settings, |inputs, (choose, edits, spacing, apart)| {
+            let (clip, chords, rests, candidates, contacts, reference) = inputs;
+            let still = (chords.value(), &rests[..]);
+            let mut keys = choose.eligible(&clip, still, &candidates, &contacts, (edits, *apart));
+            let (held, pace) = (keys::rest_frames(&chords, &rests), Pace::of(&reference));
+            let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
+            keys.retain(|key| !key.origin.is_found() || room(key.frame));
+            keys
+        });
+    }
+
+    /// Which of them are drawn.
+    fn pick(&mut self, measured: &Measured<'_>, recipe: &Recipe, apart: f64) {
+        let (chords, reference) = (self.chords.output(), self.reference.output());
+        let judges = Judges { reference: reference.value(), chords: chords.value() };
+        // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
+        let apart = recipe.spacing.on.stay() as f64 * apart;
+        let choice = recipe.keys.choice(&measured.clip, judges, &self.eligible.output(), apart);
+        self.picked.make((chords,), choice, |(chords,), choice| choice.pick(&chords));
+    }
+
+    /// The column, before and after omission; `later` are the koma on which actions begin after the first.
+    pub(super) fn time(
+        &mut self,
+        measured: &Measured<'_>,
+        joints: &LayerJoints,
+        recipe: &Recipe,
+        later: &[usize],
+    ) -> Result<(), Error> {
+        let inputs = (measured.clip, self.keys.output(), self.reference.output());
+        let settings = (recipe.spacing.clone(), joints.clone());
+        self.spaced.make(inputs, settings, |(clip, keys, reference), (spacing, joints)| {
+            let (skeleton, pace) = (clip.skeleton(), Pace::of(&reference));
+            let koma = clip.rate().koma_from_frames(clip.len(), reference.clock().koma_rate);
+            named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), joints, skeleton)
+        });
+        let spaced = self.spaced.output();
+        let inputs = (measured.clip, spaced, self.reference.output());
+        self.stills.make(inputs, (), |(clip, spaced, reference), ()| {
+            Stills::on(&clip, &spaced.layer, reference.screen())
+        });
+        let settings = (recipe.omission, recipe.spacing.on.most, later.to_vec());
+        self.omitted.try_make((spaced, self.stills.output()), settings, |inputs, settings| {
+            let ((spaced, stills), (omission, on, later)) = (inputs, settings);
+            omission.apply_by_action(&spaced.layer, &stills, *on, later)
+        })
+    }
+
+    /// Drops what only another run would use, and what is large.
+    pub(super) fn forget(&mut self) {
+        self.motion.forget();
+        self.reference.forget();
+        self.chords.forget();
+        self.tracks.forget();
+        self.speeds.forget();
+        self.stills.forget();
+    }
+
+    pub(super) fn breakdown(&self) -> LayerBreakdown<'_> {
+        let (spaced, omitted) = (self.spaced.output().value(), self.omitted.output().value());
+        LayerBreakdown {
+            body: self.body.output().value(),
+            candidates: self.candidates.output().value(),
+            keys: self.keys.output().value(),
+            did_not_fit: spaced.did_not_fit,
+            spaced: &spaced.layer,
+            layer: &omitted.layer,
+            omission: &omitted.report,
+        }
+    }
+
+    /// What is lost from any instant to another.
+    pub(super) fn chords(&self) -> Of<'_, Chords> {
+        self.chords.output()
+    }
+
+    /// Its turns as a whole, and its keys.
+    pub(super) fn keys(&self) -> (&BodyTurns, &LayerKeys) {
+        (self.body.output().value(), self.keys.output().value())
+    }
+
+    /// The layer before and after omission.
+    pub(super) fn timed(&self) -> (Of<'_, Spaced>, Of<'_, Omitted>) {
+        (self.spaced.output(), self.omitted.output())
+    }
+
+    /// Runs its stages up to its turns as a whole.
+    pub(super) fn find_body_turns(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+        self.refer(measured, recipe);
+        self.turn(measured, recipe);
+    }
+
+    /// Its turns as a whole.
+    pub(super) fn body_turns(&self) -> &BodyTurns {
+        self.body.output().value()
+    }
+
+    /// How far off the layer is when nothing but its keys is left.
+    pub(super) fn reconstruction(&self) -> Reconstruction {
+        let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
+        Reconstruction::of(&self.motion.output().clip, &self.reference.output(), &keys)
+    }
+}
+
+/// The least distance of two keys in frames: a koma.
+fn apart(measured: &Measured<'_>, recipe: &Recipe) -> f64 {
+    measured.clip.clock(recipe.rate).frames_in_koma()
+}
+
+/// What is known of the joints once their turns are found: smoothed speeds, turns, who has a say, turns as a
+/// whole, and contacts.
+type Known<'a> = (
+    Of<'a, Signals>,
+    Of<'a, Vec<Vec<Turn>>>,
+    Of<'a, Voices>,
+    Of<'a, BodyTurns>,
+    Of<'a, Vec<Frame>>,
+);
+
+fn joints<'a>(known: Known<'a>, finding: &'a Finding) -> JointTurns<'a> {
+    let (filtered, turns, voices, body, contacts) = known;
+    let Finding { finder, delay, apart } = finding;
+    JointTurns {
+        filtered: filtered.value(),
+        turns: voices.value().turns(turns.value()),
+        finder,
+        delay: *delay,
+        weights: &voices.value().weights,
+        apart: *apart,
+        contacts: contacts.value(),
+        body: body.value(),
+    }
+}
+
+/// A column under the name of its layer. A layer that is the whole body need not name its joints.
+fn named(mut spaced: Spaced, joints: &LayerJoints, skeleton: &Skeleton) -> Spaced {
+    spaced.layer.name.clone_from(&joints.name);
+    if !joints.is_whole(skeleton) {
+        let name = |joint: &crate::motion::JointId| skeleton.joints[joint.0].name.clone();
+        spaced.layer.joints = joints.joints.iter().map(name).collect();
+    }
+    spaced
+}
+
+/// How much each joint counts when keys are chosen.
+#[derive(Debug)]
+struct Voices {
+    /// What a person says of each joint times what hangs on it: the weight of its vote.
+    weights: Vec<f64>,
+    /// The turns without those of joints that have no say; none where all have.
+    turns: Option<Vec<Vec<Turn>>>,
+}
+
+impl Voices {
+    fn of(clip: &Clip, motion: &LayerClip, turns: &[Vec<Turn>]) -> Self {
+        let (weights, own) = (keys::weights(clip), &motion.heard);
+        let weights = weights.iter().zip(own).map(|(by_bones, own)| by_bones * own).collect();
+        let heard = |(turns, own): (&Vec<Turn>, &f64)| {
+            if *own > 0.0 { turns.clone() } else { Vec::new() }
+        };
+        let some_are_mute = own.contains(&0.0);
+        let turns = some_are_mute.then(|| turns.iter().zip(own).map(heard).collect());
+        Self { weights, turns }
+    }
+
+    /// The turns of those that have a say, of all turns.
+    fn turns<'a>(&'a self, all: &'a [Vec<Turn>]) -> &'a [Vec<Turn>] {
+        self.turns.as_deref().unwrap_or(all)
+    }
+}
