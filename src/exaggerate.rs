@@ -55,51 +55,48 @@ impl Default for Exaggerate {
     }
 }
 
-knobs!(
-    "exaggerate.",
-    Exaggerate {
-        cartoon: knob(
-            "誇張",
-            "Anticipation before movements and follow-through after them (the cartoon animation \
+knobs!(exaggerate::Exaggerate {
+    cartoon: knob(
+        "誇張",
+        "Anticipation before movements and follow-through after them (the cartoon animation \
          filter), before keys are chosen. 1 goes back and beyond by 36 % of a sudden movement. \
          More breaks joints.",
-            "原画を選ぶ前に、\
+        "原画を選ぶ前に、\
          動きの前の予備動作と後の後追いを強める（カートゥーン・アニメーション・フィルタ）。1で、\
          急な動きの36％だけ逆へ引き、行き過ぎる。強すぎると関節が壊れる。",
-        )
-        .unit("strength (0 is off)")
-        .at_most(3.0) // three times the swing is beyond what a body can be read in
-        .slider(0.0, 2.0),
-        cartoon_width: knob(
-            "予備動作から後追いまで",
-            "The time from the anticipation of a sudden movement to its follow-through. Longer \
+    )
+    .unit("strength (0 is off)")
+    .at_most(3.0) // three times the swing is beyond what a body can be read in
+    .slider(0.0, 2.0),
+    cartoon_width: knob(
+        "予備動作から後追いまで",
+        "The time from the anticipation of a sudden movement to its follow-through. Longer \
          exaggerates slow movements too.",
-            "急な動きの予備動作から後追いまでの時間。長いほど、ゆっくりした動きも誇張される。",
-        ),
-        cartoon_parts: knob(
-            "誇張する部位",
-            "What is exaggerated so: all that no foot hangs on, so that feet stand where they stood \
+        "急な動きの予備動作から後追いまでの時間。長いほど、ゆっくりした動きも誇張される。",
+    ),
+    cartoon_parts: knob(
+        "誇張する部位",
+        "What is exaggerated so: all that no foot hangs on, so that feet stand where they stood \
          (upper), or legs and the way of the body too (body): feet slide a little then.",
-            "誇張する部位。足につながらない部位だけで、接地した足は動かない（upper）か、\
+        "誇張する部位。足につながらない部位だけで、接地した足は動かない（upper）か、\
          脚と体の移動も含む全身（body）で、足は少し滑る。",
-        ),
-        ease: knob(
-            "スローイン・スローアウト",
-            "Slow-in and slow-out: poses gather round rests and turning points, and the movement \
+    ),
+    ease: knob(
+        "スローイン・スローアウト",
+        "Slow-in and slow-out: poses gather round rests and turning points, and the movement \
          between is faster. No pose is changed, only its time.",
-            "止まりや折り返しの近くに時間を集め、あいだの動きを速くする。ポーズは変わらず、\
+        "止まりや折り返しの近くに時間を集め、あいだの動きを速くする。ポーズは変わらず、\
          時刻だけが変わる。",
-        )
-        .unit("strength (0 is off)")
-        .at_most(1.0),
-        ease_reach: knob(
-            "時間を集める範囲",
-            "How far in time poses are drawn to the slow ones beside them. Longer draws short \
+    )
+    .unit("strength (0 is off)")
+    .at_most(1.0),
+    ease_reach: knob(
+        "時間を集める範囲",
+        "How far in time poses are drawn to the slow ones beside them. Longer draws short \
          movements to the rests beside them.",
-            "近くの遅いポーズに引き寄せる時間の範囲。長いほど、短い動きは隣の止めに引き寄せられる。",
-        ),
-    }
-);
+        "近くの遅いポーズに引き寄せる時間の範囲。長いほど、短い動きは隣の止めに引き寄せられる。",
+    ),
+});
 
 impl Exaggerate {
     /// Whether the settings can be used.

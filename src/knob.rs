@@ -5,6 +5,8 @@
 mod range;
 mod value;
 
+use std::ops::Bound::{Excluded, Included, Unbounded};
+
 use crate::error::Error;
 
 pub use range::Range;
@@ -105,28 +107,28 @@ pub(crate) const fn kind_of<S, V: Setting>(_field: fn(&S) -> &V) -> Kind {
 /// How a knob is declared.
 impl Knob {
     pub(crate) const fn at_least(mut self, least: f64) -> Self {
-        self.range = self.range.at_least(least);
+        self.range.from = Included(least);
         self
     }
 
     pub(crate) const fn above(mut self, bound: f64) -> Self {
-        self.range = self.range.above(bound);
+        self.range.from = Excluded(bound);
         self
     }
 
     pub(crate) const fn at_most(mut self, most: f64) -> Self {
-        self.range = self.range.at_most(most);
+        self.range.to = Included(most);
         self
     }
 
     pub(crate) const fn below(mut self, bound: f64) -> Self {
-        self.range = self.range.below(bound);
+        self.range.to = Excluded(bound);
         self
     }
 
     /// Infinity too, which is no limit.
     pub(crate) const fn or_inf(mut self) -> Self {
-        self.range = self.range.or_inf();
+        self.range.to = Unbounded;
         self
     }
 
@@ -226,12 +228,27 @@ pub(crate) trait Knobs {
     }
 }
 
-/// Declares the knobs of a settings struct: `knobs!("filter.", LowPass { width: knob(…), … })`.
+/// Declares the knobs of a settings struct of a section: `knobs!(filter::LowPass { width: knob(…), … })`.
 ///
-/// Fields without a knob are named behind it, and those that have knobs of their own in brackets at the end: a field
-/// that is forgotten does not compile.
+/// Behind `..` stands a field that has none, or in brackets those that have knobs of their own. What is forgotten does
+/// not compile.
 macro_rules! knobs {
-    ($section:literal, $of:ident { $($field:ident: $knob:expr,)* } $(, $bare:ident)* $(, [$($under:ident),+])?) => {
+    ($section:ident::$of:ident { $($rows:tt)* }) => {
+        $crate::knob::knobs!(@rows (concat!(stringify!($section), ".")) $of $($rows)*);
+    };
+    ($of:ident { $($rows:tt)* }) => {
+        $crate::knob::knobs!(@rows ("") $of $($rows)*);
+    };
+    (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..[$($under:ident),+]) => {
+        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [] [$($under),+]);
+    };
+    (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..$bare:ident) => {
+        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [$bare] []);
+    };
+    (@rows $section:tt $of:ident $($field:ident: $knob:expr),* $(,)?) => {
+        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [] []);
+    };
+    (@impl ($section:expr) $of:ident [$($field:ident: $knob:expr),*] [$($bare:ident)?] [$($under:ident),*]) => {
         impl $of {
             /// What is said of each setting.
             pub(crate) const KNOBS: &'static [$crate::knob::Knob] = &[$($knob.named(
@@ -242,17 +259,15 @@ macro_rules! knobs {
 
         impl $crate::knob::Knobs for $of {
             fn values(&self) -> Vec<(&'static $crate::knob::Knob, &dyn $crate::knob::Value)> {
-                let Self { $($field,)* $($bare: _,)* $($($under,)+)? } = self;
+                let Self { $($field,)* $($bare: _,)? $($under,)* } = self;
                 let own: Vec<&dyn $crate::knob::Value> = vec![$($field),*];
-                let own = Self::KNOBS.iter().zip(own);
-                own$($(.chain($under.values()))+)?.collect()
+                Self::KNOBS.iter().zip(own)$(.chain($under.values()))*.collect()
             }
 
             fn values_mut(&mut self) -> Vec<(&'static $crate::knob::Knob, &mut dyn $crate::knob::Value)> {
-                let Self { $($field,)* $($bare: _,)* $($($under,)+)? } = self;
+                let Self { $($field,)* $($bare: _,)? $($under,)* } = self;
                 let own: Vec<&mut dyn $crate::knob::Value> = vec![$($field),*];
-                let own = Self::KNOBS.iter().zip(own);
-                own$($(.chain($under.values_mut()))+)?.collect()
+                Self::KNOBS.iter().zip(own)$(.chain($under.values_mut()))*.collect()
             }
         }
     };

@@ -25,6 +25,7 @@ mod pose_row;
 mod preview;
 #[cfg(feature = "cli")]
 mod raster;
+mod shared;
 mod sheet;
 mod spacing;
 mod speed;

@@ -80,7 +80,7 @@ impl Default for Recipe {
     }
 }
 
-knobs!("", Recipe {
+knobs!(Recipe {
     rate: knob(
         "コマ数",
         "Koma a second of the sheet: 24 in film and TV animation.",
@@ -123,7 +123,8 @@ knobs!("", Recipe {
         "接地した足を止めるか。絵のまま（free）か、素材で接地している間は一か所に止め、\
          股と膝で合わせる（held）か。",
     ),
-}, [exaggerate, speed, filter, turns, keys, actions, spacing, omission]);
+    ..[exaggerate, speed, filter, turns, keys, actions, spacing, omission]
+});
 
 impl Recipe {
     /// Checks every setting.

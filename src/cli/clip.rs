@@ -120,8 +120,7 @@ impl Part {
     pub(super) fn read_all(&self, clips: &[PathBuf], words: &Words) -> Result<Vec<Clip>, Failure> {
         let read = |path: &PathBuf| {
             let source = self.read(path)?;
-            let of =
-                if clips.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
+            let of = if clips.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
             source.notes.iter().for_each(|warning| words.warn_of(&of, warning));
             Ok(source.clip)
         };

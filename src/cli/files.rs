@@ -6,13 +6,13 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
 use super::failure::Failure;
 use super::paths::{self, is_stream, named};
 use super::staging::{self, Staging};
 use super::stop;
 use crate::error::Error;
 use crate::plot;
+use serde::Serialize;
 
 /// All bytes of a file, or of stdin for `-`.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -51,7 +51,8 @@ impl Left {
             let named = format!("{of}: {}", shortened(files.clone()).join(" "));
             (!files.is_empty()).then_some(named)
         };
-        let changed = named("of an earlier run, kept because they were changed since", self.changed);
+        let changed =
+            named("of an earlier run, kept because they were changed since", self.changed);
         let stale = named("of an earlier sheet, not of this one", self.stale);
         changed.into_iter().chain(stale).collect()
     }
@@ -140,7 +141,8 @@ impl<'a> Folder<'a> {
             come.iter().filter(|(name, digest)| !is_ours(name, digest)).map(|(name, _)| &**name),
         );
         let Some((first, more)) = others.split_first() else { return Ok(()) };
-        let more = if more.is_empty() { String::new() } else { format!(" (nor {})", more.join(" ")) };
+        let more =
+            if more.is_empty() { String::new() } else { format!(" (nor {})", more.join(" ")) };
         Err(Failure::AskedWrongly(format!(
             "{}: this file is not as a run wrote it{more}, and would be lost; move it, write elsewhere with --out, or write over \
              it with --force",

@@ -50,6 +50,14 @@ pub(super) fn help() -> String {
     format!("Formats:{}", lines.collect::<String>())
 }
 
+/// The formats, and what `--with` sets of them.
+pub(super) fn long_help() -> String {
+    let settings = Settings::default().knobs().into_iter().map(|knob| {
+        format!("\n  {:<22}{} ({}): {}", knob.name, knob.help, knob.japanese, knob.takes())
+    });
+    format!("{}\n\nSettings of formats (--with):{}", help(), settings.collect::<String>())
+}
+
 /// More files of one format than this are named by the first and the last.
 const MOST_NAMES: usize = 3;
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::deliver::{Cut, Settings, Sink};
 use crate::error::Error;
+use crate::knob::{knob, knobs};
 use crate::plot::Camera;
 
 /// What all pictures of figures have in common.
@@ -13,6 +14,10 @@ pub struct FigureSettings {
     /// A PNG beside every page of SVG; default no.
     pub png: bool,
 }
+
+knobs!(figures::FigureSettings {
+    png: knob("PNGも", "A PNG beside every page of SVG.", "SVGの各ページにPNGも添える。"),
+});
 
 /// Source above, result below.
 pub(super) fn strip(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {

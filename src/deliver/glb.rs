@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::error::Error;
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::{Axis, Clip, Composite, Stature, Unit};
 use crate::sheet::Sheet;
 use binary::Binary;
@@ -38,8 +39,7 @@ pub struct Glb {
 }
 
 /// A unit of length (単位), or that nobody knows it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LengthUnit {
     /// The unit that makes a person of the body in its first frame.
     #[default]
@@ -55,6 +55,8 @@ pub enum LengthUnit {
     /// An inch divided by 0.45, as CMU's motion has it.
     Cmu,
 }
+
+choices!(LengthUnit { Auto: "auto", M: "m", Cm: "cm", Mm: "mm", Inch: "inch", Cmu: "cmu" });
 
 impl LengthUnit {
     /// Metres in one of it, for a body of that size.
@@ -72,8 +74,7 @@ impl LengthUnit {
 }
 
 /// The axis that points up.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Up {
     /// The one along which the body stands.
     #[default]
@@ -84,11 +85,27 @@ pub enum Up {
     Z,
 }
 
+choices!(Up { Auto: "auto", Y: "y", Z: "z" });
+
 impl Default for Glb {
     fn default() -> Self {
         Self { unit: LengthUnit::Auto, scale: 1.0, up: Up::Auto, mesh: true }
     }
 }
+
+knobs!(glb::Glb {
+    unit: knob("単位", "The clip's unit of length.", "素材の長さの単位。"),
+    scale: knob("倍率", "How many times as large the body becomes.", "体を何倍にするか。")
+        .unit("times")
+        .at_least(0.001)
+        .at_most(1000.0),
+    up: knob("上の軸", "The clip's axis that points up.", "素材の上向きの軸。"),
+    mesh: knob(
+        "骨の形",
+        "Whether each bone has an octahedron to be seen by; without it most viewers show nothing.",
+        "骨を八面体で見せるか。ないと多くのビューアでは何も見えない。",
+    ),
+});
 
 impl Glb {
     /// Checks the settings.
@@ -96,11 +113,7 @@ impl Glb {
     /// # Errors
     /// [`Error::Setting`] for a scale out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        if (1e-3..=1e3).contains(&self.scale) {
-            return Ok(());
-        }
-        let message = format!("{}; it must be between 0.001 and 1000", self.scale);
-        Err(Error::setting("glb.scale", message))
+        self.check()
     }
 
     /// The motion of a sheet as the bytes of a `.glb`, all layers on one another.

@@ -1,11 +1,11 @@
 //! What can be asked of the formats: a small settings struct each, set by name.
 
 use serde::{Deserialize, Serialize};
-use toml::{Table, Value};
 
 use crate::deliver::xdts::Xdts;
 use crate::deliver::{FigureSettings, Glb, Vmd};
 use crate::error::Error;
+use crate::knob::{Knob, Knobs, knob, knobs};
 use crate::plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip, XSheet};
 
 /// The settings of every format, by its name. A new format's are a field here.
@@ -46,6 +46,14 @@ pub struct CsvSettings {
     pub bom: bool,
 }
 
+knobs!(csv::CsvSettings {
+    bom: knob(
+        "BOM",
+        "Tables begin with a byte order mark, by which Excel knows UTF-8.",
+        "表の先頭にBOMを付ける。ExcelがUTF-8と分かる。",
+    ),
+});
+
 impl CsvSettings {
     /// The bytes of a table.
     pub(crate) fn encode(&self, table: String) -> Vec<u8> {
@@ -53,20 +61,17 @@ impl CsvSettings {
     }
 }
 
+knobs!(Settings {
+    ..[csv, xdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview, images, glb]
+});
+
 impl Settings {
     /// Checks every setting.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        self.vmd.validate()?;
-        self.glb.validate()?;
-        in_section("strip", self.strip.validate())?;
-        in_section("contact", self.contact.validate())?;
-        in_section("onion", self.onion.validate())?;
-        in_section("flipbook", self.flipbook.validate())?;
-        in_section("preview", self.preview.validate())?;
-        in_section("images", self.images.validate())
+        self.check()
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.
@@ -75,62 +80,27 @@ impl Settings {
     /// [`Error::Setting`] when there is no such setting, listing those there are, or the value is not one
     /// that it takes.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
-        let mut table = self.table();
-        let place = name
-            .split_once('.')
-            .and_then(|(section, field)| table.get_mut(section)?.as_table_mut()?.get_mut(field));
-        let Some(place) = place else {
-            let message =
-                format!("there is no such setting; there are {}", self.names().join(", "));
-            return Err(Error::setting(name, message));
-        };
-        *place = like(place, text.trim());
-        let changed: Self = Value::Table(table).try_into().map_err(|error: toml::de::Error| {
-            let reason = error.message().lines().next().unwrap_or_default().to_owned();
-            Error::setting(name, format!("cannot be \"{text}\": {reason}"))
-        })?;
+        let mut changed = self.clone();
+        changed.turn(name, text).ok_or_else(|| self.unknown(name))??;
         changed.validate()?;
-        // A table of bones is no word; it stays.
-        let bones = self.vmd.bones.take();
         *self = changed;
-        self.vmd.bones = bones;
         Ok(())
+    }
+
+    /// What is said of every setting; its name is `FORMAT.SETTING`.
+    pub fn knobs(&self) -> Vec<&'static Knob> {
+        self.values().into_iter().map(|(knob, _)| knob).collect()
     }
 
     /// The name of every setting, as `FORMAT.SETTING`.
     pub fn names(&self) -> Vec<String> {
-        let table = self.table();
-        let sections =
-            table.iter().filter_map(|(section, value)| Some((section, value.as_table()?)));
-        sections
-            .flat_map(|(section, fields)| {
-                fields.keys().map(move |field| format!("{section}.{field}"))
-            })
-            .collect()
+        self.knobs().into_iter().map(|knob| knob.name.to_owned()).collect()
     }
 
-    fn table(&self) -> Table {
-        Table::try_from(self).expect("settings are plain numbers and words")
+    fn unknown(&self, name: &str) -> Error {
+        let message = format!("there is no such setting; there are {}", self.names().join(", "));
+        Error::setting(name, message)
     }
-}
-
-/// What is wrong with a picture's setting, by its name here: a picture knows only its own.
-fn in_section(section: &str, checked: Result<(), Error>) -> Result<(), Error> {
-    checked.map_err(|error| match error {
-        Error::Setting { name, message } => Error::setting(format!("{section}.{name}"), message),
-        other => other,
-    })
-}
-
-/// The value that a word means where such a value stands.
-fn like(before: &Value, text: &str) -> Value {
-    let value = match before {
-        Value::Boolean(_) => text.parse().ok().map(Value::Boolean),
-        Value::Integer(_) => text.parse().ok().map(Value::Integer),
-        Value::Float(_) => text.parse().ok().map(Value::Float),
-        _ => None,
-    };
-    value.unwrap_or_else(|| Value::String(text.into()))
 }
 
 #[cfg(test)]
@@ -155,7 +125,7 @@ mod tests {
             assert!(error.contains("csv.bom"), "{name}: {error}");
         }
         let error = settings.set("csv.bom", "yes").unwrap_err().to_string();
-        assert!(error.starts_with("csv.bom: cannot be \"yes\": "), "{error}");
+        assert_eq!(error, "csv.bom: expected true | false, found \"yes\"");
         assert_eq!(settings, Settings::default(), "nothing was changed");
     }
 

@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::deliver::csv_table;
 use crate::error::{Error, Warning};
+use crate::knob::{Knobs, knob, knobs};
 use crate::motion::{Clip, Composite, JointId, Skeleton};
 use crate::sheet::{Exposure, Sheet};
 use bones::{Model, Side};
@@ -104,23 +105,38 @@ impl Default for Vmd {
     }
 }
 
+knobs!(vmd::Vmd {
+    fps: knob(
+        "フレームレート",
+        "Frames a second that the motion is played at; 30 is MMD's own.",
+        "再生する毎秒フレーム数。MMDでは30。",
+    )
+    .unit("frames a second")
+    .at_least(1.0)
+    .at_most(1000.0),
+    arm_angle: knob(
+        "腕の角度",
+        "How far below the horizontal the model's upper arms hang at rest.",
+        "モデルの初期姿勢で上腕が水平から下がる角度。",
+    )
+    .unit("degrees")
+    .at_most(90.0),
+    leg: knob("脚の長さ", "The model's leg from 足 to 足首.", "モデルの足から足首までの長さ。")
+        .unit("MMD units")
+        .above(0.0)
+        .at_most(1e6),
+    model: knob("モデル名", "The name of the model in the file.", "ファイルに書くモデル名。")
+        .unit("words"),
+    ..bones
+});
+
 impl Vmd {
     /// Checks every setting.
     ///
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        let wrong = |name: &str, message: &str| Err(Error::setting(format!("vmd.{name}"), message));
-        if !(1.0..=1000.0).contains(&self.fps) {
-            return wrong("fps", "must be 1 to 1000 frames a second; 30 is MMD's own");
-        }
-        if !(0.0..=90.0).contains(&self.arm_angle) {
-            return wrong("arm_angle", "must be 0 (T-pose) to 90 (arms down) degrees");
-        }
-        if !(self.leg > 0.0 && self.leg <= 1e6) {
-            return wrong("leg", "must be a length in MMD units above 0; 9.7 is usual");
-        }
-        Ok(())
+        self.check()
     }
 
     /// The motion of a sheet for a model with MMD's standard bones, all layers on one another.

@@ -137,7 +137,7 @@ pub struct Judges<'a> {
     pub chords: &'a Chords,
 }
 
-knobs!("keys.", Choose {
+knobs!(keys::Choose {
     merge: knob(
         "原画の候補",
         "What picks the keys: turns of the whole body (body). For studies: a turn of any joint \
@@ -210,7 +210,8 @@ knobs!("keys.", Choose {
     .above(0.0)
     .or_inf()
     .slider(0.1, 12.0),
-}, weights);
+    ..weights
+});
 
 impl Choose {
     /// Checks the settings.

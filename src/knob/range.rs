@@ -7,34 +7,14 @@ use std::ops::RangeBounds;
 /// The numbers that a knob takes. Finite ones, but where it says so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    from: Bound<f64>,
+    pub(super) from: Bound<f64>,
     /// Unbounded is infinity too.
-    to: Bound<f64>,
+    pub(super) to: Bound<f64>,
 }
 
 impl Range {
     /// 0 or more.
     pub(super) const LENGTH: Self = Self { from: Included(0.0), to: Excluded(f64::INFINITY) };
-
-    pub(super) const fn at_least(self, least: f64) -> Self {
-        Self { from: Included(least), ..self }
-    }
-
-    pub(super) const fn above(self, bound: f64) -> Self {
-        Self { from: Excluded(bound), ..self }
-    }
-
-    pub(super) const fn at_most(self, most: f64) -> Self {
-        Self { to: Included(most), ..self }
-    }
-
-    pub(super) const fn below(self, bound: f64) -> Self {
-        Self { to: Excluded(bound), ..self }
-    }
-
-    pub(super) const fn or_inf(self) -> Self {
-        Self { to: Unbounded, ..self }
-    }
 
     /// Where it begins.
     pub(super) const fn least(self) -> f64 {
@@ -82,12 +62,18 @@ mod tests {
     fn a_range_says_what_it_contains() {
         let length = Range::LENGTH;
         let (inf, nan) = (f64::INFINITY, f64::NAN);
+        let range = |from, to| Range { from, to };
         for (range, words, inside, outside) in [
             (length, "0 or more", [0.0, 1e300], [-0.1, inf]),
-            (length.above(0.0), "above 0", [1e-300, 5.0], [0.0, inf]),
-            (length.at_least(2.0).at_most(1000.0), "2 to 1000", [2.0, 1000.0], [1.9, 1000.1]),
-            (length.below(1.0), "0 to below 1", [0.0, 0.99], [-0.1, 1.0]),
-            (length.above(0.0).or_inf(), "above 0, or inf for no limit", [0.1, inf], [0.0, -inf]),
+            (range(Excluded(0.0), Excluded(inf)), "above 0", [1e-300, 5.0], [0.0, inf]),
+            (range(Included(2.0), Included(1e3)), "2 to 1000", [2.0, 1e3], [1.9, 1000.1]),
+            (range(Included(0.0), Excluded(1.0)), "0 to below 1", [0.0, 0.99], [-0.1, 1.0]),
+            (
+                range(Excluded(0.0), Unbounded),
+                "above 0, or inf for no limit",
+                [0.1, inf],
+                [0.0, -inf],
+            ),
         ] {
             assert_eq!(range.to_string(), words);
             assert!(inside.into_iter().all(|number| range.contains(number)), "{words}");

@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knob, knobs};
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::plot::axis::number;
@@ -11,6 +12,7 @@ use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses, seconds_and_koma};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
+use crate::plot::shared;
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};
@@ -53,16 +55,26 @@ const GAP: f64 = 10.0;
 const TOP: f64 = 32.0;
 const LABELS: f64 = 58.0;
 
+knobs!(contact::ContactSheet {
+    camera: shared::CAMERA,
+    width: shared::WIDTH,
+    figure_height: shared::FIGURE_HEIGHT,
+    in_row: shared::IN_ROW.unit("cards"),
+    rows: shared::ROWS,
+    inbetweens: knob(
+        "中割りも",
+        "Cards of the inbetweens too, in fainter line.",
+        "中割りも薄い線で並べる。"
+    ),
+});
+
 impl ContactSheet {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] for a size that cannot be drawn, or no card in a row or on a page.
     pub fn validate(&self) -> Result<(), Error> {
-        style::check_size("width", self.width, 600)?;
-        style::check_figure(self.figure_height)?;
-        style::check_count("in_row", self.in_row, style::MOST)?;
-        style::check_count("rows", self.rows, style::MOST)
+        self.check()
     }
 
     /// Draws the genga of a sheet as pages of SVG; `cut` is the name on them.

@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knobs};
 use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Camera, Clip, Composite};
 use crate::plot::cells::{
@@ -11,6 +12,7 @@ use crate::plot::cells::{
 };
 use crate::plot::figure::Figure;
 use crate::plot::points::Posing;
+use crate::plot::shared;
 use crate::plot::stage::Bounds;
 use crate::plot::style;
 use crate::plot::svg::escaped;
@@ -83,13 +85,15 @@ struct PageDrawing {
     pose: Vec<i32>,
 }
 
+knobs!(flipbook::FlipBook { camera: shared::CAMERA, most: shared::MOST });
+
 impl FlipBook {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] for no koma or too many.
     pub fn validate(&self) -> Result<(), Error> {
-        style::check_count("most", self.most, style::MOST_KOMA)
+        self.check()
     }
 
     /// Makes the page; `cut` is its title.

@@ -6,7 +6,9 @@ mod draw;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knob, knobs};
 use crate::motion::Camera;
+use crate::plot::shared;
 
 /// Numbered images (連番画像): `A_0001.png` and so on, a stick figure a drawing, as a guide to draw over.
 ///
@@ -33,18 +35,24 @@ impl Default for NumberedImages {
     }
 }
 
+knobs!(images::NumberedImages {
+    camera: shared::CAMERA,
+    width: shared::WIDTH.at_least(64.0).at_most(8192.0),
+    height: shared::HEIGHT.at_least(64.0).at_most(8192.0),
+    transparent: knob("透明", "No paper behind the figure.", "人物の後ろに紙を描かない。"),
+    marks: knob(
+        "トンボ",
+        "Register marks, safe area, floor and number.",
+        "トンボ、安全フレーム、床、番号を描く。"
+    ),
+});
+
 impl NumberedImages {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] for a size that cannot be drawn.
     pub fn validate(&self) -> Result<(), Error> {
-        for (name, px) in [("width", self.width), ("height", self.height)] {
-            if !(64..=8192).contains(&px) {
-                let message = format!("{px} px; it must be between 64 and 8192");
-                return Err(Error::setting(name, message));
-            }
-        }
-        Ok(())
+        self.check()
     }
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knobs};
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::motion::seen::view::View;
@@ -11,6 +12,7 @@ use crate::plot::canvas::{Align, Point, Type};
 use crate::plot::cells::{Cell, cells, composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
+use crate::plot::shared;
 use crate::plot::stage::{Bounds, Stage, fitting};
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};
@@ -46,15 +48,20 @@ const LEAST: f64 = 150.0;
 /// How faint the oldest drawing of a panel is, and the youngest before the key that it leads to.
 const FAINT: (f64, f64) = (0.78, 0.5);
 
+knobs!(onion::OnionSkin {
+    camera: shared::CAMERA,
+    width: shared::WIDTH,
+    figure_height: shared::FIGURE_HEIGHT,
+    rows: shared::ROWS,
+});
+
 impl OnionSkin {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] for a size that cannot be drawn, or no row.
     pub fn validate(&self) -> Result<(), Error> {
-        style::check_size("width", self.width, 600)?;
-        style::check_figure(self.figure_height)?;
-        style::check_count("rows", self.rows, style::MOST)
+        self.check()
     }
 
     /// Draws a sheet as pages of SVG; `cut` is the name on them.

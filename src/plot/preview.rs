@@ -17,8 +17,9 @@ mod scene;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knobs};
 use crate::motion::Camera;
-use crate::plot::style;
+use crate::plot::shared;
 
 /// An animated preview (プレビュー): source beside result at 24 koma a second, as a GIF that repeats.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,14 +35,19 @@ pub struct Preview {
     pub most: usize,
 }
 
-/// Koma at most: a picture of each waits in memory.
-const MOST_KOMA: usize = 10_000;
-
 impl Default for Preview {
     fn default() -> Self {
         Self { camera: Camera::Auto, width: 640, height: 340, most: 480 }
     }
 }
+
+knobs!(preview::Preview {
+    camera: shared::CAMERA,
+    width: shared::WIDTH.at_least(320.0).at_most(1920.0),
+    height: shared::HEIGHT.at_least(200.0).at_most(1080.0),
+    // A picture of each waits in memory.
+    most: shared::MOST.at_most(10_000.0),
+});
 
 impl Preview {
     /// Checks the settings.
@@ -49,15 +55,6 @@ impl Preview {
     /// # Errors
     /// [`Error::Setting`] for a size that cannot be drawn or no koma.
     pub fn validate(&self) -> Result<(), Error> {
-        for (name, px, range) in
-            [("width", self.width, 320..=1920), ("height", self.height, 200..=1080)]
-        {
-            if !range.contains(&px) {
-                let message =
-                    format!("{px} px; it must be between {} and {}", range.start(), range.end());
-                return Err(Error::setting(name, message));
-            }
-        }
-        style::check_count("most", self.most, MOST_KOMA)
+        self.check()
     }
 }

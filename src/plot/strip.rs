@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Knobs, knobs};
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::plot::canvas::{Align, Point, Type};
@@ -13,6 +14,7 @@ use crate::plot::cells::{
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::points::Posing;
+use crate::plot::shared;
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;
 use crate::plot::svg::{Inks, Svg};
@@ -64,17 +66,22 @@ const APART: f64 = 0.8;
 /// How much paper a repeated figure is mixed with.
 const REPEATED: f64 = 0.72;
 
+knobs!(strip::Strip {
+    camera: shared::CAMERA,
+    width: shared::WIDTH,
+    figure_height: shared::FIGURE_HEIGHT,
+    in_line: shared::IN_ROW.unit("koma"),
+    rows: shared::ROWS,
+    most: shared::MOST,
+});
+
 impl Strip {
     /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] for a size that cannot be drawn, or no koma on a line or line on a page.
     pub fn validate(&self) -> Result<(), Error> {
-        style::check_size("width", self.width, 600)?;
-        style::check_figure(self.figure_height)?;
-        style::check_count("in_line", self.in_line, style::MOST)?;
-        style::check_count("rows", self.rows, style::MOST)?;
-        style::check_count("most", self.most, style::MOST_KOMA)
+        self.check()
     }
 
     /// Draws a sheet against its source as pages of SVG; `cut` is the name on them.

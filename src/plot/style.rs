@@ -127,9 +127,6 @@ pub(super) fn check_figure(px: u32) -> Result<(), Error> {
 /// The most of anything that stands in a row or on a page.
 pub(super) const MOST: usize = 1000;
 
-/// The most koma of a picture that stands in memory as a whole.
-pub(super) const MOST_KOMA: usize = 100_000;
-
 /// Refuses a count of nothing, or of more than is ever looked at.
 ///
 /// # Errors

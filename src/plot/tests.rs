@@ -46,7 +46,8 @@ fn words(svg: &str) -> Vec<&str> {
 
 fn has_setting_error<T: std::fmt::Debug>(result: Result<T, Error>, name: &str) {
     match result.unwrap_err() {
-        Error::Setting { name: found, .. } => assert_eq!(found, name),
+        // A format's setting has the format in front.
+        Error::Setting { name: found, .. } => assert_eq!(found.rsplit('.').next(), Some(name)),
         other => panic!("{other}"),
     }
 }

@@ -16,6 +16,7 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{choices, knob, knobs};
 use crate::motion::Clip;
 use crate::plot::xsheet::layout::Page;
 use crate::plot::xsheet::leaf::Leaf;
@@ -43,8 +44,7 @@ pub struct XSheet {
 }
 
 /// How an inbetween is marked in the ACTION column.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum InbetweenMark {
     /// ・, as by hand.
     #[default]
@@ -53,9 +53,10 @@ pub enum InbetweenMark {
     Circle,
 }
 
+choices!(InbetweenMark { Dot: "dot", Circle: "circle" });
+
 /// Which drawings have a hold line.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum HoldLine {
     /// Those on screen for more than 3 koma.
     #[default]
@@ -65,6 +66,8 @@ pub enum HoldLine {
     /// None.
     Never,
 }
+
+choices!(HoldLine { Long: "long", Always: "always", Never: "never" });
 
 impl Default for XSheet {
     fn default() -> Self {
@@ -79,6 +82,33 @@ impl Default for XSheet {
         }
     }
 }
+
+knobs!(xsheet::XSheet {
+    title: knob(
+        "作品",
+        "The work's title; empty, it is written in by hand.",
+        "作品名。空なら手で書き込む。"
+    )
+    .unit("words"),
+    episode: knob("話数", "The episode.", "話数。").unit("words"),
+    scene: knob("シーン", "The scene.", "シーン。").unit("words"),
+    animator: knob("原画", "The key animator.", "原画担当。").unit("words"),
+    inbetween: knob(
+        "中割りの印",
+        "How an inbetween is marked in ACTION.",
+        "ACTION欄の中割りの印。"
+    ),
+    hold_line: knob(
+        "止めの線",
+        "Which drawings have a line down their koma: those for more than 3, for more than 1, or none.",
+        "止めの線を引く絵。3コマを超えるもの（long）、1コマを超えるもの（always）、引かない（never）。",
+    ),
+    gauges: knob(
+        "ツメ指示",
+        "Whether pages with the spacing gauges follow.",
+        "ツメ指示のページを付けるか。"
+    ),
+});
 
 impl HoldLine {
     fn draws(self, koma: usize) -> bool {

@@ -58,19 +58,16 @@ impl Default for LowPass {
     }
 }
 
-knobs!(
-    "filter.",
-    LowPass {
-        kind: knob("ローパスフィルタ", "How the speeds are smoothed.", "速さをならす方法。",)
-            .for_studies(),
-        width: knob(
-            "フィルタの適用範囲",
-            "How wide the smoothing is. Wider finds fewer turns, so fewer genga, and blurs quick \
+knobs!(filter::LowPass {
+    kind: knob("ローパスフィルタ", "How the speeds are smoothed.", "速さをならす方法。")
+        .for_studies(),
+    width: knob(
+        "フィルタの適用範囲",
+        "How wide the smoothing is. Wider finds fewer turns, so fewer genga, and blurs quick \
          double actions.",
-            "ならす幅。広いほど原画は減り、素早い二段の動きはぼやける。",
-        ),
-    }
-);
+        "ならす幅。広いほど原画は減り、素早い二段の動きはぼやける。",
+    ),
+});
 
 impl LowPass {
     /// Whether the settings can be used.

@@ -55,7 +55,7 @@ impl Measure {
     }
 }
 
-knobs!("speed.", Speed {
+knobs!(speed::Speed {
     measure: knob(
         "速さの測り方",
         "How fast a joint is: its rotation against its parent, its way through the world (or on \

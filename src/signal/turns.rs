@@ -101,7 +101,7 @@ impl Default for TurnFinder {
     }
 }
 
-knobs!("turns.", TurnFinder {
+knobs!(turns::TurnFinder {
     reading: knob(
         "読み方",
         "What a turn is: every rest and slowing has its end and its start (event), or the first \

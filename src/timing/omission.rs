@@ -77,7 +77,7 @@ impl Default for Omission {
     }
 }
 
-knobs!("omission.", Omission {
+knobs!(omission::Omission {
     naka_nashi: knob(
         "中無し",
         "How many inbetweens of the fastest movement are left out of each action (naka-nashi). \

@@ -93,7 +93,7 @@ pub struct Pull {
     pub weight: f64,
 }
 
-knobs!("spacing.", Spacing {
+knobs!(spacing::Spacing {
     on: knob(
         "何コマ打ち",
         "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes. 1-3 chooses for each \

@@ -84,9 +84,10 @@ fn nothing_that_a_person_changed_is_written_over_unless_forced() {
         let written = fs::read(place.path(&file)).unwrap();
         let changed = change(&place, &file);
         let before = all(&place.path("a"));
-        for args in
-            ["run data/kick.bvh --deliver images --keys 8 --out a", "run data/kick.bvh --deliver images --out a"]
-        {
+        for args in [
+            "run data/kick.bvh --deliver images --keys 8 --out a",
+            "run data/kick.bvh --deliver images --out a",
+        ] {
             let said = place.refused(2, args);
             assert!(said.contains(&file) && said.contains("as a run wrote it"), "{said}");
             assert!(said.contains("--out") && said.contains("--force"), "{said}");
@@ -132,7 +133,10 @@ fn a_folder_of_another_clip_is_refused() {
     assert!(said.contains("--out") && said.contains("--force"), "{said}");
     let said = place.refused(2, "run data/swing.bvh --out walk-genga");
     assert!(said.contains("is of another clip, walk.bvh"), "{said}");
-    let said = place.refused(2, "deliver walk-genga/sheet.json data/pitch.bvh --to csv --out walk-genga --force");
+    let said = place.refused(
+        2,
+        "deliver walk-genga/sheet.json data/pitch.bvh --to csv --out walk-genga --force",
+    );
     assert!(said.contains("sheet"), "{said}");
     assert_eq!(all(&place.path("walk-genga")), before);
     // A part of the clip is of the same clip.
@@ -169,7 +173,11 @@ fn a_clip_that_ends_in_the_middle_of_a_row_says_so_when_quiet_too() {
     let kick = fs::read(here("data/kick.bvh")).unwrap();
     fs::write(place.path("cut.bvh"), &kick[..kick.len() - 20]).unwrap();
     let lost = "the file says 92 frames and has 91 complete frames and";
-    for args in ["run cut.bvh --out a -q", "keys cut.bvh -q", "deliver a/sheet.json cut.bvh --to csv --out b -q"] {
+    for args in [
+        "run cut.bvh --out a -q",
+        "keys cut.bvh -q",
+        "deliver a/sheet.json cut.bvh --to csv --out b -q",
+    ] {
         let said = said(&place, args);
         assert!(said.contains(lost), "{args}: {said}");
         assert_eq!(said.lines().count(), 1, "{said}");
@@ -227,7 +235,11 @@ fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
         assert!(!top.iter().any(is_half), "{signal} {at}: {top:?}");
         if place.path(folder).exists() {
             let there = all(&place.path(folder));
-            assert!(there == old && folder == "a" || there == new, "{signal} {at}: {:?}", there.keys());
+            assert!(
+                there == old && folder == "a" || there == new,
+                "{signal} {at}: {:?}",
+                there.keys()
+            );
         }
     }
 }

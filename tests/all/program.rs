@@ -1089,7 +1089,7 @@ fn tables_begin_with_a_mark_where_that_is_asked_for() {
     assert!(
         place
             .refused(2, "run data/kick.bvh --with csv.bom=1 --out c")
-            .contains("csv.bom: cannot be \"1\"")
+            .contains("csv.bom: expected true | false, found \"1\"")
     );
 }
 

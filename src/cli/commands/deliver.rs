@@ -7,7 +7,7 @@ use clap::Args;
 use crate::cli::clip::Reading;
 use crate::cli::failure::Failure;
 use crate::cli::folder::{Folder, Made};
-use crate::cli::formats::{FormatArgs, Formats, help};
+use crate::cli::formats::{FormatArgs, Formats, help, long_help};
 use crate::cli::staging::Bundle;
 use crate::cli::words::{Words, counted};
 use crate::cli::{files, paths};
@@ -15,7 +15,7 @@ use crate::deliver::{Cut, sheet_json};
 use crate::sheet::Role;
 
 #[derive(Debug, Args)]
-#[command(after_help = help())]
+#[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct DeliverArgs {
     /// The sheet, a sheet.json; - is stdin.
     #[arg(value_name = "SHEET.json")]

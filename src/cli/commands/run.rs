@@ -7,7 +7,7 @@ use clap::Args;
 use crate::cli::corrections::Unforbidden;
 use crate::cli::failure::Failure;
 use crate::cli::folder::Folder;
-use crate::cli::formats::{FormatArgs, Formats, help};
+use crate::cli::formats::{FormatArgs, Formats, help, long_help};
 use crate::cli::plan::{Plan, PlanArgs};
 use crate::cli::results::{ALWAYS, OWN, Outcome, RECIPE, Results};
 use crate::cli::words::{Words, counted};
@@ -18,7 +18,7 @@ use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
 
 #[derive(Debug, Args)]
-#[command(after_help = help())]
+#[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct RunArgs {
     #[command(flatten)]
     plan: PlanArgs,

@@ -8,6 +8,7 @@ use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 use super::file::{Datum, Entry, Field, Header, Names, Root, TimeTable, Track};
 use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE};
 use crate::error::Error;
+use crate::knob::{knob, knobs};
 use crate::sheet::{Layer, Sheet, column_name};
 
 /// A sheet as XDTS version 5.
@@ -18,6 +19,14 @@ pub struct Xdts {
     /// which other programs may not read.
     pub circled: bool,
 }
+
+knobs!(xdts::Xdts {
+    circled: knob(
+        "丸囲みの原画",
+        "Whether the douga file says which numbers are keys. OpenToonz invented it; others may not read such a file.",
+        "動画のファイルに原画の番号の印を付けるか。OpenToonzの拡張で、読めないソフトもある。",
+    ),
+});
 
 /// The two files of a sheet.
 #[derive(Debug, Clone, PartialEq, Eq)]

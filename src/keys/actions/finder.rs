@@ -51,7 +51,7 @@ struct Candidate {
     clear: f64,
 }
 
-knobs!("actions.", ActionFinder {
+knobs!(actions::ActionFinder {
     split: knob(
         "動作に分ける",
         "Whether a long take is split into actions: what is left out is then counted in each of \

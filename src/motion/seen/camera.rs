@@ -7,6 +7,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::knob::{Kind, Setting, as_word};
 use crate::motion::seen::view::{View, extent};
 use crate::motion::{BodySide, Clip, Skeleton, Stature};
 
@@ -33,8 +34,11 @@ impl Camera {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::ThreeQuarter, Self::Auto];
 
+    const WORDS: [&'static str; 4] =
+        [Self::Front.word(), Self::Side.word(), Self::ThreeQuarter.word(), Self::Auto.word()];
+
     /// The word used on the command line and in files.
-    pub fn word(self) -> &'static str {
+    pub const fn word(self) -> &'static str {
         match self {
             Self::Front => "front",
             Self::Side => "side",
@@ -76,9 +80,14 @@ fn facing(skeleton: &Skeleton, pose: &[DVec3], up: DVec3) -> DVec3 {
     across.map_or(usual, |left| left.cross(up).normalize_or(usual))
 }
 
+impl Setting for Camera {
+    const KIND: Kind = Kind::Choice(&Self::WORDS);
+    as_word!();
+}
+
 impl fmt::Display for Camera {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
+        f.write_str(Self::word(*self))
     }
 }
 
