@@ -4,7 +4,7 @@
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::failure::Failure;
 use super::paths::{self, is_stream, named};

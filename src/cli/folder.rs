@@ -103,7 +103,8 @@ impl<'a> Folder<'a> {
         let is_unknown = |name: &String| !go.contains(name) && !changed.contains(name);
         let stale = made.stale.into_iter().filter(is_unknown).collect();
         let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
-        let mut manifest = Manifest { recipe, ..Manifest::new(made.clip) };
+        let mut manifest = Manifest::new(made.clip);
+        manifest.recipe = recipe;
         manifest.files = stay.into_iter().chain(come).collect();
         bundle.add(MANIFEST, manifest.write()?)?;
         bundle.finish(go)?;

@@ -1,7 +1,5 @@
 //! What a run writes into its folder.
 
-use std::path::Path;
-
 use super::failure::Failure;
 use super::files;
 use super::folder::{Folder, Left, MANIFEST, Made};

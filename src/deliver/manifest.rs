@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn a_manifest_reads_back_and_knows_its_files() {
-        let clip = super::super::tests::wave();
+        let clip = crate::deliver::tests::wave();
         let mut manifest = Manifest::new(ClipMark::of("kick.bvh", &clip));
         manifest.files.insert("images/A_0001.png".into(), Manifest::digest(b"drawn"));
         let read = Manifest::read(&manifest.write().unwrap()).unwrap();
