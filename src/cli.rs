@@ -13,6 +13,9 @@
 //! results     what a run writes into its folder
 //! paths       what a path means, and which must not be written to
 //! files       reading, and writing whole or not at all
+//! staging     files that take their places together
+//! folder      a results folder: which of its files are of the run before, and which a person changed
+//! stop        Ctrl-C: nothing unfinished is left
 //! words       what a person is told, tables among it
 //! failure     why the program stops, and its exit code
 //! ```
@@ -23,12 +26,15 @@ mod commands;
 mod corrections;
 mod failure;
 mod files;
+mod folder;
 mod formats;
 mod paths;
 mod pins;
 mod plan;
 mod results;
 mod seen;
+mod staging;
+mod stop;
 mod words;
 
 use std::process::ExitCode;

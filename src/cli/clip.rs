@@ -7,6 +7,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::words::Words;
 use super::{asked, files, paths};
+use crate::deliver::ClipMark;
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
@@ -77,6 +78,8 @@ pub(super) struct Source {
     pub(super) notes: Vec<Warning>,
     /// Seconds a frame as the file writes them.
     pub(super) written_frame_time: f64,
+    /// By what the whole file is known again.
+    pub(super) of: ClipMark,
 }
 
 impl ClipArgs {
@@ -93,12 +96,13 @@ impl Part {
     pub(super) fn read(&self, path: &Path) -> Result<Source, Failure> {
         let bvh::Read { clip, warnings: mut notes, written_frame_time } =
             self.reading.read(path)?;
+        let of = ClipMark::of(&paths::file_name(path), &clip);
         let begin = self.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
         let (clip, note) = if self.keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
         notes.extend(note.filter(|_| begin < clip.first().0));
         let clip = self.trimmed(clip, path)?;
         clip.check_size().map_err(files::fault_of(path))?;
-        Ok(Source { clip, notes, written_frame_time })
+        Ok(Source { clip, notes, written_frame_time, of })
     }
 
     fn trimmed(&self, clip: Clip, path: &Path) -> Result<Clip, Failure> {
@@ -116,13 +120,8 @@ impl Part {
     pub(super) fn read_all(&self, clips: &[PathBuf], words: &Words) -> Result<Vec<Clip>, Failure> {
         let read = |path: &PathBuf| {
             let source = self.read(path)?;
-            for note in &source.notes {
-                if clips.len() > 1 {
-                    words.say(format_args!("{}: {note}", path.display()));
-                } else {
-                    words.say(note);
-                }
-            }
+            let of = if clips.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
+            source.notes.iter().for_each(|warning| words.warn_of(&of, warning));
             Ok(source.clip)
         };
         clips.iter().map(read).collect()
@@ -160,11 +159,12 @@ impl Reading {
     ) -> Result<OfSheet, Failure> {
         let of_sheet = files::fault_of(sheet);
         let read = self.read(path)?;
+        let of = ClipMark::of(&paths::file_name(path), &read.clip);
         let (source, notes) = file.fit(read.clip).map_err(&of_sheet)?;
         source.check_size().map_err(files::fault_of(path))?;
         let drawn = file.drawn(&source).map_err(&of_sheet)?;
-        read.warnings.iter().chain(&notes).for_each(|note| words.say(note));
-        Ok(OfSheet { source, drawn })
+        read.warnings.iter().chain(&notes).for_each(|warning| words.warn(warning));
+        Ok(OfSheet { source, drawn, of })
     }
 }
 
@@ -174,6 +174,8 @@ pub(super) struct OfSheet {
     pub(super) source: Clip,
     /// As it was drawn, where it was exaggerated.
     pub(super) drawn: Option<Clip>,
+    /// By what the whole file is known again.
+    pub(super) of: ClipMark,
 }
 
 impl OfSheet {

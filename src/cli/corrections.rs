@@ -9,10 +9,10 @@ use super::seen::SeenArgs;
 use super::{files, paths};
 use crate::edits::{Edits, Forbidden, Hold, Move, Pin, layer_of};
 use crate::error::Error;
-use crate::keys::{Key, Layers, Origin};
-use crate::pipeline::Breakdown;
+use crate::keys::{Key, LayerKeys, Layers, Origin};
+use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
-use crate::time::Frame;
+use crate::time::{Clock, Frame};
 use crate::timing::held_for;
 
 /// The recipe: a file, then single settings on top.
@@ -246,6 +246,48 @@ pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
         }
     }
     said
+}
+
+/// The keys of each layer as they would be if nothing were forbidden; none where nothing is.
+pub(super) struct Unforbidden(Vec<(String, Vec<Frame>)>);
+
+impl Unforbidden {
+    /// Finds them.
+    pub(super) fn find(
+        engine: &mut Engine,
+        recipe: &Recipe,
+        edits: &Edits,
+    ) -> Result<Self, Failure> {
+        let mut free = edits.clone();
+        free.forbidden.clear();
+        free.layers.values_mut().for_each(|own| own.forbidden.clear());
+        if free == *edits {
+            return Ok(Self(Vec::new()));
+        }
+        let breakdown = engine.run(recipe, &free)?;
+        let keys = |own: &LayerKeys| own.keys.iter().map(|key| key.frame).collect();
+        let layers = breakdown.layers();
+        Ok(Self(layers.map(|own| (own.layer.name.clone(), keys(own.keys))).collect()))
+    }
+
+    /// A sentence for each frame or range near which there is no key to forbid, in any of the layers it is for.
+    pub(super) fn idle(&self, edits: &Edits, clock: Clock) -> Vec<String> {
+        let of_all = edits.forbidden.iter().map(|frames| (frames, None));
+        let of_one = edits.layers.iter().flat_map(|(name, own)| {
+            own.forbidden.iter().map(move |frames| (frames, Some(name.as_str())))
+        });
+        let said = of_all.chain(of_one).filter(|(frames, layer)| {
+            let near = |key: &Frame| (frames.distance(*key) as f64) < clock.frames_in_koma();
+            let mut meant =
+                self.0.iter().filter(|(name, _)| layer.is_none_or(|layer| layer == name));
+            !meant.any(|(_, keys)| keys.iter().any(near))
+        });
+        said.map(|(frames, layer)| {
+            let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
+            format!("no key is found near frame {layer}{frames}, so there was none to forbid")
+        })
+        .collect()
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::corrections::assignment;
 use super::failure::Failure;
+use super::staging::Bundle;
 use super::{files, paths};
 use crate::deliver::{BoneMap, Cut, FORMATS, Format, Settings, sheet_json};
 use crate::error::{Error, Warning};
@@ -27,6 +28,9 @@ pub(super) struct FormatArgs {
     /// For vmd: which of your joints drive which bone, over the table that comes with genga.
     #[arg(long, value_name = "BONES.toml")]
     pub(super) bones: Option<PathBuf>,
+    /// Write over files that were changed since genga wrote them, and into a folder of another clip.
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -65,7 +69,7 @@ pub(super) struct Written {
     /// The files, for a person to read.
     pub(super) files: Vec<String>,
     /// Numbered files of a longer sheet that stand beside them.
-    pub(super) stale: Option<String>,
+    pub(super) stale: Vec<String>,
 }
 
 /// Formats and their settings.
@@ -74,6 +78,7 @@ pub(super) struct Formats {
     /// Those that are not only among `all`.
     named: Vec<&'static str>,
     settings: Settings,
+    is_forced: bool,
 }
 
 impl Formats {
@@ -105,7 +110,7 @@ impl Formats {
         }
         let bones = |path| files::parsed("bones", path, BoneMap::parse);
         settings.vmd.bones = args.bones.as_deref().map(bones).transpose()?;
-        Ok(Self { formats, named, settings })
+        Ok(Self { formats, named, settings, is_forced: args.force })
     }
 
     /// Refuses to write where `what` is read from.
@@ -121,10 +126,10 @@ impl Formats {
         files.try_for_each(|file| paths::spare(&[(what, Some(source))], &place(file)))
     }
 
-    /// Refuses to write over a sheet that is not as it was made: a person's work is in it.
+    /// Refuses to write over a sheet that is not as it was made, before any work: a person's is in it.
     pub(super) fn spare_edited(&self, folder: &Path) -> Result<(), Failure> {
         let path = folder.join(SHEET);
-        if !self.writes("json") || !path.is_file() {
+        if self.is_forced || !self.writes("json") || !path.is_file() {
             return Ok(());
         }
         let sheet = files::read(&path).map(|bytes| sheet_json::read(&bytes));
@@ -133,7 +138,7 @@ impl Formats {
         }
         Err(Failure::AskedWrongly(format!(
             "{}: this sheet is not as a run wrote it, and would be lost; genga deliver takes it as it is: \
-             move it, or write elsewhere with --out",
+             move it, write elsewhere with --out, or write over it with --force",
             path.display()
         )))
     }
@@ -163,10 +168,10 @@ impl Formats {
     pub(super) fn write(
         &self,
         cut: &Cut<'_>,
-        bundle: &mut files::Bundle<'_>,
+        bundle: &mut Bundle<'_>,
         tell: &dyn Fn(&str),
     ) -> Result<Written, Failure> {
-        let (mut files, mut left) = (Vec::new(), Vec::new());
+        let (mut files, mut stale) = (Vec::new(), Vec::new());
         for format in &self.formats {
             tell(format.name);
             let mut names = Vec::new();
@@ -175,12 +180,11 @@ impl Formats {
                 bundle.add(name, bytes)
             })?;
             if format.is_numbered {
-                left.extend(shortened(paths::stale(bundle.folder(), &names)));
+                stale.extend(paths::stale(bundle.folder(), &names));
             }
             files.extend(shortened(names));
         }
-        let stale = format!("of an earlier sheet, not of this one: {}", left.join(" "));
-        Ok(Written { files, stale: (!left.is_empty()).then_some(stale) })
+        Ok(Written { files, stale })
     }
 
     /// Leaves out what cannot be made of the cut and is asked for only by `all`, and gives what a person
@@ -204,7 +208,7 @@ impl Formats {
 }
 
 /// Many names as the first and the last.
-fn shortened(mut names: Vec<String>) -> Vec<String> {
+pub(super) fn shortened(mut names: Vec<String>) -> Vec<String> {
     if names.len() > MOST_NAMES {
         names.splice(1..names.len() - 1, ["…".into()]);
     }

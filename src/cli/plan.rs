@@ -7,8 +7,9 @@ use super::corrections::Corrections;
 use super::failure::Failure;
 use super::words::Words;
 use super::{pins, seen};
+use crate::deliver::ClipMark;
 use crate::edits::Edits;
-use crate::error::Error;
+use crate::error::{Error, Warning};
 use crate::pipeline::Engine;
 use crate::recipe::{KNOBS, Recipe};
 use crate::target::{self, Met, Target};
@@ -85,13 +86,17 @@ impl<'a> Plan<'a> {
         Ok(Self { args, recipe, edits })
     }
 
-    /// Reads the motion, and from where it is seen. Whatever a person should know goes to `note`.
-    pub(super) fn read(&mut self, note: &mut dyn FnMut(String)) -> Result<Engine, Failure> {
+    /// Reads the motion, and from where it is seen. Whatever a person should know goes to `note`. Gives the mark of the
+    /// motion too.
+    pub(super) fn read(
+        &mut self,
+        note: &mut dyn FnMut(&Warning),
+    ) -> Result<(Engine, ClipMark), Failure> {
         let source = self.args.clip.read()?;
         let (seen_from, notes) = seen::asked(&self.args.corrections.seen, &source.clip)?;
         self.recipe.seen_from = seen_from.unwrap_or(self.recipe.seen_from);
-        source.notes.iter().chain(&notes).for_each(|warning| note(warning.to_string()));
-        Ok(Engine::new(source.clip)?)
+        source.notes.iter().chain(&notes).for_each(note);
+        Ok((Engine::new(source.clip)?, source.of))
     }
 
     /// Adds the keys that are marked in a file, and finds the settings that give what the sheet is to be.

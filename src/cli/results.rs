@@ -1,12 +1,12 @@
 //! What a run writes into its folder.
 
-use std::path::Path;
-
 use super::failure::Failure;
 use super::files;
-use super::formats::{Formats, Written};
+use super::folder::{Folder, Left, MANIFEST, Made};
+use super::formats::Formats;
+use super::staging::Bundle;
 use crate::deliver::sheet_json::MadeWith;
-use crate::deliver::{Cut, Report};
+use crate::deliver::{ClipMark, Cut, Manifest, Report};
 use crate::edits::Edits;
 use crate::pipeline::Breakdown;
 use crate::plot::SpeedPlot;
@@ -16,23 +16,35 @@ use crate::time::Frame;
 /// The formats that are written whether or not they are asked for.
 pub(super) const ALWAYS: [&str; 6] = ["json", "csv", "remap", "bvh", "bars", "poses"];
 /// Files that are no format.
-pub(super) const OWN: [&str; 3] = ["speed.svg", RECIPE, "report.json"];
+pub(super) const OWN: [&str; 4] = ["speed.svg", RECIPE, "report.json", MANIFEST];
 /// The settings and corrections of the run.
 pub(super) const RECIPE: &str = "recipe.toml";
 
 /// The results of a run, to be written.
 pub(super) struct Results<'a> {
     pub(super) name: &'a str,
-    pub(super) clip_file: &'a str,
+    /// The motion, by which the folder knows it.
+    pub(super) clip: ClipMark,
     pub(super) breakdown: &'a Breakdown<'a>,
     pub(super) recipe: &'a Recipe,
     pub(super) edits: &'a Edits,
     /// What a person should know.
     pub(super) notes: Vec<String>,
+    /// Whether the recipe in the folder is the one that was given, so that it may be written again.
+    pub(super) is_own_recipe: bool,
     /// Why the recipe in the folder stays as it is; none where it is written.
     pub(super) kept: Option<&'static str>,
     /// Who is told what is being written.
     pub(super) tell: &'a dyn Fn(&str),
+}
+
+/// What came of it.
+pub(super) struct Outcome {
+    pub(super) report: Report,
+    /// The files, for a person to read.
+    pub(super) files: Vec<String>,
+    /// What else is in the folder.
+    pub(super) left: Left,
 }
 
 impl Results<'_> {
@@ -40,14 +52,15 @@ impl Results<'_> {
     pub(super) fn write(
         self,
         formats: &mut Formats,
-        folder: &Path,
-    ) -> Result<(Report, Written), Failure> {
+        folder: Folder<'_>,
+    ) -> Result<Outcome, Failure> {
         let Self { breakdown, recipe, edits, .. } = self;
+        folder.check(&self.clip)?;
         let mut report = Report::of(breakdown, self.notes);
         let exaggerated = !recipe.exaggerate.is_off();
         let cut = Cut {
             name: self.name,
-            clip_file: self.clip_file,
+            clip_file: &self.clip.file,
             clip: breakdown.clip,
             exaggerated: exaggerated.then_some((breakdown.source, &recipe.exaggerate)),
             sheet: breakdown.sheet,
@@ -57,17 +70,26 @@ impl Results<'_> {
         };
         report.notes.extend(formats.settle(&cut)?.iter().map(ToString::to_string));
         report.notes.extend(self.kept.map(str::to_owned));
-        let mut bundle = files::Bundle::begin(folder)?;
+        let mut bundle = Bundle::begin(folder.path())?;
         let mut written = formats.write(&cut, &mut bundle, self.tell)?;
         (self.tell)("speed.svg");
         bundle.add("speed.svg", speeds(breakdown)?)?;
+        let settings = recipe.write(edits);
+        let digest = Manifest::digest(settings.as_bytes());
         if self.kept.is_none() {
-            bundle.add(RECIPE, recipe.write(edits))?;
+            bundle.add(RECIPE, settings)?;
         }
         bundle.add("report.json", files::json(&"report.json", &report)?)?;
-        bundle.finish()?;
+        let made = Made {
+            clip: self.clip.clone(),
+            recipe: Some(digest),
+            stale: written.stale,
+            adds: false,
+            given: self.is_own_recipe.then_some(RECIPE),
+        };
+        let left = folder.finish(bundle, made)?;
         written.files.extend(OWN.map(str::to_owned));
-        Ok((report, written))
+        Ok(Outcome { report, files: written.files, left })
     }
 }
 

@@ -6,6 +6,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::error::Warning;
+use crate::motion::bvh::warnings::FRAMES_MISMATCH;
+
 /// The program's voice.
 #[derive(Debug)]
 pub(super) struct Words {
@@ -21,6 +24,25 @@ impl Words {
     pub(super) fn say(&self, line: impl Display) {
         if !self.quiet {
             write_line(&line);
+        }
+    }
+
+    /// What a reader says of its file. A loss is said even when quiet.
+    pub(super) fn warn(&self, warning: &Warning) {
+        self.warn_of("", warning);
+    }
+
+    /// The same with a beginning that says of which file.
+    pub(super) fn warn_of(&self, of: &str, warning: &Warning) {
+        if !self.quiet || is_loss(warning) {
+            write_line(&format_args!("{of}{warning}"));
+        }
+    }
+
+    /// A loss, where nothing else will be said of it.
+    pub(super) fn warn_if_quiet(&self, warning: &Warning) {
+        if self.quiet {
+            self.warn(warning);
         }
     }
 
@@ -54,6 +76,11 @@ impl Words {
     fn is_watched(&self) -> bool {
         !self.quiet && stderr().is_terminal()
     }
+}
+
+/// Whether something of a clip is missing: the file ends early, in the middle of a row or before its last.
+fn is_loss(warning: &Warning) -> bool {
+    warning.code == FRAMES_MISMATCH
 }
 
 /// What is being done, or how much of it is; several threads may count.

@@ -4,7 +4,7 @@
 //! digit. The schema is `docs/schema/sheet-1.json`.
 
 mod check;
-mod digest;
+pub(super) mod digest;
 pub mod fit;
 mod layer;
 mod lines;

@@ -8,6 +8,8 @@ mod contacts; // contacts as keys, and feet that stay where they stand
 mod defaults; // the method states every default as it is
 mod documented; // every format and setting is in the docs
 mod examples; // the examples print what they printed
+#[cfg(feature = "cli")]
+mod folders; // a results folder is one run
 mod found; // what fuzzing found
 mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]

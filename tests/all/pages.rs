@@ -12,7 +12,7 @@ use crate::clips::here;
 const PAGES: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
 
 /// What a run writes besides its formats.
-const OWN: [&str; 3] = ["speed.svg", "recipe.toml", "report.json"];
+const OWN: [&str; 4] = ["speed.svg", "recipe.toml", "report.json", "manifest.json"];
 
 /// Words of a page that are set as code, blocks without their marks.
 fn coded(page: &str) -> BTreeSet<&str> {

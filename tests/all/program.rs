@@ -14,7 +14,7 @@ use crate::clips::{here, sample};
 pub(crate) const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
 
 /// What a run writes, and how each file begins.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     (
         "drawings.csv",
         "cut,column,drawing,role,genga_no,reason,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
@@ -24,6 +24,7 @@ const FILES: [(&str, &str); 11] = [
         "cut,column,drawing,role,genga_no,reason,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
     ),
     ("limited.bvh", "HIERARCHY\nROOT "),
+    ("manifest.json", "{\n  \"schema\": \"genga-run-1\",\n"),
     ("poses.svg", "<svg "),
     ("recipe.toml", "# A genga recipe"),
     ("remap.csv", "koma,source_frame,source_time_s\n"),
@@ -79,6 +80,12 @@ impl Place {
         let mut child = command.spawn().unwrap();
         child.stdin.take().unwrap().write_all(bytes).unwrap();
         child.wait_with_output().unwrap()
+    }
+
+    /// Begins to run it, quietly.
+    pub(crate) fn begun(&self, args: &str) -> std::process::Child {
+        let mut command = self.command(&words(args));
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     }
 
     /// Runs it, sees it succeed, and gives stdout.
@@ -181,8 +188,8 @@ fn the_folder_is_named_after_the_clip_unless_one_is_given() {
 
 #[test]
 fn the_same_input_gives_the_same_bytes() {
-    let place = Place::new();
     for name in ["pitch", "kuroda-pitch"] {
+        let place = Place::new();
         for again in ["a", "b"] {
             place.done(&format!("run data/{name}.bvh --out {again} --set keys.merge=sum"));
             let omit = format!("omit data/{name}.bvh --out {again}/o.bvh --sheet {again}/o.csv");
@@ -723,12 +730,13 @@ fn nothing_is_written_over_the_motion_itself() {
 fn a_sheet_is_delivered_again_as_the_run_wrote_it() {
     let place = Place::new();
     fs::write(place.path("t.bvh"), with_t_pose()).unwrap();
-    for run in ["data/kick.bvh", "data/kick.bvh --trim 10..61", "t.bvh", "data/kick.bvh --fps 30"] {
-        place.done(&format!("run {run} --out a"));
+    let runs = ["data/kick.bvh", "data/kick.bvh --trim 10..61", "t.bvh", "data/kick.bvh --fps 30"];
+    for (at, run) in runs.into_iter().enumerate() {
+        place.done(&format!("run {run} --out a{at}"));
         let clip = run.split(' ').next().unwrap();
         let fps = run.find("--fps").map_or("", |at| &run[at..]);
-        place.done(&format!("deliver a/sheet.json {clip} --to all --out b {fps}"));
-        let (a, b) = (place.files("a"), place.files("b"));
+        place.done(&format!("deliver a{at}/sheet.json {clip} --to all --out b{at} {fps}"));
+        let (a, b) = (place.files(&format!("a{at}")), place.files(&format!("b{at}")));
         for file in
             ["sheet.json", "keys.csv", "drawings.csv", "sheet.csv", "remap.csv", "limited.bvh"]
         {
@@ -772,8 +780,7 @@ fn nothing_is_written_over_a_sheet_that_was_edited() {
     place.done("run data/kick.bvh --out a --set spacing.on=3");
     place.done("run data/kick.bvh --out a");
     fs::copy(place.path("a/sheet.json"), place.path("whole.json")).unwrap();
-    fs::create_dir(place.path("b")).unwrap();
-    fs::copy(place.path("a/sheet.json"), place.path("b/sheet.json")).unwrap();
+    place.done("run data/kick.bvh --out b");
     let edited = edit(&place.path("a/sheet.json"));
     let before = place.files("a");
     for args in [
@@ -902,10 +909,12 @@ fn pictures_of_a_long_sheet_show_its_beginning_and_say_so() {
     assert!(said.contains("flipbook shows the first 10 of 92 koma"), "{said}");
     assert!(place.path("o/strip-2.svg").exists() && !place.path("o/strip-5.svg").exists());
     assert!(read(&place.path("o/flipbook.html")).contains("\"koma\":10,"));
-    // Pages of an earlier sheet stay and are named.
+    // Pages of an earlier sheet go; those of which nothing is known stay and are named.
+    fs::write(place.path("o/strip-9.svg"), "mine").unwrap();
     let less = "run data/kick.bvh --deliver strip --with strip.most=8 --out o";
     let said = text(&place.genga(less).stderr);
-    assert!(said.contains("of an earlier sheet, not of this one: strip-2.svg"), "{said}");
+    assert!(said.contains("of an earlier sheet, not of this one: strip-9.svg\n"), "{said}");
+    assert!(!place.path("o/strip-2.svg").exists() && place.path("o/strip-9.svg").exists());
 }
 
 #[test]
@@ -937,7 +946,10 @@ fn what_is_no_file_is_written_into_and_links_stay() {
     fs::create_dir(place.path("run")).unwrap();
     std::os::unix::fs::symlink(place.path("real.csv"), place.path("run/keys.csv")).unwrap();
     fs::write(place.path("real.csv"), "before").unwrap();
+    place.refused(2, "run data/kick.bvh --out run");
+    place.done("run data/kick.bvh --out run --force");
     place.done("run data/kick.bvh --out run");
+    assert!(fs::symlink_metadata(place.path("run/keys.csv")).unwrap().is_symlink());
     assert!(fs::read(place.path("real.csv")).unwrap() == expected, "through the link");
     let pipe = place.path("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
@@ -964,7 +976,9 @@ fn the_key_poses_are_a_bvh_by_either_name() {
     ] {
         fs::create_dir_all(place.path("b")).unwrap();
         place.done(&format!("deliver a/sheet.json data/kick.bvh --out b {asked}"));
-        assert_eq!(place.files("b").into_keys().collect::<Vec<_>>(), [file], "{asked}");
+        let mut files = [file, "manifest.json"];
+        files.sort_unstable();
+        assert_eq!(place.files("b").into_keys().collect::<Vec<_>>(), files, "{asked}");
         assert!(place.files("b")[file] == place.files("a")[file], "{asked}");
         fs::remove_dir_all(place.path("b")).unwrap();
     }
@@ -1059,7 +1073,7 @@ fn another_motion_on_the_same_frames_is_taken_with_a_note() {
     assert!(output.status.success());
     assert!(text(&output.stderr).contains("[W_SHEET_MOTION]"), "{}", text(&output.stderr));
     assert!(place.files("b")["limited.bvh"] != place.files("a")["limited.bvh"]);
-    let output = place.genga("deliver a/sheet.json data/kick.bvh --to bvh --out b");
+    let output = place.genga("deliver a/sheet.json data/kick.bvh --to bvh --out c");
     assert!(!text(&output.stderr).contains("W_SHEET"), "{}", text(&output.stderr));
 }
 

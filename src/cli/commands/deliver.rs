@@ -6,7 +6,9 @@ use clap::Args;
 
 use crate::cli::clip::Reading;
 use crate::cli::failure::Failure;
+use crate::cli::folder::{Folder, Made};
 use crate::cli::formats::{FormatArgs, Formats, help, long_help};
+use crate::cli::staging::Bundle;
 use crate::cli::words::{Words, counted};
 use crate::cli::{files, paths};
 use crate::deliver::{Cut, sheet_json};
@@ -51,6 +53,8 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         formats.spare(what, path, folder, &file.cut)?;
     }
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
+    let place = Folder::look(folder, args.formats.force);
+    place.check(&motion.of)?;
     let cut = Cut {
         name: &file.cut,
         clip_file: &paths::file_name(&args.clip),
@@ -62,9 +66,11 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         made_with: file.made_with.as_ref(),
     };
     formats.settle(&cut)?.iter().for_each(|note| words.say(note));
-    let mut bundle = files::Bundle::begin(folder)?;
+    let mut bundle = Bundle::begin(folder)?;
     let written = formats.write(&cut, &mut bundle, &|_| {})?;
-    bundle.finish()?;
+    let (clip, stale) = (motion.of.clone(), written.stale);
+    let made = Made { clip, recipe: None, stale, adds: true, given: None };
+    let left = place.finish(bundle, made)?;
     for layer in &file.sheet.layers {
         let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));
         let drawings = counted(layer.shown().count(), "drawing");
@@ -72,7 +78,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
             "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
         ));
     }
-    written.stale.iter().for_each(|stale| words.say(stale));
+    left.notes().iter().for_each(|note| words.say(note));
     words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
     Ok(())
 }

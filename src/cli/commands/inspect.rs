@@ -38,7 +38,7 @@ pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     if args.warnings {
         return files::to_stdout(listed(&source.notes).as_bytes());
     }
-    source.notes.iter().for_each(|note| words.say(note));
+    source.notes.iter().for_each(|warning| words.warn(warning));
     let name = paths::stem(&args.clip.path);
     if let Some(path) = &args.plot {
         files::write_picture(path, &SkeletonPlot::default().draw(&name, &source.clip)?)?;

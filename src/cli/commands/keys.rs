@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::corrections::Unforbidden;
 use crate::cli::failure::Failure;
 use crate::cli::plan::{Plan, PlanArgs};
 use crate::cli::words::Words;
@@ -31,10 +32,13 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     ];
     paths::spare(&sources, &args.out)?;
     let mut plan = Plan::of(&args.plan)?;
-    let mut engine = plan.read(&mut |note| words.say(note))?;
+    let (mut engine, _) = plan.read(&mut |warning| words.warn(warning))?;
     plan.settle(&mut engine, words, &mut |note| words.say(note))?;
+    let free = Unforbidden::find(&mut engine, &plan.recipe, &plan.edits)?;
     let breakdown = engine.run(&plan.recipe, &plan.edits)?;
-    corrections::unmoved(&plan.edits, &breakdown).iter().for_each(|note| words.say(note));
+    let idle = free.idle(&plan.edits, breakdown.clock);
+    let unmoved = corrections::unmoved(&plan.edits, &breakdown);
+    unmoved.iter().chain(&idle).for_each(|note| words.say(note));
     let table = if args.per_joint {
         deliver::turns_csv(breakdown.clip.skeleton(), breakdown.filtered, breakdown.turns)?
     } else {

@@ -60,7 +60,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     let source = args.clip.read()?;
     let (seen_from, notes) = seen::asked(&args.seen, &source.clip)?;
     let seen_from = seen_from.unwrap_or_default();
-    source.notes.iter().chain(&notes).for_each(|note| words.say(note));
+    source.notes.iter().chain(&notes).for_each(|warning| words.warn(warning));
     let clip = source.clip;
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);

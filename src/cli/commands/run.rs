@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::cli::corrections::Unforbidden;
 use crate::cli::failure::Failure;
-use crate::cli::formats::{FormatArgs, Formats, Written, help, long_help};
+use crate::cli::folder::Folder;
+use crate::cli::formats::{FormatArgs, Formats, help, long_help};
 use crate::cli::plan::{Plan, PlanArgs};
-use crate::cli::results::{ALWAYS, OWN, RECIPE, Results};
+use crate::cli::results::{ALWAYS, OWN, Outcome, RECIPE, Results};
 use crate::cli::words::{Words, counted};
 use crate::cli::{corrections, files, paths, pins, seen};
 use crate::deliver::{LayerReport, Report};
@@ -53,31 +55,39 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
 
     let (working, mut notes) = (words.working(), Vec::new());
     working.on("reading the motion");
-    let mut engine = plan.read(&mut |note| notes.push(note))?;
+    let (mut engine, of) = plan.read(&mut |warning| {
+        words.warn_if_quiet(warning);
+        notes.push(warning.to_string());
+    })?;
+    let place = Folder::look(&folder, args.formats.force);
+    place.check(&of)?;
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;
+    let free = Unforbidden::find(&mut engine, recipe, edits)?;
     let breakdown = engine.run_once(recipe, edits)?;
     notes.extend(corrections::unmoved(edits, &breakdown));
     notes.extend(corrections::unheld(edits, &breakdown));
+    notes.extend(free.idle(edits, breakdown.clock));
 
     working.on("writing");
     let results = Results {
         name: &name,
-        clip_file: &paths::file_name(clip),
+        clip: of,
         breakdown: &breakdown,
         recipe,
         edits,
         notes,
-        kept: kept(args, &folder.join(RECIPE), (recipe, edits)),
+        is_own_recipe: given(args, &folder).is_some(),
+        kept: kept(given(args, &folder), (recipe, edits)),
         tell: &|_| {},
     };
-    let (report, Written { files, stale }) = results.write(&mut formats, &folder)?;
+    let Outcome { report, files, left } = results.write(&mut formats, place)?;
     drop(working);
 
     summary(words, &name, &report);
     shortfalls(words, &report, &breakdown);
-    stale.iter().for_each(|stale| words.say(format_args!("note        {stale}")));
+    left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     Ok(())
 }
@@ -100,14 +110,16 @@ fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<
     formats.spare_edited(folder)
 }
 
+/// The recipe that was given, where it is the one in the folder.
+fn given<'a>(args: &'a RunArgs, folder: &Path) -> Option<&'a Path> {
+    let given = args.plan.corrections.settings.recipe.as_deref()?;
+    paths::is_same(given, &folder.join(RECIPE)).then_some(given)
+}
+
 /// Why the recipe in the folder stays as it is; none where it is to be written, as it is for one that was
 /// given but has nothing that would be lost.
-fn kept(args: &RunArgs, file: &Path, used: (&Recipe, &Edits)) -> Option<&'static str> {
-    let given = args.plan.corrections.settings.recipe.as_deref()?;
-    if !paths::is_same(given, file) {
-        return None;
-    }
-    let text = String::from_utf8(files::read(file).ok()?).ok()?;
+fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
+    let text = String::from_utf8(files::read(given?).ok()?).ok()?;
     match Recipe::parse(&text) {
         Ok((recipe, edits)) if recipe.write(&edits) == text => None,
         Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),

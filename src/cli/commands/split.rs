@@ -7,6 +7,7 @@ use clap::Args;
 use crate::cli::clip::ClipArgs;
 use crate::cli::corrections::{Settings, frame};
 use crate::cli::failure::Failure;
+use crate::cli::staging::Bundle;
 use crate::cli::words::{Table, Words, counted};
 use crate::cli::{files, paths};
 use crate::deliver::{Cut, actions_csv};
@@ -59,7 +60,7 @@ pub(super) fn run(args: &SplitArgs, words: &Words) -> Result<(), Failure> {
         "; without --out it lists the actions there",
     )?;
     let source = args.clip.read()?;
-    source.notes.iter().for_each(|note| words.say(note));
+    source.notes.iter().for_each(|warning| words.warn(warning));
     let mut engine = Engine::new(source.clip)?;
     let actions = engine.find_actions(&recipe, &edits)?.clone();
     let clip = engine.clip();
@@ -85,12 +86,12 @@ impl Parts<'_> {
         for file in files.iter().chain([&table]) {
             paths::spare(&[("motion", Some(source))], &folder.join(file))?;
         }
-        let mut bundle = files::Bundle::begin(folder)?;
+        let mut bundle = Bundle::begin(folder)?;
         for (file, action) in files.iter().zip(self.actions.iter()) {
             bundle.add(file, self.bvh(action))?;
         }
         bundle.add(&table, actions_csv(self.actions, self.clip.rate(), &files)?)?;
-        bundle.finish()?;
+        bundle.finish(Vec::new())?;
         let left = paths::stale(folder, &files);
         if !left.is_empty() {
             let left = left.join(" ");

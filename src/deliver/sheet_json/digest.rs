@@ -1,4 +1,4 @@
-//! Short digests by which a sheet knows its clip and itself again. They tell mistakes, not forgeries.
+//! Short digests by which a sheet knows its clip and itself again, and a folder its files. They tell mistakes, not forgeries.
 
 use super::layer::LayerLines;
 use crate::exaggerate::Exaggerate;
@@ -30,7 +30,7 @@ impl Digest {
 }
 
 /// The joints' parents, offsets and channels, End Sites too; not their names.
-pub(super) fn skeleton(skeleton: &Skeleton) -> String {
+pub(in crate::deliver) fn skeleton(skeleton: &Skeleton) -> String {
     let mut digest = Digest::new();
     for joint in &skeleton.joints {
         digest.word(joint.parent.map_or(u64::MAX, |parent| parent.0 as u64));
@@ -46,9 +46,19 @@ pub(super) fn skeleton(skeleton: &Skeleton) -> String {
 }
 
 /// Every channel value of every frame.
-pub(super) fn motion(clip: &Clip) -> String {
+pub(in crate::deliver) fn motion(clip: &Clip) -> String {
     let mut digest = Digest::new();
     clip.rows().flatten().for_each(|value| digest.number(*value));
+    digest.text()
+}
+
+/// Every byte of a file, and how many there are.
+pub(in crate::deliver) fn bytes(bytes: &[u8]) -> String {
+    let mut digest = Digest::new();
+    digest.word(bytes.len() as u64);
+    let (words, rest) = bytes.as_chunks::<8>();
+    words.iter().for_each(|word| digest.word(u64::from_le_bytes(*word)));
+    rest.iter().for_each(|byte| digest.word(u64::from(*byte)));
     digest.text()
 }
 

@@ -4,13 +4,16 @@ use std::env;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use super::dialog;
 use crate::cli::clip::Part;
 use crate::cli::failure::Failure;
+use crate::cli::folder::Folder;
 use crate::cli::formats::{FormatArgs, Formats};
-use crate::cli::results::{ALWAYS, OWN, Results};
+use crate::cli::results::{ALWAYS, OWN, Outcome, Results};
 use crate::cli::{files, paths};
+use crate::deliver::ClipMark;
 use crate::studio::{Desk, Export, Opened};
 
 /// Files on a disk.
@@ -18,13 +21,25 @@ use crate::studio::{Desk, Export, Opened};
 pub struct Disk {
     /// The clip that the command line names, and which part of it is meant.
     named: Option<(PathBuf, Part)>,
+    /// The clip that was opened last, and by what it is known again.
+    opened: Mutex<Option<(PathBuf, ClipMark)>>,
     recent: Recent,
 }
 
 impl Disk {
     /// A disk with a clip of which a part is meant, and the list of what was opened last.
     pub(super) fn with(clip: Option<PathBuf>, part: Part) -> Self {
-        Self { named: clip.map(|clip| (clip, part)), recent: Recent::of_person() }
+        let named = clip.map(|clip| (clip, part));
+        Self { named, opened: Mutex::default(), recent: Recent::of_person() }
+    }
+
+    /// By what a clip is known again: as it was opened, whatever its file has become since.
+    fn mark(&self, clip: &Path) -> Result<ClipMark, Failure> {
+        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        match opened {
+            Some((path, mark)) if path == clip => Ok(mark),
+            _ => Ok(Part::default().read(clip)?.of),
+        }
     }
 }
 
@@ -34,6 +49,8 @@ impl Desk for Disk {
         let part = self.named.as_ref().filter(|(named, _)| named == clip);
         let read = part.map_or(&whole, |(_, part)| part).read(clip).map_err(said)?;
         let notes = read.notes.iter().map(ToString::to_string).collect();
+        *self.opened.lock().unwrap_or_else(PoisonError::into_inner) =
+            Some((clip.to_owned(), read.of));
         Ok(Opened { clip: read.clip, notes })
     }
 
@@ -64,7 +81,7 @@ impl Desk for Disk {
         export: &Export<'_>,
         tell: &dyn Fn(&str),
     ) -> Result<Vec<String>, String> {
-        written(folder, export, tell).map_err(said)
+        self.mark(export.clip).and_then(|mark| written(folder, export, mark, tell)).map_err(said)
     }
 
     fn choose(&self) -> Option<PathBuf> {
@@ -85,6 +102,7 @@ impl Desk for Disk {
 fn written(
     folder: &Path,
     export: &Export<'_>,
+    clip: ClipMark,
     tell: &dyn Fn(&str),
 ) -> Result<Vec<String>, Failure> {
     let mut formats = Formats::new("deliver", &[], &ALWAYS, &FormatArgs::default())?;
@@ -95,16 +113,19 @@ fn written(
     formats.spare_edited(folder)?;
     let results = Results {
         name: &name,
-        clip_file: &paths::file_name(export.clip),
+        clip,
         breakdown: export.breakdown,
         recipe: export.recipe,
         edits: export.edits,
         notes: export.notes.to_vec(),
+        is_own_recipe: false,
         kept: None,
         tell,
     };
-    let (_, written) = results.write(&mut formats, folder)?;
-    Ok(written.files)
+    let Outcome { mut files, left, .. } =
+        results.write(&mut formats, Folder::look(folder, false))?;
+    files.extend(left.notes().into_iter().map(|note| format!("({note})")));
+    Ok(files)
 }
 
 fn said(failure: Failure) -> String {

@@ -1,0 +1,166 @@
+//! A results folder is one run (一回の結果): by its manifest the next run knows which files are genga's, and which a person
+//! has changed.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use super::failure::Failure;
+use super::formats::shortened;
+use super::staging::{self, Bundle};
+use crate::deliver::{ClipMark, Manifest};
+
+/// The file that lists the others.
+pub(super) const MANIFEST: &str = "manifest.json";
+
+/// A folder as it is before anything is written.
+pub(super) struct Folder<'a> {
+    path: &'a Path,
+    /// The run before; none where there is no manifest, or one that genga did not write so.
+    before: Option<Manifest>,
+    /// Whether a person's changes may be written over.
+    is_forced: bool,
+}
+
+/// What a run made, besides its files.
+pub(super) struct Made<'a> {
+    pub(super) clip: ClipMark,
+    /// A digest of the recipe; none where a sheet was delivered.
+    pub(super) recipe: Option<String>,
+    /// Numbered files of a longer sheet.
+    pub(super) stale: Vec<String>,
+    /// Whether all other files of the run before stay.
+    pub(super) adds: bool,
+    /// A file that was read and may be written again.
+    pub(super) given: Option<&'a str>,
+}
+
+/// What stands in a folder and is not of its run.
+pub(super) struct Left {
+    /// Files of a run before that a person changed.
+    changed: Vec<String>,
+    /// Numbered files of a longer sheet, of which nothing else is known.
+    stale: Vec<String>,
+}
+
+impl Left {
+    /// That they are there, as sentences.
+    pub(super) fn notes(self) -> Vec<String> {
+        let named = |of: &str, files: Vec<String>| {
+            let named = format!("{of}: {}", shortened(files.clone()).join(" "));
+            (!files.is_empty()).then_some(named)
+        };
+        let changed =
+            named("of an earlier run, kept because they were changed since", self.changed);
+        let stale = named("of an earlier sheet, not of this one", self.stale);
+        changed.into_iter().chain(stale).collect()
+    }
+}
+
+impl<'a> Folder<'a> {
+    /// Looks at a folder, and finishes what a dead run had begun there.
+    pub(super) fn look(path: &'a Path, is_forced: bool) -> Self {
+        staging::sweep(path);
+        let text = fs::read_to_string(path.join(MANIFEST)).unwrap_or_default();
+        let before = Manifest::read(&text).ok();
+        let is_as_written = |read: &Manifest| read.write().is_ok_and(|written| written == text);
+        Self { path, before: before.filter(is_as_written), is_forced }
+    }
+
+    /// Refuses a folder of another clip.
+    pub(super) fn check(&self, clip: &ClipMark) -> Result<(), Failure> {
+        let Some(before) = self.before.as_ref().filter(|before| !before.clip.is_of(clip)) else {
+            return Ok(());
+        };
+        if self.is_forced {
+            return Ok(());
+        }
+        let (folder, theirs, ours) = (self.path.display(), &before.clip.file, &clip.file);
+        let other = match theirs == ours {
+            true => format!("another {ours}, with another motion"),
+            false => format!("another clip, {theirs}"),
+        };
+        Err(Failure::AskedWrongly(format!(
+            "{folder}: this folder is of {other}; write elsewhere with --out, or take it over with --force"
+        )))
+    }
+
+    /// Where it is.
+    pub(super) fn path(&self) -> &'a Path {
+        self.path
+    }
+
+    /// Puts the files of a run into their places, with the manifest, which closes it. What the run before wrote and this
+    /// one does not is removed; what of it a person changed stays, and is named.
+    pub(super) fn finish(self, mut bundle: Bundle<'_>, made: Made<'_>) -> Result<Left, Failure> {
+        let come = bundle.files();
+        self.spare(&come, made.given)?;
+        let (stay, rest) = self.others(&come, &made);
+        let is_as_written =
+            |name: &String| self.digest(name).is_some_and(|digest| self.has(name, &digest));
+        let (go, changed): (Vec<_>, Vec<_>) = rest.into_iter().partition(is_as_written);
+        let is_unknown = |name: &String| !go.contains(name) && !changed.contains(name);
+        let stale = made.stale.into_iter().filter(is_unknown).collect();
+        let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
+        let mut manifest = Manifest::new(made.clip);
+        manifest.recipe = recipe;
+        manifest.files = stay.into_iter().chain(come).collect();
+        bundle.add(MANIFEST, manifest.write()?)?;
+        bundle.finish(go)?;
+        Ok(Left { changed, stale })
+    }
+
+    /// The files of the run before that this one does not write: those that stay its, and the names of the rest.
+    fn others(
+        &self,
+        come: &BTreeMap<String, String>,
+        made: &Made<'_>,
+    ) -> (BTreeMap<String, String>, Vec<String>) {
+        let mut rest = self.before.as_ref().map(|run| run.files.clone()).unwrap_or_default();
+        rest.retain(|name, _| !come.contains_key(name) && self.path.join(name).is_file());
+        let stays = |name: &String| made.adds && !made.stale.contains(name);
+        let stay = rest.extract_if(.., |name, _| stays(name)).collect();
+        rest.retain(|name, _| made.given != Some(name));
+        (stay, rest.into_keys().collect())
+    }
+
+    /// Refuses to write over what is not as a run wrote it.
+    fn spare(&self, come: &BTreeMap<String, String>, given: Option<&str>) -> Result<(), Failure> {
+        if self.is_forced {
+            return Ok(());
+        }
+        let is_ours = |name: &str, digest: &String| match self.digest(name) {
+            None => true,
+            Some(there) => there == *digest || self.has(name, &there) || given == Some(name),
+        };
+        let mut others: Vec<&str> = Vec::new();
+        if self.before.is_none() && self.path.join(MANIFEST).is_file() {
+            others.push(MANIFEST);
+        }
+        others.extend(
+            come.iter().filter(|(name, digest)| !is_ours(name, digest)).map(|(name, _)| &**name),
+        );
+        let Some((first, more)) = others.split_first() else { return Ok(()) };
+        let more =
+            if more.is_empty() { String::new() } else { format!(" (nor {})", more.join(" ")) };
+        Err(Failure::AskedWrongly(format!(
+            "{}: this file is not as a run wrote it{more}, and would be lost; move it, write elsewhere with --out, or write over \
+             it with --force",
+            self.path.join(first).display()
+        )))
+    }
+
+    /// The digest of a file as it is now; none where there is none, and one that no file has where it cannot be read.
+    fn digest(&self, name: &str) -> Option<String> {
+        match fs::read(self.path.join(name)) {
+            Ok(bytes) => Some(Manifest::digest(&bytes)),
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            Err(_) => Some(String::new()),
+        }
+    }
+
+    fn has(&self, name: &str, digest: &str) -> bool {
+        self.before.as_ref().is_some_and(|before| before.has(name, digest))
+    }
+}

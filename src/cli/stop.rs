@@ -1,0 +1,52 @@
+//! Ctrl-C and SIGTERM (中断): what is unfinished goes, and what is just taking its place is finished first.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+
+/// The exit code of a program that was stopped, as shells have it.
+const STOPPED: i32 = 130;
+
+/// How often it is tried to remove a folder into which another thread still writes.
+const TRIES: usize = 20;
+
+/// Folders of unfinished files, as absolute paths.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+static WATCHED: Once = Once::new();
+
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Makes a folder that is removed when the program is stopped, until it is [forgotten](forget).
+pub(super) fn remember(make: impl FnOnce() -> io::Result<PathBuf>) -> io::Result<PathBuf> {
+    // Where nobody can be asked to tell of a signal the next run removes the folder.
+    WATCHED.call_once(|| drop(ctrlc::set_handler(stop)));
+    let mut unfinished = unfinished();
+    let folder = make()?;
+    unfinished.insert(folder.clone());
+    Ok(folder)
+}
+
+/// Leaves a folder be.
+pub(super) fn forget(folder: &Path) {
+    unfinished().remove(folder);
+}
+
+/// Does what must not be stopped half-way. A signal waits until then.
+pub(super) fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
+    let _turn = unfinished();
+    work()
+}
+
+fn stop() {
+    let folders = unfinished();
+    for folder in folders.iter() {
+        let is_gone = |_| fs::remove_dir_all(folder).is_ok() || !folder.exists();
+        let _ = (0..TRIES).any(is_gone);
+    }
+    process::exit(STOPPED);
+}

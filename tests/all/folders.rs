@@ -1,0 +1,242 @@
+//! A results folder is one run: what of it is a person's stays, what is not goes, and all of it comes together.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use genga::deliver::Manifest;
+
+use crate::clips::here;
+use crate::program::{Place, column, text};
+
+/// Every file of a folder and of those in it, by its path.
+fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() {
+            let inside = all(&path).into_iter();
+            found.extend(inside.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
+        } else {
+            found.insert(name, fs::read(path).unwrap());
+        }
+    }
+    found
+}
+
+fn said(place: &Place, args: &str) -> String {
+    let output = place.genga(args);
+    assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
+    text(&output.stderr)
+}
+
+fn change(place: &Place, name: &str) -> Vec<u8> {
+    let changed = [fs::read(place.path(name)).unwrap(), b"mine".to_vec()].concat();
+    fs::write(place.path(name), &changed).unwrap();
+    changed
+}
+
+/// What the manifest of a folder lists is what is there, byte by byte.
+fn check_manifest(place: &Place, folder: &str) {
+    let mut files = all(&place.path(folder));
+    let text = String::from_utf8(files.remove("manifest.json").unwrap()).unwrap();
+    let manifest = Manifest::read(&text).unwrap();
+    let there: BTreeMap<_, _> =
+        files.iter().map(|(name, bytes)| (name.clone(), Manifest::digest(bytes))).collect();
+    assert_eq!(manifest.files, there);
+}
+
+#[test]
+fn what_a_run_does_not_write_again_is_gone() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts,images --out a");
+    check_manifest(&place, "a");
+    assert!(place.path("a/kick_genga.xdts").is_file() && place.path("a/images").is_dir());
+    place.done("run data/kick.bvh --keys 8 --out a");
+    place.done("run data/kick.bvh --keys 8 --out fresh");
+    assert_eq!(all(&place.path("a")), all(&place.path("fresh")), "as if nothing had been there");
+    assert!(!place.path("a/images").exists(), "no empty folder either");
+    check_manifest(&place, "a");
+    let rows = column(&text(&place.files("a")["keys.csv"]), "genga_no").len();
+    assert_eq!(rows, 10);
+}
+
+#[test]
+fn what_a_person_changed_is_kept_and_named() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver xdts,images --out a");
+    let painted = change(&place, "a/images/A_0003.png");
+    fs::write(place.path("a/images/sketch.png"), "mine").unwrap();
+    let said = said(&place, "run data/kick.bvh --keys 8 --out a");
+    assert!(said.contains("kept because they were changed since: images/A_0003.png"), "{said}");
+    assert!(!place.path("a/images/A_0001.png").exists());
+    assert_eq!(fs::read(place.path("a/images/A_0003.png")).unwrap(), painted);
+    assert_eq!(fs::read(place.path("a/images/sketch.png")).unwrap(), b"mine");
+}
+
+#[test]
+fn nothing_that_a_person_changed_is_written_over_unless_forced() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver images --out a");
+    for name in ["keys.csv", "recipe.toml", "sheet.csv", "sheet.json", "images/A_0003.png"] {
+        let file = format!("a/{name}");
+        let written = fs::read(place.path(&file)).unwrap();
+        let changed = change(&place, &file);
+        let before = all(&place.path("a"));
+        for args in [
+            "run data/kick.bvh --deliver images --keys 8 --out a",
+            "run data/kick.bvh --deliver images --out a",
+        ] {
+            let said = place.refused(2, args);
+            assert!(said.contains(&file) && said.contains("as a run wrote it"), "{said}");
+            assert!(said.contains("--out") && said.contains("--force"), "{said}");
+            assert_eq!(all(&place.path("a")), before, "{args}");
+        }
+        place.done("run data/kick.bvh --deliver images --out a --force");
+        assert_ne!(fs::read(place.path(&file)).unwrap(), changed);
+        assert_eq!(fs::read(place.path(&file)).unwrap(), written);
+    }
+    // Deliver spares them as well, and so do files of which nothing is known.
+    change(&place, "a/keys.csv");
+    let said = place.refused(2, "deliver a/sheet.json data/kick.bvh --to csv");
+    assert!(said.contains("a/keys.csv") && said.contains("--force"), "{said}");
+    fs::create_dir(place.path("b")).unwrap();
+    fs::write(place.path("b/keys.csv"), "mine").unwrap();
+    assert!(place.refused(2, "run data/kick.bvh --out b").contains("b/keys.csv"));
+    assert_eq!(all(&place.path("b")).len(), 1);
+}
+
+#[test]
+fn a_manifest_that_was_changed_vouches_for_nothing() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    change(&place, "a/manifest.json");
+    let said = place.refused(2, "run data/kick.bvh --keys 8 --out a");
+    assert!(said.contains("manifest.json") && said.contains("--force"), "{said}");
+    place.done("run data/kick.bvh --keys 8 --out a --force");
+    check_manifest(&place, "a");
+}
+
+#[test]
+fn a_folder_of_another_clip_is_refused() {
+    let place = Place::new();
+    for (folder, clip) in [("a", "kick"), ("b", "pitch")] {
+        fs::create_dir(place.path(folder)).unwrap();
+        let walk = place.path(folder).join("walk.bvh");
+        fs::copy(here("data").join(clip).with_extension("bvh"), walk).unwrap();
+    }
+    place.done("run a/walk.bvh");
+    let before = all(&place.path("walk-genga"));
+    let said = place.refused(2, "run b/walk.bvh");
+    assert!(said.contains("walk-genga: this folder is of another walk.bvh"), "{said}");
+    assert!(said.contains("--out") && said.contains("--force"), "{said}");
+    let said = place.refused(2, "run data/swing.bvh --out walk-genga");
+    assert!(said.contains("is of another clip, walk.bvh"), "{said}");
+    let said = place.refused(2, "deliver walk-genga/sheet.json data/pitch.bvh --to csv");
+    assert!(said.contains("is of another clip, walk.bvh"), "{said}");
+    assert_eq!(all(&place.path("walk-genga")), before);
+    // A part of the clip is of the same clip.
+    place.done("run a/walk.bvh --trim 10..60");
+    place.done("run b/walk.bvh --force");
+    check_manifest(&place, "walk-genga");
+}
+
+#[test]
+fn a_manifest_is_the_same_on_every_machine() {
+    let (one, other) = (Place::new(), Place::new());
+    one.done("run data/kick.bvh --deliver images --out a");
+    other.done("run data/kick.bvh --out somewhere/else");
+    fs::copy(here("data/kick.bvh"), other.path("kick.bvh")).unwrap();
+    other.done("run kick.bvh --deliver images --out somewhere/else");
+    assert_eq!(all(&one.path("a")), all(&other.path("somewhere/else")));
+}
+
+#[test]
+fn a_delivery_adds_to_the_run() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    place.done("deliver a/sheet.json data/kick.bvh --to xdts,images");
+    check_manifest(&place, "a");
+    // The next run knows what was delivered.
+    place.done("run data/kick.bvh --keys 8 --out a");
+    assert!(!place.path("a/kick_genga.xdts").exists());
+    check_manifest(&place, "a");
+}
+
+#[test]
+fn a_clip_that_ends_in_the_middle_of_a_row_says_so_when_quiet_too() {
+    let place = Place::new();
+    let kick = fs::read(here("data/kick.bvh")).unwrap();
+    fs::write(place.path("cut.bvh"), &kick[..kick.len() - 20]).unwrap();
+    let lost = "the file says 92 frames and has 91 complete frames and";
+    for args in [
+        "run cut.bvh --out a -q",
+        "keys cut.bvh -q",
+        "deliver a/sheet.json cut.bvh --to csv --out b -q",
+    ] {
+        let said = said(&place, args);
+        assert!(said.contains(lost), "{args}: {said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+    assert!(text(&place.files("a")["report.json"]).contains(lost));
+}
+
+#[test]
+fn a_forbidden_frame_without_a_key_near_it_is_said() {
+    let place = Place::new();
+    let said = said(&place, "run data/kick.bvh --forbid 3,55,60..66 --out a");
+    let note = "no key is found near frame 3, so there was none to forbid";
+    assert!(said.contains(note), "{said}");
+    assert_eq!(said.matches("none to forbid").count(), 1, "{said}");
+    assert!(text(&place.files("a")["report.json"]).contains(note));
+    let said = text(&place.genga("keys data/kick.bvh --forbid 3").stderr);
+    assert!(said.contains(note), "{said}");
+}
+
+/// Names of a folder, hidden ones too.
+#[cfg(unix)]
+fn names(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder).unwrap();
+    names.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
+    use std::process::Command;
+    use std::time::Duration;
+
+    let place = Place::new();
+    place.done("run data/kick.bvh --out old");
+    place.done("run data/kick.bvh --deliver images,strip --keys 8 --out new");
+    let (old, new) = (all(&place.path("old")), all(&place.path("new")));
+    let run = "run data/kick.bvh --deliver images,strip --keys 8 --out";
+    for (at, signal) in ["INT", "TERM", "KILL"].into_iter().cycle().take(18).enumerate() {
+        let folder = if at % 2 == 0 { "a" } else { "fresh" };
+        fs::remove_dir_all(place.path(folder)).ok();
+        if folder == "a" {
+            place.done("run data/kick.bvh --out a");
+        }
+        let mut child = place.begun(&format!("{run} {folder}"));
+        std::thread::sleep(Duration::from_millis(at as u64 * 40));
+        let pid = child.id().to_string();
+        Command::new("kill").args(["-s", signal, &pid]).status().unwrap();
+        child.wait().unwrap();
+        let is_half = |name: &String| name.ends_with(".tmp");
+        if signal == "KILL" {
+            // The next run clears what nobody could.
+            place.done(&format!("{run} {folder}"));
+        }
+        let top = names(&place.path("."));
+        assert!(!top.iter().any(is_half), "{signal} {at}: {top:?}");
+        if place.path(folder).exists() {
+            let there = all(&place.path(folder));
+            assert!(
+                there == old && folder == "a" || there == new,
+                "{signal} {at}: {:?}",
+                there.keys()
+            );
+        }
+    }
+}
