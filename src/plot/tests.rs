@@ -205,7 +205,9 @@ fn draw_curves(curves: SpeedCurves) -> String {
 
 /// The corners of the one line of a colour, in px.
 fn corners(svg: &str, color: &str) -> Vec<(f64, f64)> {
-    let [line] = tags(svg, "polyline", &format!("stroke=\"{color}\""))[..] else { panic!("{svg}") };
+    let of_color = |line: &&str| line.contains(&format!("stroke=\"{color}\""));
+    let lines: Vec<_> = curves(svg).into_iter().filter(of_color).collect();
+    let [line] = lines[..] else { panic!("{svg}") };
     let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
     let px = |unit: &str| unit.parse::<f64>().unwrap();
     let point = |pair: &str| pair.split_once(',').map(|(x, y)| (px(x), px(y))).unwrap();

@@ -54,6 +54,14 @@ pub(super) fn meet(
     Ok((recipe, Outcome { target: Target::MaxError(most), reached, shortfall }))
 }
 
+/// The prices that are tried, down to none.
+pub(super) fn prices() -> impl Iterator<Item = f64> {
+    let prices = std::iter::successors(Some(HIGHEST), |price| Some(price / STEP));
+    // Three digits are enough to part two rungs, and a person reads them.
+    let rounded = prices.map(|price| (1000.0 * price).round() / 1000.0);
+    rounded.take_while(|price| *price > 0.05).chain([0.0])
+}
+
 /// Settings from few keys to all.
 fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Recipe>, Error> {
     let mut all = recipe.clone();
@@ -64,10 +72,7 @@ fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Reci
             rung.keys.min_price = min_price;
             rung
         };
-        let prices = std::iter::successors(Some(HIGHEST), |price| Some(price / STEP));
-        // Three digits are enough to part two rungs, and a person reads them.
-        let rounded = prices.map(|price| (1000.0 * price).round() / 1000.0);
-        return Ok(rounded.take_while(|price| *price > 0.05).chain([0.0]).map(priced).collect());
+        return Ok(prices().map(priced).collect());
     }
     let most = room::found(engine, &all, edits)?;
     let more = |count: &usize| Some((count + 1).max((*count as f64 * STEP) as usize));

@@ -237,8 +237,8 @@ proptest! {
         prop_assert_eq!(outcome.shortfall.is_none(), worst <= most, "{}", outcome);
         let least = beyond(most, &mut engine, &met.recipe, &edits);
         prop_assert_eq!(least == 0, worst <= most);
-        // No higher price does.
-        for price in (1..=80).map(|step| 100.0 * 0.93_f64.powi(step)) {
+        // No higher price of those that are tried does.
+        for price in error::prices() {
             let mut other = recipe.clone();
             other.keys.per_second = f64::INFINITY;
             other.keys.min_price = price;

@@ -40,6 +40,9 @@ pub(super) struct Panel<'a> {
     pub(super) is_last: bool,
 }
 
+/// Points of a curve, its colour and its width.
+type Line = (Vec<(f64, f64)>, RGBColor, f64);
+
 /// A panel with its numbers, in the unit for people.
 struct Values<'a> {
     raw: &'a [f64],
@@ -156,11 +159,7 @@ impl Values<'_> {
     }
 
     /// The lines of the curves that are asked for. `px` says where a frame stands.
-    fn curves(
-        &self,
-        curves: SpeedCurves,
-        px: impl Fn(f64) -> f64,
-    ) -> Vec<(Vec<(f64, f64)>, RGBColor, f64)> {
+    fn curves(&self, curves: SpeedCurves, px: impl Fn(f64) -> f64) -> Vec<Line> {
         let firm = (self.filtered, style::FILTERED, 1.75);
         let whole = match curves {
             SpeedCurves::Both => vec![(self.raw, style::RAW, 1.0), firm],
