@@ -1,5 +1,6 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
+mod budget;
 mod layer;
 mod stage;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
 use crate::timing::{Omitted, Spaced, with_holds};
 
+pub use budget::Budget;
 pub use layer::LayerBreakdown;
 use layer::{LayerStages, Measured};
 use stage::{Of, Stage};
@@ -29,6 +31,7 @@ use stage::{Of, Stage};
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
+    budget: Budget,
     /// The motion that is drawn, and how it was exaggerated; the clip itself where it was not.
     drawn: Stage<Option<Exaggerate>, Arc<Clip>>,
     /// From where movement is seen.
@@ -117,6 +120,7 @@ impl Engine {
         clip.check_size()?;
         Ok(Self {
             clip,
+            budget: Budget::default(),
             drawn: Stage::default(),
             screen: Stage::default(),
             build: Stage::default(),
@@ -130,6 +134,11 @@ impl Engine {
             actions: Stage::default(),
             sheets: Stage::default(),
         })
+    }
+
+    /// The same with another bound of memory.
+    pub fn with_budget(self, budget: Budget) -> Self {
+        Self { budget, ..self }
     }
 
     /// The motion as it was given.
@@ -346,6 +355,7 @@ impl Engine {
 
     /// Speeds, smoothed, and where they turn.
     fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
+        self.budget.check(&self.clip, recipe.rate)?;
         self.exaggerate(recipe)?;
         let clip = self.drawn.output();
         self.screen.make((clip,), recipe.seen_from, |(clip,), from| Screen::of(*from, &clip));

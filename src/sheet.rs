@@ -13,7 +13,7 @@ use crate::time::Clock;
 
 /// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and
 /// would fill the memory.
-const MOST_KOMA: usize = 1_000_000;
+pub(crate) const MOST_KOMA: usize = 1_000_000;
 
 /// A timesheet: for each layer, drawings and how long each stays on screen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

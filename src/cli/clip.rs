@@ -11,6 +11,7 @@ use crate::deliver::ClipMark;
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
 use crate::motion::{Clip, bvh};
+use crate::pipeline::Budget;
 use crate::time::{Frame, FrameRate};
 
 /// The clip, and which part of it.
@@ -21,6 +22,9 @@ pub(super) struct ClipArgs {
     pub(super) path: PathBuf,
     #[command(flatten)]
     part: Part,
+    /// Memory that a run may take, in GiB. Without it: 1, and 16 times the values of the clip.
+    #[arg(long, value_name = "GIB", value_parser = gib)]
+    memory: Option<f64>,
 }
 
 /// Which part of a clip, and how it is read.
@@ -67,6 +71,11 @@ fn frames(text: &str) -> Result<Frames, String> {
     parsed.ok_or_else(|| "expected frame numbers, as in 120..480, 120.. or ..480".into())
 }
 
+fn gib(text: &str) -> Result<f64, String> {
+    let gib = text.parse().ok().filter(|gib: &f64| *gib > 0.0 && gib.is_finite());
+    gib.ok_or_else(|| "expected GiB above 0, as in 8 or 0.5".into())
+}
+
 fn rate(text: &str) -> Result<FrameRate, String> {
     let fps = text.parse().ok().and_then(|fps| FrameRate::new(fps).ok());
     fps.ok_or_else(|| "expected frames a second from 0.001 to 1000000, as in 120 or 29.97".into())
@@ -86,6 +95,11 @@ impl ClipArgs {
     /// Reads the clip as [`Part::read`] does.
     pub(super) fn read(&self) -> Result<Source, Failure> {
         self.part.read(&self.path)
+    }
+
+    /// What a run of it may take.
+    pub(super) fn budget(&self) -> Budget {
+        self.memory.map_or(Budget::default(), Budget::gib)
     }
 }
 

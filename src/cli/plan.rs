@@ -96,7 +96,8 @@ impl<'a> Plan<'a> {
         let (seen_from, notes) = seen::asked(&self.args.corrections.seen, &source.clip)?;
         self.recipe.seen_from = seen_from.unwrap_or(self.recipe.seen_from);
         source.notes.iter().chain(&notes).for_each(note);
-        Ok((Engine::new(source.clip)?, source.of))
+        let engine = Engine::new(source.clip)?.with_budget(self.args.clip.budget());
+        Ok((engine, source.of))
     }
 
     /// Adds the keys that are marked in a file, and finds the settings that give what the sheet is to be.

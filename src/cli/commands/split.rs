@@ -61,7 +61,7 @@ pub(super) fn run(args: &SplitArgs, words: &Words) -> Result<(), Failure> {
     )?;
     let source = args.clip.read()?;
     source.notes.iter().for_each(|warning| words.warn(warning));
-    let mut engine = Engine::new(source.clip)?;
+    let mut engine = Engine::new(source.clip)?.with_budget(args.clip.budget());
     let actions = engine.find_actions(&recipe, &edits)?.clone();
     let clip = engine.clip();
     if let Some(folder) = &args.out {
