@@ -167,6 +167,7 @@ impl Canvas {
     }
 
     /// A circle through which one sees.
+    #[cfg(feature = "cli")]
     pub(super) fn hoop(&mut self, center: Point, radius: f64, color: RGBColor, width: f64) {
         self.circle(center, radius, None, Some((color, width)));
     }

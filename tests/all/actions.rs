@@ -1,10 +1,8 @@
 //! A long take is split into its actions: by the built program, and on every real clip.
 
-use std::fs;
-
 use genga::edits::Edits;
 use genga::keys::{Matching, SplitReason};
-use genga::motion::{Clip, bvh};
+use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::study::Noise;
@@ -178,6 +176,10 @@ fn a_walk_and_a_dance_that_are_joined_part_within_a_second_of_where_they_meet() 
 
 #[cfg(feature = "cli")]
 mod by_the_program {
+    use std::fs;
+
+    use genga::motion::bvh;
+
     use super::*;
     use crate::program::{Place, column};
 
