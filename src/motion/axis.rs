@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A coordinate axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[expect(missing_docs, reason = "the names say it")]
 pub enum Axis {
     X,
     Y,

@@ -12,118 +12,24 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::os::unix::fs::symlink;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use genga::{edits::Edits, motion::bvh, pipeline::Engine, recipe::Recipe};
 
 use crate::clips::here;
 
+mod formats;
+mod page;
+mod prose;
+mod reader;
+
+use page::{Block, Piece, bare, commands, page, pieces};
+use reader::{TESTS, UNINSTALLED, place, said};
+
 /// The pages, each beside its translation.
 const PAGES: [[&str; 2]; 2] =
     [["README.md", "README.ja.md"], ["docs/guide.md", "docs/guide.ja.md"]];
-
-/// The test command of the README.
-const TESTS: &str = "cargo test --release --locked";
-
-/// Commands that are not run here: they build all anew, or open a window.
-const ELSEWHERE: [&str; 5] = [
-    TESTS,
-    "cargo install --path . --locked",
-    "cargo install --path . --features studio --locked",
-    "cargo run --release --locked --features studio -- studio data/kick.bvh",
-    "env -u WAYLAND_DISPLAY genga studio data/kick.bvh",
-];
-
-/// What stands before a command of somebody who has not installed the program.
-const UNINSTALLED: &str = "cargo run --release --locked -- ";
-
-/// A fenced block of a page.
-struct Block<'a> {
-    language: &'a str,
-    /// What the comment above it says that it is written into.
-    file: Option<&'a str>,
-    lines: Vec<&'a str>,
-}
-
-/// Prose and fenced blocks of a page, in order.
-enum Piece<'a> {
-    Prose(&'a str),
-    Block(Block<'a>),
-}
-
-fn pieces(page: &str) -> Vec<Piece<'_>> {
-    let mut pieces = Vec::new();
-    let mut lines = page.lines();
-    let mut before = "";
-    while let Some(line) = lines.next() {
-        if let Some(language) = line.strip_prefix("```") {
-            let file =
-                before.strip_prefix("<!-- file: ").and_then(|name| name.strip_suffix(" -->"));
-            let lines = lines.by_ref().take_while(|line| *line != "```").collect();
-            pieces.push(Piece::Block(Block { language, file, lines }));
-        } else {
-            pieces.push(Piece::Prose(line));
-        }
-        before = line;
-    }
-    pieces
-}
-
-fn blocks(page: &str) -> Vec<Block<'_>> {
-    let block = |piece| match piece {
-        Piece::Block(block) => Some(block),
-        Piece::Prose(_) => None,
-    };
-    pieces(page).into_iter().filter_map(block).collect()
-}
-
-/// The commands of a page, in order, without the comments behind them.
-fn commands(page: &str) -> Vec<String> {
-    let of = |block: Block| -> Vec<String> {
-        let lines = block.lines.into_iter();
-        match block.language {
-            "console" => lines.filter_map(|line| line.strip_prefix("$ ")).map(bare).collect(),
-            "sh" => lines.map(bare).collect(),
-            _ => Vec::new(),
-        }
-    };
-    blocks(page).into_iter().flat_map(of).collect()
-}
-
-fn bare(command: &str) -> String {
-    command.split(" # ").next().unwrap_or_default().trim_end().to_owned()
-}
-
-/// A folder of a reader, with the repository's motions in it.
-fn place() -> tempfile::TempDir {
-    let place = tempfile::tempdir().unwrap();
-    symlink(here("data"), place.path().join("data")).unwrap();
-    place
-}
-
-/// Runs a command of a page in a folder, and gives what it says, data and words together.
-fn said(command: &str, place: &Path) -> Result<String, String> {
-    if ELSEWHERE.contains(&command) {
-        return Ok(String::new());
-    }
-    let program = Path::new(env!("CARGO_BIN_EXE_genga")).parent().unwrap();
-    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
-    let command = match command.strip_prefix(UNINSTALLED) {
-        Some(args) => format!("genga {args}"),
-        None => command.to_owned(),
-    };
-    let known = ["genga ", "cp "].iter().any(|begin| command.starts_with(begin));
-    if !known {
-        return Err(format!("{command}: this is no command of genga's"));
-    }
-    let mut shell = Command::new("sh");
-    shell.args(["-c", &format!("exec 2>&1\n{command}")]).env("PATH", path).current_dir(place);
-    let output = shell.stdin(Stdio::null()).output().unwrap();
-    let said = String::from_utf8(output.stdout).unwrap();
-    if output.status.success() { Ok(said) } else { Err(format!("{command}: {said}")) }
-}
 
 /// Whether a line is as shown, where each `…` may be any number.
 fn is_as_shown(line: &str, shown: &str) -> bool {
@@ -209,10 +115,6 @@ fn difference(name: &str, shown: &str, made: &str) -> String {
     format!("{name}:{}\n  shows {}\n  it is {}\n", same + 1, line(shown), line(made))
 }
 
-fn page(name: &str) -> String {
-    fs::read_to_string(here(name)).unwrap()
-}
-
 #[test]
 fn commands_of_the_pages_say_what_the_pages_show() {
     let mut off = String::new();
@@ -285,56 +187,6 @@ fn what_the_readme_writes_is_no_part_of_the_repository() {
             written += if entry.path().is_dir() { "/" } else { "" };
             assert!(endings.iter().any(|end| written.ends_with(end)), "{name} writes {written}");
         }
-    }
-}
-
-/// What stands between backticks in the prose of all pages, each with its page.
-fn codes() -> Vec<(&'static str, String)> {
-    let mut codes = Vec::new();
-    for name in PAGES.as_flattened() {
-        let page = page(name);
-        for piece in pieces(&page) {
-            let Piece::Prose(line) = piece else { continue };
-            codes.extend(line.split('`').skip(1).step_by(2).map(|code| (*name, code.to_owned())));
-        }
-    }
-    codes
-}
-
-#[test]
-fn settings_named_in_the_prose_are_accepted() {
-    let place = place();
-    let codes: Vec<_> =
-        codes().into_iter().filter(|(_, code)| code.starts_with("--set ")).collect();
-    assert!(codes.len() > 20, "{codes:?}");
-    for (name, code) in codes {
-        let command = format!("genga run data/kick.bvh {code}");
-        said(&command, place.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
-    }
-}
-
-#[test]
-fn commands_and_options_named_in_the_prose_are_there() {
-    let place = place();
-    let help = said("genga help", place.path()).unwrap();
-    let (_, commands) = help.split_once("Commands:").unwrap();
-    let (commands, _) = commands.split_once("Options:").unwrap();
-    let begins = |line: &'_ str| line.starts_with("  ") && !line.starts_with("   ");
-    let lines = commands.lines().filter(|line| begins(line));
-    let commands: Vec<_> = lines.filter_map(|line| line.split_whitespace().next()).collect();
-    let helps = commands.iter().map(|command| said(&format!("genga help {command}"), place.path()));
-    let helps = helps.collect::<Result<String, _>>().unwrap();
-    let end = |letter: char| !(letter.is_ascii_lowercase() || letter == '-');
-    let options: Vec<_> = helps.split(end).filter(|word| word.starts_with("--")).collect();
-    let codes = codes().into_iter().filter(|(_, code)| !code.starts_with("cargo "));
-    for (name, code) in codes {
-        if let Some(command) = code.strip_prefix("genga ") {
-            let command = command.split_whitespace().next().unwrap();
-            assert!(commands.contains(&command), "{name}: {code}");
-        }
-        let mut named = code.split(end).filter(|word| word.starts_with("--"));
-        let missing = named.find(|word| !options.contains(word));
-        assert!(missing.is_none(), "{name}: {code}");
     }
 }
 

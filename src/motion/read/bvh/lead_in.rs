@@ -104,7 +104,7 @@ impl LeadIn {
     }
 
     /// Number of frames.
-    #[allow(clippy::len_without_is_empty)]
+    #[expect(clippy::len_without_is_empty, reason = "it has a frame at the least")]
     pub fn len(&self) -> usize {
         self.last.0 - self.first.0 + 1
     }

@@ -34,7 +34,7 @@ pub(crate) const ROW: &str = "0 1 0 10 20 30 40 50 60";
 
 /// The names and bytes of the real clips, sorted by name; none when the folder is not there, which
 /// is an error in CI.
-#[allow(clippy::print_stderr)]
+#[expect(clippy::print_stderr, reason = "a test says what it left out")]
 pub(crate) fn real_clips() -> Vec<(String, Vec<u8>)> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/bvh");
     let Ok(entries) = fs::read_dir(&folder) else {
