@@ -30,10 +30,14 @@ pub enum Error {
         message: String,
     },
     /// The recipe file is not a recipe.
-    #[error("recipe: {message}")]
+    #[error("recipe: {}{message}", located(*place))]
     Recipe {
-        /// What is wrong, with line and column where they are known.
+        /// Line and column in the file, from 1, where there is a place to point at.
+        place: Option<(usize, usize)>,
+        /// What is wrong, and what would be right.
         message: String,
+        /// What the reader of its format said, or why a setting was refused.
+        source: Option<Cause>,
     },
     /// The clip cannot be worked on as it is.
     #[error("{message}")]
@@ -92,8 +96,10 @@ pub enum Error {
     /// A picture could not be drawn.
     #[error("picture: {message}")]
     Picture {
-        /// What the drawing library said.
+        /// What is wrong with what should be drawn, or what the drawing library said.
         message: String,
+        /// What the drawing library said.
+        source: Option<Cause>,
     },
 }
 
@@ -127,7 +133,9 @@ impl Error {
     pub fn position(&self) -> Option<(usize, usize)> {
         match self {
             Self::Bvh { line, column, .. } => Some((*line, *column)),
-            Self::Sheet { place, .. } | Self::Table { place, .. } => *place,
+            Self::Recipe { place, .. } | Self::Sheet { place, .. } | Self::Table { place, .. } => {
+                *place
+            }
             _ => None,
         }
     }

@@ -32,7 +32,10 @@ impl Failure {
             Error::Bvh { .. } | Error::Sheet { place: Some(_), .. } => {
                 Self::CouldNot(format!("{name}:{error}"))
             }
-            Error::Recipe { message } => Self::AskedWrongly(format!("{name}:{message}")),
+            Error::Recipe { place, message, .. } => {
+                let place = place.map(|(line, column)| format!("{line}:{column}:"));
+                Self::AskedWrongly(format!("{name}:{} {message}", place.unwrap_or_default()))
+            }
             Error::Clip { .. }
             | Error::Sheet { .. }
             | Error::Table { .. }

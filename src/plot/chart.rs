@@ -60,7 +60,7 @@ impl Plot {
         canvas: &mut Canvas,
         series: impl FnOnce(&mut Chart<'_>) -> Outcome,
     ) -> Result<(), Error> {
-        self.try_draw(canvas, series).map_err(|error| style::cannot(error.to_string()))
+        self.try_draw(canvas, series).map_err(style::failed)
     }
 
     fn try_draw(

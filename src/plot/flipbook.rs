@@ -106,8 +106,7 @@ impl FlipBook {
         let composite = composed(clip, sheet)?;
         let layer = beginning(composite.layer(), self.most);
         let take = self.take(cut, &composite, sheet, &layer);
-        let take =
-            serde_json::to_string(&take).map_err(|error| style::cannot(error.to_string()))?;
+        let take = serde_json::to_string(&take).map_err(style::failed)?;
         // Inside a script no text may end it; in JSON a < can only be part of a text.
         let take = take.replace('<', "\\u003c");
         let filled = [

@@ -36,7 +36,7 @@ impl Pixels {
     /// # Errors
     /// [`Error::Picture`] when memory runs out.
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
-        self.map.encode_png().map_err(|error| style::cannot(error.to_string()))
+        self.map.encode_png().map_err(style::failed)
     }
 
     /// Takes on what another of the same size shows.

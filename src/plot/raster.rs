@@ -7,7 +7,7 @@ use resvg::usvg::fontdb::{Database, Family, Query};
 use resvg::usvg::{Options, Tree};
 
 use crate::error::Error;
-use crate::plot::style::cannot;
+use crate::plot::style::{cannot, failed};
 
 /// What stands for `sans-serif`, best first: fonts with Japanese letters, then the usual plain ones.
 const PLAIN: [&str; 13] = [
@@ -38,7 +38,7 @@ const MOST: f32 = 32_000.0;
 /// [`Error::Setting`] for a scale that is not above 0; [`Error::Picture`] when the text is no SVG or
 /// the picture has no px or more than 32000 on a side.
 pub fn png_from_svg(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
-    pixels_from_svg(svg, scale)?.encode_png().map_err(|error| cannot(error.to_string()))
+    pixels_from_svg(svg, scale)?.encode_png().map_err(failed)
 }
 
 /// The picture as pixels.
@@ -50,7 +50,7 @@ pub(super) fn pixels_from_svg(svg: &str, scale: f32) -> Result<Pixmap, Error> {
         return Err(Error::setting("scale", format!("{scale}; it must be above 0")));
     }
     let options = Options { fontdb: fonts(), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(|error| cannot(error.to_string()))?;
+    let tree = Tree::from_str(svg, &options).map_err(failed)?;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
     if width.max(height) > MOST {
         return Err(cannot(format!(

@@ -5,7 +5,7 @@
 
 use plotters::style::RGBColor;
 
-use crate::error::Error;
+use crate::error::{Cause, Error};
 use crate::sheet::Role;
 
 /// Keys (原画).
@@ -153,7 +153,13 @@ pub(super) fn check_count(name: &str, count: usize, most: usize) -> Result<(), E
 
 /// An error about what should be drawn.
 pub(super) fn cannot(message: impl Into<String>) -> Error {
-    Error::Picture { message: message.into() }
+    Error::Picture { message: message.into(), source: None }
+}
+
+/// An error of a library that draws.
+pub(super) fn failed(source: impl Into<Cause>) -> Error {
+    let source = source.into();
+    Error::Picture { message: source.to_string(), source: Some(source) }
 }
 
 /// A colour with so much of another in it, 0 to 1.

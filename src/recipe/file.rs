@@ -54,7 +54,7 @@ impl Recipe {
     /// # Errors
     /// Those of [`Recipe::parse`].
     pub fn overlaid(&self, text: &str) -> Result<(Self, Edits), Error> {
-        let not_read = |error: toml::de::Error| located(text, error.span(), error.message());
+        let not_read = |error| not_read(text, error);
         let mut table = DeTable::parse(text).map_err(not_read)?.into_inner();
         let edits =
             table.remove("edits").map(|edits| Edits::deserialize(edits.into_deserializer()));
@@ -155,7 +155,7 @@ impl File<'_> {
     ) -> Result<(), Error> {
         let place = if is_known(&name) { value.span() } else { key.clone() };
         let plain = Value::deserialize(value.clone().into_deserializer());
-        let word = match plain.map_err(|error| located(self.text, error.span(), error.message()))? {
+        let word = match plain.map_err(|error| not_read(self.text, error))? {
             Value::String(word) => word,
             plain => plain.to_string(),
         };
@@ -167,7 +167,8 @@ impl File<'_> {
     }
 
     fn wrong(&self, place: Range<usize>, error: Error) -> Error {
-        located(self.text, Some(place), &error.to_string())
+        let place = Some(line_and_column(self.text, place));
+        Error::Recipe { place, message: error.to_string(), source: Some(error.into()) }
     }
 }
 
@@ -181,20 +182,26 @@ fn is_section(name: &str) -> bool {
     name == WEIGHTS || KNOBS.iter().any(|knob| knob.path().0 == Some(name))
 }
 
-/// What is wrong with a file, in one line with the place.
-fn located(text: &str, span: Option<Range<usize>>, message: &str) -> Error {
-    let place = span.map(|span| {
-        let before = &text[..span.start.min(text.len())];
-        let line = before.matches('\n').count() + 1;
-        let column = before.len() - before.rfind('\n').map_or(0, |newline| newline + 1) + 1;
-        format!("{line}:{column}: ")
-    });
-    let message = message.lines().next().unwrap_or_default();
-    Error::Recipe { message: format!("{}{message}", place.unwrap_or_default()) }
+/// Line and column of a place in a text, from 1.
+fn line_and_column(text: &str, place: Range<usize>) -> (usize, usize) {
+    let before = &text[..place.start.min(text.len())];
+    let begin = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before.len() - begin + 1)
+}
+
+/// What the reader of TOML says, in one line.
+fn not_read(text: &str, error: toml::de::Error) -> Error {
+    Error::Recipe {
+        place: error.span().map(|place| line_and_column(text, place)),
+        message: error.message().lines().next().unwrap_or_default().into(),
+        source: Some(error.into()),
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::error::Error as _;
+
     use super::*;
     use crate::edits::{Hold, LayerEdits, Move, Pin};
     use crate::time::Frame;
@@ -276,10 +283,10 @@ mod tests {
 
     #[test]
     fn a_wrong_file_is_refused_with_its_place() {
-        let error = Recipe::parse("rate = 24\n[filter]\nwitdh = 3\n").unwrap_err().to_string();
+        let error = Recipe::parse("rate = 24\n[filter]\nwitdh = 3\n").unwrap_err();
         let said =
             "recipe: 3:1: filter.witdh: there is no such setting; did you mean filter.width?";
-        assert_eq!(error, said);
+        assert_eq!((error.to_string(), error.position()), (said.into(), Some((3, 1))));
         for (wrong, says) in [
             ("[spacing]\non = 0\n", "2:6: spacing.on: expected koma, 1 (ones) to 1000"),
             ("[filter]\nwidth = []\n", "2:9: filter.width: expected source frames or seconds"),
@@ -293,7 +300,9 @@ mod tests {
             ),
             ("[edits]\npins = 3\n", "recipe: 2:8: invalid type"),
         ] {
-            let said = Recipe::parse(wrong).unwrap_err().to_string();
+            let error = Recipe::parse(wrong).unwrap_err();
+            assert!(error.source().is_some() && error.position().is_some(), "{error:?}");
+            let said = error.to_string();
             assert!(said.contains(says), "{said}");
         }
         assert!(Recipe::parse("[spacing\n").is_err());

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::io::Write;
 
-use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
+use gif::{DisposalMethod, Encoder, Frame, Repeat};
 
 use super::palette::Palette;
 use crate::error::Error;
-use crate::plot::style::cannot;
+use crate::plot::style::{cannot, failed};
 
 /// What is shown until the next picture comes, not written yet since nobody knows for how long.
 struct Waiting {
@@ -60,8 +60,8 @@ impl<W: Write> Movie<W> {
     /// Ends with the last picture shown until after that many koma.
     pub(super) fn finish(mut self, koma: usize, koma_rate: f64) -> Result<(), Error> {
         self.write_waiting(hundredths(koma, koma_rate))?;
-        let mut file = self.encoder.into_inner().map_err(|error| cannot(error.to_string()))?;
-        file.flush().map_err(|error| cannot(error.to_string()))
+        let mut file = self.encoder.into_inner().map_err(failed)?;
+        file.flush().map_err(failed)
     }
 
     fn write_waiting(&mut self, until: u64) -> Result<(), Error> {
@@ -113,10 +113,6 @@ impl<W: Write> Movie<W> {
 /// When a koma begins, in hundredths of a second.
 fn hundredths(koma: usize, koma_rate: f64) -> u64 {
     (100.0 * koma as f64 / koma_rate).round() as u64
-}
-
-fn failed(error: EncodingError) -> Error {
-    cannot(error.to_string())
 }
 
 #[cfg(test)]
