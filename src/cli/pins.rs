@@ -191,7 +191,8 @@ fn of_timesheet(
     }
     let pins = xdts::pins(column, numbered, sheet, frames)
         .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;
-    let has_marks = column.cells.iter().any(|cell| cell.circled || cell.mark == Mark::Inbetween);
+    let has_marks =
+        column.changes.iter().any(|change| change.circled || change.mark == Mark::Inbetween);
     let mut notes = Vec::new();
     if numbered == Numbered::Keys && !has_marks {
         notes.push("it has no inbetween marks, so every number on it is a key".into());
@@ -205,8 +206,9 @@ fn sheet_column<'a>(
     asked: Option<&str>,
     path: &Path,
 ) -> Result<&'a Column, Failure> {
-    let drawn =
-        |column: &&Column| column.cells.iter().any(|cell| matches!(cell.mark, Mark::Drawing(_)));
+    let drawn = |column: &&Column| {
+        column.changes.iter().any(|change| matches!(change.mark, Mark::Drawing(_)))
+    };
     let columns: Vec<&Column> = file.columns.iter().filter(drawn).collect();
     let called = |name: &str| columns.iter().copied().find(|column| column.name == name);
     let found = match (asked, columns.as_slice()) {

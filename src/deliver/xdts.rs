@@ -13,7 +13,7 @@ mod tests;
 mod write;
 
 pub use pins::{Numbered, marked_keys, pins};
-pub use read::{Cell, Column, Exchange, Mark, read};
+pub use read::{Change, Column, Exchange, Mark, read};
 pub use write::{Xdts, XdtsPair};
 
 /// How an XDTS file begins.

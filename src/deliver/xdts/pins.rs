@@ -1,6 +1,6 @@
 //! Keys that a person marked on a sheet, as pins.
 
-use super::read::{Cell, Column, Mark};
+use super::read::{Change, Column, Mark};
 use crate::edits::Pin;
 use crate::error::Error;
 use crate::sheet::Sheet;
@@ -15,11 +15,12 @@ pub enum Numbered {
     Drawings,
 }
 
-/// The cells of a column that are keys. Where any number is circled only those are, whatever the sheet.
-pub fn marked_keys(column: &Column, numbered: Numbered) -> Vec<&Cell> {
-    let drawings = column.cells.iter().filter(|cell| matches!(cell.mark, Mark::Drawing(_)));
-    let circled = numbered == Numbered::Drawings || column.cells.iter().any(|cell| cell.circled);
-    drawings.filter(|cell| cell.circled || !circled).collect()
+/// What on a column is a key. Where any number is circled only those are, whatever the sheet.
+pub fn marked_keys(column: &Column, numbered: Numbered) -> Vec<&Change> {
+    let drawings = column.changes.iter().filter(|change| matches!(change.mark, Mark::Drawing(_)));
+    let circled =
+        numbered == Numbered::Drawings || column.changes.iter().any(|change| change.circled);
+    drawings.filter(|change| change.circled || !circled).collect()
 }
 
 /// The marked keys of a column as pins, named by column and number, such as `A3`.
@@ -37,8 +38,8 @@ pub fn pins(
     sheet: &Sheet,
     (first, last): (Frame, Frame),
 ) -> Result<Vec<Pin>, Error> {
-    let pin = |cell: &Cell| {
-        let koma = cell.koma;
+    let pin = |change: &Change| {
+        let koma = change.koma;
         if koma >= sheet.length() {
             let message = format!(
                 "column {} has a key on koma {}, and the sheet of this clip has {}; is the file of \
@@ -52,7 +53,7 @@ pub fn pins(
         let place =
             kept_on(sheet, &column.name, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
         let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
-        let Mark::Drawing(number) = &cell.mark else { unreachable!("only drawings are keys") };
+        let Mark::Drawing(number) = &change.mark else { unreachable!("only drawings are keys") };
         // A pin is written FRAME:NAME,… on the command line.
         let name = format!("{}{number}", column.name).replace([',', ':'], "_");
         Ok(Pin { frame, name: Some(name), weight: None })

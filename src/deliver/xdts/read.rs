@@ -29,12 +29,12 @@ pub struct Column {
     /// The column's name; by its track (A, B, C …) where the file gives none.
     pub name: String,
     /// What changes, by koma: the first on koma 0, all within the length, no drawing after itself.
-    pub cells: Vec<Cell>,
+    pub changes: Vec<Change>,
 }
 
 /// What stands on a column from a koma on.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Cell {
+pub struct Change {
     /// Koma, from 0.
     pub koma: usize,
     /// What stands there.
@@ -43,7 +43,7 @@ pub struct Cell {
     pub circled: bool,
 }
 
-/// What a cell can say.
+/// What a sheet can say on a koma.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Mark {
     /// A drawing by its number or name.
@@ -127,7 +127,7 @@ fn exchange(header: Option<Header>, table: TimeTable) -> Exchange {
         .map(|track| Column {
             track: track.track_no,
             name: name(track.track_no),
-            cells: cells(track.frames, length),
+            changes: changes(track.frames, length),
         })
         .collect();
     columns.sort_by_key(|column| column.track);
@@ -143,26 +143,26 @@ fn exchange(header: Option<Header>, table: TimeTable) -> Exchange {
     }
 }
 
-/// Entries as cells: by koma, those before the cut as what it begins with, of two on one koma the
+/// What entries change: by koma, those before the cut as what it begins with, of two on one koma the
 /// later one, and only what changes.
-fn cells(mut entries: Vec<Entry>, length: usize) -> Vec<Cell> {
+fn changes(mut entries: Vec<Entry>, length: usize) -> Vec<Change> {
     entries.sort_by_key(|entry| entry.frame);
-    let mut cells = vec![Cell { koma: 0, mark: Mark::Blank, circled: false }];
+    let mut changes = vec![Change { koma: 0, mark: Mark::Blank, circled: false }];
     for entry in entries {
         let koma = usize::try_from(entry.frame).unwrap_or(0);
         let Some(mark) = mark(&entry.data[0].values[0]).filter(|_| koma < length) else { continue };
         let circled = entry.data[0].options.iter().any(|option| option == CIRCLED);
-        cells.pop_if(|last| last.koma == koma);
+        changes.pop_if(|last| last.koma == koma);
         let goes_on = matches!(mark, Mark::Drawing(_) | Mark::Blank);
-        match cells.last_mut() {
+        match changes.last_mut() {
             Some(last) if goes_on && last.mark == mark => last.circled |= circled,
-            _ => cells.push(Cell { koma, mark, circled }),
+            _ => changes.push(Change { koma, mark, circled }),
         }
     }
-    cells
+    changes
 }
 
-/// None for a mark that the cell before goes on.
+/// None for a sign that what stood before goes on.
 fn mark(value: &str) -> Option<Mark> {
     match value {
         CONTINUED => None,
@@ -175,11 +175,11 @@ fn mark(value: &str) -> Option<Mark> {
 
 impl Column {
     /// What stands on each koma of a length: the mark and the koma it was set on.
-    pub fn on_koma(&self, length: usize) -> impl Iterator<Item = &Cell> + '_ {
-        let ends = self.cells.iter().skip(1).map(|cell| cell.koma).chain([length]);
-        self.cells
+    pub fn on_koma(&self, length: usize) -> impl Iterator<Item = &Change> + '_ {
+        let ends = self.changes.iter().skip(1).map(|change| change.koma).chain([length]);
+        self.changes
             .iter()
             .zip(ends)
-            .flat_map(|(cell, end)| std::iter::repeat_n(cell, end.saturating_sub(cell.koma)))
+            .flat_map(|(change, end)| std::iter::repeat_n(change, end.saturating_sub(change.koma)))
     }
 }

@@ -80,7 +80,7 @@ proptest! {
         if let Ok(read) = read(&file) {
             for column in &read.columns {
                 prop_assert_eq!(column.on_koma(read.length).count(), read.length);
-                prop_assert_eq!(column.cells[0].koma, 0);
+                prop_assert_eq!(column.changes[0].koma, 0);
             }
         }
     }

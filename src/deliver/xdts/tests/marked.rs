@@ -14,7 +14,7 @@ fn column(file: &str) -> Column {
 }
 
 fn koma(column: &Column, numbered: Numbered) -> Vec<usize> {
-    marked_keys(column, numbered).iter().map(|cell| cell.koma).collect()
+    marked_keys(column, numbered).iter().map(|change| change.koma).collect()
 }
 
 #[test]

@@ -71,7 +71,7 @@ fn what_is_written_out_koma_by_koma_is_a_hold() {
     let every = [(0, "1"), (1, "1"), (2, "SYMBOL_HYPHEN"), (3, "1"), (4, "12a"), (5, "12a")];
     let read = read(file(&every).as_bytes()).unwrap();
     assert_eq!(spelled(&read.columns[0], 6), "1 1 1 1 12a 12a");
-    assert_eq!(read.columns[0].cells.len(), 2);
+    assert_eq!(read.columns[0].changes.len(), 2);
     assert_eq!(koma(&file(&[(0, "1"), (3, "2"), (3, "4")])), "1 1 1 4 4 4", "the later one");
 }
 

@@ -44,14 +44,14 @@ pub(super) fn cut_of_24() -> Sheet {
 pub(super) fn spelled(column: &Column, length: usize) -> String {
     let mut shown = "x".to_owned();
     let mut koma = Vec::new();
-    for (at, cell) in column.on_koma(length).enumerate() {
-        let begins = cell.koma == at;
-        match &cell.mark {
+    for (at, change) in column.on_koma(length).enumerate() {
+        let begins = change.koma == at;
+        match &change.mark {
             Mark::Drawing(number) => shown = number.clone(),
             Mark::Blank => shown = "x".into(),
             Mark::Inbetween | Mark::Reverse => {}
         }
-        let tick = match cell.mark {
+        let tick = match change.mark {
             Mark::Inbetween if begins => "o",
             Mark::Reverse if begins => "*",
             _ => "",

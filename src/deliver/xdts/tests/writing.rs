@@ -85,16 +85,16 @@ fn round_trip(sheet: &Sheet, made: &XdtsPair) {
             _ => None,
         };
         let drawings: Vec<_> =
-            douga.on_koma(layer.length()).map(|cell| number(&cell.mark).unwrap() - 1).collect();
+            douga.on_koma(layer.length()).map(|change| number(&change.mark).unwrap() - 1).collect();
         assert_eq!(drawings, layer.koma().collect::<Vec<_>>());
-        let kept = genga.on_koma(layer.length()).map(|cell| number(&cell.mark).is_some());
+        let kept = genga.on_koma(layer.length()).map(|change| number(&change.mark).is_some());
         let meant = layer.koma().map(|drawing| layer.drawings[drawing].role.is_kept());
         assert!(kept.eq(meant), "keys are numbered, inbetweens are marks");
         assert!(
             genga
                 .on_koma(sheet.length())
                 .skip(layer.length())
-                .all(|cell| { cell.mark == crate::deliver::xdts::Mark::Blank })
+                .all(|change| { change.mark == crate::deliver::xdts::Mark::Blank })
         );
     }
 }
@@ -154,7 +154,7 @@ fn columns_of_one_name_are_told_apart_by_their_tracks() {
     let columns: Vec<_> = read
         .columns
         .iter()
-        .map(|column| (column.track, &*column.name, column.cells.len()))
+        .map(|column| (column.track, &*column.name, column.changes.len()))
         .collect();
     assert_eq!(columns, [(0, "A", 2), (1, "A", 3)]);
 }
