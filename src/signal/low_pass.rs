@@ -19,8 +19,8 @@ pub use spectrum::Spectrum;
 /// The kinds of low-pass filter. The paper names none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FilterKind {
-    /// Moving average over a window W frames wide: each sample counts by the overlap of its cell, one
-    /// frame wide, with the window.
+    /// Moving average over a window W frames wide, whose edges let as much noise into the acceleration at an odd width as
+    /// at an even one.
     #[default]
     Box,
     /// Gaussian whose standard deviation is W/6, so that W spans ±3σ.
@@ -46,8 +46,8 @@ choices!(FilterKind {
 pub struct LowPass {
     /// The kind; `box` by default.
     pub kind: FilterKind,
-    /// The paper's filter range W, in source frames or seconds, 0 or more; 0.15 s by default. Up to 1
-    /// frame it is no filter (up to 2 for `ideal` and `butterworth`, as no sampled motion has a
+    /// The paper's filter range W, in source frames or seconds, 0 or more; 0.15 s by default. Of 0 it
+    /// is no filter (up to 1 frame for `gaussian`, up to 2 for `ideal` and `butterworth`, as no sampled motion has a
     /// shorter period). Raised, it takes away short movements and the accents of fast ones.
     pub width: Span,
 }
@@ -149,7 +149,8 @@ impl LowPass {
     /// The width in frames, if it is one that filters.
     fn filtering_width(&self, rate: FrameRate) -> Option<f64> {
         let narrowest = match self.kind {
-            FilterKind::Box | FilterKind::Gaussian => 1.0,
+            FilterKind::Box => 0.0,
+            FilterKind::Gaussian => 1.0,
             FilterKind::Ideal | FilterKind::Butterworth => 2.0,
         };
         Some(self.width.frames(rate)).filter(|width| width.is_finite() && *width > narrowest)

@@ -108,7 +108,7 @@ impl Study {
     /// let measures = vec![Measure::Turns];
     /// let study = Study { recipe: Recipe::default(), x, y: None, measures, keep_keys: false };
     /// let grid = study.run(clip, || {})?;
-    /// assert_eq!(grid.values(Measure::Turns), Some(vec![17.0, 13.0, 12.0]));
+    /// assert_eq!(grid.values(Measure::Turns), Some(vec![17.0, 13.0, 11.0]));
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn run(&self, clip: impl Into<Arc<Clip>>, done: impl Fn() + Sync) -> Result<Grid, Error> {

@@ -1,4 +1,4 @@
-//! The order of rooms: a module imports only from rooms to its left or from the ground.
+//! The order of rooms: a module imports only from rooms above it or from the ground.
 
 use std::collections::BTreeSet;
 use std::fs;

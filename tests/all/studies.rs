@@ -118,11 +118,11 @@ fn stability_compares_cells_and_names_the_plateau() {
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
     // The recipe's own 0.15 s are 3.6 frames here, so the cell of 4 and 2.
     assert!(
-        lines[1].contains("filter.width 2, ") && lines[1].ends_with("stand beside it"),
+        lines[1].contains("filter.width 1 to 2, ") && lines[1].ends_with("stand beside it"),
         "{said}"
     );
     assert!(
-        lines[2].contains("filter.width 1 to 3, ") && lines[2].ends_with("stand beside it"),
+        lines[2].contains("filter.width 5 to 7, ") && lines[2].ends_with("stand beside it"),
         "{said}"
     );
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();

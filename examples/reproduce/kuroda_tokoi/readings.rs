@@ -19,7 +19,7 @@ const RATE: f64 = 100.0;
 pub(super) enum Width {
     /// W frames.
     Whole,
-    /// W frames on each side: 2W + 1.
+    /// W frames on each side: 2W.
     EachSide,
 }
 
@@ -109,7 +109,7 @@ impl Way {
         match self.width {
             Width::Whole if self.kind == STUDY.kind => {}
             Width::Whole => words.push(kind.into()),
-            Width::EachSide => words.push(format!("{kind} of 2W + 1")),
+            Width::EachSide => words.push(format!("{kind} of 2W")),
         }
         if self.band != STUDY.band {
             words.push(match self.band {
@@ -129,7 +129,7 @@ impl Way {
     pub(super) fn filter(&self, range: f64) -> LowPass {
         let frames = match self.width {
             Width::Whole => range,
-            Width::EachSide => 2.0 * range + 1.0,
+            Width::EachSide => 2.0 * range,
         };
         LowPass { kind: self.kind, width: Span::Seconds(frames / RATE) }
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use rayon::prelude::*;
 
 use crate::cli::clip::Part;
@@ -15,11 +16,18 @@ use crate::deliver;
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::{HeatMap, StudyPlot};
-use crate::recipe::Recipe;
+use crate::recipe::{Kind, Knob, Recipe};
 use crate::study::{self, Axis, Grid, Measure, Plateau, Study};
 
 /// Sections of the recipe that change the sheet and not the keys.
 const OF_THE_SHEET: [&str; 2] = ["spacing", "omission"];
+
+/// The kinds of filter.
+fn filters() -> PossibleValuesParser {
+    let kind = Knob::find("filter.kind").map(|knob| knob.kind);
+    let words: &[&str] = if let Ok(Kind::Choice(words)) = kind { words } else { &[] };
+    PossibleValuesParser::new(words)
+}
 
 #[derive(Debug, Args)]
 #[command(after_help = study_help())]
@@ -48,7 +56,7 @@ pub(super) struct StudyArgs {
     #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
     persistence: Option<Axis>,
     /// The filter.
-    #[arg(long, value_name = "KIND", value_parser = ["box", "gaussian", "ideal", "butterworth"])]
+    #[arg(long, value_name = "KIND", value_parser = filters())]
     filter: Option<String>,
     /// What is counted [default: turns,genga,fills,union,total; all of the sheet too when a setting of the
     /// sheet is varied].

@@ -13,25 +13,49 @@ const TOGETHER: usize = 4;
 /// Frames after which the sum is taken anew, so that rounding does not grow with the clip.
 const FRESH: usize = 1024;
 
-/// A window of `2 · reach + 1` whole frames and a part of one more on each side.
+/// A window of any width: `2 · reach + 1` frames in the middle count alike, and two more on each side in part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
-    per_width: f64,
     reach: usize,
-    /// The weight of the outermost frames, 0 to 1.
-    rest: f64,
+    taps: Taps,
+}
+
+/// The weights of a window's frames, which add up to 1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Taps {
+    /// Of each frame in the middle.
+    pub(super) middle: f64,
+    /// Of the frame next to these on either side.
+    pub(super) inner: f64,
+    /// Of the outermost frame on either side.
+    pub(super) outer: f64,
+}
+
+/// How far the frames in the middle reach to either side, and what all weigh, for a width in frames above 0.
+///
+/// Each edge falls in three steps, between the frames about W/2 from the middle. They add up to 1, lie at W/2 in the
+/// mean, and their squares add up to 1/2, as those of the two equal steps of an even width do: so as much of the frames'
+/// noise gets into the acceleration at an odd width as at an even one.
+pub(super) fn taps(width: f64) -> (f64, Taps) {
+    let half = width / 2.0;
+    let whole = half.floor();
+    // How far the middle step lies beyond W/2. The other two follow from the three conditions.
+    let beyond = whole + 0.5 - half;
+    let last = (2.0 - 3.0 * beyond - (1.0 - 3.0 * beyond * beyond).sqrt()) / 6.0;
+    let first = last + beyond;
+    let (reach, [middle, inner, outer]) = match whole {
+        // Both edges fall beside the one frame in the middle.
+        0.0 => (0.0, [1.0 - 2.0 * first, last, 0.0]),
+        _ => (whole - 1.0, [1.0, 1.0 - first, last]),
+    };
+    (reach, Taps { middle: middle / width, inner: inner / width, outer: outer / width })
 }
 
 impl Window {
-    /// The window of a width in frames above 1; none where it reaches beyond the clip mirrored once.
+    /// The window of a width in frames above 0; none where it reaches beyond the clip mirrored once.
     pub(super) fn within(width: f64, frames: usize) -> Option<Self> {
-        let reach = ((width - 1.0) / 2.0).floor();
-        let rest = (width - (2.0 * reach + 1.0)) / 2.0;
-        (reach + 1.0 < frames as f64).then_some(Self {
-            per_width: 1.0 / width,
-            reach: reach as usize,
-            rest,
-        })
+        let (reach, taps) = taps(width);
+        (reach + 2.0 <= frames as f64).then_some(Self { reach: reach as usize, taps })
     }
 
     /// The means of every joint by itself.
@@ -63,19 +87,21 @@ impl Window {
                 *sum = round.map(|frame| column[mirrored(frame, frames)]).sum();
             }
             let end = frames.min(begin + part);
-            // Where the window and a frame to each side of it lie within the clip, no frame is mirrored.
-            let inner = (begin.max(self.reach + 1), end.min(frames - self.reach - 1));
+            // Where the whole window lies within the clip, no frame is mirrored.
+            let inner = (begin.max(self.reach + 2), end.min(frames.saturating_sub(self.reach + 2)));
             let inner = if inner.0 < inner.1 { inner.0..inner.1 } else { end..end };
             let at = |frame: isize| mirrored(frame, frames);
             let outer = |frame: usize| {
                 let (frame, reach) = (frame as isize, self.reach as isize);
-                [at(frame - reach - 1), at(frame - reach), at(frame + reach + 1)]
+                let (before, after) = (frame - reach, frame + reach);
+                [at(before - 2), at(before - 1), at(before), at(after + 1), at(after + 2)]
             };
             for frame in begin..inner.start {
                 self.step::<COLUMNS>((columns, frames), &mut sums, frame, outer(frame), means);
             }
             for frame in inner.clone() {
-                let round = [frame - self.reach - 1, frame - self.reach, frame + self.reach + 1];
+                let (before, after) = (frame - self.reach, frame + self.reach);
+                let round = [before - 2, before - 1, before, after + 1, after + 2];
                 self.step::<COLUMNS>((columns, frames), &mut sums, frame, round, means);
             }
             for frame in inner.end..end {
@@ -84,22 +110,24 @@ impl Window {
         }
     }
 
-    /// Writes the means of a frame and takes the sums on to the next; `round` are the frame before the window, the first
-    /// of it and the frame after it.
+    /// Writes the means of a frame and takes the sums on to the next; behind them are the two frames before its middle, the
+    /// first of that, and the two after it.
     #[inline(always)]
     fn step<const COLUMNS: usize>(
         self,
         (columns, frames): (&[f64], usize),
         sums: &mut [f64; COLUMNS],
         frame: usize,
-        [before, first, after]: [usize; 3],
+        [outer, inner, first, next, last]: [usize; 5],
         means: &mut [f64],
     ) {
+        let taps = self.taps;
         for (column, sum) in sums.iter_mut().enumerate() {
             let own = &columns[column * frames..(column + 1) * frames];
-            let mean = (*sum + self.rest * (own[before] + own[after])) * self.per_width;
-            means[column * frames + frame] = mean;
-            *sum += own[after] - own[first];
+            means[column * frames + frame] = taps.middle * *sum
+                + taps.inner * (own[inner] + own[next])
+                + taps.outer * (own[outer] + own[last]);
+            *sum += own[next] - own[first];
         }
     }
 }

@@ -6,9 +6,10 @@
 use std::f64::consts::{PI, TAU};
 
 use super::FilterKind;
+use super::moving::{Taps, taps};
 
 impl FilterKind {
-    /// The gain of each cosine of a clip, k = 0 … `frames` − 1, for a width in frames above 1; that
+    /// The gain of each cosine of a clip, k = 0 … `frames` − 1, for a width in frames above 0; that
     /// of k = 0 is exactly 1.
     pub(super) fn response(self, width: f64, frames: usize) -> Vec<f64> {
         let omega = |k: usize| PI * k as f64 / frames as f64;
@@ -28,12 +29,12 @@ impl FilterKind {
     }
 }
 
-/// `whole` taps of weight 1 in the middle and one of weight `rest` on each side, divided by their sum.
+/// The weights of a window, each at its distance.
 fn moving_average(width: f64, omega: f64) -> f64 {
-    let whole = 2.0 * ((width - 1.0) / 2.0).floor() + 1.0;
-    let rest = (width - whole) / 2.0;
-    let middle = (whole * omega / 2.0).sin() / (omega / 2.0).sin();
-    (middle + 2.0 * rest * ((whole + 1.0) / 2.0 * omega).cos()) / width
+    let (reach, Taps { middle, inner, outer }) = taps(width);
+    let sum = ((reach + 0.5) * omega).sin() / (omega / 2.0).sin();
+    let pair = |distance: f64| 2.0 * (distance * omega).cos();
+    middle * sum + inner * pair(reach + 1.0) + outer * pair(reach + 2.0)
 }
 
 /// Sampling the kernel repeats its transform every 2π: the sum of all the copies that still count.

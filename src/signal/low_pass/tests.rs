@@ -50,10 +50,28 @@ fn convolved(values: &[f64], reach: i64, tap: impl Fn(i64) -> f64) -> Vec<f64> {
     (0..values.len() as i64).map(frame).collect()
 }
 
-/// The overlap of the cell of frame m with the window.
+/// The three steps in which an edge of the window falls, each with its place: the least last one with which they add up to
+/// 1, lie at W/2 in the mean and have squares of 1/2, searched for.
+fn steps(width: f64) -> [(f64, f64); 3] {
+    let middle = (width / 2.0).floor() + 0.5;
+    let beyond = middle - width / 2.0;
+    let sizes = |last: f64| [last + beyond, 1.0 - beyond - 2.0 * last, last];
+    let squares = |last: f64| sizes(last).iter().map(|size| size * size).sum::<f64>();
+    let (mut low, mut high) = (0.0, 1.0 / 3.0 - beyond / 2.0);
+    for _ in 0..200 {
+        let between = (low + high) / 2.0;
+        if squares(between) > 0.5 { low = between } else { high = between }
+    }
+    let [first, second, third] = sizes(low);
+    [(middle - 1.0, first), (middle, second), (middle + 1.0, third)]
+}
+
+/// What the steps of both edges leave of frame m.
 fn box_tap(width: f64, m: i64) -> f64 {
-    let (low, high) = (m as f64 - 0.5, m as f64 + 0.5);
-    (high.min(width / 2.0) - low.max(-width / 2.0)).max(0.0)
+    let fallen = |place: f64| -> f64 {
+        steps(width).iter().filter(|(step, _)| *step < place).map(|(_, size)| size).sum()
+    };
+    1.0 - fallen(m as f64) - fallen(-m as f64)
 }
 
 /// The slow way: a sum over all frames for every cosine, and back.
@@ -97,13 +115,17 @@ fn second_order(values: &mut [f64], width: f64) {
 }
 
 fn slow(kind: FilterKind, width: f64, values: &[f64]) -> Vec<f64> {
-    let narrowest = if matches!(kind, Box | Gaussian) { 1.0 } else { 2.0 };
+    let narrowest = match kind {
+        Box => 0.0,
+        Gaussian => 1.0,
+        Ideal | Butterworth => 2.0,
+    };
     if width <= narrowest {
         return values.to_vec();
     }
     let sigma = width / 6.0;
     match kind {
-        Box => convolved(values, width as i64, |m| box_tap(width, m)),
+        Box => convolved(values, width as i64 + 1, |m| box_tap(width, m)),
         Gaussian => convolved(values, (10.0 * sigma) as i64 + 1, |m| {
             (-0.5 * (m as f64 / sigma).powi(2)).exp()
         }),
@@ -152,40 +174,72 @@ fn a_running_sum_equals_the_spectrum_on_a_long_clip_and_does_not_drift() {
     let mut values = noise(5000);
     values[4000..].fill(0.0);
     let spectrum = Spectrum::of(&column(&values));
-    for width in [1.5, 12.0, 100.4, 2047.0, 4998.0, 9990.0] {
+    for width in [0.4, 1.5, 12.0, 13.0, 100.4, 2047.0, 4998.0, 9990.0] {
         let summed = Window::within(width, 5000).unwrap().means(spectrum.unfiltered());
         let by_waves = spectrum.times(&Box.response(width, 5000));
         let apart = (&summed.values - &by_waves.values).amax();
         assert!(apart < 1e-9 * by_waves.values.amax(), "{width}: {apart}");
     }
-    assert!(Window::within(12.0, 7).is_some() && Window::within(13.0, 7).is_none());
+    assert!(Window::within(13.0, 7).is_some() && Window::within(14.0, 7).is_none());
     let still = filter(Box, 12.0, &values)[4200..].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     assert!(still < 1e-8, "what stands still stays so but for rounding: {still}");
 }
 
+/// The weights of the box, from the answer to a single 1.
+fn box_taps(width: f64) -> Vec<f64> {
+    let mut values = [0.0; 201];
+    values[100] = 1.0;
+    filter(Box, width, &values)
+}
+
 #[test]
-fn a_window_of_20_has_half_weight_on_its_outer_taps_and_one_of_21_is_even() {
-    let mut values = [0.0; 41];
-    values[20] = 1.0;
-    for (width, outer) in [(20.0, 1.0 / 40.0), (21.0, 1.0 / 21.0)] {
-        let taps = filter(Box, width, &values);
-        assert!((taps[10] - outer).abs() < 1e-15 && (taps[30] - outer).abs() < 1e-15);
-        assert!((taps[11] - 1.0 / width).abs() < 1e-15, "{width}");
-        assert!(taps[9].abs() < 1e-15 && taps[31].abs() < 1e-15, "{width}");
+fn a_window_of_20_has_half_weight_on_its_outer_taps_and_one_of_21_falls_in_sixths() {
+    for (width, edge) in [(20.0, [1.0, 0.5, 0.0, 0.0]), (21.0, [1.0, 5.0 / 6.0, 1.0 / 6.0, 0.0])] {
+        let taps = box_taps(width);
+        for (at, weight) in edge.iter().enumerate() {
+            for tap in [taps[100 + 9 + at], taps[100 - 9 - at]] {
+                assert!((tap - weight / width).abs() < 1e-15, "{width} {at}: {tap}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_width_lets_more_noise_into_the_acceleration_than_those_beside_it() {
+    for tenths in 20..600 {
+        let width = f64::from(tenths) / 10.0;
+        let taps = box_taps(width);
+        // Frames of noise alike give an acceleration of that variance.
+        let variance: f64 = taps.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        assert!((variance * width * width - 1.0).abs() < 1e-9, "{width}: {variance}");
+        let wide: f64 = taps.iter().sum::<f64>() / taps[100];
+        assert!((wide - width).abs() < 1e-9, "{width} is {wide} wide");
+    }
+}
+
+#[test]
+fn a_box_goes_evenly_from_no_filter_to_any_width() {
+    let values = noise(50);
+    let apart = |a: f64, b: f64| {
+        let (a, b) = (filter(Box, a, &values), filter(Box, b, &values));
+        a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    for tenths in 0..400 {
+        let width = f64::from(tenths) / 10.0;
+        assert!(apart(width, width + 1e-6) < 1e-5 * largest, "{width}");
     }
 }
 
 #[test]
 fn a_width_that_is_no_filter_returns_the_very_values() {
     let values = noise(17);
-    for kind in KINDS {
-        for width in [0.0, 0.3, 1.0] {
+    for (kind, widest) in [(Box, 0.0), (Gaussian, 1.0), (Ideal, 2.0), (Butterworth, 2.0)] {
+        for width in [0.0, widest / 3.0, widest] {
             assert_eq!(filter(kind, width, &values), values, "{kind:?} {width}");
         }
+        assert_ne!(filter(kind, widest + 1.5, &values), values, "{kind:?}");
     }
-    assert_eq!(filter(Ideal, 2.0, &values), values);
-    assert_eq!(filter(Butterworth, 2.0, &values), values);
-    assert_ne!(filter(Box, 1.01, &values), values);
 }
 
 #[test]
@@ -231,7 +285,7 @@ fn the_delay_is_a_share_of_the_width_in_frames() {
         let delay = |width| LowPass { kind, width }.delay(rate);
         assert_eq!(delay(Span::Frames(21.0)), 21.0 * share);
         assert_eq!(delay(Span::Seconds(0.2)), 12.0 * share);
-        assert_eq!(delay(Span::Frames(1.0)), 0.0, "no filter eats nothing");
+        assert_eq!(delay(Span::Frames(0.0)), 0.0, "no filter eats nothing");
     }
 }
 
