@@ -2,6 +2,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use genga::pipeline::Budget;
 use genga::recipe::Recipe;
 use genga::study::{Axis, Measure, Noise, Study, table_1_recipe};
 
@@ -24,6 +25,7 @@ fn study(bencher: Bencher<'_, '_>, recipe: Recipe, degrees: f64, measures: &[Mea
         y: Some(axis("turns.persistence=1..20:1")),
         measures: measures.to_vec(),
         keep_keys: false,
+        budget: Budget::default(),
     };
     // A capture shakes: without noise there are few turns to count.
     let clip = std::sync::Arc::new(Noise { degrees, seed: 0 }.on(&swinging(FRAMES)));

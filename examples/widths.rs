@@ -6,6 +6,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use genga::motion::bvh;
+use genga::pipeline::Budget;
 use genga::recipe::Recipe;
 use genga::study::{Axis, Measure, Study};
 
@@ -17,6 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         y: Some(Axis::new("filter.kind", "box,gaussian,butterworth")?),
         measures: vec![Measure::Union, Measure::Turns, Measure::Genga],
         keep_keys: false,
+        budget: Budget::default(),
     };
     let grid = study.run(bvh::open(&path)?.clip, || {})?;
     println!("joints' key frames / turns of the body / genga");

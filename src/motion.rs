@@ -27,5 +27,6 @@ pub use clip::{
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
-pub use read::{GltfCamera, bvh};
+pub(crate) use read::{GIB, bytes_in_words};
+pub use read::{GltfCamera, StreamLimit, bvh};
 pub use seen::{Camera, Eye, Screen, SeenFrom};

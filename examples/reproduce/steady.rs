@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 
 use genga::keys::Matching;
+use genga::pipeline::Budget;
 use genga::plot::HeatMap;
 use genga::recipe::Recipe;
 use genga::study::{Axis, Grid, Measure, Plateau, Study};
@@ -32,6 +33,7 @@ pub(crate) fn from_samples() -> Outcome<Part> {
         y: Some(Axis::new("turns.persistence", "1..12:1")?),
         measures: vec![Measure::Turns],
         keep_keys: true,
+        budget: Budget::default(),
     };
     let grid = study.run(samples::clip("kuroda-pitch")?, || ())?;
     let plateaus = [0.0, 1.0].map(|koma| Plateau::largest(from_ref(&grid), koma));
@@ -105,7 +107,7 @@ fn plateaus(takes: &[Take], part: &mut Part) -> Outcome<()> {
 /// The default recipe with settings varied, on every clip.
 fn grids(takes: &[Take], x: Axis, y: Option<Axis>) -> Outcome<Vec<Grid>> {
     let (recipe, measures) = (Recipe::default(), vec![Measure::Genga]);
-    let study = Study { recipe, x, y, measures, keep_keys: true };
+    let study = Study { recipe, x, y, measures, keep_keys: true, budget: Budget::default() };
     takes.iter().map(|take| Ok(study.run(take.clip.clone(), || ())?)).collect()
 }
 

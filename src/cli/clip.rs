@@ -10,7 +10,7 @@ use super::{asked, files, paths};
 use crate::deliver::ClipMark;
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
-use crate::motion::{Clip, bvh};
+use crate::motion::{Clip, StreamLimit, bvh};
 use crate::pipeline::Budget;
 use crate::time::{Frame, FrameRate};
 
@@ -22,9 +22,6 @@ pub(super) struct ClipArgs {
     pub(super) path: PathBuf,
     #[command(flatten)]
     part: Part,
-    /// Memory that a run may take, in GiB. Without it: 1, and 16 times the values of the clip.
-    #[arg(long, value_name = "GIB", value_parser = gib)]
-    memory: Option<f64>,
 }
 
 /// Which part of a clip, and how it is read.
@@ -55,6 +52,10 @@ pub(super) struct Reading {
     /// Refuse a file that has anything to warn of (see inspect --warnings).
     #[arg(long)]
     strict: bool,
+    /// Memory that the work may take, and the most that a pipe may bring, in GiB. Without it: 1 of a pipe; for the work 1, and
+    /// 16 times the values of the clip.
+    #[arg(long, value_name = "GIB", value_parser = gib)]
+    memory: Option<f64>,
 }
 
 /// A half-open range of source frames.
@@ -99,11 +100,16 @@ impl ClipArgs {
 
     /// What a run of it may take.
     pub(super) fn budget(&self) -> Budget {
-        self.memory.map_or(Budget::default(), Budget::gib)
+        self.part.budget()
     }
 }
 
 impl Part {
+    /// What work on it may take.
+    pub(super) fn budget(&self) -> Budget {
+        self.reading.memory.map_or(Budget::default(), Budget::gib)
+    }
+
     /// Reads the clip, leaves out an inserted T-pose unless asked to keep it, and trims.
     ///
     /// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
@@ -148,11 +154,12 @@ impl Reading {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, repair, strict } = self;
-        let options =
-            bvh::Options { strict: *strict, repair: *repair, fps: *fps, root: root.clone() };
+        let Self { fps, root, repair, strict, memory } = self;
+        let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
+        let (strict, repair, fps, root) = (*strict, *repair, *fps, root.clone());
+        let options = bvh::Options { strict, repair, fps, root, stream };
         let read = if paths::is_stream(path) {
-            options.read(&files::read(path)?)
+            options.read(&files::read_up_to(stream, path)?)
         } else {
             options.open(path)
         };

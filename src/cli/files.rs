@@ -2,8 +2,8 @@
 //! so that nobody ever finds half of one. What is no file, a pipe or a device, is written into.
 
 use std::fmt::Display;
-use std::fs;
-use std::io::{self, Read, Write};
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::failure::Failure;
@@ -11,14 +11,21 @@ use super::paths::{self, is_stream, named};
 use super::staging::{self, Staging};
 use super::stop;
 use crate::error::Error;
+use crate::motion::StreamLimit;
 use crate::plot;
 use serde::Serialize;
 
 /// All bytes of a file, or of stdin for `-`.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    read_up_to(StreamLimit::default(), path)
+}
+
+/// The same, of a pipe or a device up to a limit.
+pub(super) fn read_up_to(limit: StreamLimit, path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = if is_stream(path) {
-        let mut bytes = Vec::new();
-        io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+        limit.read(io::stdin().lock())
+    } else if is_device(path) {
+        File::open(path).and_then(|device| limit.read(device))
     } else {
         fs::read(path)
     };

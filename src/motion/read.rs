@@ -2,5 +2,8 @@
 
 pub mod bvh;
 mod gltf_camera;
+mod stream;
 
 pub use gltf_camera::GltfCamera;
+pub use stream::StreamLimit;
+pub(crate) use stream::{GIB, bytes_in_words};

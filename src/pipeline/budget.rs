@@ -1,7 +1,7 @@
 //! What a run takes of the memory, worked out before it takes any.
 
 use crate::error::Error;
-use crate::motion::Clip;
+use crate::motion::{Clip, GIB, bytes_in_words};
 use crate::sheet::MOST_KOMA;
 
 /// Bytes of a joint in a frame: its angles as quaternions, its speeds before and after the filter, and where they turn.
@@ -20,8 +20,6 @@ const ANY: f64 = GIB;
 /// And how many times its values beyond that. A body whose joints all move takes 7 times at 24 frames a second and 12
 /// times at 10; joints without channels take memory and bring no values.
 const TIMES: f64 = 16.0;
-
-const GIB: f64 = (1u64 << 30) as f64;
 
 /// The most memory that a run may take (メモリの上限).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -57,9 +55,11 @@ impl Budget {
         if need <= most {
             return Ok(());
         }
-        let (about, most, enough) = (size(need), size(most), (need / GIB).ceil());
+        let (about, most, enough) =
+            (bytes_in_words(need), bytes_in_words(most), (need / GIB).ceil());
+        let most = if most == about { "a little less is".into() } else { format!("{most} are") };
         Err(Error::clip(format!(
-            "{joints} joints in {frames} frames and on {koma} koma take about {about} of memory, and {most} are allowed; \
+            "{joints} joints in {frames} frames and on {koma} koma take about {about} of memory, and {most} allowed; \
              --trim takes a part, --memory {enough} allows it"
         )))
     }
@@ -73,15 +73,6 @@ fn need([joints, frames, koma]: [f64; 3], values: f64) -> f64 {
 /// The bytes that it may take where nobody says how many.
 fn allowed(values: f64) -> f64 {
     ANY + TIMES * values
-}
-
-/// Bytes for people.
-fn size(bytes: f64) -> String {
-    if bytes < GIB {
-        format!("{:.0} MiB", bytes / GIB * 1024.0)
-    } else {
-        format!("{:.1} GiB", bytes / GIB)
-    }
 }
 
 #[cfg(test)]
@@ -144,6 +135,14 @@ mod tests {
         assert!(
             less.starts_with("100 joints in 1000 frames and on 1000 koma take about 17 MiB"),
             "{less}"
+        );
+        // Where both are the same to two digits.
+        let [joints, frames] = [100.0, 1000.0];
+        let need = need([joints, frames, frames], 8.0 * frames);
+        let hardly = said(body(), Budget { bytes: Some(need - 1.0) });
+        assert!(
+            hardly.contains("take about 17 MiB of memory, and a little less is allowed"),
+            "{hardly}"
         );
     }
 

@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::keys::{Matching, Reconstruction};
 use crate::motion::Clip;
+use crate::pipeline::Budget;
 use crate::quality::hits::Hits;
 use crate::quality::{Extrema, Grid, Method};
 use crate::recipe::Recipe;
@@ -33,6 +34,8 @@ pub struct Compare {
     pub longest: usize,
     /// Whether it is told how long each method took. Times are other on each run.
     pub times: bool,
+    /// What a run of the recipe may take of the memory.
+    pub budget: Budget,
 }
 
 impl Default for Compare {
@@ -44,6 +47,7 @@ impl Default for Compare {
             noise: Noise { degrees: 0.1, seed: 0 },
             longest: 1500,
             times: false,
+            budget: Budget::default(),
         }
     }
 }
@@ -129,7 +133,7 @@ impl Compare {
         self.validate()?;
         let clip = clip.into();
         let noisy = Arc::new(self.noise.on(&clip));
-        let mut chooser = Chooser::new(clip, &self.recipe, self.longest)?;
+        let mut chooser = Chooser::new(clip, self, self.longest)?;
         let own_keys = chooser.own_keys()?;
         let counts = self.counts_of(own_keys, chooser.grid().inner());
         let paces = chooser.paces();
@@ -137,7 +141,7 @@ impl Compare {
             counts.iter().copied().chain(paces.iter().map(|(_, keys)| keys.len())).collect();
         let chosen = chooser.choose(&all)?;
         let again = if self.noise.degrees > 0.0 {
-            Some(Chooser::new(noisy, &self.recipe, self.longest / 3)?.choose(&counts)?)
+            Some(Chooser::new(noisy, self, self.longest / 3)?.choose(&counts)?)
         } else {
             None
         };

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::motion::Clip;
-use crate::pipeline::{Engine, FoundKeys};
+use crate::pipeline::{Budget, Engine, FoundKeys};
 use crate::recipe::{KNOBS, Recipe};
 use crate::study::axis::{Axis, Setting};
 use crate::study::grid::{Cell, Grid};
@@ -53,6 +53,8 @@ pub struct Study {
     pub measures: Vec<Measure>,
     /// Whether each cell keeps its layer keys, to be compared with others.
     pub keep_keys: bool,
+    /// What the run of a cell may take of the memory.
+    pub budget: Budget,
 }
 
 impl Study {
@@ -101,12 +103,12 @@ impl Study {
     ///
     /// ```
     /// # use genga::recipe::Recipe;
-    /// use genga::study::{Axis, Measure, Study};
+    /// use genga::{pipeline::Budget, study::{Axis, Measure, Study}};
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let x = Axis::new("filter.width", "0.1s..0.3s:0.1s")?;
     /// let measures = vec![Measure::Turns];
-    /// let study = Study { recipe: Recipe::default(), x, y: None, measures, keep_keys: false };
+    /// let study = Study { recipe: Recipe::default(), x, y: None, measures, keep_keys: false, budget: Budget::default() };
     /// let grid = study.run(clip, || {})?;
     /// assert_eq!(grid.values(Measure::Turns), Some(vec![17.0, 13.0, 11.0]));
     /// # Ok::<(), genga::Error>(())
@@ -115,7 +117,7 @@ impl Study {
         self.validate()?;
         let order = self.chain_order();
         // The first cell makes what all have in common; each thread begins with a clone of that.
-        let mut bench = Bench::new(clip.into())?;
+        let mut bench = Bench::new(clip.into(), self.budget)?;
         self.measured(&mut bench, order[0])?;
         let piece = order.len().div_ceil(PIECES * rayon::current_num_threads());
         let measured: Vec<(usize, Result<Cell, Error>)> = order
@@ -208,19 +210,20 @@ fn place(name: &str) -> (usize, usize) {
 struct Bench {
     clean: Arc<Clip>,
     noise: Noise,
+    budget: Budget,
     engine: Engine,
 }
 
 impl Bench {
-    fn new(clip: Arc<Clip>) -> Result<Self, Error> {
-        let engine = Engine::new(Arc::clone(&clip))?;
-        Ok(Self { clean: clip, noise: Noise::default(), engine })
+    fn new(clip: Arc<Clip>, budget: Budget) -> Result<Self, Error> {
+        let engine = Engine::new(Arc::clone(&clip))?.with_budget(budget);
+        Ok(Self { clean: clip, noise: Noise::default(), budget, engine })
     }
 
     /// Runs the chain so far.
     fn found(&mut self, setting: &Setting, reach: Reach) -> Result<Found<'_>, Error> {
         if setting.noise != self.noise {
-            self.engine = Engine::new(setting.noise.on(&self.clean))?;
+            self.engine = Engine::new(setting.noise.on(&self.clean))?.with_budget(self.budget);
             self.noise = setting.noise;
         }
         let (recipe, edits) = (&setting.recipe, Edits::default());

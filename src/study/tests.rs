@@ -9,7 +9,7 @@ use super::*;
 use crate::edits::Edits;
 use crate::keys::Origin;
 use crate::motion::{Axis as Direction, Channel, Clip, EndSite, Joint, JointId, Skeleton};
-use crate::pipeline::Engine;
+use crate::pipeline::{Budget, Engine};
 use crate::sheet::Role;
 use crate::time::FrameRate;
 use crate::timing::Stills;
@@ -69,6 +69,7 @@ fn study(x: &str, y: Option<&str>, measures: &[Measure]) -> Study {
         y: y.map(axis),
         measures: measures.to_vec(),
         keep_keys: measures.contains(&Measure::Genga),
+        budget: Budget::default(),
     }
 }
 

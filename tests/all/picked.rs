@@ -2,7 +2,7 @@
 
 use genga::edits::Edits;
 use genga::motion::Clip;
-use genga::pipeline::Engine;
+use genga::pipeline::{Budget, Engine};
 use genga::recipe::Recipe;
 use genga::study::{self, Axis, Measure, Study};
 use genga::time::{Frame, Span};
@@ -54,6 +54,7 @@ fn union_by_width(clip: Clip) -> Vec<f64> {
         y: None,
         measures: vec![Measure::Union],
         keep_keys: false,
+        budget: Budget::default(),
     };
     study.run(clip, || {}).unwrap().values(Measure::Union).unwrap()
 }

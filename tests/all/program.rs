@@ -1171,3 +1171,18 @@ fn a_study_says_where_its_files_are() {
         text(&place.genga("study data/kick.bvh --filter-width 10,20 --persistence 5").stderr);
     assert!(!said.contains("files"), "what goes to stdout is seen: {said}");
 }
+
+#[cfg(unix)]
+#[test]
+fn what_never_ends_is_read_up_to_a_limit_and_work_keeps_within_its_own() {
+    let place = Place::new();
+    let endless = place.refused(1, "keys /dev/zero --memory 0.01");
+    assert!(endless.contains("/dev/zero: more than 10 MiB came"), "{endless}");
+    assert!(endless.contains("save it as a file") && endless.contains("--memory"), "{endless}");
+    for work in ["keys", "study", "compare"] {
+        let refused = place.refused(1, &format!("{work} data/kick.bvh --memory 0.0001"));
+        let of =
+            refused.contains("data/kick.bvh: 23 joints in 92 frames and on 92 koma take about");
+        assert!(of && refused.contains("--memory 1 allows it"), "{work}: {refused}");
+    }
+}

@@ -3,6 +3,7 @@
 use genga::deliver::{self, Drawings, Report, Rows};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
+use genga::pipeline::Budget;
 use genga::pipeline::{Breakdown, Engine};
 use genga::plot::{PoseRow, SheetPlot, SpeedPlot, XSheet};
 use genga::recipe::{KNOBS, Kind, Recipe};
@@ -232,6 +233,7 @@ fn a_filter_and_a_persistence_longer_than_the_clip_still_give_a_sheet() {
                 y: Some("turns.persistence=1,100000s".parse().unwrap()),
                 measures: Measure::ALL.to_vec(),
                 keep_keys: true,
+                budget: Budget::default(),
             };
             let grid = study.run(engine.clip().clone(), || ()).unwrap();
             assert!(

@@ -1,5 +1,6 @@
 //! Table 1: keys by filter width and persistence, in the literal reading.
 
+use genga::pipeline::Budget;
 use genga::study::{self, Axis, Grid, Measure, Study};
 
 use crate::part::Part;
@@ -31,6 +32,7 @@ pub(super) fn study() -> Outcome<Study> {
         y: Some(Axis::new("turns.persistence", "5,10")?),
         measures: vec![Measure::Union, Measure::Total, Measure::Genga],
         keep_keys: false,
+        budget: Budget::default(),
     })
 }
 

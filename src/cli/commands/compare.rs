@@ -117,7 +117,8 @@ fn asked(args: &CompareArgs) -> Result<Compare, Failure> {
     let (recipe, _) = args.settings.read(Recipe::default())?;
     let counts = args.keys.iter().map(|count| *count as usize).collect();
     let noise = Noise { degrees: args.noise, ..Noise::default() };
-    let asked = Compare { recipe, counts, noise, times: args.times, ..Compare::default() };
+    let budget = args.part.budget();
+    let asked = Compare { recipe, counts, noise, times: args.times, budget, ..Compare::default() };
     asked.validate()?;
     Ok(asked)
 }

@@ -228,7 +228,8 @@ fn asked(args: &StudyArgs) -> Result<Study, Failure> {
             "--stability: compares cells, and there is one alone; give an axis more values";
         return Err(Failure::AskedWrongly(message.into()));
     }
-    let study = Study { recipe, x, y, measures, keep_keys: args.stability };
+    let study =
+        Study { recipe, x, y, measures, keep_keys: args.stability, budget: args.part.budget() };
     study.validate()?;
     Ok(study)
 }

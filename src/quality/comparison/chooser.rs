@@ -11,7 +11,7 @@ use crate::pipeline::Engine;
 use crate::quality::baselines::{
     LongestPolyline, Objective, Optimal, Segments, Simplified, every, uniform,
 };
-use crate::quality::{Grid, Method};
+use crate::quality::{Compare, Grid, Method};
 use crate::recipe::Recipe;
 use crate::study::table_1_recipe;
 use crate::target::with_found;
@@ -36,8 +36,9 @@ pub(super) struct Chooser<'a> {
 }
 
 impl<'a> Chooser<'a> {
-    pub(super) fn new(clip: Arc<Clip>, recipe: &'a Recipe, longest: usize) -> Result<Self, Error> {
-        let engine = Engine::new(Arc::clone(&clip))?;
+    pub(super) fn new(clip: Arc<Clip>, of: &'a Compare, longest: usize) -> Result<Self, Error> {
+        let recipe = &of.recipe;
+        let engine = Engine::new(Arc::clone(&clip))?.with_budget(of.budget);
         let clock = clip.clock(recipe.rate);
         Ok(Self { recipe, longest, engine, grid: Grid::of(clip, clock) })
     }
@@ -160,8 +161,8 @@ mod tests {
             let rate = FrameRate::new(fps).unwrap();
             let skeleton = swing.skeleton().clone();
             let clip = Clip::new(skeleton, rate, Frame(0), 13, angles.clone()).unwrap();
-            let recipe = Recipe::default();
-            let chooser = Chooser::new(Arc::new(clip), &recipe, 100).unwrap();
+            let asked = Compare::default();
+            let chooser = Chooser::new(Arc::new(clip), &asked, 100).unwrap();
             let numbers = |keys: Vec<Frame>| keys.iter().map(|key| key.0).collect::<Vec<_>>();
             chooser.paces().into_iter().map(|(_, keys)| numbers(keys)).collect::<Vec<_>>()
         };

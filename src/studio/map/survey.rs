@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::ThreadPoolBuilder;
 
 use crate::motion::Clip;
+use crate::pipeline::Budget;
 use crate::recipe::Recipe;
 use crate::study::{Axis, Grid, Measure, Study};
 use crate::time::FrameRate;
@@ -49,7 +50,14 @@ pub(super) fn study(recipe: &Recipe, rate: FrameRate, measure: Measure) -> Optio
     };
     base.filter.width = Recipe::default().filter.width;
     base.turns.persistence = Recipe::default().turns.persistence;
-    Some(Study { recipe: base, x, y: Some(y), measures: vec![measure], keep_keys: false })
+    Some(Study {
+        recipe: base,
+        x,
+        y: Some(y),
+        measures: vec![measure],
+        keep_keys: false,
+        budget: Budget::default(),
+    })
 }
 
 /// The values of an axis as a list.

@@ -14,7 +14,7 @@ use super::scanner::Scanner;
 use super::warnings::{CHANNEL_COUNT, FRAMES_MISMATCH, Notices, VALUE_HELD};
 use super::{Read, names, repair, table, text, threads, trees};
 use crate::error::Error;
-use crate::motion::{Clip, Skeleton};
+use crate::motion::{Clip, Skeleton, StreamLimit};
 use crate::time::{Frame, FrameRate};
 
 /// Reads (読む) a BVH file as [`Options::read`] does by default.
@@ -57,10 +57,13 @@ pub struct Options {
     /// The root of the one tree to read, where a file has several; of two roots `Hips` the second is
     /// `Hips.2`. Default: none, all trees. It destroys the others.
     pub root: Option<String>,
+    /// How much is read of what is no regular file.
+    pub stream: StreamLimit,
 }
 
 impl Options {
-    /// Opens a file and reads it: large ones with as many threads as the machine has cores for them.
+    /// Opens a file and reads it: large ones with as many threads as the machine has cores for them, a pipe or a device
+    /// up to the limit of `stream`.
     ///
     /// # Errors
     /// [`Error::Io`] when the file cannot be read, and those of [`Options::read`].
@@ -70,11 +73,12 @@ impl Options {
         if let Some(read) = self.read_blocks(&file) {
             return read;
         }
-        let mut bytes = Vec::new();
-        // Where reading at a place moves the cursor, as on Windows.
-        if file::length(&file).is_some() {
-            file.rewind().map_err(failed)?;
+        if file::length(&file).is_none() {
+            return self.read(&self.stream.read(file).map_err(failed)?);
         }
+        // Where reading at a place moves the cursor, as on Windows.
+        file.rewind().map_err(failed)?;
+        let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
         self.read(&bytes)
     }
