@@ -6,7 +6,7 @@ use super::clip::ClipArgs;
 use super::corrections::Corrections;
 use super::failure::Failure;
 use super::words::Words;
-use super::{pins, seen};
+use super::{frozen, pins, seen};
 use crate::deliver::ClipMark;
 use crate::edits::Edits;
 use crate::error::{Error, Warning};
@@ -108,6 +108,7 @@ impl<'a> Plan<'a> {
         note: &mut dyn FnMut(String),
     ) -> Result<(), Failure> {
         let Self { args, recipe, edits } = self;
+        frozen::freeze(&args.corrections, engine, recipe, edits)?.into_iter().for_each(&mut *note);
         pins::marked(&args.corrections, engine, recipe, edits)?.into_iter().for_each(&mut *note);
         args.targets.meet(engine, recipe, edits, words)?.into_iter().for_each(note);
         Ok(())
@@ -126,6 +127,10 @@ impl TargetArgs {
                     target.name()
                 )))
             }
+            Some(target) if corrections.freeze.is_some() => Err(Failure::AskedWrongly(format!(
+                "--{}: cannot be asked for together with --freeze, which keeps the keys of a sheet; leave one of them out",
+                target.name()
+            ))),
             _ => Ok(()),
         }
     }

@@ -307,7 +307,8 @@ proptest! {
         let frames: std::collections::BTreeSet<usize> =
             pins.iter().map(|pin| begin + pin.index(length)).collect();
         let pins = frames.iter().map(|frame| Pin::parse(&frame.to_string()).unwrap()).collect();
-        let edits = Edits { pins, ..Edits::default() };
+        let around = pins;
+        let edits = Edits { pins: Vec::clone(&around), again: true, ..Edits::default() };
         let mut recipe = Recipe::default();
         if by_strength {
             recipe.set("keys.rank", "strength").unwrap();
@@ -317,5 +318,14 @@ proptest! {
         let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
         prop_assert_eq!(figures(&mut engine, &met.recipe, &edits).0, count.clamp(fewest, most));
         prop_assert_eq!(met.outcomes[0].shortfall.is_none(), (fewest..=most).contains(&count));
+        // Pins that change their neighbourhood alone take the place of found keys after the choice: the whole is counted.
+        let edits = Edits { pins: around, ..Edits::default() };
+        let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
+        let reached = figures(&mut engine, &met.recipe, &edits).0;
+        prop_assert_eq!(met.outcomes[0].reached, reached as f64);
+        prop_assert_eq!(met.outcomes[0].shortfall.is_none(), reached == count);
+        let wanted = count.clamp(fewest, most);
+        let off = reached.abs_diff(wanted);
+        prop_assert!(off <= frames.len().max(1), "{reached} instead of {wanted}");
     }
 }
