@@ -28,6 +28,7 @@ mod failure;
 mod files;
 mod folder;
 mod formats;
+mod frozen;
 mod paths;
 mod pins;
 mod plan;

@@ -24,8 +24,8 @@ pub use marks::{Move, Pin};
 pub struct Edits {
     /// Frames that are keys whatever is found.
     pub pins: Vec<Pin>,
-    /// Frames near which no key may be found: one nearer than a koma goes, the end of a rest too. Pins
-    /// and moved keys stay.
+    /// Frames near which no key may be found: within two koma of them none is, the end of a rest neither.
+    /// Pins and moved keys stay.
     pub forbidden: Vec<Forbidden>,
     /// Keys that are found near one frame and drawn at another instead.
     #[serde(skip_serializing_if = "is_default")]
@@ -36,6 +36,14 @@ pub struct Edits {
     /// Whether pins and moved keys are the only keys; default no.
     #[serde(skip_serializing_if = "is_default")]
     pub only_pins: bool,
+    /// Whether every key is chosen anew around the corrections (選び直す); default no: each changes its own
+    /// neighbourhood and nothing else.
+    #[serde(skip_serializing_if = "is_default")]
+    pub again: bool,
+    /// Frames of keys that stay (凍結), those of a sheet before: no others are found, whatever the settings say, and
+    /// pins, moves and what is forbidden correct these. None for what is found.
+    #[serde(skip_serializing_if = "is_default")]
+    pub frozen: Vec<Frame>,
     /// Frames with which actions (動作) begin, instead of those that are found; none for those that are
     /// found.
     #[serde(skip_serializing_if = "is_default")]
@@ -76,6 +84,11 @@ impl Edits {
         if self.only_pins && !self.have_pins() {
             return wrong("pins are to be the only keys, and there is no pin: pin a frame");
         }
+        if self.again && self.freeze() {
+            return wrong(
+                "keys are frozen and to be chosen again at once: take one of the two back",
+            );
+        }
         Ok(())
     }
 
@@ -83,6 +96,12 @@ impl Edits {
         let of_layer = |edits: &LayerEdits| !(edits.pins.is_empty() && edits.moves.is_empty());
         let of_all = !(self.pins.is_empty() && self.moves.is_empty());
         of_all || self.layers.values().any(of_layer)
+    }
+
+    /// Whether keys of a sheet before stay, in any layer.
+    pub fn freeze(&self) -> bool {
+        let is_frozen = |own: &LayerEdits| !own.frozen.is_empty();
+        !self.frozen.is_empty() || self.layers.values().any(is_frozen)
     }
 
     fn check(&self, clip: Frames) -> Result<(), Error> {
@@ -93,6 +112,11 @@ impl Edits {
         }
         for (at, hold) in self.holds.iter().enumerate() {
             check_hold(*hold, &self.holds[..at], clip)?;
+        }
+        if let Some(outside) = self.frozen.iter().find(|frame| !clip.has(**frame)) {
+            return wrong(format!(
+                "frozen frame {outside} is not in the clip, which has frames {clip}"
+            ));
         }
         self.splits.iter().try_for_each(|split| check_split(*split, clip))
     }

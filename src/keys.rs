@@ -15,6 +15,7 @@ mod contact;
 mod correct;
 mod drawn_body;
 mod layers;
+mod local;
 mod matching;
 mod merge;
 mod peaks;
@@ -46,6 +47,7 @@ pub(crate) use contact::contact_ends;
 pub use drawn_body::DrawnBody;
 pub(crate) use layers::LayerClip;
 pub use layers::{LayerJoints, Layers, NamedLayer};
+pub(crate) use local::{Chosen, Word};
 pub use matching::Matching;
 pub use merge::JointTurns;
 pub use reconstruction::Reconstruction;
@@ -73,6 +75,15 @@ pub struct Key {
     pub name: Option<String>,
     /// Where it comes from.
     pub origin: Origin,
+}
+
+impl Key {
+    /// A frame that a person wants to be a key, without a name.
+    pub(crate) fn set(frame: Frame) -> Self {
+        let (voters, weight, name) = (Vec::new(), None, None);
+        let (strength, price) = (1.0, f64::INFINITY);
+        Self { frame, strength, price, voters, weight, name, origin: Origin::Pinned }
+    }
 }
 
 /// Where a key comes from.

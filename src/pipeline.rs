@@ -12,7 +12,8 @@ use crate::edits::{Edits, Hold};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{
-    ActionFinder, Actions, BodyTurns, LayerJoints, LayerKeys, Layers, Reconstruction, Reference,
+    ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
+    Reference,
 };
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
@@ -93,6 +94,8 @@ pub struct FoundKeys<'a> {
     pub body: &'a BodyTurns,
     /// Keys and walls of the layer.
     pub keys: &'a LayerKeys,
+    /// Its keys without corrections, or those that are frozen.
+    pub uncorrected: &'a [Key],
 }
 
 impl<'a> Breakdown<'a> {
@@ -239,8 +242,8 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
         self.find(recipe, edits)?;
-        let (body, keys) = self.layers[0].keys();
-        Ok(FoundKeys { turns: self.turns.output().value(), body, keys })
+        let (body, keys, uncorrected) = self.layers[0].keys();
+        Ok(FoundKeys { turns: self.turns.output().value(), body, keys, uncorrected })
     }
 
     /// Runs the chain up to the turns: every joint's, and those of the body, or of the first of its layers.

@@ -9,10 +9,10 @@ use super::seen::SeenArgs;
 use super::{files, paths};
 use crate::edits::{Edits, Forbidden, Hold, Move, Pin, layer_of};
 use crate::error::Error;
-use crate::keys::{Key, LayerKeys, Layers, Origin};
-use crate::pipeline::{Breakdown, Engine};
+use crate::keys::{Key, Layers, Origin};
+use crate::pipeline::{Breakdown, LayerBreakdown};
 use crate::recipe::Recipe;
-use crate::time::{Clock, Frame};
+use crate::time::Frame;
 use crate::timing::held_for;
 
 /// The recipe: a file, then single settings on top.
@@ -39,7 +39,8 @@ pub(super) struct Corrections {
     /// --pin 12,150:wrist-top,180@0.5,200:hit@0. Of one layer alone: B/150, with forbid and move as well.
     #[arg(long, value_name = "[LAYER/]FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
     pin: Vec<String>,
-    /// Frames near which no key may be found, and ranges without their last frame: --forbid 12,120..140
+    /// Frames within two koma of which no key may be found, and ranges without their last frame: --forbid
+    /// 12,120..140
     #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
     forbid: Vec<String>,
     /// Keys that are found near one frame and drawn at another instead: --move 41:42,80:84:hit@0.2
@@ -52,6 +53,14 @@ pub(super) struct Corrections {
     /// 310,774
     #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
     split: Vec<Frame>,
+    /// Choose every key anew around pins and forbidden frames, instead of only those beside each; =false takes back what a
+    /// recipe says of it.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    again: Option<bool>,
+    /// Keep the genga of an earlier run, whatever the settings say now: its folder, its sheet.json, or one you edited.
+    /// Pins, moves and forbidden frames then change these, each its own neighbourhood.
+    #[arg(long, value_name = "FOLDER|SHEET.json", conflicts_with = "again")]
+    pub(super) freeze: Option<PathBuf>,
     /// Keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
     /// sheet.json, or the numbers on an XDTS timesheet, if any are circled those.
     #[arg(long, value_name = "FILE")]
@@ -120,6 +129,7 @@ impl Corrections {
         if !self.split.is_empty() {
             edits.splits = self.split.clone();
         }
+        edits.again = self.again.unwrap_or(edits.again);
         edits.only_pins = self.only_pins.unwrap_or(edits.only_pins);
         Ok((recipe, edits))
     }
@@ -248,46 +258,39 @@ pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
     said
 }
 
-/// The keys of each layer as they would be if nothing were forbidden; none where nothing is.
-pub(super) struct Unforbidden(Vec<(String, Vec<Frame>)>);
+/// A sentence for each frame or range that is forbidden and changes nothing, in any of the layers it is for: no key that is
+/// found lies near it, and none was looked for there in place of another.
+pub(super) fn idle(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let koma = breakdown.clock.frames_in_koma();
+    let of_all = edits.forbidden.iter().map(|frames| (frames, None));
+    let of_one = edits.layers.iter().flat_map(|(name, own)| {
+        own.forbidden.iter().map(move |frames| (frames, Some(name.as_str())))
+    });
+    let layers: Vec<_> = breakdown.layers().collect();
+    let said = of_all.chain(of_one).filter(|(frames, layer)| {
+        let mut meant = layers.iter().filter(|own| layer.is_none_or(|name| own.layer.name == name));
+        !meant.any(|own| has_an_effect(**frames, own, koma))
+    });
+    said.map(|(frames, layer)| {
+        let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
+        format!("no key is found near frame {layer}{frames}, so there was none to forbid")
+    })
+    .collect()
+}
 
-impl Unforbidden {
-    /// Finds them.
-    pub(super) fn find(
-        engine: &mut Engine,
-        recipe: &Recipe,
-        edits: &Edits,
-    ) -> Result<Self, Failure> {
-        let mut free = edits.clone();
-        free.forbidden.clear();
-        free.layers.values_mut().for_each(|own| own.forbidden.clear());
-        if free == *edits {
-            return Ok(Self(Vec::new()));
-        }
-        let breakdown = engine.run(recipe, &free)?;
-        let keys = |own: &LayerKeys| own.keys.iter().map(|key| key.frame).collect();
-        let layers = breakdown.layers();
-        Ok(Self(layers.map(|own| (own.layer.name.clone(), keys(own.keys))).collect()))
+/// Whether a key would be there but for what is forbidden, or may have been looked for there.
+fn has_an_effect(frames: Forbidden, own: &LayerBreakdown<'_>, koma: f64) -> bool {
+    let found = own.uncorrected;
+    if found.iter().any(|key| frames.reaches(key.frame, koma)) {
+        return true;
     }
-
-    /// A sentence for each frame or range near which there is no key to forbid, in any of the layers it is for.
-    pub(super) fn idle(&self, edits: &Edits, clock: Clock) -> Vec<String> {
-        let of_all = edits.forbidden.iter().map(|frames| (frames, None));
-        let of_one = edits.layers.iter().flat_map(|(name, own)| {
-            own.forbidden.iter().map(move |frames| (frames, Some(name.as_str())))
-        });
-        let said = of_all.chain(of_one).filter(|(frames, layer)| {
-            let near = |key: &Frame| (frames.distance(*key) as f64) < clock.frames_in_koma();
-            let mut meant =
-                self.0.iter().filter(|(name, _)| layer.is_none_or(|layer| layer == name));
-            !meant.any(|(_, keys)| keys.iter().any(near))
-        });
-        said.map(|(frames, layer)| {
-            let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
-            format!("no key is found near frame {layer}{frames}, so there was none to forbid")
-        })
-        .collect()
-    }
+    let keys = &own.keys.keys;
+    let after = keys.partition_point(|key| key.frame < frames.from);
+    let begin = after.checked_sub(1).map(|at| keys[at].frame);
+    let end = keys.get(after).map(|key| key.frame);
+    let is_inside =
+        |key: &&Key| begin.is_none_or(|at| at < key.frame) && end.is_none_or(|at| key.frame < at);
+    found.iter().any(|key| is_inside(&key))
 }
 
 #[cfg(test)]

@@ -69,7 +69,11 @@ pub(super) fn marked(
 }
 
 /// The layer that a column's keys are for: of several the one of that name, else all.
-fn layer<'a>(column: &'a str, engine: &Engine, recipe: &Recipe) -> Result<Option<&'a str>, Error> {
+pub(super) fn layer<'a>(
+    column: &'a str,
+    engine: &Engine,
+    recipe: &Recipe,
+) -> Result<Option<&'a str>, Error> {
     let parts = recipe.layers.split(engine.clip())?;
     let is_one = parts.len() > 1 && parts.iter().any(|part| part.name == column);
     Ok(is_one.then_some(column))
@@ -150,7 +154,11 @@ fn first_line(bytes: &[u8]) -> &[u8] {
 }
 
 /// Frames of another rate are other moments.
-fn check_rate(file: &sheet_json::SheetFile, engine: &Engine, name: &Path) -> Result<(), Failure> {
+pub(super) fn check_rate(
+    file: &sheet_json::SheetFile,
+    engine: &Engine,
+    name: &Path,
+) -> Result<(), Failure> {
     let (sheet, clip) = (file.clip.frame_rate, engine.clip().rate().fps());
     if sheet == clip {
         return Ok(());

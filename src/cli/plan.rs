@@ -6,7 +6,7 @@ use super::clip::ClipArgs;
 use super::corrections::Corrections;
 use super::failure::Failure;
 use super::words::Words;
-use super::{pins, seen};
+use super::{files, frozen, pins, seen};
 use crate::deliver::ClipMark;
 use crate::edits::Edits;
 use crate::error::{Error, Warning};
@@ -108,9 +108,48 @@ impl<'a> Plan<'a> {
         note: &mut dyn FnMut(String),
     ) -> Result<(), Failure> {
         let Self { args, recipe, edits } = self;
+        frozen::freeze(&args.corrections, engine, recipe, edits)?.into_iter().for_each(&mut *note);
         pins::marked(&args.corrections, engine, recipe, edits)?.into_iter().for_each(&mut *note);
-        args.targets.meet(engine, recipe, edits, words)?.into_iter().for_each(note);
+        args.meet(engine, recipe, edits, words)?.into_iter().for_each(note);
         Ok(())
+    }
+}
+
+impl PlanArgs {
+    /// Puts the settings that were found into the recipe, and says which. Gives what a person should know: a
+    /// sentence for each target that could not be met.
+    fn meet(
+        &self,
+        engine: &mut Engine,
+        recipe: &mut Recipe,
+        edits: &Edits,
+        words: &Words,
+    ) -> Result<Vec<String>, Failure> {
+        let targets = self.targets.targets();
+        if targets.is_empty() {
+            return Ok(vec![]);
+        }
+        let met = target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
+            // A target's own mistake, by its option; one of the recipe by its setting.
+            Error::Setting { name, message }
+                if targets.iter().any(|target| target.name() == name) =>
+            {
+                Failure::AskedWrongly(format!("--{name}: {message}"))
+            }
+            other => files::fault_of(&self.clip.path)(other),
+        })?;
+        let changed = changes(recipe, &met.recipe)?.join(" ");
+        let settings = if changed.is_empty() { "nothing to change" } else { &changed };
+        match furthest_off(&met) {
+            Some(error) => {
+                words.say(format_args!("found       {settings}; furthest off {error:.2} %"));
+            }
+            None if changed.is_empty() => {}
+            None => words.say(format_args!("found       {settings}")),
+        }
+        *recipe = met.recipe;
+        let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
+        Ok(short.map(ToString::to_string).collect())
     }
 }
 
@@ -126,44 +165,12 @@ impl TargetArgs {
                     target.name()
                 )))
             }
+            Some(target) if corrections.freeze.is_some() => Err(Failure::AskedWrongly(format!(
+                "--{}: cannot be asked for together with --freeze, which keeps the keys of a sheet; leave one of them out",
+                target.name()
+            ))),
             _ => Ok(()),
         }
-    }
-
-    /// Puts the settings that were found into the recipe, and says which. Gives what a person should know: a
-    /// sentence for each target that could not be met.
-    fn meet(
-        &self,
-        engine: &mut Engine,
-        recipe: &mut Recipe,
-        edits: &Edits,
-        words: &Words,
-    ) -> Result<Vec<String>, Failure> {
-        let targets = self.targets();
-        if targets.is_empty() {
-            return Ok(vec![]);
-        }
-        let met = target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
-            // A target's own mistake, by its option; one of the recipe by its setting.
-            Error::Setting { name, message }
-                if targets.iter().any(|target| target.name() == name) =>
-            {
-                Failure::AskedWrongly(format!("--{name}: {message}"))
-            }
-            other => other.into(),
-        })?;
-        let changed = changes(recipe, &met.recipe)?.join(" ");
-        let settings = if changed.is_empty() { "nothing to change" } else { &changed };
-        match furthest_off(&met) {
-            Some(error) => {
-                words.say(format_args!("found       {settings}; furthest off {error:.2} %"));
-            }
-            None if changed.is_empty() => {}
-            None => words.say(format_args!("found       {settings}")),
-        }
-        *recipe = met.recipe;
-        let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
-        Ok(short.map(ToString::to_string).collect())
     }
 
     fn targets(&self) -> Vec<Target> {

@@ -6,6 +6,9 @@ use std::str::FromStr;
 use crate::knob::by_word;
 use crate::time::Frame;
 
+/// Koma round a forbidden frame in which no key is found either: nearer, it would be the same key again.
+const REACH: f64 = 2.0;
+
 /// A frame, or a range of frames, near which no key may be found. Written `150`, `120..140`, `120..` or
 /// `..140`; the last is not in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +28,11 @@ impl Forbidden {
     /// Whether it is one frame alone.
     pub fn is_one(self) -> bool {
         self == Self::one(self.from)
+    }
+
+    /// Whether no key is found at a frame because of it: within two koma, of so many frames each.
+    pub fn reaches(self, frame: Frame, koma: f64) -> bool {
+        self.distance(frame) as f64 <= REACH * koma + 1e-9
     }
 
     /// Frames from a frame to the nearest that is forbidden; 0 inside.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::edits::{Edits, Forbidden, Move, Pin};
 use crate::error::Error;
 use crate::sheet::is_default;
+use crate::time::Frame;
 
 /// What a person wants of one layer (セル) alone, in the words of [`Edits`].
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -21,6 +22,9 @@ pub struct LayerEdits {
     /// Keys of it that are drawn elsewhere.
     #[serde(skip_serializing_if = "is_default")]
     pub moves: Vec<Move>,
+    /// Frames of its keys that stay.
+    #[serde(skip_serializing_if = "is_default")]
+    pub frozen: Vec<Frame>,
 }
 
 /// Whether what is not for one layer is all that is said.
@@ -38,6 +42,7 @@ impl Edits {
             edits.pins.extend(own.pins.iter().cloned());
             edits.forbidden.extend(&own.forbidden);
             edits.moves.extend(own.moves.iter().cloned());
+            edits.frozen.extend(&own.frozen);
         }
         edits
     }

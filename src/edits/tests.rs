@@ -61,12 +61,17 @@ fn with_layer_b(all: &[&str], own: LayerEdits) -> Edits {
 
 #[test]
 fn a_layer_has_the_corrections_of_all_and_its_own() {
-    let own =
-        LayerEdits { pins: pins(&["8:top"]), forbidden: forbidden(&["6"]), moves: moves(&["9:5"]) };
+    let own = LayerEdits {
+        pins: pins(&["8:top"]),
+        forbidden: forbidden(&["6"]),
+        moves: moves(&["9:5"]),
+        frozen: vec![Frame(8)],
+    };
     let edits = with_layer_b(&["7"], own);
     let of_b = edits.of_layer("B");
     assert_eq!(of_b.pins, pins(&["7", "8:top"]));
     assert_eq!((of_b.forbidden, of_b.moves), (forbidden(&["6"]), moves(&["9:5"])));
+    assert_eq!(of_b.frozen, [Frame(8)]);
     assert_eq!(edits.of_layer("A"), Edits { pins: pins(&["7"]), ..Edits::default() });
     assert!(edits.check_layers(&["A", "B"]).is_ok());
     let error = edits.check_layers(&["A"]).unwrap_err().to_string();
@@ -206,7 +211,8 @@ proptest! {
         ranges in prop::collection::vec((0..99usize, 1..9usize), 0..4),
         moves in prop::collection::vec((0..99usize, 0..99usize, prop::option::of("[a-z]{1,5}")), 0..4),
         holds in prop::collection::vec((0..99usize, 1..9usize), 0..4),
-        only_pins in any::<bool>(),
+        (only_pins, again) in any::<(bool, bool)>(),
+        frozen in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
         splits in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
     ) {
         let hold = |(frame, koma)| Hold { frame: Frame(frame), koma };
@@ -219,6 +225,8 @@ proptest! {
             moves: moves.into_iter().map(moved).collect(),
             holds: holds.into_iter().map(hold).collect(),
             only_pins,
+            again,
+            frozen,
             layers: BTreeMap::new(),
             splits,
         };
@@ -226,6 +234,7 @@ proptest! {
             pins: edits.pins.clone(),
             forbidden: edits.forbidden.clone(),
             moves: edits.moves.clone(),
+            frozen: edits.frozen.clone(),
         };
         let own = Some(own).filter(|own| *own != LayerEdits::default());
         let edits = Edits { layers: own.map(|own| ("B".into(), own)).into_iter().collect(), ..edits };

@@ -54,9 +54,20 @@ impl Choice {
         let set = cheapest.set(price.powi(2) * held, self.most);
         let saves = cheapest.saves(&set.kept);
         let kept = set.kept.iter().zip(saves).filter(|(entry, _)| self.is_inner(**entry));
-        let price = |saved: f64| (saved.max(0.0) / held).sqrt();
-        let kept = kept.map(|(entry, saved)| (entry - 1, price(saved))).collect();
+        let kept = kept.map(|(entry, saved)| (entry - 1, price_of(saved, held))).collect();
         Picked { kept, over_limit: set.over_limit }
+    }
+
+    /// What each entry between the ends saves beside all others, in % of body height; infinite where none is asked.
+    pub(super) fn prices(&self, chords: &Chords) -> Vec<f64> {
+        let inner = self.entries.len() - 2;
+        if let By::Strength(_) = self.by {
+            return vec![f64::INFINITY; inner];
+        }
+        let all: Vec<usize> = (0..self.entries.len()).collect();
+        let saves = Cheapest::among(&self.entries, chords, self.apart).saves(&all);
+        let held = HELD * chords.koma_rate();
+        saves[1..=inner].iter().map(|saved| price_of(*saved, held)).collect()
     }
 
     /// The strongest beside those that stay, of equals the earlier.
@@ -76,4 +87,9 @@ impl Choice {
     fn is_inner(&self, entry: usize) -> bool {
         (1..self.entries.len() - 1).contains(&entry)
     }
+}
+
+/// What is saved over so many koma, as an error in % of body height.
+fn price_of(saved: f64, held: f64) -> f64 {
+    (saved.max(0.0) / held).sqrt()
 }

@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::cheapest::Entry;
-use crate::keys::choice::{By, Choice, Picked};
+use crate::keys::choice::{By, Choice};
 use crate::keys::correct::{corrected, moved};
+use crate::keys::local::{Chosen, Word};
 use crate::keys::voters::voters;
 use crate::keys::{
     AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, Wall, rest,
@@ -271,11 +272,25 @@ impl Choose {
         edits: &Edits,
     ) -> LayerKeys {
         let rests = rest::rests(judges.chords, self.rest);
-        let (still, corrections) = ((judges.chords, &rests[..]), (edits, joints.apart));
-        let keys = self.eligible(clip, still, candidates, joints.contacts, corrections);
-        let picked = self.choice(clip, judges, &keys, joints.apart).pick(judges.chords);
+        let (chords, apart) = (judges.chords, joints.apart);
+        let still = (chords, &rests[..]);
+        let may_be =
+            |edits| self.eligible(clip, still, candidates, joints.contacts, (edits, apart));
+        let pick =
+            |keys: &[Key]| Chosen::of(keys, &self.choice(clip, judges, keys, apart).pick(chords));
+        let corrected = may_be(edits);
+        let chosen = if edits.again {
+            pick(&corrected)
+        } else {
+            let free = may_be(&Edits::default());
+            let before = match edits.frozen.as_slice() {
+                [] => pick(&free),
+                frames => self.frozen((clip, chords), frames, &free),
+            };
+            self.correct((clip, chords), &before, &corrected, Word { edits, koma: apart, apart })
+        };
         let heard = (joints.turns, joints.weights);
-        self.drawn(still, &keys, &picked, &candidates.walls, heard, corrections)
+        self.drawn(still, &chosen, &candidates.walls, heard, (edits, apart))
     }
 
     /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
@@ -301,13 +316,25 @@ impl Choose {
         apart: f64,
     ) -> Choice {
         let Judges { reference, chords } = judges;
+        let most = (self.per_second * reference.seconds() + 1e-9).floor() as usize;
+        self.choice_among(chords, (clip.first(), clip.last()), keys, (apart, most))
+    }
+
+    /// The same between two frames that stay, with so many at the most.
+    pub(super) fn choice_among(
+        &self,
+        chords: &Chords,
+        (first, last): (Frame, Frame),
+        keys: &[Key],
+        (apart, most): (f64, usize),
+    ) -> Choice {
         let entry = |frame, stays, cost| Entry { frame, koma: chords.koma_of(frame), stays, cost };
         let cost = |key: &Key| match self.merge {
             Merge::Body => (1.0 - DISCOUNT * key.strength).max(LEAST_COST),
             Merge::Union | Merge::Vote | Merge::Sum => 1.0,
         };
         let inner = keys.iter().map(|key| entry(key.frame, !key.origin.is_found(), cost(key)));
-        let first = once(entry(clip.first(), true, 1.0));
+        let first = once(entry(first, true, 1.0));
         let by = match self.rank {
             Rank::Price => By::Price(self.min_price),
             Rank::Strength => {
@@ -316,31 +343,29 @@ impl Choose {
             }
         };
         Choice {
-            entries: first.chain(inner).chain([entry(clip.last(), true, 1.0)]).collect(),
+            entries: first.chain(inner).chain([entry(last, true, 1.0)]).collect(),
             apart,
-            most: (self.per_second * reference.seconds() + 1e-9).floor() as usize,
+            most,
             by,
         }
     }
 
-    /// The keys that were picked, moved where a person wants them, with their voters.
+    /// The keys that were chosen, moved where a person wants them, with their voters.
     pub(crate) fn drawn(
         &self,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
-        keys: &[Key],
-        picked: &Picked,
+        chosen: &Chosen,
         walls: &[Wall],
         (turns, weights): (&[Vec<Turn>], &[f64]),
         (edits, apart): (&Edits, f64),
     ) -> LayerKeys {
-        let kept = picked.kept.iter().map(|(at, price)| Key { price: *price, ..keys[*at].clone() });
-        let mut keys: Vec<Key> = kept.collect();
+        let mut keys = chosen.keys.clone();
         moved(&mut keys, edits, apart);
         let reach = self.reach.frames(chords.clock().frame_rate).max(apart);
         let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
         let voters = voters(turns, weights, &frames, reach);
         keys.iter_mut().zip(voters).for_each(|(key, voters)| key.voters = voters);
-        let over_limit = if edits.only_pins { 0 } else { picked.over_limit };
+        let over_limit = if edits.only_pins { 0 } else { chosen.over_limit };
         let rests = rest::rest_frames(chords, rests);
         LayerKeys { keys, walls: walls.to_vec(), rests, over_limit }
     }

@@ -7,8 +7,8 @@ use crate::motion::Clip;
 use crate::time::Frame;
 
 /// Candidates, what stays of itself (the ends of rests, then of contacts) and pins in order. A pin pushes out
-/// what lies nearer than a koma, a forbidden frame too; what stays pushes out candidates, and the end of a
-/// rest those of contacts. `apart` is one koma in frames.
+/// what lies nearer than a koma; what stays pushes out candidates, and the end of a
+/// rest those of contacts; what lies within two koma of a forbidden frame goes. `apart` is one koma in frames.
 pub(super) fn corrected(
     candidates: &Candidates,
     (rests, contacts): (&[Frame], &[Frame]),
@@ -19,7 +19,7 @@ pub(super) fn corrected(
     let near = |a: Frame, b: Frame| distance(a, b) < apart;
     let unwanted = |frame: Frame| {
         edits.pins.iter().any(|pin| near(pin.frame, frame))
-            || edits.forbidden.iter().any(|range| (range.distance(frame) as f64) < apart)
+            || edits.forbidden.iter().any(|range| range.reaches(frame, apart))
     };
     let inside = |frame: &Frame| *frame > clip.first() && *frame < clip.last();
     let rests = rests.iter().copied().filter(inside);

@@ -7,6 +7,7 @@ pub(crate) mod leg;
 pub(crate) mod mannequin;
 mod side;
 mod stature;
+mod t_pose;
 
 pub(crate) use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
@@ -14,3 +15,4 @@ pub(crate) use landmarks::below;
 pub use landmarks::{Foot, Landmarks, Point};
 pub(crate) use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
+pub(crate) use t_pose::is_t_pose;

@@ -7,9 +7,9 @@ use super::stage::{Of, Stage};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, JointTurns, JointWeights,
-    Judges, Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked, Reconstruction, Reference,
-    Tracks,
+    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, Chosen, JointTurns,
+    JointWeights, Judges, Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked,
+    Reconstruction, Reference, Tracks, Word,
 };
 use crate::motion::{Build, Clip, Screen, Skeleton};
 use crate::recipe::Recipe;
@@ -53,13 +53,24 @@ pub(super) struct LayerStages {
     body: Stage<(f64, f64), BodyTurns>,
     /// What may be a key, before a person and the sheet have their say, and after.
     candidates: Stage<(Choose, Finding), Candidates>,
-    eligible: Stage<(Choose, Edits, Spacing, f64), Vec<Key>>,
-    /// What was picked: not made again where all that changed is how strong its keys are.
-    picked: Stage<Choice, Picked>,
+    free: Choosing,
+    around: Choosing,
+    /// The keys with corrections, each in its own neighbourhood or all chosen again; before any is moved.
+    corrected: Stage<(Choose, Edits, f64, f64), [Chosen; 2]>,
     keys: Stage<(Choose, Edits, Finding), LayerKeys>,
     spaced: Stage<(Spacing, LayerJoints), Spaced>,
     stills: Stage<(), Stills>,
     omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
+}
+
+/// A choice of keys, before a person has a say or after.
+#[derive(Debug, Clone, Default)]
+struct Choosing {
+    /// What may be a key, by frame.
+    eligible: Stage<(Choose, Edits, Spacing, f64), Vec<Key>>,
+    /// What was picked: not made again where all that changed is how strong its keys are.
+    picked: Stage<Choice, Picked>,
+    chosen: Stage<(), Chosen>,
 }
 
 /// What finds turns, the delay of the filter and the least distance of two keys, both in frames.
@@ -79,6 +90,8 @@ pub struct LayerBreakdown<'a> {
     pub candidates: &'a Candidates,
     /// Keys and walls.
     pub keys: &'a LayerKeys,
+    /// The keys that a person corrects: those that are found without any correction, or that are frozen.
+    pub uncorrected: &'a [Key],
     /// Inbetweens that were asked for and did not fit.
     pub did_not_fit: usize,
     /// The layer before anything was left out.
@@ -188,30 +201,78 @@ impl LayerStages {
         self.candidates.make(known, (merging, finding.clone()), |known, (choose, finding)| {
             choose.candidates(&joints(known, finding))
         });
-        self.admit(measured, recipe, edits, finding.apart);
-        self.pick(measured, recipe, finding.apart);
-        let (chords, rests) = (self.chords.output(), self.rests.output());
-        let (eligible, picked) = (self.eligible.output(), self.picked.output());
-        let voices = self.voices.output();
-        let inputs = (chords, rests, eligible, picked, self.candidates.output(), turns, voices);
+        self.correct(measured, recipe, edits, finding.apart);
+        let inputs = (
+            self.chords.output(),
+            self.rests.output(),
+            self.corrected.output(),
+            self.candidates.output(),
+            turns,
+            self.voices.output(),
+        );
         let settings = (recipe.keys.clone(), edits.clone(), finding);
         self.keys.make(inputs, settings, |inputs, (choose, edits, finding)| {
-            let (chords, rests, eligible, picked, candidates, turns, voices) = inputs;
+            let (chords, rests, corrected, candidates, turns, voices) = inputs;
             let heard = (voices.turns(turns.value()), &voices.weights[..]);
             let still = (chords.value(), &rests[..]);
-            choose.drawn(
-                still,
-                &eligible,
-                &picked,
-                &candidates.walls,
-                heard,
-                (edits, finding.apart),
-            )
+            choose.drawn(still, &corrected[1], &candidates.walls, heard, (edits, finding.apart))
+        });
+    }
+
+    /// The keys without corrections, and with them: chosen again in the neighbourhood of each, or all of them.
+    fn correct(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits, koma: f64) {
+        let (pins, forbidden) = (edits.pins.clone(), edits.forbidden.clone());
+        // Moves come later: what may be a key does not hang on them.
+        let asked = Edits { pins, forbidden, ..Edits::default() };
+        let mut free = std::mem::take(&mut self.free);
+        self.admit(&mut free, measured, recipe, Edits::default(), koma);
+        self.pick(&mut free, measured, recipe, koma);
+        self.free = free;
+        // Which choice is taken hangs on the corrections alone, by which the result is kept too.
+        let is_other = !asked.is_empty();
+        if is_other {
+            let mut around = std::mem::take(&mut self.around);
+            self.admit(&mut around, measured, recipe, asked, koma);
+            if edits.again {
+                self.pick(&mut around, measured, recipe, koma);
+            }
+            self.around = around;
+        }
+        let may_be_now = if is_other { &self.around } else { &self.free };
+        let last = if is_other && edits.again { &self.around } else { &self.free };
+        let may_be = (self.free.eligible.output(), may_be_now.eligible.output());
+        let chosen = (self.free.chosen.output(), last.chosen.output());
+        let inputs = (measured.clip, self.chords.output(), may_be.0, may_be.1, chosen.0, chosen.1);
+        let apart = recipe.spacing.on.stay() as f64 * koma;
+        let edits = Edits { moves: Vec::new(), ..edits.clone() };
+        let settings = (recipe.keys.clone(), edits, koma, apart);
+        self.corrected.make(inputs, settings, |inputs, (choose, edits, koma, apart)| {
+            let (clip, chords, free, around, before, last) = inputs;
+            let motion = (&**clip.value(), chords.value());
+            let before = match edits.frozen.as_slice() {
+                [] => before.value().clone(),
+                frames => choose.frozen(motion, frames, &free),
+            };
+            let word = Word { edits, koma: *koma, apart: *apart };
+            let is_bare = edits.pins.is_empty() && edits.forbidden.is_empty();
+            let corrected = match edits.again {
+                true => last.value().clone(),
+                false if is_bare => before.clone(),
+                false => choose.correct(motion, &before, &around, word),
+            };
+            [before, corrected]
         });
     }
 
     /// What may be a key beside what a person asks for and where the sheet has room.
-    fn admit(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits, apart: f64) {
+    fn admit(
+        &self,
+        choosing: &mut Choosing,
+        measured: &Measured<'_>,
+        recipe: &Recipe,
+        edits: Edits,
+        koma: f64,
+    ) {
         let (chords, rests) = (self.chords.output(), self.rests.output());
         let (candidates, contacts) = (self.candidates.output(), self.contacts.output());
         let reference = self.reference.output();
@@ -219,11 +280,11 @@ impl LayerStages {
         // How long a drawing stays and what still counts as rest is all that keys hang on of spacing.
         let Spacing { on, drift, .. } = recipe.spacing;
         let room = Spacing { on, drift, ..Spacing::default() };
-        let settings = (recipe.keys.clone(), edits.clone(), room, apart);
-        self.eligible.make(inputs, settings, |inputs, (choose, edits, spacing, apart)| {
+        let settings = (recipe.keys.clone(), edits, room, koma);
+        choosing.eligible.make(inputs, settings, |inputs, (choose, edits, spacing, koma)| {
             let (clip, chords, rests, candidates, contacts, reference) = inputs;
             let still = (chords.value(), &rests[..]);
-            let mut keys = choose.eligible(&clip, still, &candidates, &contacts, (edits, *apart));
+            let mut keys = choose.eligible(&clip, still, &candidates, &contacts, (edits, *koma));
             let (held, pace) = (keys::rest_frames(&chords, &rests), Pace::of(&reference));
             let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
             keys.retain(|key| !key.origin.is_found() || room(key.frame));
@@ -232,13 +293,16 @@ impl LayerStages {
     }
 
     /// Which of them are drawn.
-    fn pick(&mut self, measured: &Measured<'_>, recipe: &Recipe, apart: f64) {
+    fn pick(&self, choosing: &mut Choosing, measured: &Measured<'_>, recipe: &Recipe, koma: f64) {
         let (chords, reference) = (self.chords.output(), self.reference.output());
         let judges = Judges { reference: reference.value(), chords: chords.value() };
         // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
-        let apart = recipe.spacing.on.stay() as f64 * apart;
-        let choice = recipe.keys.choice(&measured.clip, judges, &self.eligible.output(), apart);
-        self.picked.make((chords,), choice, |(chords,), choice| choice.pick(&chords));
+        let apart = recipe.spacing.on.stay() as f64 * koma;
+        let eligible = choosing.eligible.output();
+        let choice = recipe.keys.choice(&measured.clip, judges, &eligible, apart);
+        choosing.picked.make((chords,), choice, |(chords,), choice| choice.pick(&chords));
+        let inputs = (choosing.eligible.output(), choosing.picked.output());
+        choosing.chosen.make(inputs, (), |(keys, picked), ()| Chosen::of(keys.value(), &picked));
     }
 
     /// The column, before and after omission; `later` are the koma on which actions begin after the first.
@@ -284,6 +348,7 @@ impl LayerStages {
             body: self.body.output().value(),
             candidates: self.candidates.output().value(),
             keys: self.keys.output().value(),
+            uncorrected: &self.corrected.output().value()[0].keys,
             did_not_fit: spaced.did_not_fit,
             spaced: &spaced.layer,
             layer: &omitted.layer,
@@ -296,9 +361,10 @@ impl LayerStages {
         self.chords.output()
     }
 
-    /// Its turns as a whole, and its keys.
-    pub(super) fn keys(&self) -> (&BodyTurns, &LayerKeys) {
-        (self.body.output().value(), self.keys.output().value())
+    /// Its turns as a whole, its keys, and those before corrections.
+    pub(super) fn keys(&self) -> (&BodyTurns, &LayerKeys, &[Key]) {
+        let before = &self.corrected.output().value()[0].keys;
+        (self.body.output().value(), self.keys.output().value(), before)
     }
 
     /// The layer before and after omission.

@@ -246,6 +246,8 @@ mod tests {
             moves: vec![Move::parse("41:42:hit@0.2").unwrap()],
             holds: vec![Hold::parse("60:4").unwrap()],
             only_pins: true,
+            again: true,
+            frozen: vec![Frame(12)],
             layers: [("B".to_owned(), of_arm)].into(),
             splits: vec![Frame(40), Frame(120)],
         };

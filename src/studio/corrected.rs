@@ -16,12 +16,13 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
     let (edits, words) = (&shown.wanted.edits, shown.words);
     let keys = edits.pins.len() + edits.moves.len() + edits.forbidden.len();
     let count = keys + edits.holds.len();
-    if count == 0 {
+    if count == 0 && !edits.again {
         return;
     }
     let title = format!("{} ({count})", words.say("Corrections", "修正"));
     let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt("corrections");
     header.default_open(true).show_unindented(ui, |ui| {
+        again(ui, shown, commands);
         for pin in &edits.pins {
             let what = format!("{} {}", words.say("locked", "固定"), pin.frame);
             let what = with_mark(what, pin, words);
@@ -48,6 +49,22 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
             row(ui, &what, Some(hold.frame), back, shown, commands);
         }
     });
+}
+
+/// Whether each correction changes its neighbourhood alone, or all keys are chosen again around them.
+fn again(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    if shown.wanted.edits.freeze() {
+        return;
+    }
+    let mut again = shown.wanted.edits.again;
+    let label = shown.words.say("Find all genga again", "原画を全部選び直す");
+    let hint = shown.words.say(
+        "On: every genga is chosen anew around the corrections. Off: each changes its own neighbourhood alone.",
+        "入: 修正に合わせて原画をすべて選び直す。切: 修正した前後の原画の間だけが変わる。",
+    );
+    if ui.checkbox(&mut again, label).on_hover_text(hint).changed() {
+        commands.push(Command::Correct(Correction::Again(again)));
+    }
 }
 
 /// With the name and the spacing weight that a person gave.

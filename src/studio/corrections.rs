@@ -27,6 +27,8 @@ pub(super) enum Correction {
     Hold(Frame, usize),
     /// It stays as long as was found.
     LetGo(Frame),
+    /// Whether all keys are chosen again around the corrections.
+    Again(bool),
 }
 
 impl Correction {
@@ -53,6 +55,7 @@ impl Correction {
             },
             Self::Allow(range) => edits.forbidden.retain(|other| other != range),
             Self::Hold(frame, koma) => hold(&mut edits, *frame, *koma),
+            Self::Again(again) => edits.again = *again,
             Self::LetGo(frame) => edits.holds.retain(|hold| hold.frame != *frame),
         }
         edits
@@ -189,6 +192,13 @@ mod tests {
         assert_eq!(Correction::Allow(Forbidden::one(Frame(41))).on(&edits), Edits::default());
         let pinned = Correction::Pin(Frame(41)).on(&edits);
         assert_eq!((pinned.forbidden.len(), pinned.pins.len()), (0, 1), "the last word counts");
+    }
+
+    #[test]
+    fn all_keys_are_chosen_again_while_a_person_wants_it() {
+        let edits = Correction::Again(true).on(&Edits::default());
+        assert!(edits.again);
+        assert_eq!(Correction::Again(false).on(&edits), Edits::default());
     }
 
     #[test]

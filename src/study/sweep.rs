@@ -238,7 +238,7 @@ impl Bench {
                 Found { clip, turns, body: Some(body), keys: None, layer: None }
             }
             Reach::Keys => {
-                let FoundKeys { turns, body, keys } = self.engine.find_keys(recipe, &edits)?;
+                let FoundKeys { turns, body, keys, .. } = self.engine.find_keys(recipe, &edits)?;
                 Found { clip, turns, body: Some(body), keys: Some(keys), layer: None }
             }
             Reach::Sheet => {

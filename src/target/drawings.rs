@@ -21,9 +21,12 @@ const MOST_CORRECTIONS: usize = 16;
 /// What naka-nashi may leave out of an action by a share; fewer are tried where it has to give way.
 const MOST_SPARED: usize = 6;
 
-/// Of the drawings that are asked for so many are genga at the most, where keys may go: with more there are no
-/// inbetweens left to take away, and the slow ones are held too long for the fast.
-const MOST_GENGA: f64 = 0.75;
+/// Of the drawings that are asked for so many are genga at the most, where keys may go: two thirds. With more there are
+/// no inbetweens left to take away, and the slow ones are held too long for the fast.
+const MOST_GENGA: f64 = 2.0 / 3.0;
+
+/// How often the number of found keys is corrected for it.
+const MOST_THINNED: usize = 16;
 
 /// So many drawings a second.
 pub(super) struct Goal {
@@ -55,7 +58,15 @@ impl Goal {
     ) -> Result<(Recipe, Outcome), Error> {
         let mut search = Search { engine, edits, per_second: self.per_second };
         let as_it_is = search.look(recipe)?.0;
-        let found = if as_it_is.is_exact() { as_it_is } else { self.search(&mut search, recipe)? };
+        let is_met = as_it_is.is_exact() && !(self.keys_are_free && search.too_many(recipe)? > 0);
+        let mut found = if is_met { as_it_is } else { self.search(&mut search, recipe)? };
+        // On another rung of spacing other keys have room, and there may be too many of them again.
+        for _ in 0..MOST_THINNED {
+            if !self.keys_are_free || search.too_many(&found.recipe)? == 0 {
+                break;
+            }
+            found = self.search(&mut search, &found.recipe.clone())?;
+        }
         let target = Target::DrawingsPerSecond(self.per_second);
         let breakdown = search.engine.run(&found.recipe, edits)?;
         let (drawings, genga) = (layer(&breakdown).shown().count(), genga(&breakdown));
@@ -85,19 +96,16 @@ impl Goal {
         Ok(found.or(self.descend(search, &free)?))
     }
 
-    /// Koma-dori first, with no more keys than leave room for inbetweens; then the spacing, and the koma-dori for
+    /// No more keys than leave room for inbetweens first; then koma-dori; then the spacing, and the koma-dori for
     /// it; then naka-nashi, or keys.
     fn descend(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
+        let recipe = if self.keys_are_free { &search.thinned(recipe)? } else { recipe };
         let held = search.hold(recipe)?;
         if held.is_exact() {
             return Ok(held);
         }
         if held.excess < 0.0 {
             return search.more(held);
-        }
-        let held = if self.keys_are_free { search.balance(held)? } else { held };
-        if held.is_exact() {
-            return Ok(held);
         }
         let slow = search.climb_and_spare(held, sparser_to_threes)?;
         match slow.excess > EXACT {
@@ -208,19 +216,28 @@ impl Search<'_> {
         Ok(dense.or(whole).or(moving))
     }
 
-    /// No more found keys than leave room for inbetweens among so many drawings.
-    fn balance(&mut self, from: Found) -> Result<Found, Error> {
-        let breakdown = self.engine.run(&from.recipe, self.edits)?;
-        let drawings = layer(&breakdown).shown().count() as f64 - from.excess;
-        let room = (MOST_GENGA * drawings) as usize;
+    /// By how many genga a recipe has more than leave room for inbetweens among so many drawings; none where all that
+    /// could go are gone.
+    fn too_many(&mut self, recipe: &Recipe) -> Result<usize, Error> {
+        let breakdown = self.engine.run(recipe, self.edits)?;
+        let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+        let room = (MOST_GENGA * self.per_second * seconds) as usize;
         let too_many = genga(&breakdown).saturating_sub(room);
-        let found = room::found(self.engine, &from.recipe, self.edits)?;
-        if too_many.min(found) == 0 {
-            return Ok(from);
+        Ok(too_many.min(room::found(self.engine, recipe, self.edits)?))
+    }
+
+    /// A recipe with no more found keys than leave room for inbetweens: their price rises until so few are worth it.
+    fn thinned(&mut self, recipe: &Recipe) -> Result<Recipe, Error> {
+        let mut thinned = recipe.clone();
+        for _ in 0..MOST_THINNED {
+            let too_many = self.too_many(&thinned)?;
+            if too_many == 0 {
+                break;
+            }
+            let found = room::found(self.engine, &thinned, self.edits)?;
+            thinned = room::with_found(self.engine, recipe, self.edits, found - too_many)?;
         }
-        let fewer = self.hold_with(&from.recipe, found.saturating_sub(too_many))?;
-        // Where there are too few drawings then, they are not the reason.
-        Ok(if fewer.excess < -EXACT { from } else { fewer })
+        Ok(thinned)
     }
 
     /// Between two rungs of spacing: on the sparser one naka-nashi leaves fewer out of each action, and

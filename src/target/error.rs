@@ -88,8 +88,8 @@ fn keys(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Frame
 
 /// Why some koma are further off, the worst of them near a frame, and what helps.
 fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> String {
-    let why = if edits.only_pins {
-        format!("it is further off: {}", reasons::ONLY_PINS)
+    let why = if let Some(why) = reasons::settled(edits) {
+        format!("it is further off: {why}")
     } else {
         let limits = reasons::limits(recipe, edits);
         match (recipe.keys.merge, recipe.keys.fill) {

@@ -53,6 +53,7 @@ pub(super) fn meet(
     let shortfall = match reached.cmp(&count) {
         std::cmp::Ordering::Equal => None,
         std::cmp::Ordering::Less => Some(too_few(&recipe, edits)),
+        std::cmp::Ordering::Greater if edits.freeze() => reasons::settled(edits).map(String::from),
         std::cmp::Ordering::Greater => {
             let left = engine.find_keys(&recipe, edits)?.keys;
             Some(reasons::staying(reached, &left.keys))
@@ -62,8 +63,8 @@ pub(super) fn meet(
 }
 
 fn too_few(recipe: &Recipe, edits: &Edits) -> String {
-    if edits.only_pins {
-        return reasons::ONLY_PINS.into();
+    if let Some(why) = reasons::settled(edits) {
+        return why.into();
     }
     let limits = reasons::limits(recipe, edits);
     match (recipe.keys.merge, recipe.keys.fill) {

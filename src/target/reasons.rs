@@ -5,8 +5,20 @@ use crate::keys::{Key, Origin};
 use crate::recipe::Recipe;
 
 /// Why there are no found keys where a person wants none.
-pub(super) const ONLY_PINS: &str =
+const ONLY_PINS: &str =
     "only_pins wants no keys but pins and moved ones; --only-pins=false lets others be found";
+
+/// Why the keys are those of a sheet before.
+const FROZEN: &str = "the keys are frozen; without --freeze others are found";
+
+/// Why no other keys are found at all, where a person wants that.
+pub(super) fn settled(edits: &Edits) -> Option<&'static str> {
+    match edits {
+        _ if edits.only_pins => Some(ONLY_PINS),
+        _ if edits.freeze() => Some(FROZEN),
+        _ => None,
+    }
+}
 
 /// What keeps the turns of joints from being keys, behind a word for them; empty where nothing does.
 pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {

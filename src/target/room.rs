@@ -64,11 +64,16 @@ pub(super) fn by_price(
     Ok(recipe.clone())
 }
 
-/// How many keys of a recipe are there because they are worth it.
+/// How many keys of a recipe are there because they are worth it. Corrections that change their neighbourhood alone
+/// come after the settings: what they take away or add does not count then.
 pub(super) fn found(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
-    let layer = engine.find_keys(recipe, edits)?.keys;
+    if edits.only_pins || edits.freeze() {
+        return Ok(0);
+    }
+    let found = engine.find_keys(recipe, edits)?;
+    let keys = if edits.again { &found.keys.keys } else { found.uncorrected };
     let is_found = |key: &&Key| key.origin.is_found();
-    Ok(layer.keys.iter().filter(is_found).count())
+    Ok(keys.iter().filter(is_found).count())
 }
 
 /// Seconds that a sheet of the clip lasts.

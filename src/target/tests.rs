@@ -4,7 +4,7 @@ use super::*;
 use crate::edits::Pin;
 use crate::keys::Choose;
 use crate::motion::{Clip, bvh};
-use crate::time::Frame;
+use crate::time::{Frame, FrameRate};
 use crate::timing::On;
 
 /// A made motion of `data/`.
@@ -151,6 +151,51 @@ fn drawings_never_cost_keys_that_were_asked_for() {
     assert_eq!(figures(&mut engine, &met.recipe, &edits).0, 24);
     let said = met.outcomes[1].to_string();
     assert!(said.contains("24 genga and both ends are wanted"), "{said}");
+}
+
+/// The same motions, and twice and three times as fast: so that genga are most of what fits.
+#[test]
+fn genga_go_first_where_they_leave_no_room_for_inbetweens() {
+    let edits = Edits::default();
+    for (name, faster) in
+        [("kick", 1.0), ("tennis", 2.0), ("swing", 2.0), ("pitch", 3.0), ("kick", 3.0)]
+    {
+        let clip = sample(name);
+        let rate = FrameRate::new(faster * clip.rate().fps()).unwrap();
+        let mut engine = Engine::new(clip.with_rate(rate)).unwrap();
+        let (mut fewer, mut genga_before) = (0, 0);
+        for per_second in [4.0, 6.0, 8.0, 10.0, 12.0] {
+            let target = [Target::DrawingsPerSecond(per_second)];
+            let met = meet(&mut engine, &Recipe::default(), &edits, &target).unwrap();
+            let (genga, drawings, seconds) = figures(&mut engine, &met.recipe, &edits);
+            let asked = per_second * seconds;
+            let what = format!("{name} x{faster}: {genga} genga of {drawings}, {asked:.1} asked");
+            assert!((drawings as f64 - asked).abs() <= 1.0, "{what}");
+            assert!(genga as f64 <= 2.0 / 3.0 * asked, "{what}");
+            assert!(genga >= genga_before && drawings > fewer, "{what}");
+            (fewer, genga_before) = (drawings, genga);
+        }
+    }
+}
+
+/// A rate that is met by genga nearly alone is met in another way.
+#[test]
+fn a_rate_that_genga_alone_have_is_no_rate_that_is_met() {
+    let edits = Edits::default();
+    let mut engine = engine("kick");
+    let mut recipe = Recipe::default();
+    for (knob, value) in
+        [("keys.min_price", "0"), ("keys.per_second", "8"), ("spacing.inbetweens", "0")]
+    {
+        recipe.set(knob, value).unwrap();
+    }
+    let (genga, drawings, seconds) = figures(&mut engine, &recipe, &edits);
+    assert!(genga + 2 == drawings, "{genga} of {drawings}");
+    let per_second = drawings as f64 / seconds;
+    let target = [Target::DrawingsPerSecond(per_second)];
+    let met = meet(&mut engine, &recipe, &edits, &target).unwrap();
+    let (genga, now, _) = figures(&mut engine, &met.recipe, &edits);
+    assert!(now.abs_diff(drawings) <= 1 && 3 * genga <= 2 * drawings, "{genga} of {now}");
 }
 
 #[test]
@@ -307,7 +352,8 @@ proptest! {
         let frames: std::collections::BTreeSet<usize> =
             pins.iter().map(|pin| begin + pin.index(length)).collect();
         let pins = frames.iter().map(|frame| Pin::parse(&frame.to_string()).unwrap()).collect();
-        let edits = Edits { pins, ..Edits::default() };
+        let around = pins;
+        let edits = Edits { pins: Vec::clone(&around), again: true, ..Edits::default() };
         let mut recipe = Recipe::default();
         if by_strength {
             recipe.set("keys.rank", "strength").unwrap();
@@ -317,5 +363,14 @@ proptest! {
         let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
         prop_assert_eq!(figures(&mut engine, &met.recipe, &edits).0, count.clamp(fewest, most));
         prop_assert_eq!(met.outcomes[0].shortfall.is_none(), (fewest..=most).contains(&count));
+        // Pins that change their neighbourhood alone take the place of found keys after the choice: the whole is counted.
+        let edits = Edits { pins: around, ..Edits::default() };
+        let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
+        let reached = figures(&mut engine, &met.recipe, &edits).0;
+        prop_assert_eq!(met.outcomes[0].reached, reached as f64);
+        prop_assert_eq!(met.outcomes[0].shortfall.is_none(), reached == count);
+        let wanted = count.clamp(fewest, most);
+        let off = reached.abs_diff(wanted);
+        prop_assert!(off <= frames.len().max(1), "{reached} instead of {wanted}");
     }
 }

@@ -141,7 +141,8 @@ proptest! {
         forbidden in prop::option::of((7..20usize, 1..4usize)),
         moved in prop::option::of((7..20usize, 7..20usize)),
         held in prop::option::of((7..20usize, 1..9usize)),
-        only_pins in prop::bool::weighted(0.1),
+        (only_pins, again) in (prop::bool::weighted(0.1), any::<bool>()),
+        frozen in prop::option::weighted(0.2, 7..20usize),
         split in prop::option::of(7..20usize),
     ) {
         let recipe = recipe(&settings);
@@ -156,6 +157,8 @@ proptest! {
             moves: moved.map(move_to).into_iter().collect(),
             holds: held.map(hold).into_iter().collect(),
             only_pins,
+            again,
+            frozen: frozen.into_iter().map(Frame).collect(),
             splits: split.map(Frame).into_iter().collect(),
             ..Edits::default()
         };

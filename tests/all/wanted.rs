@@ -293,6 +293,58 @@ fn a_move_that_finds_nothing_is_said() {
     assert!(text(&place.genga(&format!("keys data/kick.bvh {forbidden}")).stderr).contains(note));
 }
 
+/// The frames of the genga of the kick with some options.
+fn genga_frames(place: &Place, options: &str) -> Vec<usize> {
+    let table = place.done(&format!("keys data/kick.bvh {options}"));
+    let roles = column(&table, "role");
+    let rows = column(&table, "source_frame").into_iter().zip(roles);
+    rows.filter(|(_, role)| role == "genga").map(|(frame, _)| frame.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_correction_changes_its_neighbourhood_or_all_if_asked() {
+    let place = Place::new();
+    let free = genga_frames(&place, "");
+    let outside = |keys: &[usize]| {
+        keys.iter().copied().filter(|key| !(37 < *key && *key < 48)).collect::<Vec<_>>()
+    };
+    let near = genga_frames(&place, "--forbid 41");
+    assert_eq!(outside(&near), outside(&free));
+    let again = genga_frames(&place, "--forbid 41 --again");
+    assert_ne!(outside(&again), outside(&free));
+    place.done("run data/kick.bvh --forbid 41 --again --out a");
+    let recipe = fs::read_to_string(place.path("a/recipe.toml")).unwrap();
+    assert!(recipe.contains("again = true"), "{recipe}");
+    assert_eq!(genga_frames(&place, "--recipe a/recipe.toml"), again);
+    assert_eq!(genga_frames(&place, "--recipe a/recipe.toml --again=false"), near);
+}
+
+#[test]
+fn the_genga_of_an_earlier_run_are_frozen_and_corrected() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a");
+    let free = genga_frames(&place, "");
+    let fewer = "--set keys.min_price=40";
+    assert!(genga_frames(&place, fewer).len() < free.len());
+    assert_eq!(genga_frames(&place, &format!("{fewer} --freeze a")), free);
+    let pinned = genga_frames(&place, &format!("{fewer} --freeze a/sheet.json --pin 52"));
+    assert_eq!(pinned.iter().copied().filter(|key| *key != 52).collect::<Vec<_>>(), free);
+    assert_eq!(pinned.len(), free.len() + 1);
+    let said = place.genga(&format!("run data/kick.bvh {fewer} --freeze a --out a"));
+    assert!(
+        said.status.success() && text(&said.stderr).contains("frozen from a/sheet.json: 12 keys")
+    );
+    assert_eq!(genga_frames(&place, "--recipe a/recipe.toml"), free, "the recipe keeps them");
+    assert!(place.refused(2, "run data/kick.bvh --freeze a --again").contains("--again"));
+    assert!(
+        place
+            .refused(2, "keys data/kick.bvh --freeze a --keys 9")
+            .contains("together with --freeze")
+    );
+    let other = place.refused(1, "keys data/kick.bvh --freeze a --trim 0..20");
+    assert!(other.contains("is not in the clip, which has frames 0 to"), "{other}");
+}
+
 #[test]
 fn the_keys_of_an_edited_table_or_sheet_come_back_alone_or_with_others() {
     let place = Place::new();

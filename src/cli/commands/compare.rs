@@ -86,8 +86,8 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
     let counter = words.counting(clips.len(), "clips");
     let mut comparisons = Vec::with_capacity(clips.len());
     // One after the other: each works on all cores, and times would say nothing.
-    for (name, clip) in names.iter().zip(clips) {
-        let comparison = asked.run(clip)?;
+    for ((name, path), clip) in names.iter().zip(&args.clips).zip(clips) {
+        let comparison = asked.run(clip).map_err(files::fault_of(path))?;
         if comparison.koma > asked.longest {
             let longest = asked.longest;
             words.say(format_args!(

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::corrections::Unforbidden;
 use crate::cli::failure::Failure;
 use crate::cli::plan::{Plan, PlanArgs};
 use crate::cli::words::Words;
@@ -28,15 +27,15 @@ pub(super) fn run(args: &KeysArgs, words: &Words) -> Result<(), Failure> {
     let sources = [
         ("motion", Some(&**clip)),
         ("file with your keys", corrections.pin_from.as_deref()),
+        ("frozen sheet", corrections.freeze.as_deref()),
         ("camera", seen::file(&corrections.seen)),
     ];
     paths::spare(&sources, &args.out)?;
     let mut plan = Plan::of(&args.plan)?;
     let (mut engine, _) = plan.read(&mut |warning| words.warn(warning))?;
     plan.settle(&mut engine, words, &mut |note| words.say(note))?;
-    let free = Unforbidden::find(&mut engine, &plan.recipe, &plan.edits)?;
-    let breakdown = engine.run(&plan.recipe, &plan.edits)?;
-    let idle = free.idle(&plan.edits, breakdown.clock);
+    let breakdown = engine.run(&plan.recipe, &plan.edits).map_err(files::fault_of(clip))?;
+    let idle = corrections::idle(&plan.edits, &breakdown);
     let unmoved = corrections::unmoved(&plan.edits, &breakdown);
     unmoved.iter().chain(&idle).for_each(|note| words.say(note));
     let table = if args.per_joint {

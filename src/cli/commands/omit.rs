@@ -62,7 +62,7 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
     let seen_from = seen_from.unwrap_or_default();
     source.notes.iter().chain(&notes).for_each(|warning| words.warn(warning));
     let clip = source.clip;
-    args.clip.budget().check(&clip, KOMA_RATE)?;
+    args.clip.budget().check(&clip, KOMA_RATE).map_err(files::fault_of(&args.clip.path))?;
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
     let started = std::time::Instant::now();

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::corrections::Unforbidden;
 use crate::cli::failure::Failure;
 use crate::cli::folder::Folder;
 use crate::cli::formats::{FormatArgs, Formats, help, long_help};
@@ -64,11 +63,10 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;
-    let free = Unforbidden::find(&mut engine, recipe, edits)?;
-    let breakdown = engine.run_once(recipe, edits)?;
+    let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(clip))?;
     notes.extend(corrections::unmoved(edits, &breakdown));
     notes.extend(corrections::unheld(edits, &breakdown));
-    notes.extend(free.idle(edits, breakdown.clock));
+    notes.extend(corrections::idle(edits, &breakdown));
 
     working.on("writing");
     let results = Results {

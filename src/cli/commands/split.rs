@@ -61,8 +61,9 @@ pub(super) fn run(args: &SplitArgs, words: &Words) -> Result<(), Failure> {
     )?;
     let source = args.clip.read()?;
     source.notes.iter().for_each(|warning| words.warn(warning));
+    let of_clip = files::fault_of(&args.clip.path);
     let mut engine = Engine::new(source.clip)?.with_budget(args.clip.budget());
-    let actions = engine.find_actions(&recipe, &edits)?.clone();
+    let actions = engine.find_actions(&recipe, &edits).map_err(of_clip)?.clone();
     let clip = engine.clip();
     if let Some(folder) = &args.out {
         let parts = Parts { clip, actions: &actions, name: &paths::stem(&args.clip.path) };

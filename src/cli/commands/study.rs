@@ -136,7 +136,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         HeatMap::fits(&study.x, study.y.as_ref())?;
     }
     let clips = args.part.read_all(&args.clips, words)?;
-    let grids = swept(&study, clips, words)?;
+    let grids = swept(&study, clips, &args.clips, words)?;
     let names = paths::names(&args.clips);
     let tolerance = args.stability.then_some(args.tolerance);
     let plateaus = tolerance.map(|koma| Plateaus::of(&grids, koma));
@@ -275,10 +275,17 @@ fn usually_shown(study: &Study) -> Measure {
     if is_compared { Measure::Genga } else { study.measures[0] }
 }
 
-fn swept(study: &Study, clips: Vec<Clip>, words: &Words) -> Result<Vec<Grid>, Failure> {
+fn swept(
+    study: &Study,
+    clips: Vec<Clip>,
+    paths: &[PathBuf],
+    words: &Words,
+) -> Result<Vec<Grid>, Failure> {
     let counter = words.counting(study.len() * clips.len(), "cells");
-    let grids: Vec<_> =
-        clips.into_par_iter().map(|clip| study.run(clip, || counter.count())).collect();
+    let grid = |(clip, path): (Clip, &PathBuf)| {
+        study.run(clip, || counter.count()).map_err(files::fault_of(path))
+    };
+    let grids: Vec<_> = clips.into_par_iter().zip(paths).map(grid).collect();
     // The first of what went wrong, whichever thread was first.
-    Ok(grids.into_iter().collect::<Result<_, _>>()?)
+    grids.into_iter().collect()
 }

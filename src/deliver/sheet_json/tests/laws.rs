@@ -94,10 +94,13 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
                 pins: pins.clone(),
                 forbidden: forbidden.clone(),
                 moves: moves.clone(),
+                frozen: splits.clone(),
             };
             let own = Some(own).filter(|own| only_pins && *own != LayerEdits::default());
             let layers = own.map(|own| ("B".to_owned(), own)).into_iter().collect();
-            let edits = Edits { pins, forbidden, moves, holds, only_pins, splits, layers };
+            let (again, frozen) = (!only_pins, splits.clone());
+            let edits =
+                Edits { pins, forbidden, moves, holds, only_pins, again, frozen, splits, layers };
             MadeWith { recipe, layers: digest, edits }
         },
     )

@@ -19,14 +19,14 @@ fn place(what: &str) -> String {
 
 #[test]
 fn what_is_wrong_with_a_line_is_said_with_its_place() {
-    let shown = "{\"drawing\": 5, \"koma\": 3}";
+    let shown = "{\"drawing\": 8, \"koma\": 3}";
     let drawn = "{\"drawing\": 14, \"role\": \"inbetween\", \"frame\": 90.22222222222223}";
     for (line, wrong, words) in [
         (shown, "{\"drawing\": 40, \"koma\": 2}", "layer A has 17 drawings, none of them is 40"),
-        (shown, "{\"drawing\": 5, \"koma\": 0}", "an exposure of 0 koma is not seen"),
+        (shown, "{\"drawing\": 8, \"koma\": 0}", "an exposure of 0 koma is not seen"),
         (
             shown,
-            "{\"drawing\": 5, \"koma\": 99999999}",
+            "{\"drawing\": 8, \"koma\": 99999999}",
             "99999999 koma here: the layers of a sheet have 1000000",
         ),
         (

@@ -14,7 +14,7 @@
 use glam::DQuat;
 
 use crate::error::Warning;
-use crate::motion::{Clip, Pose};
+use crate::motion::{Clip, Pose, is_t_pose};
 use crate::time::Frame;
 
 /// Seconds of motion that the jump is held against.
@@ -71,6 +71,8 @@ pub struct LeadIn {
     pub last: Frame,
     /// How many times larger the jump is than the largest step of the quarter of a second after it.
     pub ratio: f64,
+    /// Whether its first frame is a T-pose: arms spread level, in the body's own axes.
+    pub is_t_pose: bool,
 }
 
 impl LeadIn {
@@ -100,7 +102,10 @@ impl LeadIn {
             || ratio >= COMMON_JUMP && jumping >= MOST_JOINTS;
         let is_jump = is_moving && stands_out && steps.sums[jump] >= SMALLEST_JUMP * joints;
         let first = clip.first();
-        is_jump.then(|| Self { first, last: Frame(first.0 + end), ratio })
+        is_jump.then(|| {
+            let is_t_pose = is_t_pose(clip, first);
+            Self { first, last: Frame(first.0 + end), ratio, is_t_pose }
+        })
     }
 
     /// Number of frames.
@@ -111,14 +116,15 @@ impl LeadIn {
 
     /// What a person should know about it: `W_LEAD_IN`.
     pub fn warning(&self) -> Warning {
-        let Self { first, last, ratio } = self;
+        let Self { first, last, ratio, is_t_pose } = self;
+        let pose = if *is_t_pose { "T-pose" } else { "pose" };
         let frames = if first == last {
             format!("frame {first} is")
         } else {
             format!("frames {first} to {last} are")
         };
         let message = format!(
-            "{frames} an inserted pose (T-pose), not motion: a jump {ratio:.0} times any step after it; left out (keep with --keep-lead-in)"
+            "{frames} an inserted {pose}, not motion: a jump {ratio:.0} times any step after it; left out (keep with --keep-lead-in)"
         );
         Warning::new("W_LEAD_IN", message)
     }
@@ -235,6 +241,12 @@ mod tests {
             assert_eq!(motion.last(), clip.last(), "{name}");
             assert_eq!(motion.row(motion.last()), clip.row(clip.last()), "{name}");
             assert_eq!(warning.is_some(), *expected > 0, "{name}");
+            let is_t_pose = LeadIn::find(&clip).is_none_or(|lead_in| lead_in.is_t_pose);
+            assert!(is_t_pose, "the arms of {name} are spread");
+            if name.contains("walk") {
+                let walk = (10..clip.len()).step_by(40).map(Frame);
+                assert!(walk.into_iter().all(|frame| !super::is_t_pose(&clip, frame)), "{name}");
+            }
             assert_eq!(LeadIn::find(&motion), None, "{name} has a second one");
         }
     }
@@ -338,11 +350,11 @@ mod tests {
         assert_eq!((motion.first(), motion.last(), motion.len()), (Frame(2), Frame(99), 98));
         let warning = warning.unwrap();
         assert_eq!(warning.code, "W_LEAD_IN");
-        let words = "frame 1 is an inserted pose (T-pose), not motion: a jump ";
+        let words = "frame 1 is an inserted pose, not motion: a jump ";
         assert!(warning.message.starts_with(words), "{warning}");
         assert!(warning.message.ends_with("left out (keep with --keep-lead-in)"), "{warning}");
-        let longer = LeadIn { first: Frame(0), last: Frame(4), ratio: 10.0 };
-        assert!(longer.warning().message.starts_with("frames 0 to 4 are an inserted pose"));
+        let longer = LeadIn { first: Frame(0), last: Frame(4), ratio: 10.0, is_t_pose: true };
+        assert!(longer.warning().message.starts_with("frames 0 to 4 are an inserted T-pose"));
     }
 
     #[test]

@@ -1,0 +1,65 @@
+//! `--freeze`: the genga of an earlier run stay.
+
+use super::corrections::Corrections;
+use super::failure::Failure;
+use super::words::counted;
+use super::{files, paths, pins};
+use crate::deliver::{pins_from_sheet, sheet_json};
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::pipeline::Engine;
+use crate::recipe::Recipe;
+use crate::sheet::Role;
+use crate::time::Frame;
+
+/// The sheet in a folder of results.
+const SHEET: &str = "sheet.json";
+
+/// Freezes the genga of the sheet that is given, layer by layer, and says so in a sentence.
+pub(super) fn freeze(
+    args: &Corrections,
+    engine: &Engine,
+    recipe: &Recipe,
+    edits: &mut Edits,
+) -> Result<Option<String>, Failure> {
+    let Some(path) = &args.freeze else { return Ok(None) };
+    let path = if path.is_dir() { path.join(SHEET) } else { path.clone() };
+    let file = sheet_json::read(&files::read(&path)?).map_err(files::fault_of(&path))?;
+    pins::check_rate(&file, engine, &paths::named(&path))?;
+    edits.frozen.clear();
+    edits.layers.values_mut().for_each(|own| own.frozen.clear());
+    let mut count = 0;
+    for layer in file.sheet.layers.iter().filter(|layer| layer.count(Role::Genga) > 0) {
+        let (pins, name) =
+            pins_from_sheet(&file, Some(&layer.name)).map_err(files::fault_of(&path))?;
+        let frames = pins.iter().map(|pin| pin.frame);
+        count += pins.len();
+        match pins::layer(&name, engine, recipe)? {
+            None => edits.frozen.extend(frames),
+            Some(own) => edits.layers.entry(own.to_owned()).or_default().frozen.extend(frames),
+        }
+    }
+    check_frames(edits, engine, &path)?;
+    match count {
+        0 => Err(Failure::of_file(&path, Error::sheet("there is no genga in it to keep"))),
+        _ => Ok(Some(format!("frozen from {}: {}", path.display(), counted(count, "key")))),
+    }
+}
+
+/// Refuses a sheet of other frames than the clip has.
+fn check_frames(edits: &Edits, engine: &Engine, path: &std::path::Path) -> Result<(), Failure> {
+    let clip = engine.clip();
+    let of_layers = edits.layers.values().flat_map(|own| &own.frozen);
+    let has = |frame: &&Frame| clip.contains(**frame);
+    match edits.frozen.iter().chain(of_layers).find(|frame| !has(frame)) {
+        None => Ok(()),
+        Some(frame) => {
+            let (first, last) = (clip.first(), clip.last());
+            let message = format!(
+                "frame {frame} of it is not in the clip, which has frames {first} to {last}: is it the sheet of \
+                 another clip, or of another part (--trim)?"
+            );
+            Err(Failure::of_file(path, Error::sheet(message)))
+        }
+    }
+}
