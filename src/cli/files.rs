@@ -65,8 +65,10 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let put = || {
         let staging = Staging::within(folder)?;
         let staged = staging.place("file");
-        fs::write(&staged, bytes)?;
-        stop::undisturbed(|| fs::rename(staged, path))
+        stop::undisturbed(|| {
+            fs::write(&staged, bytes)?;
+            fs::rename(staged, path)
+        })
     };
     put().map_err(|source| failed(path, source))
 }

@@ -9,12 +9,13 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use super::failure::Failure;
 use super::stop;
 use crate::error::Error;
 
+/// How often a staging is made again that another run has cleared away.
+const TRIES: usize = 20;
 /// How the names of stagings begin and end.
 const NAME: (&str, &str) = (".genga-", ".tmp");
 /// Locked for as long as its run lives.
@@ -37,26 +38,33 @@ impl Staging {
     /// A staging in a folder, from which those of dead runs go.
     pub(super) fn within(folder: &Path) -> io::Result<Self> {
         sweep(folder);
+        for _ in 0..TRIES {
+            if let Some(staging) = Self::made(folder)? {
+                return Ok(staging);
+            }
+        }
+        Err(io::Error::other("no folder for unfinished files can be kept here"))
+    }
+
+    /// Makes one. Another run may take it for a dead one's before it is locked: then there is none.
+    fn made(folder: &Path) -> io::Result<Option<Self>> {
         let (begin, end) = NAME;
         let path = stop::remember(|| {
             let folder = std::path::absolute(folder)?;
             let made = tempfile::Builder::new().prefix(begin).suffix(end).tempdir_in(folder)?;
             Ok(made.keep())
         })?;
-        let open = || {
-            // It is locked before it has its name, so that nobody finds it free.
-            let (early, lock) = (path.join("lock.new"), path.join(LOCK));
-            let file = File::create(&early)?;
+        let lock = File::create(path.join(LOCK)).and_then(|lock| {
             // Where a disk knows no locks a dead staging stays.
-            let _ = file.lock();
-            fs::rename(early, lock)?;
-            fs::create_dir(path.join(NEW)).map(|()| file)
-        };
-        match open() {
-            Ok(lock) => Ok(Self { path, lock }),
+            let _ = lock.lock();
+            fs::create_dir(path.join(NEW)).map(|()| lock)
+        });
+        match lock {
+            Ok(lock) => Ok(Some(Self { path, lock })),
             Err(error) => {
-                remove(&path);
-                Err(error)
+                let is_taken = !path.exists();
+                stop::clear(&path);
+                if is_taken { Ok(None) } else { Err(error) }
             }
         }
     }
@@ -70,13 +78,8 @@ impl Staging {
 impl Drop for Staging {
     fn drop(&mut self) {
         let _ = self.lock.unlock();
-        remove(&self.path);
+        stop::clear(&self.path);
     }
-}
-
-fn remove(staging: &Path) {
-    let _ = fs::remove_dir_all(staging);
-    stop::forget(staging);
 }
 
 /// Removes the stagings of dead runs from a folder, and finishes what one of them had begun to put there.
@@ -88,11 +91,9 @@ pub(super) fn sweep(folder: &Path) {
         if !(name.starts_with(NAME.0) && name.ends_with(NAME.1) && staging.is_dir()) {
             continue;
         }
-        // Whoever lives holds the lock. One without a lock is just being made, unless that was long ago.
+        // Whoever lives holds the lock. Without one it is empty: dead, or its run makes another.
         let Ok(lock) = File::open(staging.join(LOCK)) else {
-            if is_long_ago(&staging) {
-                let _ = fs::remove_dir_all(staging);
-            }
+            let _ = fs::remove_dir(staging);
             continue;
         };
         match lock.try_lock() {
@@ -102,19 +103,12 @@ pub(super) fn sweep(folder: &Path) {
         let order = fs::read(staging.join(ORDER)).ok();
         let order = order.and_then(|text| serde_json::from_slice::<Order>(&text).ok());
         let is_done = order.is_none_or(|order| order.carry_out(&staging, folder).is_ok());
-        drop(lock);
         if is_done {
             let _ = fs::remove_dir_all(staging);
         }
+        // Free only now: a run whose staging this just was finds it gone.
+        drop(lock);
     }
-}
-
-/// Far longer than it takes to make a staging.
-const LONG: Duration = Duration::from_secs(60);
-
-fn is_long_ago(staging: &Path) -> bool {
-    let made = fs::metadata(staging).and_then(|about| about.modified()).ok();
-    made.and_then(|made| made.elapsed().ok()).is_some_and(|ago| ago > LONG)
 }
 
 /// Files for a folder.
@@ -165,7 +159,8 @@ impl<'a> Bundle<'a> {
             staged.parent().map_or(Ok(()), fs::create_dir_all)?;
             fs::write(&staged, bytes.as_ref())
         };
-        write().map_err(|source| io_error(&place, source))?;
+        // A signal finds a file whole or none, and nobody who puts the next into a staging that is gone.
+        stop::undisturbed(write).map_err(|source| io_error(&place, source))?;
         let digest = crate::deliver::Manifest::digest(bytes.as_ref());
         self.files.retain(|(other, _)| other != name);
         self.files.push((name.to_owned(), digest));
@@ -440,10 +435,30 @@ mod tests {
         dead.lock.unlock().unwrap();
         let path = dead.path.clone();
         std::mem::forget(dead);
+        // Another was killed before it had its lock.
+        fs::create_dir(place.path().join(".genga-dead.tmp")).unwrap();
         let living = Staging::within(place.path()).unwrap();
         sweep(place.path());
         assert!(!path.exists() && living.path.exists());
+        assert_eq!(names(place.path()).len(), 1);
         drop(living);
         assert_eq!(names(place.path()), [""; 0]);
+    }
+    #[test]
+    fn runs_that_begin_together_do_not_clear_each_other_away() {
+        let place = tempfile::tempdir().unwrap();
+        std::thread::scope(|scope| {
+            for name in 0..8 {
+                let place = place.path();
+                scope.spawn(move || {
+                    for _ in 0..50 {
+                        let staging = Staging::within(place).unwrap();
+                        fs::write(staging.place("file"), [name]).unwrap();
+                        fs::rename(staging.place("file"), place.join(name.to_string())).unwrap();
+                    }
+                });
+            }
+        });
+        assert_eq!(names(place.path()), ["0", "1", "2", "3", "4", "5", "6", "7"]);
     }
 }

@@ -10,9 +10,6 @@ use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 /// The exit code of a program that was stopped, as shells have it.
 const STOPPED: i32 = 130;
 
-/// How often it is tried to remove a folder into which another thread still writes.
-const TRIES: usize = 20;
-
 /// Folders of unfinished files, as absolute paths.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 static WATCHED: Once = Once::new();
@@ -21,7 +18,7 @@ fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Makes a folder that is removed when the program is stopped, until it is [forgotten](forget).
+/// Makes a folder that is removed when the program is stopped, until it is [cleared](clear).
 pub(super) fn remember(make: impl FnOnce() -> io::Result<PathBuf>) -> io::Result<PathBuf> {
     // Where nobody can be asked to tell of a signal the next run removes the folder.
     WATCHED.call_once(|| drop(ctrlc::set_handler(stop)));
@@ -31,9 +28,11 @@ pub(super) fn remember(make: impl FnOnce() -> io::Result<PathBuf>) -> io::Result
     Ok(folder)
 }
 
-/// Leaves a folder be.
-pub(super) fn forget(folder: &Path) {
-    unfinished().remove(folder);
+/// Removes such a folder, if it is still there.
+pub(super) fn clear(folder: &Path) {
+    let mut unfinished = unfinished();
+    let _ = fs::remove_dir_all(folder);
+    unfinished.remove(folder);
 }
 
 /// Does what must not be stopped half-way. A signal waits until then.
@@ -43,10 +42,10 @@ pub(super) fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
 }
 
 fn stop() {
+    // Held to the end: whoever would write next waits for ever.
     let folders = unfinished();
     for folder in folders.iter() {
-        let is_gone = |_| fs::remove_dir_all(folder).is_ok() || !folder.exists();
-        let _ = (0..TRIES).any(is_gone);
+        let _ = fs::remove_dir_all(folder);
     }
     process::exit(STOPPED);
 }
