@@ -409,7 +409,7 @@ fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
     let moved = edits.moves.iter().map(|moved| moved.to);
     let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();
     frames.sort_unstable();
-    let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);
+    let koma = |frame: Frame| clock.koma_from_frame(frame);
     match frames.windows(2).find(|pair| koma(pair[0]) == koma(pair[1])) {
         None => Ok(()),
         Some(pair) => {

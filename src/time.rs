@@ -3,6 +3,7 @@
 //! A **frame** is an instant of the source clip, a **koma** (コマ) is a slot of the sheet, 1/24 s.
 //! F frames last (F − 1)/rate; T koma last T/24 s. A frame always carries the number it has in the
 //! file, also after a lead-in or a trim; koma count from 0 in code and from 1 on paper.
+//! Only frames have a type of their own: koma index what stands on each of them.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -138,6 +139,24 @@ impl Clock {
     pub fn koma_from_place(&self, place: f64) -> usize {
         let koma = (place - self.first.0 as f64) * self.koma_rate / self.frame_rate.fps();
         (koma + 0.5).floor().max(0.0) as usize
+    }
+
+    /// The koma nearest to a source frame, as [`koma_from_place`](Self::koma_from_place) has it.
+    pub fn koma_from_frame(&self, frame: Frame) -> usize {
+        self.koma_from_place(frame.0 as f64)
+    }
+
+    /// The source frame nearest to a koma. The clip may end before it.
+    ///
+    /// ```
+    /// use genga::time::{Clock, Frame, FrameRate};
+    ///
+    /// let clock = Clock { first: Frame(4), frame_rate: FrameRate::new(30.0)?, koma_rate: 24.0 };
+    /// assert_eq!(clock.frame_from_koma(3), Frame(8), "3.75 frames after the first");
+    /// # Ok::<(), genga::Error>(())
+    /// ```
+    pub fn frame_from_koma(&self, koma: usize) -> Frame {
+        Frame(self.place_from_koma(koma).round() as usize)
     }
 
     /// Source frames in one koma.

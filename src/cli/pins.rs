@@ -88,7 +88,7 @@ fn add(
     edits: &mut Edits,
 ) -> usize {
     let clock = engine.clip().clock(recipe.rate);
-    let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);
+    let koma = |frame: Frame| clock.koma_from_frame(frame);
     let mut added = 0;
     for pin in pins {
         let own = koma(pin.frame);

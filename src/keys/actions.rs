@@ -91,7 +91,7 @@ impl Actions {
 
     /// The koma on which each action after the first begins: the nearest to its frame.
     pub fn koma(&self, clock: Clock) -> Vec<usize> {
-        self.splits.iter().map(|split| clock.koma_from_place(split.frame.0 as f64)).collect()
+        self.splits.iter().map(|split| clock.koma_from_frame(split.frame)).collect()
     }
 }
 

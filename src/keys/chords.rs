@@ -77,12 +77,12 @@ impl Chords {
     /// The koma nearest to a frame.
     pub(super) fn koma_of(&self, frame: Frame) -> usize {
         let clock = Clock { koma_rate: self.koma_rate(), ..self.clock };
-        clock.koma_from_place(frame.0 as f64).min(self.koma.saturating_sub(1))
+        clock.koma_from_frame(frame).min(self.koma.saturating_sub(1))
     }
 
     /// The frame nearest to an instant.
     pub(super) fn frame(&self, instant: usize) -> Frame {
-        Frame(self.clock.place_from_koma(instant).round() as usize)
+        self.clock.frame_from_koma(instant)
     }
 
     /// Where the instants of the postures stand in the clip.

@@ -26,8 +26,7 @@ pub(crate) fn contact_ends(clip: &Clip, clock: Clock, heard: &[f64]) -> Vec<Fram
     let own = contacts.filter(|contact| heard[contact.point.joint.0] > 0.0);
     let ends = own.flat_map(|contact| [*contact.koma.start(), *contact.koma.end()]);
     let inner = ends.filter(|koma| (1..last).contains(koma));
-    let mut ends: Vec<Frame> =
-        inner.map(|koma| Frame(clock.place_from_koma(koma).round() as usize)).collect();
+    let mut ends: Vec<Frame> = inner.map(|koma| clock.frame_from_koma(koma)).collect();
     ends.sort_unstable();
     ends.dedup();
     ends

@@ -520,7 +520,7 @@ proptest! {
             let (begin, drawing) = pinned[0];
             prop_assert_eq!(drawing.source, Source::At(frame as f64));
             let last = breakdown.spaced.length() - 1;
-            let koma = breakdown.clock.koma_from_place(frame as f64).min(last);
+            let koma = breakdown.clock.koma_from_frame(Frame(frame)).min(last);
             if !(recipe.omission.keep_length || sheet == breakdown.spaced) {
                 continue;
             }

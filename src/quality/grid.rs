@@ -25,7 +25,7 @@ impl Grid {
     pub fn of(clip: Arc<Clip>, clock: Clock) -> Self {
         let reference = Reference::of(&clip, clock);
         let last = clip.last();
-        let at = |koma| Frame(clock.place_from_koma(koma).round() as usize).min(last);
+        let at = |koma| clock.frame_from_koma(koma).min(last);
         let mut frames: Vec<Frame> = (0..reference.koma()).map(at).collect();
         // The last koma may stand a little before the last frame.
         match frames.last_mut() {
@@ -55,7 +55,7 @@ impl Grid {
 
     /// The place in the list of the frame nearest to a koma.
     pub fn place(&self, koma: usize) -> usize {
-        let frame = Frame(self.clock().place_from_koma(koma).round() as usize);
+        let frame = self.clock().frame_from_koma(koma);
         self.frames.partition_point(|other| *other < frame).min(self.frames.len() - 1)
     }
 

@@ -29,8 +29,7 @@ impl Hits {
         }
         // A moment is known by its koma and no finer, so that keys are taken by theirs too: else one between
         // two koma would be within a koma of two moments' places, and one on a koma of three.
-        let places: Vec<f64> =
-            keys.iter().map(|key| clock.koma_from_place(key.0 as f64) as f64).collect();
+        let places: Vec<f64> = keys.iter().map(|key| clock.koma_from_frame(*key) as f64).collect();
         let turned = |by: usize| {
             let mut turned: Vec<f64> =
                 places.iter().map(|place| (place + by as f64) % koma as f64).collect();

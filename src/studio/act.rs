@@ -217,7 +217,7 @@ impl Studio {
         let here = Here { clip: breakdown.clip, column: &column, wanted, at };
         let Some(correction) = here.correction(command) else { return };
         if let Correction::Move(_, to) = &correction {
-            let koma = column.clock.koma_from_place(to.0 as f64);
+            let koma = column.clock.koma_from_frame(*to);
             self.player.stop_at(koma, column.length);
         }
         self.change(Command::Correct(correction));

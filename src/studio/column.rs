@@ -90,7 +90,7 @@ impl<'a> Column<'a> {
     pub(super) fn key(&self, koma: usize) -> Option<&'a Key> {
         let cell = self.cell(koma);
         let stands_here = |cell: &&KeyedCell<'a>| {
-            cell.key.is_some_and(|key| self.clock.koma_from_place(key.frame.0 as f64) == koma)
+            cell.key.is_some_and(|key| self.clock.koma_from_frame(key.frame) == koma)
         };
         self.cells.iter().find(stands_here).and_then(|cell| cell.key).or(cell.key)
     }

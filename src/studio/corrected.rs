@@ -92,7 +92,7 @@ fn row(
         if ui.link(what).clicked()
             && let Some(frame) = at
         {
-            commands.push(Command::Go(shown.column.clock.koma_from_place(frame.0 as f64)));
+            commands.push(Command::Go(shown.column.clock.koma_from_frame(frame)));
         }
     });
 }

@@ -68,7 +68,7 @@ impl Here<'_> {
     fn is_here(&self, key: &Key) -> bool {
         let cell = self.column.cell(self.at);
         let begins = cell.koma == self.at && cell.key.is_some_and(|own| own.frame == key.frame);
-        begins || self.column.clock.koma_from_place(key.frame.0 as f64) == self.at
+        begins || self.column.clock.koma_from_frame(key.frame) == self.at
     }
 
     /// The source frame nearest to a place, within the clip.

@@ -219,8 +219,8 @@ fn why(cell: &KeyedCell<'_>, shown: &Shown<'_>) -> String {
 fn forbidden(painter: &Painter, rect: Rect, rows: &std::ops::Range<usize>, shown: &Shown<'_>) {
     let clock = &shown.column.clock;
     for range in &shown.wanted.edits.forbidden {
-        let last = range.past.0.saturating_sub(1).min(shown.breakdown.clip.last().0);
-        let [from, to] = [range.from.0, last].map(|frame| clock.koma_from_place(frame as f64));
+        let last = shown.frame(range.past.0 as f64 - 1.0);
+        let [from, to] = [range.from, last].map(|frame| clock.koma_from_frame(frame));
         for koma in from.max(rows.start)..(to + 1).min(rows.end) {
             let at = rect.min + vec2(46.0, ROW * (koma as f32 + 0.5));
             let stroke = Stroke::new(1.6, shown.look.genga);

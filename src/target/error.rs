@@ -46,7 +46,7 @@ pub(super) fn meet(
     let reached = rebuilt.worst();
     let shortfall = (reached > most).then(|| {
         let koma = rebuilt.errors.iter().position(|error| *error == reached).unwrap_or(0);
-        let worst = Frame(engine.clip().clock(recipe.rate).place_from_koma(koma).round() as usize);
+        let worst = engine.clip().clock(recipe.rate).frame_from_koma(koma);
         let beyond = rebuilt.errors.iter().filter(|error| **error > most).count();
         let all = rebuilt.errors.len();
         format!("on {beyond} of {all} koma {}", too_far(&recipe, edits, worst))

@@ -44,7 +44,7 @@ prop_compose! {
         rests in prop::collection::vec((0..FRAMES, 0..40usize), 0..4),
     ) -> LayerKeys {
         let mut keys: Vec<Key> = keys.into_iter().map(key).collect();
-        let koma = |key: &Key| clock().koma_from_place(key.frame.0 as f64);
+        let koma = |key: &Key| clock().koma_from_frame(key.frame);
         let mut pinned = None;
         for key in keys.iter_mut().filter(|key| key.origin.is_set()) {
             if pinned.replace(koma(key)) == Some(koma(key)) {

@@ -19,7 +19,7 @@ fn ends(clip: &Clip) -> Vec<Frame> {
     let contacts = ContactFinder::default().find(clip, clock).into_iter();
     let ends = contacts.flat_map(|contact| [*contact.koma.start(), *contact.koma.end()]);
     let inner = ends.filter(|koma| (1..last).contains(koma));
-    inner.map(|koma| Frame(clock.place_from_koma(koma).round() as usize)).collect()
+    inner.map(|koma| clock.frame_from_koma(koma)).collect()
 }
 
 fn recipe(settings: &[(&str, &str)]) -> Recipe {

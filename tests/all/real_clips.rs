@@ -28,7 +28,7 @@ fn each(look: impl Fn(&str, &Clip, &Breakdown)) {
 /// Drawings a second where the body moves; and of what is held for more than four koma when it begins, and whether
 /// the body rests there.
 fn moving(breakdown: &Breakdown<'_>) -> (f64, Vec<(usize, bool)>) {
-    let koma = |frame: &Frame| breakdown.clock.koma_from_place(frame.0 as f64);
+    let koma = |frame: &Frame| breakdown.clock.koma_from_frame(*frame);
     let rests =
         breakdown.first_layer().keys.rests.iter().map(|rest| koma(rest.start())..koma(rest.end()));
     let rests: Vec<_> = rests.collect();

@@ -125,7 +125,7 @@ fn genga_go_before_anything_that_moves_is_held_for_eight_koma() {
         for rate in [8.0, 7.0, 6.0] {
             let met = met(engine, &[Target::DrawingsPerSecond(rate)]);
             let breakdown = engine.run(&met.recipe, &Edits::default()).unwrap();
-            let koma = |frame: &Frame| breakdown.clock.koma_from_place(frame.0 as f64);
+            let koma = |frame: &Frame| breakdown.clock.koma_from_frame(*frame);
             let rests = breakdown.first_layer().keys.rests.iter();
             let rests: Vec<_> = rests.map(|rest| koma(rest.start())..koma(rest.end())).collect();
             let layer = &breakdown.sheet.layers[0];

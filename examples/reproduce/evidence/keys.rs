@@ -171,7 +171,7 @@ fn hits<'a>(
         };
         let clip = &bench.take.clip;
         let clock = clip.clock(24.0);
-        let koma = |frame: Frame| clock.koma_from_place(frame.0 as f64);
+        let koma = |frame: Frame| clock.koma_from_frame(frame);
         let genga: Vec<usize> =
             found[event.clip.as_str()].iter().map(|key| koma(key.frame)).collect();
         let marked = |other: &&Event| other.set == "stretch" && other.clip == event.clip;

@@ -150,5 +150,5 @@ fn pulled<'a>(koma: usize, place: f64, shown: &Shown<'a>) -> Option<(&'a Key, f6
 
 /// To the koma of a frame.
 fn go(frame: Frame, shown: &Shown<'_>) -> Option<Command> {
-    shown.go(shown.column.clock.koma_from_place(frame.0 as f64))
+    shown.go(shown.column.clock.koma_from_frame(frame))
 }

@@ -20,7 +20,7 @@ impl<'a> Rests<'a> {
         drift: f64,
         pace: &'a Pace<'a>,
     ) -> Self {
-        let koma = |frame: &Frame| clock.koma_from_place(frame.0 as f64);
+        let koma = |frame: &Frame| clock.koma_from_frame(*frame);
         let koma = frames.iter().map(|rest| koma(rest.start())..=koma(rest.end())).collect();
         Self { koma, drift, pace }
     }
