@@ -6,7 +6,7 @@ use std::sync::Arc;
 use divan::Bencher;
 use genga::keys::Reference;
 use genga::motion::{Clip, bvh};
-use genga::quality::Grid;
+use genga::quality::KomaFrames;
 use genga::quality::baselines::{Objective, Optimal, Segments};
 use genga::time::Frame;
 
@@ -24,7 +24,7 @@ fn main() {
 fn every_count(bencher: Bencher<'_, '_>, clip: Clip, per_second: f64) {
     let reference = Reference::of(&clip, clip.clock(per_second));
     let frames = (clip.first().0..=clip.last().0).map(Frame).collect();
-    let grid = Grid { clip: Arc::new(clip), reference, frames };
+    let grid = KomaFrames { clip: Arc::new(clip), reference, frames };
     bencher.bench_local(|| {
         let segments = Segments::of(&grid);
         let [mean, worst] = [Objective::Mean, Objective::Worst]

@@ -9,9 +9,9 @@ mod comparison;
 mod evaluation;
 mod extrema;
 mod feet;
-mod grid;
 mod hits;
 mod holds;
+mod koma_frames;
 mod method;
 mod shown;
 #[cfg(test)]
@@ -19,10 +19,10 @@ mod tests;
 mod timing;
 
 pub use comparison::{Compare, Comparison, Row};
-pub use evaluation::{Evaluation, Off, Pace};
+pub use evaluation::{Counts, Evaluation, Off};
 pub use extrema::{Extrema, Moment};
 pub use feet::Slip;
-pub use grid::Grid;
 pub use holds::{Pop, Pops};
+pub use koma_frames::KomaFrames;
 pub use method::Method;
 pub use timing::Timing;

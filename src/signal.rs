@@ -20,7 +20,7 @@ pub struct Signals {
     /// Frames × joints: a joint is a column, contiguous in memory.
     pub values: DMatrix<f64>,
     /// What the values count.
-    pub unit: Unit,
+    pub unit: Quantity,
     /// Frames a second.
     pub rate: FrameRate,
     /// The number of the first row in the file.
@@ -29,7 +29,7 @@ pub struct Signals {
 
 /// What a signal counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
+pub enum Quantity {
     /// Radians a second; degrees a second for people.
     Angle,
     /// The file's length unit a second.
@@ -38,7 +38,7 @@ pub enum Unit {
     Ratio,
 }
 
-impl Unit {
+impl Quantity {
     /// The factor from the value in code to the value for people.
     pub fn for_people(self) -> f64 {
         match self {

@@ -22,6 +22,6 @@ pub use gauge::{Gauge, Packing, fraction};
 pub use holds::{held_for, with_holds};
 pub use omission::{Omission, Omitted, Order};
 pub use on::{On, Pace};
-pub use report::{Gone, Report, Shortfall, StageReport};
+pub use report::{Gone, OmissionReport, Shortfall, StageReport};
 pub use spacing::{InbetweenSource, Pull, Spaced, Spacing};
 pub use stills::Stills;

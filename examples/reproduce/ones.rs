@@ -4,7 +4,7 @@
 use genga::motion::Clip;
 use genga::sheet::Sheet;
 use genga::time::KOMA_RATE;
-use genga::timing::{Amount, Omission, Report, Stills};
+use genga::timing::{Amount, Omission, OmissionReport, Stills};
 
 use crate::Outcome;
 
@@ -19,7 +19,7 @@ pub(crate) struct Ones {
 /// What omission left of it.
 pub(crate) struct Done {
     pub(crate) sheet: Sheet,
-    pub(crate) report: Report,
+    pub(crate) report: OmissionReport,
     /// What each koma shows, as the koma of the source.
     pub(crate) shown: Vec<usize>,
     /// The largest SSD from koma to koma.

@@ -54,7 +54,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub actions: Vec<Action>,
     /// What was left out.
-    pub omission: Omission,
+    pub omission: OmissionCounts,
     /// The layers, where there are several; candidates, genga, drawings and what was left out are then those
     /// of the first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -79,7 +79,7 @@ pub struct LayerReport {
     /// Koma of the longest exposure.
     pub longest_hold: usize,
     /// What was left out.
-    pub omission: Omission,
+    pub omission: OmissionCounts,
 }
 
 /// Key turns of all joints.
@@ -93,7 +93,7 @@ pub struct Turns {
 
 /// What was asked of the omission stages and what could be done, in drawings.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Omission {
+pub struct OmissionCounts {
     /// To be left out by naka-nashi.
     pub naka_nashi_asked: usize,
     /// Left out by naka-nashi.
@@ -104,8 +104,8 @@ pub struct Omission {
     pub koma_dori_done: usize,
 }
 
-impl From<&timing::Report> for Omission {
-    fn from(report: &timing::Report) -> Self {
+impl From<&timing::OmissionReport> for OmissionCounts {
+    fn from(report: &timing::OmissionReport) -> Self {
         Self {
             naka_nashi_asked: report.naka_nashi.asked,
             naka_nashi_done: report.naka_nashi.done,

@@ -68,13 +68,13 @@ fn prominence(height: &[f64], begin: usize, end: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::Unit;
+    use crate::signal::Quantity;
     use crate::time::FrameRate;
 
     fn signals(columns: &[&[f64]]) -> Signals {
         Signals {
             values: DMatrix::from_vec(columns[0].len(), columns.len(), columns.concat()),
-            unit: Unit::Angle,
+            unit: Quantity::Angle,
             rate: FrameRate::new(24.0).unwrap(),
             first: Frame(10),
         }

@@ -16,7 +16,7 @@ use crate::recipe::Recipe;
 use crate::sheet::Layer;
 use crate::signal::{LowPass, Signals, Turn, TurnFinder};
 use crate::time::Frame;
-use crate::timing::{Omission, Omitted, Pace, Report, Spaced, Spacing, Stills};
+use crate::timing::{Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills};
 
 /// What is known of the whole body, measured once for all layers.
 #[derive(Debug, Clone, Copy)]
@@ -99,7 +99,7 @@ pub struct LayerBreakdown<'a> {
     /// The layer on the sheet.
     pub layer: &'a Layer,
     /// What was left out, and what could not be.
-    pub omission: &'a Report,
+    pub omission: &'a OmissionReport,
 }
 
 impl LayerStages {

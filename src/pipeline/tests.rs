@@ -12,7 +12,7 @@ use crate::motion::bvh;
 use crate::motion::lanes::narrow;
 use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
-use crate::timing::{On, Report};
+use crate::timing::{OmissionReport, On};
 
 /// The made pitch, its hundred frames round the throw: 24 frames a second, 23 joints.
 fn pitch() -> Clip {
@@ -63,7 +63,7 @@ struct Result {
     turns: Vec<Vec<Turn>>,
     keys: LayerKeys,
     /// Of each layer what might have been a key, its keys, what did not fit, and what was left out.
-    layers: Vec<(Candidates, LayerKeys, usize, Report)>,
+    layers: Vec<(Candidates, LayerKeys, usize, OmissionReport)>,
     sheets: [Sheet; 2],
 }
 

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::motion::seen::view::View;
 use crate::motion::{self, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
-use crate::signal::{Signals, Turn, TurnKind, Unit};
+use crate::signal::{Quantity, Signals, Turn, TurnKind};
 use crate::time::{Clock, Frame, FrameRate};
 
 mod figures;
@@ -65,7 +65,7 @@ fn has_setting_error<T: std::fmt::Debug>(result: Result<T, Error>, name: &str) {
 
 fn signals(frames: usize, joints: usize, value: impl Fn(usize, usize) -> f64) -> Signals {
     let values = DMatrix::from_fn(frames, joints, value);
-    Signals { values, unit: Unit::Angle, rate: rate(100.0), first: Frame(10) }
+    Signals { values, unit: Quantity::Angle, rate: rate(100.0), first: Frame(10) }
 }
 
 fn turn(frame: usize, kind: TurnKind) -> Turn {

@@ -1,6 +1,6 @@
 //! Other ways to choose keys (比較手法), each for any number of them.
 //!
-//! All choose among the frames of a [`Grid`](crate::quality::Grid) and give places in its list, by
+//! All choose among the frames of a [`KomaFrames`](crate::quality::KomaFrames) and give places in its list, by
 //! number and without the two ends, which every method has.
 
 mod optimal;

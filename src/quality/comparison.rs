@@ -11,7 +11,7 @@ use crate::keys::{Matching, Reconstruction};
 use crate::motion::Clip;
 use crate::pipeline::Budget;
 use crate::quality::hits::Hits;
-use crate::quality::{Extrema, Grid, Method};
+use crate::quality::{Extrema, KomaFrames, Method};
 use crate::recipe::Recipe;
 use crate::study::Noise;
 use crate::time::{Clock, Frame};
@@ -201,7 +201,7 @@ impl Comparison {
     }
 }
 
-fn row(grid: &Grid, method: Method, asked: usize, keys: &[Frame], extrema: &Extrema) -> Row {
+fn row(grid: &KomaFrames, method: Method, asked: usize, keys: &[Frame], extrema: &Extrema) -> Row {
     let errors = Reconstruction::of(&grid.clip, &grid.reference, keys);
     let koma = grid.reference.koma();
     let hits = Hits::of(keys, &extrema.heaviest(asked), grid.clock(), koma);

@@ -32,7 +32,7 @@ impl Off {
 
 /// How many drawings a sheet has, and how long they stay.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Pace {
+pub struct Counts {
     /// Koma of the sheet.
     pub koma: usize,
     /// Drawings on screen.
@@ -49,7 +49,7 @@ pub struct Pace {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Evaluation {
     /// How many drawings it has.
-    pub pace: Pace,
+    pub pace: Counts,
     /// What is off when the motion is made again from the genga and both ends alone, by slerp.
     pub keys: Off,
     /// What is off on screen: the drawing of each koma beside the source at that koma.
@@ -121,14 +121,14 @@ impl Evaluation {
     }
 }
 
-fn pace(sheet: &Sheet) -> Pace {
+fn pace(sheet: &Sheet) -> Counts {
     let layer = &sheet.layers[0];
     let mut holds = BTreeMap::new();
     for exposure in &layer.exposures {
         *holds.entry(exposure.koma).or_default() += 1;
     }
     let (koma, drawings) = (layer.length(), layer.shown().count());
-    Pace {
+    Counts {
         koma,
         drawings,
         genga: layer.count(Role::Genga),

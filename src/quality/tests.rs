@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
-use crate::quality::Grid;
+use crate::quality::KomaFrames;
 use crate::time::{Frame, FrameRate};
 
 /// An arm of one bone and a tip that swings about Z, by its angle in degrees at each frame of 24 fps.
@@ -33,8 +33,8 @@ pub(super) fn swing(angles: &[f64]) -> Clip {
 }
 
 /// The grid of [`swing`], a koma a frame.
-pub(super) fn grid(angles: &[f64]) -> Grid {
+pub(super) fn grid(angles: &[f64]) -> KomaFrames {
     let clip = Arc::new(swing(angles));
     let clock = clip.clock(24.0);
-    Grid::of(clip, clock)
+    KomaFrames::of(clip, clock)
 }

@@ -11,7 +11,7 @@ use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Body, Clip, Poser, Screen, local_rotation};
-use crate::signal::{Signals, Unit};
+use crate::signal::{Quantity, Signals};
 use crate::time::Frame;
 
 use steps::{BLOCK, JointSteps, PARTS, block};
@@ -104,10 +104,10 @@ impl Speed {
     pub fn measure_on(&self, clip: &Clip, screen: &Screen) -> Result<Signals, Error> {
         self.validate()?;
         let (mut values, unit) = match self.measure {
-            Measure::Rotation => (rotation(clip), Unit::Angle),
-            Measure::Displacement => (displacement(clip, screen), Unit::Length),
-            Measure::Combined => (combined(clip, screen), Unit::Ratio),
-            Measure::Angle => (angle(clip), Unit::Angle),
+            Measure::Rotation => (rotation(clip), Quantity::Angle),
+            Measure::Displacement => (displacement(clip, screen), Quantity::Length),
+            Measure::Combined => (combined(clip, screen), Quantity::Ratio),
+            Measure::Angle => (angle(clip), Quantity::Angle),
         };
         if values.nrows() > 1 {
             let second = values.row(1).into_owned();

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::sheet::Layer;
 use crate::timing::naka_nashi::{NakaNashi, Quota};
-use crate::timing::report::{Gone, Report, StageReport};
+use crate::timing::report::{Gone, OmissionReport, StageReport};
 use crate::timing::strip::Strip;
 use crate::timing::{Amount, Stills, koma_dori};
 
@@ -61,7 +61,7 @@ pub struct Omitted {
     /// The drawings that are left, numbered anew.
     pub layer: Layer,
     /// What was done.
-    pub report: Report,
+    pub report: OmissionReport,
 }
 
 impl Default for Omission {
@@ -178,7 +178,7 @@ impl Omission {
         }
         let bound = self.max_hold.max(on.saturating_mul(2));
         let mut strip = Strip::new(layer, stills, bound, on)?;
-        let mut report = Report::default();
+        let mut report = OmissionReport::default();
         match self.order {
             Order::NakaNashiFirst => {
                 self.leave_out(layer, later, &mut strip, &mut report);
@@ -197,7 +197,7 @@ impl Omission {
         layer: &Layer,
         later: &[usize],
         strip: &mut Strip<'_>,
-        report: &mut Report,
+        report: &mut OmissionReport,
     ) {
         let stage = NakaNashi {
             quotas: self.quotas(layer, later),
@@ -238,7 +238,7 @@ impl Omission {
         }
     }
 
-    fn hold(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut Report) {
+    fn hold(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut OmissionReport) {
         let count = self.koma_dori.of(strip.inbetweens());
         let replaced = koma_dori::run(count, strip);
         report.koma_dori = StageReport {

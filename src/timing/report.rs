@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// What the two stages did.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Report {
+pub struct OmissionReport {
     /// Naka-nashi: its `gone` were left out.
     pub naka_nashi: StageReport,
     /// Koma-dori: its `gone` were replaced by the drawing before them.
@@ -40,7 +40,7 @@ pub struct Gone {
     pub koma: usize,
 }
 
-impl Report {
+impl OmissionReport {
     /// A sentence for each stage that did less than it was asked for.
     pub fn shortfalls(&self) -> impl Iterator<Item = String> {
         let stages = [("naka-nashi", &self.naka_nashi), ("koma-dori", &self.koma_dori)];

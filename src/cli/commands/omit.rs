@@ -14,7 +14,7 @@ use crate::motion::Screen;
 use crate::plot::SsdPlot;
 use crate::sheet::Sheet;
 use crate::time::KOMA_RATE;
-use crate::timing::{Amount, Omission, Omitted, Order, Report, Stills};
+use crate::timing::{Amount, Omission, OmissionReport, Omitted, Order, Stills};
 
 #[derive(Debug, Args)]
 pub(super) struct OmitArgs {
@@ -99,7 +99,7 @@ fn omission(args: &OmitArgs) -> Omission {
     }
 }
 
-fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &Report, seconds: f64) {
+fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &OmissionReport, seconds: f64) {
     let layer = &sheet.layers[0];
     let (naka, dori) = (&report.naka_nashi, &report.koma_dori);
     words.say(format_args!("length      尺         {koma} → {} koma", layer.length()));

@@ -10,7 +10,7 @@ use crate::motion::body::mannequin::Mannequin;
 use crate::motion::clip::lane_poser::{LanePose, LanePoser};
 use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
 use crate::motion::{Build, Clip, Joint, JointId, Point, Screen};
-use crate::signal::{Signals, Spectrum, Unit};
+use crate::signal::{Quantity, Signals, Spectrum};
 
 /// How far a joint that carries a whole chain of bones reaches, in heights of the body.
 const REACH: f64 = 0.75;
@@ -94,7 +94,8 @@ impl Tracks {
             );
         }
         let values = DMatrix::from_vec(steps, columns, values);
-        let signals = Signals { values, unit: Unit::Ratio, rate: clip.rate(), first: clip.first() };
+        let signals =
+            Signals { values, unit: Quantity::Ratio, rate: clip.rate(), first: clip.first() };
         Self { steps: Spectrum::from(signals), weights }
     }
 }

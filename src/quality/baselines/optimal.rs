@@ -143,10 +143,10 @@ mod tests {
 
     use super::*;
     use crate::keys::{Reconstruction, Reference};
-    use crate::quality::Grid;
+    use crate::quality::KomaFrames;
     use crate::quality::tests::{grid, swing};
 
-    fn error(grid: &Grid, objective: Objective, keys: &[usize]) -> f64 {
+    fn error(grid: &KomaFrames, objective: Objective, keys: &[usize]) -> f64 {
         let keys = grid.frames_at(keys);
         let found = Reconstruction::of(&grid.clip, &grid.reference, &keys);
         match objective {
@@ -156,7 +156,7 @@ mod tests {
     }
 
     /// The least error of any set of so many keys, by trying every set.
-    fn by_force(grid: &Grid, objective: Objective, count: usize) -> f64 {
+    fn by_force(grid: &KomaFrames, objective: Objective, count: usize) -> f64 {
         let inner = grid.inner();
         let sets = (0u32..1 << inner).filter(|set| set.count_ones() as usize == count);
         let keys = |set: u32| -> Vec<usize> {

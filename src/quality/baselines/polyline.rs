@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use crate::quality::Grid;
+use crate::quality::KomaFrames;
 
 /// Polylines through the poses of a clip that are as long as they can be for their corners (最長の折れ線).
 ///
@@ -20,7 +20,7 @@ pub struct LongestPolyline {
 impl LongestPolyline {
     /// The longest polylines of 0 to `most` corners between both ends, by dynamic programming. Of two
     /// equally long ones it is that whose last corner is the earliest.
-    pub fn of(grid: &Grid, most: usize) -> Self {
+    pub fn of(grid: &KomaFrames, most: usize) -> Self {
         let frames = grid.frames.len();
         let sides: Vec<Vec<f64>> = (0..frames).into_par_iter().map(|to| sides(grid, to)).collect();
         let mut ways: Vec<f64> =
@@ -56,7 +56,7 @@ impl LongestPolyline {
 }
 
 /// How far each earlier pose is from one.
-fn sides(grid: &Grid, to: usize) -> Vec<f64> {
+fn sides(grid: &KomaFrames, to: usize) -> Vec<f64> {
     (0..to).map(|from| grid.reference.apart(grid.koma(from), grid.koma(to))).collect()
 }
 
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::quality::tests::grid;
 
-    fn length(grid: &Grid, keys: &[usize]) -> f64 {
+    fn length(grid: &KomaFrames, keys: &[usize]) -> f64 {
         let corners = [&[0], keys, &[grid.frames.len() - 1]].concat();
         corners.windows(2).map(|side| grid.reference.apart(side[0], side[1])).sum()
     }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::keys::Bridge;
-use crate::quality::Grid;
+use crate::quality::KomaFrames;
 
 /// What is lost between every two frames when those two alone are keys: the sum over the koma and the
 /// worst koma (区間の誤差), root mean square over the body's points in % of body height.
@@ -17,7 +17,7 @@ pub struct Segments {
 
 impl Segments {
     /// Measures every segment, on all cores: work grows with the third power of the length.
-    pub fn of(grid: &Grid) -> Self {
+    pub fn of(grid: &KomaFrames) -> Self {
         let bridge = Bridge::new(&grid.clip, &grid.reference, &grid.frames);
         // The longest first, so that no thread is left with them at the end.
         let columns = (0..grid.frames.len()).into_par_iter().rev();

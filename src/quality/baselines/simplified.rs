@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use crate::keys::Bridge;
-use crate::quality::Grid;
+use crate::quality::KomaFrames;
 
 /// A list of frames simplified (曲線の単純化): the error of a segment is that of slerping between its
 /// ends at the worst koma, and there it is split. The segment with the largest error goes first, so
@@ -25,7 +25,7 @@ struct Split {
 
 impl Simplified {
     /// Splits until there are `most` keys between both ends, or nothing is left to split.
-    pub fn of(grid: &Grid, most: usize) -> Self {
+    pub fn of(grid: &KomaFrames, most: usize) -> Self {
         let mut bridge = Bridge::new(&grid.clip, &grid.reference, &grid.frames);
         let mut queue = BinaryHeap::new();
         let last = grid.frames.len().saturating_sub(1);
@@ -51,7 +51,7 @@ impl Simplified {
 
 impl Split {
     /// Where a segment would be split; none where nothing lies inside.
-    fn of(grid: &Grid, bridge: &mut Bridge<'_>, from: usize, to: usize) -> Option<Self> {
+    fn of(grid: &KomaFrames, bridge: &mut Bridge<'_>, from: usize, to: usize) -> Option<Self> {
         if to - from < 2 {
             return None;
         }
@@ -140,7 +140,7 @@ mod tests {
             let angles: Vec<f64> = (0..60).map(|at| 40.0 * (f64::from(at) * 0.5).sin()).collect();
             let clip = Arc::new(swing(&angles).with_rate(FrameRate::new(fps).unwrap()));
             let clock = clip.clock(24.0);
-            let grid = Grid::of(clip, clock);
+            let grid = KomaFrames::of(clip, clock);
             let keys = Simplified::of(&grid, usize::MAX).keys(usize::MAX);
             assert_eq!(keys, (1..=grid.inner()).collect::<Vec<_>>(), "{fps}");
         }

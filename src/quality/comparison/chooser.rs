@@ -11,7 +11,7 @@ use crate::pipeline::Engine;
 use crate::quality::baselines::{
     LongestPolyline, Objective, Optimal, Segments, Simplified, every, uniform,
 };
-use crate::quality::{Compare, Grid, Method};
+use crate::quality::{Compare, KomaFrames, Method};
 use crate::recipe::Recipe;
 use crate::study::table_1_recipe;
 use crate::target::with_found;
@@ -32,7 +32,7 @@ pub(super) struct Chooser<'a> {
     /// Koma of the longest clip on which methods whose work is cubic are tried.
     longest: usize,
     engine: Engine,
-    grid: Grid,
+    grid: KomaFrames,
 }
 
 impl<'a> Chooser<'a> {
@@ -40,10 +40,10 @@ impl<'a> Chooser<'a> {
         let recipe = &of.recipe;
         let engine = Engine::new(Arc::clone(&clip))?.with_budget(of.budget);
         let clock = clip.clock(recipe.rate);
-        Ok(Self { recipe, longest, engine, grid: Grid::of(clip, clock) })
+        Ok(Self { recipe, longest, engine, grid: KomaFrames::of(clip, clock) })
     }
 
-    pub(super) fn grid(&self) -> &Grid {
+    pub(super) fn grid(&self) -> &KomaFrames {
         &self.grid
     }
 

@@ -6,14 +6,14 @@ use proptest::prelude::*;
 use super::FilterKind::{Box, Butterworth, Gaussian, Ideal};
 use super::*;
 use crate::motion::JointId;
-use crate::signal::Unit;
+use crate::signal::Quantity;
 use crate::time::Frame;
 
 const KINDS: [FilterKind; 4] = [Box, Gaussian, Ideal, Butterworth];
 const WIDTHS: [f64; 10] = [0.0, 1.0, 1.5, 2.0, 3.0, 7.0, 20.0, 21.0, 33.3, 130.7];
 
 fn signals(values: DMatrix<f64>) -> Signals {
-    Signals { values, unit: Unit::Angle, rate: FrameRate::new(120.0).unwrap(), first: Frame(5) }
+    Signals { values, unit: Quantity::Angle, rate: FrameRate::new(120.0).unwrap(), first: Frame(5) }
 }
 
 fn column(values: &[f64]) -> Signals {

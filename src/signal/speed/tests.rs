@@ -99,7 +99,7 @@ fn displacement_is_the_way_of_the_joint_in_the_world() {
     let root = [Channel::Position(Axis::X), Channel::Rotation(Axis::Z)];
     let rows = [vec![0.0, 0.0], vec![3.0, 0.0], vec![3.0, 90.0]];
     let signals = measured(Measure::Displacement, &clip(chain(&[&root, &[]]), 10.0, &rows));
-    assert_eq!(signals.unit, Unit::Length);
+    assert_eq!(signals.unit, Quantity::Length);
     assert_eq!(signals.joint(JointId(0)), [30.0, 30.0, 0.0]);
     let carried = signals.joint(JointId(1));
     assert!((carried[1] - 30.0).abs() < 1e-12);
@@ -111,7 +111,7 @@ fn combined_adds_both_in_units_of_their_own_rms() {
     let root = [Channel::Position(Axis::X), Channel::Rotation(Axis::Z)];
     let rows = [vec![0.0, 0.0], vec![1.0, 0.0], vec![1.0, 50.0]];
     let signals = measured(Measure::Combined, &clip(chain(&[&root]), 30.0, &rows));
-    assert_eq!(signals.unit, Unit::Ratio);
+    assert_eq!(signals.unit, Quantity::Ratio);
     for value in &signals.values {
         assert!((value - 2f64.sqrt()).abs() < 1e-12, "one of two steps each: {value}");
     }

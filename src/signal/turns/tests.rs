@@ -5,12 +5,12 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::motion::bvh::{self, sample};
-use crate::signal::{FilterKind, LowPass, Spectrum, Speed, Unit};
+use crate::signal::{FilterKind, LowPass, Quantity, Spectrum, Speed};
 use crate::time::FrameRate;
 
 const FIRST: usize = 3;
 
-fn signals(fps: f64, unit: Unit, joints: &[Vec<f64>]) -> Signals {
+fn signals(fps: f64, unit: Quantity, joints: &[Vec<f64>]) -> Signals {
     let frames = joints.first().map_or(0, Vec::len);
     let values = DMatrix::from_column_slice(frames, joints.len(), &joints.concat());
     Signals { values, unit, rate: FrameRate::new(fps).unwrap(), first: Frame(FIRST) }
@@ -31,7 +31,7 @@ fn rows(turns: &[Turn], kind: TurnKind) -> Vec<usize> {
 }
 
 fn keys_and_walls(finder: &TurnFinder, fps: f64, speeds: &[f64]) -> (Vec<usize>, Vec<usize>) {
-    let turns = &finder.find(&signals(fps, Unit::Length, &[speeds.to_vec()]), 0.0)[0];
+    let turns = &finder.find(&signals(fps, Quantity::Length, &[speeds.to_vec()]), 0.0)[0];
     (rows(turns, TurnKind::Key), rows(turns, TurnKind::Wall))
 }
 
@@ -208,10 +208,13 @@ fn settings_refuse_what_is_no_band_and_no_length() {
 fn clips_of_up_to_two_frames_have_no_turns() {
     for reading in [Reading::Event, Reading::Literal] {
         for frames in 0..3 {
-            let speeds = signals(24.0, Unit::Angle, &[vec![1.0; frames], vec![2.0; frames]]);
+            let speeds = signals(24.0, Quantity::Angle, &[vec![1.0; frames], vec![2.0; frames]]);
             assert_eq!(finder(reading, 0.0, 1.0).find(&speeds, 2.0), [vec![], vec![]]);
         }
-        assert_eq!(finder(reading, 0.0, 1.0).find(&signals(24.0, Unit::Angle, &[]), 2.0), [[]; 0]);
+        assert_eq!(
+            finder(reading, 0.0, 1.0).find(&signals(24.0, Quantity::Angle, &[]), 2.0),
+            [[]; 0]
+        );
         let three = keys_and_walls(&finder(reading, 0.0, 1.0), 24.0, &[1.0, 0.0, 1.0]);
         assert_eq!(three, (vec![1], vec![]));
     }
@@ -230,7 +233,7 @@ fn a_joint_that_does_not_change_has_no_turns() {
 #[test]
 fn a_step_is_steady_where_its_acceleration_lies_in_the_band() {
     let steady = |band, speeds: &[f64]| {
-        let speeds = signals(10.0, Unit::Length, &[vec![0.0; speeds.len()], speeds.to_vec()]);
+        let speeds = signals(10.0, Quantity::Length, &[vec![0.0; speeds.len()], speeds.to_vec()]);
         finder(Reading::Event, band, 1.0).steady_steps(&speeds, JointId(1))
     };
     let speeds = [0.0, 2.0, 3.0, 3.0, 2.0, 0.0];
@@ -267,7 +270,8 @@ fn the_literal_table_of_signs_is_the_papers() {
         (-1, -1, false, false),
     ] {
         let speeds = [9.0, 9.0 + sign(before), 9.0 + sign(before) + sign(after)];
-        let turns = &literal.candidates(&signals(1.0, Unit::Length, &[speeds.to_vec()]), 5.0)[0];
+        let turns =
+            &literal.candidates(&signals(1.0, Quantity::Length, &[speeds.to_vec()]), 5.0)[0];
         assert_eq!(!rows(turns, TurnKind::Key).is_empty(), key, "{before} {after}");
         assert_eq!(!rows(turns, TurnKind::Wall).is_empty(), wall, "{before} {after}");
     }
@@ -310,7 +314,10 @@ fn a_pause_of_just_two_koma_is_long() {
 fn the_delay_moves_ends_back_and_starts_on_and_leaves_single_keys() {
     let event = finder(Reading::Event, 0.0, 3.0);
     let moved = |speeds: &[f64], delay| {
-        rows(&event.find(&signals(24.0, Unit::Length, &[speeds.to_vec()]), delay)[0], TurnKind::Key)
+        rows(
+            &event.find(&signals(24.0, Quantity::Length, &[speeds.to_vec()]), delay)[0],
+            TurnKind::Key,
+        )
     };
     assert_eq!(moved(&stop_and_go(), 2.4), [12 - 3, 35 + 2]);
     assert_eq!(moved(&stop_and_go(), 2.5), [12 - 4, 35 + 3]);
@@ -320,7 +327,7 @@ fn the_delay_moves_ends_back_and_starts_on_and_leaves_single_keys() {
 
 #[test]
 fn a_filtered_stop_is_found_where_it_was() {
-    let speeds = signals(24.0, Unit::Length, &[stop_and_go()]);
+    let speeds = signals(24.0, Quantity::Length, &[stop_and_go()]);
     for width in [3.0, 4.8, 7.0] {
         let filter = LowPass { kind: FilterKind::Box, width: Span::Frames(width) };
         let filtered = filter.apply(&Spectrum::of(&speeds));
@@ -338,7 +345,7 @@ fn the_delay_is_what_a_filter_eats_of_a_hold() {
     let speeds = [1.0; 60].into_iter().chain(ramp.clone().rev()).chain([0.0; 120]).chain(ramp);
     let speeds: Vec<f64> =
         speeds.chain([1.0; 60]).map(|speed| (100.0 * speed).to_radians()).collect();
-    let speeds = signals(120.0, Unit::Angle, &[speeds]);
+    let speeds = signals(120.0, Quantity::Angle, &[speeds]);
     let keys = |filter: &LowPass, delay| {
         let filtered = filter.apply(&Spectrum::of(&speeds));
         rows(&TurnFinder::default().find(&filtered, delay)[0], TurnKind::Key)
@@ -358,7 +365,7 @@ fn a_short_hold_of_equal_frames_is_confirmed() {
     // Four koma of hold at 120 frames a second, of which the filter leaves less than two.
     let movement = |speed: f64| (1..=30).map(move |step| speed * f64::from(step));
     let speeds: Vec<f64> = movement(100.0).rev().chain([0.0; 20]).chain(movement(100.0)).collect();
-    let speeds = signals(120.0, Unit::Length, &[speeds]);
+    let speeds = signals(120.0, Quantity::Length, &[speeds]);
     let filter = LowPass::default();
     let filtered = filter.apply(&Spectrum::of(&speeds));
     let turns = TurnFinder::default().find(&filtered, filter.delay(speeds.rate));
@@ -395,7 +402,7 @@ fn frames_beyond_the_clip_count_against_the_letter_alone() {
         assert_eq!(literal.0.len(), usize::from(persistence <= 2.0), "{persistence}");
     }
     let event = finder(Reading::Event, 0.0, 1.0);
-    let turns = event.candidates(&signals(24.0, Unit::Length, &[speeds.to_vec()]), 0.0);
+    let turns = event.candidates(&signals(24.0, Quantity::Length, &[speeds.to_vec()]), 0.0);
     assert_eq!(turns[0][0].confirmed_for, 6, "the clip's length");
 }
 
@@ -407,16 +414,19 @@ fn a_steady_band_is_in_degrees_for_angles_and_as_it_is_for_lengths() {
             .find(&signals(24.0, unit, std::slice::from_ref(&speeds)), 0.0)[0]
             .len()
     };
-    assert_eq!((keys(Unit::Length, 23.9), keys(Unit::Length, 24.1)), (2, 0));
-    assert_eq!((keys(Unit::Ratio, 23.9), keys(Unit::Ratio, 24.1)), (2, 0));
+    assert_eq!((keys(Quantity::Length, 23.9), keys(Quantity::Length, 24.1)), (2, 0));
+    assert_eq!((keys(Quantity::Ratio, 23.9), keys(Quantity::Ratio, 24.1)), (2, 0));
     let degrees = 24f64.to_degrees();
-    assert_eq!((keys(Unit::Angle, 0.999 * degrees), keys(Unit::Angle, 1.001 * degrees)), (2, 0));
+    assert_eq!(
+        (keys(Quantity::Angle, 0.999 * degrees), keys(Quantity::Angle, 1.001 * degrees)),
+        (2, 0)
+    );
 }
 
 #[test]
 fn a_share_is_of_the_joints_own_acceleration() {
     let small: Vec<f64> = stop_and_go().iter().map(|speed| speed / 1000.0).collect();
-    let both = signals(24.0, Unit::Angle, &[stop_and_go(), small]);
+    let both = signals(24.0, Quantity::Angle, &[stop_and_go(), small]);
     let share = |share| TurnFinder { steady: Steady::Share(share), ..TurnFinder::default() };
     let turns = share(0.05).find(&both, 0.0);
     assert_eq!(rows(&turns[0], TurnKind::Key), [11, 35]);
@@ -429,10 +439,10 @@ fn rounding_makes_no_turns_on_a_joint_that_does_not_move() {
     let fast: Vec<f64> = stop_and_go().iter().map(|speed| 1e3 * speed).collect();
     let dust: Vec<f64> = (0..48).map(|row| 1e-7 * f64::from(row % 3)).collect();
     for reading in [Reading::Event, Reading::Literal] {
-        let both = signals(24.0, Unit::Length, &[fast.clone(), dust.clone()]);
+        let both = signals(24.0, Quantity::Length, &[fast.clone(), dust.clone()]);
         let turns = finder(reading, 0.0, 1.0).candidates(&both, 0.0);
         assert!(!turns[0].is_empty() && turns[1].is_empty(), "{reading:?}");
-        let alone = signals(24.0, Unit::Length, std::slice::from_ref(&dust));
+        let alone = signals(24.0, Quantity::Length, std::slice::from_ref(&dust));
         assert!(!finder(reading, 0.0, 1.0).candidates(&alone, 0.0)[0].is_empty(), "{reading:?}");
     }
 }
@@ -441,7 +451,7 @@ fn rounding_makes_no_turns_on_a_joint_that_does_not_move() {
 fn faster_means_by_more_than_rounding() {
     let speeds = [2.0, 1.0, 2.0, 1.0 + 5e-10, 2.0, 2.0];
     let turns = finder(Reading::Literal, 0.0, 1.0)
-        .candidates(&signals(24.0, Unit::Length, &[speeds.to_vec()]), 0.0);
+        .candidates(&signals(24.0, Quantity::Length, &[speeds.to_vec()]), 0.0);
     assert_eq!((turns[0][0].frame, turns[0][0].confirmed_for), (Frame(FIRST + 1), 1));
 }
 
@@ -450,12 +460,12 @@ fn turns_moved_onto_one_frame_are_one_with_the_longer_confirmation() {
     let pause = [0.0; 4];
     let speeds = [&pause[..], &[5.0], &pause, &[9.0, 9.5]].concat();
     let event = finder(Reading::Event, 0.0, 1.0);
-    let turns = &event.candidates(&signals(24.0, Unit::Length, &[speeds]), 1.0)[0];
+    let turns = &event.candidates(&signals(24.0, Quantity::Length, &[speeds]), 1.0)[0];
     let keys: Vec<_> = turns.iter().filter(|turn| turn.kind == TurnKind::Key).collect();
     let frames: Vec<_> = keys.iter().map(|turn| turn.frame.0 - FIRST).collect();
     assert_eq!(frames, [3, 4, 9], "an end from 5 to 3, starts from 3 to 4 and from 8 to 9");
     let turns = &event.candidates(
-        &signals(24.0, Unit::Length, &[[&pause[..], &[5.0], &pause, &[9.0, 9.5]].concat()]),
+        &signals(24.0, Quantity::Length, &[[&pause[..], &[5.0], &pause, &[9.0, 9.5]].concat()]),
         20.0,
     )[0];
     let keys: Vec<_> = turns.iter().filter(|turn| turn.kind == TurnKind::Key).collect();
@@ -466,7 +476,7 @@ fn turns_moved_onto_one_frame_are_one_with_the_longer_confirmation() {
 #[test]
 fn one_column_of_sums_is_a_signal_like_any_other() {
     let summed: Vec<f64> = stop_and_go().iter().map(|speed| speed * 30.0).collect();
-    let layer = signals(24.0, Unit::Angle, &[summed]);
+    let layer = signals(24.0, Quantity::Angle, &[summed]);
     let filter = LowPass::default();
     let filtered = filter.apply(&Spectrum::of(&layer));
     let turns = TurnFinder::default().find(&filtered, filter.delay(layer.rate));
@@ -570,7 +580,7 @@ proptest! {
             for m in [1, 2, 3, 5, 8, 30, 500] {
                 let finder =
                     TurnFinder { reading, steady, persistence: Span::Frames(m as f64), side };
-                let found = finder.find(&signals(fps, Unit::Length, std::slice::from_ref(&speeds)), delay);
+                let found = finder.find(&signals(fps, Quantity::Length, std::slice::from_ref(&speeds)), delay);
                 let found: Vec<_> =
                     found[0].iter().map(|turn| (turn.frame.0 - FIRST, turn.kind)).collect();
                 let floor = DUST * speeds.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -589,7 +599,7 @@ proptest! {
         side in any_side(),
         delay in 0.0..9.0,
     ) {
-        let speeds = signals(24.0, Unit::Length, &[speeds]);
+        let speeds = signals(24.0, Quantity::Length, &[speeds]);
         for reading in [Reading::Event, Reading::Literal] {
             let find = |m: usize| {
                 let persistence = Span::Frames(m as f64);
@@ -609,7 +619,7 @@ proptest! {
         delay in 0.0..20.0,
     ) {
         let frames = speeds.len();
-        let speeds = signals(24.0, Unit::Length, &[speeds]);
+        let speeds = signals(24.0, Quantity::Length, &[speeds]);
         for reading in [Reading::Event, Reading::Literal] {
             let finder = TurnFinder { reading, steady, ..TurnFinder::default() };
             let turns = &finder.candidates(&speeds, delay)[0];
@@ -629,8 +639,8 @@ proptest! {
     ) {
         let finder = TurnFinder { steady, ..TurnFinder::default() };
         let upside_down: Vec<f64> = speeds.iter().map(|speed| -speed).collect();
-        let one = finder.candidates(&signals(48.0, Unit::Length, &[speeds]), delay);
-        let other = finder.candidates(&signals(48.0, Unit::Length, &[upside_down]), delay);
+        let one = finder.candidates(&signals(48.0, Quantity::Length, &[speeds]), delay);
+        let other = finder.candidates(&signals(48.0, Quantity::Length, &[upside_down]), delay);
         prop_assert_eq!(rows(&one[0], TurnKind::Key), rows(&other[0], TurnKind::Wall));
         prop_assert_eq!(rows(&one[0], TurnKind::Wall), rows(&other[0], TurnKind::Key));
     }

@@ -384,10 +384,10 @@ proptest! {
 fn adds_up(
     before: &Layer,
     after: &Layer,
-    report: &Report,
+    report: &OmissionReport,
     settings: &Omission,
 ) -> Result<(), TestCaseError> {
-    let Report { naka_nashi, koma_dori, lengthened } = report;
+    let OmissionReport { naka_nashi, koma_dori, lengthened } = report;
     prop_assert_eq!(
         before.drawings.len(),
         after.drawings.len() + naka_nashi.gone.len() + koma_dori.gone.len()

@@ -11,7 +11,7 @@ use crate::time::{Clock, Frame};
 /// The frames are those nearest to the koma, the first and the last the ends of the clip: keys of a
 /// sheet stand on koma, and finer than that no two methods need be told apart.
 #[derive(Debug, Clone)]
-pub struct Grid {
+pub struct KomaFrames {
     /// The motion.
     pub clip: Arc<Clip>,
     /// The source koma after koma.
@@ -20,7 +20,7 @@ pub struct Grid {
     pub frames: Vec<Frame>,
 }
 
-impl Grid {
+impl KomaFrames {
     /// The frames at the koma of a clock.
     pub fn of(clip: Arc<Clip>, clock: Clock) -> Self {
         let reference = Reference::of(&clip, clock);
