@@ -4,6 +4,7 @@
 //! ```text
 //! commands    the commands, a file each
 //! asked       the command line, and what to type where it was not understood
+//! batch       many clips at once: which, who works on them, what is finished
 //! clip        the motion: which, which part of it, and how it is read
 //! corrections the recipe, and what a person corrects
 //! pins        keys that are marked in a file
@@ -21,6 +22,7 @@
 //! ```
 
 mod asked;
+mod batch;
 mod clip;
 mod commands;
 mod corrections;

@@ -15,17 +15,17 @@ use crate::pipeline::Budget;
 use crate::time::{Frame, FrameRate};
 
 /// The clip, and which part of it.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct ClipArgs {
     /// The motion, a BVH file; - is stdin.
     #[arg(id = "clip", value_name = "CLIP.bvh")]
     pub(super) path: PathBuf,
     #[command(flatten)]
-    part: Part,
+    pub(super) part: Part,
 }
 
 /// Which part of a clip, and how it is read.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Default, Clone, Args)]
 pub(super) struct Part {
     /// Keep a T-pose that was put in front of the motion.
     #[arg(long)]
@@ -38,7 +38,7 @@ pub(super) struct Part {
 }
 
 /// How a clip is read.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Default, Clone, Args)]
 pub(super) struct Reading {
     /// The frame rate, whatever the file says.
     #[arg(long, value_name = "N", value_parser = rate)]
@@ -105,6 +105,11 @@ impl ClipArgs {
 }
 
 impl Part {
+    /// What work may take, where that is asked for, in bytes.
+    pub(super) fn memory(&self) -> Option<f64> {
+        self.reading.memory.map(|gib| gib * 1024.0 * 1024.0 * 1024.0)
+    }
+
     /// What work on it may take.
     pub(super) fn budget(&self) -> Budget {
         self.reading.memory.map_or(Budget::default(), Budget::gib)

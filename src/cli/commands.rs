@@ -1,5 +1,6 @@
 //! The commands: what can be asked on the command line.
 
+mod batch;
 mod compare;
 mod deliver;
 mod eval;
@@ -42,6 +43,8 @@ pub(super) struct Args {
 enum Command {
     /// The whole chain: key tables, timesheet, limited motion and pictures into a folder.
     Run(run::RunArgs),
+    /// Many clips at once: a sheet of each, and tables of all.
+    Batch(batch::BatchArgs),
     /// The window: see the motion, turn the knobs, correct the keys, export.
     Studio(studio::StudioArgs),
     /// A sheet again, edited or not, in the formats that are asked for.
@@ -76,6 +79,7 @@ impl Args {
     pub(super) fn run(self, words: &Words) -> Result<(), Failure> {
         match self.command {
             Command::Run(args) => run::run(&args, words),
+            Command::Batch(args) => batch::run(&args, words),
             Command::Studio(args) => studio::run(args),
             Command::Deliver(args) => deliver::run(&args, words),
             Command::Keys(args) => keys::run(&args, words),

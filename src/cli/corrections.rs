@@ -16,7 +16,7 @@ use crate::time::Frame;
 use crate::timing::held_for;
 
 /// The recipe: a file, then single settings on top.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct Settings {
     /// A recipe file; see `genga recipe`.
     #[arg(long, value_name = "R.toml")]
@@ -27,7 +27,7 @@ pub(super) struct Settings {
 }
 
 /// The recipe, and a person's corrections.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct Corrections {
     #[command(flatten)]
     pub(super) settings: Settings,
@@ -75,7 +75,7 @@ pub(super) struct Corrections {
 }
 
 /// The cels of the sheet, over the recipe.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct LayerArgs {
     /// Layers (セル) with keys and timing of their own: body (one), limbs (trunk with head A, arms B and C, legs D and
     /// E), joints (one for each that moves), or a TOML file of [[layers]] with name and joints.

@@ -12,6 +12,8 @@ pub(super) enum Failure {
     CouldNot(String),
     /// It was asked wrongly: exit code 2.
     AskedWrongly(String),
+    /// A signal asked for an end: exit code 130, as shells have it.
+    Stopped(String),
     /// Whoever read our output has closed it: no failure at all.
     ClosedPipe,
 }
@@ -21,6 +23,7 @@ impl Failure {
         match self {
             Self::CouldNot(_) => 1,
             Self::AskedWrongly(_) => 2,
+            Self::Stopped(_) => 130,
             Self::ClosedPipe => 0,
         }
     }
@@ -59,7 +62,9 @@ impl From<Error> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::CouldNot(message) | Self::AskedWrongly(message) => f.write_str(message),
+            Self::CouldNot(message) | Self::AskedWrongly(message) | Self::Stopped(message) => {
+                f.write_str(message)
+            }
             Self::ClosedPipe => f.write_str("the output was closed"),
         }
     }

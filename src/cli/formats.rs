@@ -13,7 +13,7 @@ use crate::error::{Error, Warning};
 use crate::plot::Camera;
 
 /// What both commands that write formats take.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Default, Clone, Args)]
 pub(super) struct FormatArgs {
     /// A BVH with these rows: the formats bvh and bvh-keys by other words.
     #[arg(long, value_name = "ROWS")]
@@ -73,6 +73,7 @@ pub(super) struct Written {
 }
 
 /// Formats and their settings.
+#[derive(Debug, Clone)]
 pub(super) struct Formats {
     formats: Vec<&'static Format>,
     /// Those that are not only among `all`.
@@ -185,6 +186,18 @@ impl Formats {
             files.extend(shortened(names));
         }
         Ok(Written { files, stale })
+    }
+
+    /// Makes every file, one after the other.
+    pub(super) fn each(
+        &self,
+        cut: &Cut<'_>,
+        put: &mut dyn FnMut(&str, &[u8]) -> Result<(), Error>,
+    ) -> Result<(), Failure> {
+        for format in &self.formats {
+            format.write(cut, &self.settings, &mut |name, bytes| put(name, &bytes))?;
+        }
+        Ok(())
     }
 
     /// Leaves out what cannot be made of the cut and is asked for only by `all`, and gives what a person

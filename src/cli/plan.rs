@@ -1,5 +1,7 @@
 //! What is asked of a clip: the motion, the recipe with a person's corrections, and what the sheet is to be.
 
+use std::path::Path;
+
 use clap::Args;
 
 use super::clip::ClipArgs;
@@ -14,8 +16,8 @@ use crate::pipeline::Engine;
 use crate::recipe::{KNOBS, Recipe};
 use crate::target::{self, Met, Target};
 
-/// The motion, and all that is asked of it.
-#[derive(Debug, Args)]
+/// The motion, and all that is asked of it, whichever clip it is.
+#[derive(Debug, Clone, Args)]
 pub(super) struct PlanArgs {
     #[command(flatten)]
     pub(super) clip: ClipArgs,
@@ -26,8 +28,8 @@ pub(super) struct PlanArgs {
 }
 
 /// What the sheet is to be, instead of the settings that make it so.
-#[derive(Debug, Args)]
-struct TargetArgs {
+#[derive(Debug, Clone, Args)]
+pub(super) struct TargetArgs {
     /// So many genga on the sheet, pins and what stays by itself (ends of rests) with them, the clip's two ends without; over
     /// keys.min_price and keys.per_second.
     #[arg(long, value_name = "N", value_parser = genga, allow_negative_numbers = true)]
@@ -78,7 +80,38 @@ pub(super) struct Plan<'a> {
     pub(super) edits: Edits,
 }
 
+impl PlanArgs {
+    /// What is asked of a clip.
+    pub(super) fn of(clip: ClipArgs, corrections: Corrections, targets: TargetArgs) -> Self {
+        Self { clip, corrections, targets }
+    }
+
+    /// The same of another clip.
+    pub(super) fn for_clip(&self, path: &Path) -> Self {
+        let mut other = self.clone();
+        other.clip.path = path.into();
+        other
+    }
+
+    /// The clip.
+    pub(super) fn clip(&self) -> &Path {
+        &self.clip.path
+    }
+
+    /// Files that say something of the sheet, besides the recipe.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        let Corrections { freeze, pin_from, seen, .. } = &self.corrections;
+        let sheet = freeze.as_deref().filter(|path| path.is_file());
+        sheet.into_iter().chain(pin_from.as_deref()).chain(seen::file(seen))
+    }
+}
+
 impl<'a> Plan<'a> {
+    /// A plan of which recipe and corrections are read.
+    pub(super) fn with(args: &'a PlanArgs, recipe: Recipe, edits: Edits) -> Self {
+        Self { args, recipe, edits }
+    }
+
     /// Reads the recipe, and refuses what cannot be without a look at the motion.
     pub(super) fn of(args: &'a PlanArgs) -> Result<Self, Failure> {
         args.targets.check(&args.corrections)?;

@@ -48,6 +48,27 @@ pub(super) struct Outcome {
 }
 
 impl Results<'_> {
+    /// Does something with the cut that a clip gave.
+    pub(super) fn of_cut<T>(
+        name: &str,
+        clip: &ClipMark,
+        breakdown: &Breakdown<'_>,
+        (recipe, edits): (&Recipe, &Edits),
+        work: impl FnOnce(&Cut<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let exaggerated = !recipe.exaggerate.is_off();
+        work(&Cut {
+            name,
+            clip_file: &clip.file,
+            clip: breakdown.clip,
+            exaggerated: exaggerated.then_some((breakdown.source, &recipe.exaggerate)),
+            sheet: breakdown.sheet,
+            spaced: Some(breakdown.spaced),
+            splits: &breakdown.actions.koma(breakdown.clock),
+            made_with: Some(&MadeWith::of(recipe, edits, breakdown.sheet)),
+        })
+    }
+
     /// Writes them with what else is asked for: all files, or none.
     pub(super) fn write(
         self,
@@ -57,21 +78,13 @@ impl Results<'_> {
         let Self { breakdown, recipe, edits, .. } = self;
         folder.check(&self.clip)?;
         let mut report = Report::of(breakdown, self.notes);
-        let exaggerated = !recipe.exaggerate.is_off();
-        let cut = Cut {
-            name: self.name,
-            clip_file: &self.clip.file,
-            clip: breakdown.clip,
-            exaggerated: exaggerated.then_some((breakdown.source, &recipe.exaggerate)),
-            sheet: breakdown.sheet,
-            spaced: Some(breakdown.spaced),
-            splits: &breakdown.actions.koma(breakdown.clock),
-            made_with: Some(&MadeWith::of(recipe, edits, breakdown.sheet)),
-        };
-        report.notes.extend(formats.settle(&cut)?.iter().map(ToString::to_string));
-        report.notes.extend(self.kept.map(str::to_owned));
         let mut bundle = Bundle::begin(folder.path())?;
-        let mut written = formats.write(&cut, &mut bundle, self.tell)?;
+        let of = (recipe, edits);
+        let mut written = Self::of_cut(self.name, &self.clip, breakdown, of, |cut| {
+            report.notes.extend(formats.settle(cut)?.iter().map(ToString::to_string));
+            report.notes.extend(self.kept.map(str::to_owned));
+            formats.write(cut, &mut bundle, self.tell)
+        })?;
         (self.tell)("speed.svg");
         bundle.add("speed.svg", speeds(breakdown)?)?;
         let settings = recipe.write(edits);

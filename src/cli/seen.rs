@@ -13,7 +13,7 @@ use crate::motion::{Clip, GltfCamera, SeenFrom};
 const ENDINGS: [&str; 2] = [".glb", ".gltf"];
 
 /// From where movement is measured, over the recipe.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Default, Clone, Args)]
 pub(super) struct SeenArgs {
     /// Measure movement on the screen (画面) of a camera instead of in the world: from front, side, three-quarter or
     /// auto (where most is seen); from a place, X,Y,Z:X,Y,Z (where it stands and what it looks at, in the

@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 
 /// The exit code of a program that was stopped, as shells have it.
@@ -41,7 +42,24 @@ pub(super) fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
+/// Whether a signal asks for a pause first, and whether one has.
+static GENTLE: AtomicBool = AtomicBool::new(false);
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// From now on the first signal only [asks](is_asked) for an end; the second is one.
+pub(super) fn gently() {
+    GENTLE.store(true, Ordering::SeqCst);
+}
+
+/// Whether an end was asked for.
+pub(super) fn is_asked() -> bool {
+    ASKED.load(Ordering::SeqCst)
+}
+
 fn stop() {
+    if GENTLE.load(Ordering::SeqCst) && !ASKED.swap(true, Ordering::SeqCst) {
+        return;
+    }
     // Held to the end: whoever would write next waits for ever.
     let folders = unfinished();
     for folder in folders.iter() {

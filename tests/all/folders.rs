@@ -10,7 +10,7 @@ use crate::clips::here;
 use crate::program::{Place, column, text};
 
 /// Every file of a folder and of those in it, by its path.
-fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

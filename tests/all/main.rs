@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod actions; // a long take as its actions
+#[cfg(feature = "cli")]
+mod batch; // many clips at once
 mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod defaults; // the method states every default as it is

@@ -35,8 +35,9 @@ const FILES: [(&str, &str); 12] = [
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 13] = [
+const SUBCOMMANDS: [&str; 14] = [
     "run",
+    "batch",
     "studio",
     "deliver",
     "keys",

@@ -1,0 +1,184 @@
+//! What is finished (作業記録): a line a clip, written when its folder has its place. The next batch reads it and goes on from there.
+
+use std::collections::HashMap;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::super::failure::Failure;
+use super::super::files;
+use super::row::Line;
+use super::shard::Shard;
+
+/// The version of the format, in the file itself.
+const SCHEMA: &str = "genga-batch-1";
+
+/// The first line: of which list it is, and which part.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::cli) struct Header {
+    schema: String,
+    /// The version of genga.
+    genga: String,
+    /// A digest of the names of all clips.
+    pub(in crate::cli) list: String,
+    /// How many clips all parts have.
+    pub(in crate::cli) clips: usize,
+    pub(in crate::cli) part: usize,
+    pub(in crate::cli) parts: usize,
+}
+
+impl Header {
+    pub(in crate::cli) fn of(list: String, clips: usize, shard: Shard) -> Self {
+        let genga = env!("CARGO_PKG_VERSION").into();
+        Self { schema: SCHEMA.into(), genga, list, clips, part: shard.index, parts: shard.count }
+    }
+
+    /// The file of this part in a folder.
+    pub(in crate::cli) fn file(&self, folder: &Path) -> PathBuf {
+        match self.parts {
+            1 => folder.join("batch.jsonl"),
+            _ => folder.join(format!("batch-{}-of-{}.jsonl", self.part, self.parts)),
+        }
+    }
+}
+
+/// Whether a file name is that of a journal.
+pub(in crate::cli) fn is_journal(name: &str) -> bool {
+    name.starts_with("batch") && name.ends_with(".jsonl")
+}
+
+/// Where a line stands in the file.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    begin: u64,
+    length: usize,
+}
+
+/// What is known of a clip without its line.
+#[derive(Debug, Clone)]
+struct Known {
+    at: usize,
+    span: Span,
+    file: String,
+    asked: String,
+    is_done: bool,
+}
+
+/// A journal that is read and written on.
+#[derive(Debug)]
+pub(in crate::cli) struct Journal {
+    path: PathBuf,
+    file: File,
+    end: u64,
+    pub(in crate::cli) header: Header,
+    known: HashMap<String, Known>,
+}
+
+impl Journal {
+    /// Opens the journal of a part of a list. What is there of another list stays known by the names of its clips.
+    pub(in crate::cli) fn open(
+        folder: &Path,
+        header: Header,
+        names: &[&str],
+    ) -> Result<Self, Failure> {
+        let path = header.file(folder);
+        if !path.exists() {
+            return Self::begin(&path, header, &[]);
+        }
+        let before = Self::read(&path)?;
+        if before.header == header {
+            return Ok(before);
+        }
+        // Only what the new list has, at its new places.
+        let places: HashMap<&str, usize> =
+            names.iter().enumerate().map(|(at, name)| (*name, at)).collect();
+        let mut lines = Vec::new();
+        for (name, known) in &before.known {
+            if let Some(at) = places.get(name.as_str()) {
+                lines.push(Line { at: *at, ..before.line_at(known.span)? });
+            }
+        }
+        lines.sort_by_key(|line| line.at);
+        Self::begin(&path, header, &lines)
+    }
+
+    fn begin(path: &Path, header: Header, lines: &[Line]) -> Result<Self, Failure> {
+        let mut text = encoded(&header);
+        lines.iter().for_each(|line| text.push_str(&encoded(line)));
+        files::write(path, text.as_bytes())?;
+        Self::read(path)
+    }
+
+    /// Reads a journal. A last line that was not written whole is cut off.
+    pub(in crate::cli) fn read(path: &Path) -> Result<Self, Failure> {
+        let failed = |error: &dyn std::fmt::Display| {
+            Failure::CouldNot(format!("{}: {error}", path.display()))
+        };
+        let io = |error: io::Error| failed(&error);
+        let file = OpenOptions::new().read(true).append(true).open(path).map_err(io)?;
+        let mut lines = BufReader::new(&file);
+        let mut text = String::new();
+        let mut end = lines.read_line(&mut text).map_err(io)? as u64;
+        let is_ours = |header: &Header| header.schema == SCHEMA;
+        let header = serde_json::from_str(&text).ok().filter(is_ours);
+        let header: Header =
+            header.ok_or_else(|| failed(&"is no journal of a batch that this version can read"))?;
+        let mut known = HashMap::new();
+        loop {
+            text.clear();
+            let length = lines.read_line(&mut text).map_err(io)?;
+            let line = serde_json::from_str::<Line>(&text).ok().filter(|_| text.ends_with('\n'));
+            let Some(line) = line else { break };
+            let span = Span { begin: end, length };
+            let Line { at, clip, file, asked, row, .. } = line;
+            known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+            end += length as u64;
+        }
+        drop(lines);
+        file.set_len(end).map_err(io)?;
+        Ok(Self { path: path.into(), file, end, header, known })
+    }
+
+    /// Whether this clip was done as it is asked for now; then the line of it is not needed.
+    pub(in crate::cli) fn has(&self, name: &str, file: &str, asked: &str) -> bool {
+        self.known
+            .get(name)
+            .is_some_and(|known| known.is_done && known.file == file && known.asked == asked)
+    }
+
+    /// The last line of a clip.
+    pub(in crate::cli) fn line(&self, name: &str) -> Result<Option<Line>, Failure> {
+        self.known.get(name).map(|known| self.line_at(known.span)).transpose()
+    }
+
+    fn line_at(&self, span: Span) -> Result<Line, Failure> {
+        let mut text = vec![0; span.length];
+        let mut file = &self.file;
+        let read = file.seek(SeekFrom::Start(span.begin)).and_then(|_| file.read_exact(&mut text));
+        let line = read.and_then(|()| serde_json::from_slice(&text).map_err(io::Error::other));
+        line.map_err(|error| Failure::CouldNot(format!("{}: {error}", self.path.display())))
+    }
+
+    /// Writes down a clip.
+    pub(in crate::cli) fn add(&mut self, line: Line) -> Result<(), Failure> {
+        let text = encoded(&line);
+        let span = Span { begin: self.end, length: text.len() };
+        let written = self.file.write_all(text.as_bytes());
+        written.map_err(|error| Failure::CouldNot(format!("{}: {error}", self.path.display())))?;
+        self.end += text.len() as u64;
+        let Line { at, clip, file, asked, row, .. } = line;
+        self.known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+        Ok(())
+    }
+
+    /// The clips that it knows, with their places in the list, in no order.
+    pub(in crate::cli) fn places(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.known.iter().map(|(name, known)| (known.at, name.as_str()))
+    }
+}
+
+fn encoded(data: &impl Serialize) -> String {
+    serde_json::to_string(data).expect("plain data") + "\n"
+}

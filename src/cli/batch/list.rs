@@ -1,0 +1,268 @@
+//! Which clips: files, folders, patterns, lists and tables, in the order in which they are named.
+
+use std::collections::HashMap;
+use std::fs;
+use std::io::{self, BufRead};
+use std::path::{Component, Path, PathBuf};
+
+use walkdir::WalkDir;
+
+use super::super::failure::Failure;
+use super::super::files;
+
+/// A clip of a batch.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::cli) struct Item {
+    /// Its file.
+    pub(in crate::cli) path: PathBuf,
+    /// What it is called, once in the list: its path without the folders that all have in common, `/` between them.
+    pub(in crate::cli) name: String,
+    /// What is asked of it alone, as on the command line.
+    pub(in crate::cli) own: Vec<String>,
+    /// Bytes of the file, 0 where there is none.
+    pub(in crate::cli) size: u64,
+}
+
+/// A clip by its path, and what is asked of it alone.
+type Named = (PathBuf, Vec<String>);
+
+/// All clips that are named. Folders are walked by name; what lies in `out` is left out.
+pub(in crate::cli) fn items(words: &[String], out: &Path) -> Result<Vec<Item>, Failure> {
+    let mut named = Vec::new();
+    for word in words {
+        named.extend(of_word(word, out)?);
+    }
+    if named.is_empty() {
+        let words = words.join(" ");
+        return Err(Failure::AskedWrongly(format!(
+            "there is no clip in {words}: name BVH files or folders of them"
+        )));
+    }
+    Ok(called(named))
+}
+
+fn of_word(word: &str, out: &Path) -> Result<Vec<Named>, Failure> {
+    if word == "-" {
+        let lines = io::stdin().lock().lines().collect::<Result<Vec<_>, _>>();
+        return Ok(lined(&lines.map_err(|error| Failure::CouldNot(format!("stdin: {error}")))?));
+    }
+    if let Some(list) = word.strip_prefix('@') {
+        return of_list(Path::new(list));
+    }
+    let path = Path::new(word);
+    if path.is_dir() {
+        return walked(path, out);
+    }
+    if !path.exists() && word.contains(['*', '?', '[']) {
+        return matched(word, out);
+    }
+    match path.exists() {
+        true => Ok(vec![(path.into(), vec![])]),
+        false => Err(Failure::CouldNot(format!("{word}: there is no such file or folder"))),
+    }
+}
+
+/// A file a line; empty lines and those that begin with # say nothing.
+fn lined(lines: &[String]) -> Vec<Named> {
+    let lines = lines.iter().map(|line| line.trim_end_matches('\r'));
+    lines
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'))
+        .map(|line| (line.into(), vec![]))
+        .collect()
+}
+
+fn of_list(list: &Path) -> Result<Vec<Named>, Failure> {
+    let text = String::from_utf8(files::read(list)?)
+        .map_err(|_| Failure::CouldNot(format!("{}: is not UTF-8", list.display())))?;
+    let wrong = |line: usize, reason: String| {
+        Failure::CouldNot(format!("{}:{line}: {reason}", list.display()))
+    };
+    match list.extension().and_then(|ending| ending.to_str()) {
+        Some("csv") => of_table(&text).map_err(|(line, reason)| wrong(line, reason)),
+        Some("jsonl" | "ndjson") => of_objects(&text).map_err(|(line, reason)| wrong(line, reason)),
+        _ => Ok(lined(&text.lines().map(str::to_owned).collect::<Vec<_>>())),
+    }
+}
+
+/// A CSV table: a column `clip`, and columns named as options.
+fn of_table(text: &str) -> Result<Vec<Named>, (usize, String)> {
+    let mut reader = csv::Reader::from_reader(text.trim_start_matches('\u{feff}').as_bytes());
+    let fault = |error: csv::Error| {
+        (error.position().map_or(1, |place| place.line() as usize), error.to_string())
+    };
+    let header = reader.headers().map_err(fault)?.clone();
+    let mut named = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(fault)?;
+        let line = record.position().map_or(1, |place| place.line() as usize);
+        let cells = header.iter().zip(&record).map(|(name, cell)| (name.trim(), cell.to_owned()));
+        named.push(of_cells(cells).map_err(|reason| (line, reason))?);
+    }
+    Ok(named)
+}
+
+/// JSON Lines: an object a clip.
+fn of_objects(text: &str) -> Result<Vec<Named>, (usize, String)> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let object = |(at, line): (usize, &str)| {
+        let read: Result<serde_json::Map<String, serde_json::Value>, _> =
+            serde_json::from_str(line);
+        let object = read.map_err(|error| (at + 1, error.to_string()))?;
+        let cells = object.iter().map(|(name, value)| (name.as_str(), word_of(value)));
+        of_cells(cells).map_err(|reason| (at + 1, reason))
+    };
+    lines.map(object).collect()
+}
+
+/// A value as on the command line.
+fn word_of(value: &serde_json::Value) -> String {
+    match value {
+        serde_json::Value::Null => String::new(),
+        serde_json::Value::String(text) => text.clone(),
+        serde_json::Value::Array(values) => {
+            values.iter().map(word_of).collect::<Vec<_>>().join(",")
+        }
+        other => other.to_string(),
+    }
+}
+
+fn of_cells<'a>(cells: impl Iterator<Item = (&'a str, String)>) -> Result<Named, String> {
+    let (mut path, mut own) = (None, Vec::new());
+    for (name, cell) in cells {
+        match name.strip_prefix("set.") {
+            _ if name == "clip" => path = Some(cell).filter(|cell| !cell.is_empty()),
+            _ if cell.is_empty() || cell == "false" => {}
+            Some(key) => own.push(format!("--set={key}={cell}")),
+            None if cell == "true" => own.push(format!("--{name}")),
+            None => own.push(format!("--{name}={cell}")),
+        }
+    }
+    let path = path.ok_or("the clip is missing: a column clip has its path")?;
+    Ok((path.into(), own))
+}
+
+fn is_clip(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"))
+}
+
+fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
+    let out = fs::canonicalize(out).ok();
+    let is_out = |path: &Path| path.is_dir() && out.is_some() && fs::canonicalize(path).ok() == out;
+    let walk = WalkDir::new(folder).follow_links(true).sort_by_file_name();
+    let mut found = Vec::new();
+    for entry in walk.into_iter().filter_entry(|entry| !is_out(entry.path())) {
+        // A link in a circle is no clip; a folder that may not be read is said.
+        match entry {
+            Ok(entry) if entry.file_type().is_file() && is_clip(entry.path()) => {
+                found.push((entry.into_path(), vec![]));
+            }
+            Ok(_) => {}
+            Err(error) if error.loop_ancestor().is_some() => {}
+            Err(error) => return Err(Failure::CouldNot(error.to_string())),
+        }
+    }
+    Ok(found)
+}
+
+fn matched(pattern: &str, out: &Path) -> Result<Vec<Named>, Failure> {
+    let paths = glob::glob(pattern)
+        .map_err(|error| Failure::AskedWrongly(format!("{pattern}: {error}")))?;
+    let out = fs::canonicalize(out).ok();
+    let is_in_out = |path: &Path| {
+        let real = fs::canonicalize(path).ok();
+        real.zip(out.as_ref()).is_some_and(|(real, out)| real.starts_with(out))
+    };
+    let mut found = Vec::new();
+    for path in paths {
+        let path = path.map_err(|error| Failure::CouldNot(error.to_string()))?;
+        match path.is_dir() {
+            true => found.extend(walked(&path, out.as_deref().unwrap_or(Path::new("")))?),
+            false if is_clip(&path) && !is_in_out(&path) => found.push((path, vec![])),
+            false => {}
+        }
+    }
+    match found.is_empty() {
+        true => Err(Failure::CouldNot(format!("{pattern}: no BVH file matches"))),
+        false => Ok(found),
+    }
+}
+
+/// Gives each clip its name.
+fn called(named: Vec<Named>) -> Vec<Item> {
+    let parts: Vec<Vec<String>> = named.iter().map(|(path, _)| folders(path)).collect();
+    let common = common(&parts);
+    let mut seen: HashMap<String, usize> = HashMap::new();
+    let item = |((path, own), parts): (Named, Vec<String>)| {
+        let mut name = parts[common..].join("/");
+        let count = seen.entry(name.clone()).or_default();
+        *count += 1;
+        if *count > 1 {
+            name = format!("{name}~{count}");
+        }
+        let size = fs::metadata(&path).map_or(0, |about| about.len());
+        Item { path, name, own, size }
+    };
+    named.into_iter().zip(parts).map(item).collect()
+}
+
+/// A path as names, without what only leads there.
+fn folders(path: &Path) -> Vec<String> {
+    let name = |part| match part {
+        Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
+        _ => None,
+    };
+    path.components().filter_map(name).collect()
+}
+
+/// How many folders all have in common.
+fn common(parts: &[Vec<String>]) -> usize {
+    let Some((first, others)) = parts.split_first() else { return 0 };
+    let shared = |other: &Vec<String>| {
+        let most = first.len().min(other.len()).saturating_sub(1);
+        first.iter().zip(other).take(most).take_while(|(a, b)| a == b).count()
+    };
+    others.iter().map(shared).min().unwrap_or(first.len().saturating_sub(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(paths: &[&str]) -> Vec<String> {
+        let named = paths.iter().map(|path| (PathBuf::from(path), vec![])).collect();
+        called(named).into_iter().map(|item| item.name).collect()
+    }
+
+    #[test]
+    fn a_clip_is_called_by_what_is_not_in_common() {
+        assert_eq!(names(&["lib/a/walk.bvh", "lib/b/walk.bvh"]), ["a/walk.bvh", "b/walk.bvh"]);
+        assert_eq!(names(&["lib/a/walk.bvh", "lib/run.bvh"]), ["a/walk.bvh", "run.bvh"]);
+        assert_eq!(names(&["/x/y/walk.bvh"]), ["walk.bvh"]);
+        assert_eq!(
+            names(&["../walk.bvh", "./walk.bvh", "walk.bvh"]),
+            ["walk.bvh", "walk.bvh~2", "walk.bvh~3"]
+        );
+        assert_eq!(names(&["a", "a/b.bvh"]), ["a", "a/b.bvh"]);
+    }
+
+    #[test]
+    fn a_table_says_what_is_asked_of_each_clip() {
+        let table = "clip,trim,set.spacing.on,repair\na.bvh,1..9,3,true\nb.bvh,,,false\n";
+        let lines = "{\"clip\": \"a.bvh\", \"trim\": \"1..9\", \"set.spacing.on\": 3, \"repair\": true}\n\n{\"clip\": \"b.bvh\"}\n";
+        let own = ["--trim=1..9", "--set=spacing.on=3", "--repair"].map(str::to_owned).to_vec();
+        let wanted = vec![("a.bvh".into(), own), ("b.bvh".into(), vec![])];
+        assert_eq!(of_table(table).unwrap(), wanted);
+        let mut read = of_objects(lines).unwrap();
+        read[0].1.sort_by_key(|word| wanted[0].1.iter().position(|other| other == word));
+        assert_eq!(read, wanted);
+        assert_eq!(of_table("trim\n1..9\n").unwrap_err().0, 2);
+        assert_eq!(of_objects("{\"clip\": \"a\"}\n{").unwrap_err().0, 2);
+    }
+
+    #[test]
+    fn a_list_has_a_clip_a_line() {
+        let lines = ["# a list", "", "a b.bvh\r", "c.bvh"].map(str::to_owned);
+        let read: Vec<_> = lined(&lines).into_iter().map(|(path, _)| path).collect();
+        assert_eq!(read, ["a b.bvh", "c.bvh"].map(PathBuf::from));
+    }
+}

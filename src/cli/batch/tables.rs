@@ -1,0 +1,113 @@
+//! The tables of all clips: `summary.csv`, `keys.csv`, and `times.csv` apart, which is never the same twice.
+
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::Path;
+
+use super::super::failure::Failure;
+use super::super::staging::Staging;
+use super::super::stop;
+use super::journal::Journal;
+use super::row::{Line, Row};
+
+/// The files, in the order in which they take their places.
+const FILES: [&str; 3] = ["keys.csv", "times.csv", "summary.csv"];
+
+/// How many were done, and which were not.
+#[derive(Debug, Default, PartialEq)]
+pub(in crate::cli) struct Count {
+    pub(in crate::cli) done: usize,
+    /// The first that failed with why, a line each.
+    pub(in crate::cli) failed: Vec<String>,
+    pub(in crate::cli) failures: usize,
+}
+
+/// Failures that are named in full.
+pub(in crate::cli) const NAMED: usize = 3;
+
+/// Writes the tables of the clips of these names, in their order, as far as the journals know them. The whole of no table is ever
+/// in memory.
+pub(in crate::cli) fn write<'a>(
+    out: &Path,
+    journals: &[Journal],
+    names: impl Iterator<Item = &'a str>,
+) -> Result<Count, Failure> {
+    let io = |error: io::Error| Failure::CouldNot(format!("{}: {error}", out.display()));
+    let staging = Staging::within(out).map_err(io)?;
+    let open = |name: &str| {
+        File::create(staging.place(name)).map(BufWriter::new).map(csv::Writer::from_writer)
+    };
+    let [mut keys, mut times, mut summary] =
+        [open(FILES[0]).map_err(io)?, open(FILES[1]).map_err(io)?, open(FILES[2]).map_err(io)?];
+    let csv = |error: csv::Error| Failure::CouldNot(format!("{}: {error}", out.display()));
+    summary.write_record(Row::HEADER).map_err(csv)?;
+    times.write_record(["clip", "read_ms", "draw_ms", "write_ms"]).map_err(csv)?;
+    let (mut count, mut has_header) = (Count::default(), false);
+    for name in names {
+        let Some(line) = line(journals, name)? else { continue };
+        count.add(&line);
+        summary.write_field(&line.clip).map_err(csv)?;
+        summary.write_record(line.row.cells()).map_err(csv)?;
+        let ms = line.ms.map(|ms| format!("{ms:.1}"));
+        times.write_record([&line.clip, &ms[0], &ms[1], &ms[2]]).map_err(csv)?;
+        copy_keys(&line, &mut keys, &mut has_header).map_err(csv)?;
+    }
+    for table in [&mut keys, &mut times, &mut summary] {
+        table.flush().map_err(io)?;
+    }
+    drop((keys, times, summary));
+    let put =
+        || FILES.iter().try_for_each(|name| std::fs::rename(staging.place(name), out.join(name)));
+    stop::undisturbed(put).map_err(io)?;
+    Ok(count)
+}
+
+/// The last line of a clip, in whichever journal.
+fn line(journals: &[Journal], name: &str) -> Result<Option<Line>, Failure> {
+    journals.iter().find_map(|journal| journal.line(name).transpose()).transpose()
+}
+
+/// The rows of a clip's key table, behind its name.
+fn copy_keys(
+    line: &Line,
+    keys: &mut csv::Writer<BufWriter<File>>,
+    has_header: &mut bool,
+) -> Result<(), csv::Error> {
+    let mut table = csv::ReaderBuilder::new().has_headers(false).from_reader(line.keys.as_bytes());
+    for (at, record) in table.records().enumerate() {
+        let record = record?;
+        match at {
+            0 if *has_header => continue,
+            0 => keys.write_field("clip")?,
+            _ => keys.write_field(&line.clip)?,
+        }
+        *has_header = true;
+        keys.write_record(&record)?;
+    }
+    Ok(())
+}
+
+impl Count {
+    /// Counts the clips of these names as far as the journals know them.
+    pub(in crate::cli) fn of<'a>(
+        journals: &[Journal],
+        names: impl Iterator<Item = &'a str>,
+    ) -> Result<Self, Failure> {
+        let mut count = Self::default();
+        for name in names {
+            line(journals, name)?.iter().for_each(|line| count.add(line));
+        }
+        Ok(count)
+    }
+
+    fn add(&mut self, line: &Line) {
+        if line.row.is_done() {
+            self.done += 1;
+            return;
+        }
+        self.failures += 1;
+        if self.failed.len() < NAMED {
+            self.failed.push(line.row.message.clone());
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! One clip of a batch: read, drawn, written aside.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::time::Instant;
+
+use clap::{Args, Command, FromArgMatches};
+
+use super::super::failure::Failure;
+use super::super::formats::Formats;
+use super::super::plan::{Plan, PlanArgs};
+use super::super::results::Results;
+use super::super::words::Words;
+use super::super::{corrections, files, paths, stop};
+use super::list::Item;
+use super::row::{Line, Row};
+use crate::deliver::{Drawings, Manifest, Report, Rows};
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::recipe::Recipe;
+
+/// What is asked of all clips.
+pub(in crate::cli) struct Asked<'a> {
+    plan: &'a PlanArgs,
+    formats: &'a Formats,
+    recipe: Recipe,
+    edits: Edits,
+    digest: String,
+}
+
+/// What is asked of one.
+struct OfOne {
+    plan: PlanArgs,
+    recipe: Recipe,
+    edits: Edits,
+}
+
+impl<'a> Asked<'a> {
+    pub(in crate::cli) fn of(plan: &'a PlanArgs, formats: &'a Formats) -> Result<Self, Failure> {
+        let Plan { recipe, edits, .. } = Plan::of(plan)?;
+        let digest = digest(plan, formats, &recipe, &edits)?;
+        Ok(Self { plan, formats, recipe, edits, digest })
+    }
+
+    /// The settings of a clip, with what is asked of it alone, and a digest of all.
+    fn of_one(&self, item: &Item) -> Result<(OfOne, String), Failure> {
+        let mut plan = self.plan.for_clip(&item.path);
+        if item.own.is_empty() {
+            let (recipe, edits) = (self.recipe.clone(), self.edits.clone());
+            return Ok((OfOne { plan, recipe, edits }, self.digest.clone()));
+        }
+        plan = with(plan, &item.own)?;
+        let Plan { recipe, edits, .. } = Plan::of(&plan)?;
+        let digest = digest(&plan.for_clip(Path::new("")), self.formats, &recipe, &edits)?;
+        Ok((OfOne { plan, recipe, edits }, digest))
+    }
+}
+
+/// A plan with more words of a command line.
+fn with(mut plan: PlanArgs, words: &[String]) -> Result<PlanArgs, Failure> {
+    let set = plan.corrections.settings.set.clone();
+    let command = PlanArgs::augment_args_for_update(Command::new("genga").no_binary_name(true));
+    let wrong = |error: clap::Error| Failure::AskedWrongly(first_line(&error.to_string()));
+    let matches = command.try_get_matches_from(words).map_err(wrong)?;
+    plan.update_from_arg_matches(&matches).map_err(wrong)?;
+    let own = &mut plan.corrections.settings.set;
+    if *own != set {
+        // What is set for all is set first.
+        own.splice(0..0, set);
+    }
+    Ok(plan)
+}
+
+fn first_line(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    line.trim_start_matches("error: ").to_owned()
+}
+
+/// A digest of everything that a result depends on besides the motion.
+fn digest(
+    plan: &PlanArgs,
+    formats: &Formats,
+    recipe: &Recipe,
+    edits: &Edits,
+) -> Result<String, Failure> {
+    let mut text =
+        format!("{}\n{plan:?}\n{formats:?}\n{}", env!("CARGO_PKG_VERSION"), recipe.write(edits));
+    for path in plan.files() {
+        text += &Manifest::digest(&files::read(path)?);
+    }
+    Ok(Manifest::digest(text.as_bytes()))
+}
+
+/// Of a file so much is in memory at a time.
+const BLOCK: usize = 1 << 20;
+
+/// A digest of the digests of a file's blocks.
+fn digest_of_file(path: &Path) -> Result<String, Failure> {
+    let failed = |source| Failure::from(Error::Io { path: path.to_owned(), source });
+    let mut file = File::open(path).map_err(failed)?;
+    let (mut block, mut digests) = (Vec::new(), String::new());
+    loop {
+        block.clear();
+        let count = (&mut file).take(BLOCK as u64).read_to_end(&mut block).map_err(failed)?;
+        if count == 0 {
+            return Ok(Manifest::digest(digests.as_bytes()));
+        }
+        digests += &Manifest::digest(&block);
+    }
+}
+
+/// A clip that is worked on: by what it is known, before anything is done.
+pub(in crate::cli) struct Begun<'a> {
+    at: usize,
+    item: &'a Item,
+    file: String,
+    asked: Result<(OfOne, String), Failure>,
+}
+
+impl<'a> Begun<'a> {
+    pub(in crate::cli) fn of(asked: &Asked<'_>, at: usize, item: &'a Item) -> Self {
+        let file = digest_of_file(&item.path);
+        let asked = file.as_ref().map_err(|_| ()).map(|_| asked.of_one(item));
+        match (file, asked) {
+            (Ok(file), Ok(asked)) => Self { at, item, file, asked },
+            (file, _) => {
+                let failure = file.err().unwrap_or_else(|| Failure::CouldNot(String::new()));
+                Self { at, item, file: String::new(), asked: Err(failure) }
+            }
+        }
+    }
+
+    /// By what the clip and what is asked of it are known again.
+    pub(in crate::cli) fn digests(&self) -> (&str, &str) {
+        (&self.file, self.asked.as_ref().map_or("", |(_, digest)| digest))
+    }
+
+    /// Draws it, and writes its files into a folder of its own. A clip that cannot be done is a row as well; only what cannot be
+    /// written stops the batch.
+    pub(in crate::cli) fn finish(self, formats: &Formats, ready: &Path) -> Result<Line, Failure> {
+        let Self { at, item, file, asked } = self;
+        let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
+        let mut warnings = Vec::new();
+        let drawn = asked.and_then(|(own, digest)| {
+            let work = || drawn(&own, &digest, formats, ready, &mut warnings);
+            let fault = |_| {
+                Failure::CouldNot(format!(
+                    "{}: genga failed on this clip, which is a fault of its own",
+                    item.path.display()
+                ))
+            };
+            catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(fault(panic)))
+        });
+        let mut line = Line {
+            at,
+            clip: item.name.clone(),
+            file,
+            asked: digest,
+            row: Row::default(),
+            keys: String::new(),
+            files: BTreeMap::new(),
+            ms: [0.0; 3],
+        };
+        match drawn {
+            Ok(Drawn { row, keys, files, ms }) => {
+                (line.row, line.keys, line.files, line.ms) = (row, keys, files, ms)
+            }
+            Err(failure) => {
+                if let Some(failure) = unwritten(&failure, ready) {
+                    return Err(failure);
+                }
+                let _ = fs::remove_dir_all(ready);
+                line.row = Row::failed(failure.to_string(), warnings);
+            }
+        }
+        Ok(line)
+    }
+}
+
+/// What could not be written: the name of a staged file is in its message.
+fn unwritten(failure: &Failure, ready: &Path) -> Option<Failure> {
+    let message = failure.to_string();
+    message.starts_with(&*ready.to_string_lossy()).then_some(Failure::CouldNot(message))
+}
+
+/// What came of a clip.
+struct Drawn {
+    row: Row,
+    keys: String,
+    files: BTreeMap<String, String>,
+    ms: [f64; 3],
+}
+
+fn drawn(
+    own: &OfOne,
+    digest: &str,
+    formats: &Formats,
+    ready: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Drawn, Failure> {
+    let (begin, mute) = (Instant::now(), Words::new(true));
+    let mut plan = Plan::with(&own.plan, own.recipe.clone(), own.edits.clone());
+    let path = own.plan.clip();
+    let (mut engine, clip) = plan.read(&mut |warning| {
+        if !warnings.iter().any(|code| code == warning.code) {
+            warnings.push(warning.code.into());
+        }
+    })?;
+    let read = Instant::now();
+    let mut notes = Vec::new();
+    plan.settle(&mut engine, &mute, &mut |note| notes.push(note))?;
+    let Plan { recipe, edits, .. } = &plan;
+    let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(path))?;
+    notes.extend(corrections::unmoved(edits, &breakdown));
+    let report = Report::of(&breakdown, notes);
+    let name = paths::stem(path);
+    let keys =
+        Drawings { cut: name.clone(), rows: Rows::Keys }.write(breakdown.clip, breakdown.sheet)?;
+    let found = Instant::now();
+    let mut files = BTreeMap::new();
+    let mut formats = formats.clone();
+    let motion = clip.motion.clone();
+    Results::of_cut(&name, &clip, &breakdown, (recipe, edits), |cut| {
+        formats.settle(cut)?;
+        formats.each(cut, &mut |name, bytes| {
+            files.insert(name.to_owned(), Manifest::digest(bytes));
+            write(&ready.join(name), bytes)
+        })
+    })?;
+    let row = Row::done(&report, motion, digest.to_owned(), std::mem::take(warnings));
+    let ms = [read - begin, found - read, found.elapsed()].map(|time| time.as_secs_f64() * 1e3);
+    Ok(Drawn { row, keys, files, ms })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let write = || {
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        fs::write(path, bytes)
+    };
+    stop::undisturbed(write).map_err(|source| Error::Io { path: path.to_owned(), source })
+}

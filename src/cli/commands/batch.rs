@@ -1,0 +1,327 @@
+//! `genga batch`: many clips at once, what is finished kept, and tables of all.
+
+use std::collections::HashSet;
+use std::fs;
+use std::io::{Write, stdout};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use clap::{Args, ValueEnum};
+
+use crate::cli::batch::crew::Crew;
+use crate::cli::batch::journal::{Header, Journal, is_journal};
+use crate::cli::batch::list::{self, Item};
+use crate::cli::batch::place::Places;
+use crate::cli::batch::row::Row;
+use crate::cli::batch::shard::{Shard, largest_first};
+use crate::cli::batch::tables::{self, Count, NAMED};
+use crate::cli::batch::work::{Asked, Begun};
+use crate::cli::clip::{ClipArgs, Part};
+use crate::cli::corrections::Corrections;
+use crate::cli::failure::Failure;
+use crate::cli::formats::{FormatArgs, Formats, help, long_help};
+use crate::cli::plan::{PlanArgs, TargetArgs};
+use crate::cli::staging::Staging;
+use crate::cli::stop;
+use crate::cli::words::{Bar, Words, counted};
+use crate::deliver::Manifest;
+
+#[derive(Debug, Args)]
+#[command(after_help = help(), after_long_help = long_help())]
+pub(super) struct BatchArgs {
+    /// BVH files, folders of them, patterns ("lib/**/*.bvh"), @list.txt (a file a line), @table.csv or @table.jsonl (a
+    /// column clip, others named as options: trim, fps, recipe, pin, set.spacing.on), - for a list on stdin.
+    #[arg(value_name = "CLIPS", required_unless_present = "join")]
+    clips: Vec<String>,
+    #[command(flatten)]
+    part: Part,
+    #[command(flatten)]
+    corrections: Corrections,
+    #[command(flatten)]
+    targets: TargetArgs,
+    /// Formats of each clip: --deliver json,xdts, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', default_value = "json")]
+    deliver: Vec<String>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    /// The folder for tables, and for a folder a clip. What is finished there is not done again.
+    #[arg(long, short, value_name = "DIR", required = true)]
+    out: PathBuf,
+    /// One part of the list, of as many bytes as every other: 1/4 to 4/4 on four machines. Then --join.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Make the tables of parts that are done, in these folders.
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["clips", "shard"])]
+    join: Vec<PathBuf>,
+    /// Clips that are worked on at the same time [default: one a core].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Stop at the first clip that fails.
+    #[arg(long)]
+    fail_fast: bool,
+    /// How progress is told: a bar on a terminal, or lines on stdout for programs.
+    #[arg(long, value_name = "HOW", default_value = "bar")]
+    progress: Progress,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Progress {
+    /// A bar, where somebody watches.
+    Bar,
+    /// A JSON object a clip.
+    Json,
+    /// As Open Job Description has it, for render farms.
+    Openjd,
+    /// Not at all.
+    None,
+}
+
+/// Memory for all clips that are worked on at the same time, unless --memory says otherwise.
+const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
+
+pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    fs::create_dir_all(&args.out).map_err(|error| cannot(&args.out, &error))?;
+    if !args.join.is_empty() {
+        return join(args, words);
+    }
+    let formats = Formats::new("deliver", &args.deliver, &[], &args.formats)?;
+    let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
+    let plan = PlanArgs::of(clip, args.corrections.clone(), args.targets.clone());
+    let asked = Asked::of(&plan, &formats)?;
+    let items = list::items(&args.clips, &args.out)?;
+    let batch = Batch::begin(args, &items, &asked, &formats)?;
+    batch.work(words)?;
+    batch.close(args, words)
+}
+
+/// A batch that is worked on.
+struct Batch<'a> {
+    items: &'a [Item],
+    asked: &'a Asked<'a>,
+    formats: &'a Formats,
+    places: Places<'a>,
+    staging: Staging,
+    /// The places of its clips in the list, in order.
+    own: Vec<usize>,
+    crew: Crew,
+    fails_fast: bool,
+    progress: Progress,
+    state: Mutex<State>,
+}
+
+/// What changes while it is worked on.
+struct State {
+    journal: Journal,
+    done: usize,
+    failed: usize,
+    /// Why it cannot go on.
+    fault: Option<Failure>,
+}
+
+impl<'a> Batch<'a> {
+    fn begin(
+        args: &'a BatchArgs,
+        items: &'a [Item],
+        asked: &'a Asked<'a>,
+        formats: &'a Formats,
+    ) -> Result<Self, Failure> {
+        let names: Vec<&str> = items.iter().map(|item| item.name.as_str()).collect();
+        let sizes: Vec<u64> = items.iter().map(|item| item.size).collect();
+        let shard = args.shard.unwrap_or_default();
+        let list = Manifest::digest(names.join("\n").as_bytes());
+        let staging = Staging::within(&args.out).map_err(|error| cannot(&args.out, &error))?;
+        let journal = Journal::open(&args.out, Header::of(list, items.len(), shard), &names)?;
+        // From here on a signal lets what is begun be finished.
+        stop::gently();
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let jobs = args.jobs.map_or(cores, usize::from);
+        let room = args.part.memory().unwrap_or(ROOM) as u64;
+        Ok(Self {
+            items,
+            asked,
+            formats,
+            places: Places { out: &args.out, is_forced: args.formats.force },
+            staging,
+            own: shard.deal(&sizes),
+            crew: Crew { jobs, room },
+            fails_fast: args.fail_fast,
+            progress: args.progress,
+            state: Mutex::new(State { journal, done: 0, failed: 0, fault: None }),
+        })
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn work(&self, words: &Words) -> Result<(), Failure> {
+        let is_watched = self.progress == Progress::Bar;
+        let bar = is_watched.then(|| words.counting(self.own.len(), "clips"));
+        let sizes: Vec<u64> = self.own.iter().map(|at| self.items[*at].size).collect();
+        let order: Vec<usize> = largest_first(&sizes).into_iter().map(|at| self.own[at]).collect();
+        let is_over = || {
+            let state = self.state();
+            stop::is_asked() || state.fault.is_some() || self.fails_fast && state.failed > 0
+        };
+        self.crew.each(
+            &order,
+            |at| self.items[at].size,
+            is_over,
+            |at| {
+                let told = self.one(at).and_then(|is_done| self.tell(at, is_done, bar.as_ref()));
+                if let Err(failure) = told {
+                    self.state().fault.get_or_insert(failure);
+                }
+            },
+        )?;
+        self.state().fault.take().map_or(Ok(()), Err)
+    }
+
+    /// Does a clip, unless it is done. Gives whether it could be.
+    fn one(&self, at: usize) -> Result<bool, Failure> {
+        let item = &self.items[at];
+        let begun = Begun::of(self.asked, at, item);
+        let (file, asked) = begun.digests();
+        let before = {
+            let state = self.state();
+            let line = state.journal.line(&item.name)?;
+            let is_there =
+                line.as_ref().is_some_and(|line| self.places.has(&item.name, &line.files));
+            if is_there && state.journal.has(&item.name, file, asked) {
+                return Ok(true);
+            }
+            line.map(|line| line.files).unwrap_or_default()
+        };
+        let (ready, old) =
+            (self.staging.place(&format!("{at}")), self.staging.place(&format!("{at}-old")));
+        let mut line = begun.finish(self.formats, &ready)?;
+        let mut state = self.state();
+        stop::undisturbed(|| {
+            match self.places.put(&item.name, (&ready, &old), &line.files, &before) {
+                Err(Failure::AskedWrongly(message)) => {
+                    line.row = Row::failed(message, vec![]);
+                    line.files = before;
+                    line.keys.clear();
+                }
+                put => put?,
+            }
+            let is_done = line.row.is_done();
+            state.journal.add(line).map(|()| is_done)
+        })
+    }
+
+    fn tell(&self, at: usize, is_done: bool, bar: Option<&Bar>) -> Result<(), Failure> {
+        let mut state = self.state();
+        state.done += 1;
+        state.failed += usize::from(!is_done);
+        bar.iter().for_each(|bar| bar.count());
+        let (done, failed, of) = (state.done, state.failed, self.own.len());
+        let line = match self.progress {
+            Progress::Bar | Progress::None => return Ok(()),
+            Progress::Json => {
+                let clip = &self.items[at].name;
+                serde_json::json!({"clip": clip, "is_done": is_done, "done": done, "failed": failed, "of": of}).to_string()
+            }
+            Progress::Openjd => {
+                let share = 100.0 * done as f64 / of as f64;
+                format!(
+                    "openjd_progress: {share:.1}\nopenjd_status: {done} of {of} clips, {failed} failed"
+                )
+            }
+        };
+        // Nobody listening is no reason to stop.
+        let _ = writeln!(stdout(), "{line}");
+        Ok(())
+    }
+
+    /// Writes the tables of what is finished, and says how it ended.
+    fn close(self, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+        let names = || self.own.iter().map(|at| self.items[*at].name.as_str());
+        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let journals = [state.journal];
+        let count = match args.shard {
+            None => tables::write(&args.out, &journals, names())?,
+            Some(_) => Count::of(&journals, names())?,
+        };
+        let of = self.own.len();
+        if stop::is_asked() {
+            let finished = count.done + count.failures;
+            return Err(Failure::Stopped(format!(
+                "stopped with {finished} of {of} clips finished; the same command goes on from there"
+            )));
+        }
+        end(&count, of, args, words)
+    }
+}
+
+/// Makes the tables of all parts.
+fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    let mut journals = Vec::new();
+    for folder in &args.join {
+        let entries = fs::read_dir(folder).map_err(|error| cannot(folder, &error))?;
+        let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        files.retain(|file| {
+            file.file_name().is_some_and(|name| is_journal(&name.to_string_lossy()))
+        });
+        files.sort();
+        for file in files {
+            journals.push(Journal::read(&file)?);
+        }
+    }
+    check_parts(&journals)?;
+    let mut clips: Vec<(usize, String)> = Vec::new();
+    journals
+        .iter()
+        .for_each(|journal| clips.extend(journal.places().map(|(at, name)| (at, name.to_owned()))));
+    clips.sort();
+    let of = journals.first().map_or(0, |journal| journal.header.clips);
+    let count = tables::write(&args.out, &journals, clips.iter().map(|(_, name)| name.as_str()))?;
+    end(&count, of, args, words)
+}
+
+/// Refuses parts that are not all of one list.
+fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
+    let wrongly = |message: String| Err(Failure::AskedWrongly(format!("--join: {message}")));
+    let Some(first) = journals.first() else {
+        return wrongly("there is no batch in these folders; name those that --out named".into());
+    };
+    let (list, parts) = (&first.header.list, first.header.parts);
+    if journals.iter().any(|journal| &journal.header.list != list || journal.header.parts != parts)
+    {
+        return wrongly(
+            "these folders are of different lists, or of lists that were dealt differently".into(),
+        );
+    }
+    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
+    match (1..=parts).find(|part| !there.contains(part)) {
+        Some(part) => wrongly(format!(
+            "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Says how it ended.
+fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    let Count { done, failed, failures } = count;
+    let out = args.out.display();
+    let tables =
+        if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
+    words.say(format_args!(
+        "batch       一括       {} of {of} done into {out}: {tables}",
+        counted(*done, "clip")
+    ));
+    if *failures == 0 {
+        return Ok(());
+    }
+    let more = if *failures > NAMED { "; …, all in summary.csv" } else { "" };
+    let message = format!("{failures} of {of} failed: {}{more}", failed.join("; "));
+    if args.progress == Progress::Openjd {
+        let _ = writeln!(stdout(), "openjd_fail: {message}");
+    }
+    Err(Failure::CouldNot(message))
+}
+
+fn cannot(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::CouldNot(format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,245 @@
+//! Many clips at once: whatever happens on the way, the end result is that of one undisturbed batch.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use crate::folders::all;
+use crate::program::{Place, text};
+
+/// A library: the sample clips, folders with clips of one name, broken clips, and files that are none.
+fn library(place: &Place) -> usize {
+    let samples = ["kick", "tennis", "pitch"];
+    let mut count = 0;
+    let mut put = |name: &str, bytes: &[u8]| {
+        let path = place.path("lib").join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+        count += usize::from(name.ends_with("bvh"));
+    };
+    for folder in ["a", "b/deep", "c"] {
+        for sample in samples {
+            let Ok(bytes) = fs::read(crate::clips::here(&format!("data/{sample}.bvh"))) else {
+                continue;
+            };
+            put(&format!("{folder}/{sample}.bvh"), &bytes);
+        }
+        put(
+            &format!("{folder}/walk, \"2\".bvh"),
+            &fs::read(crate::clips::here("data/kick.bvh")).unwrap(),
+        );
+    }
+    put("broken/empty.bvh", b"");
+    put("broken/words.bvh", b"HIERARCHY\nROOT a\n{\n OFFSET 0 0 zero\n");
+    put("notes.txt", b"no clip");
+    count
+}
+
+/// All that is the same whenever and in whatever order it is made.
+fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
+    let mut files = all(&place.path(folder));
+    files.retain(|name, _| name != "times.csv" && !name.ends_with(".jsonl"));
+    files
+}
+
+fn code(place: &Place, args: &str) -> (i32, String) {
+    let output = place.genga(args);
+    (output.status.code().unwrap_or(-1), text(&output.stderr))
+}
+
+#[test]
+fn a_library_is_a_row_and_a_folder_a_clip_and_the_broken_do_not_end_it() {
+    let place = Place::new();
+    let clips = library(&place);
+    let (code, said) = code(&place, "batch lib --out out --deliver json,xdts");
+    assert_eq!(code, 1, "{said}");
+    assert!(said.contains(&format!("2 of {clips} failed: ")), "{said}");
+    assert!(said.contains("words.bvh:4:13: "), "with the place of its mistake: {said}");
+    let files = results(&place, "out");
+    let summary = text(&files["summary.csv"]);
+    assert_eq!(summary.lines().count(), clips + 1);
+    let named: Vec<String> = csv::Reader::from_reader(summary.as_bytes())
+        .records()
+        .map(|row| row.unwrap()[0].to_owned())
+        .collect();
+    assert!(named.is_sorted() && named.contains(&"b/deep/walk, \"2\".bvh".to_owned()), "{named:?}");
+    assert!(
+        files.contains_key("clips/a/kick.bvh/sheet.json")
+            && files.contains_key("clips/c/kick.bvh/kick_genga.xdts")
+    );
+    assert!(!files.keys().any(|name| name.contains("broken") || name.contains("notes")));
+    // A clip of it is what a run of it gives.
+    place.done("run data/kick.bvh --out one");
+    assert_eq!(files["clips/a/kick.bvh/sheet.json"], place.files("one")["sheet.json"]);
+    let own = text(&place.files("one")["keys.csv"]);
+    let keys = text(&files["keys.csv"]);
+    assert_eq!(keys.lines().next().unwrap(), format!("clip,{}", own.lines().next().unwrap()));
+    let of_kick: Vec<&str> =
+        keys.lines().filter_map(|line| line.strip_prefix("a/kick.bvh,")).collect();
+    assert_eq!(of_kick, own.lines().skip(1).collect::<Vec<_>>());
+}
+
+#[test]
+fn what_is_finished_is_not_done_again_and_what_changed_is() {
+    let place = Place::new();
+    library(&place);
+    code(&place, "batch lib --out out");
+    let first = results(&place, "out");
+    let sheet = place.path("out/clips/a/kick.bvh/sheet.json");
+    let made = |path: &std::path::Path| fs::metadata(path).unwrap().modified().unwrap();
+    let before = made(&sheet);
+    code(&place, "batch lib --out out");
+    assert_eq!(results(&place, "out"), first);
+    assert_eq!(made(&sheet), before, "not written again");
+    // Another setting, and another motion in one file.
+    code(&place, "batch lib --out out --set spacing.on=3");
+    assert_ne!(
+        results(&place, "out")["clips/a/kick.bvh/sheet.json"],
+        first["clips/a/kick.bvh/sheet.json"]
+    );
+    code(&place, "batch lib --out fresh --set spacing.on=3");
+    assert_eq!(results(&place, "out"), results(&place, "fresh"));
+    fs::copy(crate::clips::here("data/kick.bvh"), place.path("lib/broken/empty.bvh")).unwrap();
+    code(&place, "batch lib --out out");
+    assert!(place.path("out/clips/broken/empty.bvh/sheet.json").exists());
+    // Another list: what is known of its clips stays known.
+    fs::remove_file(place.path("lib/a/kick.bvh")).unwrap();
+    code(&place, "batch lib --out out");
+    code(&place, "batch lib --out again");
+    assert_eq!(results(&place, "out")["summary.csv"], results(&place, "again")["summary.csv"]);
+}
+
+#[test]
+fn what_a_person_changed_is_kept_and_is_a_row() {
+    let place = Place::new();
+    library(&place);
+    code(&place, "batch lib/a --out out");
+    let sheet = place.path("out/clips/kick.bvh/sheet.json");
+    fs::write(&sheet, "mine").unwrap();
+    let (exit, said) = code(&place, "batch lib/a --out out --set spacing.on=3");
+    assert_eq!(exit, 1, "{said}");
+    assert!(
+        said.contains("sheet.json: this file is not as a batch wrote it") && said.contains("1 of"),
+        "{said}"
+    );
+    assert_eq!(fs::read_to_string(&sheet).unwrap(), "mine");
+    let (exit, said) = code(&place, "batch lib/a --out out --set spacing.on=3 --force");
+    assert_eq!(exit, 0, "{said}");
+    assert_ne!(fs::read_to_string(&sheet).unwrap(), "mine");
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_at_any_time_and_begun_again_it_ends_as_if_undisturbed() {
+    let place = Place::new();
+    library(&place);
+    code(&place, "batch lib --out whole --deliver json,bars");
+    let whole = results(&place, "whole");
+    let args = "batch lib --out killed --deliver json,bars";
+    for at in 0..20_u64 {
+        let mut child = place.begun(args);
+        std::thread::sleep(std::time::Duration::from_millis((at * 37) % 190));
+        let signal = ["KILL", "INT", "KILL", "TERM"][at as usize % 4];
+        std::process::Command::new("kill")
+            .args(["-s", signal, &child.id().to_string()])
+            .status()
+            .unwrap();
+        child.wait().unwrap();
+        if at % 5 == 4 {
+            fs::remove_dir_all(place.path("killed/clips")).ok();
+        }
+    }
+    code(&place, args);
+    assert_eq!(results(&place, "killed"), whole);
+}
+
+#[test]
+fn parts_on_several_machines_are_joined_to_what_one_gives() {
+    let place = Place::new();
+    library(&place);
+    code(&place, "batch lib --out whole");
+    let whole = results(&place, "whole");
+    for part in 1..=3 {
+        let folder = if part == 3 { "other" } else { "parts" };
+        code(&place, &format!("batch lib --out {folder} --shard {part}/3 --jobs 1"));
+        assert!(!place.path("parts/summary.csv").exists(), "of a part there is none");
+        if part == 2 {
+            let said = place.refused(2, "batch --join parts --out joined");
+            assert!(said.contains("part 3 of 3 is missing: genga batch … --shard 3/3"), "{said}");
+        }
+    }
+    let (exit, said) = code(&place, "batch --join parts other --out joined");
+    assert_eq!(exit, 1, "the broken are broken: {said}");
+    let joined = results(&place, "joined");
+    for table in ["summary.csv", "keys.csv"] {
+        assert_eq!(text(&joined[table]), text(&whole[table]), "{table}");
+    }
+    let mut parts = results(&place, "parts");
+    parts.extend(results(&place, "other"));
+    parts.extend(joined);
+    assert_eq!(parts, whole);
+    let said = place.refused(2, "batch --join parts whole --out joined");
+    assert!(said.contains("different lists"), "{said}");
+}
+
+#[test]
+fn a_table_asks_of_each_clip_its_own() {
+    let place = Place::new();
+    library(&place);
+    let table = "clip,trim,set.spacing.on,pin\nlib/a/kick.bvh,10..60,3,\nlib/a/kick.bvh,,,55\nlib/a/kick.bvh,,,x\nlib/none.bvh,,,\n";
+    fs::write(place.path("list.csv"), table).unwrap();
+    let (exit, said) = code(&place, "batch @list.csv --out out --set keys.min_price=9");
+    assert_eq!(exit, 1, "{said}");
+    assert!(said.contains("2 of 4 failed"), "{said}");
+    place.done(
+        "run lib/a/kick.bvh --trim 10..60 --set keys.min_price=9 --set spacing.on=3 --out one",
+    );
+    place.done("run lib/a/kick.bvh --pin 55 --set keys.min_price=9 --out two");
+    let files = results(&place, "out");
+    for (clip, run) in [("kick.bvh", "one"), ("kick.bvh~2", "two")] {
+        assert_eq!(
+            files[&format!("clips/a/{clip}/sheet.json")],
+            place.files(run)["sheet.json"],
+            "{clip}"
+        );
+    }
+    let listed = place.fed("batch - --out listed", b"# two\nlib/a/kick.bvh\nlib/c/kick.bvh\n");
+    assert_eq!(listed.status.code(), Some(0));
+    assert!(place.path("listed/clips/c/kick.bvh/sheet.json").exists());
+}
+
+#[test]
+fn progress_is_lines_for_programs() {
+    let place = Place::new();
+    let clips = library(&place);
+    let output = place.genga("batch lib/*/kick.bvh lib/broken --out out --progress json");
+    let lines: Vec<serde_json::Value> =
+        text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(
+        lines.len() < clips && lines.iter().enumerate().all(|(at, line)| line["done"] == at + 1),
+        "{lines:?}"
+    );
+    assert_eq!(lines.last().unwrap()["failed"], 2);
+    let said = text(&place.genga("batch lib/broken --out farm --progress openjd").stdout);
+    assert!(
+        said.contains("openjd_progress: 50.0") && said.contains("openjd_fail: 2 of 2 failed"),
+        "{said}"
+    );
+    let said = place.refused(1, "batch lib --out fast --fail-fast --jobs 1 -q");
+    assert!(said.contains("failed"), "{said}");
+}
+
+#[test]
+fn what_there_is_no_clip_of_is_said() {
+    let place = Place::new();
+    library(&place);
+    fs::create_dir(place.path("none")).unwrap();
+    for (args, code, reason) in [
+        ("batch none --out o", 2, "there is no clip in none"),
+        ("batch nowhere.bvh --out o", 1, "nowhere.bvh: there is no such file"),
+        ("batch lib/*.mp4 --out o", 1, "lib/*.mp4: no BVH file matches"),
+        ("batch lib --out o --shard 5/4", 2, "expected a part"),
+    ] {
+        let said = place.refused(code, args);
+        assert!(said.contains(reason), "{args}: {said}");
+    }
+}
