@@ -8,6 +8,9 @@ use clap::{CommandFactory, Parser};
 
 use super::commands::Args;
 
+/// More clips than this are named by the first and the last.
+const MOST_WORDS: usize = 4;
+
 /// What this process was asked for.
 pub(super) fn args() -> Args {
     Args::try_parse().unwrap_or_else(|error| with_tip(error).exit())
@@ -34,10 +37,20 @@ fn tip(error: &clap::Error) -> Option<String> {
         }
         ErrorKind::UnknownArgument => {
             let path = Path::new(word(ContextKind::InvalidArg)?);
-            path.exists().then(|| "it takes one clip at a time: type it once for each".into())
+            path.exists().then(many)
         }
         _ => None,
     }
+}
+
+/// Several clips stand where one belongs.
+fn many() -> String {
+    let words = std::env::args().skip(2).take_while(|word| !word.starts_with('-'));
+    let mut words: Vec<String> = words.collect();
+    if words.len() > MOST_WORDS {
+        words.splice(1..words.len() - 1, ["…".into()]);
+    }
+    format!("it takes one clip at a time; of many: genga batch {} --out library", words.join(" "))
 }
 
 /// Somebody named a clip, or a folder of them, and no command.

@@ -8,7 +8,7 @@ use super::corrections::assignment;
 use super::failure::Failure;
 use super::staging::Bundle;
 use super::{files, paths};
-use crate::deliver::{BoneMap, Cut, FORMATS, Format, Settings, sheet_json};
+use crate::deliver::{BoneMap, Cut, FORMATS, Format, Settings, Sink, sheet_json};
 use crate::error::{Error, Warning};
 use crate::plot::Camera;
 
@@ -189,13 +189,9 @@ impl Formats {
     }
 
     /// Makes every file, one after the other.
-    pub(super) fn each(
-        &self,
-        cut: &Cut<'_>,
-        put: &mut dyn FnMut(&str, &[u8]) -> Result<(), Error>,
-    ) -> Result<(), Failure> {
+    pub(super) fn each(&self, cut: &Cut<'_>, put: &mut Sink<'_>) -> Result<(), Failure> {
         for format in &self.formats {
-            format.write(cut, &self.settings, &mut |name, bytes| put(name, &bytes))?;
+            format.write(cut, &self.settings, put)?;
         }
         Ok(())
     }

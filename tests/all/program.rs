@@ -1149,7 +1149,7 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         ("takes", "genga run takes/first.bvh"),
         ("rnu kick.bvh", "did you mean run or recipe?"),
         ("inspct kick.bvh", "'inspect'"),
-        ("run kick.bvh more.bvh", "one clip at a time"),
+        ("run kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
         ("keys kick.bvh more.bvh", "one clip at a time"),
         ("run takes", "such as takes/first.bvh"),
         ("inspect takes", "such as takes/first.bvh"),

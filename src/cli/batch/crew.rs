@@ -108,7 +108,7 @@ mod tests {
         let count = AtomicUsize::new(0);
         let crew = Crew { jobs: 1, room: 1 };
         let is_over = || count.load(Ordering::SeqCst) >= 3;
-        crew.each(&[0; 9], |_| 1, is_over, |_| drop(count.fetch_add(1, Ordering::SeqCst))).unwrap();
+        crew.each(&[0; 9], |_| 1, is_over, |_| _ = count.fetch_add(1, Ordering::SeqCst)).unwrap();
         assert_eq!(count.into_inner(), 3);
     }
 }
