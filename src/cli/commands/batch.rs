@@ -19,6 +19,7 @@ use crate::cli::batch::work::{Asked, Begun};
 use crate::cli::clip::{ClipArgs, Part};
 use crate::cli::corrections::Corrections;
 use crate::cli::failure::Failure;
+use crate::cli::files;
 use crate::cli::formats::{FormatArgs, Formats, help, long_help};
 use crate::cli::plan::{PlanArgs, TargetArgs};
 use crate::cli::staging::Staging;
@@ -59,6 +60,12 @@ pub(super) struct BatchArgs {
     /// Stop at the first clip that fails.
     #[arg(long)]
     fail_fast: bool,
+    /// End with exit code 0 although clips failed: they are rows, and --join says so at the end.
+    #[arg(long, conflicts_with = "fail_fast")]
+    allow_failures: bool,
+    /// Print the list alone, a file a line, and do nothing: what --shard deals, for other machines.
+    #[arg(long, conflicts_with_all = ["shard", "join"])]
+    list: bool,
     /// How progress is told: a bar on a terminal, or lines on stdout for programs.
     #[arg(long, value_name = "HOW", default_value = "bar")]
     progress: Progress,
@@ -80,9 +87,17 @@ enum Progress {
 const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    fs::create_dir_all(&args.out).map_err(|error| cannot(&args.out, &error))?;
+    if !args.list {
+        fs::create_dir_all(&args.out).map_err(|error| cannot(&args.out, &error))?;
+    }
     if !args.join.is_empty() {
         return join(args, words);
+    }
+    if args.list {
+        let lines = list::items(&args.clips, &args.out)?
+            .into_iter()
+            .map(|item| format!("{}\n", item.path.display()));
+        return files::to_stdout(lines.collect::<String>().as_bytes());
     }
     let formats = Formats::new("deliver", &args.deliver, &[], &args.formats)?;
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
@@ -317,7 +332,14 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
     let more = if *failures > NAMED { "; …, all in summary.csv" } else { "" };
     let message = format!("{failures} of {of} failed: {}{more}", failed.join("; "));
     if args.progress == Progress::Openjd {
-        let _ = writeln!(stdout(), "openjd_fail: {message}");
+        let word = if args.allow_failures { "openjd_status" } else { "openjd_fail" };
+        let _ = writeln!(stdout(), "{word}: {message}");
+    }
+    if args.allow_failures {
+        if args.progress != Progress::Openjd {
+            words.say(message);
+        }
+        return Ok(());
     }
     Err(Failure::CouldNot(message))
 }
