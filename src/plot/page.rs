@@ -1,7 +1,7 @@
 //! What the pages of figures have in common: a title, the length of the cut, a legend.
 
 use crate::plot::canvas::{Align, Canvas, Type};
-use crate::plot::cells::seconds_and_koma;
+use crate::plot::drawings::seconds_and_koma;
 use crate::plot::legend::{self, SIDES};
 use crate::plot::style;
 use crate::sheet::{Layer, Sheet};

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Camera, Clip};
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
-use crate::plot::cells::{Cell, cells, composed};
 use crate::plot::chart::number;
+use crate::plot::drawings::{ShownDrawing, composed, shown_drawings};
 use crate::plot::figure::Figure;
 use crate::plot::legend::{self, SIDES};
 use crate::plot::points::{Posing, Showing};
@@ -95,9 +95,9 @@ impl PoseRow {
     pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
         let composite = composed(clip, sheet)?;
-        let mut kept = cells(composite.layer());
+        let mut kept = shown_drawings(composite.layer());
         kept.retain(|cell| cell.genga.is_some());
-        let frame = |cell: &Cell<'_>| {
+        let frame = |cell: &ShownDrawing<'_>| {
             let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
             (cell.drawing.source.place(), label, cell.drawing.role)
         };

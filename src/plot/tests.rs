@@ -19,7 +19,7 @@ mod method;
 #[cfg(feature = "cli")]
 mod moving;
 mod ssd;
-mod study;
+mod study_chart;
 
 const GENGA: &str = "#c83210";
 const END: &str = "#30343c";
@@ -583,4 +583,19 @@ fn a_png_has_the_size_of_its_svg_times_the_scale() {
     has_setting_error(png_from_svg(&svg, f32::NAN), "scale");
     assert!(png_from_svg(&svg, 1e-6).is_err() && png_from_svg(&svg, 1e6).is_err());
     assert!(png_from_svg("no svg", 1.0).is_err());
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn a_pdf_is_one_page_of_the_size_of_its_svg_and_knows_no_date() {
+    let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();
+    let height = number_of(svg.lines().next().unwrap(), "height");
+    let pdf = pdf_from_svg(&svg).unwrap();
+    let text = String::from_utf8_lossy(&pdf);
+    assert!(text.starts_with("%PDF-1."));
+    let page = format!("/MediaBox[0 0 900 {}]", 0.75 * height);
+    assert_eq!(text.matches(&page).count(), 1, "{page}");
+    assert!(!text.contains("Date"));
+    assert_eq!(pdf_from_svg(&svg).unwrap(), pdf);
+    assert!(pdf_from_svg("no svg").is_err());
 }

@@ -117,11 +117,31 @@ impl Measure {
             Self::Drawings => ("drawings on the sheet", "動画枚数"),
             Self::DrawingsPerSecond => ("drawings a second", "毎秒の枚数"),
             Self::GengaPerSecond => ("genga a second", "毎秒の原画数"),
-            Self::LongestHold => ("longest hold, koma", "最長の止め（コマ）"),
+            Self::LongestHold => ("longest hold", "最長の止め"),
             Self::HeldKoma => ("held koma", "止めのコマ数"),
             Self::PeakSsd => ("largest SSD between drawings", "SSD の最大値"),
             Self::MedianSsd => ("median SSD between drawings", "SSD の中央値"),
         }
+    }
+
+    /// What it counts in; empty for things that are counted.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::DrawingsPerSecond | Self::GengaPerSecond => "1/s",
+            Self::LongestHold | Self::HeldKoma => "koma",
+            Self::PeakSsd | Self::MedianSsd => "square of the file's unit",
+            Self::Union
+            | Self::Total
+            | Self::Turns
+            | Self::Genga
+            | Self::Fills
+            | Self::Drawings => "",
+        }
+    }
+
+    /// Whether it grows with the length of a clip, so that clips of other lengths compare by the second.
+    pub fn is_count(self) -> bool {
+        self.unit().is_empty() || self == Self::HeldKoma
     }
 
     pub(super) fn reach(self) -> Reach {
@@ -171,7 +191,7 @@ fn steps(clip: &Clip, layer: &Layer) -> Vec<f64> {
 }
 
 /// The middle of sorted values, the mean of both middles for an even number; none of none.
-pub(super) fn median(sorted: &[f64]) -> Option<f64> {
+fn median(sorted: &[f64]) -> Option<f64> {
     let middle = sorted.len() / 2;
     let upper = *sorted.get(middle)?;
     Some(if sorted.len().is_multiple_of(2) { 0.5 * (sorted[middle - 1] + upper) } else { upper })

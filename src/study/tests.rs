@@ -56,6 +56,7 @@ pub(super) fn grid_of_keys(columns: usize, rows: usize, keys: &[&[usize]]) -> Gr
         x: axis(&format!("filter.width=1..{columns}:1")),
         y: (rows > 1).then(|| axis(&format!("turns.persistence=1..{rows}:1"))),
         measures: vec![],
+        seconds: 2.0,
         frames_in_koma: 5.0,
         own: None,
         cells: keys.iter().map(cell).collect(),

@@ -22,9 +22,10 @@ fn table_1_has_a_row_a_cell_and_persistence_runs_fastest() {
         assert!(total.iter().zip(&union).all(|(total, union)| total >= union));
         assert!(union.chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
     }
-    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.png -q");
-    for picture in ["s.png", "h.png"] {
-        assert!(fs::read(place.path(picture)).unwrap().starts_with(b"\x89PNG"));
+    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.pdf -q");
+    for (picture, begin) in [("s.png", "\u{89}PNG"), ("h.pdf", "%PDF")] {
+        let begin: Vec<u8> = begin.chars().map(|letter| letter as u8).collect();
+        assert!(fs::read(place.path(picture)).unwrap().starts_with(&begin), "{picture}");
     }
     let written = fs::read_to_string(place.path("s.csv")).unwrap();
     assert_eq!(written, place.done("study data/kick.bvh"));
@@ -205,8 +206,8 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         ("--tolerance 2", "--stability"),
         ("--stability --tolerance=-1", "expected koma"),
         ("--x spacing.on=2,3 --plot s.svg --paper", "in frames alone"),
-        ("--plot s.jpg", "--plot: a picture is .svg or .png"),
-        ("--heat s.pdf", "--heat: a picture is .svg or .png"),
+        ("--plot s.jpg", "--plot: a picture is .svg, .pdf or .png"),
+        ("--heat s.gif", "--heat: a picture is .svg, .pdf or .png"),
     ] {
         // A clip that is not there would be what is said, were it looked at first.
         let said = place.refused(2, &format!("study none.bvh -o s.csv {args}"));

@@ -46,7 +46,7 @@ pub(super) struct OmitArgs {
     /// The timesheet, a CSV file.
     #[arg(long, value_name = "FILE.csv")]
     sheet: Option<PathBuf>,
-    /// The movement into each koma before and after, an SVG or PNG file.
+    /// The movement into each koma before and after, an SVG, PDF or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
 }

@@ -2,7 +2,7 @@
 //! marks mean.
 
 use crate::plot::canvas::{Align, Canvas, Point, Type};
-use crate::plot::cells::seconds_and_koma;
+use crate::plot::drawings::seconds_and_koma;
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
 use crate::plot::xsheet::grid::{FRAME, WIDTH, bottom};
