@@ -35,6 +35,7 @@ mod stage;
 mod strip;
 mod study_chart;
 mod style;
+mod title;
 mod xsheet;
 
 #[cfg(test)]

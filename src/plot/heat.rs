@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::chart::{self, Plot, bar, number};
-use crate::plot::study_chart::{check_per_second, head, headline, name, shown, unit};
-use crate::plot::style;
+use crate::plot::study_chart::{check_per_second, headline, name, named, shown, unit};
+use crate::plot::{style, title};
 use crate::study::{Axis, Grid, Measure, Plateau};
 
 /// A measure in each cell of a study (設定の地図): the darker the more, with its value written in it
@@ -89,7 +89,7 @@ impl HeatMap {
         let median = if grids.len() > 1 { "median 中央値, " } else { "" };
         let what = format!("{median}{}", unit(self.show, self.per_second));
         let free = map.scale(&mut canvas, &what);
-        head(&mut canvas, &title, clips, free);
+        title::draw(&mut canvas, &title, &named(clips), free - 8.0);
         map.cells(&mut canvas, &values)?;
         if let Some(plateaus) = plateaus {
             map.edges(&mut canvas, grid, plateaus);

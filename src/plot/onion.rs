@@ -238,7 +238,7 @@ impl Page<'_> {
         let koma = format!("koma {}–{}", from.koma + 1, to.koma + 1);
         canvas.text(&koma, (x + wide - 10.0, y + 23.0), look);
         let between = match way.len().saturating_sub(2) {
-            0 => "no inbetween 中なし".to_owned(),
+            0 => "no inbetween 中割なし".to_owned(),
             count => format!("{count} between 中{count}枚"),
         };
         let look = Type::new(style::SMALL).color(style::INK).align(Align::Center);

@@ -289,6 +289,6 @@ impl Lines<'_> {
         let top = floor - self.high + 8.0;
         canvas.dashes((x, top), (x, floor + 24.0), style::GENGA, 1.5);
         let look = Type::new(style::SMALL).bold().color(style::GENGA).align(Align::Center);
-        canvas.text(&format!("中無し {omitted}"), (x, top - 6.0), look);
+        canvas.text(&format!("抜いた中割 {omitted}"), (x, top - 6.0), look);
     }
 }

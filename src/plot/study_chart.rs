@@ -12,7 +12,7 @@ use crate::plot::chart::{self, Plot, curve, range_with_zero};
 use crate::plot::study_chart::legend::{Behind, Legend};
 use crate::plot::study_chart::lines::Places;
 use crate::plot::study_chart::paper::Mark;
-use crate::plot::style;
+use crate::plot::{style, title};
 use crate::study::{Axis, Grid, Measure, Spread, spreads};
 
 /// A measure against the first setting of a study (設定と原画の数), a line a value of the second.
@@ -96,7 +96,7 @@ impl StudyPlot {
         let mut canvas = Canvas::new((f64::from(self.width), f64::from(self.height)));
         let (title, value) =
             (headline(self.show, self.per_second), unit(self.show, self.per_second));
-        head(&mut canvas, &title, clips, f64::from(self.width));
+        title::draw(&mut canvas, &title, &named(clips), f64::from(self.width) - style::MARGIN);
         let middle = (style::MARGIN + 8.0, 0.5 * (plot.from.1 + plot.to.1));
         canvas.text_upwards(&format!("{title} ({value})"), middle, Type::new(style::WORDS));
         behind.veils(&mut canvas, &plot, &legend.looks);
@@ -196,16 +196,12 @@ fn with_unit(axis: &Axis) -> String {
     format!("{}{unit}", axis.name())
 }
 
-/// What is drawn in both languages, and below it of which clips.
-pub(super) fn head(canvas: &mut Canvas, title: &str, clips: &[String], width: f64) {
-    canvas.text(title, (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
-    let names = clips.join(", ");
-    let words = match clips.len() {
-        0 | 1 => names,
-        count => format!("{count} clips: {names}"),
-    };
-    let words = style::fitted(&words, style::WORDS, width - 2.0 * style::MARGIN);
-    canvas.text(&words, (style::MARGIN, 56.0), Type::new(style::WORDS).color(style::FAINT));
+/// The names of clips, and of several how many.
+pub(super) fn named(clips: &[String]) -> String {
+    match clips {
+        [only] => only.clone(),
+        _ => format!("{} clips: {}", clips.len(), clips.join(", ")),
+    }
 }
 
 /// The measure in both languages.

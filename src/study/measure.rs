@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::keys::{BodyTurns, LayerKeys, Origin};
 use crate::motion::Clip;
-use crate::sheet::{Layer, Role};
+use crate::sheet::Layer;
 use crate::signal::Turn;
 use crate::study::{total, union};
 use crate::timing::Stills;
@@ -24,9 +24,10 @@ pub enum Measure {
     /// Turns of the body.
     #[default]
     Turns,
-    /// Genga of the layer.
+    /// Genga of the layer: its keys, and the first and the last drawing. On the sheet a key on the koma of
+    /// such a one is a drawing with it.
     Genga,
-    /// Of these the ones that are no turn.
+    /// Of these the ones that are neither a turn nor the first or last drawing.
     Fills,
     /// Drawings on the sheet.
     Drawings,
@@ -64,8 +65,8 @@ pub(super) struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// Genga of an origin; NaN where none were looked for.
-    fn genga(&self, is_of: impl Fn(Origin) -> bool) -> f64 {
+    /// Keys of an origin between the first and the last drawing; NaN where none were looked for.
+    fn keys_of(&self, is_of: impl Fn(Origin) -> bool) -> f64 {
         let count = |keys: &LayerKeys| keys.keys.iter().filter(|key| is_of(key.origin)).count();
         self.keys.map_or(f64::NAN, |keys| count(keys) as f64)
     }
@@ -109,8 +110,8 @@ impl Measure {
     /// What it is, for a person, in English and Japanese.
     pub fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Union => ("frames with a key of any joint", "いずれかの関節の原画があるフレーム"),
-            Self::Total => ("keys of all joints", "全関節の原画の合計"),
+            Self::Union => ("frames with a key of any joint", "いずれかの関節の候補があるフレーム"),
+            Self::Total => ("keys of all joints", "全関節の候補の合計"),
             Self::Turns => ("turns of the body", "全身の変わり目"),
             Self::Genga => ("genga", "原画"),
             Self::Fills => ("genga that are no turn", "補いの原画"),
@@ -159,8 +160,8 @@ impl Measure {
             Self::Union => union(found.turns) as f64,
             Self::Total => total(found.turns) as f64,
             Self::Turns => found.body.map_or(f64::NAN, |body| body.turns.len() as f64),
-            Self::Genga => found.genga(|_| true),
-            Self::Fills => found.genga(|origin| origin == Origin::Fill),
+            Self::Genga => found.keys_of(|_| true) + found.clip.len().min(2) as f64,
+            Self::Fills => found.keys_of(|origin| origin == Origin::Fill),
             _ => found.layer.map_or(f64::NAN, |layer| self.of_layer(found.clip, layer)),
         }
     }
@@ -170,7 +171,7 @@ impl Measure {
         match self {
             Self::Drawings => layer.shown().count() as f64,
             Self::DrawingsPerSecond => per_second(layer.shown().count()),
-            Self::GengaPerSecond => per_second(layer.count(Role::Genga)),
+            Self::GengaPerSecond => per_second(layer.genga()),
             Self::LongestHold => layer.longest_hold() as f64,
             Self::HeldKoma => layer.held_koma() as f64,
             Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),

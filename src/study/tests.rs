@@ -93,7 +93,8 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             union.sort();
             union.dedup();
             let seconds = layer.length() as f64 / run.clock.koma_rate;
-            let genga = layer.drawings.iter().filter(|drawing| drawing.role == Role::Genga).count();
+            let genga =
+                layer.drawings.iter().filter(|drawing| drawing.role != Role::Inbetween).count();
             let stills = Stills::of(run.clip, layer);
             let steps = layer.exposures.windows(2);
             let mut steps: Vec<f64> =
@@ -104,7 +105,7 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
                 Measure::Union => union.len() as f64,
                 Measure::Total => keys(run.turns).count() as f64,
                 Measure::Turns => run.first_layer().body.turns.len() as f64,
-                Measure::Genga => frames.len() as f64,
+                Measure::Genga => frames.len() as f64 + 2.0,
                 Measure::Fills => run
                     .first_layer()
                     .keys

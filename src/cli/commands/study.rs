@@ -85,8 +85,8 @@ pub(super) struct StudyArgs {
     /// command that make them again, a Markdown file.
     #[arg(long, value_name = "FILE.md")]
     caption: Option<PathBuf>,
-    /// The measure that is drawn [default: the first that is counted; genga with --stability, union with
-    /// --paper].
+    /// The measure that is drawn [default: the first that is counted; genga with --stability or a
+    /// setting of keys, drawings with one of the sheet, union with --paper].
     #[arg(long, value_name = "MEASURE")]
     show: Option<Measure>,
     /// Draw a count as that of a second of its clip, so that clips of other lengths compare; the table keeps
@@ -118,7 +118,7 @@ fn study_help() -> String {
          the first\n  paper\u{2019}s Table 1 (`genga recipe --study`), with them it is that of `genga run`.\n\n\
          Measures:{}\n\n\
          Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
-         genga study a.bvh b.bvh --x keys.per_second=2..6:0.5 --plot curves.svg\n  \
+         genga study a.bvh b.bvh --x keys.min_price=2..20:2 --plot curves.pdf\n  \
          genga study a.bvh --x noise=0..1:0.1 --y filter.width=0.05s..0.2s:0.05s --stability",
         measures.concat()
     )
@@ -169,7 +169,13 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         files::write_picture(path, &heat.draw(&names, &grids, edges)?)?;
     }
     if let Some(path) = &args.caption {
-        let drawn = caption::Drawn { show, per_second, paper, has_map: args.heat.is_some() };
+        let drawn = caption::Drawn {
+            show,
+            per_second,
+            paper,
+            curves: args.plot.is_some(),
+            map: args.heat.is_some(),
+        };
         files::write(path, drawn.caption(&study, &names, &grids).as_bytes())?;
     }
     files::write(&args.out, deliver::study_csv(&names, &grids, tolerance)?.as_bytes())?;
@@ -230,7 +236,7 @@ fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
         Some(_) => "the recipe\u{2019}s own settings stand beside it",
     };
     let (place, keys) = (plateau.words(grid), counted(plateau.keys, "key"));
-    format!("{same} at {place}, {keys}; {own}")
+    format!("{same} at {place}, {keys} between the first and the last drawing; {own}")
 }
 
 fn asked(args: &StudyArgs) -> Result<Study, Failure> {
@@ -294,10 +300,18 @@ fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
     vec![Measure::Turns, Measure::Genga, Measure::Fills, Measure::Union, Measure::Total]
 }
 
-/// What is drawn unless it is said: what is compared, where it was counted.
+/// What is drawn unless it is said: what is compared, else the first measure that the axes can change.
 fn usually_shown(study: &Study) -> Measure {
-    let is_compared = study.keep_keys && study.measures.contains(&Measure::Genga);
-    if is_compared { Measure::Genga } else { study.measures[0] }
+    let sections = |axis: &Axis| axis.knob().path().0;
+    let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
+    let sections: Vec<&str> = axes.filter_map(sections).collect();
+    let varies = |names: &[&str]| names.iter().any(|name| sections.contains(name));
+    let wanted = match study.keep_keys {
+        false if varies(&OF_THE_SHEET) => Measure::Drawings,
+        false if !varies(&["keys"]) => study.measures[0],
+        _ => Measure::Genga,
+    };
+    if study.measures.contains(&wanted) { wanted } else { study.measures[0] }
 }
 
 fn swept(

@@ -70,8 +70,9 @@ impl Legend {
             names = vec![with_unit(y), y.knob().japanese.to_owned()];
             // Of many lines, whose colours are in order, a few.
             let (last, every) = (y.len() - 1, y.len().div_ceil(LOOKS.len()));
-            let is_named =
-                |at: &usize| every == 1 || *at == last || (at % every == 0 && at + every <= last);
+            let is_named = |at: &usize| {
+                every == 1 || *at == last || (at.is_multiple_of(every) && at + every <= last)
+            };
             let named = (0..y.len()).filter(is_named);
             values = named.map(|at| (at, y.values()[at].clone())).collect();
         }

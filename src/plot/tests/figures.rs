@@ -139,7 +139,7 @@ fn a_contact_sheet_has_a_card_a_genga_and_inbetweens_if_asked() {
         "koma 4",
         "koma 8",
         "frame 4 · 3 koma",
-        "&lt;hit&gt; · 中無し 2",
+        "&lt;hit&gt; · 抜いた中割 2",
         "drawing 3",
         "0+3",
     ] {
@@ -182,7 +182,7 @@ fn a_strip_shows_every_koma_twice_and_marks_gaps_and_holds() {
     let pages = Strip::default().draw("cut", &clip, &sheet).unwrap();
     assert_eq!(heads(&pages), 2 * 8);
     let words = said(&pages);
-    assert!(words.contains(&"中無し 2".to_owned()), "{words:?}");
+    assert!(words.contains(&"抜いた中割 2".to_owned()), "{words:?}");
     let genga = "stroke=\"#c83210\" stroke-width=\"1.8\"";
     let crosses = pages[0].lines().filter(|line| line.contains(genga)).count();
     assert_eq!(crosses, 2 * 2, "source frames 2 and 3 lie between 1 and 4: two strokes each");

@@ -108,7 +108,7 @@ fn a_mark_of_the_paper_stands_where_the_same_count_would() {
 fn a_study_draws_the_measure_it_is_asked_for() {
     let draw = |show| curves_of(&StudyPlot { show, ..StudyPlot::default() }, &[small()]).unwrap();
     assert!(words(&draw(Measure::Total)).contains(&"800"));
-    assert!(words(&draw(Measure::Total)).contains(&"Keys of all joints  全関節の原画の合計"));
+    assert!(words(&draw(Measure::Total)).contains(&"Keys of all joints  全関節の候補の合計"));
     assert!(!words(&draw(Measure::Turns)).contains(&"800"));
     let zero = grid("filter.width=0", None, &[0.0]);
     assert!(curves_of(&StudyPlot::default(), &[zero]).is_ok());

@@ -31,7 +31,9 @@ pub(super) struct Drawn {
     pub(super) show: Measure,
     pub(super) per_second: bool,
     pub(super) paper: bool,
-    pub(super) has_map: bool,
+    /// Whether curves are drawn, and whether a map is.
+    pub(super) curves: bool,
+    pub(super) map: bool,
 }
 
 impl Drawn {
@@ -58,11 +60,16 @@ impl Drawn {
         let second = if self.per_second { ", a second of its clip" } else { "" };
         let mut text = format!("**{english}** ({japanese}){second}, over {}.", varied(&study.x));
         if let Some(y) = &study.y {
-            let rows = if self.has_map { "line or row" } else { "line" };
+            let rows = match (self.curves, self.map) {
+                (true, true) => "line or row",
+                (true, false) => "line",
+                _ => "row",
+            };
             let _ = write!(text, " A {rows} for each value of {}.", varied(y));
         }
         let over = match clips {
             0 | 1 => "",
+            _ if !self.curves => " Of several clips the median.",
             2 | 3 => " Of several clips the median; each of them is a thin line.",
             _ => {
                 " Of several clips the median; half of them lie in the band between the quartiles."
