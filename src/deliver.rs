@@ -18,7 +18,7 @@ mod reference_keys;
 mod report;
 mod settings;
 pub mod sheet_json;
-mod study;
+mod study_table;
 #[cfg(test)]
 pub(crate) mod tests;
 mod turns;
@@ -41,7 +41,7 @@ pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;
 pub use report::{LayerReport, Report};
 pub use settings::{CsvSettings, Settings};
-pub use study::study_csv;
+pub use study_table::study_csv;
 pub use turns::turns_csv;
 pub use vmd::{BoneMap, Vmd, VmdKey, VmdMade, VmdMotion, VmdReport};
 pub use xsheet::{XSheetFiles, xsheet};

@@ -6,9 +6,11 @@
 //! straight to pixels.
 
 mod canvas;
-mod cells;
 mod chart;
 mod contact_sheet;
+#[cfg(feature = "cli")]
+mod convert;
+mod drawings;
 mod figure;
 mod flipbook;
 mod heat;
@@ -24,8 +26,6 @@ mod pixels;
 mod points;
 mod pose_row;
 mod preview;
-#[cfg(feature = "cli")]
-mod raster;
 mod shared;
 mod sheet;
 mod spacing;
@@ -33,8 +33,9 @@ mod speed;
 mod ssd;
 mod stage;
 mod strip;
-mod study;
+mod study_chart;
 mod style;
+mod title;
 mod xsheet;
 
 #[cfg(test)]
@@ -43,6 +44,8 @@ mod tests;
 pub use crate::motion::Camera;
 pub(crate) use canvas::escaped;
 pub use contact_sheet::ContactSheet;
+#[cfg(feature = "cli")]
+pub use convert::{pdf_from_svg, png_from_svg};
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;
@@ -50,12 +53,10 @@ pub use images::NumberedImages;
 pub use onion::OnionSkin;
 pub use pose_row::PoseRow;
 pub use preview::Preview;
-#[cfg(feature = "cli")]
-pub use raster::png_from_svg;
 pub use sheet::SheetPlot;
 pub use spacing::SpacingPlot;
 pub use speed::{SpeedCurves, SpeedPlot};
 pub use ssd::SsdPlot;
 pub use strip::Strip;
-pub use study::StudyPlot;
+pub use study_chart::StudyPlot;
 pub use xsheet::{HoldLine, InbetweenMark, XSheet};

@@ -127,7 +127,7 @@ pub enum Role {
     Genga,
     /// A drawing between two keys (中割り).
     Inbetween,
-    /// The clip's first or last drawing, which it gets whether or not a key was found there.
+    /// The clip's first or last drawing, a genga whether or not a key was found there.
     End,
 }
 
@@ -356,6 +356,12 @@ impl Layer {
     /// Drawings of a role that are on screen.
     pub fn count(&self, role: Role) -> usize {
         self.shown().filter(|drawing| drawing.role == role).count()
+    }
+
+    /// Genga on screen, the clip's first and last drawing among them: how many poses are to be drawn, from
+    /// which inbetweens are then made.
+    pub fn genga(&self) -> usize {
+        self.shown().filter(|drawing| drawing.role.is_kept()).count()
     }
 
     /// The number of each drawing among the kept ones, genga and ends as one series from 1; none for

@@ -22,7 +22,7 @@ use crate::signal::{Reading, Steady, Turn, TurnKind};
 use crate::time::Frame;
 
 pub use axis::{Axis, Setting};
-pub use grid::{Cell, Grid, medians};
+pub use grid::{Cell, Grid, Spread, spreads};
 pub use measure::Measure;
 pub use noise::Noise;
 pub use plateau::Plateau;

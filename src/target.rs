@@ -160,7 +160,7 @@ impl Met {
     fn keys_hold(&self, engine: &mut Engine, edits: &Edits) -> Result<bool, Error> {
         for outcome in &self.outcomes {
             let now = match outcome.target {
-                Target::Keys(_) => genga(&engine.run(&self.recipe, edits)?) as f64,
+                Target::Keys(_) => layer(&engine.run(&self.recipe, edits)?).genga() as f64,
                 Target::MaxError(_) => engine.reconstruction(&self.recipe, edits)?.worst(),
                 Target::DrawingsPerSecond(_) => continue,
             };
@@ -216,8 +216,8 @@ fn layer<'a>(breakdown: &Breakdown<'a>) -> &'a Layer {
     &breakdown.sheet.layers[0]
 }
 
-/// Genga on the sheet.
-fn genga(breakdown: &Breakdown<'_>) -> usize {
+/// Genga on the sheet but the first and the last drawing, which are there whatever is chosen.
+fn between(breakdown: &Breakdown<'_>) -> usize {
     layer(breakdown).count(Role::Genga)
 }
 

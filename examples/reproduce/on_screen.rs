@@ -93,7 +93,7 @@ fn pair(clip: &Clip, recipe: &Recipe) -> Outcome<(Shown, Shown)> {
         Ok::<_, Box<dyn std::error::Error>>((found.pace.genga, shown))
     };
     let (genga, own) = shown(&Edits::default())?;
-    let (_, even) = shown(&at_even_distances(clip, genga))?;
+    let (_, even) = shown(&at_even_distances(clip, genga - 2))?;
     Ok((own, even))
 }
 

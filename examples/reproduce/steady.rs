@@ -38,7 +38,9 @@ pub(crate) fn from_samples() -> Outcome<Part> {
     let grid = study.run(samples::clip("kuroda-pitch")?, || ())?;
     let plateaus = [0.0, 1.0].map(|koma| Plateau::largest(from_ref(&grid), koma));
     let mut part = Part::default();
-    part.picture("table-1-map", HeatMap { show: Measure::Turns }.draw(&[grid], Some(&plateaus))?);
+    let map = HeatMap { show: Measure::Turns, per_second: false };
+    let clips = ["kuroda-pitch".to_owned()];
+    part.picture("table-1-map", map.draw(&clips, &[grid], Some(&plateaus))?);
     Ok(part)
 }
 

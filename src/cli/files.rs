@@ -85,10 +85,11 @@ pub(super) fn json(name: &impl Display, data: &impl Serialize) -> Result<String,
     Ok(text + "\n")
 }
 
-/// A picture as an SVG or, for a name that ends in `.png`, a PNG.
+/// A picture as an SVG or, for a name that ends in `.png` or `.pdf`, a PNG or a PDF.
 pub(super) fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
     match paths::ending(path).as_deref() {
         Some("png") => write(path, &plot::png_from_svg(svg, 2.0)?),
+        Some("pdf") => write(path, &plot::pdf_from_svg(svg)?),
         _ => write(path, svg.as_bytes()),
     }
 }

@@ -86,9 +86,9 @@ pub(super) fn check_folder(
 /// Refuses a picture that could not be written, before any work.
 pub(super) fn check_picture(option: &str, path: Option<&PathBuf>) -> Result<(), Failure> {
     match path.and_then(|path| ending(path)).as_deref() {
-        Some("png" | "svg") | None => Ok(()),
+        Some("pdf" | "png" | "svg") | None => Ok(()),
         Some(other) => Err(Failure::AskedWrongly(format!(
-            "--{option}: a picture is .svg or .png, not .{other}"
+            "--{option}: a picture is .svg, .pdf or .png, not .{other}"
         ))),
     }
 }

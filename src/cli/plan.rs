@@ -30,7 +30,7 @@ pub(super) struct PlanArgs {
 /// What the sheet is to be, instead of the settings that make it so.
 #[derive(Debug, Clone, Args)]
 pub(super) struct TargetArgs {
-    /// So many genga on the sheet, pins and what stays by itself (ends of rests) with them, the clip's two ends without; over
+    /// So many genga on the sheet: with pins, what stays by itself (ends of rests), and the first and the last drawing; over
     /// keys.min_price and keys.per_second.
     #[arg(long, value_name = "N", value_parser = genga, allow_negative_numbers = true)]
     keys: Option<usize>,

@@ -86,7 +86,7 @@ impl Results<'_> {
             formats.write(cut, &mut bundle, self.tell)
         })?;
         (self.tell)("speed.svg");
-        bundle.add("speed.svg", speeds(breakdown)?)?;
+        bundle.add("speed.svg", speeds(self.name, breakdown)?)?;
         let settings = recipe.write(edits);
         let digest = Manifest::digest(settings.as_bytes());
         if self.kept.is_none() {
@@ -107,7 +107,7 @@ impl Results<'_> {
 }
 
 /// Speeds before and after the filter with keys and walls, of the joints that move most.
-fn speeds(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
+fn speeds(clip: &str, breakdown: &Breakdown<'_>) -> Result<String, Failure> {
     let names: Vec<&str> =
         breakdown.clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
     // The kept drawings of the sheet, so that their numbers are those of the key table.
@@ -117,6 +117,6 @@ fn speeds(breakdown: &Breakdown<'_>) -> Result<String, Failure> {
     let Breakdown { speed, filtered, turns, .. } = breakdown;
     let order = filtered.movers_first(breakdown.clip.skeleton());
     let splits = breakdown.actions.splits().iter().map(|split| split.frame).collect();
-    let plot = SpeedPlot { splits, ..SpeedPlot::default() };
+    let plot = SpeedPlot { clip: clip.to_owned(), splits, ..SpeedPlot::default() };
     Ok(plot.draw(&names, speed, filtered, turns, &keys, &order)?)
 }

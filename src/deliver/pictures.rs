@@ -19,7 +19,8 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
     let stills = Stills::on(cut.clip, &ones.layers[0], &Screen::of(seen_from, cut.clip));
     let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
     let steps: Vec<f64> = (0..stills.len()).map(step).collect();
-    let plot = SheetPlot { splits: cut.splits.to_vec(), seen_from, ..SheetPlot::default() };
+    let (clip, splits) = (cut.name.to_owned(), cut.splits.to_vec());
+    let plot = SheetPlot { clip, splits, seen_from, ..SheetPlot::default() };
     plot.draw(cut.sheet, cut.spaced, Some(&steps))
 }
 
@@ -28,5 +29,5 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] when it cannot be drawn.
 pub fn poses(cut: &Cut<'_>) -> Result<String, Error> {
-    PoseRow::default().draw_kept(cut.clip, cut.sheet)
+    PoseRow { clip: cut.name.to_owned(), ..PoseRow::default() }.draw_kept(cut.clip, cut.sheet)
 }

@@ -5,7 +5,6 @@ use serde::Serialize;
 use crate::keys::{Action, Actions};
 use crate::motion::SeenFrom;
 use crate::pipeline::{Breakdown, LayerBreakdown};
-use crate::sheet::Role;
 use crate::{study, timing};
 
 /// The figures of a run.
@@ -32,7 +31,7 @@ pub struct Report {
     pub turns: Turns,
     /// Key candidates of the layer, before it was asked what they are worth.
     pub candidates: usize,
-    /// Key drawings on the sheet, the ends not counted.
+    /// Genga on the sheet, the first and the last drawing among them.
     pub genga: usize,
     /// Genga a second.
     pub genga_per_second: f64,
@@ -70,7 +69,7 @@ pub struct LayerReport {
     pub name: String,
     /// Its joints.
     pub joints: Vec<String>,
-    /// Key drawings, the ends not counted.
+    /// Genga, the first and the last drawing among them.
     pub genga: usize,
     /// Drawings.
     pub drawings: usize,
@@ -120,7 +119,7 @@ fn layers(breakdown: &Breakdown<'_>) -> Vec<LayerReport> {
     let report = |LayerBreakdown { layer, omission, .. }: LayerBreakdown<'_>| LayerReport {
         name: layer.name.clone(),
         joints: layer.joints.clone(),
-        genga: layer.count(Role::Genga),
+        genga: layer.genga(),
         drawings: layer.shown().count(),
         drawings_per_second: layer.shown().count() as f64 * breakdown.clock.koma_rate
             / layer.length() as f64,
@@ -153,8 +152,8 @@ impl Report {
                 union: study::union(breakdown.turns),
             },
             candidates: first.candidates.keys.len(),
-            genga: layer.count(Role::Genga),
-            genga_per_second: per_second(layer.count(Role::Genga)),
+            genga: layer.genga(),
+            genga_per_second: per_second(layer.genga()),
             genga_over_limit: first.keys.over_limit,
             drawings: layer.shown().count(),
             drawings_per_second: per_second(layer.shown().count()),

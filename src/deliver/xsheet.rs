@@ -14,7 +14,8 @@ pub struct XSheetFiles {
     pub pages: Vec<String>,
 }
 
-/// Margins of 10 mm leave A4 and B4 the proportions of a page; the paper is the printer's.
+/// Margins of 10 mm leave A4 and B4 the proportions of a page; on shorter paper, as Letter, a page is as high as
+/// the paper. Which it is, the printer knows.
 const STYLE: &str = "
 @page { size: portrait; margin: 10mm }
 html { background: #d9dedb }
@@ -25,6 +26,7 @@ svg { display: block; width: 100%; height: auto }
   html { background: none }
   section { max-width: none; margin: 0; padding: 0; box-shadow: none; break-after: page; break-inside: avoid }
   section:last-child { break-after: auto }
+  svg { max-height: calc(100vh - 1px) }
 }
 ";
 

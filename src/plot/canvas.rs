@@ -131,6 +131,14 @@ impl Canvas {
         self.tag(format_args!("<polygon points=\"{points}\" fill=\"{color}\"/>"));
     }
 
+    /// The same, through which one sees what lies behind.
+    pub(super) fn veil(&mut self, points: &[Point], color: RGBColor) {
+        let (points, color) = (list(points), hex(color));
+        self.tag(format_args!(
+            "<polygon points=\"{points}\" fill=\"{color}\" fill-opacity=\"0.18\"/>"
+        ));
+    }
+
     /// A filled rectangle between two corners.
     pub(super) fn rect(&mut self, from: Point, to: Point, color: RGBColor) {
         let (x, y) = (tenth(from.0), tenth(from.1));
@@ -213,6 +221,14 @@ impl Canvas {
         self.tag(format_args!(
             "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" fill=\"{color}\"{anchor}{weight}>{text}</text>"
         ));
+    }
+
+    /// A text that runs upwards, its middle at the point.
+    pub(super) fn text_upwards(&mut self, text: &str, (x, y): Point, look: Type) {
+        let (x, y) = (tenth(x), tenth(y));
+        self.tag(format_args!("<g transform=\"rotate(-90 {x} {y})\">"));
+        self.text(text, (x, y), Type { align: Align::Center, ..look });
+        self.tag(format_args!("</g>"));
     }
 
     /// A number in a circle (丸数字). Pinned ones are filled.

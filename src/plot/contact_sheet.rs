@@ -8,8 +8,10 @@ use crate::knob::{Knobs, knob, knobs};
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
-use crate::plot::cells::{Cell, cells, composed, drawn_poses, seconds_and_koma};
 use crate::plot::chart::number;
+use crate::plot::drawings::{
+    ShownDrawing, composed, drawn_poses, seconds_and_koma, shown_drawings,
+};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::shared;
@@ -88,7 +90,7 @@ impl ContactSheet {
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
         let poses = drawn_poses(&composite, layer.drawings.len());
-        let mut cards = cells(layer);
+        let mut cards = shown_drawings(layer);
         cards.retain(|cell| self.inbetweens || cell.genga.is_some());
         if cards.is_empty() {
             return Err(style::cannot("the sheet has no genga to show"));
@@ -96,7 +98,7 @@ impl ContactSheet {
         let table = self.table(clip, &poses, &cards);
         let on_page = table.columns * self.rows;
         let pages = cards.len().div_ceil(on_page);
-        let page = |(at, cards): (usize, &[Cell<'_>])| {
+        let page = |(at, cards): (usize, &[ShownDrawing<'_>])| {
             let facts = page::facts(sheet, layer);
             let title = "Contact sheet 原画一覧";
             let head = Head { title, cut, facts, page: (at + 1, pages) };
@@ -105,7 +107,7 @@ impl ContactSheet {
         Ok(cards.chunks(on_page).enumerate().map(page).collect())
     }
 
-    fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: &[Cell<'_>]) -> Table {
+    fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: &[ShownDrawing<'_>]) -> Table {
         let view = self.camera.view(clip, poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let floor = Bounds::of(&figure, &view, poses).floor;
@@ -138,14 +140,14 @@ struct Table {
 }
 
 /// Why a drawing is there, on the lines of a card.
-fn reasons(cell: &Cell<'_>, width: f64) -> Vec<String> {
+fn reasons(cell: &ShownDrawing<'_>, width: f64) -> Vec<String> {
     style::lines(&cell.reasons(), style::SMALL, width - 14.0)
 }
 
 impl Table {
     fn draw(
         &self,
-        cards: &[Cell<'_>],
+        cards: &[ShownDrawing<'_>],
         poses: &[Vec<DVec3>],
         koma_rate: f64,
         head: &Head<'_>,
@@ -166,7 +168,7 @@ impl Table {
     fn draw_card(
         &self,
         canvas: &mut Canvas,
-        cell: &Cell<'_>,
+        cell: &ShownDrawing<'_>,
         pose: &[DVec3],
         (x, y): Point,
         koma_rate: f64,

@@ -8,8 +8,8 @@ use crate::knob::{Knobs, knobs};
 use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Camera, Clip, Composite};
 use crate::plot::canvas::escaped;
-use crate::plot::cells::{
-    beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
+use crate::plot::drawings::{
+    beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
 };
 use crate::plot::figure::Figure;
 use crate::plot::points::Posing;
@@ -135,7 +135,7 @@ impl FlipBook {
         let auto = views[3].1;
         let figure = Figure::of(clip.skeleton(), &source[0], auto.up);
         let steps = Steps::of(&figure, &auto, &source);
-        let cells = cells(layer);
+        let cells = shown_drawings(layer);
         let drawings = layer.drawings.iter().zip(&result).zip(layer.genga_numbers());
         Take {
             cut,

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::plot::canvas::{Align, Canvas, Point, Type};
 use crate::plot::chart::{self, Plot, bar, number};
-use crate::plot::study::{headline, name, shown, title};
-use crate::plot::style;
+use crate::plot::study_chart::{check_per_second, headline, name, named, shown, unit};
+use crate::plot::{style, title};
 use crate::study::{Axis, Grid, Measure, Plateau};
 
 /// A measure in each cell of a study (設定の地図): the darker the more, with its value written in it
@@ -16,8 +16,10 @@ use crate::study::{Axis, Grid, Measure, Plateau};
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HeatMap {
-    /// Which measure is drawn; default the union, what the paper counts.
+    /// Which measure is drawn; default turns of the body.
     pub show: Measure,
+    /// Whether a count is drawn as that of a second of its clip; default no.
+    pub per_second: bool,
 }
 
 /// Px that all columns, or all rows, have together, unless a cell would be too large or too small.
@@ -30,7 +32,7 @@ const CELL: [(f64, f64); 2] = [(7.0, 72.0), (7.0, 34.0)];
 /// Cells in a row or a column: more could not be looked at.
 const MOST_CELLS: usize = 1000;
 
-const TOP: f64 = 84.0;
+const TOP: f64 = 96.0;
 const BOTTOM: f64 = 62.0;
 /// Px from the cells down to the legend of what is marked.
 const LEGEND: f64 = 72.0;
@@ -56,15 +58,18 @@ impl HeatMap {
         Ok(())
     }
 
-    /// Draws the study of one clip, or the median of several, as SVG. All grids are of one study.
+    /// Draws the study of a clip, or the median of several, each by its name, as SVG. All grids are of one
+    /// study.
     /// `plateaus` are edged: the one in which keys are the very same, and the one in which they are
     /// nearly so; then the cell of the recipe's own settings is marked, too.
     ///
     /// # Errors
+    /// [`Error::Setting`] named `per_second` where that is asked of a measure that is no count;
     /// [`Error::Picture`] when there is no clip, the measure was not counted, or the picture would be
     /// too large.
     pub fn draw(
         &self,
+        clips: &[String],
         grids: &[Grid],
         plateaus: Option<&[Option<Plateau>; 2]>,
     ) -> Result<String, Error> {
@@ -72,19 +77,19 @@ impl HeatMap {
             return Err(style::cannot("a study without a clip has nothing to draw"));
         };
         Self::fits(&grid.x, grid.y.as_ref())?;
-        let values = shown(grids, self.show)?;
-        let map = Map::of(grid, &values, self.show);
+        check_per_second(self.show, self.per_second)?;
+        let spreads = shown(grids, self.show, self.per_second)?;
+        let values: Vec<f64> = spreads.iter().map(|spread| spread.median).collect();
+        let title = headline(self.show, self.per_second);
+        let map = Map::of(grid, &values, &title);
         let (width, height) = map.size();
         let height =
             height + if plateaus.is_some() { LEGEND - BOTTOM + style::MARGIN } else { 0.0 };
         let mut canvas = Canvas::new((width, height));
-        title(&mut canvas, self.show);
-        let of_clips = format!("median of {} clips", grids.len());
-        let faint = Type::new(style::WORDS).color(style::FAINT);
-        if grids.len() > 1 {
-            canvas.text(&of_clips, (style::MARGIN, 58.0), faint);
-        }
-        map.bar(&mut canvas);
+        let median = if grids.len() > 1 { "median 中央値, " } else { "" };
+        let what = format!("{median}{}", unit(self.show, self.per_second));
+        let free = map.scale(&mut canvas, &what);
+        title::draw(&mut canvas, &title, &named(clips), free - 8.0);
         map.cells(&mut canvas, &values)?;
         if let Some(plateaus) = plateaus {
             map.edges(&mut canvas, grid, plateaus);
@@ -110,7 +115,7 @@ struct Map {
 }
 
 impl Map {
-    fn of(grid: &Grid, values: &[f64], show: Measure) -> Self {
+    fn of(grid: &Grid, values: &[f64], title: &str) -> Self {
         let (columns, rows) = (grid.x.len(), grid.rows());
         let px = |all: f64, count: usize, (least, most): (f64, f64)| {
             (all / count as f64).floor().clamp(least, most)
@@ -122,9 +127,9 @@ impl Map {
         let fits = ((cell.0 - 4.0) / widest).min(0.62 * cell.1).min(style::WORDS);
         let labels = grid.y.iter().flat_map(Axis::values);
         let label = labels.map(|value| style::text_width(value, style::SMALL)).fold(0.0, f64::max);
-        let title = style::text_width(&headline(show), 1.1 * style::TITLE);
+        let title = style::text_width(title, 1.1 * style::TITLE);
         let axes = [Some(&grid.x), grid.y.as_ref()].into_iter().flatten();
-        let words = axes.map(|axis| style::text_width(&name(axis, unit(axis)), style::WORDS));
+        let words = axes.map(|axis| style::text_width(&name(axis), style::WORDS));
         let left = style::MARGIN + label + if grid.y.is_some() { 30.0 } else { 0.0 };
         let widest = grid.x.values().iter().map(|value| style::text_width(value, style::SMALL));
         let below = labels_of(&grid.x, (widest.fold(0.0, f64::max) + 8.0) / cell.0);
@@ -190,9 +195,9 @@ impl Map {
         // A name may be wider than a map of few columns.
         let middle = self.plot.at(0.5 * grid.x.len() as f64, 0.0).0;
         let place = (middle.max(0.5 * self.size().0.min(560.0)), self.plot.to.1 + 42.0);
-        canvas.text(&name(&grid.x, unit(&grid.x)), place, words.align(Align::Center));
+        canvas.text(&name(&grid.x), place, words.align(Align::Center));
         if let Some(axis) = &grid.y {
-            canvas.text(&name(axis, unit(axis)), (style::MARGIN, TOP - 10.0), words);
+            canvas.text(&name(axis), (style::MARGIN, TOP - 10.0), words);
         }
     }
 
@@ -253,27 +258,26 @@ impl Map {
         edge
     }
 
-    /// What the colours mean, at the upper right.
-    fn bar(&self, canvas: &mut Canvas) {
+    /// What the colours mean, at the upper right: so many px are free to the left of it.
+    fn scale(&self, canvas: &mut Canvas, words: &str) -> f64 {
         const STEPS: usize = 24;
         let (width, right) = (96.0, self.size().0 - style::MARGIN);
         let look = Type::new(style::SMALL);
-        let most = written(self.high);
+        let (least, most) = (written(self.low), written(self.high));
         let right = right - style::text_width(&most, style::SMALL) - 6.0;
         for step in 0..STEPS {
             let left = right - width + width * step as f64 / STEPS as f64;
             let share = step as f64 / (STEPS - 1) as f64;
-            canvas.rect((left, 50.0), (left + width / STEPS as f64, 60.0), color(share));
+            canvas.rect((left, 47.0), (left + width / STEPS as f64, 57.0), color(share));
         }
-        canvas.text(&most, (right + 6.0, 59.0), look);
-        let least = written(self.low);
-        canvas.text(&least, (right - width - 6.0, 59.0), look.align(Align::Right));
+        canvas.text(&most, (right + 6.0, 56.0), look);
+        let left = right - width - 6.0;
+        canvas.text(&least, (left, 56.0), look.align(Align::Right));
+        let left = left - style::text_width(&least, style::SMALL) - 8.0;
+        let faint = look.color(style::FAINT).align(Align::Right);
+        canvas.text(words, (left, 56.0), faint);
+        left - style::text_width(words, style::SMALL)
     }
-}
-
-/// What an axis counts in; of words nothing.
-fn unit(axis: &Axis) -> &str {
-    axis.scale().map_or("", |(_, unit)| unit)
 }
 
 /// The colour of a share, 0 to 1: the darker the more.

@@ -9,7 +9,7 @@ use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::motion::seen::view::View;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
-use crate::plot::cells::{Cell, cells, composed, drawn_poses};
+use crate::plot::drawings::{ShownDrawing, composed, drawn_poses, shown_drawings};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
 use crate::plot::shared;
@@ -75,7 +75,7 @@ impl OnionSkin {
         let poses = drawn_poses(&composite, layer.drawings.len());
         let view = self.camera.view(clip, &poses);
         let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
-        let cells = cells(layer);
+        let cells = shown_drawings(layer);
         let ways = ways(&cells);
         let panels: Vec<Panel<'_>> =
             ways.into_iter().map(|way| Panel::of(way, &figure, &view, &poses)).collect();
@@ -100,7 +100,7 @@ impl OnionSkin {
 }
 
 /// The exposures from each kept one to the next, both included; of a sheet with one, that.
-fn ways<'a>(cells: &'a [Cell<'a>]) -> Vec<&'a [Cell<'a>]> {
+fn ways<'a>(cells: &'a [ShownDrawing<'a>]) -> Vec<&'a [ShownDrawing<'a>]> {
     let kept: Vec<usize> = (0..cells.len()).filter(|at| cells[*at].genga.is_some()).collect();
     let ways: Vec<_> = kept.windows(2).map(|pair| &cells[pair[0]..=pair[1]]).collect();
     if ways.is_empty() { vec![cells] } else { ways }
@@ -108,12 +108,12 @@ fn ways<'a>(cells: &'a [Cell<'a>]) -> Vec<&'a [Cell<'a>]> {
 
 /// The way from one genga to the next.
 struct Panel<'a> {
-    way: &'a [Cell<'a>],
+    way: &'a [ShownDrawing<'a>],
     bounds: Bounds,
 }
 
 impl<'a> Panel<'a> {
-    fn of(way: &'a [Cell<'a>], figure: &Figure, view: &View, poses: &[Vec<DVec3>]) -> Self {
+    fn of(way: &'a [ShownDrawing<'a>], figure: &Figure, view: &View, poses: &[Vec<DVec3>]) -> Self {
         let bounds = Bounds::of(figure, view, way.iter().map(|cell| &poses[cell.index]));
         Self { way, bounds }
     }
@@ -189,8 +189,8 @@ impl Page<'_> {
     }
 
     /// The path of the joint that goes furthest, with a dot a drawing.
-    fn arc(&self, canvas: &mut Canvas, way: &[Cell<'_>], stage: &Stage) {
-        let joint = |cell: &Cell<'_>, joint: usize| self.poses[cell.index][joint];
+    fn arc(&self, canvas: &mut Canvas, way: &[ShownDrawing<'_>], stage: &Stage) {
+        let joint = |cell: &ShownDrawing<'_>, joint: usize| self.poses[cell.index][joint];
         let length = |at: usize| -> f64 {
             way.windows(2).map(|pair| joint(&pair[0], at).distance(joint(&pair[1], at))).sum()
         };
@@ -212,7 +212,7 @@ impl Page<'_> {
     fn words(
         &self,
         canvas: &mut Canvas,
-        way: &[Cell<'_>],
+        way: &[ShownDrawing<'_>],
         (x, y): Point,
         (wide, high): (f64, f64),
     ) {
@@ -238,7 +238,7 @@ impl Page<'_> {
         let koma = format!("koma {}–{}", from.koma + 1, to.koma + 1);
         canvas.text(&koma, (x + wide - 10.0, y + 23.0), look);
         let between = match way.len().saturating_sub(2) {
-            0 => "no inbetween 中なし".to_owned(),
+            0 => "no inbetween 中割なし".to_owned(),
             count => format!("{count} between 中{count}枚"),
         };
         let look = Type::new(style::SMALL).color(style::INK).align(Align::Center);

@@ -1,7 +1,7 @@
 //! What the pages of figures have in common: a title, the length of the cut, a legend.
 
 use crate::plot::canvas::{Align, Canvas, Type};
-use crate::plot::cells::seconds_and_koma;
+use crate::plot::drawings::seconds_and_koma;
 use crate::plot::legend::{self, SIDES};
 use crate::plot::style;
 use crate::sheet::{Layer, Sheet};
@@ -47,10 +47,8 @@ impl Head<'_> {
 pub(super) fn facts(sheet: &Sheet, layer: &Layer) -> String {
     let koma = layer.length();
     let length = seconds_and_koma(koma, sheet.clock.koma_rate);
-    let genga = layer.shown().filter(|drawing| drawing.role.is_kept()).count();
+    let genga = layer.genga();
     let drawings = layer.shown().count();
     let plural = if drawings == 1 { "" } else { "s" };
-    format!(
-        "尺 {length} ({koma} koma) · genga and ends 原画 {genga} · {drawings} drawing{plural} 動画"
-    )
+    format!("尺 {length} ({koma} koma) · genga 原画 {genga} · {drawings} drawing{plural} 動画")
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Camera;
 use crate::motion::Clip;
 
-pub(crate) use super::cells::{Cell, cells};
+pub(crate) use super::drawings::{ShownDrawing, shown_drawings};
 pub(crate) use super::figure::{Drawn, Figure};
 pub(crate) use super::heat::color as heat;
 pub(crate) use super::points::Posing;

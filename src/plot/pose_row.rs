@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Camera, Clip};
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
-use crate::plot::cells::{Cell, cells, composed};
 use crate::plot::chart::number;
+use crate::plot::drawings::{ShownDrawing, composed, shown_drawings};
 use crate::plot::figure::Figure;
 use crate::plot::legend::{self, SIDES};
 use crate::plot::points::{Posing, Showing};
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
-use crate::plot::style;
+use crate::plot::{style, title};
 use crate::sheet::{Role, Sheet, Source};
 
 /// Stick figures (棒人間) of some drawings, side by side, on one floor and of one scale.
@@ -21,6 +21,8 @@ use crate::sheet::{Role, Sheet, Source};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PoseRow {
+    /// Name of the clip, below the title; default empty, and nothing is written.
+    pub clip: String,
     /// Width in px at most, 200 to 20000; default 1200.
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 170.
@@ -33,11 +35,11 @@ pub struct PoseRow {
 
 impl Default for PoseRow {
     fn default() -> Self {
-        Self { width: 1200, figure_height: 170, in_line: 12, most: 300 }
+        Self { clip: String::new(), width: 1200, figure_height: 170, in_line: 12, most: 300 }
     }
 }
 
-const HEAD: f64 = 60.0;
+const HEAD: f64 = title::HIGH + 4.0;
 const GAP: f64 = 14.0;
 const LABELS: f64 = 42.0;
 const BETWEEN_LINES: f64 = 16.0;
@@ -95,9 +97,9 @@ impl PoseRow {
     pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
         let composite = composed(clip, sheet)?;
-        let mut kept = cells(composite.layer());
+        let mut kept = shown_drawings(composite.layer());
         kept.retain(|cell| cell.genga.is_some());
-        let frame = |cell: &Cell<'_>| {
+        let frame = |cell: &ShownDrawing<'_>| {
             let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
             (cell.drawing.source.place(), label, cell.drawing.role)
         };
@@ -140,7 +142,7 @@ impl PoseRow {
         let width = width.min(f64::from(self.width).max(NARROWEST));
         let height = HEAD + line * lines as f64 + 10.0;
         let mut canvas = Canvas::new((width, height));
-        head(&mut canvas, (frames.len(), all), width - style::MARGIN);
+        self.head(&mut canvas, (frames.len(), all), width - style::MARGIN);
         for (at, row) in frames.chunks(in_line).enumerate() {
             let floor = HEAD + line * at as f64 + 12.0 + high;
             let end = style::MARGIN + cell * row.len() as f64;
@@ -154,20 +156,15 @@ impl PoseRow {
         }
         Ok(canvas.finish())
     }
-}
 
-/// The title, how many figures of how many there are, and which colour is which side.
-fn head(canvas: &mut Canvas, (shown, all): (usize, usize), right: f64) {
-    canvas.text("Poses ポーズ", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
-    if shown < all {
-        let words = format!("the first {shown} of {all}");
-        canvas.text(
-            &words,
-            (style::MARGIN + 126.0, 34.0),
-            Type::new(style::WORDS).color(style::FAINT),
-        );
+    /// The title, the clip, how many figures of how many there are, and which colour is which side.
+    fn head(&self, canvas: &mut Canvas, (shown, all): (usize, usize), right: f64) {
+        let first = if shown < all { format!("the first {shown} of {all}") } else { String::new() };
+        let words = [self.clip.as_str(), &first];
+        let words: Vec<&str> = words.into_iter().filter(|words| !words.is_empty()).collect();
+        title::draw(canvas, "Poses ポーズ", &words.join("  ·  "), right);
+        legend::draw(canvas, right, &SIDES);
     }
-    legend::draw(canvas, right, &SIDES);
 }
 
 /// The label in its role's colour and the frame below.

@@ -12,13 +12,15 @@ use crate::plot::canvas::{Canvas, Point, Type};
 use crate::plot::legend::{self, Entry, SPLIT};
 use crate::plot::sheet::fate::row_before;
 use crate::plot::sheet::paper::{Band, LEFT, Paper, badges};
-use crate::plot::style;
-use crate::sheet::{Layer, Role, Sheet};
+use crate::plot::{style, title};
+use crate::sheet::{Layer, Sheet};
 
 /// The timesheet (タイムシート): a bar a drawing on its first koma, a line while it is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SheetPlot {
+    /// Name of the clip, below the title; default empty, and nothing is written.
+    pub clip: String,
     /// Width in px, 400 to 20000; default 1200. The height follows from the sheet.
     pub width: u32,
     /// Koma on a line, 6 to 1440; default 144, the six seconds of a sheet of paper. More of them are
@@ -32,11 +34,16 @@ pub struct SheetPlot {
 
 impl Default for SheetPlot {
     fn default() -> Self {
-        Self { width: 1200, koma_in_line: 144, splits: Vec::new(), seen_from: SeenFrom::World }
+        Self {
+            clip: String::new(),
+            width: 1200,
+            koma_in_line: 144,
+            splits: Vec::new(),
+            seen_from: SeenFrom::World,
+        }
     }
 }
 
-const HEAD: f64 = 52.0;
 /// Height of the lines of words about the layers, in the title.
 const COUNTS: f64 = 19.0;
 
@@ -54,7 +61,7 @@ impl SheetPlot {
         Ok(())
     }
 
-    /// Draws the sheet as SVG: genga tall with their numbers, inbetweens short, ends dark.
+    /// Draws the sheet as SVG: genga tall with their numbers, the first and the last of them dark, inbetweens short.
     ///
     /// `spaced` is the same sheet before omission, shown as a thin row above with what was left out;
     /// `ssd` has a value a koma (how far the body moved into it) and is drawn as its square root.
@@ -71,7 +78,7 @@ impl SheetPlot {
         sheet.check()?;
         spaced.map_or(Ok(()), Sheet::check)?;
         let paper = self.paper(sheet, spaced, ssd);
-        let words = HEAD + COUNTS * sheet.layers.len() as f64;
+        let words = title::HIGH + 14.0 + COUNTS * sheet.layers.len() as f64;
         let lines = paper.koma.div_ceil(paper.in_line).max(1);
         let line = paper.line_height();
         let height = words + line * lines as f64;
@@ -124,11 +131,11 @@ impl SheetPlot {
     }
 
     fn head(&self, canvas: &mut Canvas, sheet: &Sheet, spaced: bool) {
-        let title = Type::new(style::TITLE).bold();
-        canvas.text("Timesheet タイムシート", (style::MARGIN, 34.0), title);
+        let right = f64::from(self.width) - style::MARGIN;
+        title::draw(canvas, "Timesheet タイムシート", &self.clip, right);
         for (at, layer) in sheet.layers.iter().enumerate() {
-            let base = HEAD + 3.0 + COUNTS * at as f64;
-            let width = f64::from(self.width) - 2.0 * style::MARGIN;
+            let base = title::HIGH + 17.0 + COUNTS * at as f64;
+            let width = right - style::MARGIN;
             let counts = counts(layer, sheet.clock.koma_rate);
             let text = style::fitted(&counts, style::WORDS, width);
             canvas.text(&text, (style::MARGIN, base), Type::new(style::WORDS));
@@ -137,7 +144,7 @@ impl SheetPlot {
         if self.width >= room {
             let mut entries = LEGEND[..if spaced { 6 } else { 4 }].to_vec();
             entries.extend((!self.splits.is_empty()).then_some(SPLIT));
-            legend::draw(canvas, f64::from(self.width) - style::MARGIN, &entries);
+            legend::draw(canvas, right, &entries);
         }
     }
 }
@@ -155,7 +162,7 @@ fn counts(layer: &Layer, koma_rate: f64) -> String {
     format!(
         "{}:  {koma} koma ({seconds:.1} s)  ·  {drawings} drawings  ·  {} genga  ·  {a_second:.1} drawings a second  ·  longest hold {} koma{joints}",
         layer.name,
-        layer.count(Role::Genga),
+        layer.genga(),
         layer.longest_hold()
     )
 }
@@ -164,10 +171,10 @@ fn counts(layer: &Layer, koma_rate: f64) -> String {
 const LEGEND: [Entry; 6] = [
     ("genga 原画", |canvas, at| bar(canvas, at, 15.0, style::GENGA)),
     ("inbetween 中割り", |canvas, at| bar(canvas, at, 9.0, style::INBETWEEN)),
-    ("end", |canvas, at| bar(canvas, at, 15.0, style::END)),
+    ("first, last 端", |canvas, at| bar(canvas, at, 15.0, style::END)),
     ("hold", |canvas, (x, y)| canvas.line((x - 7.5, y), (x + 7.5, y), style::INBETWEEN, 2.5)),
-    ("naka-nashi 中無し", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
-    ("koma-dori コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
+    ("left out 抜いた中割", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
+    ("held over コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
 ];
 
 fn bar(canvas: &mut Canvas, (x, y): Point, high: f64, color: RGBColor) {

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Clip, JointId};
 use crate::plot::canvas::{Align, Canvas, Point, Type};
-use crate::plot::cells::{cells, shown};
 use crate::plot::chart::{Axis, Plot, curve, range_with_zero};
+use crate::plot::drawings::{shown, shown_drawings};
 use crate::plot::legend::{self, Entry};
 use crate::plot::style;
 use crate::sheet::Sheet;
@@ -133,7 +133,7 @@ impl SpacingPlot {
 
     fn row<'a>(&self, clip: &Clip, name: &'a str, sheet: &Sheet) -> Result<Row<'a>, Error> {
         let layer = shown(clip, sheet)?;
-        let cells = cells(layer);
+        let cells = shown_drawings(layer);
         let kept: Vec<usize> = (0..cells.len()).filter(|at| cells[*at].genga.is_some()).collect();
         let Some(&[from, to]) = kept.windows(2).nth(self.genga - 1) else {
             let message = format!(

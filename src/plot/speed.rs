@@ -11,7 +11,7 @@ use crate::motion::JointId;
 use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::chart::{Axis, Plot};
 use crate::plot::speed::panel::{Panel, Shared};
-use crate::plot::style;
+use crate::plot::{style, title};
 use crate::signal::{Signals, Turn};
 use crate::time::Frame;
 
@@ -21,6 +21,8 @@ pub use curve::SpeedCurves;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SpeedPlot {
+    /// Name of the clip, below the title; default empty, and nothing is written.
+    pub clip: String,
     /// Width in px, 400 to 20000; default 1200.
     pub width: u32,
     /// Height in px, 300 to 20000; default 900. Many panels in a low picture cannot be read.
@@ -35,12 +37,19 @@ pub struct SpeedPlot {
 
 impl Default for SpeedPlot {
     fn default() -> Self {
-        Self { width: 1200, height: 900, joints: 4, curves: SpeedCurves::Both, splits: Vec::new() }
+        Self {
+            clip: String::new(),
+            width: 1200,
+            height: 900,
+            joints: 4,
+            curves: SpeedCurves::Both,
+            splits: Vec::new(),
+        }
     }
 }
 
 const LEFT: f64 = 64.0;
-const TOP: f64 = 64.0;
+const TOP: f64 = title::HIGH + 14.0;
 const BOTTOM: f64 = 58.0;
 const GAP: f64 = 14.0;
 /// Lanes for the numbers of the layer's keys at most.
@@ -111,7 +120,7 @@ impl SpeedPlot {
             is_last: row + 1 == shown.len(),
         });
         let mut canvas = Canvas::new((width, height));
-        canvas.text("Speed 速度", (style::MARGIN, 34.0), Type::new(style::TITLE).bold());
+        title::draw(&mut canvas, "Speed 速度", &self.clip, right);
         crate::plot::legend::draw(&mut canvas, right, &entries);
         for panel in panels {
             panel.draw(&mut canvas, &shared)?;

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Clip, Screen, SeenFrom};
 use crate::plot::canvas::{Align, Canvas, Point, Type};
-use crate::plot::cells::shown;
 use crate::plot::chart::{Axis, Plot, bar, number};
+use crate::plot::drawings::shown;
 use crate::plot::legend::{self, Entry};
 use crate::plot::sheet::fate::{Fate, fates};
 use crate::plot::style;
@@ -45,7 +45,7 @@ const BETWEEN: f64 = 20.0;
 const OWN: RGBColor = style::WALL;
 
 const LEGEND: [Entry; 4] = [
-    ("left out 中無し", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
+    ("left out 抜いた中割", |canvas, at| canvas.cross(at, 4.0, style::GENGA, 1.75)),
     ("held コマ撮り", |canvas, at| canvas.ring(at, 3.25, style::FAINT, 1.25)),
     ("a koma longer", |canvas, at| plus(canvas, at, 3.5)),
     ("own drawing", |canvas, (x, y)| canvas.rect((x - 2.0, y - 6.0), (x + 2.0, y + 6.0), OWN)),
@@ -180,7 +180,7 @@ impl Paper<'_> {
         let (was, is) = (self.source.largest(), self.result.largest());
         let times = if was > 0.0 { format!(", {:.1} times", is / was) } else { String::new() };
         let facts = format!(
-            "{} koma  ·  left out 中無し {left_out}  ·  held コマ撮り {held}  ·  \
+            "{} koma  ·  left out 抜いた中割 {left_out}  ·  held コマ撮り {held}  ·  \
              largest SSD {was:.0} → {is:.0}{times}  ·  bars are √SSD high{seen}",
             self.koma
         );
@@ -257,7 +257,7 @@ impl Paper<'_> {
             if omitted > 0 {
                 let (x, top) = self.charts[1].at((koma + 1) as f64, self.result.ssd[koma].sqrt());
                 let look = Type::new(style::SMALL).bold().color(style::GENGA);
-                canvas.text(&format!("中無し {omitted}"), (x + 5.0, top + 10.0), look);
+                canvas.text(&format!("抜いた中割 {omitted}"), (x + 5.0, top + 10.0), look);
             }
         }
     }

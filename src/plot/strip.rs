@@ -8,8 +8,8 @@ use crate::knob::{Knobs, knobs};
 use crate::motion::Camera;
 use crate::motion::Clip;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
-use crate::plot::cells::{
-    Cell, beginning, cells, composed, drawn_poses, seconds_and_koma, sliding_poses,
+use crate::plot::drawings::{
+    ShownDrawing, beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
 };
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
@@ -98,7 +98,7 @@ impl Strip {
         let place = |koma| sheet.clock.place_from_koma(koma);
         let koma = layer.length();
         let source = Posing::of(clip).all((0..koma).map(|koma| Source::At(place(koma))));
-        let cells = cells(layer);
+        let cells = shown_drawings(layer);
         let all = sliding.as_ref().unwrap_or(&result);
         let (stage, in_line, column) = self.stage(clip, &source, all);
         let lines = koma.div_ceil(in_line);
@@ -153,10 +153,14 @@ impl Strip {
 
 /// Which koma of the source nothing stands for: those further than half a koma from both of two
 /// drawings between which naka-nashi left some out.
-fn passed_over(cells: &[Cell<'_>], places: impl Iterator<Item = f64>, koma: f64) -> Vec<bool> {
-    let place = |cell: &Cell<'_>| cell.drawing.source.place();
-    let gap = |pair: &[Cell<'_>]| (place(&pair[0]), place(&pair[1]));
-    let omits = |pair: &&[Cell<'_>]| pair[1].drawing.why.omitted_before > 0;
+fn passed_over(
+    cells: &[ShownDrawing<'_>],
+    places: impl Iterator<Item = f64>,
+    koma: f64,
+) -> Vec<bool> {
+    let place = |cell: &ShownDrawing<'_>| cell.drawing.source.place();
+    let gap = |pair: &[ShownDrawing<'_>]| (place(&pair[0]), place(&pair[1]));
+    let omits = |pair: &&[ShownDrawing<'_>]| pair[1].drawing.why.omitted_before > 0;
     let gaps: Vec<(f64, f64)> = cells.windows(2).filter(omits).map(gap).collect();
     let half = 0.5 * koma;
     let inside = |place: f64| gaps.iter().any(|(a, b)| place > a + half && place < b - half);
@@ -171,7 +175,7 @@ struct Lines<'a> {
     result: Vec<Vec<DVec3>>,
     /// A pose a koma, where a held drawing slides.
     sliding: Option<Vec<Vec<DVec3>>>,
-    cells: Vec<Cell<'a>>,
+    cells: Vec<ShownDrawing<'a>>,
     passed: Vec<bool>,
     koma_rate: f64,
     in_line: usize,
@@ -239,7 +243,7 @@ impl Lines<'_> {
     fn exposure(
         &self,
         canvas: &mut Canvas,
-        cell: &Cell<'_>,
+        cell: &ShownDrawing<'_>,
         koma: std::ops::Range<usize>,
         floor: f64,
     ) {
@@ -276,7 +280,7 @@ impl Lines<'_> {
         }
     }
 
-    fn gap(&self, canvas: &mut Canvas, cell: &Cell<'_>, floor: f64) {
+    fn gap(&self, canvas: &mut Canvas, cell: &ShownDrawing<'_>, floor: f64) {
         let omitted = cell.drawing.why.omitted_before;
         if omitted == 0 {
             return;
@@ -285,6 +289,6 @@ impl Lines<'_> {
         let top = floor - self.high + 8.0;
         canvas.dashes((x, top), (x, floor + 24.0), style::GENGA, 1.5);
         let look = Type::new(style::SMALL).bold().color(style::GENGA).align(Align::Center);
-        canvas.text(&format!("中無し {omitted}"), (x, top - 6.0), look);
+        canvas.text(&format!("抜いた中割 {omitted}"), (x, top - 6.0), look);
     }
 }

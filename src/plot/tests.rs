@@ -19,7 +19,7 @@ mod method;
 #[cfg(feature = "cli")]
 mod moving;
 mod ssd;
-mod study;
+mod study_chart;
 
 const GENGA: &str = "#c83210";
 const END: &str = "#30343c";
@@ -218,16 +218,16 @@ fn corners(svg: &str, color: &str) -> Vec<(f64, f64)> {
 fn a_speed_plot_shows_the_curves_it_is_asked_for_and_says_which() {
     use SpeedCurves::{Both, Filtered, Kept, Measured};
     for (curves, lines, legend) in [
-        (Both, 2, vec!["raw", "filtered", "key 原画"]),
-        (Measured, 1, vec!["as measured", "key 原画"]),
-        (Filtered, 1, vec!["filtered", "key 原画"]),
-        (Kept, 2, vec!["filtered", "keys alone 原画のみ", "key 原画"]),
+        (Both, 2, vec!["raw", "filtered", "key of the joint 関節の候補"]),
+        (Measured, 1, vec!["as measured", "key of the joint 関節の候補"]),
+        (Filtered, 1, vec!["filtered", "key of the joint 関節の候補"]),
+        (Kept, 2, vec!["filtered", "its keys alone 候補のみ", "key of the joint 関節の候補"]),
     ] {
         let svg = draw_curves(curves);
         assert_eq!(self::curves(&svg).len(), lines, "{curves:?}");
         let words = words(&svg);
         assert_eq!(words[1..=legend.len()], legend, "{curves:?}");
-        assert!(!words.contains(&"wall 壁") && !words.contains(&"genga of the layer ①"));
+        assert!(!words.contains(&"wall 壁") && !words.contains(&"genga 原画 ①"));
     }
     // A key stands on the curve that is shown.
     let svg = draw_curves(Measured);
@@ -309,7 +309,7 @@ fn a_sheet_has_a_bar_a_drawing_and_a_line_a_hold() {
     let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();
     assert_eq!((bars(&svg, GENGA), bars(&svg, "#969ca3"), bars(&svg, END)), (1, 2, 2));
     assert_eq!(tags(&svg, "line", "stroke-width=\"2.5\"").len(), 2 + 1, "two holds and the legend");
-    let counts = "A:  8 koma (0.3 s)  ·  5 drawings  ·  1 genga  ·  15.0 drawings a second  ·  longest hold 3 koma";
+    let counts = "A:  8 koma (0.3 s)  ·  5 drawings  ·  3 genga  ·  15.0 drawings a second  ·  longest hold 3 koma";
     assert!(words(&svg).contains(&counts), "{:?}", words(&svg));
 }
 
@@ -353,7 +353,7 @@ fn what_omission_took_is_marked_on_the_row_above() {
     // Crosses are two lines 1.5 px wide; that of the legend is 1.8 wide.
     let crosses = tags(&svg, "line", "stroke-width=\"1.5\"");
     assert_eq!(crosses.iter().filter(|line| line.contains(GENGA)).count(), 2);
-    assert!(words(&svg).contains(&"naka-nashi 中無し"));
+    assert!(words(&svg).contains(&"left out 抜いた中割"));
 }
 
 #[test]
@@ -583,4 +583,19 @@ fn a_png_has_the_size_of_its_svg_times_the_scale() {
     has_setting_error(png_from_svg(&svg, f32::NAN), "scale");
     assert!(png_from_svg(&svg, 1e-6).is_err() && png_from_svg(&svg, 1e6).is_err());
     assert!(png_from_svg("no svg", 1.0).is_err());
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn a_pdf_is_one_page_of_the_size_of_its_svg_and_knows_no_date() {
+    let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();
+    let height = number_of(svg.lines().next().unwrap(), "height");
+    let pdf = pdf_from_svg(&svg).unwrap();
+    let text = String::from_utf8_lossy(&pdf);
+    assert!(text.starts_with("%PDF-1."));
+    let page = format!("/MediaBox[0 0 900 {}]", 0.75 * height);
+    assert_eq!(text.matches(&page).count(), 1, "{page}");
+    assert!(!text.contains("Date"));
+    assert_eq!(pdf_from_svg(&svg).unwrap(), pdf);
+    assert!(pdf_from_svg("no svg").is_err());
 }

@@ -131,7 +131,7 @@ fn pace(sheet: &Sheet) -> Counts {
     Counts {
         koma,
         drawings,
-        genga: layer.count(Role::Genga),
+        genga: layer.genga(),
         drawings_per_second: drawings as f64 * sheet.clock.koma_rate / koma.max(1) as f64,
         holds,
     }
@@ -195,7 +195,7 @@ mod tests {
         let found = Evaluation::of(&clip, &sheet(&clip, &ones), None, 1.0).unwrap();
         assert!(found.shown.worst < 1e-12, "{found:?}");
         assert_eq!(found.keys, Off { mean: 0.0, worst: 0.0 }, "every frame is a key");
-        assert_eq!((found.pace.drawings, found.pace.genga), (13, 11));
+        assert_eq!((found.pace.drawings, found.pace.genga), (13, 13));
         assert_eq!(found.pace.drawings_per_second, 24.0);
         assert_eq!(found.pace.holds, BTreeMap::from([(1, 13)]));
         assert_eq!((found.pops, found.timing), (Pops::default(), None));

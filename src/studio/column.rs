@@ -12,7 +12,7 @@ use crate::time::{Clock, Frame};
 /// A cell as pictures know it, and the key behind it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KeyedCell<'a> {
-    on_paper: parts::Cell<'a>,
+    on_paper: parts::ShownDrawing<'a>,
     /// The key that it draws; none for inbetweens and ends.
     pub(super) key: Option<&'a Key>,
 }
@@ -29,9 +29,9 @@ impl KeyedCell<'_> {
 }
 
 impl<'a> Deref for KeyedCell<'a> {
-    type Target = parts::Cell<'a>;
+    type Target = parts::ShownDrawing<'a>;
 
-    fn deref(&self) -> &parts::Cell<'a> {
+    fn deref(&self) -> &parts::ShownDrawing<'a> {
         &self.on_paper
     }
 }
@@ -48,11 +48,11 @@ pub(super) struct Column<'a> {
 impl<'a> Column<'a> {
     pub(super) fn of(breakdown: &Breakdown<'a>) -> Self {
         let layer: &'a Layer = &breakdown.sheet.layers[0];
-        let with_key = |on_paper: parts::Cell<'a>| {
+        let with_key = |on_paper: parts::ShownDrawing<'a>| {
             let key = key_at(&breakdown.first_layer().keys.keys, on_paper.drawing.source);
             KeyedCell { on_paper, key }
         };
-        let cells = parts::cells(layer).into_iter().map(with_key).collect();
+        let cells = parts::shown_drawings(layer).into_iter().map(with_key).collect();
         Self { cells, clock: breakdown.clock, length: layer.length() }
     }
 

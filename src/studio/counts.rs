@@ -2,7 +2,6 @@
 
 use super::words::Words;
 use crate::pipeline::Breakdown;
-use crate::sheet::Role;
 
 /// What a producer asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +17,7 @@ impl Counts {
     pub(super) fn of(breakdown: &Breakdown<'_>) -> Self {
         let layer = &breakdown.sheet.layers[0];
         Self {
-            genga: layer.count(Role::Genga),
+            genga: layer.genga(),
             drawings: layer.shown().count(),
             longest_hold: layer.longest_hold(),
             koma: layer.length(),

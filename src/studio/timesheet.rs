@@ -207,7 +207,7 @@ fn why(cell: &KeyedCell<'_>, shown: &Shown<'_>) -> String {
         reasons.push(format!("{} {}", words.say("held", "止め"), cell.held));
     }
     if why.omitted_before > 0 {
-        reasons.push(format!("{} {}", words.say("left out", "中無し"), why.omitted_before));
+        reasons.push(format!("{} {}", words.say("left out", "抜いた中割"), why.omitted_before));
     }
     if reasons.is_empty() {
         reasons.extend(why.voters.first().cloned());

@@ -1,7 +1,7 @@
 //! The cells of a study, side by side.
 
 use crate::study::axis::Axis;
-use crate::study::measure::{Measure, median};
+use crate::study::measure::Measure;
 use crate::time::Frame;
 
 /// The result of a study of one clip.
@@ -13,6 +13,8 @@ pub struct Grid {
     pub y: Option<Axis>,
     /// What was counted.
     pub measures: Vec<Measure>,
+    /// Seconds of the clip: its frames at its rate.
+    pub seconds: f64,
     /// Source frames in a koma of the recipe.
     pub frames_in_koma: f64,
     /// The cell that is nearest to the recipe's own settings, where they lie in the grid.
@@ -59,15 +61,76 @@ impl Grid {
     }
 }
 
-/// The median over several clips of a measure in each cell; none when it was not counted.
-pub fn medians(grids: &[Grid], measure: Measure) -> Option<Vec<f64>> {
-    let of_clips: Vec<Vec<f64>> =
-        grids.iter().map(|grid| grid.values(measure)).collect::<Option<_>>()?;
-    let cells = of_clips.iter().map(Vec::len).min()?;
-    let of_cell = |at: usize| {
-        let mut values: Vec<f64> = of_clips.iter().map(|values| values[at]).collect();
-        values.sort_by(f64::total_cmp);
-        median(&values)
+/// How a measure spreads over several clips in a cell: half of them lie between the quartiles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// The lower quartile.
+    pub low: f64,
+    /// The median; NaN, as the others, where no clip has a value.
+    pub median: f64,
+    /// The upper quartile.
+    pub high: f64,
+}
+
+/// The median and the quartiles over several clips of a measure in each cell, a second of each clip where
+/// that is asked; none when it was not counted.
+pub fn spreads(grids: &[Grid], measure: Measure, per_second: bool) -> Option<Vec<Spread>> {
+    let values = |grid: &Grid| {
+        let seconds = if per_second { grid.seconds } else { 1.0 };
+        let values = grid.values(measure)?;
+        Some(values.into_iter().map(|value| value / seconds).collect())
     };
-    (0..cells).map(of_cell).collect()
+    let of_clips: Vec<Vec<f64>> = grids.iter().map(values).collect::<Option<_>>()?;
+    let cells = of_clips.iter().map(Vec::len).min()?;
+    let mut of_cell = Vec::with_capacity(of_clips.len());
+    let spread = |at: usize| {
+        of_cell.clear();
+        of_cell.extend(of_clips.iter().map(|values| values[at]).filter(|value| value.is_finite()));
+        of_cell.sort_by(f64::total_cmp);
+        let [low, median, high] = [0.25, 0.5, 0.75].map(|share| quantile(&of_cell, share));
+        Spread { low, median, high }
+    };
+    Some((0..cells).map(spread).collect())
+}
+
+/// The value that a share of sorted values lies below, on the line between the two nearest; NaN of none.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let place = share * last as f64;
+    let below = place.floor() as usize;
+    let (low, high) = (sorted[below], sorted[(below + 1).min(last)]);
+    low + (place - below as f64) * (high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::tests::axis;
+
+    fn grid(value: f64, seconds: f64) -> Grid {
+        Grid {
+            x: axis("filter.width=10"),
+            y: None,
+            measures: vec![Measure::Turns],
+            seconds,
+            frames_in_koma: 5.0,
+            own: None,
+            cells: vec![Cell { values: vec![value], keys: None }],
+        }
+    }
+
+    #[test]
+    fn half_of_the_clips_lie_between_the_quartiles() {
+        let spread = |values: &[f64], per_second| {
+            let grids: Vec<Grid> = values.iter().map(|value| grid(*value, 2.0)).collect();
+            let spread = spreads(&grids, Measure::Turns, per_second).unwrap()[0];
+            [spread.low, spread.median, spread.high]
+        };
+        assert_eq!(spread(&[9.0, 1.0, 5.0, 3.0, 7.0], false), [3.0, 5.0, 7.0]);
+        assert_eq!(spread(&[1.0, 2.0, 3.0, 4.0], false), [1.75, 2.5, 3.25]);
+        assert_eq!(spread(&[1.0, 2.0, 3.0, 4.0], true), [0.875, 1.25, 1.625]);
+        assert_eq!(spread(&[4.0, f64::NAN], false), [4.0; 3]);
+        assert!(spread(&[f64::NAN], false)[1].is_nan());
+        assert!(spreads(&[grid(1.0, 1.0)], Measure::Genga, false).is_none());
+    }
 }

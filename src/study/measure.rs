@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::keys::{BodyTurns, LayerKeys, Origin};
 use crate::motion::Clip;
-use crate::sheet::{Layer, Role};
+use crate::sheet::Layer;
 use crate::signal::Turn;
 use crate::study::{total, union};
 use crate::timing::Stills;
@@ -24,9 +24,10 @@ pub enum Measure {
     /// Turns of the body.
     #[default]
     Turns,
-    /// Genga of the layer.
+    /// Genga of the layer: its keys, and the first and the last drawing. On the sheet a key on the koma of
+    /// such a one is a drawing with it.
     Genga,
-    /// Of these the ones that are no turn.
+    /// Of these the ones that are neither a turn nor the first or last drawing.
     Fills,
     /// Drawings on the sheet.
     Drawings,
@@ -64,8 +65,8 @@ pub(super) struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// Genga of an origin; NaN where none were looked for.
-    fn genga(&self, is_of: impl Fn(Origin) -> bool) -> f64 {
+    /// Keys of an origin between the first and the last drawing; NaN where none were looked for.
+    fn keys_of(&self, is_of: impl Fn(Origin) -> bool) -> f64 {
         let count = |keys: &LayerKeys| keys.keys.iter().filter(|key| is_of(key.origin)).count();
         self.keys.map_or(f64::NAN, |keys| count(keys) as f64)
     }
@@ -109,19 +110,39 @@ impl Measure {
     /// What it is, for a person, in English and Japanese.
     pub fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Union => ("frames with a key of any joint", "いずれかの関節の原画があるフレーム"),
-            Self::Total => ("keys of all joints", "全関節の原画の合計"),
+            Self::Union => ("frames with a key of any joint", "いずれかの関節の候補があるフレーム"),
+            Self::Total => ("keys of all joints", "全関節の候補の合計"),
             Self::Turns => ("turns of the body", "全身の変わり目"),
             Self::Genga => ("genga", "原画"),
             Self::Fills => ("genga that are no turn", "補いの原画"),
             Self::Drawings => ("drawings on the sheet", "動画枚数"),
             Self::DrawingsPerSecond => ("drawings a second", "毎秒の枚数"),
             Self::GengaPerSecond => ("genga a second", "毎秒の原画数"),
-            Self::LongestHold => ("longest hold, koma", "最長の止め（コマ）"),
+            Self::LongestHold => ("longest hold", "最長の止め"),
             Self::HeldKoma => ("held koma", "止めのコマ数"),
             Self::PeakSsd => ("largest SSD between drawings", "SSD の最大値"),
             Self::MedianSsd => ("median SSD between drawings", "SSD の中央値"),
         }
+    }
+
+    /// What it counts in; empty for things that are counted.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::DrawingsPerSecond | Self::GengaPerSecond => "1/s",
+            Self::LongestHold | Self::HeldKoma => "koma",
+            Self::PeakSsd | Self::MedianSsd => "square of the file's unit",
+            Self::Union
+            | Self::Total
+            | Self::Turns
+            | Self::Genga
+            | Self::Fills
+            | Self::Drawings => "",
+        }
+    }
+
+    /// Whether it grows with the length of a clip, so that clips of other lengths compare by the second.
+    pub fn is_count(self) -> bool {
+        self.unit().is_empty() || self == Self::HeldKoma
     }
 
     pub(super) fn reach(self) -> Reach {
@@ -139,8 +160,8 @@ impl Measure {
             Self::Union => union(found.turns) as f64,
             Self::Total => total(found.turns) as f64,
             Self::Turns => found.body.map_or(f64::NAN, |body| body.turns.len() as f64),
-            Self::Genga => found.genga(|_| true),
-            Self::Fills => found.genga(|origin| origin == Origin::Fill),
+            Self::Genga => found.keys_of(|_| true) + found.clip.len().min(2) as f64,
+            Self::Fills => found.keys_of(|origin| origin == Origin::Fill),
             _ => found.layer.map_or(f64::NAN, |layer| self.of_layer(found.clip, layer)),
         }
     }
@@ -150,7 +171,7 @@ impl Measure {
         match self {
             Self::Drawings => layer.shown().count() as f64,
             Self::DrawingsPerSecond => per_second(layer.shown().count()),
-            Self::GengaPerSecond => per_second(layer.count(Role::Genga)),
+            Self::GengaPerSecond => per_second(layer.genga()),
             Self::LongestHold => layer.longest_hold() as f64,
             Self::HeldKoma => layer.held_koma() as f64,
             Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),
@@ -171,7 +192,7 @@ fn steps(clip: &Clip, layer: &Layer) -> Vec<f64> {
 }
 
 /// The middle of sorted values, the mean of both middles for an even number; none of none.
-pub(super) fn median(sorted: &[f64]) -> Option<f64> {
+fn median(sorted: &[f64]) -> Option<f64> {
     let middle = sorted.len() / 2;
     let upper = *sorted.get(middle)?;
     Some(if sorted.len().is_multiple_of(2) { 0.5 * (sorted[middle - 1] + upper) } else { upper })

@@ -141,6 +141,7 @@ impl Study {
             y: self.y.clone(),
             measures: self.measures.clone(),
             own: self.own_cell(bench.clean.rate()),
+            seconds: bench.clean.len() as f64 / bench.clean.rate().fps(),
             frames_in_koma: bench.clean.clock(self.recipe.rate).frames_in_koma(),
             cells: cells.into_iter().flatten().collect(),
         })

@@ -56,6 +56,7 @@ pub(super) fn grid_of_keys(columns: usize, rows: usize, keys: &[&[usize]]) -> Gr
         x: axis(&format!("filter.width=1..{columns}:1")),
         y: (rows > 1).then(|| axis(&format!("turns.persistence=1..{rows}:1"))),
         measures: vec![],
+        seconds: 2.0,
         frames_in_koma: 5.0,
         own: None,
         cells: keys.iter().map(cell).collect(),
@@ -92,7 +93,8 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
             union.sort();
             union.dedup();
             let seconds = layer.length() as f64 / run.clock.koma_rate;
-            let genga = layer.drawings.iter().filter(|drawing| drawing.role == Role::Genga).count();
+            let genga =
+                layer.drawings.iter().filter(|drawing| drawing.role != Role::Inbetween).count();
             let stills = Stills::of(run.clip, layer);
             let steps = layer.exposures.windows(2);
             let mut steps: Vec<f64> =
@@ -103,7 +105,7 @@ fn slow(study: &Study, clip: &Clip) -> Vec<Cell> {
                 Measure::Union => union.len() as f64,
                 Measure::Total => keys(run.turns).count() as f64,
                 Measure::Turns => run.first_layer().body.turns.len() as f64,
-                Measure::Genga => frames.len() as f64,
+                Measure::Genga => frames.len() as f64 + 2.0,
                 Measure::Fills => run
                     .first_layer()
                     .keys

@@ -2,7 +2,7 @@
 //! its range ends.
 
 use super::ladder::{denser, sparser, sparser_to_threes};
-use super::{Outcome, Target, genga, layer, room};
+use super::{Outcome, Target, between, layer, room};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::pipeline::Engine;
@@ -69,13 +69,13 @@ impl Goal {
         }
         let target = Target::DrawingsPerSecond(self.per_second);
         let breakdown = search.engine.run(&found.recipe, edits)?;
-        let (drawings, genga) = (layer(&breakdown).shown().count(), genga(&breakdown));
+        let (drawings, genga) = (layer(&breakdown).shown().count(), layer(&breakdown).genga());
         let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
         let shortfall = if found.excess.abs() <= NEAR {
             None
         } else if found.excess > 0.0 && !self.keys_are_free {
             Some(format!(
-                "{genga} genga and both ends are wanted, and every drawing between them that could go is gone"
+                "{genga} genga are wanted, and every drawing between them that could go is gone"
             ))
         } else if found.excess > 0.0 {
             Some(format!("{drawings} drawings are left: ends, pins and ends of rests stay"))
@@ -222,7 +222,7 @@ impl Search<'_> {
         let breakdown = self.engine.run(recipe, self.edits)?;
         let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
         let room = (MOST_GENGA * self.per_second * seconds) as usize;
-        let too_many = genga(&breakdown).saturating_sub(room);
+        let too_many = between(&breakdown).saturating_sub(room);
         Ok(too_many.min(room::found(self.engine, recipe, self.edits)?))
     }
 

@@ -1,6 +1,6 @@
 //! A number of genga: how many keys there is room for.
 
-use super::{Outcome, Target, genga, reasons, room};
+use super::{Outcome, Target, between, layer, reasons, room};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{Fill, Merge, Rank};
@@ -10,7 +10,7 @@ use crate::recipe::Recipe;
 /// Settings that are looked at: a found key more is nearly always a genga more.
 const MOST_LOOKS: usize = 16;
 
-/// Settings with which the sheet has `count` genga, or as near as it gets.
+/// Settings with which the sheet has `count` genga, first and last drawing among them, or as near as it gets.
 ///
 /// A found key more is a genga more on the sheet or, where it falls on the koma of a pin or of an end,
 /// none. So the number of found keys is corrected by what is missing until it is right.
@@ -21,7 +21,7 @@ pub(super) fn meet(
     count: usize,
 ) -> Result<(Recipe, Outcome), Error> {
     let target = Target::Keys(count);
-    let mut best = (genga(&engine.run(recipe, edits)?), recipe.clone());
+    let mut best = (layer(&engine.run(recipe, edits)?).genga(), recipe.clone());
     if best.0 == count {
         return Ok((best.1, Outcome { target, reached: count as f64, shortfall: None }));
     }
@@ -34,7 +34,7 @@ pub(super) fn meet(
         }
         wanted = next;
         let tried = room::with_found(engine, recipe, edits, wanted)?;
-        now = genga(&engine.run(&tried, edits)?);
+        now = layer(&engine.run(&tried, edits)?).genga();
         let is_all = room::found(engine, &tried, edits)? < wanted;
         if now.abs_diff(count) < best.0.abs_diff(count) {
             best = (now, tried);
@@ -46,7 +46,7 @@ pub(super) fn meet(
     let (reached, mut recipe) = best;
     if reached == count && recipe.keys.rank == Rank::Price {
         let priced = room::by_price(engine, &recipe, edits)?;
-        if genga(&engine.run(&priced, edits)?) == count {
+        if layer(&engine.run(&priced, edits)?).genga() == count {
             recipe = priced;
         }
     }
@@ -55,8 +55,8 @@ pub(super) fn meet(
         std::cmp::Ordering::Less => Some(too_few(&recipe, edits)),
         std::cmp::Ordering::Greater if edits.freeze() => reasons::settled(edits).map(String::from),
         std::cmp::Ordering::Greater => {
-            let left = engine.find_keys(&recipe, edits)?.keys;
-            Some(reasons::staying(reached, &left.keys))
+            let left = engine.find_keys(&recipe, edits)?.keys.keys.clone();
+            Some(reasons::staying(between(&engine.run(&recipe, edits)?), &left))
         }
     };
     Ok((recipe, Outcome { target, reached: reached as f64, shortfall }))

@@ -30,8 +30,8 @@ pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {
     limits.into_iter().filter(|(limits, _)| *limits).map(|(_, words)| words).collect()
 }
 
-/// Why no key of these goes, none of which was found.
-pub(super) fn staying(genga: usize, keys: &[Key]) -> String {
+/// Why no key of these goes, none of which was found: so many genga stand between the first and the last.
+pub(super) fn staying(between: usize, keys: &[Key]) -> String {
     let any = |is: fn(Origin) -> bool| keys.iter().any(|key| is(key.origin));
     let rests = any(|origin| origin == Origin::Rest);
     let contacts = any(|origin| origin == Origin::Contact);
@@ -43,7 +43,7 @@ pub(super) fn staying(genga: usize, keys: &[Key]) -> String {
     ];
     let there = kinds.into_iter().filter(|(is_there, ..)| *is_there);
     let words: Vec<&str> =
-        there.map(|(_, one, many)| if genga == 1 { one } else { many }).collect();
+        there.map(|(_, one, many)| if between == 1 { one } else { many }).collect();
     let words = listed(&words);
     let way = match (rests, contacts) {
         (true, true) => "; keys.rest=0 knows no rests, and keys.contacts=off no contacts",
@@ -51,9 +51,11 @@ pub(super) fn staying(genga: usize, keys: &[Key]) -> String {
         (false, true) => "; keys.contacts=off knows no contacts",
         (false, false) => "",
     };
-    match genga {
-        1 => format!("the one that is left is {words}, which stays{way}"),
-        _ => format!("all {genga} are {words}, which stay{way}"),
+    let ends = "the first and the last drawing always are genga";
+    match between {
+        0 => ends.into(),
+        1 => format!("{ends}, and the one between them is {words}, which stays{way}"),
+        _ => format!("{ends}, and all {between} between them are {words}, which stay{way}"),
     }
 }
 

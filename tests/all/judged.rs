@@ -62,7 +62,7 @@ fn keys_are_read_from_whatever_has_them_and_their_own_are_all_found() {
     assert!(text(&output.stderr).contains("1 reference key beyond frames 0 to "));
     assert_eq!(json(&text(&output.stdout))["timing"]["reference"], 1);
     let page = place.done("eval out/sheet.json --clip data/kick.bvh --reference list.txt");
-    assert!(page.contains("and 1 reference key within 1 koma"), "{page}");
+    assert!(page.contains("and 1 reference key between the ends, within 1 koma"), "{page}");
     fs::write(place.path("list.txt"), "0\n").unwrap();
     let page = place.done("eval out/sheet.json --clip data/kick.bvh --reference list.txt");
     assert!(page.contains("no key of it stands between the ends, frames 0 and "), "{page}");

@@ -17,7 +17,7 @@ use made::{FRAMES, made, noise_of};
 fn found_again(clip: &Clip, keys: &[Frame]) -> f64 {
     let mut engine = Engine::new(clip.clone()).unwrap();
     let (recipe, edits) = (Recipe::default(), Edits::default());
-    let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(keys.len())]).unwrap();
+    let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(keys.len() + 2)]).unwrap();
     let layer = engine.find_keys(&met.recipe, &edits).unwrap().keys;
     let found: Vec<Frame> = layer.keys.iter().map(|key| key.frame).collect();
     Matching::between(keys, &found, FRAMES as f64).kept()

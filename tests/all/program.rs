@@ -176,7 +176,7 @@ fn a_run_writes_every_file_and_says_what_it_did() {
         assert!(keys.len() > 4 && !keys.contains(&"inbetween".into()));
         let report: serde_json::Value = serde_json::from_slice(&files["report.json"]).unwrap();
         assert_eq!(report["koma"], koma);
-        assert_eq!(report["genga"], keys.iter().filter(|role| *role == "genga").count());
+        assert_eq!(report["genga"], keys.len());
     }
 }
 
@@ -247,8 +247,14 @@ fn omit_does_what_the_second_paper_counts() {
         ));
         let said = text(&output.stderr);
         assert!(output.status.success(), "{name}: {said}");
-        assert!(said.contains(&format!("{naka_nashi} of {naka_nashi} by naka-nashi")), "{said}");
-        assert!(said.contains(&format!("{koma_dori} of {koma_dori} by koma-dori")), "{said}");
+        assert!(
+            said.contains(&format!("{naka_nashi} of {naka_nashi} inbetweens left out")),
+            "{said}"
+        );
+        assert!(
+            said.contains(&format!("{koma_dori} of {koma_dori} inbetweens held over")),
+            "{said}"
+        );
         let drawings = column(&read(&place.path(&format!("{name}.csv"))), "drawing");
         let held = drawings.windows(2).filter(|pair| pair[0] == pair[1]).count();
         assert_eq!(held, naka_nashi + koma_dori, "{name}");

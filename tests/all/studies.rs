@@ -22,9 +22,10 @@ fn table_1_has_a_row_a_cell_and_persistence_runs_fastest() {
         assert!(total.iter().zip(&union).all(|(total, union)| total >= union));
         assert!(union.chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
     }
-    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.png -q");
-    for picture in ["s.png", "h.png"] {
-        assert!(fs::read(place.path(picture)).unwrap().starts_with(b"\x89PNG"));
+    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.pdf -q");
+    for (picture, begin) in [("s.png", "\u{89}PNG"), ("h.pdf", "%PDF")] {
+        let begin: Vec<u8> = begin.chars().map(|letter| letter as u8).collect();
+        assert!(fs::read(place.path(picture)).unwrap().starts_with(&begin), "{picture}");
     }
     let written = fs::read_to_string(place.path("s.csv")).unwrap();
     assert_eq!(written, place.done("study data/kick.bvh"));
@@ -77,6 +78,77 @@ fn any_setting_is_an_axis_and_what_it_changes_is_counted() {
 }
 
 #[test]
+fn genga_are_counted_one_way_with_the_first_and_the_last_drawing() {
+    let place = Place::new();
+    for name in SAMPLES {
+        let said = text(&place.genga(&format!("run data/{name}.bvh --out {name}")).stderr);
+        let file = |file: &str| fs::read_to_string(place.path(&format!("{name}/{file}"))).unwrap();
+        let genga = column(&file("keys.csv"), "genga_no").len();
+        assert!(said.contains(&format!("{genga}, first and last among them")), "{name}: {said}");
+        assert!(file("report.json").contains(&format!("\"genga\": {genga},")), "{name}");
+        assert!(file("sheet.svg").contains(&format!("  {genga} genga  ")), "{name}");
+        let study = "--x rate=24 --measure genga,genga_per_second";
+        let table = place.done(&format!("study data/{name}.bvh {study}"));
+        assert_eq!(numbers(&table, "genga"), [genga as f64], "{name}");
+        let report: serde_json::Value = serde_json::from_str(&file("report.json")).unwrap();
+        assert_eq!(report["genga_per_second"], numbers(&table, "genga_per_second")[0], "{name}");
+        let eval = place.done(&format!("eval {name}/sheet.json --clip data/{name}.bvh --json -"));
+        let eval: serde_json::Value = serde_json::from_str(&eval).unwrap();
+        assert_eq!(eval["pace"]["genga"], genga, "{name}");
+    }
+}
+
+#[test]
+fn a_caption_has_the_command_and_a_recipe_that_gives_the_same_table() {
+    let place = Place::new();
+    let study = "--x turns.persistence=0.05s,0.1s --set filter.width=0.2s --per-second";
+    let args = format!("study data/kick.bvh data/pitch.bvh {study} --plot p.pdf --caption c.md");
+    let table = place.done(&args);
+    let caption = fs::read_to_string(place.path("c.md")).unwrap();
+    let begin =
+        "**turns of the body** (全身の変わり目), a second of its clip, over `turns.persistence`";
+    assert!(caption.starts_with(begin), "{caption}");
+    assert!(caption.contains("| kick | 3.83 |\n| pitch | "), "{caption}");
+    let inside = |fence: &str| {
+        let after = caption.split_once(fence).unwrap().1;
+        after.split_once("```").unwrap().0.trim().to_owned()
+    };
+    let asked = args.split_once("pitch.bvh ").unwrap().1;
+    assert!(
+        inside("```sh").starts_with("genga study ") && inside("```sh").ends_with(asked),
+        "{caption}"
+    );
+    fs::write(place.path("recipe.toml"), inside("```toml")).unwrap();
+    let again =
+        "study data/kick.bvh data/pitch.bvh --x turns.persistence=0.05s,0.1s --recipe recipe.toml";
+    assert_eq!(place.done(again), table);
+    let said = place.refused(2, "study data/kick.bvh --caption c.md");
+    assert!(said.contains("--caption: is about a picture"), "{said}");
+    let said = place.refused(2, "study data/kick.bvh --per-second");
+    assert!(said.contains("--per-second: is about a picture"), "{said}");
+    let said = place.refused(2, "study data/kick.bvh --plot p.svg --caption c.doc");
+    assert!(said.contains("a caption is .md or .txt"), "{said}");
+    let said = place.refused(2, "study data/kick.bvh --plot p.svg --per-second --show peak_ssd");
+    assert!(said.contains("does not grow with the length of a clip"), "{said}");
+}
+
+#[test]
+fn what_the_axes_can_change_is_drawn_unless_it_is_said() {
+    let place = Place::new();
+    for (axes, title) in [
+        ("--x filter.width=0.1s,0.2s", "Turns of the body"),
+        ("--x keys.per_second=2,4", "Genga  原画"),
+        ("--x filter.width=0.1s,0.2s --y spacing.on=2,3", "Drawings on the sheet"),
+        ("--x keys.per_second=2,4 --show turns", "Turns of the body"),
+        ("--x filter.width=10,20 --y turns.persistence=5,10 --paper", "Frames with a key of any"),
+    ] {
+        place.done(&format!("study data/kick.bvh {axes} --plot p.svg -q"));
+        let svg = fs::read_to_string(place.path("p.svg")).unwrap();
+        assert!(svg.contains(&format!(">{title}")), "{axes}: {svg}");
+    }
+}
+
+#[test]
 fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
     let place = Place::new();
     let axes = "--x filter.width=0.1s..0.2s:0.05s --measure union";
@@ -87,7 +159,7 @@ fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
         .map(|clip| numbers(&place.done(&format!("study data/{clip}.bvh {axes}")), "union"));
     assert_eq!(numbers(&table, "union"), alone.concat());
     let heat = fs::read_to_string(place.path("h.svg")).unwrap();
-    assert!(heat.contains("median of 2 clips"));
+    assert!(heat.contains("median 中央値, number"));
     fs::create_dir(place.path("other")).unwrap();
     fs::copy(crate::clips::here("data/kick.bvh"), place.path("kick.bvh")).unwrap();
     fs::copy(place.path("kick.bvh"), place.path("other/kick.bvh")).unwrap();
@@ -160,7 +232,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     let held: Vec<f64> = cells
         .zip(numbers(&table, "genga"))
         .filter(|((x, y), keys)| {
-            (left..=right).contains(x) && (low..=high).contains(y) && *keys == count
+            (left..=right).contains(x) && (low..=high).contains(y) && *keys == count + 2.0
         })
         .map(|(_, keys)| keys)
         .collect();
@@ -205,8 +277,8 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         ("--tolerance 2", "--stability"),
         ("--stability --tolerance=-1", "expected koma"),
         ("--x spacing.on=2,3 --plot s.svg --paper", "in frames alone"),
-        ("--plot s.jpg", "--plot: a picture is .svg or .png"),
-        ("--heat s.pdf", "--heat: a picture is .svg or .png"),
+        ("--plot s.jpg", "--plot: a picture is .svg, .pdf or .png"),
+        ("--heat s.gif", "--heat: a picture is .svg, .pdf or .png"),
     ] {
         // A clip that is not there would be what is said, were it looked at first.
         let said = place.refused(2, &format!("study none.bvh -o s.csv {args}"));

@@ -30,11 +30,11 @@ fn on(koma: &str) -> Recipe {
     recipe
 }
 
-/// Genga and drawings on the sheet of a recipe, and its seconds.
+/// Genga with both ends and drawings on the sheet of a recipe, and its seconds.
 fn figures(engine: &mut Engine, recipe: &Recipe) -> (usize, usize, f64) {
     let breakdown = engine.run(recipe, &Edits::default()).unwrap();
     let layer = &breakdown.sheet.layers[0];
-    (layer.count(Role::Genga), layer.shown().count(), layer.length() as f64 / 24.0)
+    (layer.genga(), layer.shown().count(), layer.length() as f64 / 24.0)
 }
 
 #[test]

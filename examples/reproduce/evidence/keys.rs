@@ -212,7 +212,7 @@ fn known_keys(takes: &[Take], settings: &[(&str, &str)]) -> Outcome<f64> {
         for seed in 0..2 {
             let (dense, keys) = known::made(&take.clip, seed, noise);
             let mut engine = Engine::new(dense)?;
-            let asked = [Target::Keys(keys.len())];
+            let asked = [Target::Keys(keys.len() + 2)];
             let met = meet(&mut engine, &recipe, &Edits::default(), &asked)?;
             let found = engine.find_keys(&met.recipe, &Edits::default())?.keys;
             let found: Vec<Frame> = found.keys.iter().map(|key| key.frame).collect();

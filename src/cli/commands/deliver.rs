@@ -12,7 +12,6 @@ use crate::cli::staging::Bundle;
 use crate::cli::words::{Words, counted};
 use crate::cli::{files, paths};
 use crate::deliver::{Cut, sheet_json};
-use crate::sheet::Role;
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help())]
@@ -72,7 +71,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let made = Made { clip, recipe: None, stale, adds: true, given: None };
     let left = place.finish(bundle, made)?;
     for layer in &file.sheet.layers {
-        let (name, koma, genga) = (&layer.name, layer.length(), layer.count(Role::Genga));
+        let (name, koma, genga) = (&layer.name, layer.length(), layer.genga());
         let drawings = counted(layer.shown().count(), "drawing");
         words.say(format_args!(
             "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"

@@ -167,7 +167,7 @@ fn nothing_to_match([first, last]: [Frame; 2]) -> String {
 fn matched(timing: &Timing, tolerance: f64) -> String {
     let Timing { pairs, found, reference, .. } = timing;
     let reference = counted(*reference, "reference key");
-    format!("{pairs} of {found} genga and {reference} within {tolerance} koma")
+    format!("{pairs} of {found} genga and {reference} between the ends, within {tolerance} koma")
 }
 
 fn shares(timing: &Timing) -> String {

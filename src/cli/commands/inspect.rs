@@ -24,7 +24,7 @@ pub(super) struct InspectArgs {
     /// Only the warnings, on stdout: one a line, its code, line:column (- for the whole clip), sentence.
     #[arg(long)]
     warnings: bool,
-    /// Draw the skeleton too: its rest pose and its hierarchy, an SVG or PNG file.
+    /// Draw the skeleton too: its rest pose and its hierarchy, an SVG, PDF or PNG file.
     #[arg(long, value_name = "FILE.svg", conflicts_with = "warnings")]
     plot: Option<PathBuf>,
 }

@@ -46,7 +46,7 @@ pub(super) struct OmitArgs {
     /// The timesheet, a CSV file.
     #[arg(long, value_name = "FILE.csv")]
     sheet: Option<PathBuf>,
-    /// The movement into each koma before and after, an SVG or PNG file.
+    /// The movement into each koma before and after, an SVG, PDF or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
 }
@@ -103,8 +103,14 @@ fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &OmissionReport, s
     let layer = &sheet.layers[0];
     let (naka, dori) = (&report.naka_nashi, &report.koma_dori);
     words.say(format_args!("length      尺         {koma} → {} koma", layer.length()));
-    words.say(format_args!("left out    中無し     {} of {} by naka-nashi", naka.done, naka.asked));
-    words.say(format_args!("held        コマ撮り   {} of {} by koma-dori", dori.done, dori.asked));
+    words.say(format_args!(
+        "naka-nashi  中無し     {} of {} inbetweens left out",
+        naka.done, naka.asked
+    ));
+    words.say(format_args!(
+        "koma-dori   コマ撮り   {} of {} inbetweens held over",
+        dori.done, dori.asked
+    ));
     let (drawings, longest) = (counted(layer.shown().count(), "drawing"), layer.longest_hold());
     words.say(format_args!("sheet       シート     {drawings}, longest hold {longest} koma"));
     words.say(format_args!(

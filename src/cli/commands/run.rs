@@ -175,7 +175,7 @@ fn of_layer(layer: &LayerReport) -> String {
 fn of_body(words: &Words, report: &Report) {
     let koma = report.koma;
     words.say(format_args!(
-        "genga       原画       {} and both ends, {:.1} a second",
+        "genga       原画       {}, first and last among them, {:.1} a second",
         report.genga, report.genga_per_second
     ));
     if report.genga_over_limit > 0 {
@@ -202,11 +202,11 @@ fn of_body(words: &Words, report: &Report) {
     }
     let omission = &report.omission;
     words.say(format_args!(
-        "left out    中無し     {} of {} by naka-nashi, where it is fastest",
+        "naka-nashi  中無し     {} of {} inbetweens left out, where it is fastest",
         omission.naka_nashi_done, omission.naka_nashi_asked
     ));
     words.say(format_args!(
-        "held        コマ撮り   {} of {} by koma-dori, where it is slowest",
+        "koma-dori   コマ撮り   {} of {} inbetweens held over, where it is slowest",
         omission.koma_dori_done, omission.koma_dori_asked
     ));
 }

@@ -1,5 +1,7 @@
 //! `genga study`: what is found when one or two settings vary.
 
+mod caption;
+
 use std::path::PathBuf;
 use std::slice::from_ref;
 
@@ -73,18 +75,34 @@ pub(super) struct StudyArgs {
     /// The table, a CSV file; - is stdout.
     #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
     out: PathBuf,
-    /// A measure as curves over the first setting, an SVG or PNG file.
+    /// A measure as curves over the first setting, an SVG, PDF or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// A measure as a map of both settings, its value in each cell, an SVG or PNG file.
+    /// A measure as a map of both settings, its value in each cell, an SVG, PDF or PNG file.
     #[arg(long, value_name = "FILE.svg")]
     heat: Option<PathBuf>,
-    /// The measure that is drawn [default: the first that is counted; genga with --stability].
+    /// What stands below the pictures on paper: what they show, of which clips, with the recipe and the
+    /// command that make them again, a Markdown file.
+    #[arg(long, value_name = "FILE.md")]
+    caption: Option<PathBuf>,
+    /// The measure that is drawn [default: the first that is counted; genga with --stability or a
+    /// setting of keys, drawings with one of the sheet, union with --paper].
     #[arg(long, value_name = "MEASURE")]
     show: Option<Measure>,
+    /// Draw a count as that of a second of its clip, so that clips of other lengths compare; the table keeps
+    /// the counts.
+    #[arg(long)]
+    per_second: bool,
     /// Draw the paper's own six counts beside, of a clip that is not public.
     #[arg(long, requires = "plot")]
     paper: bool,
+}
+
+impl StudyArgs {
+    /// The measure that is to be drawn, where it is said.
+    fn shown(&self) -> Option<Measure> {
+        self.show.or(self.paper.then_some(Measure::Union))
+    }
 }
 
 /// How axes are written, what can be counted, and three studies to begin with.
@@ -100,7 +118,7 @@ fn study_help() -> String {
          the first\n  paper\u{2019}s Table 1 (`genga recipe --study`), with them it is that of `genga run`.\n\n\
          Measures:{}\n\n\
          Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
-         genga study a.bvh b.bvh --x keys.per_second=2..6:0.5 --plot curves.svg\n  \
+         genga study a.bvh b.bvh --x keys.min_price=2..20:2 --plot curves.pdf\n  \
          genga study a.bvh --x noise=0..1:0.1 --y filter.width=0.05s..0.2s:0.05s --stability",
         measures.concat()
     )
@@ -120,16 +138,19 @@ fn persistence(values: &str) -> Result<Axis, Error> {
 }
 
 pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
-    let targets = || args.plot.iter().chain(&args.heat).chain([&args.out]);
+    let targets = || args.plot.iter().chain(&args.heat).chain(&args.caption).chain([&args.out]);
     for clip in &args.clips {
         targets().try_for_each(|target| paths::spare(&[("motion", Some(clip))], target))?;
     }
     paths::distinct(targets())?;
     paths::check_picture("plot", args.plot.as_ref())?;
     paths::check_picture("heat", args.heat.as_ref())?;
+    caption::check(args)?;
     let study = asked(args)?;
-    let show = args.show.unwrap_or_else(|| usually_shown(&study));
-    let plot = StudyPlot { show, paper: args.paper, ..StudyPlot::default() };
+    let show = args.shown().unwrap_or_else(|| usually_shown(&study));
+    let (paper, per_second) = (args.paper, args.per_second);
+    let plot = StudyPlot { show, per_second, paper, ..StudyPlot::default() };
+    let heat = HeatMap { show, per_second };
     // What cannot be drawn is refused before the work.
     plot.fits(&study.x, study.y.as_ref())?;
     if args.heat.is_some() {
@@ -141,11 +162,21 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     let tolerance = args.stability.then_some(args.tolerance);
     let plateaus = tolerance.map(|koma| Plateaus::of(&grids, koma));
     if let Some(path) = &args.plot {
-        files::write_picture(path, &plot.draw(&grids)?)?;
+        files::write_picture(path, &plot.draw(&names, &grids)?)?;
     }
     if let Some(path) = &args.heat {
         let edges = plateaus.as_ref().map(|plateaus| &plateaus.found);
-        files::write_picture(path, &HeatMap { show }.draw(&grids, edges)?)?;
+        files::write_picture(path, &heat.draw(&names, &grids, edges)?)?;
+    }
+    if let Some(path) = &args.caption {
+        let drawn = caption::Drawn {
+            show,
+            per_second,
+            paper,
+            curves: args.plot.is_some(),
+            map: args.heat.is_some(),
+        };
+        files::write(path, drawn.caption(&study, &names, &grids).as_bytes())?;
     }
     files::write(&args.out, deliver::study_csv(&names, &grids, tolerance)?.as_bytes())?;
     if let Some(plateaus) = plateaus {
@@ -205,7 +236,7 @@ fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
         Some(_) => "the recipe\u{2019}s own settings stand beside it",
     };
     let (place, keys) = (plateau.words(grid), counted(plateau.keys, "key"));
-    format!("{same} at {place}, {keys}; {own}")
+    format!("{same} at {place}, {keys} between the first and the last drawing; {own}")
 }
 
 fn asked(args: &StudyArgs) -> Result<Study, Failure> {
@@ -221,7 +252,7 @@ fn asked(args: &StudyArgs) -> Result<Study, Failure> {
     }
     let mut measures =
         if args.measure.is_empty() { usual(&x, y.as_ref()) } else { args.measure.clone() };
-    let shown_too = args.show.filter(|show| !measures.contains(show));
+    let shown_too = args.shown().filter(|show| !measures.contains(show));
     measures.extend(shown_too);
     if args.stability && x.len() * y.as_ref().map_or(1, Axis::len) < 2 {
         let message =
@@ -269,10 +300,18 @@ fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
     vec![Measure::Turns, Measure::Genga, Measure::Fills, Measure::Union, Measure::Total]
 }
 
-/// What is drawn unless it is said: what is compared, where it was counted.
+/// What is drawn unless it is said: what is compared, else the first measure that the axes can change.
 fn usually_shown(study: &Study) -> Measure {
-    let is_compared = study.keep_keys && study.measures.contains(&Measure::Genga);
-    if is_compared { Measure::Genga } else { study.measures[0] }
+    let sections = |axis: &Axis| axis.knob().path().0;
+    let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
+    let sections: Vec<&str> = axes.filter_map(sections).collect();
+    let varies = |names: &[&str]| names.iter().any(|name| sections.contains(name));
+    let wanted = match study.keep_keys {
+        false if varies(&OF_THE_SHEET) => Measure::Drawings,
+        false if !varies(&["keys"]) => study.measures[0],
+        _ => Measure::Genga,
+    };
+    if study.measures.contains(&wanted) { wanted } else { study.measures[0] }
 }
 
 fn swept(

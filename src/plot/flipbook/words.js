@@ -10,7 +10,7 @@ const WORDS = {
     "koma-back": "one koma back", "koma-on": "one koma on",
     "drawing-back": "one drawing back", "drawing-on": "one drawing on",
     scrub: "koma", column: "sheet column, click for a koma", stage: "figure, drag to turn",
-    facts: (take, genga, drawings) => `${take.length} (${take.koma} koma) · ${genga} genga and ends · ${drawings} drawings`,
+    facts: (take, genga, drawings) => `${take.length} (${take.koma} koma) · ${genga} genga · ${drawings} drawings`,
     drawing: "drawing", omitted: (count) => `${count} left out before it (naka-nashi)`,
     key_help: [
       ["Space", "play, stop"], ["← →", "one koma"], ["↑ ↓", "one drawing"], ["Shift ← →", "one genga"],
@@ -28,8 +28,8 @@ const WORDS = {
     genga: "原画", inbetween: "中割り", end: "両端", of: "/", play: "再生", stop: "停止",
     "koma-back": "1コマ戻る", "koma-on": "1コマ進む", "drawing-back": "1枚戻る", "drawing-on": "1枚進む",
     scrub: "コマ", column: "シートの列、クリックでそのコマへ", stage: "棒人間、ドラッグで回す",
-    facts: (take, genga, drawings) => `尺 ${take.length}（${take.koma}コマ）・原画と両端 ${genga}枚・動画 ${drawings}枚`,
-    drawing: "動画", omitted: (count) => `この前に${count}枚中無し`,
+    facts: (take, genga, drawings) => `尺 ${take.length}（${take.koma}コマ）・原画 ${genga}枚・動画 ${drawings}枚`,
+    drawing: "動画", omitted: (count) => `この前の中割を${count}枚抜いた`,
     key_help: [
       ["Space", "再生・停止"], ["← →", "1コマ"], ["↑ ↓", "1枚"], ["Shift ← →", "原画ごと"],
       ["Home End", "最初・最後のコマ"], ["S", "素材・結果・並べて"], ["O", "オニオンスキン"],

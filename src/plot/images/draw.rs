@@ -4,7 +4,7 @@ use super::NumberedImages;
 use crate::error::Error;
 use crate::motion::{Clip, Composite};
 use crate::plot::canvas::{Canvas, Inks};
-use crate::plot::cells::{composed, drawn_poses};
+use crate::plot::drawings::{composed, drawn_poses};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};
 use crate::plot::points::Showing;

@@ -8,7 +8,7 @@ use super::palette::Palette;
 use super::scene::Scene;
 use crate::error::Error;
 use crate::motion::Clip;
-use crate::plot::cells::composed;
+use crate::plot::drawings::composed;
 use crate::sheet::Sheet;
 
 impl Preview {

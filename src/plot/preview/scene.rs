@@ -6,7 +6,7 @@ use super::Preview;
 use crate::error::Error;
 use crate::motion::Composite;
 use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
-use crate::plot::cells::{Cell, cells, drawn_poses, seconds_and_koma};
+use crate::plot::drawings::{ShownDrawing, drawn_poses, seconds_and_koma, shown_drawings};
 use crate::plot::figure::Figure;
 use crate::plot::pixels::{Digits, Pixels};
 use crate::plot::points::{Posing, Showing};
@@ -56,7 +56,7 @@ impl<'a> Scene<'a> {
         let (stage, follows) = stage(preview, composite, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
-        let cells = cells(layer);
+        let cells = shown_drawings(layer);
         let backdrop = Pixels::of(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
             posing: Posing::of(clip),
@@ -157,7 +157,7 @@ fn backdrop(
     cut: &str,
     sheet: &Sheet,
     layer: &Layer,
-    cells: &[Cell<'_>],
+    cells: &[ShownDrawing<'_>],
     koma: usize,
     size: (f64, f64),
     follows: bool,
@@ -193,7 +193,7 @@ fn backdrop(
 }
 
 /// A bar an exposure, its colour by its role.
-fn bars(canvas: &mut Canvas, cells: &[Cell<'_>], koma: usize, size: (f64, f64)) {
+fn bars(canvas: &mut Canvas, cells: &[ShownDrawing<'_>], koma: usize, size: (f64, f64)) {
     let one = bar_width(size, koma);
     let (high, up) = BARS;
     let y = size.1 - up;

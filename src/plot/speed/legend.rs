@@ -13,10 +13,11 @@ const RAW: Entry = ("raw", |canvas, at| level(canvas, at, style::RAW, 1.5));
 const MEASURED: Entry = ("as measured", |canvas, at| level(canvas, at, style::FAINT, 1.25));
 const FILTERED: Entry = ("filtered", |canvas, at| level(canvas, at, style::FILTERED, 1.75));
 const ALONE: Entry =
-    ("keys alone 原画のみ", |canvas, at| level(canvas, at, style::GENGA, KEPT));
-const KEY: Entry = ("key 原画", |canvas, at| canvas.disc(at, 4.5, style::GENGA));
+    ("its keys alone 候補のみ", |canvas, at| level(canvas, at, style::GENGA, KEPT));
+const KEY: Entry =
+    ("key of the joint 関節の候補", |canvas, at| canvas.disc(at, 4.5, style::GENGA));
 const WALL: Entry = ("wall 壁", |canvas, at| canvas.triangle(at, 5.5, style::WALL));
-const GENGA: Entry = ("genga of the layer ①", |canvas, (x, y)| {
+const GENGA: Entry = ("genga 原画 ①", |canvas, (x, y)| {
     canvas.line((x, y - 9.0), (x, y + 9.0), style::GENGA_LINE, 1.25);
 });
 

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::*;
 use crate::plot::canvas::Canvas;
-use crate::plot::cells::cells;
+use crate::plot::drawings::shown_drawings;
 use crate::plot::points::Posing;
 
 /// A walker's sheet: end, inbetween, genga, inbetween, end on 1, 2, 3, 1 and 1 koma, of which the genga
@@ -139,7 +139,7 @@ fn a_contact_sheet_has_a_card_a_genga_and_inbetweens_if_asked() {
         "koma 4",
         "koma 8",
         "frame 4 · 3 koma",
-        "&lt;hit&gt; · 中無し 2",
+        "&lt;hit&gt; · 抜いた中割 2",
         "drawing 3",
         "0+3",
     ] {
@@ -182,7 +182,7 @@ fn a_strip_shows_every_koma_twice_and_marks_gaps_and_holds() {
     let pages = Strip::default().draw("cut", &clip, &sheet).unwrap();
     assert_eq!(heads(&pages), 2 * 8);
     let words = said(&pages);
-    assert!(words.contains(&"中無し 2".to_owned()), "{words:?}");
+    assert!(words.contains(&"抜いた中割 2".to_owned()), "{words:?}");
     let genga = "stroke=\"#c83210\" stroke-width=\"1.8\"";
     let crosses = pages[0].lines().filter(|line| line.contains(genga)).count();
     assert_eq!(crosses, 2 * 2, "source frames 2 and 3 lie between 1 and 4: two strokes each");
@@ -205,7 +205,7 @@ fn a_long_strip_is_wrapped_and_paged_without_losing_a_koma() {
 #[test]
 fn numbers_are_those_of_the_key_table() {
     let (_, sheet) = walk();
-    let cells = cells(&sheet.layers[0]);
+    let cells = shown_drawings(&sheet.layers[0]);
     let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
     assert_eq!(
         numbers,
@@ -219,7 +219,7 @@ fn an_edited_sheet_keeps_the_numbers_of_its_drawings() {
     let shown = [(4, 2), (0, 1), (4, 3), (1, 1)];
     let exposures = shown.map(|(drawing, koma)| Exposure { drawing, koma }).to_vec();
     sheet.layers[0].exposures = exposures;
-    let cells = cells(&sheet.layers[0]);
+    let cells = shown_drawings(&sheet.layers[0]);
     let numbers: Vec<_> = cells.iter().map(|cell| (cell.number(), cell.genga, cell.koma)).collect();
     assert_eq!(numbers, [(5, Some(3), 0), (1, Some(1), 2), (5, Some(3), 3), (2, None, 6)]);
     let take = take(&FlipBook::default().draw("cut", &clip, &sheet).unwrap());

@@ -47,7 +47,7 @@ fn every_drawing_has_a_bar_and_its_fate_a_sign() {
     let crosses = tags(&svg, "line", GENGA);
     assert_eq!(crosses.len(), 2 + 2, "and the legend's");
     assert_eq!(tags(&svg, "line", "#0068b0").len(), 2 + 2, "one koma given, and the legend's");
-    assert!(words(&svg).contains(&"中無し 1"), "{:?}", words(&svg));
+    assert!(words(&svg).contains(&"抜いた中割 1"), "{:?}", words(&svg));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn a_bar_is_as_high_as_the_way_is_long() {
     let ratio = height(&red[1]) / height(&red[0]);
     assert!((ratio - 2.0).abs() < 0.02, "{ratio}");
     let text = words(&svg).into_iter().find(|word| word.contains("largest SSD")).unwrap();
-    assert!(text.contains("left out 中無し 1") && text.contains(", 4.0 times"), "{text}");
+    assert!(text.contains("left out 抜いた中割 1") && text.contains(", 4.0 times"), "{text}");
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn a_sheet_with_genga_has_a_picture_as_well() {
     let (clip, sheet) = walk();
     let svg = SsdPlot::default().draw(&clip, &sheet, &sheet).unwrap();
     assert_eq!(rects(&svg, GENGA).len(), 1, "two were left out before its genga");
-    assert!(words(&svg).contains(&"中無し 2"));
+    assert!(words(&svg).contains(&"抜いた中割 2"));
 }
 
 #[test]

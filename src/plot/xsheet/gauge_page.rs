@@ -51,7 +51,7 @@ fn title(canvas: &mut Canvas) {
     let words = "ツメ指示 spacing gauges";
     canvas.text(words, (WIDTH.0 + 2.0, 82.0), Type::new(15.0).bold());
     let words = "From key to key, along the path of the joint that travels furthest. Above a tick the \
-                 drawing (CELL number), below it the nearest fraction. Keys without inbetweens (中無し) \
+                 drawing (CELL number), below it the nearest fraction. Keys without inbetweens (中割なし) \
                  are left out.";
     canvas.text(words, (WIDTH.0 + 2.0, 101.0), Type::new(11.5).color(style::FAINT));
 }

@@ -82,7 +82,7 @@ impl Span {
         let look = Type::new(11.0).align(Align::Right);
         match gauge.packing() {
             None if self.to - self.from > 1 => {
-                let word = "中無し";
+                let word = "中割なし";
                 canvas.text(word, (right - 2.0, y + 3.2), Type::new(9.0).align(Align::Right))
             }
             Some(packing) if (self.to - self.from) as f64 * ROW > 20.0 => {

@@ -73,6 +73,8 @@ fn numbers(canvas: &mut Canvas, page: &Page<'_>, half: Half) {
     for koma in half.begin..half.end() {
         let number = koma + 1;
         let look = match number {
+            // Four digits of a larger size would stand on the edge.
+            number if number >= 1000 => Type::new(8.5),
             number if number % page.second() == 0 => Type::new(11.0).bold(),
             number if number % 6 == 0 => Type::new(10.0),
             _ => Type::new(8.5).color(style::FAINT),

@@ -2,7 +2,7 @@
 //! marks mean.
 
 use crate::plot::canvas::{Align, Canvas, Point, Type};
-use crate::plot::cells::seconds_and_koma;
+use crate::plot::drawings::seconds_and_koma;
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
 use crate::plot::xsheet::grid::{FRAME, WIDTH, bottom};
@@ -62,7 +62,7 @@ fn counts(leaves: &[Leaf<'_>], sheet: &Sheet) -> Vec<String> {
     let mut lines: Vec<_> = leaves.iter().map(count).collect();
     if lines.len() > 2 {
         let short = |leaf: &Leaf<'_>| {
-            let (genga, drawings) = (genga(leaf), drawings(leaf));
+            let (genga, drawings) = (leaf.layer.genga(), drawings(leaf));
             format!("{}: 原画 {genga} / 動画 {drawings}", leaf.layer.name)
         };
         lines = vec![leaves.iter().map(short).collect::<Vec<_>>().join("  ·  ")];
@@ -77,10 +77,6 @@ fn counts(leaves: &[Leaf<'_>], sheet: &Sheet) -> Vec<String> {
     lines
 }
 
-fn genga(leaf: &Leaf<'_>) -> usize {
-    leaf.layer.shown().filter(|drawing| drawing.role.is_kept()).count()
-}
-
 fn drawings(leaf: &Leaf<'_>) -> usize {
     leaf.layer.shown().count()
 }
@@ -92,7 +88,7 @@ fn count(leaf: &Leaf<'_>) -> String {
         "{}:  原画 genga {} ({} ends 端 among them)  ·  動画 drawings {drawings}, inbetweens 中割り {}  ·  \
          平均 mean {mean:.1} koma a drawing  ·  longest hold {} koma",
         layer.name,
-        genga(leaf),
+        leaf.layer.genga(),
         layer.count(Role::End),
         layer.count(Role::Inbetween),
         layer.longest_hold()
@@ -117,7 +113,7 @@ pub(super) fn legend(canvas: &mut Canvas, page: &Page<'_>) {
         x += style::text_width(words, 11.0) + 36.0;
     }
     let words = "spacing ツメ指示, on the line from key to key a tick where each drawing stands:  \
-                 先 sakizume, slow-out · 後 atozume, slow-in · 両 both · 均 even · 中無し no inbetween";
+                 先 sakizume, slow-out · 後 atozume, slow-in · 両 both · 均 even · 中割なし no inbetween";
     canvas.text(words, (WIDTH.0 + 2.0, y + 23.0), Type::new(11.0).color(style::FAINT));
 }
 

@@ -33,6 +33,7 @@ try {
   if (seen.wide) wrong.push("the screen has to be scrolled sideways");
   await page.screenshot({ path: `${folder}/screen.png` });
   await page.pdf({ path: `${folder}/a4.pdf`, format: "A4" });
+  await page.pdf({ path: `${folder}/letter.pdf`, format: "Letter" });
   // JIS B4, the paper of the trade.
   await page.pdf({ path: `${folder}/b4.pdf`, width: "257mm", height: "364mm" });
 } finally {

@@ -1,4 +1,4 @@
-//! The cells of a sheet as pictures label them: numbers, koma, names.
+//! The drawings of a sheet as pictures label them: numbers, koma, names.
 
 use std::borrow::Cow;
 
@@ -12,7 +12,7 @@ use crate::sheet::{Drawing, Exposure, Layer, Reason, Sheet};
 
 /// A drawing on screen.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Cell<'a> {
+pub(crate) struct ShownDrawing<'a> {
     pub(crate) drawing: &'a Drawing,
     /// Its index in the layer.
     pub(crate) index: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Cell<'a> {
     pub(crate) held: usize,
 }
 
-impl Cell<'_> {
+impl ShownDrawing<'_> {
     /// The number in the CELL column, from 1.
     pub(crate) fn number(&self) -> usize {
         self.index + 1
@@ -48,7 +48,7 @@ impl Cell<'_> {
             reasons.push("hold 止め".to_owned());
         }
         if why.omitted_before > 0 {
-            reasons.push(format!("中無し {}", why.omitted_before));
+            reasons.push(format!("抜いた中割 {}", why.omitted_before));
         }
         match why.reason {
             Some(reason @ (Reason::Fill | Reason::Rest | Reason::Contact)) => {
@@ -70,12 +70,12 @@ impl Cell<'_> {
 }
 
 /// The exposures of a layer, labelled.
-pub(crate) fn cells(layer: &Layer) -> Vec<Cell<'_>> {
+pub(crate) fn shown_drawings(layer: &Layer) -> Vec<ShownDrawing<'_>> {
     let numbers = layer.genga_numbers();
     let cell = |(koma, exposure): (usize, Exposure)| {
         let index = exposure.drawing;
         let drawing = &layer.drawings[index];
-        Cell { drawing, index, genga: numbers[index], koma, held: exposure.koma }
+        ShownDrawing { drawing, index, genga: numbers[index], koma, held: exposure.koma }
     };
     layer.timed().map(cell).collect()
 }

@@ -1,33 +1,22 @@
-//! PNG from SVG, with the fonts of the system.
+//! PNG and PDF from SVG, with the fonts of the system.
 
-use std::sync::{Arc, OnceLock};
+mod fonts;
 
+use krilla::Document;
+use krilla::geom::Size;
+use krilla::page::PageSettings;
+use krilla_svg::{SurfaceExt, SvgSettings};
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::fontdb::{Database, Family, Query};
 use resvg::usvg::{Options, Tree};
 
 use crate::error::Error;
 use crate::plot::style::{cannot, failed};
 
-/// What stands for `sans-serif`, best first: fonts with Japanese letters, then the usual plain ones.
-const PLAIN: [&str; 13] = [
-    "Noto Sans CJK JP",
-    "Noto Sans JP",
-    "Hiragino Sans",
-    "Yu Gothic",
-    "Meiryo",
-    "IPAexGothic",
-    "Noto Sans",
-    "DejaVu Sans",
-    "Liberation Sans",
-    "Arial",
-    "Helvetica",
-    "Segoe UI",
-    "FreeSans",
-];
-
 /// Px on a side at most: a larger picture would take gigabytes.
 const MOST: f32 = 32_000.0;
+
+/// Points of a PDF, 72 an inch, in a px, 96 an inch.
+const POINTS: f32 = 0.75;
 
 /// The picture as PNG, `scale` px for one px of the SVG.
 ///
@@ -41,6 +30,28 @@ pub fn png_from_svg(svg: &str, scale: f32) -> Result<Vec<u8>, Error> {
     pixels_from_svg(svg, scale)?.encode_png().map_err(failed)
 }
 
+/// The picture as a PDF of one page: lines stay lines, and words can be searched and copied.
+///
+/// The page is as large as the picture is on paper, 96 px an inch. It has the fonts of [`png_from_svg`] in
+/// it, of each no more than the letters that it needs. There is no date in it: same input, same bytes.
+///
+/// # Errors
+/// [`Error::Picture`] when the text is no SVG, or a font of the system cannot be put into a PDF.
+pub fn pdf_from_svg(svg: &str) -> Result<Vec<u8>, Error> {
+    let tree = tree(svg)?;
+    let (width, height) = (POINTS * tree.size().width(), POINTS * tree.size().height());
+    let size = Size::from_wh(width, height)
+        .ok_or_else(|| cannot(format!("{width} × {height} points is no page")))?;
+    let mut document = Document::new();
+    let mut page = document.start_page_with(PageSettings::new(size));
+    let mut surface = page.surface();
+    let drawn = surface.draw_svg(&tree, size, SvgSettings::default());
+    surface.finish();
+    page.finish();
+    drawn.ok_or_else(|| cannot("the picture cannot be drawn into a PDF"))?;
+    document.finish().map_err(|error| cannot(format!("no PDF can be made of it: {error:?}")))
+}
+
 /// The picture as pixels.
 ///
 /// # Errors
@@ -49,8 +60,7 @@ pub(super) fn pixels_from_svg(svg: &str, scale: f32) -> Result<Pixmap, Error> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(Error::setting("scale", format!("{scale}; it must be above 0")));
     }
-    let options = Options { fontdb: fonts(), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(failed)?;
+    let tree = tree(svg)?;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
     if width.max(height) > MOST {
         return Err(cannot(format!(
@@ -63,24 +73,7 @@ pub(super) fn pixels_from_svg(svg: &str, scale: f32) -> Result<Pixmap, Error> {
     Ok(pixels)
 }
 
-/// The system's fonts, read once: it takes a while.
-fn fonts() -> Arc<Database> {
-    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
-    FONTS.get_or_init(|| Arc::new(read_fonts())).clone()
-}
-
-fn read_fonts() -> Database {
-    let mut fonts = Database::new();
-    fonts.load_system_fonts();
-    let there = |family: &&str| {
-        fonts.query(&Query { families: &[Family::Name(family)], ..Query::default() }).is_some()
-    };
-    let known = PLAIN.iter().find(|family| there(family)).map(|family| (*family).to_owned());
-    let any = || Some(fonts.faces().next()?.families.first()?.0.clone());
-    if let Some(family) = known.or_else(any) {
-        fonts.set_sans_serif_family(family.clone());
-        // The rasteriser's own last resort is the serif family.
-        fonts.set_serif_family(family);
-    }
-    fonts
+fn tree(svg: &str) -> Result<Tree, Error> {
+    let options = Options { fontdb: fonts::fonts(), ..Options::default() };
+    Tree::from_str(svg, &options).map_err(failed)
 }

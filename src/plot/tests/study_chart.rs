@@ -10,12 +10,26 @@ fn grid(x: &str, y: Option<&str>, union: &[f64]) -> Grid {
         x: x.parse().unwrap(),
         y: y.map(|y| y.parse().unwrap()),
         measures: vec![Measure::Turns, Measure::Total],
+        seconds: 2.0,
         frames_in_koma: 5.0,
         own: None,
         cells: union.iter().map(cell).collect(),
     };
     assert_eq!(grid.cells.len(), grid.x.len() * grid.rows());
     grid
+}
+
+/// Names of so many clips.
+fn called(clips: usize) -> Vec<String> {
+    (1..=clips).map(|at| format!("clip-{at}")).collect()
+}
+
+fn curves_of(plot: &StudyPlot, grids: &[Grid]) -> Result<String, Error> {
+    plot.draw(&called(grids.len()), grids)
+}
+
+fn map_of(grids: &[Grid], plateaus: Option<&[Option<Plateau>; 2]>) -> Result<String, Error> {
+    HeatMap::default().draw(&called(grids.len()), grids, plateaus)
 }
 
 fn small() -> Grid {
@@ -29,10 +43,10 @@ fn a_study_plot_refuses_what_cannot_be() {
         (StudyPlot { height: 50_000, ..StudyPlot::default() }, "height"),
     ] {
         has_setting_error(plot.validate(), name);
-        has_setting_error(plot.draw(&[small()]), name);
+        has_setting_error(curves_of(&plot, &[small()]), name);
     }
     let says = |plot: StudyPlot, grids: &[Grid], says: &str| {
-        let said = plot.draw(grids).unwrap_err().to_string();
+        let said = curves_of(&plot, grids).unwrap_err().to_string();
         assert!(said.contains(says), "{said}");
     };
     says(StudyPlot::default(), &[], "without a clip");
@@ -40,7 +54,7 @@ fn a_study_plot_refuses_what_cannot_be() {
     let paper = StudyPlot { paper: true, ..StudyPlot::default() };
     for x in ["filter.width=0.1s,0.2s", "turns.steady=10,20"] {
         let other = grid(x, Some("turns.persistence=5,10"), &[1.0; 4]);
-        has_setting_error(paper.draw(std::slice::from_ref(&other)), "paper");
+        has_setting_error(curves_of(&paper, std::slice::from_ref(&other)), "paper");
         has_setting_error(paper.fits(&other.x, other.y.as_ref()), "paper");
         assert!(StudyPlot::default().fits(&other.x, other.y.as_ref()).is_ok());
     }
@@ -51,11 +65,11 @@ fn a_study_plot_refuses_what_cannot_be() {
 #[test]
 fn a_study_has_a_line_a_value_and_the_papers_marks_beside() {
     let plot = StudyPlot { paper: true, ..StudyPlot::default() };
-    let svg = plot.draw(&[small()]).unwrap();
+    let svg = curves_of(&plot, &[small()]).unwrap();
     assert_eq!(curves(&svg).len(), 2);
     assert_eq!(tags(&svg, "circle", "fill=\"#ffffff\"").len(), 6 + 1, "six values and the legend");
     assert!(words(&svg).contains(&"filter.width (source frames)  フィルタの適用範囲"));
-    let svg = StudyPlot::default().draw(&[small()]).unwrap();
+    let svg = curves_of(&StudyPlot::default(), &[small()]).unwrap();
     assert_eq!(tags(&svg, "circle", "fill=\"#ffffff\"").len(), 0);
 }
 
@@ -64,54 +78,101 @@ fn a_mark_of_the_paper_stands_where_the_same_count_would() {
     // Widths of no order, as a list may be written.
     let table_1 = [64.0, 52.0, 99.0, 75.0, 80.0, 71.0];
     let grid = grid("filter.width=30,10,20", Some("turns.persistence=5,10"), &table_1);
-    let svg = StudyPlot { paper: true, ..StudyPlot::default() }.draw(&[grid]).unwrap();
-    let place = |tag: &str| ["cx", "cy"].map(|name| number_of(tag, name));
-    let (rings, discs): (Vec<&str>, Vec<&str>) =
-        tags(&svg, "circle", "").into_iter().partition(|tag| tag.contains("fill=\"#ffffff\""));
-    // The ring of the legend has no disc.
-    let color = |tag: &str, name: &str| tag.split(name).nth(1).unwrap()[..8].to_owned();
-    let is_on_a_disc = |ring: &&&str| {
-        discs.iter().any(|disc| {
-            let way = place(ring).iter().zip(place(disc)).map(|(a, b)| (a - b).abs()).sum::<f64>();
-            way < 0.3 && color(ring, "stroke=") == color(disc, "fill=")
-        })
-    };
-    assert_eq!(rings.len(), 6 + 1);
-    assert_eq!(rings.iter().filter(is_on_a_disc).count(), 6);
-    for line in curves(&svg) {
+    let plot = StudyPlot { paper: true, ..StudyPlot::default() };
+    let svg = curves_of(&plot, &[grid]).unwrap();
+    let color = |tag: &str| tag.split("stroke=").nth(1).unwrap()[..9].to_owned();
+    let points = |line: &str| -> Vec<[f64; 2]> {
         let points = line.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
-        let x = |point: &str| point.split(',').next().unwrap().parse::<f64>().unwrap();
-        assert!(points.split_whitespace().map(x).is_sorted(), "a line runs to the right: {line}");
+        let number = |point: &str, at: usize| point.split(',').nth(at).unwrap().parse().unwrap();
+        points.split_whitespace().map(|point| [0, 1].map(|at| number(point, at))).collect()
+    };
+    let is_on_its_line = |ring: &&&str| {
+        let at = ["cx", "cy"].map(|name| number_of(ring, name));
+        let own = curves(&svg).into_iter().filter(|line| color(line) == color(ring));
+        let mut places = own.flat_map(points);
+        places.any(|point| (point[0] - at[0]).abs() + (point[1] - at[1]).abs() < 0.3)
+    };
+    // The ring of the legend is on no line.
+    let rings = tags(&svg, "circle", "fill=\"#ffffff\"");
+    assert_eq!(rings.len(), 6 + 1);
+    assert_eq!(rings.iter().filter(is_on_its_line).count(), 6);
+    for line in curves(&svg) {
+        assert!(
+            points(line).iter().map(|point| point[0]).is_sorted(),
+            "it runs to the right: {line}"
+        );
     }
 }
 
 #[test]
 fn a_study_draws_the_measure_it_is_asked_for() {
-    let draw = |show| StudyPlot { show, ..StudyPlot::default() }.draw(&[small()]).unwrap();
+    let draw = |show| curves_of(&StudyPlot { show, ..StudyPlot::default() }, &[small()]).unwrap();
     assert!(words(&draw(Measure::Total)).contains(&"800"));
-    assert!(words(&draw(Measure::Total)).contains(&"Keys of all joints  全関節の原画の合計"));
+    assert!(words(&draw(Measure::Total)).contains(&"Keys of all joints  全関節の候補の合計"));
     assert!(!words(&draw(Measure::Turns)).contains(&"800"));
     let zero = grid("filter.width=0", None, &[0.0]);
-    assert!(StudyPlot::default().draw(&[zero]).is_ok());
+    assert!(curves_of(&StudyPlot::default(), &[zero]).is_ok());
 }
 
 #[test]
-fn several_clips_are_thin_lines_behind_their_median() {
+fn few_clips_are_thin_lines_behind_their_median_and_more_are_a_band() {
     let clip = |value: f64| grid("filter.width=10,20,30", None, &[value, value + 1.0, value]);
-    let svg = StudyPlot::default().draw(&[clip(1.0), clip(9.0), clip(5.0)]).unwrap();
-    assert_eq!(curves(&svg).len(), 3 + 1);
-    let heat = HeatMap::default().draw(&[clip(1.0), clip(9.0), clip(5.0)], None).unwrap();
-    let words = words(&heat);
-    assert_eq!(words.iter().filter(|word| **word == "5").count(), 2 + 1, "two cells and the scale");
-    assert!(words.contains(&"median of 3 clips"));
+    let few = [clip(1.0), clip(9.0), clip(5.0)];
+    let svg = curves_of(&StudyPlot::default(), &few).unwrap();
+    assert_eq!((curves(&svg).len(), tags(&svg, "polygon", "fill-opacity").len()), (3 + 1, 0));
+    assert!(words(&svg).contains(&"each clip 各素材"));
+    assert!(words(&svg).contains(&"3 clips: clip-1, clip-2, clip-3"));
+    let heat = map_of(&few, None).unwrap();
+    assert_eq!(words(&heat).iter().filter(|word| **word == "5").count(), 2 + 1, "cells and scale");
+    assert!(words(&heat).contains(&"median 中央値, number"));
+    let many = [few.as_slice(), &[clip(7.0), clip(3.0)]].concat();
+    let svg = curves_of(&StudyPlot::default(), &many).unwrap();
+    let bands = tags(&svg, "polygon", "fill-opacity");
+    assert_eq!((curves(&svg).len(), bands.len()), (1, 1 + 1), "a band, and that of the legend");
+    assert!(words(&svg).contains(&"quartiles 四分位"));
+    // From 3 to 7 round 5: as far above the median as below it.
+    let y = |tag: &str| -> Vec<f64> {
+        let points = tag.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+        points.split([' ', ',']).skip(1).step_by(2).map(|y| y.parse().unwrap()).collect()
+    };
+    let (band, line) = (y(bands[0]), y(curves(&svg)[0]));
+    assert!((line[0] - band[0] - (band[5] - line[0])).abs() < 0.3, "{band:?} {line:?}");
+    assert!(line[0] - band[0] > 20.0);
+}
+
+#[test]
+fn clips_of_other_lengths_compare_by_the_second() {
+    let clip = |value: f64, seconds: f64| Grid {
+        seconds,
+        ..grid("filter.width=10,20", None, &[value; 2])
+    };
+    let clips = [clip(6.0, 2.0), clip(60.0, 20.0)];
+    let plot = StudyPlot { per_second: true, ..StudyPlot::default() };
+    let svg = curves_of(&plot, &clips).unwrap();
+    let title = "Turns of the body a second  毎秒の全身の変わり目";
+    assert!(words(&svg).contains(&title));
+    assert!(words(&svg).contains(&format!("{title} (1/s)").as_str()));
+    // All three lines are one.
+    let lines: Vec<_> = curves(&svg).iter().map(|line| line.split('"').nth(1).unwrap()).collect();
+    assert_eq!((lines.len(), lines[0] == lines[1], lines[1] == lines[2]), (3, true, true));
+    let map = HeatMap { per_second: true, ..HeatMap::default() };
+    let svg = map.draw(&called(2), &clips, None).unwrap();
+    assert_eq!(words(&svg).iter().filter(|word| **word == "3").count(), 2 + 2, "cells and scale");
+    for plot in [
+        StudyPlot { show: Measure::PeakSsd, ..plot.clone() },
+        StudyPlot { show: Measure::GengaPerSecond, ..plot.clone() },
+        StudyPlot { paper: true, ..plot },
+    ] {
+        has_setting_error(plot.validate(), "per_second");
+    }
 }
 
 #[test]
 fn words_stand_on_an_axis_one_after_the_other() {
     let kinds = grid("filter.kind=box,ideal,gaussian", None, &[3.0, 5.0, 4.0]);
     for svg in [
-        StudyPlot::default().draw(std::slice::from_ref(&kinds)),
-        HeatMap::default().draw(std::slice::from_ref(&kinds), None),
+        curves_of(&StudyPlot::default(), std::slice::from_ref(&kinds)),
+        map_of(std::slice::from_ref(&kinds), None),
     ] {
         let svg = svg.unwrap();
         for kind in ["box", "ideal", "gaussian"] {
@@ -123,7 +184,7 @@ fn words_stand_on_an_axis_one_after_the_other() {
 #[test]
 fn of_many_lines_a_few_are_named() {
     let many = grid("filter.width=1,2", Some("turns.persistence=1..100:1"), &[7.0; 200]);
-    let svg = StudyPlot::default().draw(&[many]).unwrap();
+    let svg = curves_of(&StudyPlot::default(), &[many]).unwrap();
     assert_eq!(curves(&svg).len(), 100);
     let named = ["1", "18", "35", "52", "69", "100"];
     let is_named = |y: &String| words(&svg).contains(&y.as_str());
@@ -133,7 +194,7 @@ fn of_many_lines_a_few_are_named() {
 
 #[test]
 fn a_map_has_a_number_in_each_cell_that_has_room() {
-    let svg = HeatMap::default().draw(&[small()], None).unwrap();
+    let svg = map_of(&[small()], None).unwrap();
     for value in ["90", "60", "70", "40"] {
         assert!(words(&svg).contains(&value), "{value}");
     }
@@ -146,20 +207,22 @@ fn a_map_has_a_number_in_each_cell_that_has_room() {
     assert!(place("60").1 < place("70").1, "persistence 10 stands above 5");
     let values: Vec<f64> = (0..10_000).map(f64::from).collect();
     let fine = grid("filter.width=1..100:1", Some("turns.persistence=1..100:1"), &values);
-    let svg = HeatMap::default().draw(&[fine], None).unwrap();
+    let svg = map_of(&[fine], None).unwrap();
     assert!(words(&svg).len() < 120, "no room for numbers");
     let wide = grid("filter.width=1..5000:1", None, &[1.0; 5000]);
+    assert!(map_of(&[wide], None).unwrap_err().to_string().contains("larger steps"));
+    assert!(map_of(&[], None).is_err());
     assert!(
-        HeatMap::default().draw(&[wide], None).unwrap_err().to_string().contains("larger steps")
+        HeatMap { show: Measure::Genga, ..HeatMap::default() }
+            .draw(&called(1), &[small()], None)
+            .is_err()
     );
-    assert!(HeatMap::default().draw(&[], None).is_err());
-    assert!(HeatMap { show: Measure::Genga }.draw(&[small()], None).is_err());
 }
 
 #[test]
 fn a_small_study_looks_as_it_did() {
     let plot = StudyPlot { width: 400, height: 300, ..StudyPlot::default() };
-    insta::assert_snapshot!(plot.draw(&[small()]).unwrap());
+    insta::assert_snapshot!(curves_of(&plot, &[small()]).unwrap());
 }
 
 #[test]
@@ -168,7 +231,7 @@ fn a_plateau_is_edged_where_it_ends_and_the_recipes_cell_is_marked() {
     grid.own = Some(3);
     // Columns 0 1 | 2 3 from left to right, each from below: three cells in the form of an L.
     let plateau = Plateau { seed: 0, cells: vec![0, 1, 2], keys: 7 };
-    let svg = HeatMap::default().draw(&[grid], Some(&[Some(plateau), None])).unwrap();
+    let svg = map_of(&[grid], Some(&[Some(plateau), None])).unwrap();
     let edge = tags(&svg, "line", &format!("stroke=\"{GENGA}\""));
     assert_eq!(edge.len(), 8 + 1, "its eight outer sides and the legend");
     let marks = tags(&svg, "circle", GENGA);
@@ -186,7 +249,7 @@ fn a_plateau_is_edged_where_it_ends_and_the_recipes_cell_is_marked() {
 
 #[test]
 fn a_small_map_looks_as_it_did() {
-    insta::assert_snapshot!(HeatMap::default().draw(&[small()], None).unwrap());
+    insta::assert_snapshot!(map_of(&[small()], None).unwrap());
 }
 
 #[test]
