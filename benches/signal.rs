@@ -37,7 +37,7 @@ fn clip(frames: usize) -> Clip {
     let channels = skeleton.channels();
     let swing = |frame: usize, channel: usize| {
         let (time, pace) = (frame as f64 / 120.0, 1.0 + 0.37 * channel as f64 / channels as f64);
-        30.0 * (3.0 * pace * time + channel as f64).sin() + 5.0 * (17.0 * pace * time).sin()
+        30.0 * libm::sin(3.0 * pace * time + channel as f64) + 5.0 * libm::sin(17.0 * pace * time)
     };
     let values = (0..frames * channels).map(|at| swing(at / channels, at % channels)).collect();
     let rate = FrameRate::new(120.0).expect("120 is a rate");

@@ -1,6 +1,10 @@
 //! A clip from your own arrays, and the BVH it is: `cargo run --example arrays`.
 
-#![allow(clippy::print_stdout, reason = "a program that reports to a person")]
+#![allow(
+    clippy::print_stdout,
+    clippy::disallowed_methods,
+    reason = "it prints, and any sine will do"
+)]
 
 use std::error::Error;
 

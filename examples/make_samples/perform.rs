@@ -206,7 +206,7 @@ fn breath(time: f64) -> f64 {
 
 /// Follows an angle, but ever less as it nears a limit, degrees.
 fn soft_limit(angle: f64, limit: f64) -> f64 {
-    limit * (angle / limit).tanh()
+    limit * libm::tanh(angle / limit)
 }
 
 /// Degrees rms of a joint's unrest: more towards the ends of the body.
