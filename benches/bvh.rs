@@ -28,7 +28,7 @@ fn clip(frames: usize) -> Clip {
     let channels = skeleton.channels();
     let value = |at: usize| {
         let (frame, channel) = ((at / channels) as f64, (at % channels) as f64);
-        (60e4 * (0.02 * frame + channel).sin()).round() / 1e4
+        (60e4 * libm::sin(0.02 * frame + channel)).round() / 1e4
     };
     let values = (0..frames * channels).map(value).collect();
     let rate = FrameRate::new(120.0).expect("120 is a rate");

@@ -1,4 +1,5 @@
-//! Time and memory that a reader spends on files that lie: `cargo bench --bench lies`.
+//! Time and memory that a reader spends on files that lie, and memory that a run does on small files that ask for much:
+//! `cargo bench --bench lies`, or `-- memory` for the second table alone.
 //!
 //! Every file is read in a process of its own, whose peak of memory is taken from /proc. Two sizes show
 //! whether both grow with the size and no faster.
@@ -6,8 +7,8 @@
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "it prints a table")]
 
 use std::env;
-use std::fs;
 use std::hint::black_box;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -15,8 +16,12 @@ use genga::motion::bvh;
 
 #[path = "common/cpu.rs"]
 mod cpu;
+#[path = "common/hungry.rs"]
+mod hungry;
 #[path = "../tests/all/lying_files.rs"]
 mod lying_files;
+#[path = "common/memory.rs"]
+mod memory;
 
 use lying_files::LIES;
 
@@ -30,21 +35,25 @@ fn main() {
     let arguments: Vec<String> = env::args().collect();
     match &arguments[1..] {
         [word, lie, size] if word == "one" => one(lie.parse().unwrap(), size.parse().unwrap()),
-        _ => table(),
+        [word, path] if word == "hungry" => hungry::one(Path::new(path)),
+        [word, ..] if word == "memory" => hungry::table(),
+        _ => {
+            table();
+            println!();
+            hungry::table();
+        }
     }
 }
 
 /// What a process of its own prints: bytes, outcome, nanoseconds, bytes of memory beyond the file's.
 fn one(lie: usize, size: usize) {
     let bytes = (LIES[lie].2)(size);
-    let before = status("VmRSS:");
-    // From here on the peak is counted anew.
-    fs::write("/proc/self/clear_refs", "5").unwrap();
+    let before = memory::now();
     let begin = Instant::now();
     let ran = cpu::nanos(begin);
     let read = bvh::read(black_box(&bytes));
     let nanos = cpu::nanos(begin) - ran;
-    let taken = status("VmHWM:").saturating_sub(before);
+    let taken = memory::peak().saturating_sub(before);
     let outcome = match &read {
         Ok(read) => {
             let (clip, codes) = (&read.clip, read.warnings.len());
@@ -105,11 +114,4 @@ fn run(lie: usize, size: usize) -> Option<(f64, f64, f64, String)> {
     let words: Vec<&str> = text.trim_end().splitn(4, '\t').collect();
     let number = |at: usize| words[at].parse().unwrap();
     Some((number(0), number(1), number(2), words[3].to_owned()))
-}
-
-/// A line of /proc/self/status, in bytes.
-fn status(name: &str) -> usize {
-    let text = fs::read_to_string("/proc/self/status").unwrap();
-    let line = text.lines().find_map(|line| line.strip_prefix(name)).unwrap();
-    1024 * line.trim().trim_end_matches(" kB").parse::<usize>().unwrap()
 }

@@ -38,7 +38,7 @@ fn clip(frames: usize) -> Clip {
     let value = |at: usize| {
         let (frame, channel) = ((at / channels) as f64, at % channels);
         let period = 24.0 + 7.3 * (channel % 11) as f64;
-        40.0 * (TAU * frame / period + channel as f64).sin() * (frame / 97.0).cos()
+        40.0 * libm::sin(TAU * frame / period + channel as f64) * libm::cos(frame / 97.0)
     };
     let values = (0..frames * channels).map(value).collect();
     let rate = FrameRate::new(24.0).expect("24 is a rate");

@@ -273,5 +273,5 @@ fn heading(first: &str, names: &[String], last: &str) {
 
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
-    (values.map(f64::ln).sum::<f64>() / count).exp()
+    libm::exp(values.map(libm::log).sum::<f64>() / count)
 }

@@ -6,7 +6,7 @@
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use genga::motion::{Axis, Channel, Clip, Joint, JointId, Skeleton};
-use genga::signal::{LowPass, Signals, Spectrum, Speed, TurnFinder};
+use genga::signal::{FilterKind, LowPass, Signals, Spectrum, Speed, TurnFinder};
 use genga::time::{Frame, FrameRate};
 
 const JOINTS: usize = 31;
@@ -37,7 +37,7 @@ fn clip(frames: usize) -> Clip {
     let channels = skeleton.channels();
     let swing = |frame: usize, channel: usize| {
         let (time, pace) = (frame as f64 / 120.0, 1.0 + 0.37 * channel as f64 / channels as f64);
-        30.0 * (3.0 * pace * time + channel as f64).sin() + 5.0 * (17.0 * pace * time).sin()
+        30.0 * libm::sin(3.0 * pace * time + channel as f64) + 5.0 * libm::sin(17.0 * pace * time)
     };
     let values = (0..frames * channels).map(|at| swing(at / channels, at % channels)).collect();
     let rate = FrameRate::new(120.0).expect("120 is a rate");
@@ -68,6 +68,25 @@ fn apply(bencher: Bencher, frames: usize) {
     bencher
         .counter(ItemsCount::new(frames * JOINTS))
         .bench(|| LowPass::default().apply(black_box(&spectrum)));
+}
+
+/// A filter that is no running sum: with the transform forth, and the way back alone.
+#[divan::bench(args = FRAMES)]
+fn gaussian_once(bencher: Bencher, frames: usize) {
+    let signals = speeds(frames);
+    let gaussian = LowPass { kind: FilterKind::Gaussian, ..LowPass::default() };
+    bencher
+        .counter(ItemsCount::new(frames * JOINTS))
+        .bench(|| gaussian.apply(&Spectrum::of(black_box(&signals))));
+}
+
+#[divan::bench(args = FRAMES)]
+fn gaussian_again(bencher: Bencher, frames: usize) {
+    let spectrum = Spectrum::of(&speeds(frames));
+    let gaussian = LowPass { kind: FilterKind::Gaussian, ..LowPass::default() };
+    bencher
+        .counter(ItemsCount::new(frames * JOINTS))
+        .bench(|| gaussian.apply(black_box(&spectrum)));
 }
 
 #[divan::bench(args = FRAMES)]

@@ -1,6 +1,6 @@
 //! A clip from your own arrays, and the BVH it is: `cargo run --example arrays`.
 
-#![allow(clippy::print_stdout, reason = "a program that reports to a person")]
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "for people")]
 
 use std::error::Error;
 

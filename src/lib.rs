@@ -72,6 +72,9 @@
 //!   listed.
 //! - Same input, same bytes.
 
+// A test may compare with the standard library.
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod deliver;
@@ -80,6 +83,7 @@ pub mod error;
 pub mod exaggerate;
 pub mod keys;
 pub mod knob;
+mod maths;
 pub mod motion;
 pub mod pipeline;
 pub mod plot;

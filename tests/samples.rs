@@ -1,6 +1,6 @@
 //! The sample motions of `data/`: as made, as the papers' tables say, and as a body can move.
 
-#![allow(clippy::unwrap_used, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test")]
 
 #[allow(dead_code, reason = "the program's own printing is not used here")]
 #[path = "../examples/make_samples/main.rs"]

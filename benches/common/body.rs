@@ -25,7 +25,8 @@ pub(crate) fn swinging(frames: usize) -> Clip {
     let angle = |frame: usize, channel: usize| {
         let time = frame as f64 / 120.0;
         let rate = 0.4 + 0.07 * channel as f64;
-        30.0 * (std::f64::consts::TAU * rate * time).sin() * (0.3 * time + channel as f64).cos()
+        30.0 * libm::sin(std::f64::consts::TAU * rate * time)
+            * libm::cos(0.3 * time + channel as f64)
     };
     let values = (0..frames)
         .flat_map(|frame| (0..3 * JOINTS).map(move |channel| angle(frame, channel)))

@@ -75,7 +75,7 @@ impl<'a> Feet<'a> {
 
 /// Rises from 0 to 1 and falls again over 0..1.
 fn bump(u: f64) -> f64 {
-    (std::f64::consts::PI * u.clamp(0.0, 1.0)).sin().powi(2)
+    libm::sin(std::f64::consts::PI * u.clamp(0.0, 1.0)).powi(2)
 }
 
 /// A leg by its own angles.

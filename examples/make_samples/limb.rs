@@ -67,5 +67,5 @@ fn reach(target: DVec3, pole: DVec3, [upper, lower]: [f64; 2]) -> (DVec3, DVec3,
     let cos = (upper * upper + distance * distance - lower * lower) / (2.0 * upper * distance);
     let middle = upper * (along * cos + out * (1.0 - cos * cos).sqrt());
     let inside = (upper * upper + lower * lower - distance * distance) / (2.0 * upper * lower);
-    (middle, hinge, 180.0 - inside.acos().to_degrees())
+    (middle, hinge, 180.0 - libm::acos(inside).to_degrees())
 }

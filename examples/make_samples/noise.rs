@@ -52,7 +52,7 @@ impl Noise {
     pub(crate) fn at(&self, time: f64) -> f64 {
         self.sines
             .iter()
-            .map(|[size, hertz, phase]| size * (TAU * hertz * time + phase).sin())
+            .map(|[size, hertz, phase]| size * libm::sin(TAU * hertz * time + phase))
             .sum()
     }
 }

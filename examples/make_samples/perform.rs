@@ -201,12 +201,12 @@ pub(crate) fn share(window: &Window, time: f64) -> f64 {
 
 /// Chest and shoulders rise and fall: −1 to 1.
 fn breath(time: f64) -> f64 {
-    (TAU * 0.31 * time).sin()
+    libm::sin(TAU * 0.31 * time)
 }
 
 /// Follows an angle, but ever less as it nears a limit, degrees.
 fn soft_limit(angle: f64, limit: f64) -> f64 {
-    limit * (angle / limit).tanh()
+    limit * libm::tanh(angle / limit)
 }
 
 /// Degrees rms of a joint's unrest: more towards the ends of the body.
@@ -235,7 +235,7 @@ fn at_ease(part: Part) -> [f64; 3] {
 /// The Z, X and Y angles of a rotation, in degrees: of all that mean it, the nearest to `before`.
 fn zxy_near(turn: DQuat, before: [f64; 3]) -> [f64; 3] {
     let (x, y, z) = (turn * DVec3::X, turn * DVec3::Y, turn * DVec3::Z);
-    let first = [(-y.x).atan2(y.y), y.z.clamp(-1.0, 1.0).asin(), (-x.z).atan2(z.z)];
+    let first = [libm::atan2(-y.x, y.y), libm::asin(y.z.clamp(-1.0, 1.0)), libm::atan2(-x.z, z.z)];
     let first = first.map(f64::to_degrees);
     let second = [first[0] + 180.0, 180.0 - first[1], first[2] + 180.0];
     let [first, second] = [first, second].map(|angles| {

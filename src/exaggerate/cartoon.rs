@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 
 use super::smooth::Smooth;
 use super::with_values;
+use crate::maths;
 use crate::motion::{Axis, Channel, Clip, Joint, local_rotation, rotation_axes, turn_columns};
 
 /// What a second difference over σ² is multiplied by, so that the swing that gains most grows by the strength: of
@@ -150,7 +151,7 @@ fn way(from: DQuat, to: DQuat) -> DVec3 {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let (axis, cosine) = (turn.xyz(), turn.w);
     let sine = axis.length();
-    if sine > 0.0 { axis * (2.0 * sine.atan2(cosine) / sine) } else { DVec3::ZERO }
+    if sine > 0.0 { axis * (2.0 * maths::atan2(sine, cosine) / sine) } else { DVec3::ZERO }
 }
 
 /// The shortest way between two angles in degrees.

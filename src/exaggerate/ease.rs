@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 
+use crate::maths;
 use crate::motion::{Clip, Joint, local_rotation};
 
 /// How far the window goes, in standard deviations of its bell.
@@ -104,7 +105,7 @@ impl<'a> Window<'a> {
         if step == 0 || sigma == 0.0 {
             return None;
         }
-        let weight = |look: usize| (-0.5 * ((look * step) as f64 / reach).powi(2)).exp();
+        let weight = |look: usize| maths::exp(-0.5 * ((look * step) as f64 / reach).powi(2));
         let near = (1..=widest / step).map(weight).collect();
         Some(Self { poses, alike: -0.5 / (sigma * sigma), near, step })
     }
@@ -117,7 +118,7 @@ impl<'a> Window<'a> {
         for (look, near) in self.near.iter().enumerate() {
             let way = (look + 1) * self.step;
             let after = if frame + way > last { 2 * last - frame - way } else { frame + way };
-            let weight = |other| near * (self.alike * self.poses.apart(frame, other)).exp();
+            let weight = |other| near * maths::exp(self.alike * self.poses.apart(frame, other));
             let (before, after) = (weight(frame.abs_diff(way)), weight(after));
             shift += way as f64 * (after - before);
             weights += before + after;

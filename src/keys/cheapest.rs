@@ -9,6 +9,7 @@ use std::iter::successors;
 use std::ops::Range;
 
 use crate::keys::chords::Chords;
+use crate::maths;
 use crate::motion::lanes::wide;
 use crate::time::Frame;
 
@@ -423,10 +424,10 @@ impl<'a> Cheapest<'a> {
 /// The price between two at which so many would be left if their number were a power of it; not near either of them, lest
 /// one end of the span stay for ever.
 fn between(prices: [f64; 2], counts: [usize; 2], most: usize) -> f64 {
-    let [low, high] = prices.map(f64::ln);
-    let [many, few, most] = [counts[0], counts[1], most].map(|count| (count as f64 + 0.5).ln());
+    let [low, high] = prices.map(maths::ln);
+    let [many, few, most] = [counts[0], counts[1], most].map(|count| maths::ln(count as f64 + 0.5));
     let share = ((many - most) / (many - few)).clamp(AWAY, 1.0 - AWAY);
-    (low + share * (high - low)).exp()
+    maths::exp(low + share * (high - low))
 }
 
 /// Where least is saved, of equals the first; none in a set of which all stay.

@@ -12,6 +12,7 @@ use std::array;
 use glam::DVec3;
 
 use crate::keys::points::Points;
+use crate::maths;
 use crate::motion::body::mannequin::{BONES, Mannequin, POINTS, Stand};
 use crate::motion::clip::lane_poser::{LanePose, LanePoser};
 use crate::motion::lanes::{LANES, LaneVec, wide};
@@ -112,7 +113,7 @@ fn of_person(
     });
     let headings = heading::headings(&across);
     for (row, heading) in rows.chunks_exact_mut(COLUMNS).zip(headings) {
-        let (sin, cos) = heading.sin_cos();
+        let (sin, cos) = maths::sin_cos(heading);
         for point in row[..3 * POINTS].chunks_exact_mut(3) {
             (point[0], point[2]) =
                 (cos * point[0] + sin * point[2], cos * point[2] - sin * point[0]);

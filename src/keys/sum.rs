@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use crate::maths;
 use crate::signal::{Signals, Turn, TurnKind};
 use crate::time::Frame;
 
@@ -50,7 +51,7 @@ fn log_curve(mean: &Signals, kind: TurnKind) -> Vec<f64> {
     let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
     let ground = 0.02 * median.max(f64::MIN_POSITIVE);
     let sign = if kind == TurnKind::Key { 1.0 } else { -1.0 };
-    speed.iter().map(|speed| sign * (speed.max(0.0) + ground).ln()).collect()
+    speed.iter().map(|speed| sign * maths::ln(speed.max(0.0) + ground)).collect()
 }
 
 /// How far one has to climb from the lowest point of `begin..end` to get to lower ground, on the

@@ -2,6 +2,7 @@
 
 mod axis;
 mod backend;
+mod ticks;
 
 use std::convert::Infallible;
 

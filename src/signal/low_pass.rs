@@ -1,7 +1,9 @@
 //! Smoothing of speeds, zero-phase, over all joints [KT11 §3.2]: `box` as a running sum, the others in
 //! the frequency domain.
 
+mod fourier;
 mod moving;
+mod real;
 mod response;
 mod spectrum;
 

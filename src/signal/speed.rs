@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::{Knobs, choices, knob, knobs};
+use crate::maths;
 use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Body, Clip, Poser, Screen, local_rotation};
@@ -159,7 +160,7 @@ fn angular(clip: &Clip) -> DMatrix<f64> {
 
 /// The angle of a rotation in radians, 0 to π, the same for q and −q.
 fn angle_of(q: DQuat) -> f64 {
-    2.0 * q.xyz().length().atan2(q.w.abs())
+    2.0 * maths::atan2(q.xyz().length(), q.w.abs())
 }
 
 fn displacement(clip: &Clip, screen: &Screen) -> DMatrix<f64> {

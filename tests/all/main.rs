@@ -1,6 +1,6 @@
 //! What the whole is held to.
 
-#![allow(clippy::unwrap_used, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test")]
 
 mod actions; // a long take as its actions
 #[cfg(feature = "cli")]

@@ -12,7 +12,7 @@ mod public;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
 const ROOMS: [&[&str]; 15] = [
-    &["error", "knob", "time", "sheet", "edits"],
+    &["error", "knob", "maths", "time", "sheet", "edits"],
     &["motion"],
     &["exaggerate"],
     &["signal"],
@@ -223,7 +223,7 @@ fn the_library_opens_every_room_and_no_other() {
     let library = fs::read_to_string(here("src/lib.rs")).unwrap();
     let mut opened: Vec<&str> = library
         .lines()
-        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
+        .filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';'))
         .collect();
     let mut rooms = ROOMS.concat();
     opened.sort_unstable();

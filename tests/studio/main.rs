@@ -2,7 +2,7 @@
 //!
 //! The harness fails a test by itself where a letter has no glyph or a control has no name.
 
-#![allow(clippy::unwrap_used, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test")]
 
 mod corrected; // keys by hand: on the keyboard, on the sheet, over the curves
 mod desk; // files in memory, and a disk that is full

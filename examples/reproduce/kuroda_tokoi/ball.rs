@@ -73,7 +73,7 @@ fn clip(way: impl Fn(f64) -> f64) -> Outcome<Clip> {
 /// falls in the same way towards the end.
 fn gone(share: f64) -> f64 {
     // The integral of sin²(πx/2a), from 0.
-    let swell = |x: f64, a: f64| 0.5 * x - 0.5 * a / PI * (PI * x / a).sin() + ROLLS * x;
+    let swell = |x: f64, a: f64| 0.5 * x - 0.5 * a / PI * libm::sin(PI * x / a) + ROLLS * x;
     let whole = swell(FASTEST, FASTEST) + swell(1.0 - FASTEST, 1.0 - FASTEST);
     let way = match share {
         before if before <= FASTEST => swell(before, FASTEST),

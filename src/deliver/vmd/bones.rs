@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::maths;
 
 /// The longest name of a bone in a VMD, in bytes of CP932; a longer one would be cut there and match
 /// no bone of any model.
@@ -56,7 +57,7 @@ impl Part {
     /// Where the bone of a limb points in a model at rest: arms hang `arm_angle` radians below the
     /// horizontal, legs straight down. Axes as in BVH: +X is left, +Y up, +Z in front.
     pub(super) fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
-        let (sin, cos) = arm_angle.sin_cos();
+        let (sin, cos) = maths::sin_cos(arm_angle);
         match self {
             Self::Arm(side) => Some(DVec3::new(side.sign() * cos, -sin, 0.0)),
             Self::Leg(_) => Some(DVec3::NEG_Y),

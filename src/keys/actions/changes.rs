@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::keys::Chords;
+use crate::maths;
 
 /// Seconds before and after a moment over which the movement is laid side by side.
 const WINDOW: f64 = 1.5;
@@ -81,7 +82,7 @@ impl Movement {
         let shares = before().zip(after());
         let kept: f64 = shares.map(|(a, b)| (a / all_before).min(b / all_after)).sum();
         let word = less / (less + self.rest * window as f64);
-        -2.0 * (1.0 - word * (1.0 - kept.min(1.0))).max(f64::MIN_POSITIVE).ln()
+        -2.0 * maths::ln((1.0 - word * (1.0 - kept.min(1.0))).max(f64::MIN_POSITIVE))
     }
 
     /// How much each part moves from one instant to another.

@@ -1,5 +1,7 @@
 //! The cheapest way to divide a take.
 
+use crate::maths;
+
 /// What the length of an action counts against how clearly it begins. Found on real clips: with less, a
 /// deep pause inside of a movement is worth a split, with more, kicks that follow each other are not.
 const OF_LENGTH: f64 = 1.5;
@@ -23,7 +25,7 @@ pub(super) struct Lengths {
 impl Lengths {
     /// What a part of a length costs: as much half as long as twice as long.
     fn price(self, seconds: f64) -> f64 {
-        OF_LENGTH * (seconds / self.usual).ln().powi(2)
+        OF_LENGTH * maths::ln(seconds / self.usual).powi(2)
     }
 }
 

@@ -10,6 +10,7 @@ use crate::keys::actions::lulls::lulls;
 use crate::keys::actions::{Actions, Split, SplitReason};
 use crate::keys::rest::rests;
 use crate::knob::{Knobs, knob, knobs};
+use crate::maths;
 use crate::motion::Clip;
 use crate::time::{Frame, Span};
 
@@ -120,7 +121,7 @@ impl ActionFinder {
         let fps = clip.rate().fps();
         let place = |candidate: &Candidate| Place {
             at: (candidate.split.frame.0 - clip.first().0) as f64 / fps,
-            price: self.contrast.ln() - candidate.clear,
+            price: maths::ln(self.contrast) - candidate.clear,
         };
         let places: Vec<Place> = candidates.iter().map(place).collect();
         let seconds = |span: Span| span.frames(clip.rate()) / fps;

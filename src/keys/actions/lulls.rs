@@ -4,6 +4,7 @@ use std::ops::{Range, RangeInclusive};
 
 use crate::keys::Chords;
 use crate::keys::rest::smoothed;
+use crate::maths;
 
 /// Seconds over which the speed is averaged: a step or a tremble is no lull.
 const SMOOTH: f64 = 0.25;
@@ -27,7 +28,7 @@ pub(super) fn lulls(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<Lul
     let per_second = chords.clock().koma_rate;
     let over = (SMOOTH * per_second).round() as usize;
     let speeds = smoothed(&chords.postures().speeds(per_second), over);
-    let logs: Vec<f64> = speeds.iter().map(|speed| (speed + TREMBLE).ln()).collect();
+    let logs: Vec<f64> = speeds.iter().map(|speed| maths::ln(speed + TREMBLE)).collect();
     let mut lulls: Vec<Lull> = valleys(&logs)
         .into_iter()
         .filter(|(instant, _)| !rests.iter().any(|rest| rest.contains(instant)))

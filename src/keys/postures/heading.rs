@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use crate::maths;
+
 /// Below this share of their length the lines across the body say nothing of where it faces: somebody
 /// lies on a side.
 const LEVEL: f64 = 0.3;
@@ -18,7 +20,7 @@ pub(super) fn headings(across: &[[DVec3; 2]]) -> Vec<f64> {
     let way = |[hips, shoulders]: &[DVec3; 2]| (*hips + side * *shoulders) / 2.0;
     let facing = |line: &[DVec3; 2]| {
         let way = way(line);
-        (way.x.hypot(way.z) >= LEVEL).then(|| way.z.atan2(way.x))
+        (maths::hypot(way.x, way.z) >= LEVEL).then(|| maths::atan2(way.z, way.x))
     };
     let mut headings = Vec::with_capacity(across.len());
     let mut known: Option<f64> = None;

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 
+use crate::maths;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::rotation_axes;
 use crate::motion::{Body, Clip, JointId, Landmarks, Pose, Poser};
@@ -124,8 +125,8 @@ fn reach([hip, knee, ankle]: [DVec3; 3], hinge: DVec3, target: DVec3) -> Option<
     }
     let across = a.length_squared() + b.length_squared() + (along_thigh - along_shin).powi(2);
     let cosine = ((across - (target - hip).length_squared()) / (2.0 * product)).clamp(-1.0, 1.0);
-    let wanted = ((1.0 - cosine) * (1.0 + cosine)).sqrt().atan2(cosine);
-    let angle = hinge.dot(a.cross(b)).atan2(a.dot(b));
+    let wanted = maths::atan2(((1.0 - cosine) * (1.0 + cosine)).sqrt(), cosine);
+    let angle = maths::atan2(hinge.dot(a.cross(b)), a.dot(b));
     let bend = DQuat::from_axis_angle(hinge, bend(PI - angle, PI - wanted));
     let bent = (bend * shin - thigh).try_normalize()?;
     let swing = DQuat::from_rotation_arc(bent, (target - hip).try_normalize()?);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::maths;
 use crate::motion::Clip;
 use crate::motion::body::Build;
 use crate::motion::clip::{Body, Pose};
@@ -25,7 +26,7 @@ pub(crate) fn is_t_pose(clip: &Clip, frame: Frame) -> bool {
     let points = mannequin.stand(|point| point.position(&body)).points;
     let spine = points[0].normalize_or_zero();
     let arms = ARMS.map(|[shoulder, wrist]| (points[wrist] - points[shoulder]).normalize_or_zero());
-    let (level, spread) = (LEVEL.to_radians().sin(), LEVEL.to_radians().cos());
+    let (level, spread) = maths::sin_cos(LEVEL.to_radians());
     let is_level = |arm: &DVec3| *arm != DVec3::ZERO && arm.dot(spine).abs() <= level;
     arms.iter().all(is_level) && -arms[0].dot(arms[1]) >= spread
 }

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DQuat};
 
+use crate::maths;
 use crate::motion::{Axis, Channel, Clip, Joint, Poser};
 use crate::sheet::Source;
 use crate::time::Frame;
@@ -114,9 +115,9 @@ fn angles_from_rotation(rotation: DQuat, axes: [Axis; 3], near: &[f64; 3]) -> [f
     if sine.abs() > 1.0 - 1e-12 {
         return locked(&entry, [i, j, k], sign, sine, near);
     }
-    let first = (-sign * entry(j, k)).atan2(entry(k, k)).to_degrees();
-    let second = sine.asin().to_degrees();
-    let third = (-sign * entry(i, j)).atan2(entry(i, i)).to_degrees();
+    let first = maths::atan2(-sign * entry(j, k), entry(k, k)).to_degrees();
+    let second = maths::asin(sine).to_degrees();
+    let third = maths::atan2(-sign * entry(i, j), entry(i, i)).to_degrees();
     let direct = unwrapped([first, second, third], near);
     let other = unwrapped([first + 180.0, 180.0 - second, third + 180.0], near);
     if distance(&direct, near) <= distance(&other, near) { direct } else { other }
@@ -131,8 +132,11 @@ fn locked(
     sine: f64,
     near: &[f64; 3],
 ) -> [f64; 3] {
-    let together = (sign * entry(j, i)).atan2(entry(j, j)).to_degrees();
-    unwrapped([near[0], sine.asin().to_degrees(), together - sign * sine.signum() * near[0]], near)
+    let together = maths::atan2(sign * entry(j, i), entry(j, j)).to_degrees();
+    unwrapped(
+        [near[0], maths::asin(sine).to_degrees(), together - sign * sine.signum() * near[0]],
+        near,
+    )
 }
 
 fn unwrapped(angles: [f64; 3], near: &[f64; 3]) -> [f64; 3] {

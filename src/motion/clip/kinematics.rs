@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::maths;
 use crate::motion::{Axis, Channel, Clip, Joint, Skeleton};
 use crate::time::Frame;
 
@@ -11,7 +12,7 @@ pub fn local_rotation(joint: &Joint, row: &[f64]) -> DQuat {
     let mut rotation = DQuat::IDENTITY;
     for (channel, degrees) in joint.channels.iter().zip(&row[joint.first_channel..]) {
         if let Channel::Rotation(axis) = channel {
-            let (sin, cos) = (0.5 * degrees.to_radians()).sin_cos();
+            let (sin, cos) = maths::sin_cos(0.5 * degrees.to_radians());
             rotation = turn(rotation, *axis, sin, cos);
         }
     }

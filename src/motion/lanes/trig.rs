@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{LANES, Lanes};
+use crate::maths;
 
 /// Added to a number below 2⁵¹ it rounds it to a whole one, which then stands in the lowest bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
@@ -117,7 +118,7 @@ impl Lanes {
     // Ratios are steep where half of a half angle passes 23°: rare.
     #[cold]
     fn steep_atan(self, flat: Self) -> Self {
-        self.with(flat, |ratio, flat| if ratio <= STEEP { flat } else { ratio.atan() })
+        self.with(flat, |ratio, flat| if ratio <= STEEP { flat } else { maths::atan(ratio) })
     }
 
     /// The angle of a rotation in radians from its chord between unit quaternions, which is given

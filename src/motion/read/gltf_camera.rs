@@ -7,6 +7,7 @@ mod tests;
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::maths;
 use crate::motion::seen::looks;
 use crate::motion::{Axis, Clip, Eye, Stature, Unit};
 use document::Document;
@@ -103,7 +104,7 @@ fn middle(clip: &Clip) -> DVec3 {
 
 /// A place without the digits that do not matter at a distance.
 fn rounded(place: DVec3, distance: f64) -> DVec3 {
-    let order = distance.max(f64::MIN_POSITIVE).log10().floor() as i32;
+    let order = maths::log10(distance.max(f64::MIN_POSITIVE)).floor() as i32;
     let steps = 10f64.powi((DIGITS - order).clamp(-300, 300));
     // Without −0.
     (place * steps).round() / steps + DVec3::ZERO

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::maths;
+
 /// An orthographic view: what is right, up and near in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct View {
@@ -30,7 +32,7 @@ impl View {
         let least = [WALKED * height, 1e-9 * height, 0.0];
         let way = ways.iter().zip(least).find(|(way, least)| spread(way) > *least);
         let angle = way.map_or(0.0, |(way, _)| principal_angle(way));
-        let right = a * angle.cos() + b * angle.sin();
+        let right = a * maths::cos(angle) + b * maths::sin(angle);
         let gone = match (roots.first(), roots.last()) {
             (Some(from), Some(to)) => (*to - *from).dot(right),
             _ => 0.0,
@@ -92,7 +94,7 @@ fn spread(points: &[(f64, f64)]) -> f64 {
         let (low, high) = values.fold(start, |(low, high), v| (low.min(v), high.max(v)));
         (high - low).max(0.0)
     };
-    side(|point| point.0).hypot(side(|point| point.1))
+    maths::hypot(side(|point| point.0), side(|point| point.1))
 }
 
 /// The direction in which flat points lie most apart, from the first axis towards the second.
@@ -107,5 +109,5 @@ fn principal_angle(points: &[(f64, f64)]) -> f64 {
         ab += a * b;
         bb += b * b;
     }
-    0.5 * (2.0 * ab).atan2(aa - bb)
+    0.5 * maths::atan2(2.0 * ab, aa - bb)
 }

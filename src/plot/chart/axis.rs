@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::coord::types::RangedCoordf64;
+
+use super::ticks::round_values;
 
 /// One side of a chart.
 #[derive(Clone)]
@@ -30,7 +31,7 @@ impl Axis {
     /// Round values: at most as many as `most`, where that is more than 2.
     pub(in crate::plot) fn round(range: (f64, f64), most: f64) -> Self {
         let axis = Self::labelled(range, vec![]);
-        let values = RangedCoordf64::from(axis.low..axis.high).key_points(most.max(2.0) as usize);
+        let values = round_values((axis.low, axis.high), most.max(2.0) as usize);
         let ticks = values.into_iter().map(|value| (value, number(value))).collect();
         Self { ticks, ..axis }
     }

@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::FilterKind;
 use super::moving::{Taps, taps};
+use crate::maths;
 
 impl FilterKind {
     /// The gain of each cosine of a clip, k = 0 … `frames` − 1, for a width in frames above 0; that
@@ -32,8 +33,8 @@ impl FilterKind {
 /// The weights of a window, each at its distance.
 fn moving_average(width: f64, omega: f64) -> f64 {
     let (reach, Taps { middle, inner, outer }) = taps(width);
-    let sum = ((reach + 0.5) * omega).sin() / (omega / 2.0).sin();
-    let pair = |distance: f64| 2.0 * (distance * omega).cos();
+    let sum = maths::sin((reach + 0.5) * omega) / maths::sin(omega / 2.0);
+    let pair = |distance: f64| 2.0 * maths::cos(distance * omega);
     middle * sum + inner * pair(reach + 1.0) + outer * pair(reach + 2.0)
 }
 
@@ -41,7 +42,7 @@ fn moving_average(width: f64, omega: f64) -> f64 {
 fn gaussian(sigma: f64, omega: f64) -> f64 {
     // exp(−x²/2) is below 1e−17 beyond 9.
     let copies = (9.0 / (sigma * TAU)).ceil() as i32 + 1;
-    let copy = |at: i32| (-0.5 * (sigma * (omega + TAU * f64::from(at))).powi(2)).exp();
+    let copy = |at: i32| maths::exp(-0.5 * (sigma * (omega + TAU * f64::from(at))).powi(2));
     (-copies..=copies).map(copy).sum()
 }
 
@@ -52,5 +53,5 @@ fn brick_wall(width: f64, k: usize, frames: usize) -> f64 {
 
 /// The bilinear transform of the analogue filter, its gain squared by the run back.
 fn butterworth(width: f64, omega: f64) -> f64 {
-    1.0 / (1.0 + ((omega / 2.0).tan() / (PI / width).tan()).powi(4))
+    1.0 / (1.0 + (maths::tan(omega / 2.0) / maths::tan(PI / width)).powi(4))
 }

@@ -1,15 +1,16 @@
 //! A clip of signals as cosines (DCT-II), and back.
 //!
-//! A transform of N mirrored frames takes one real FFT of length N: the even frames followed by the
+//! A transform of N mirrored frames takes one Fourier transform of length N: the even frames followed by the
 //! odd ones backwards, then a turn by k quarter steps (Makhoul 1980).
 
 use std::f64::consts::PI;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use nalgebra::DMatrix;
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
 
+use super::fourier::{Fourier, turn};
+use super::real::Real;
 use crate::signal::Signals;
 use crate::time::FrameRate;
 
@@ -25,9 +26,9 @@ pub struct Spectrum {
 struct Cosines {
     /// Σ x[n] cos(πk(2n + 1)/2N), k × joints.
     values: DMatrix<f64>,
-    /// exp(iπk/2N), k = 0 … N/2.
-    quarter_steps: Vec<Complex<f64>>,
-    back: Arc<dyn ComplexToReal<f64>>,
+    /// exp(iπk/2N), k = 0 … N − 1.
+    quarter_steps: Vec<Complex<Real>>,
+    fourier: Fourier,
 }
 
 impl std::fmt::Debug for Spectrum {
@@ -74,72 +75,58 @@ impl Spectrum {
 impl Cosines {
     fn of(signals: &Signals) -> Self {
         let frames = signals.frames();
-        let mut planner = RealFftPlanner::new();
+        let step = PI / (2 * frames) as f64;
         let mut cosines = Self {
             values: DMatrix::zeros(frames, signals.joints()),
-            quarter_steps: (0..=frames / 2)
-                .map(|k| Complex::cis(PI * k as f64 / (2 * frames) as f64))
-                .collect(),
-            back: planner.plan_fft_inverse(frames),
+            quarter_steps: (0..frames).map(|k| turn(step * k as f64)).collect(),
+            fourier: Fourier::of(frames),
         };
-        cosines.fill(signals, planner.plan_fft_forward(frames).as_ref());
+        cosines.fill(signals);
         cosines
     }
 
-    fn fill(&mut self, signals: &Signals, forth: &dyn RealToComplex<f64>) {
+    fn fill(&mut self, signals: &Signals) {
         let frames = signals.frames();
-        let mut shuffled = forth.make_input_vec();
-        let mut waves = forth.make_output_vec();
-        let mut scratch = forth.make_scratch_vec();
+        let mut room = self.fourier.room();
+        let mut waves = vec![Complex::new(Real(0.0), Real(0.0)); frames];
         let joints = signals.values.as_slice().chunks_exact(frames);
         for (joint, cosines) in joints.zip(self.values.as_mut_slice().chunks_exact_mut(frames)) {
             for (n, value) in joint.iter().enumerate() {
-                shuffled[shuffled_place(n, frames)] = *value;
+                waves[shuffled_place(n, frames)] = Complex::new(Real(*value), Real(0.0));
             }
-            forth
-                .process_with_scratch(&mut shuffled, &mut waves, &mut scratch)
-                .expect("the plan made the buffers");
-            for (k, (wave, step)) in waves.iter().zip(&self.quarter_steps).enumerate() {
-                let turned = wave * step.conj();
-                cosines[k] = turned.re;
-                if k > 0 {
-                    cosines[frames - k] = -turned.im;
-                }
+            self.fourier.transform(&mut waves, &mut room);
+            for (cosine, (wave, step)) in
+                cosines.iter_mut().zip(waves.iter().zip(&self.quarter_steps))
+            {
+                *cosine = (wave * step.conj()).re.0;
             }
         }
     }
 
     fn times(&self, gains: &[f64]) -> DMatrix<f64> {
         let (frames, joints) = self.values.shape();
-        let back = &self.back;
         let mut values = DMatrix::zeros(frames, joints);
-        let mut waves = back.make_input_vec();
-        let mut shuffled = back.make_output_vec();
-        let mut scratch = back.make_scratch_vec();
+        let mut room = self.fourier.room();
+        let mut waves = vec![Complex::new(Real(0.0), Real(0.0)); frames];
         let gains: Vec<f64> = gains.iter().map(|gain| gain / frames as f64).collect();
         let joints = self.values.as_slice().chunks_exact(frames);
         for (cosines, joint) in joints.zip(values.as_mut_slice().chunks_exact_mut(frames)) {
             self.waves_from_cosines(cosines, &gains, &mut waves);
-            back.process_with_scratch(&mut waves, &mut shuffled, &mut scratch)
-                .expect("the plan made the buffers, and what must be real is");
+            self.fourier.transform(&mut waves, &mut room);
             for (n, value) in joint.iter_mut().enumerate() {
-                *value = shuffled[shuffled_place(n, frames)];
+                *value = waves[shuffled_place(n, frames)].re.0;
             }
         }
         values
     }
 
-    fn waves_from_cosines(&self, cosines: &[f64], gains: &[f64], waves: &mut [Complex<f64>]) {
+    /// The waves of the shuffled frames, conjugate: their transform forth is that back.
+    fn waves_from_cosines(&self, cosines: &[f64], gains: &[f64], waves: &mut [Complex<Real>]) {
         let frames = cosines.len();
-        waves[0] = Complex::new(cosines[0] * gains[0], 0.0);
-        for (k, wave) in waves.iter_mut().enumerate().skip(1) {
-            let turned =
-                Complex::new(cosines[k] * gains[k], -cosines[frames - k] * gains[frames - k]);
-            *wave = turned * self.quarter_steps[k];
-        }
-        if frames.is_multiple_of(2) {
-            // Real but for rounding, and the transform insists.
-            waves[frames / 2].im = 0.0;
+        let scaled = |k: usize| Real(cosines[k] * gains[k]);
+        waves[0] = Complex::new(scaled(0), Real(0.0));
+        for (k, (wave, step)) in waves.iter_mut().zip(&self.quarter_steps).enumerate().skip(1) {
+            *wave = Complex::new(scaled(k), scaled(frames - k)) * step.conj();
         }
     }
 }

@@ -1,17 +1,11 @@
 //! Memory and time of one call: what libFuzzer itself cannot see on stable Rust.
 //!
 //! Its `-malloc_limit_mb` needs the hooks of a sanitizer's runtime, and its slowest unit is told in
-//! whole seconds. So the memory is counted here, by the allocator, and held against the input's size.
+//! whole seconds. So the memory is counted here, by the allocator, and held against a bound.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::time::Instant;
-
-/// Bytes of memory that a call may take for each byte of its input.
-const MULTIPLE: usize = 64;
-
-/// Bytes that it may take for nothing.
-const FREE: usize = 64 << 10;
 
 struct Counting;
 
@@ -39,23 +33,29 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Runs it and panics when it took more memory than the input's size allows. Says so on stderr when it
-/// was the slowest, or took the largest multiple, up to now.
-pub fn measured<T>(size: usize, call: impl FnOnce() -> T) -> T {
+/// Bytes of memory that a call may take, and those in multiples of which they are told.
+pub struct Bound {
+    pub most: usize,
+    pub unit: usize,
+}
+
+/// Runs it on an input of so many bytes and panics when it took more memory than the bound. Says so on stderr when it was
+/// the slowest, or took the largest multiple, up to now.
+pub fn measured<T>(size: usize, Bound { most, unit }: Bound, call: impl FnOnce() -> T) -> T {
     let before = NOW.load(Relaxed);
     PEAK.store(before, Relaxed);
     let start = Instant::now();
     let result = call();
     let micros = start.elapsed().as_micros() as u64;
     let taken = PEAK.load(Relaxed) - before;
-    assert!(taken <= MULTIPLE * size + FREE, "{taken} bytes of memory for an input of {size}");
+    assert!(taken <= most, "{taken} bytes of memory for an input of {size}, and {most} are allowed");
     if SLOWEST.fetch_max(micros, Relaxed) < micros {
         eprintln!("slowest: {micros} us for {size} bytes");
     }
     // A small input tells nothing: a String alone has 24 bytes.
-    let multiple = 100 * taken / size.max(1);
-    if size >= 256 && LARGEST.fetch_max(multiple, Relaxed) < multiple {
-        eprintln!("memory: {}.{:02} times {size} bytes", multiple / 100, multiple % 100);
+    let multiple = 100 * taken / unit.max(1);
+    if unit >= 256 && LARGEST.fetch_max(multiple, Relaxed) < multiple {
+        eprintln!("memory: {}.{:02} times {unit} bytes", multiple / 100, multiple % 100);
     }
     result
 }

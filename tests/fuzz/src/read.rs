@@ -9,7 +9,17 @@ mod measure;
 use genga::error::Error;
 use genga::motion::{Clip, bvh};
 use libfuzzer_sys::fuzz_target;
-use measure::measured;
+use measure::Bound;
+
+/// Bytes of memory that a call may take for each byte of its input.
+const MULTIPLE: usize = 64;
+
+/// Bytes that it may take for nothing.
+const FREE: usize = 64 << 10;
+
+fn measured<T>(size: usize, call: impl FnOnce() -> T) -> T {
+    measure::measured(size, Bound { most: MULTIPLE * size + FREE, unit: size }, call)
+}
 
 fuzz_target!(|bytes: &[u8]| {
     let plain = measured(bytes.len(), || bvh::read(bytes));

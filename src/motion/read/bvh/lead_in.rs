@@ -14,6 +14,7 @@
 use glam::DQuat;
 
 use crate::error::Warning;
+use crate::maths;
 use crate::motion::{Clip, Pose, is_t_pose};
 use crate::time::Frame;
 
@@ -200,7 +201,7 @@ fn turned(from: &Pose, to: &Pose) -> Vec<f64> {
 /// The angle between two rotations by their chord, which is exact for small angles; q and −q are one.
 fn angle(from: DQuat, to: DQuat) -> f64 {
     let chord = (from - to).length().min((from + to).length());
-    4.0 * (0.5 * chord).min(1.0).asin()
+    4.0 * maths::asin((0.5 * chord).min(1.0))
 }
 
 #[cfg(test)]
