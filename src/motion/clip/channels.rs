@@ -81,6 +81,18 @@ pub(crate) fn turn_columns(joint: &Joint, axes: [Axis; 3], rotation: DQuat, colu
     turned.zip(angles).for_each(|((_, value), angle)| *value = angle);
 }
 
+/// Writes a rotation into the columns that a joint has in a row as wide as the skeleton, the way back from
+/// [`local_rotation`](crate::motion::local_rotation): degrees, of all triples that give it the one nearest to what
+/// stands there. Says whether it could; only a joint that turns about three different axes has every rotation.
+pub fn set_local_rotation(joint: &Joint, rotation: DQuat, row: &mut [f64]) -> bool {
+    let columns = joint.first_channel..joint.first_channel + joint.channels.len();
+    let axes = rotation_axes(joint);
+    if let Some(axes) = axes {
+        turn_columns(joint, axes, rotation, &mut row[columns]);
+    }
+    axes.is_some()
+}
+
 /// The axes of a joint's rotations when they are three different ones, in the order listed.
 pub(crate) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
     let mut axes = joint.channels.iter().filter_map(|channel| match channel {
