@@ -26,9 +26,9 @@ class Clip:
         *,
         names: Sequence[str],
         parents: Union[Sequence[int], npt.NDArray[np.int64]],
-        offsets: Floats,
-        rotations: Floats,
-        root: Floats,
+        offsets: npt.ArrayLike,
+        rotations: npt.ArrayLike,
+        root: npt.ArrayLike,
         rate: float,
         name: str = "clip",
     ) -> None: ...

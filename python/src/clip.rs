@@ -7,8 +7,7 @@ use genga::Warning;
 use genga::motion::{Clip as Motion, bvh};
 use genga::time::{Frame, FrameRate};
 use numpy::{
-    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3,
-    PyUntypedArrayMethods,
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -22,7 +21,7 @@ use crate::work;
 ///
 /// From arrays: `names` of the joints, `parents` (-1 for a root; parents come first), `offsets` (J, 3) from the
 /// parent, `rotations` (F, J, 4) against the parent as unit quaternions x, y, z, w, `root` (F, 3) where the roots are,
-/// `rate` in frames a second. Float64 arrays in C order are read where they are; others are refused by NumPy's rules.
+/// `rate` in frames a second. Float64 arrays in C order are read where they are; of others NumPy makes a copy first.
 #[pyclass(frozen, module = "genga")]
 pub struct Clip {
     pub motion: Arc<Motion>,
@@ -59,6 +58,12 @@ impl Clip {
     }
 }
 
+/// Numbers in C order: the array itself where it has them so, else a copy.
+fn floats<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    let numpy = array.py().import("numpy")?;
+    Ok(numpy.call_method1("ascontiguousarray", (array, "float64"))?.extract()?)
+}
+
 /// An array that is kept for the next call is not to be written into.
 fn read_only(py: Python<'_>, array: &Bound<'_, PyAny>) -> PyResult<()> {
     let flags = PyDict::new(py);
@@ -75,13 +80,14 @@ impl Clip {
         py: Python<'_>,
         names: Vec<String>,
         parents: Vec<i64>,
-        offsets: PyReadonlyArray2<'_, f64>,
-        rotations: PyReadonlyArray3<'_, f64>,
-        root: PyReadonlyArray2<'_, f64>,
+        offsets: &Bound<'_, PyAny>,
+        rotations: &Bound<'_, PyAny>,
+        root: &Bound<'_, PyAny>,
         rate: f64,
         name: &str,
     ) -> PyResult<Self> {
-        let (joints, frames) = (names.len(), rotations.shape()[0]);
+        let [offsets, rotations, root] = [floats(offsets)?, floats(rotations)?, floats(root)?];
+        let (joints, frames) = (names.len(), rotations.shape().first().copied().unwrap_or(0));
         let shapes = [
             ("parents", vec![parents.len()], vec![joints]),
             ("offsets", offsets.shape().to_vec(), vec![joints, 3]),

@@ -203,6 +203,9 @@ mod tests {
             let rotation = local_rotation(&joint, &angles);
             let again = angles_from_rotation(rotation, ORDERS[order], &near);
             prop_assert!(same(local_rotation(&joint, &again), rotation), "{angles:?} {again:?}");
+            let mut row = near;
+            prop_assert!(set_local_rotation(&joint, rotation, &mut row));
+            prop_assert_eq!(row, again);
             let kept = angles_from_rotation(rotation, ORDERS[order], &angles);
             prop_assert!(distance(&kept, &angles) < 1e-5, "{angles:?} {kept:?}");
         }
@@ -227,6 +230,13 @@ mod tests {
         let frames = values.len() / axes.len();
         Clip::new(skeleton, FrameRate::new(24.0).unwrap(), Frame(3), frames, values.to_vec())
             .unwrap()
+    }
+
+    #[test]
+    fn a_joint_of_two_axes_is_left_as_it_is() {
+        let mut row = [1.0, 2.0];
+        assert!(!set_local_rotation(&joint(&[Axis::X, Axis::Y]), DQuat::IDENTITY, &mut row));
+        assert_eq!(row, [1.0, 2.0]);
     }
 
     #[test]
