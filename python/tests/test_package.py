@@ -218,7 +218,7 @@ def test_other_threads_run_meanwhile(clip):
 
     thread = threading.Thread(target=tick)
     thread.start()
-    genga.study(clip, x=("filter.width", "5..40:1"), y=("turns.persistence", "1..20:1"), measures=["genga"])
+    genga.study(clip, x=("filter.width", "1..100:1"), y=("turns.persistence", "1..100:1"), measures=["genga"])
     is_done.set()
     thread.join()
     assert len(ticks) > 10
