@@ -23,7 +23,7 @@ pub(crate) use body::{BodySide, Build, below, is_t_pose, plain_name};
 pub use body::{Contact, ContactFinder, Foot, Landmarks, Limb, Point, Stature, Unit};
 pub use clip::{
     Body, Channel, Clip, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, local_rotation,
-    local_translation,
+    local_translation, set_local_rotation,
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};

@@ -7,7 +7,7 @@ mod poser;
 pub(crate) mod rig;
 mod skeleton;
 
-pub use channels::RowWriter;
+pub use channels::{RowWriter, set_local_rotation};
 pub(crate) use channels::{rotation_axes, turn_columns};
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
 pub use poser::Poser;

@@ -1,6 +1,7 @@
 //! The cells of a study, each measured once, on every core.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
@@ -114,29 +115,53 @@ impl Study {
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn run(&self, clip: impl Into<Arc<Clip>>, done: impl Fn() + Sync) -> Result<Grid, Error> {
+        let whole = self.run_while(clip, || {
+            done();
+            true
+        })?;
+        Ok(whole.expect("nobody ends it"))
+    }
+
+    /// [`Study::run`] for as long as `goes_on`, called after each cell from several threads, says so; none
+    /// when it was ended.
+    ///
+    /// # Errors
+    /// Those of [`Study::run`].
+    pub fn run_while(
+        &self,
+        clip: impl Into<Arc<Clip>>,
+        goes_on: impl Fn() -> bool + Sync,
+    ) -> Result<Option<Grid>, Error> {
         self.validate()?;
+        let is_ended = AtomicBool::new(false);
         let order = self.chain_order();
         // The first cell makes what all have in common; each thread begins with a clone of that.
         let mut bench = Bench::new(clip.into(), self.budget)?;
         self.measured(&mut bench, order[0])?;
         let piece = order.len().div_ceil(PIECES * rayon::current_num_threads());
-        let measured: Vec<(usize, Result<Cell, Error>)> = order
+        let measured: Option<Vec<(usize, Result<Cell, Error>)>> = order
             .into_par_iter()
             .with_min_len(piece)
             .map_init(
                 || bench.clone(),
                 |bench, at| {
+                    if is_ended.load(Ordering::Relaxed) {
+                        return None;
+                    }
                     let cell = self.measured(bench, at);
-                    done();
-                    (at, cell)
+                    is_ended.fetch_or(!goes_on(), Ordering::Relaxed);
+                    Some((at, cell))
                 },
             )
             .collect();
+        let Some(measured) = measured.filter(|_| !is_ended.load(Ordering::Relaxed)) else {
+            return Ok(None);
+        };
         let mut cells = vec![None; self.len()];
         for (at, cell) in measured {
             cells[at] = Some(cell?);
         }
-        Ok(Grid {
+        Ok(Some(Grid {
             x: self.x.clone(),
             y: self.y.clone(),
             measures: self.measures.clone(),
@@ -144,7 +169,7 @@ impl Study {
             seconds: bench.clean.len() as f64 / bench.clean.rate().fps(),
             frames_in_koma: bench.clean.clock(self.recipe.rate).frames_in_koma(),
             cells: cells.into_iter().flatten().collect(),
-        })
+        }))
     }
 
     fn base(&self) -> Setting {

@@ -232,6 +232,18 @@ fn a_study_that_cannot_be_is_refused() {
 }
 
 #[test]
+fn a_study_ends_when_somebody_wants_it_to() {
+    let study = study("filter.width=1..40:1", Some("turns.persistence=1..20:1"), &COUNTS);
+    let measured = AtomicUsize::new(0);
+    let ended = study.run_while(swinging(30), || measured.fetch_add(1, Ordering::Relaxed) < 3);
+    assert!(ended.unwrap().is_none());
+    let measured = measured.into_inner();
+    assert!((4..study.len() / 2).contains(&measured), "{measured}: what is in work is finished");
+    let whole = study.run_while(swinging(30), || true).unwrap();
+    assert_eq!(whole, Some(study.run(swinging(30), || ()).unwrap()));
+}
+
+#[test]
 fn what_the_chain_uses_first_changes_last() {
     let order = |x: &str, y: &str| study(x, Some(y), &COUNTS).chain_order();
     let (width, persistence) = ("filter.width=1..2:1", "turns.persistence=1..3:1");

@@ -82,6 +82,18 @@ pub(crate) fn turn_columns(joint: &Joint, axes: [Axis; 3], rotation: DQuat, colu
     turned.zip(angles).for_each(|((_, value), angle)| *value = angle);
 }
 
+/// Writes a rotation into the columns that a joint has in a row as wide as the skeleton, the way back from
+/// [`local_rotation`](crate::motion::local_rotation): degrees, of all triples that give it the one nearest to what
+/// stands there. Says whether it could; only a joint that turns about three different axes has every rotation.
+pub fn set_local_rotation(joint: &Joint, rotation: DQuat, row: &mut [f64]) -> bool {
+    let columns = joint.first_channel..joint.first_channel + joint.channels.len();
+    let axes = rotation_axes(joint);
+    if let Some(axes) = axes {
+        turn_columns(joint, axes, rotation, &mut row[columns]);
+    }
+    axes.is_some()
+}
+
 /// The axes of a joint's rotations when they are three different ones, in the order listed.
 pub(crate) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
     let mut axes = joint.channels.iter().filter_map(|channel| match channel {
@@ -195,6 +207,9 @@ mod tests {
             let rotation = local_rotation(&joint, &angles);
             let again = angles_from_rotation(rotation, ORDERS[order], &near);
             prop_assert!(same(local_rotation(&joint, &again), rotation), "{angles:?} {again:?}");
+            let mut row = near;
+            prop_assert!(set_local_rotation(&joint, rotation, &mut row));
+            prop_assert_eq!(row, again);
             let kept = angles_from_rotation(rotation, ORDERS[order], &angles);
             prop_assert!(distance(&kept, &angles) < 1e-5, "{angles:?} {kept:?}");
         }
@@ -219,6 +234,13 @@ mod tests {
         let frames = values.len() / axes.len();
         Clip::new(skeleton, FrameRate::new(24.0).unwrap(), Frame(3), frames, values.to_vec())
             .unwrap()
+    }
+
+    #[test]
+    fn a_joint_of_two_axes_is_left_as_it_is() {
+        let mut row = [1.0, 2.0];
+        assert!(!set_local_rotation(&joint(&[Axis::X, Axis::Y]), DQuat::IDENTITY, &mut row));
+        assert_eq!(row, [1.0, 2.0]);
     }
 
     #[test]

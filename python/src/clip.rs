@@ -1,0 +1,261 @@
+//! Motion: read from a file, or made of arrays.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use genga::Warning;
+use genga::motion::{Clip as Motion, bvh};
+use genga::time::{Frame, FrameRate};
+use numpy::{
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::arrays::{self, Arrays};
+use crate::error::{asked_wrongly, raised, raised_of};
+use crate::work;
+
+/// A motion clip of F frames and J joints.
+///
+/// From arrays: `names` of the joints, `parents` (-1 for a root; parents come first), `offsets` (J, 3) from the
+/// parent, `rotations` (F, J, 4) against the parent as unit quaternions x, y, z, w, `root` (F, 3) where the roots are,
+/// `rate` in frames a second. Float64 arrays in C order are read where they are; of others NumPy makes a copy first.
+#[pyclass(frozen, module = "genga")]
+pub struct Clip {
+    pub motion: Arc<Motion>,
+    /// The name of the file, without folders.
+    pub file: String,
+    warnings: Vec<Warning>,
+    rotations: PyOnceLock<Py<PyArray3<f64>>>,
+    positions: PyOnceLock<Py<PyArray3<f64>>>,
+}
+
+impl Clip {
+    /// A clip of that file.
+    pub fn new(motion: Arc<Motion>, file: String, warnings: Vec<Warning>) -> Self {
+        Self { motion, file, warnings, rotations: PyOnceLock::new(), positions: PyOnceLock::new() }
+    }
+
+    /// The name of its cut: that of the file without the ending.
+    pub fn cut(&self) -> String {
+        let stem = Path::new(&self.file).file_stem();
+        stem.map_or("cut".into(), |stem| stem.to_string_lossy().into_owned())
+    }
+
+    fn cube<'py>(
+        &self,
+        py: Python<'py>,
+        flat: Vec<f64>,
+        width: usize,
+    ) -> PyResult<Py<PyArray3<f64>>> {
+        let shape = [self.motion.len(), self.motion.skeleton().len(), width];
+        // NumPy takes the vector over.
+        let cube: Bound<'py, PyArray3<f64>> = PyArray1::from_vec(py, flat).reshape(shape)?;
+        read_only(py, cube.as_any())?;
+        Ok(cube.unbind())
+    }
+}
+
+/// Numbers in C order: the array itself where it has them so, else a copy.
+fn floats<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    let numpy = array.py().import("numpy")?;
+    Ok(numpy.call_method1("ascontiguousarray", (array, "float64"))?.extract()?)
+}
+
+/// An array that is kept for the next call is not to be written into.
+fn read_only(py: Python<'_>, array: &Bound<'_, PyAny>) -> PyResult<()> {
+    let flags = PyDict::new(py);
+    flags.set_item("write", false)?;
+    array.call_method("setflags", (), Some(&flags)).map(|_| ())
+}
+
+#[pymethods]
+impl Clip {
+    #[new]
+    #[pyo3(signature = (*, names, parents, offsets, rotations, root, rate, name="clip"))]
+    #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
+    fn from_arrays(
+        py: Python<'_>,
+        names: Vec<String>,
+        parents: Vec<i64>,
+        offsets: &Bound<'_, PyAny>,
+        rotations: &Bound<'_, PyAny>,
+        root: &Bound<'_, PyAny>,
+        rate: f64,
+        name: &str,
+    ) -> PyResult<Self> {
+        let [offsets, rotations, root] = [floats(offsets)?, floats(rotations)?, floats(root)?];
+        let (joints, frames) = (names.len(), rotations.shape().first().copied().unwrap_or(0));
+        let shapes = [
+            ("parents", vec![parents.len()], vec![joints]),
+            ("offsets", offsets.shape().to_vec(), vec![joints, 3]),
+            ("rotations", rotations.shape().to_vec(), vec![frames, joints, 4]),
+            ("root", root.shape().to_vec(), vec![frames, 3]),
+        ];
+        if let Some((what, is, asked)) = shapes.into_iter().find(|(_, is, asked)| is != asked) {
+            let message = format!(
+                "{what} has the shape {is:?}: {joints} names and {frames} frames of rotations need {asked:?}"
+            );
+            return Err(asked_wrongly(py, message));
+        }
+        let made = Arrays {
+            names,
+            parents: parents.iter().map(|parent| usize::try_from(*parent).ok()).collect(),
+            offsets: offsets.as_slice()?,
+            rotations: rotations.as_slice()?,
+            root: root.as_slice()?,
+            frames,
+            rate,
+        };
+        let motion = py.detach(|| made.clip()).map_err(|error| raised(py, error))?;
+        Ok(Self::new(Arc::new(motion), format!("{name}.bvh"), Vec::new()))
+    }
+
+    /// The names of the joints, J of them; parents come first.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()
+    }
+
+    /// The parent of each joint, -1 for a root: int64 (J,).
+    #[getter]
+    fn parents<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let joints = self.motion.skeleton().joints.iter();
+        PyArray1::from_iter(
+            py,
+            joints.map(|joint| joint.parent.map_or(-1, |parent| parent.0 as i64)),
+        )
+    }
+
+    /// Where each joint is against its parent at rest, in the unit of the file: float64 (J, 3).
+    #[getter]
+    fn offsets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let joints = &self.motion.skeleton().joints;
+        let flat = joints.iter().flat_map(|joint| joint.offset.to_array()).collect();
+        PyArray1::from_vec(py, flat).reshape([joints.len(), 3])
+    }
+
+    /// How each joint is turned against its parent: float64 (F, J, 4), unit quaternions x, y, z, w. Made at the first
+    /// call and kept, read-only.
+    #[getter]
+    fn rotations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let make = || self.cube(py, py.detach(|| arrays::rotations(&self.motion)), 4);
+        Ok(self.rotations.get_or_try_init(py, make)?.bind(py).clone())
+    }
+
+    /// Where each joint is in the world, in the unit of the file: float64 (F, J, 3). Made at the first call and kept,
+    /// read-only.
+    #[getter]
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let make = || self.cube(py, py.detach(|| arrays::positions(&self.motion)), 3);
+        Ok(self.positions.get_or_try_init(py, make)?.bind(py).clone())
+    }
+
+    /// Frames a second.
+    #[getter]
+    fn rate(&self) -> f64 {
+        self.motion.rate().fps()
+    }
+
+    /// The number of the first frame in the file: a T-pose in front of the motion is left out.
+    #[getter]
+    fn first(&self) -> usize {
+        self.motion.first().0
+    }
+
+    /// What a person should know: a dict each with `code`, `message`, `line` and `column`.
+    #[getter]
+    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let of_one = |warning: &Warning| {
+            let told = PyDict::new(py);
+            told.set_item("code", warning.code)?;
+            told.set_item("message", &warning.message)?;
+            told.set_item("line", warning.place.map(|(line, _)| line))?;
+            told.set_item("column", warning.place.map(|(_, column)| column))?;
+            Ok(told)
+        };
+        self.warnings.iter().map(of_one).collect()
+    }
+
+    /// The clip as BVH.
+    fn to_bvh(&self) -> String {
+        bvh::write(&self.motion)
+    }
+
+    /// Number of frames, F.
+    fn __len__(&self) -> usize {
+        self.motion.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let (frames, joints) = (self.motion.len(), self.motion.skeleton().len());
+        format!(
+            "<genga.Clip {}: {frames} frames at {} a second, {joints} joints>",
+            self.cut(),
+            self.rate()
+        )
+    }
+}
+
+/// What is read, a file or its bytes.
+#[derive(FromPyObject)]
+pub enum Given<'py> {
+    Bytes(Bound<'py, PyBytes>),
+    Path(PathBuf),
+}
+
+/// Reads a BVH file, from a path or from its bytes, as the program does: a T-pose put in front of the motion is left out
+/// unless `keep_lead_in`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`, `root`, `repair` and
+/// `strict` are those of the program.
+#[pyfunction]
+#[pyo3(signature = (source, *, name=None, fps=None, root=None, repair=false, strict=false, keep_lead_in=false, trim=None))]
+#[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
+pub fn read(
+    py: Python<'_>,
+    source: Given<'_>,
+    name: Option<String>,
+    fps: Option<f64>,
+    root: Option<String>,
+    repair: bool,
+    strict: bool,
+    keep_lead_in: bool,
+    trim: Option<(usize, usize)>,
+) -> PyResult<Clip> {
+    let fps = fps.map(FrameRate::new).transpose().map_err(|error| raised(py, error))?;
+    let options = bvh::Options { strict, repair, fps, root, ..bvh::Options::default() };
+    let (path, bytes) = match source {
+        Given::Path(path) => (Some(path), Vec::new()),
+        // They are copied: the work goes on without the lock that keeps them in their place.
+        Given::Bytes(bytes) => (None, bytes.as_bytes().to_vec()),
+    };
+    let file =
+        path.as_deref().and_then(Path::file_name).map(|file| file.to_string_lossy().into_owned());
+    let file = name.map(|name| format!("{name}.bvh")).or(file).unwrap_or("clip.bvh".into());
+    let at = path.clone();
+    let made = work::done(py, move |_| {
+        let read = path.map_or_else(|| options.read(&bytes), |path| options.open(&path))?;
+        part(read, keep_lead_in, trim)
+    })?;
+    let (motion, warnings) = made.map_err(|error| raised_of(py, error, at.as_deref()))?;
+    Ok(Clip::new(Arc::new(motion), file, warnings))
+}
+
+/// The part of a file that is worked on.
+fn part(
+    read: bvh::Read,
+    keep_lead_in: bool,
+    trim: Option<(usize, usize)>,
+) -> Result<(Motion, Vec<Warning>), genga::Error> {
+    let bvh::Read { clip, mut warnings, .. } = read;
+    let begin = trim.map_or(clip.first().0, |(begin, _)| begin);
+    let (mut clip, note) = if keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
+    warnings.extend(note.filter(|_| begin < clip.first().0));
+    if let Some((begin, end)) = trim {
+        let begin = Frame(begin.max(clip.first().0));
+        clip = clip.trimmed(begin, Frame(end))?;
+    }
+    clip.check_size()?;
+    Ok((clip, warnings))
+}

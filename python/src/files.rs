@@ -1,0 +1,64 @@
+//! Sheets in every format.
+
+use genga::deliver::sheet_json::MadeWith;
+use genga::deliver::{Cut, FORMATS, Format, Settings};
+use genga::edits::Edits;
+use genga::pipeline::Breakdown;
+use genga::recipe::Recipe;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Files by their names, in their order; `/` in a name makes a folder.
+pub type Files = Vec<(String, Vec<u8>)>;
+
+/// What a sheet is handed over with.
+pub struct Handed<'a> {
+    pub cut: &'a str,
+    pub file: &'a str,
+    pub recipe: &'a Recipe,
+    pub edits: &'a Edits,
+}
+
+impl Handed<'_> {
+    /// The files of some formats, as the program writes them.
+    pub fn files(
+        &self,
+        breakdown: &Breakdown<'_>,
+        formats: &[&Format],
+        settings: &Settings,
+    ) -> Result<Files, genga::Error> {
+        let exaggerate = &self.recipe.exaggerate;
+        let cut = Cut {
+            name: self.cut,
+            clip_file: self.file,
+            clip: breakdown.clip,
+            exaggerated: (!exaggerate.is_off()).then_some((breakdown.source, exaggerate)),
+            sheet: breakdown.sheet,
+            spaced: Some(breakdown.spaced),
+            splits: &breakdown.actions.koma(breakdown.clock),
+            made_with: Some(&MadeWith::of(self.recipe, self.edits, breakdown.sheet)),
+        };
+        let mut files = Files::new();
+        for format in formats {
+            format.write(&cut, settings, &mut |name, bytes| {
+                files.push((name.to_owned(), bytes.to_vec()));
+                Ok(())
+            })?;
+        }
+        Ok(files)
+    }
+}
+
+/// The formats there are: a dict each with `name`, `help`, `japanese` and `files`. GIF and PNG are the program's alone.
+#[pyfunction]
+pub fn formats<'py>(py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let of_one = |format: &Format| {
+        let about = PyDict::new(py);
+        about.set_item("name", format.name)?;
+        about.set_item("help", format.help)?;
+        about.set_item("japanese", format.japanese)?;
+        about.set_item("files", format.files)?;
+        Ok(about)
+    };
+    FORMATS.iter().map(of_one).collect()
+}

@@ -1,0 +1,163 @@
+//! Recipes varied, sheets judged, methods beside one another.
+
+use std::sync::atomic::Ordering;
+
+use genga::deliver::sheet_json;
+use genga::pipeline::Budget;
+use genga::quality::{Compare, Evaluation, Row};
+use genga::study::{Axis, Grid, Measure, Noise, Study, table_1_recipe};
+use genga::time::Frame;
+use numpy::PyArray1;
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::clip::Clip;
+use crate::error::{asked_wrongly, raised};
+use crate::recipe::Recipe;
+use crate::table::{Column, plain, table};
+use crate::words::word;
+use crate::work;
+
+/// Varies one or two settings and counts in each cell. `x` and `y` are a name and its values:
+/// `("filter.width", "10..60:5")` or `("filter.width", [10, 20, 30])`; without both it is Table 1 of the first paper,
+/// by its own recipe. Returns a dict of columns, a row a cell: both settings (words), then a column each of `measures`
+/// (`genga study --help` lists them).
+#[pyfunction]
+#[pyo3(signature = (clip, recipe=None, *, x=None, y=None, measures=None, **settings))]
+pub fn study<'py>(
+    py: Python<'py>,
+    clip: &Clip,
+    recipe: Option<Recipe>,
+    x: Option<(String, Bound<'py, PyAny>)>,
+    y: Option<(String, Bound<'py, PyAny>)>,
+    measures: Option<Vec<String>>,
+    settings: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let is_table_1 = x.is_none() && y.is_none();
+    let own = if is_table_1 { table_1_recipe() } else { Recipe::default().recipe };
+    let own = Recipe { recipe: own, ..Recipe::default() };
+    let recipe = recipe.unwrap_or(own).with(py, settings)?.recipe;
+    let parse =
+        |(name, values): (&str, &str)| Axis::new(name, values).map_err(|error| raised(py, error));
+    let (x, y) = match (x, y) {
+        (None, None) => {
+            (parse(("filter.width", "10,20,30"))?, Some(parse(("turns.persistence", "5,10"))?))
+        }
+        (Some(x), y) => (axis(py, x)?, y.map(|y| axis(py, y)).transpose()?),
+        (None, Some(_)) => {
+            return Err(asked_wrongly(py, "y is varied for each value of x: give x too"));
+        }
+    };
+    let measures = measures.unwrap_or_else(|| vec!["union".into(), "total".into()]);
+    let measures: std::result::Result<Vec<Measure>, _> =
+        measures.iter().map(|name| name.parse()).collect();
+    let measures = measures.map_err(|error| raised(py, error))?;
+    let study = Study { recipe, x, y, measures, keep_keys: false, budget: Budget::default() };
+    let motion = clip.motion.clone();
+    let made = work::done(py, move |is_ended| {
+        study.run_while(motion, || !is_ended.load(Ordering::Relaxed))
+    })?;
+    match made.map_err(|error| raised(py, error))? {
+        Some(grid) => columns(py, &grid),
+        None => Err(PyKeyboardInterrupt::new_err(())),
+    }
+}
+
+/// An axis: values as the program takes them, or a list.
+fn axis(py: Python<'_>, (name, values): (String, Bound<'_, PyAny>)) -> PyResult<Axis> {
+    let words = match values.extract::<String>() {
+        Ok(words) => words,
+        Err(_) => {
+            let words = values.try_iter()?.map(|value| word(&value?));
+            words.collect::<PyResult<Vec<_>>>()?.join(",")
+        }
+    };
+    Axis::new(&name, &words).map_err(|error| raised(py, error))
+}
+
+fn columns<'py>(py: Python<'py>, grid: &Grid) -> PyResult<Bound<'py, PyDict>> {
+    let rows = grid.rows();
+    let cells = 0..grid.cells.len();
+    let of_x = Column::words(cells.clone().map(|at| &*grid.x.values()[at / rows]));
+    let made = table(py, [(grid.x.name(), of_x)])?;
+    if let Some(y) = &grid.y {
+        let of_y = Column::words(cells.map(|at| &*y.values()[at % rows]));
+        made.update(table(py, [(y.name(), of_y)])?.as_mapping())?;
+    }
+    for measure in &grid.measures {
+        let values = grid.values(*measure).unwrap_or_default();
+        made.set_item(measure.name(), PyArray1::from_vec(py, values))?;
+    }
+    Ok(made)
+}
+
+/// Judges a sheet (the text of a `sheet.json`, or the dict of `Result.to_json()`) beside its clip. `reference` are frames
+/// of keys by somebody else; a key within `tolerance` koma of one counts as the same. Returns nested dicts, as
+/// `genga eval --json` writes them: errors in % of body height.
+#[pyfunction]
+#[pyo3(signature = (clip, sheet, *, reference=None, tolerance=1.0))]
+pub fn evaluate<'py>(
+    py: Python<'py>,
+    clip: &Clip,
+    sheet: &Bound<'py, PyAny>,
+    reference: Option<Vec<usize>>,
+    tolerance: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let sheet = match sheet.cast::<PyDict>() {
+        Ok(files) => files.as_any().get_item("sheet.json")?,
+        Err(_) => sheet.clone(),
+    };
+    let text: Vec<u8> =
+        sheet.extract::<String>().map(String::into_bytes).or_else(|_| sheet.extract())?;
+    let reference: Option<Vec<Frame>> =
+        reference.map(|frames| frames.into_iter().map(Frame).collect());
+    let motion = clip.motion.clone();
+    let made = work::done(py, move |_| {
+        let file = sheet_json::read(&text)?;
+        let (source, _) = file.fit((*motion).clone())?;
+        let drawn = file.drawn(&source)?.unwrap_or(source);
+        Evaluation::of(&drawn, &file.sheet, reference.as_deref(), tolerance)
+    })?;
+    plain(py, &made.map_err(|error| raised(py, error))?)
+}
+
+/// Chooses as many keys by several methods, and judges each. `keys` are how many, both ends apart; `noise` in degrees is
+/// put on every rotation for the column `steady`. Returns a dict of columns, a row a method and count: errors in % of
+/// body height, NaN for what there is not.
+#[pyfunction]
+#[pyo3(signature = (clip, recipe=None, *, keys=vec![], noise=0.1, **settings))]
+pub fn compare<'py>(
+    py: Python<'py>,
+    clip: &Clip,
+    recipe: Option<Recipe>,
+    keys: Vec<usize>,
+    noise: f64,
+    settings: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let recipe = recipe.unwrap_or_default().with(py, settings)?.recipe;
+    let noise = Noise { degrees: noise, ..Noise::default() };
+    let asked = Compare { recipe, counts: keys, noise, ..Compare::default() };
+    let motion = clip.motion.clone();
+    let made = work::done(py, move |_| asked.run(motion))?.map_err(|error| raised(py, error))?;
+    let rows: Vec<&Row> = made.rows.iter().chain(&made.paces).collect();
+    let number = |of: fn(&Row) -> Option<f64>| {
+        Column::numbers(rows.iter().map(|row| of(row).unwrap_or(f64::NAN)))
+    };
+    table(
+        py,
+        [
+            ("method", Column::words(rows.iter().map(|row| row.method.word()))),
+            ("asked", Column::counts(rows.iter().map(|row| row.asked))),
+            ("keys", Column::counts(rows.iter().map(|row| row.keys))),
+            ("mean", number(|row| Some(row.mean))),
+            ("worst", number(|row| Some(row.worst))),
+            ("mean_ratio", number(|row| row.mean_ratio)),
+            ("worst_ratio", number(|row| row.worst_ratio)),
+            ("hits", number(|row| row.hits)),
+            ("by_chance", number(|row| row.by_chance)),
+            ("off", number(|row| row.off)),
+            ("steady", number(|row| row.steady)),
+        ],
+    )
+}

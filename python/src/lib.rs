@@ -1,0 +1,35 @@
+//! The Python package of genga: its library, with NumPy arrays at both ends.
+//!
+//! The binding is thin. Each file puts one thing of the library into Python's manners and decides nothing.
+
+mod arrays;
+mod clip;
+mod corrections;
+mod error;
+mod files;
+mod judge;
+mod recipe;
+mod result;
+mod table;
+mod words;
+mod work;
+
+use pyo3::prelude::*;
+
+/// What `genga/__init__.py` hands on.
+#[pymodule]
+fn _genga(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("Error", module.py().get_type::<error::GengaError>())?;
+    module.add_class::<clip::Clip>()?;
+    module.add_class::<recipe::Recipe>()?;
+    module.add_class::<result::Result>()?;
+    module.add_class::<result::Sheet>()?;
+    module.add_function(wrap_pyfunction!(clip::read, module)?)?;
+    module.add_function(wrap_pyfunction!(result::run, module)?)?;
+    module.add_function(wrap_pyfunction!(recipe::knobs, module)?)?;
+    module.add_function(wrap_pyfunction!(files::formats, module)?)?;
+    module.add_function(wrap_pyfunction!(judge::study, module)?)?;
+    module.add_function(wrap_pyfunction!(judge::evaluate, module)?)?;
+    module.add_function(wrap_pyfunction!(judge::compare, module)?)
+}

@@ -1,0 +1,155 @@
+//! A recipe as a mapping with the names of its TOML.
+
+use genga::edits::Edits;
+use genga::recipe::{KNOBS, Recipe as Settings};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::error::raised;
+use crate::words::{settings, value, word};
+
+/// Every setting of the chain, and a person's corrections. A mapping by the names of the recipe file
+/// (`"filter.width"`); values that are not given are the defaults. A value outside its range raises `genga.Error`.
+#[pyclass(module = "genga", from_py_object)]
+#[derive(Clone, Default)]
+pub struct Recipe {
+    pub recipe: Settings,
+    pub edits: Edits,
+}
+
+impl Recipe {
+    /// The same with settings by their names.
+    pub fn with(mut self, py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        for (name, word) in settings(asked)? {
+            self.recipe.set(&name, &word).map_err(|error| raised(py, error))?;
+        }
+        Ok(self)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.recipe.settings().into_iter().map(|(name, _)| name).collect()
+    }
+
+    fn get_word(&self, name: &str) -> PyResult<String> {
+        let found = self.recipe.settings().into_iter().find(|(own, _)| own == name);
+        found.map(|(_, word)| word).ok_or_else(|| PyKeyError::new_err(name.to_owned()))
+    }
+}
+
+#[pymethods]
+impl Recipe {
+    #[new]
+    #[pyo3(signature = (**settings))]
+    fn new(py: Python<'_>, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        Self::default().with(py, settings)
+    }
+
+    /// A recipe file's text, TOML. Errors carry line and column.
+    #[classmethod]
+    fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
+        let (recipe, edits) = Settings::parse(text).map_err(|error| raised(py, error))?;
+        Ok(Self { recipe, edits })
+    }
+
+    /// The recipe file, as the program writes it.
+    fn to_toml(&self) -> String {
+        self.recipe.write(&self.edits)
+    }
+
+    /// A copy that changes by itself.
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+
+    fn __len__(&self) -> usize {
+        self.names().len()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.names().into_pyobject(py)?.call_method0("__iter__")
+    }
+
+    fn __contains__(&self, name: &str) -> bool {
+        self.get_word(name).is_ok()
+    }
+
+    fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
+        value(py, &self.get_word(name)?)
+    }
+
+    fn __setitem__(
+        &mut self,
+        py: Python<'_>,
+        name: &str,
+        value: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        self.recipe.set(name, &word(value)?).map_err(|error| raised(py, error))
+    }
+
+    /// Takes a setting back to its default.
+    fn __delitem__(&mut self, py: Python<'_>, name: &str) -> PyResult<()> {
+        self.get_word(name)?;
+        let default = Settings::default().get(name).unwrap_or("none".into());
+        self.recipe.set(name, &default).map_err(|error| raised(py, error))
+    }
+
+    /// The value of a setting, or the other where there is no such setting.
+    #[pyo3(signature = (name, default=None))]
+    fn get(&self, py: Python<'_>, name: &str, default: Option<Py<PyAny>>) -> PyResult<Py<PyAny>> {
+        match self.get_word(name) {
+            Ok(word) => value(py, &word),
+            Err(_) => Ok(default.unwrap_or_else(|| py.None())),
+        }
+    }
+
+    fn keys(&self) -> Vec<String> {
+        self.names()
+    }
+
+    fn values(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
+        self.recipe.settings().iter().map(|(_, word)| value(py, word)).collect()
+    }
+
+    fn items(&self, py: Python<'_>) -> PyResult<Vec<(String, Py<PyAny>)>> {
+        let pair = |(name, word): (String, String)| Ok((name, value(py, &word)?));
+        self.recipe.settings().into_iter().map(pair).collect()
+    }
+
+    /// Sets what is named: `update(filter={"width": 20})`, `update({"filter.width": 20})`.
+    #[pyo3(signature = (other=None, **settings))]
+    fn update(
+        &mut self,
+        py: Python<'_>,
+        other: Option<&Bound<'_, PyDict>>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<()> {
+        *self = self.clone().with(py, other)?.with(py, settings)?;
+        Ok(())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.recipe == other.recipe && self.edits == other.edits
+    }
+
+    fn __repr__(&self) -> String {
+        let own = Settings::default().settings();
+        let changed = self.recipe.settings().into_iter().filter(|pair| !own.contains(pair));
+        let changed: Vec<_> = changed.map(|(name, word)| format!("'{name}': '{word}'")).collect();
+        format!("Recipe(**{{{}}})", changed.join(", "))
+    }
+}
+
+/// The settings there are: a dict each with `name`, `help`, `japanese` and `unit`.
+#[pyfunction]
+pub fn knobs<'py>(py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let of_knob = |knob: &genga::recipe::Knob| {
+        let about = PyDict::new(py);
+        about.set_item("name", knob.name)?;
+        about.set_item("help", knob.help)?;
+        about.set_item("japanese", knob.japanese)?;
+        about.set_item("unit", knob.unit)?;
+        Ok(about)
+    };
+    KNOBS.iter().map(of_knob).collect()
+}

@@ -1,0 +1,372 @@
+//! A run: the sheet, and everything that led to it.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use genga::deliver::{Format, Report, Settings};
+use genga::keys::Key;
+use genga::pipeline::{Breakdown, Engine, LayerBreakdown};
+use genga::sheet::{Drawing, Layer};
+use genga::signal::{Signals, Turn, TurnKind};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::clip::Clip;
+use crate::corrections::Corrections;
+use crate::error::raised;
+use crate::files::{Files, Handed};
+use crate::recipe::Recipe;
+use crate::table::{Column, plain, table};
+use crate::words::settings;
+use crate::work;
+
+/// What was found in a clip. Each attribute is made when it is asked for.
+#[pyclass(frozen, module = "genga")]
+pub struct Result {
+    /// What was made, stage by stage: to run it again with the same settings makes nothing.
+    engine: Mutex<Engine>,
+    settings: Recipe,
+    cut: String,
+    file: String,
+}
+
+/// The timesheet (タイムシート): which drawing stands on which koma.
+#[pyclass(frozen, get_all, module = "genga")]
+pub struct Sheet {
+    /// Koma a second.
+    rate: f64,
+    /// Koma of the sheet, K.
+    koma: usize,
+    /// A row a drawing: `layer`, `drawing` (its number in the layer, from 0), `place` (source frame, fractional),
+    /// `role` (genga, inbetween, end), `reason`, `strength`, `price` (% of body height), `why`.
+    drawings: Py<PyDict>,
+    /// A row an exposure: `layer`, `begin` (koma from 0), `koma` (how many), `drawing`.
+    exposures: Py<PyDict>,
+}
+
+/// Runs a clip with settings.
+fn found(
+    py: Python<'_>,
+    mut engine: Engine,
+    settings: Recipe,
+    cut: String,
+    file: String,
+) -> PyResult<Result> {
+    let (recipe, edits) = (settings.recipe.clone(), settings.edits.clone());
+    let made = work::done(py, move |_| engine.run(&recipe, &edits).map(|_| ()).map(|()| engine))?;
+    let engine = made.map_err(|error| raised(py, error))?;
+    Ok(Result { engine: Mutex::new(engine), settings, cut, file })
+}
+
+/// Finds the key drawings of a clip and times them. Settings are those of the recipe, by name: `keys={"min_price": 15}`,
+/// `keys__min_price=15` and `**{"keys.min_price": 15}` are the same. `pins` are frames that are keys whatever is found
+/// (42, (42, "contact"), "42:contact@0.5"), `forbid` frames near which none is (42, "120..140"), `moves` (from, to),
+/// `holds` (frame, koma). `name` is the name of the cut.
+#[pyfunction]
+#[pyo3(signature = (clip, recipe=None, *, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false, name=None, **settings))]
+#[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
+pub fn run<'py>(
+    py: Python<'py>,
+    clip: &Clip,
+    recipe: Option<Recipe>,
+    pins: Vec<Bound<'py, PyAny>>,
+    forbid: Vec<Bound<'py, PyAny>>,
+    moves: Vec<Bound<'py, PyAny>>,
+    holds: Vec<Bound<'py, PyAny>>,
+    only_pins: bool,
+    name: Option<String>,
+    settings: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Result> {
+    let mut asked = recipe.unwrap_or_default().with(py, settings)?;
+    Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut asked.edits)?;
+    let engine = Engine::new(clip.motion.clone()).map_err(|error| raised(py, error))?;
+    found(py, engine, asked, name.unwrap_or_else(|| clip.cut()), clip.file.clone())
+}
+
+impl Result {
+    /// Looks into the run. The lock of Python is free meanwhile.
+    fn look<T: Send>(
+        &self,
+        py: Python<'_>,
+        at: impl FnOnce(&Breakdown<'_>) -> std::result::Result<T, genga::Error> + Send,
+    ) -> PyResult<T> {
+        let Recipe { recipe, edits } = &self.settings;
+        let looked = py.detach(|| {
+            let mut engine = self.engine.lock().ok()?;
+            Some(engine.run(recipe, edits).and_then(|breakdown| at(&breakdown)))
+        });
+        let looked =
+            looked.ok_or_else(|| PyRuntimeError::new_err("an earlier look at it failed"))?;
+        looked.map_err(|error| raised(py, error))
+    }
+
+    fn files_of(
+        &self,
+        py: Python<'_>,
+        names: &[String],
+        asked: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Files> {
+        let formats = Format::find_all(names.iter().map(String::as_str))
+            .map_err(|error| raised(py, error))?;
+        let mut own = Settings::default();
+        for (name, word) in settings(asked)? {
+            own.set(&name, &word).map_err(|error| raised(py, error))?;
+        }
+        let Recipe { recipe, edits } = &self.settings;
+        let handed = Handed { cut: &self.cut, file: &self.file, recipe, edits };
+        self.look(py, |breakdown| handed.files(breakdown, &formats, &own))
+    }
+
+    fn dict<'py>(
+        &self,
+        py: Python<'py>,
+        format: &str,
+        asked: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let files = PyDict::new(py);
+        for (name, bytes) in self.files_of(py, &[format.to_owned()], asked)? {
+            files.set_item(name, PyBytes::new(py, &bytes))?;
+        }
+        Ok(files)
+    }
+
+    fn matrix<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&Breakdown<'_>) -> Signals + Send + Sync,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let signals = self.look(py, |breakdown| Ok(of(breakdown)))?;
+        let (frames, joints) = (signals.frames(), signals.joints());
+        // One copy, of what the run keeps; a joint is contiguous, so that the array is in Fortran's order.
+        let flat: Vec<f64> = signals.values.data.into();
+        PyArray1::from_vec(py, flat).reshape([joints, frames])?.transpose()
+    }
+}
+
+macro_rules! hand_over {
+    ($($name:ident $format:literal $what:literal,)*) => {
+        #[pymethods]
+        impl Result {$(
+            #[doc = $what]
+            #[doc = " A dict of file names and bytes; settings are those of the program's `--with`."]
+            #[pyo3(signature = (**settings))]
+            fn $name<'py>(&self, py: Python<'py>, settings: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
+                self.dict(py, $format, settings)
+            }
+        )*}
+    };
+}
+
+hand_over! {
+    to_json "json" "The sheet itself, to edit by hand and deliver again.",
+    to_csv "csv" "Tables of the keys, of every drawing and of every koma.",
+    to_remap "remap" "The timing alone, for a rig that plays the same take.",
+    to_bvh "bvh" "The motion stepped: a row a koma, holds repeated.",
+    to_bvh_keys "bvh-keys" "The key drawings as poses: a row a genga.",
+    to_xdts "xdts" "Timesheets for drawing programs.",
+    to_xsheet "xsheet" "The timesheet on paper: HTML, and a page each as SVG.",
+    to_vmd "vmd" "The motion for MikuMikuDance, and which joint became which bone.",
+    to_glb "glb" "The motion stepped, with bones to see and the role of every drawing.",
+    to_bars "bars" "Picture: a bar a drawing over koma.",
+    to_poses "poses" "Picture: genga and ends as poses in a row.",
+    to_strip "strip" "Picture: source above, result below, koma by koma.",
+    to_contact "contact" "Picture: contact sheet of the genga.",
+    to_onion "onion" "Picture: the drawings from each genga to the next through each other.",
+    to_flipbook "flipbook" "A page to play and step through in any browser.",
+}
+
+#[pymethods]
+impl Result {
+    /// The timesheet.
+    #[getter]
+    fn sheet(&self, py: Python<'_>) -> PyResult<Sheet> {
+        let sheet = self.look(py, |breakdown| Ok(breakdown.sheet.clone()))?;
+        Ok(Sheet {
+            rate: sheet.clock.koma_rate,
+            koma: sheet.length(),
+            drawings: drawings(py, &sheet.layers)?.unbind(),
+            exposures: exposures(py, &sheet.layers)?.unbind(),
+        })
+    }
+
+    /// The keys that were found, a row each: `layer`, `frame`, `strength` (0 to 1), `price` (% of body height that the
+    /// body would be off without it, infinite for what stays whatever it saves), `reason`, `name`, `joints`.
+    #[getter]
+    fn keys<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let rows = self.look(py, |breakdown| Ok(key_rows(breakdown)))?;
+        let of_key = || rows.iter().map(|row| &row.key);
+        table(
+            py,
+            [
+                ("layer", Column::words(rows.iter().map(|row| &*row.layer))),
+                ("frame", Column::counts(of_key().map(|key| key.frame.0))),
+                ("strength", Column::numbers(of_key().map(|key| key.strength))),
+                ("price", Column::numbers(of_key().map(|key| key.price))),
+                ("reason", Column::words(of_key().map(|key| key.origin.reason().word()))),
+                ("name", Column::words(of_key().map(|key| key.name.clone().unwrap_or_default()))),
+                ("joints", Column::words(rows.iter().map(|row| &*row.joints))),
+            ],
+        )
+    }
+
+    /// The turns of single joints, a row each: `joint` (its number), `frame`, `kind` (key, wall), `confirmed_for` (frames).
+    #[getter]
+    fn turns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let turns = self.look(py, |breakdown| Ok(breakdown.turns.to_vec()))?;
+        let each = || turns.iter().flatten();
+        let kind = |turn: &Turn| if turn.kind == TurnKind::Key { "key" } else { "wall" };
+        let joints =
+            turns.iter().enumerate().flat_map(|(joint, turns)| turns.iter().map(move |_| joint));
+        table(
+            py,
+            [
+                ("joint", Column::counts(joints)),
+                ("frame", Column::counts(each().map(|turn| turn.frame.0))),
+                ("kind", Column::words(each().map(kind))),
+                ("confirmed_for", Column::counts(each().map(|turn| turn.confirmed_for))),
+            ],
+        )
+    }
+
+    /// How fast each joint is: float64 (F, J), radians a second, or units a second where displacement is measured.
+    #[getter]
+    fn speeds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.matrix(py, |breakdown| breakdown.speed.clone())
+    }
+
+    /// The same, smoothed.
+    #[getter]
+    fn filtered<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.matrix(py, |breakdown| breakdown.filtered.clone())
+    }
+
+    /// Why each drawing of the sheet is there, in words: a list in the order of `sheet.drawings`.
+    #[getter]
+    fn why(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let of_all = |breakdown: &Breakdown<'_>| {
+            let drawings = breakdown.sheet.layers.iter().flat_map(|layer| &layer.drawings);
+            Ok(drawings.map(|drawing| drawing.why.to_string()).collect())
+        };
+        self.look(py, of_all)
+    }
+
+    /// The figures of `report.json`.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let report = self.look(py, |breakdown| Ok(Report::of(breakdown, Vec::new())))?;
+        plain(py, &report)
+    }
+
+    /// The settings and corrections of the run.
+    #[getter]
+    fn recipe(&self) -> Recipe {
+        self.settings.clone()
+    }
+
+    /// Runs the clip again with other settings, beginning with the first stage that changes.
+    #[pyo3(signature = (**settings))]
+    fn again(&self, py: Python<'_>, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let asked = self.settings.clone().with(py, settings)?;
+        let engine = py.detach(|| self.engine.lock().map(|engine| engine.clone()).ok());
+        let engine =
+            engine.ok_or_else(|| PyRuntimeError::new_err("an earlier look at it failed"))?;
+        found(py, engine, asked, self.cut.clone(), self.file.clone())
+    }
+
+    /// Writes the files of some formats into a folder, which is made; returns their paths.
+    #[pyo3(signature = (folder, *formats, **settings))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        formats: Vec<String>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Vec<PathBuf>> {
+        let mut written = Vec::new();
+        for (name, bytes) in self.files_of(py, &formats, settings)? {
+            let path = folder.join(name);
+            path.parent().map_or(Ok(()), fs::create_dir_all)?;
+            fs::write(&path, bytes)?;
+            written.push(path);
+        }
+        Ok(written)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (koma, drawings) = self.look(py, |breakdown| {
+            let shown = breakdown.sheet.layers.iter().map(|layer| layer.shown().count());
+            Ok((breakdown.sheet.length(), shown.sum::<usize>()))
+        })?;
+        Ok(format!("<genga.Result {}: {koma} koma, {drawings} drawings>", self.cut))
+    }
+}
+
+/// A key with the words that need the clip.
+struct KeyRow {
+    layer: String,
+    key: Key,
+    joints: String,
+}
+
+fn key_rows(breakdown: &Breakdown<'_>) -> Vec<KeyRow> {
+    let joints = &breakdown.clip.skeleton().joints;
+    let row = |of: &LayerBreakdown<'_>, key: &Key| KeyRow {
+        layer: of.layer.name.clone(),
+        key: key.clone(),
+        joints: key.voters.iter().map(|voter| &*joints[voter.0].name).collect::<Vec<_>>().join(" "),
+    };
+    let of_layer =
+        |of: LayerBreakdown<'_>| of.keys.keys.iter().map(|key| row(&of, key)).collect::<Vec<_>>();
+    breakdown.layers().flat_map(of_layer).collect()
+}
+
+fn drawings<'py>(py: Python<'py>, layers: &[Layer]) -> PyResult<Bound<'py, PyDict>> {
+    let rows: Vec<(&Layer, usize, &Drawing)> = layers
+        .iter()
+        .flat_map(|layer| {
+            layer.drawings.iter().enumerate().map(move |(at, drawing)| (layer, at, drawing))
+        })
+        .collect();
+    let of_each = || rows.iter().map(|(_, _, drawing)| *drawing);
+    let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    table(
+        py,
+        [
+            ("layer", Column::words(rows.iter().map(|(layer, _, _)| &*layer.name))),
+            ("drawing", Column::counts(rows.iter().map(|(_, at, _)| *at))),
+            ("place", Column::numbers(of_each().map(|drawing| drawing.source.place()))),
+            ("role", Column::words(of_each().map(|drawing| drawing.role.word()))),
+            (
+                "reason",
+                Column::words(
+                    of_each().map(|drawing| drawing.why.reason.map_or("", |reason| reason.word())),
+                ),
+            ),
+            ("strength", Column::numbers(of_each().map(|drawing| number(drawing.why.strength)))),
+            ("price", Column::numbers(of_each().map(|drawing| number(drawing.why.price)))),
+            ("why", Column::words(of_each().map(|drawing| drawing.why.to_string()))),
+        ],
+    )
+}
+
+fn exposures<'py>(py: Python<'py>, layers: &[Layer]) -> PyResult<Bound<'py, PyDict>> {
+    let timed = |layer: &'_ Layer| -> Vec<(String, usize, usize, usize)> {
+        let row = |(begin, exposure): (usize, genga::sheet::Exposure)| {
+            (layer.name.clone(), begin, exposure.koma, exposure.drawing)
+        };
+        layer.timed().map(row).collect()
+    };
+    let rows: Vec<_> = layers.iter().flat_map(timed).collect();
+    table(
+        py,
+        [
+            ("layer", Column::words(rows.iter().map(|row| &*row.0))),
+            ("begin", Column::counts(rows.iter().map(|row| row.1))),
+            ("koma", Column::counts(rows.iter().map(|row| row.2))),
+            ("drawing", Column::counts(rows.iter().map(|row| row.3))),
+        ],
+    )
+}

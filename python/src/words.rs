@@ -1,0 +1,82 @@
+//! Values of Python as the words that settings take, and back.
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
+
+/// A value in the words of a recipe: `0.2s`, `true`, `none`, `[{ name = "A", joints = ["Hips"] }]`.
+pub fn word(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    match value.cast::<PyString>() {
+        Ok(text) => Ok(text.to_cow()?.into_owned()),
+        Err(_) => written(value),
+    }
+}
+
+/// The same as TOML writes it, in which text has quotes.
+fn written(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    if value.is_none() {
+        return Ok("none".into());
+    }
+    if let Ok(flag) = value.cast::<PyBool>() {
+        return Ok(flag.is_true().to_string());
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        let quoted = serde_json::to_string(&text.to_cow()?);
+        return quoted.map_err(|error| PyTypeError::new_err(error.to_string()));
+    }
+    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        let items: Vec<_> =
+            value.try_iter()?.map(|item| written(&item?)).collect::<PyResult<_>>()?;
+        return Ok(format!("[{}]", items.join(", ")));
+    }
+    if let Ok(table) = value.cast::<PyDict>() {
+        let pair = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+            PyResult::Ok(format!("{} = {}", written(&name)?, written(&value)?))
+        };
+        let pairs: Vec<_> = table.iter().map(pair).collect::<PyResult<_>>()?;
+        return Ok(format!("{{ {} }}", pairs.join(", ")));
+    }
+    // Numbers of Python and of NumPy alike.
+    Ok(value.str()?.to_cow()?.into_owned())
+}
+
+/// A word as Python has it: a number, True, None, or the text itself.
+pub fn value(py: Python<'_>, word: &str) -> PyResult<Py<PyAny>> {
+    Ok(match word {
+        "none" => py.None(),
+        "true" | "false" => PyBool::new(py, word == "true").to_owned().into_any().unbind(),
+        _ => match (word.parse::<i64>(), word.parse::<f64>()) {
+            (Ok(whole), _) => whole.into_pyobject(py)?.into_any().unbind(),
+            (_, Ok(number)) => number.into_pyobject(py)?.into_any().unbind(),
+            _ => PyString::new(py, word).into_any().unbind(),
+        },
+    })
+}
+
+/// Settings by their names: `filter={"width": "0.2s"}`, `filter__width="0.2s"` and `**{"filter.width": "0.2s"}` are the
+/// same.
+pub fn settings(asked: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)>> {
+    let mut found = Vec::new();
+    if let Some(asked) = asked {
+        collect("", asked, &mut found)?;
+    }
+    Ok(found)
+}
+
+fn collect(
+    section: &str,
+    asked: &Bound<'_, PyDict>,
+    found: &mut Vec<(String, String)>,
+) -> PyResult<()> {
+    for (name, value) in asked {
+        let own = name.extract::<String>()?;
+        // A joint may be called as it likes.
+        let own = if section.starts_with("keys.weights") { own } else { own.replace("__", ".") };
+        let name = if section.is_empty() { own } else { format!("{section}.{own}") };
+        match value.cast::<PyDict>() {
+            Ok(table) => collect(&name, table, found)?,
+            Err(_) => found.push((name, word(&value)?)),
+        }
+    }
+    Ok(())
+}

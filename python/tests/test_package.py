@@ -1,0 +1,252 @@
+"""The built wheel: the same as the program, in Python's manners."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import genga
+
+ROOT = Path(__file__).resolve().parents[2]
+KICK = ROOT / "data" / "kick.bvh"
+REAL = ROOT.parent / "shared" / "data" / "bvh"
+PROGRAM = os.environ.get("GENGA", str(ROOT / "target" / "debug" / "genga"))
+CLIPS = [
+    "cmu-11_01-soccer-kick",
+    "cmu-02_04-jump-balance",
+    "cmu-131_03-start-hop-stop",
+    "optitrack-arena-louise",
+    "rokoko-jesse-dance",
+]
+
+
+@pytest.fixture(scope="module")
+def clip():
+    return genga.read(KICK)
+
+
+def program(clip, out, *options):
+    command = [PROGRAM, "run", str(clip), "--out", str(out), *options]
+    subprocess.run(command, check=True, capture_output=True)
+
+
+def same_files(result, out, *formats):
+    for path in result.write(out / "python", *formats):
+        name = path.relative_to(out / "python")
+        assert path.read_bytes() == (out / "program" / name).read_bytes(), name
+    assert result.recipe.to_toml() == (out / "program" / "recipe.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_the_same_bytes_as_the_program_on_real_clips(name, tmp_path):
+    path = REAL / f"{name}.bvh"
+    if not path.exists() and os.environ.get("CI") != "true":
+        pytest.skip(f"{path} is not here")
+    program(path, tmp_path / "program", "--deliver", "xdts,vmd,glb,bvh-keys")
+    formats = ["json", "csv", "remap", "bvh", "xdts", "vmd", "glb", "bvh-keys", "bars", "poses"]
+    same_files(genga.run(genga.read(path)), tmp_path, *formats)
+
+
+def test_settings_and_corrections_are_those_of_the_program(clip, tmp_path):
+    options = ["--set", "keys.min_price=7.5", "--set", "spacing.on=3", "--pin", "30:wind-up", "--forbid", "50..60"]
+    program(KICK, tmp_path / "program", *options)
+    settings = {"keys": {"min_price": 7.5}, "spacing__on": 3}
+    result = genga.run(clip, pins=[(30, "wind-up")], forbid=["50..60"], **settings)
+    same_files(result, tmp_path, "json", "csv", "bvh")
+    assert "wind-up" in result.keys["name"]
+
+
+def test_arrays_have_the_shapes_that_are_said(clip):
+    frames, joints = len(clip), len(clip.names)
+    assert clip.rotations.shape == (frames, joints, 4)
+    assert clip.positions.shape == (frames, joints, 3)
+    assert np.allclose(np.linalg.norm(clip.rotations, axis=2), 1.0)
+    assert clip.rotations is clip.rotations, "made once"
+    with pytest.raises(ValueError):
+        clip.positions[0, 0, 0] = 1.0
+    result = genga.run(clip)
+    assert result.speeds.shape == result.filtered.shape == (frames, joints)
+    assert result.speeds.flags.f_contiguous
+    assert np.abs(result.filtered).max() < np.abs(result.speeds).max()
+
+
+def test_positions_are_the_forward_kinematics_of_the_rotations(clip):
+    def turned(rotation, vector):
+        axis, w = rotation[:3], rotation[3]
+        return vector + 2 * np.cross(axis, np.cross(axis, vector) + w * vector)
+
+    def product(a, b):
+        xyz = a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3])
+        return np.append(xyz, a[3] * b[3] - a[:3] @ b[:3])
+
+    world = {}
+    for joint, parent in enumerate(clip.parents):
+        own = clip.rotations[40, joint]
+        if parent < 0:
+            world[joint] = own
+        else:
+            world[joint] = product(world[parent], own)
+            place = clip.positions[40, parent] + turned(world[parent], clip.offsets[joint])
+            assert np.allclose(place, clip.positions[40, joint], atol=1e-9), clip.names[joint]
+
+
+def test_a_clip_from_arrays_is_the_same_motion(clip):
+    made = genga.Clip(
+        names=clip.names,
+        parents=clip.parents,
+        offsets=clip.offsets,
+        rotations=clip.rotations,
+        root=clip.positions[:, 0],
+        rate=clip.rate,
+    )
+    assert np.allclose(made.positions, clip.positions, atol=1e-6)
+    # End sites are not in the arrays, so that speeds are compared and not keys.
+    assert np.allclose(genga.run(made).speeds, genga.run(clip).speeds, atol=1e-6)
+    assert np.allclose(genga.read(made.to_bvh().encode()).positions, clip.positions, atol=1e-6)
+
+
+def test_the_sheet_covers_every_koma(clip):
+    sheet = genga.run(clip).sheet
+    begins, koma = sheet.exposures["begin"], sheet.exposures["koma"]
+    assert begins[0] == 0 and np.array_equal(begins[1:], np.cumsum(koma)[:-1])
+    assert koma.sum() == sheet.koma == 92
+    assert set(sheet.drawings["role"]) == {"genga", "inbetween", "end"}
+    assert sheet.exposures["drawing"].max() < len(sheet.drawings["drawing"])
+
+
+def test_tables_go_into_pandas(clip):
+    pandas = pytest.importorskip("pandas")
+    result = genga.run(clip)
+    keys = pandas.DataFrame(result.keys)
+    assert list(keys.columns) == ["layer", "frame", "strength", "price", "reason", "name", "joints"]
+    assert keys.frame.is_monotonic_increasing
+    assert len(result.why) == len(pandas.DataFrame(result.sheet.drawings))
+    assert len(pandas.DataFrame(result.turns)) > len(keys)
+
+
+def test_a_recipe_is_a_mapping_with_the_names_of_its_file():
+    recipe = genga.Recipe(filter={"width": "0.2s"})
+    assert recipe["filter.width"] == "0.2s" and recipe["rate"] == 24
+    assert genga.Recipe.parse(recipe.to_toml()) == recipe != genga.Recipe()
+    assert dict(recipe) == dict(recipe.items()) and len(recipe) == len(list(recipe))
+    recipe["keys.per_second"] = float("inf")
+    recipe.update({"rate": 12}, spacing__on="2-3")
+    assert (recipe["keys.per_second"], recipe["rate"]) == (float("inf"), 12)
+    del recipe["rate"]
+    assert recipe["rate"] == 24
+    with pytest.raises(KeyError):
+        recipe["rates"]
+    with pytest.raises(genga.Error, match="filter.width"):
+        recipe["filter.width"] = -1
+    assert {knob["name"] for knob in genga.knobs()} <= set(recipe)
+
+
+def test_layers_can_be_named_from_python(clip):
+    layers = [{"name": "A", "joints": ["Hips"]}, {"name": "B", "joints": ["*Arm*", "*Hand*"]}]
+    assert set(genga.run(clip, layers=layers).keys["layer"]) == {"A", "B"}
+
+
+def test_errors_say_file_line_and_column(tmp_path):
+    broken = tmp_path / "broken.bvh"
+    broken.write_text(KICK.read_text().replace("JOINT", "JIONT", 1))
+    with pytest.raises(genga.Error) as caught:
+        genga.read(broken)
+    error = caught.value
+    assert error.file == str(broken) and error.line > 1 and error.column >= 1
+    assert str(error).startswith(f"{broken}:{error.line}:{error.column}: ")
+    with pytest.raises(FileNotFoundError):
+        genga.read(tmp_path / "nothing.bvh")
+    with pytest.raises(genga.Error) as caught:
+        genga.Recipe.parse("rate = 24\n[filter]\nwidht = 3\n")
+    assert (caught.value.file, caught.value.line) == (None, 3)
+    with pytest.raises(genga.Error, match="pinned frame 1000 is not in the clip"):
+        genga.run(genga.read(KICK), pins=[1000])
+
+
+def test_wrong_arrays_are_refused_in_words(clip):
+    good = dict(names=["a", "b"], parents=[-1, 0], offsets=np.zeros((2, 3)), root=np.zeros((5, 3)), rate=30.0)
+    unit = np.tile([0.0, 0.0, 0.0, 1.0], (5, 2, 1))
+    assert len(genga.Clip(**good, rotations=unit)) == 5
+    with pytest.raises(genga.Error, match="rotations has the shape"):
+        genga.Clip(**good, rotations=unit[:, :1].copy())
+    with pytest.raises(genga.Error, match="unit quaternion"):
+        genga.Clip(**good, rotations=unit * 0.0)
+    with pytest.raises(genga.Error, match="comes before its parent"):
+        genga.Clip(**{**good, "parents": [1, -1]}, rotations=unit)
+
+
+def test_a_study_is_the_programs(clip, tmp_path):
+    table = genga.study(clip)
+    out = subprocess.run([PROGRAM, "study", str(KICK), "--measure", "union,total"], check=True, capture_output=True)
+    lines = [line.split(",") for line in out.stdout.decode().splitlines()]
+    header, rows = lines[0], lines[1:]
+    for measure in ("union", "total"):
+        at = header.index(measure)
+        assert [float(row[at]) for row in rows] == table[measure].tolist()
+    own = genga.study(clip, x=("spacing.on", [1, 2, 3]), measures=["drawings"])
+    assert own["spacing.on"].tolist() == ["1", "2", "3"] and own["drawings"][0] > own["drawings"][2]
+
+
+def test_evaluation_and_comparison(clip):
+    result = genga.run(clip)
+    found = genga.evaluate(clip, result.to_json(), reference=result.keys["frame"].tolist())
+    assert found["pace"]["drawings"] == len(set(result.sheet.exposures["drawing"].tolist()))
+    assert found["timing"]["f1"] == 1.0 and 0 < found["shown"]["mean"] < 10
+    table = genga.compare(clip, keys=[6], noise=0.0)
+    assert set(table["asked"]) >= {6} and np.isnan(table["steady"]).all()
+
+
+def test_again_is_a_new_run_and_leaves_the_old(clip):
+    first = genga.run(clip)
+    before = first.to_json()
+    again = first.again(spacing={"on": 3})
+    assert again.to_json() == genga.run(clip, spacing={"on": 3}).to_json() != before == first.to_json()
+
+
+def test_other_threads_run_meanwhile(clip):
+    ticks, is_done = [], threading.Event()
+
+    def tick():
+        while not is_done.wait(0.001):
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    genga.study(clip, x=("filter.width", "1..100:1"), y=("turns.persistence", "1..100:1"), measures=["genga"])
+    is_done.set()
+    thread.join()
+    assert len(ticks) > 10
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise there")
+def test_ctrl_c_ends_a_study(clip):
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        genga.study(
+            clip, x=("filter.width", "1..600:1"), y=("turns.persistence", "1..600:1"), measures=["genga"]
+        )
+    timer.cancel()
+    assert time.monotonic() - began < 2.0
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["table_1.py", "data/kick.bvh"], "union"),
+        (["from_arrays.py"], "turn"),
+        (["keys_of_many.py", "{out}", "data/kick.bvh", "data/kuroda-pitch.bvh"], "keys of 2 clips"),
+    ],
+)
+def test_the_examples_run(words, says, tmp_path):
+    script, *rest = [word.format(out=tmp_path / "keys.csv") for word in words]
+    command = [sys.executable, str(ROOT / "python" / "examples" / script), *rest]
+    out = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
+    assert says in out.stdout
