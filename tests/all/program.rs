@@ -84,6 +84,7 @@ impl Place {
     }
 
     /// Begins to run it, quietly.
+    #[cfg(unix)]
     pub(crate) fn begun(&self, args: &str) -> std::process::Child {
         let mut command = self.command(&words(args));
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()

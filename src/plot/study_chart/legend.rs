@@ -19,8 +19,9 @@ pub(super) enum Behind {
 impl Behind {
     /// All its values.
     pub(super) fn values(&self) -> impl Iterator<Item = f64> + '_ {
-        let (Self::Clips(lines) | Self::Bands(_, lines)) = self else {
-            return [].iter().flatten().map(value);
+        let lines: &[Line] = match self {
+            Self::Nothing => &[],
+            Self::Clips(lines) | Self::Bands(_, lines) => lines,
         };
         lines.iter().flatten().map(value)
     }
