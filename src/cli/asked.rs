@@ -1,12 +1,13 @@
 //! The command line; where it was not understood, what to type in its place.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
 use super::commands::Args;
+use super::paths::{first_clip, is_bvh};
 
 /// More clips than this are named by the first and the last.
 const MOST_WORDS: usize = 4;
@@ -56,8 +57,7 @@ fn many() -> String {
 /// Somebody named a clip, or a folder of them, and no command.
 fn clip_of(path: &Path) -> Option<String> {
     let clip = if path.is_dir() { first_clip(path)? } else { path.to_owned() };
-    let is_clip = clip.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"));
-    (is_clip || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
+    (is_bvh(&clip) || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
 }
 
 /// The commands that begin as a word with a slip in it does.
@@ -67,11 +67,4 @@ fn commands_like(word: &str) -> Option<String> {
     let like = names.filter(|name| name.chars().next() == word.chars().next());
     let like = like.collect::<Vec<_>>().join(" or ");
     (!like.is_empty()).then(|| format!("did you mean {like}?"))
-}
-
-/// The first BVH file of a folder, by name.
-pub(super) fn first_clip(folder: &Path) -> Option<PathBuf> {
-    let entries = folder.read_dir().ok()?.flatten().map(|entry| entry.path());
-    let is_clip = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "bvh");
-    entries.filter(is_clip).min()
 }

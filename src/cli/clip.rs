@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::words::Words;
-use super::{asked, files, paths};
+use super::{files, paths};
 use crate::deliver::ClipMark;
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
@@ -214,7 +214,7 @@ impl OfSheet {
 /// What to say where a folder stands in place of a clip.
 fn folder(path: &Path) -> String {
     let name = path.display();
-    match asked::first_clip(path) {
+    match paths::first_clip(path) {
         Some(clip) => {
             format!("{name} is a folder: name a clip in it, such as {}", clip.display())
         }

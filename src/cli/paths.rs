@@ -41,6 +41,17 @@ pub(super) fn is_same(a: &Path, b: &Path) -> bool {
     !is_stream(a) && real(a).is_some_and(|a| real(b) == Some(a))
 }
 
+/// Whether a path is called as BVH files are.
+pub(super) fn is_bvh(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"))
+}
+
+/// The first BVH file of a folder, by name.
+pub(super) fn first_clip(folder: &Path) -> Option<PathBuf> {
+    let entries = folder.read_dir().ok()?.flatten().map(|entry| entry.path());
+    entries.filter(|path| is_bvh(path)).min()
+}
+
 /// The name a clip is called by: its file name without the ending.
 pub(super) fn stem(path: &Path) -> String {
     if is_stream(path) {

@@ -9,6 +9,7 @@ use walkdir::WalkDir;
 
 use super::super::failure::Failure;
 use super::super::files;
+use super::super::paths::is_bvh;
 
 /// A clip of a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,10 +142,6 @@ fn of_cells<'a>(cells: impl Iterator<Item = (&'a str, String)>) -> Result<Named,
     Ok((path.into(), own))
 }
 
-fn is_clip(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"))
-}
-
 fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
     let out = fs::canonicalize(out).ok();
     let is_out = |path: &Path| path.is_dir() && out.is_some() && fs::canonicalize(path).ok() == out;
@@ -153,7 +150,7 @@ fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
     for entry in walk.into_iter().filter_entry(|entry| !is_out(entry.path())) {
         // A link in a circle is no clip; a folder that may not be read is said.
         match entry {
-            Ok(entry) if entry.file_type().is_file() && is_clip(entry.path()) => {
+            Ok(entry) if entry.file_type().is_file() && is_bvh(entry.path()) => {
                 found.push((entry.into_path(), vec![]));
             }
             Ok(_) => {}
@@ -177,7 +174,7 @@ fn matched(pattern: &str, out: &Path) -> Result<Vec<Named>, Failure> {
         let path = path.map_err(|error| Failure::CouldNot(error.to_string()))?;
         match path.is_dir() {
             true => found.extend(walked(&path, out.as_deref().unwrap_or(Path::new("")))?),
-            false if is_clip(&path) && !is_in_out(&path) => found.push((path, vec![])),
+            false if is_bvh(&path) && !is_in_out(&path) => found.push((path, vec![])),
             false => {}
         }
     }
