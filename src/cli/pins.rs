@@ -242,11 +242,8 @@ fn sheet_column<'a>(
 /// A file by the name that genga gives to douga sheets has a number on every drawing.
 fn numbered(path: &Path) -> Numbered {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    if stem.is_some_and(|stem| stem.ends_with("_douga")) {
-        Numbered::Drawings
-    } else {
-        Numbered::Keys
-    }
+    let is_douga = |stem: String| stem.trim_end_matches("_ts").ends_with("_douga");
+    if stem.is_some_and(is_douga) { Numbered::Drawings } else { Numbered::Keys }
 }
 
 fn nothing_marked(path: &Path, column: &Column, numbered: Numbered) -> Failure {
@@ -257,7 +254,7 @@ fn nothing_marked(path: &Path, column: &Column, numbered: Numbered) -> Failure {
         }
         Numbered::Drawings => format!(
             "{path}: a douga sheet numbers every drawing, and none in column {column} is circled as a \
-             key (OPTION_KEYFRAME); give the _genga.xdts, or mark keys in one written by \
+             key (OPTION_KEYFRAME); give the _genga_ts.xdts, or mark keys in one written by \
              --with xdts.circled=true"
         ),
     })

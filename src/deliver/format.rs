@@ -93,11 +93,11 @@ pub const FORMATS: &[Format] = &[
         name: "xdts",
         help: "timesheets for drawing programs: the keys for ACTION, every drawing for CELL",
         japanese: "デジタルタイムシート",
-        files: &["CUT_genga.xdts", "CUT_douga.xdts"],
+        files: &["CUT_genga_ts.xdts", "CUT_douga_ts.xdts"],
         make: |cut, settings, put| {
             let made = settings.xdts.write(cut.sheet, cut.name)?;
-            put(&cut.file("CUT_genga.xdts"), made.genga.as_bytes())?;
-            put(&cut.file("CUT_douga.xdts"), made.douga.as_bytes())
+            put(&cut.file("CUT_genga_ts.xdts"), made.genga.as_bytes())?;
+            put(&cut.file("CUT_douga_ts.xdts"), made.douga.as_bytes())
         },
         ..PLAIN
     },

@@ -64,7 +64,7 @@ fn a_library_is_a_row_and_a_folder_a_clip_and_the_broken_do_not_end_it() {
     assert!(named.is_sorted() && named.contains(&"b/deep/walk, \"2\".bvh".to_owned()), "{named:?}");
     assert!(
         files.contains_key("clips/a/kick.bvh/sheet.json")
-            && files.contains_key("clips/c/kick.bvh/kick_genga.xdts")
+            && files.contains_key("clips/c/kick.bvh/kick_genga_ts.xdts")
     );
     assert!(!files.keys().any(|name| name.contains("broken") || name.contains("notes")));
     // A clip of it is what a run of it gives.

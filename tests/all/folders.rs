@@ -52,7 +52,7 @@ fn what_a_run_does_not_write_again_is_gone() {
     let place = Place::new();
     place.done("run data/kick.bvh --deliver xdts,images --out a");
     check_manifest(&place, "a");
-    assert!(place.path("a/kick_genga.xdts").is_file() && place.path("a/images").is_dir());
+    assert!(place.path("a/kick_genga_ts.xdts").is_file() && place.path("a/images").is_dir());
     place.done("run data/kick.bvh --keys 8 --out a");
     place.done("run data/kick.bvh --keys 8 --out fresh");
     assert_eq!(all(&place.path("a")), all(&place.path("fresh")), "as if nothing had been there");
@@ -160,7 +160,7 @@ fn a_delivery_adds_to_the_run() {
     check_manifest(&place, "a");
     // The next run knows what was delivered.
     place.done("run data/kick.bvh --keys 8 --out a");
-    assert!(!place.path("a/kick_genga.xdts").exists());
+    assert!(!place.path("a/kick_genga_ts.xdts").exists());
     check_manifest(&place, "a");
 }
 

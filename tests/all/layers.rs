@@ -109,7 +109,7 @@ fn each_layer_is_a_column_of_every_table_and_sheet() {
     assert!(!of_b.is_empty() && of_b.iter().all(|lead| lead.starts_with("Left")), "{of_b:?}");
     let report: serde_json::Value = serde_json::from_str(&read("report.json")).unwrap();
     assert_eq!(report["layers"].as_array().unwrap().len(), 5);
-    assert!(read("kick_douga.xdts").contains(r#""names":["A","B","C","D","E"]"#));
+    assert!(read("kick_douga_ts.xdts").contains(r#""names":["A","B","C","D","E"]"#));
     assert!(read("sheet.json").contains("\n  \"root\": \"ones\",\n"));
     assert!(place.path("a/images/A-E_0001.png").is_file());
     let again = place.genga("deliver a/sheet.json data/kick.bvh --to bvh,glb,vmd,poses --out b");

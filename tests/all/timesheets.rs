@@ -36,7 +36,7 @@ fn refused(folder: &Path, args: &[&str]) -> String {
 fn run_delivers_both_timesheets_and_the_paper() {
     let folder = delivered(&[]);
     let text = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
-    for name in ["kick_genga.xdts", "kick_douga.xdts"] {
+    for name in ["kick_genga_ts.xdts", "kick_douga_ts.xdts"] {
         assert!(text(name).starts_with("exchangeDigitalTimeSheet Save Data\n{"));
         assert!(!text(name).contains("OPTION_KEYFRAME"));
     }
@@ -60,22 +60,22 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
         (rows, table, String::from_utf8(output.stderr).unwrap())
     };
     let (own, ..) = keys(&[]);
-    for file in ["out/kick_genga.xdts", "out/kick_douga.xdts"] {
+    for file in ["out/kick_genga_ts.xdts", "out/kick_douga_ts.xdts"] {
         let (back, table, said) = keys(&[&["--pin-from", file], &alone[..]].concat());
         assert_eq!(back, own, "{file}");
         assert!(table.contains("pinned: A2"), "{table}");
         assert!(said.contains(&format!("pinned from {file}: {} keys of column A", own.len())));
     }
-    let (_, table, _) = keys(&["--pin-from", "out/kick_genga.xdts", "--pin", "0:mine"]);
+    let (_, table, _) = keys(&["--pin-from", "out/kick_genga_ts.xdts", "--pin", "0:mine"]);
     assert!(table.contains("pinned: mine") && !table.contains("pinned: A1;"), "{table}");
 }
 
 #[test]
 fn the_marked_sheet_is_not_written_over() {
     let folder = delivered(&[]);
-    let (kick, marked) = (kick(), folder.path().join("out/kick_genga.xdts"));
+    let (kick, marked) = (kick(), folder.path().join("out/kick_genga_ts.xdts"));
     let before = fs::read(&marked).unwrap();
-    let run = ["run", &kick, "--pin-from", "out/kick_genga.xdts", "--out", "out"];
+    let run = ["run", &kick, "--pin-from", "out/kick_genga_ts.xdts", "--out", "out"];
     for format in ["xdts", "csv,all"] {
         let said = refused(folder.path(), &[&run[..], &["--deliver", format]].concat());
         assert!(said.contains("write over the sheet you marked"), "{said}");
@@ -88,8 +88,10 @@ fn the_marked_sheet_is_not_written_over() {
 fn a_douga_sheet_without_circles_has_no_keys_and_says_what_to_give() {
     let folder = delivered(&[]);
     let kick = kick();
-    let said = refused(folder.path(), &["keys", &kick, "--pin-from", "out/kick_douga.xdts"]);
-    for word in ["out/kick_douga.xdts: ", "circled", "_genga.xdts", "--with xdts.circled=true"] {
+    let said = refused(folder.path(), &["keys", &kick, "--pin-from", "out/kick_douga_ts.xdts"]);
+    for word in
+        ["out/kick_douga_ts.xdts: ", "circled", "_genga_ts.xdts", "--with xdts.circled=true"]
+    {
         assert!(said.contains(word), "{said}");
     }
 }
@@ -100,7 +102,7 @@ fn what_is_no_timesheet_or_not_of_this_clip_is_refused_in_words() {
     let (kick, place) = (kick(), folder.path());
     let said = refused(place, &["keys", &kick, "--pin-from", &kick]);
     assert!(said.contains("kick.bvh: line 1: there is no column source_frame"), "{said}");
-    let genga = ["keys", &kick, "--pin-from", "out/kick_genga.xdts"];
+    let genga = ["keys", &kick, "--pin-from", "out/kick_genga_ts.xdts"];
     let said = refused(place, &[&genga[..], &["--trim", "0..40"]].concat());
     assert!(said.contains("it has 92 koma and the sheet of this clip 40"), "{said}");
     let said = refused(place, &[&genga[..], &["--pin-column", "B"]].concat());
