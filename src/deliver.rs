@@ -3,6 +3,8 @@
 //! [`FORMATS`] lists those that can be asked for by name. A format is a row there and a file here.
 
 mod actions;
+mod after_effects;
+mod columns;
 mod comparison;
 mod cut;
 mod drawings;
@@ -18,6 +20,7 @@ mod reference_keys;
 mod report;
 mod settings;
 pub mod sheet_json;
+mod sts;
 mod study_table;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -27,6 +30,8 @@ pub mod xdts;
 mod xsheet;
 
 pub use actions::actions_csv;
+pub use after_effects::time_remap;
+pub use columns::columns_csv;
 pub use comparison::comparison_csv;
 pub use cut::{Cut, Sink};
 pub use drawings::{Drawings, Rows};
@@ -41,6 +46,7 @@ pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;
 pub use report::{LayerReport, Report};
 pub use settings::{CsvSettings, Settings};
+pub use sts::sts;
 pub use study_table::study_csv;
 pub use turns::turns_csv;
 pub use vmd::{BoneMap, Vmd, VmdKey, VmdMade, VmdMotion, VmdReport};
@@ -53,14 +59,34 @@ fn csv_table<Row>(header: &[&str], rows: impl IntoIterator<Item = Row>) -> Resul
 where
     Row: IntoIterator<Item = String>,
 {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let failed = |error: csv::Error| Error::Encoding { what: "a table", source: error.into() };
-    writer.write_record(header).map_err(failed)?;
+    let mut table = CsvText::new(csv::QuoteStyle::Necessary);
+    table.row(header)?;
     for row in rows {
-        writer.write_record(row).map_err(failed)?;
+        table.row(row)?;
     }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("only text was written"))
+    table.text()
+}
+
+/// A CSV table that grows row by row.
+struct CsvText(csv::Writer<Vec<u8>>);
+
+impl CsvText {
+    fn new(quotes: csv::QuoteStyle) -> Self {
+        Self(csv::WriterBuilder::new().quote_style(quotes).from_writer(Vec::new()))
+    }
+
+    fn row(&mut self, cells: impl IntoIterator<Item: AsRef<[u8]>>) -> Result<(), Error> {
+        self.0.write_record(cells).map_err(Self::failed)
+    }
+
+    fn text(self) -> Result<String, Error> {
+        let bytes = self.0.into_inner().map_err(|error| Self::failed(error.into_error().into()))?;
+        Ok(String::from_utf8(bytes).expect("only text was written"))
+    }
+
+    fn failed(error: csv::Error) -> Error {
+        Error::Encoding { what: "a table", source: error.into() }
+    }
 }
 
 /// What the reader of JSON says, without the place: that counts within the part which was read.

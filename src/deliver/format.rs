@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::deliver::settings::Settings;
 use crate::deliver::{
-    Cut, Drawings, Rows, Sink, figures, keys_bvh, limited_bvh, pictures, remap_csv, sheet_csv,
-    sheet_json, xsheet,
+    Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
+    pictures, remap_csv, sheet_csv, sheet_json, sts, xsheet,
 };
 use crate::error::{Error, Warning};
 use crate::sheet::{Layer, Sheet};
@@ -99,6 +99,43 @@ pub const FORMATS: &[Format] = &[
             put(&cut.file("CUT_genga_ts.xdts"), made.genga.as_bytes())?;
             put(&cut.file("CUT_douga_ts.xdts"), made.douga.as_bytes())
         },
+        ..PLAIN
+    },
+    Format {
+        name: "tdts",
+        help: "the same timesheets as one file, with ACTION and CELL",
+        japanese: "デジタルタイムシート",
+        files: &["CUT.tdts"],
+        make: |cut, settings, put| {
+            put(&cut.file("CUT.tdts"), settings.tdts.write(cut.sheet, cut.name)?.as_bytes())
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "sts",
+        help: "every drawing for programs that read ShiraheiTimeSheet",
+        japanese: "タイムシート（STS）",
+        files: &["CUT.sts"],
+        make: |cut, _, put| put(&cut.file("CUT.sts"), &sts(cut.sheet)?),
+        ..PLAIN
+    },
+    Format {
+        name: "columns",
+        help: "a table as timesheet programs write it: a row a koma, a column a layer",
+        japanese: "タイムシートの表",
+        files: &["CUT_timesheet.csv"],
+        make: |cut, settings, put| {
+            let table = columns_csv(cut.sheet)?;
+            put(&cut.file("CUT_timesheet.csv"), &settings.csv.encode(table))
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "ae",
+        help: "time remapping to paste into After Effects, a file a column",
+        japanese: "タイムリマップ（After Effects）",
+        files: &["ae/A.txt"],
+        make: |cut, _, put| after_effects::write(cut.sheet, put),
         ..PLAIN
     },
     Format {

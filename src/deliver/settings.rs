@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::deliver::xdts::Xdts;
+use crate::deliver::xdts::{Tdts, Xdts};
 use crate::deliver::{FigureSettings, Glb, Vmd};
 use crate::error::Error;
 use crate::knob::{Knob, Knobs, knob, knobs};
@@ -16,6 +16,8 @@ pub struct Settings {
     pub csv: CsvSettings,
     /// The timesheets for programs.
     pub xdts: Xdts,
+    /// The same timesheets as one file.
+    pub tdts: Tdts,
     /// The timesheet on paper.
     pub xsheet: XSheet,
     /// The motion for MikuMikuDance.
@@ -62,7 +64,7 @@ impl CsvSettings {
 }
 
 knobs!(Settings {
-    ..[csv, xdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview, images, glb]
+    ..[csv, xdts, tdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview, images, glb]
 });
 
 impl Settings {

@@ -1,6 +1,7 @@
 //! Every deliverable of one small clip, whole: read the snapshots as an animator would.
 
 mod numbers;
+mod timesheets;
 mod wrong;
 
 use super::*;

@@ -12,19 +12,19 @@ pub(super) struct Root {
     pub(super) header: Option<Header>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) subversion: Option<String>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) time_tables: Vec<TimeTable>,
     /// TDTS from version 7 has its time tables one level down.
-    #[serde(default, skip_serializing)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) time_sheets: Vec<TimeSheet>,
     #[serde(default)]
     pub(super) version: u32,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TimeSheet {
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) header: Option<Header>,
     #[serde(default)]
     pub(super) time_tables: Vec<TimeTable>,

@@ -5,5 +5,5 @@ mod laws;
 mod marked;
 mod open_toonz;
 mod reading;
-mod sheets;
+pub(in crate::deliver) mod sheets;
 mod writing;

@@ -37,10 +37,13 @@ pub struct XdtsPair {
     pub douga: String,
 }
 
+/// A column of the paper, as a field of a time table has it.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Genga,
-    Douga,
+pub(super) enum Column {
+    /// ACTION: keys numbered; an inbetween is a mark, or nothing.
+    Genga { has_marks: bool },
+    /// CELL: every drawing numbered, with circled keys or without.
+    Douga { has_circles: bool },
 }
 
 impl Xdts {
@@ -50,57 +53,82 @@ impl Xdts {
     /// # Errors
     /// [`Error::Sheet`] for a sheet without a koma, and as [`Sheet::check`].
     pub fn write(&self, sheet: &Sheet, cut: &str) -> Result<XdtsPair, Error> {
-        if sheet.length() == 0 {
-            return Err(Error::sheet("the sheet has no koma, and a time table needs one"));
-        }
-        sheet.check()?;
+        checked(sheet)?;
         Ok(XdtsPair {
-            genga: text(&self.file(sheet, cut, Kind::Genga))?,
-            douga: text(&self.file(sheet, cut, Kind::Douga))?,
+            genga: text(SIGNATURE, &self.file(sheet, cut, Column::Genga { has_marks: true }))?,
+            douga: text(
+                SIGNATURE,
+                &self.file(sheet, cut, Column::Douga { has_circles: self.circled }),
+            )?,
         })
     }
 
-    fn file(&self, sheet: &Sheet, cut: &str, kind: Kind) -> Root {
-        let tracks = sheet.layers.iter().enumerate();
-        let tracks =
-            tracks.map(|(track_no, layer)| Track { frames: self.entries(layer, kind), track_no });
-        let names = sheet.layers.iter().enumerate().map(|(track, layer)| name(track, &layer.name));
-        let extended = kind == Kind::Douga && self.circled;
+    fn file(&self, sheet: &Sheet, cut: &str, column: Column) -> Root {
+        let extended = column == Column::Douga { has_circles: true };
         Root {
             header: header(cut),
             subversion: extended.then(|| EXTENDED.into()),
-            time_tables: vec![TimeTable {
-                duration: sheet.length() as u64,
-                fields: vec![Field { field_id: CELS, tracks: tracks.collect() }],
-                name: cut.into(),
-                time_table_headers: vec![Names { field_id: CELS, names: names.collect() }],
-            }],
+            time_tables: vec![time_table(sheet, cut, &[(CELS, column)])],
             time_sheets: vec![],
             version: 5,
         }
     }
+}
 
-    /// What changes on a layer, closed by a blank after its last koma.
-    fn entries(&self, layer: &Layer, kind: Kind) -> Vec<Entry> {
-        let genga = layer.genga_numbers();
-        let mut entries = Vec::new();
-        let mut before = None;
-        for (koma, shown) in layer.timed() {
-            // A drawing that goes on is no change.
-            if before.replace(shown.drawing) == Some(shown.drawing) {
-                continue;
-            }
-            let key = genga[shown.drawing];
-            let value = match kind {
-                Kind::Genga => key.map_or(INBETWEEN.into(), |number| number.to_string()),
-                Kind::Douga => (shown.drawing + 1).to_string(),
-            };
-            let circled = kind == Kind::Douga && self.circled && key.is_some();
-            entries.push(entry(koma, value, circled));
-        }
-        entries.push(entry(layer.length(), BLANK.into(), false));
-        entries
+/// A table of a sheet: a field a column of the paper, a track a layer.
+pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) -> TimeTable {
+    let names = sheet.layers.iter().enumerate().map(|(track, layer)| name(track, &layer.name));
+    let names: Vec<String> = names.collect();
+    let field = |&(field_id, column): &(u32, Column)| {
+        let tracks = sheet.layers.iter().enumerate();
+        let tracks =
+            tracks.map(|(track_no, layer)| Track { frames: entries(layer, column), track_no });
+        Field { field_id, tracks: tracks.collect() }
+    };
+    let named = |&(field_id, _): &(u32, Column)| Names { field_id, names: names.clone() };
+    TimeTable {
+        duration: sheet.length() as u64,
+        fields: columns.iter().map(field).collect(),
+        name: cut.into(),
+        time_table_headers: columns.iter().map(named).collect(),
     }
+}
+
+/// What changes on a layer, closed by a blank after its last koma.
+fn entries(layer: &Layer, column: Column) -> Vec<Entry> {
+    let genga = layer.genga_numbers();
+    let mut entries = Vec::new();
+    let mut before = None;
+    for (koma, shown) in layer.timed() {
+        // A drawing that goes on is no change.
+        if before.replace(shown.drawing) == Some(shown.drawing) {
+            continue;
+        }
+        let key = genga[shown.drawing];
+        match (column, key) {
+            (Column::Genga { .. }, Some(number)) => {
+                entries.push(entry(koma, number.to_string(), false));
+            }
+            (Column::Genga { has_marks: true }, None) => {
+                entries.push(entry(koma, INBETWEEN.into(), false));
+            }
+            (Column::Genga { has_marks: false }, None) => {}
+            (Column::Douga { has_circles }, _) => {
+                let number = (shown.drawing + 1).to_string();
+                entries.push(entry(koma, number, has_circles && key.is_some()));
+            }
+        }
+    }
+    entries.push(entry(layer.length(), BLANK.into(), false));
+    entries
+}
+
+/// Refuses what no time table can be made of.
+pub(super) fn checked(sheet: &Sheet) -> Result<(), Error> {
+    if sheet.length() == 0 {
+        return Err(Error::sheet("the sheet has no koma, and a time table needs one"));
+    }
+    sheet.check()
 }
 
 fn entry(koma: usize, value: String, circled: bool) -> Entry {
@@ -126,7 +154,7 @@ fn name(track: usize, name: &str) -> String {
 /// such number, since no number is better than a wrong one.
 ///
 /// The cut is the number after a `c`, else the first one; the scene the number after an `s`, else 1.
-fn header(cut: &str) -> Option<Header> {
+pub(super) fn header(cut: &str) -> Option<Header> {
     let numbers = numbers(cut);
     let after = |letter: char| numbers.iter().find(|(before, _)| *before == Some(letter));
     let scene = after('s');
@@ -156,9 +184,11 @@ fn numbers(text: &str) -> Vec<(Option<char>, String)> {
     found
 }
 
-fn text(file: &Root) -> Result<String, Error> {
-    let mut bytes = format!("{SIGNATURE}\n").into_bytes();
-    let mut writer = Serializer::with_formatter(&mut bytes, LineAnEntry::default());
+pub(super) fn text(signature: &str, file: &Root) -> Result<String, Error> {
+    let mut bytes = format!("{signature}\n").into_bytes();
+    // The lists around an entry: time tables, fields, tracks, frames; and the sheets around them.
+    let entries = if file.time_sheets.is_empty() { 4 } else { 5 };
+    let mut writer = Serializer::with_formatter(&mut bytes, LineAnEntry { lists: 0, entries });
     file.serialize(&mut writer)
         .map_err(|error| Error::Encoding { what: "the time table", source: error.into() })?;
     bytes.push(b'\n');
@@ -166,13 +196,12 @@ fn text(file: &Root) -> Result<String, Error> {
 }
 
 /// Compact JSON, but for a line an entry of a track, so that a person can read and compare it.
-#[derive(Default)]
 struct LineAnEntry {
+    /// How many lists are open.
     lists: usize,
+    /// How many are open around an entry.
+    entries: usize,
 }
-
-/// Lists around an entry: time tables, fields, tracks, frames.
-const ENTRIES: usize = 4;
 
 impl Formatter for LineAnEntry {
     fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
@@ -191,6 +220,6 @@ impl Formatter for LineAnEntry {
         first: bool,
     ) -> io::Result<()> {
         CompactFormatter.begin_array_value(writer, first)?;
-        if self.lists == ENTRIES { writer.write_all(b"\n") } else { Ok(()) }
+        if self.lists == self.entries { writer.write_all(b"\n") } else { Ok(()) }
     }
 }

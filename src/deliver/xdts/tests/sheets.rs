@@ -9,7 +9,7 @@ pub(super) fn clock() -> Clock {
 }
 
 /// A layer of drawings by role (`e`nd, `g`enga, `i`nbetween) and exposures as (drawing, koma).
-pub(super) fn layer(name: &str, roles: &str, shown: &[(usize, usize)]) -> Layer {
+pub(in crate::deliver) fn layer(name: &str, roles: &str, shown: &[(usize, usize)]) -> Layer {
     let role = |letter| match letter {
         'e' => Role::End,
         'g' => Role::Genga,
@@ -28,13 +28,13 @@ pub(super) fn layer(name: &str, roles: &str, shown: &[(usize, usize)]) -> Layer 
     }
 }
 
-pub(super) fn sheet(layers: Vec<Layer>) -> Sheet {
+pub(in crate::deliver) fn sheet(layers: Vec<Layer>) -> Sheet {
     Sheet::new(clock(), layers)
 }
 
 /// The cut of 24 koma that both examples of the format show: four keys, three inbetweens, none
 /// between the second key and the third.
-pub(super) fn cut_of_24() -> Sheet {
+pub(in crate::deliver) fn cut_of_24() -> Sheet {
     let shown = [(0, 6), (1, 2), (2, 2), (3, 3), (4, 3), (5, 3), (6, 5)];
     sheet(vec![layer("A", "eiiggie", &shown)])
 }

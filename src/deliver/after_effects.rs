@@ -1,0 +1,41 @@
+//! Time remapping as After Effects takes it from the clipboard.
+
+use std::fmt::Write;
+
+use crate::deliver::{Cut, Sink};
+use crate::error::Error;
+use crate::sheet::{Layer, Sheet};
+use crate::time::KOMA_RATE;
+
+/// A file a column into the folder `ae`.
+pub(super) fn write(sheet: &Sheet, put: &mut Sink<'_>) -> Result<(), Error> {
+    sheet.check()?;
+    let mut names: Vec<String> = Vec::new();
+    for layer in &sheet.layers {
+        let name = Cut::file_of(&layer.name, "CUT");
+        let same = names.iter().filter(|other| other.eq_ignore_ascii_case(&name)).count();
+        let file = if same == 0 { name.clone() } else { format!("{name}~{}", same + 1) };
+        names.push(name);
+        put(&format!("ae/{file}.txt"), time_remap(layer).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// A layer's timing as keyframes of *Time Remap*, to paste onto a layer that plays the column's pictures at 24 a
+/// second, a picture a drawing: drawing 1 is at 0 s. After Effects gives pasted keys linear interpolation; they
+/// become holds by *Toggle Hold Keyframe*.
+pub fn time_remap(layer: &Layer) -> String {
+    let mut text = format!(
+        "Adobe After Effects 9.0 Keyframe Data\n\n\tUnits Per Second\t{KOMA_RATE}\n\tSource Width\t1920\n\
+         \tSource Height\t1080\n\tSource Pixel Aspect Ratio\t1\n\tComp Pixel Aspect Ratio\t1\n\n\
+         Layer\nTime Remap\n\tFrame\tseconds\n"
+    );
+    let mut before = None;
+    for (koma, shown) in layer.timed() {
+        if before.replace(shown.drawing) != Some(shown.drawing) {
+            let _ = writeln!(text, "\t{koma}\t{}", shown.drawing as f64 / KOMA_RATE);
+        }
+    }
+    text.push_str("\nEnd of Keyframe Data\n");
+    text
+}
