@@ -86,6 +86,7 @@ pub mod knob;
 mod maths;
 pub mod motion;
 pub mod pipeline;
+pub mod plain;
 pub mod plot;
 pub mod quality;
 pub mod recipe;

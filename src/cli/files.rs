@@ -12,6 +12,7 @@ use super::staging::{self, Staging};
 use super::stop;
 use crate::error::Error;
 use crate::motion::StreamLimit;
+use crate::plain::shown_lines;
 use crate::plot;
 use serde::Serialize;
 
@@ -108,6 +109,11 @@ fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
         return Err(failed(path, io::Error::other("is a folder")));
     }
     Ok(())
+}
+
+/// Writes a page for people to stdout: nothing that a file says is hidden in it.
+pub(super) fn page_to_stdout(page: &str) -> Result<(), Failure> {
+    to_stdout(shown_lines(page).as_bytes())
 }
 
 /// Writes data to stdout; a closed pipe ends the program quietly.

@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::error::Warning;
 use crate::motion::bvh::warnings::FRAMES_MISMATCH;
+use crate::plain::shown_lines;
 
 /// The program's voice.
 #[derive(Debug)]
@@ -114,7 +115,7 @@ pub(super) fn two(value: Option<f64>) -> String {
 
 /// A closed stderr is nobody listening: that is no reason to stop.
 fn write_line(line: &dyn Display) {
-    let _ = writeln!(stderr(), "{line}");
+    let _ = writeln!(stderr(), "{}", shown_lines(&line.to_string()));
 }
 
 /// A table (表) for people: columns that line up, Japanese words among them.

@@ -4,6 +4,7 @@ use crate::deliver::sheet_json::MadeWith;
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::motion::Clip;
+use crate::plain::is_hidden;
 use crate::sheet::Sheet;
 
 /// Takes the files of a format one at a time: the name, in which `/` makes a folder, and the bytes.
@@ -41,7 +42,7 @@ impl Cut<'_> {
     pub fn file_of(cut: &str, pattern: &str) -> String {
         let letter = |letter: char| match letter {
             '/' | '\\' | ':' | '*' | '?' | '"' | '<' | '>' | '|' => '_',
-            letter if letter.is_control() => '_',
+            letter if is_hidden(letter) => '_',
             letter => letter,
         };
         let name: String = cut.trim().chars().map(letter).collect();

@@ -5,6 +5,7 @@ use csv::{ReaderBuilder, StringRecord};
 use crate::deliver::sheet_json::SheetFile;
 use crate::edits::Pin;
 use crate::error::{Cause, Error};
+use crate::plain::text_of;
 use crate::sheet::{Drawing, Layer, Role};
 use crate::time::Frame;
 
@@ -91,7 +92,8 @@ impl Table {
 
     /// The key of a row with its column, if it is one.
     fn key(&self, row: &StringRecord) -> Result<Option<(String, Pin)>, Wrong> {
-        let field = |at: Option<usize>| at.and_then(|at| row.get(at)).unwrap_or_default().trim();
+        let field =
+            |at: Option<usize>| text_of(at.and_then(|at| row.get(at)).unwrap_or_default().trim());
         let wrong = |at: Option<usize>, expected: &str| {
             (at.unwrap_or(0), format!("{expected}, found \"{}\"", field(at)))
         };

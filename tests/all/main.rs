@@ -15,6 +15,7 @@ mod folders; // a results folder is one run
 mod found; // what fuzzing found
 mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]
+mod hostile_names; // names that a spreadsheet would run or a terminal obey
 mod judged; // sheets judged, and methods side by side
 mod known_keys; // clips made from known keys give them back
 #[cfg(feature = "cli")]

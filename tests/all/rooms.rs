@@ -12,7 +12,7 @@ mod public;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
 const ROOMS: [&[&str]; 15] = [
-    &["error", "knob", "maths", "time", "sheet", "edits"],
+    &["error", "knob", "maths", "plain", "time", "sheet", "edits"],
     &["motion"],
     &["exaggerate"],
     &["signal"],

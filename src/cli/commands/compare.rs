@@ -110,7 +110,7 @@ pub(super) fn run(args: &CompareArgs, words: &Words) -> Result<(), Failure> {
         return Ok(());
     }
     let pages = names.iter().zip(&comparisons).map(|(name, found)| page(name, found));
-    files::to_stdout(pages.collect::<Vec<_>>().join("\n").as_bytes())
+    files::page_to_stdout(&pages.collect::<Vec<_>>().join("\n"))
 }
 
 fn asked(args: &CompareArgs) -> Result<Compare, Failure> {

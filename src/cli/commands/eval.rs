@@ -85,7 +85,7 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
         return Ok(());
     }
     let ends = [clip.first(), clip.last()];
-    files::to_stdout(page(&file.cut, &found, args.tolerance, ends).as_bytes())
+    files::page_to_stdout(&page(&file.cut, &found, args.tolerance, ends))
 }
 
 /// One stdin, and nothing written over what is read.

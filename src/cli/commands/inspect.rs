@@ -36,14 +36,14 @@ pub(super) fn run(args: &InspectArgs, words: &Words) -> Result<(), Failure> {
     paths::check_picture("plot", args.plot.as_ref())?;
     let source = args.clip.read()?;
     if args.warnings {
-        return files::to_stdout(listed(&source.notes).as_bytes());
+        return files::page_to_stdout(&listed(&source.notes));
     }
     source.notes.iter().for_each(|warning| words.warn(warning));
     let name = paths::stem(&args.clip.path);
     if let Some(path) = &args.plot {
         files::write_picture(path, &SkeletonPlot::default().draw(&name, &source.clip)?)?;
     }
-    files::to_stdout(page(&name, &source).as_bytes())
+    files::page_to_stdout(&page(&name, &source))
 }
 
 /// Warnings for a script: code, place, sentence.

@@ -69,7 +69,7 @@ pub(super) fn run(args: &SplitArgs, words: &Words) -> Result<(), Failure> {
         let parts = Parts { clip, actions: &actions, name: &paths::stem(&args.clip.path) };
         parts.write(&args.clip.path, folder, words)?;
     }
-    files::to_stdout(table(&actions, clip.rate()).as_bytes())
+    files::page_to_stdout(&table(&actions, clip.rate()))
 }
 
 /// A take in parts.

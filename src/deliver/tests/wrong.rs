@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::deliver::{FORMATS, Glb, Settings, Vmd};
+use crate::error::Error;
 use crate::sheet::Sheet;
 
 type Spoil = fn(&mut Sheet);
