@@ -67,10 +67,13 @@ pub const FORMATS: &[Format] = &[
     },
     Format {
         name: "remap",
-        help: "the timing alone, for a rig that plays the same take",
+        help: "the timing alone, for a rig or rendered pictures of the same take",
         japanese: "タイムリマップ",
-        files: &["remap.csv"],
-        make: |cut, settings, put| put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?)),
+        files: &["remap.csv", "remap.ffconcat"],
+        make: |cut, settings, put| {
+            put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?))?;
+            settings.remap.write(cut, put)
+        },
         ..PLAIN
     },
     Format {

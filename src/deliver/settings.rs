@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::deliver::xdts::{Tdts, Xdts};
-use crate::deliver::{FigureSettings, Glb, Vmd};
+use crate::deliver::{FigureSettings, Glb, Remap, Vmd};
 use crate::error::Error;
 use crate::knob::{Knob, Knobs, knob, knobs};
 use crate::plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip, XSheet};
@@ -14,6 +14,8 @@ use crate::plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, St
 pub struct Settings {
     /// The tables.
     pub csv: CsvSettings,
+    /// The timing alone.
+    pub remap: Remap,
     /// The timesheets for programs.
     pub xdts: Xdts,
     /// The same timesheets as one file.
@@ -64,7 +66,10 @@ impl CsvSettings {
 }
 
 knobs!(Settings {
-    ..[csv, xdts, tdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview, images, glb]
+    ..[
+        csv, remap, xdts, tdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview,
+        images, glb
+    ]
 });
 
 impl Settings {

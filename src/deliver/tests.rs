@@ -205,7 +205,7 @@ fn an_empty_sheet_has_headers_and_no_motion() {
     let clip = wave();
     let sheet = crate::sheet::Sheet::on_ones(clip.clock(24.0), 0);
     assert_eq!(sheet_csv(&sheet).unwrap(), "koma,layer,drawing,role,source_frame,why\n");
-    assert_eq!(remap_csv(&sheet).unwrap(), "koma,source_frame,source_time_s\n");
+    assert_eq!(remap_csv(&sheet).unwrap(), "koma,source_frame,source_time_s,nearest_frame\n");
     let table = Drawings { cut: "wave".into(), rows: Rows::All }.write(&clip, &sheet).unwrap();
     assert_eq!(table.lines().count(), 1);
     assert!(limited_bvh(&clip, &sheet).is_err());

@@ -14,7 +14,7 @@ use crate::clips::{here, sample};
 pub(crate) const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
 
 /// What a run writes, and how each file begins.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     (
         "drawings.csv",
         "cut,column,drawing,role,genga_no,reason,koma_first,koma_count,time_s,source_frame,source_time_s,on,mark,spacing_pos,spacing_fraction,lead_joint,note\n",
@@ -27,7 +27,8 @@ const FILES: [(&str, &str); 12] = [
     ("manifest.json", "{\n  \"schema\": \"genga-run-1\",\n"),
     ("poses.svg", "<svg "),
     ("recipe.toml", "# A genga recipe"),
-    ("remap.csv", "koma,source_frame,source_time_s\n"),
+    ("remap.csv", "koma,source_frame,source_time_s,nearest_frame\n"),
+    ("remap.ffconcat", "ffconcat version 1.0\n"),
     ("report.json", "{\n  \"frames\": "),
     ("sheet.csv", "koma,layer,drawing,role,source_frame,why\n"),
     ("sheet.json", "{\n  \"schema\": \"genga-sheet-1\",\n"),
@@ -765,7 +766,7 @@ fn a_sheet_edited_by_hand_is_delivered_as_it_is() {
     let rows = |table: &str| column(&read(&place.path(table)), "koma").len();
     let before = rows("a/sheet.csv");
     let said = text(&place.genga("deliver a/sheet.json data/kick.bvh --to csv,remap").stderr);
-    assert!(said.contains("files       a: keys.csv drawings.csv sheet.csv remap.csv\n"), "{said}");
+    assert!(said.contains("files       a: keys.csv drawings.csv sheet.csv remap.csv remap.ffconcat\n"), "{said}");
     assert_eq!((rows("a/sheet.csv"), rows("a/remap.csv")), (before + 3, before + 3));
     let sheet = fs::read(place.path("a/sheet.json")).unwrap();
     let output = place.fed("deliver - data/kick.bvh --to json", &sheet);
