@@ -86,6 +86,9 @@ enum Progress {
 /// Memory for all clips that are worked on at the same time, unless --memory says otherwise.
 const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
+/// What a clip costs besides its bytes, in bytes: by this and the size the bar says how long it takes still.
+const LEAST: u64 = 1 << 14;
+
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if !args.list {
         fs::create_dir_all(&args.out).map_err(|error| cannot(&args.out, &error))?;
@@ -94,10 +97,7 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         return join(args, words);
     }
     if args.list {
-        let lines = list::items(&args.clips, &args.out)?
-            .into_iter()
-            .map(|item| format!("{}\n", item.path.display()));
-        return files::to_stdout(lines.collect::<String>().as_bytes());
+        return files::to_stdout(&list::written(&list::items(&args.clips, &args.out)?));
     }
     let formats = Formats::new("deliver", &args.deliver, &[], &args.formats)?;
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
@@ -171,8 +171,9 @@ impl<'a> Batch<'a> {
 
     fn work(&self, words: &Words) -> Result<(), Failure> {
         let is_watched = self.progress == Progress::Bar;
-        let bar = is_watched.then(|| words.counting(self.own.len(), "clips"));
         let sizes: Vec<u64> = self.own.iter().map(|at| self.items[*at].size).collect();
+        let bytes = sizes.iter().map(|size| size + LEAST).sum();
+        let bar = is_watched.then(|| words.weighing(bytes));
         let order: Vec<usize> = largest_first(&sizes).into_iter().map(|at| self.own[at]).collect();
         let is_over = || {
             let state = self.state();
@@ -229,8 +230,13 @@ impl<'a> Batch<'a> {
         let mut state = self.state();
         state.done += 1;
         state.failed += usize::from(!is_done);
-        bar.iter().for_each(|bar| bar.count());
         let (done, failed, of) = (state.done, state.failed, self.own.len());
+        if let Some(bar) = bar {
+            bar.weigh(
+                self.items[at].size + LEAST,
+                format!("{done} of {of} clips, {failed} failed"),
+            );
+        }
         let line = match self.progress {
             Progress::Bar | Progress::None => return Ok(()),
             Progress::Json => {
