@@ -128,7 +128,7 @@ fn a_clip_that_is_lost_is_a_row_and_comes_back() {
 fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {
     let place = Place::new();
     library(&place);
-    for more in ["", " --deliver json,xdts,bars"] {
+    for more in ["", " --deliver json,xdts,bars", " --pack"] {
         code(&place, &format!("batch lib --out whole{more}"));
         for blocks in [0, 1, 8, 16, 32] {
             let command = format!(

@@ -11,8 +11,9 @@ use clap::{Args, ValueEnum};
 use crate::cli::batch::crew::Crew;
 use crate::cli::batch::journal::{Header, Journal, is_journal};
 use crate::cli::batch::list::{self, Item};
+use crate::cli::batch::pack::{ARCHIVE, Pack, Packing, Parcel};
 use crate::cli::batch::place::Places;
-use crate::cli::batch::row::Row;
+use crate::cli::batch::row::{Line, Row};
 use crate::cli::batch::shard::{Shard, largest_first};
 use crate::cli::batch::tables::{self, Count, NAMED};
 use crate::cli::batch::work::{Asked, Begun};
@@ -57,6 +58,9 @@ pub(super) struct BatchArgs {
     /// Clips that are worked on at the same time [default: one a core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
+    /// One archive, clips.zip, in place of a folder a clip. --join makes one of those of all parts.
+    #[arg(long)]
+    pack: bool,
     /// Stop at the first clip that fails.
     #[arg(long)]
     fail_fast: bool,
@@ -119,6 +123,7 @@ struct Batch<'a> {
     /// The places of its clips in the list, in order.
     own: Vec<usize>,
     crew: Crew,
+    is_packed: bool,
     fails_fast: bool,
     progress: Progress,
     state: Mutex<State>,
@@ -127,6 +132,8 @@ struct Batch<'a> {
 /// What changes while it is worked on.
 struct State {
     journal: Journal,
+    /// The archive, where there is one in place of folders.
+    pack: Option<Pack>,
     done: usize,
     failed: usize,
     /// Why it cannot go on.
@@ -145,7 +152,9 @@ impl<'a> Batch<'a> {
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
         let staging = Staging::within(&args.out).map_err(|error| cannot(&args.out, &error))?;
-        let journal = Journal::open(&args.out, Header::of(list, items.len(), shard), &names)?;
+        let header = Header::of(list, items.len(), shard);
+        let journal = Journal::open(&args.out, header, &names)?;
+        let pack = args.pack.then(|| packed(args, &journal.header)).transpose()?;
         // From here on a signal lets what is begun be finished.
         stop::gently();
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -159,9 +168,10 @@ impl<'a> Batch<'a> {
             staging,
             own: shard.deal(&sizes),
             crew: Crew { jobs, room },
+            is_packed: args.pack,
             fails_fast: args.fail_fast,
             progress: args.progress,
-            state: Mutex::new(State { journal, done: 0, failed: 0, fault: None }),
+            state: Mutex::new(State { journal, pack, done: 0, failed: 0, fault: None }),
         })
     }
 
@@ -201,8 +211,11 @@ impl<'a> Batch<'a> {
         let before = {
             let state = self.state();
             let line = state.journal.line(&item.name)?;
-            let is_there =
-                line.as_ref().is_some_and(|line| self.places.has(&item.name, &line.files));
+            let has = |line: &Line| match &state.pack {
+                Some(pack) => pack.has(&item.name, &line.files),
+                None => self.places.has(&item.name, &line.files),
+            };
+            let is_there = line.as_ref().is_some_and(has);
             if is_there && state.journal.has(&item.name, file, asked) {
                 return Ok(true);
             }
@@ -210,9 +223,17 @@ impl<'a> Batch<'a> {
         };
         let (ready, old) =
             (self.staging.place(&format!("{at}")), self.staging.place(&format!("{at}-old")));
-        let mut line = begun.finish(self.formats, &ready)?;
+        let mut parcel = self.is_packed.then(Parcel::default);
+        let mut line = begun.finish(self.formats, &ready, parcel.as_mut())?;
         let mut state = self.state();
         stop::undisturbed(|| {
+            if let (Some(pack), Some(parcel)) = (&mut state.pack, parcel) {
+                let is_done = line.row.is_done();
+                if is_done {
+                    pack.add(parcel)?;
+                }
+                return state.journal.add(line).map(|()| is_done);
+            }
             match self.places.put(&item.name, (&ready, &old), &line.files, &before) {
                 Err(Failure::AskedWrongly(message)) => {
                     line.row = Row::failed(message, vec![]);
@@ -271,13 +292,47 @@ impl<'a> Batch<'a> {
                 "stopped with {finished} of {of} clips finished; the same command goes on from there"
             )));
         }
+        if let Some(pack) = state.pack {
+            let packs = [pack];
+            pack_all(packs[0].path(), &packs, &journals, names())?;
+            packs.into_iter().for_each(Pack::clear);
+        }
         end(&count, of, args, words)
     }
 }
 
+/// The archive of a part, unless one is there that no batch wrote.
+fn packed(args: &BatchArgs, header: &Header) -> Result<Pack, Failure> {
+    let pack = Pack::open(&args.out, header)?;
+    if pack.is_foreign() && !args.formats.force {
+        return Err(Failure::AskedWrongly(format!(
+            "{}: this archive is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write over it \
+             with --force",
+            pack.path().display()
+        )));
+    }
+    Ok(pack)
+}
+
+/// Writes one archive of the clips of these names, in their order.
+fn pack_all<'a>(
+    place: &Path,
+    packs: &[Pack],
+    journals: &[Journal],
+    names: impl Iterator<Item = &'a str>,
+) -> Result<(), Failure> {
+    let mut packing = Packing::begin(place)?;
+    for name in names {
+        if let Some(line) = tables::line(journals, name)?.filter(|line| line.row.is_done()) {
+            packing.clip(packs, name, &line.files)?;
+        }
+    }
+    packing.finish()
+}
+
 /// Makes the tables of all parts.
 fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let mut journals = Vec::new();
+    let (mut journals, mut packs) = (Vec::new(), Vec::new());
     for folder in &args.join {
         let entries = fs::read_dir(folder).map_err(|error| cannot(folder, &error))?;
         let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -286,7 +341,9 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         });
         files.sort();
         for file in files {
-            journals.push(Journal::read(&file)?);
+            let journal = Journal::read(&file)?;
+            packs.push(Pack::read(folder, &journal.header)?);
+            journals.push(journal);
         }
     }
     check_parts(&journals)?;
@@ -296,7 +353,11 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         .for_each(|journal| clips.extend(journal.places().map(|(at, name)| (at, name.to_owned()))));
     clips.sort();
     let of = journals.first().map_or(0, |journal| journal.header.clips);
-    let count = tables::write(&args.out, &journals, clips.iter().map(|(_, name)| name.as_str()))?;
+    let names = || clips.iter().map(|(_, name)| name.as_str());
+    let count = tables::write(&args.out, &journals, names())?;
+    if packs.iter().any(Pack::is_there) {
+        pack_all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
+    }
     end(&count, of, args, words)
 }
 
