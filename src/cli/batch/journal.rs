@@ -1,6 +1,6 @@
 //! What is finished (作業記録): a line a clip, written when its folder has its place. The next batch reads it and goes on from there.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -199,6 +199,28 @@ impl Journal {
     /// The clips that it knows, with their places in the list, in no order.
     pub(in crate::cli) fn places(&self) -> impl Iterator<Item = (usize, &str)> {
         self.known.iter().map(|(name, known)| (known.at, name.as_str()))
+    }
+}
+
+/// Refuses parts that are not all of one list.
+pub(in crate::cli) fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
+    let wrongly = |message: String| Err(Failure::AskedWrongly(format!("--join: {message}")));
+    let Some(first) = journals.first() else {
+        return wrongly("there is no batch in these folders; name those that --out named".into());
+    };
+    let (list, parts) = (&first.header.list, first.header.parts);
+    if journals.iter().any(|journal| &journal.header.list != list || journal.header.parts != parts)
+    {
+        return wrongly(
+            "these folders are of different lists, or of lists that were dealt differently".into(),
+        );
+    }
+    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
+    match (1..=parts).find(|part| !there.contains(part)) {
+        Some(part) => wrongly(format!(
+            "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
+        )),
+        None => Ok(()),
     }
 }
 

@@ -12,8 +12,9 @@ use std::path::{Path, PathBuf};
 use super::super::failure::Failure;
 use super::super::staging::Staging;
 use super::super::stop;
-use super::journal::Header;
+use super::journal::{Header, Journal};
 use super::place::CLIPS;
+use super::tables;
 use super::zip::{Directory, Entry};
 
 /// The archive and the spool of a part.
@@ -85,8 +86,20 @@ impl Pack {
     }
 
     /// The same to be written on. A last entry that was not written whole is cut off.
-    pub(in crate::cli) fn open(folder: &Path, header: &Header) -> Result<Self, Failure> {
+    /// An archive that no batch wrote stays, unless it may be written over.
+    pub(in crate::cli) fn open(
+        folder: &Path,
+        header: &Header,
+        is_forced: bool,
+    ) -> Result<Self, Failure> {
         let mut pack = Self::read(folder, header)?;
+        if pack.is_foreign() && !is_forced {
+            return Err(Failure::AskedWrongly(format!(
+                "{}: this archive is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
+                 over it with --force",
+                pack.archive.display()
+            )));
+        }
         let end = pack.files[SPOOL].take().map_or(0, |(_, end)| end);
         let open = || OpenOptions::new().read(true).append(true).create(true).open(&pack.spool);
         let file = open().and_then(|file| file.set_len(end).map(|()| file));
@@ -100,7 +113,7 @@ impl Pack {
     }
 
     /// Whether an archive is there whose entries are none of a batch.
-    pub(in crate::cli) fn is_foreign(&self) -> bool {
+    fn is_foreign(&self) -> bool {
         self.files[PACKED].as_ref().is_some_and(|(_, end)| *end == 0)
             && fs::metadata(&self.archive).is_ok_and(|about| about.len() > Directory::LEAST)
     }
@@ -163,6 +176,13 @@ impl Pack {
             false => Err(io::ErrorKind::UnexpectedEof.into()),
         }
     }
+
+    /// Removes the spool, when the archive has all of it.
+    pub(in crate::cli) fn clear(self) {
+        let Self { spool, files, .. } = self;
+        drop(files);
+        let _ = fs::remove_file(spool);
+    }
 }
 
 /// An archive that is written beside its place.
@@ -219,13 +239,20 @@ impl Packing {
     }
 }
 
-impl Pack {
-    /// Removes the spool, when the archive has all of it.
-    pub(in crate::cli) fn clear(self) {
-        let Self { spool, files, .. } = self;
-        drop(files);
-        let _ = fs::remove_file(spool);
+/// Writes one archive of the clips of these names, in their order.
+pub(in crate::cli) fn all<'a>(
+    place: &Path,
+    packs: &[Pack],
+    journals: &[Journal],
+    names: impl Iterator<Item = &'a str>,
+) -> Result<(), Failure> {
+    let mut packing = Packing::begin(place)?;
+    for name in names {
+        if let Some(line) = tables::line(journals, name)?.filter(|line| line.row.is_done()) {
+            packing.clip(packs, name, &line.files)?;
+        }
     }
+    packing.finish()
 }
 
 fn cannot(path: &Path, error: &io::Error) -> Failure {

@@ -1,6 +1,5 @@
 //! `genga batch`: many clips at once, what is finished kept, and tables of all.
 
-use std::collections::HashSet;
 use std::fs;
 use std::io::{Write, stdout};
 use std::path::{Path, PathBuf};
@@ -9,9 +8,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use clap::{Args, ValueEnum};
 
 use crate::cli::batch::crew::Crew;
-use crate::cli::batch::journal::{Header, Journal, is_journal};
+use crate::cli::batch::journal::{Header, Journal, check_parts, is_journal};
 use crate::cli::batch::list::{self, Item};
-use crate::cli::batch::pack::{ARCHIVE, Pack, Packing, Parcel};
+use crate::cli::batch::pack::{self, ARCHIVE, Pack, Parcel};
 use crate::cli::batch::place::Places;
 use crate::cli::batch::row::{Line, Row};
 use crate::cli::batch::shard::{Shard, largest_first};
@@ -154,7 +153,10 @@ impl<'a> Batch<'a> {
         let staging = Staging::within(&args.out).map_err(|error| cannot(&args.out, &error))?;
         let header = Header::of(list, items.len(), shard);
         let journal = Journal::open(&args.out, header, &names)?;
-        let pack = args.pack.then(|| packed(args, &journal.header)).transpose()?;
+        let pack = args
+            .pack
+            .then(|| Pack::open(&args.out, &journal.header, args.formats.force))
+            .transpose()?;
         // From here on a signal lets what is begun be finished.
         stop::gently();
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -294,40 +296,11 @@ impl<'a> Batch<'a> {
         }
         if let Some(pack) = state.pack {
             let packs = [pack];
-            pack_all(packs[0].path(), &packs, &journals, names())?;
+            pack::all(packs[0].path(), &packs, &journals, names())?;
             packs.into_iter().for_each(Pack::clear);
         }
         end(&count, of, args, words)
     }
-}
-
-/// The archive of a part, unless one is there that no batch wrote.
-fn packed(args: &BatchArgs, header: &Header) -> Result<Pack, Failure> {
-    let pack = Pack::open(&args.out, header)?;
-    if pack.is_foreign() && !args.formats.force {
-        return Err(Failure::AskedWrongly(format!(
-            "{}: this archive is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write over it \
-             with --force",
-            pack.path().display()
-        )));
-    }
-    Ok(pack)
-}
-
-/// Writes one archive of the clips of these names, in their order.
-fn pack_all<'a>(
-    place: &Path,
-    packs: &[Pack],
-    journals: &[Journal],
-    names: impl Iterator<Item = &'a str>,
-) -> Result<(), Failure> {
-    let mut packing = Packing::begin(place)?;
-    for name in names {
-        if let Some(line) = tables::line(journals, name)?.filter(|line| line.row.is_done()) {
-            packing.clip(packs, name, &line.files)?;
-        }
-    }
-    packing.finish()
 }
 
 /// Makes the tables of all parts.
@@ -356,31 +329,9 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     let names = || clips.iter().map(|(_, name)| name.as_str());
     let count = tables::write(&args.out, &journals, names())?;
     if packs.iter().any(Pack::is_there) {
-        pack_all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
+        pack::all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
     }
     end(&count, of, args, words)
-}
-
-/// Refuses parts that are not all of one list.
-fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
-    let wrongly = |message: String| Err(Failure::AskedWrongly(format!("--join: {message}")));
-    let Some(first) = journals.first() else {
-        return wrongly("there is no batch in these folders; name those that --out named".into());
-    };
-    let (list, parts) = (&first.header.list, first.header.parts);
-    if journals.iter().any(|journal| &journal.header.list != list || journal.header.parts != parts)
-    {
-        return wrongly(
-            "these folders are of different lists, or of lists that were dealt differently".into(),
-        );
-    }
-    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
-    match (1..=parts).find(|part| !there.contains(part)) {
-        Some(part) => wrongly(format!(
-            "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
-        )),
-        None => Ok(()),
-    }
 }
 
 /// Says how it ended.
