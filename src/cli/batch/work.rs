@@ -206,11 +206,14 @@ struct Drawn {
     ms: [f64; 3],
 }
 
+/// Who takes a file of a clip: its name, its bytes, their digest.
+type Put<'a> = dyn FnMut(&str, &[u8], &str) -> Result<(), Error> + 'a;
+
 fn drawn(
     own: &OfOne,
     digest: &str,
     formats: &Formats,
-    put: &mut dyn FnMut(&str, &[u8], &str) -> Result<(), Error>,
+    put: &mut Put<'_>,
     warnings: &mut Vec<String>,
 ) -> Result<Drawn, Failure> {
     let (begin, mute) = (Instant::now(), Words::new(true));
