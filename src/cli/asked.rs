@@ -37,21 +37,27 @@ fn tip(error: &clap::Error) -> Option<String> {
             clip_of(Path::new(word)).or_else(|| commands_like(word).filter(|_| !is_suggested))
         }
         ErrorKind::UnknownArgument => {
-            let path = Path::new(word(ContextKind::InvalidArg)?);
-            path.exists().then(many)
+            let word = word(ContextKind::InvalidArg)?;
+            Path::new(word).exists().then(|| many(word))
         }
         _ => None,
     }
 }
 
-/// Several clips stand where one belongs.
-fn many() -> String {
-    let words = std::env::args().skip(2).take_while(|word| !word.starts_with('-'));
-    let mut words: Vec<String> = words.collect();
+/// Several clips stand where one belongs: the command for them, as a shell reads it.
+fn many(other: &str) -> String {
+    let is_clip = |word: &String| word == other || word.to_lowercase().ends_with(".bvh");
+    let words = std::env::args_os().skip(2).map(|word| word.to_string_lossy().into_owned());
+    let mut words: Vec<String> = words.filter(is_clip).map(quoted).collect();
     if words.len() > MOST_WORDS {
         words.splice(1..words.len() - 1, ["…".into()]);
     }
     format!("it takes one clip at a time; of many: genga batch {} --out library", words.join(" "))
+}
+
+/// A word in quotes, if it needs them.
+fn quoted(word: String) -> String {
+    if word.contains([' ', '(', ')', '&', ';', '$', '\'']) { format!("\"{word}\"") } else { word }
 }
 
 /// Somebody named a clip, or a folder of them, and no command.

@@ -6,6 +6,8 @@
 //! row      what there is to say of a clip in one row
 //! work     one clip: read, drawn, written aside
 //! place    the folder of a clip takes its place
+//! pack     one archive in place of a folder a clip
+//! zip      entries and directory of such an archive
 //! journal  what is finished, a line a clip, so that the next batch goes on from there
 //! crew     who works: threads, a room of memory, and an end at any time
 //! tables   summary.csv, keys.csv and times.csv, of one journal or of several
@@ -14,8 +16,10 @@
 pub(super) mod crew;
 pub(super) mod journal;
 pub(super) mod list;
+pub(super) mod pack;
 pub(super) mod place;
 pub(super) mod row;
 pub(super) mod shard;
 pub(super) mod tables;
 pub(super) mod work;
+pub(super) mod zip;

@@ -63,6 +63,11 @@ impl Words {
         self.bar(&look, || ProgressBar::new(count as u64))
     }
 
+    /// The same for pieces that differ in size: what is left is told by their bytes, not by their count.
+    pub(super) fn weighing(&self, bytes: u64) -> Bar {
+        self.bar("{wide_bar} {msg} ({elapsed}, {eta} left)", || ProgressBar::new(bytes))
+    }
+
     fn bar(&self, look: &str, begin: impl FnOnce() -> ProgressBar) -> Bar {
         Bar(self.is_watched().then(|| {
             let bar = begin();
@@ -90,6 +95,14 @@ pub(super) struct Bar(Option<ProgressBar>);
 impl Bar {
     pub(super) fn on(&self, what: &'static str) {
         self.0.iter().for_each(|bar| bar.set_message(what));
+    }
+
+    /// A piece of so many bytes is done; `what` says it.
+    pub(super) fn weigh(&self, bytes: u64, what: String) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(what);
+            bar.inc(bytes);
+        }
     }
 
     pub(super) fn count(&self) {

@@ -7,7 +7,7 @@ use crate::folders::all;
 use crate::program::{Place, text};
 
 /// A library: the sample clips, folders with clips of one name, broken clips, and files that are none.
-fn library(place: &Place) -> usize {
+pub(crate) fn library(place: &Place) -> usize {
     let samples = ["kick", "tennis", "pitch"];
     let mut count = 0;
     let mut put = |name: &str, bytes: &[u8]| {
@@ -35,13 +35,13 @@ fn library(place: &Place) -> usize {
 }
 
 /// All that is the same whenever and in whatever order it is made.
-fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
     let mut files = all(&place.path(folder));
     files.retain(|name, _| name != "times.csv" && !name.ends_with(".jsonl"));
     files
 }
 
-fn code(place: &Place, args: &str) -> (i32, String) {
+pub(crate) fn code(place: &Place, args: &str) -> (i32, String) {
     let output = place.genga(args);
     (output.status.code().unwrap_or(-1), text(&output.stderr))
 }

@@ -5,6 +5,10 @@
 mod actions; // a long take as its actions
 #[cfg(feature = "cli")]
 mod batch; // many clips at once
+#[cfg(feature = "cli")]
+mod batch_in_trouble; // lists of other systems, full disks, clips that are lost, two at once
+#[cfg(feature = "cli")]
+mod batch_packed; // one archive in place of folders
 mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod defaults; // the method states every default as it is

@@ -1158,6 +1158,7 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         ("rnu kick.bvh", "did you mean run or recipe?"),
         ("inspct kick.bvh", "'inspect'"),
         ("run kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
+        ("run --out o kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
         ("keys kick.bvh more.bvh", "one clip at a time"),
         ("run takes", "such as takes/first.bvh"),
         ("inspect takes", "such as takes/first.bvh"),
@@ -1168,6 +1169,10 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         assert_eq!(output.status.code(), Some(2), "{args}: {errors}");
         assert!(errors.contains(say), "genga {args} says:\n{errors}");
     }
+    fs::copy(here("data/kick.bvh"), place.path("a b.bvh")).unwrap();
+    let output = place.command(&["run", "kick.bvh", "a b.bvh"]).output().unwrap();
+    let errors = text(&output.stderr);
+    assert!(errors.contains("genga batch kick.bvh \"a b.bvh\" --out library"), "{errors}");
 }
 
 #[test]

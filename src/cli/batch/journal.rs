@@ -1,7 +1,7 @@
 //! What is finished (作業記録): a line a clip, written when its folder has its place. The next batch reads it and goes on from there.
 
-use std::collections::HashMap;
-use std::fs::{File, OpenOptions};
+use std::collections::{HashMap, HashSet};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -87,7 +87,7 @@ impl Journal {
         if !path.exists() {
             return Self::begin(&path, header, &[]);
         }
-        let before = Self::read(&path)?;
+        let before = Self::held(&path)?;
         if before.header == header {
             return Ok(before);
         }
@@ -108,16 +108,40 @@ impl Journal {
         let mut text = encoded(&header);
         lines.iter().for_each(|line| text.push_str(&encoded(line)));
         files::write(path, text.as_bytes())?;
-        Self::read(path)
+        Self::held(path)
     }
 
-    /// Reads a journal. A last line that was not written whole is cut off.
+    /// Reads the journal that this program alone writes on. A last line that was not written whole is cut off.
+    fn held(path: &Path) -> Result<Self, Failure> {
+        let failed = |reason: &dyn std::fmt::Display| {
+            Failure::CouldNot(format!("{}: {reason}", path.display()))
+        };
+        let file = OpenOptions::new().read(true).append(true).open(path);
+        let file = file.map_err(|error| failed(&error))?;
+        // Where a disk knows no locks nobody can be told.
+        if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            return Err(failed(
+                &"another batch is at work on this; wait for it, or name another folder with --out",
+            ));
+        }
+        let journal = Self::of(path, file)?;
+        journal.file.set_len(journal.end).map_err(|error| failed(&error))?;
+        Ok(journal)
+    }
+
+    /// Reads a journal. A last line that was not written whole is not read.
     pub(in crate::cli) fn read(path: &Path) -> Result<Self, Failure> {
+        let file = File::open(path);
+        let file =
+            file.map_err(|error| Failure::CouldNot(format!("{}: {error}", path.display())))?;
+        Self::of(path, file)
+    }
+
+    fn of(path: &Path, file: File) -> Result<Self, Failure> {
         let failed = |error: &dyn std::fmt::Display| {
             Failure::CouldNot(format!("{}: {error}", path.display()))
         };
         let io = |error: io::Error| failed(&error);
-        let file = OpenOptions::new().read(true).append(true).open(path).map_err(io)?;
         let mut lines = BufReader::new(&file);
         let mut text = String::new();
         let mut end = lines.read_line(&mut text).map_err(io)? as u64;
@@ -137,7 +161,6 @@ impl Journal {
             end += length as u64;
         }
         drop(lines);
-        file.set_len(end).map_err(io)?;
         Ok(Self { path: path.into(), file, end, header, known })
     }
 
@@ -176,6 +199,28 @@ impl Journal {
     /// The clips that it knows, with their places in the list, in no order.
     pub(in crate::cli) fn places(&self) -> impl Iterator<Item = (usize, &str)> {
         self.known.iter().map(|(name, known)| (known.at, name.as_str()))
+    }
+}
+
+/// Refuses parts that are not all of one list.
+pub(in crate::cli) fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
+    let wrongly = |message: String| Err(Failure::AskedWrongly(format!("--join: {message}")));
+    let Some(first) = journals.first() else {
+        return wrongly("there is no batch in these folders; name those that --out named".into());
+    };
+    let (list, parts) = (&first.header.list, first.header.parts);
+    if journals.iter().any(|journal| &journal.header.list != list || journal.header.parts != parts)
+    {
+        return wrongly(
+            "these folders are of different lists, or of lists that were dealt differently".into(),
+        );
+    }
+    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
+    match (1..=parts).find(|part| !there.contains(part)) {
+        Some(part) => wrongly(format!(
+            "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
+        )),
+        None => Ok(()),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Which clips: files, folders, patterns, lists and tables, in the order in which they are named.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs;
-use std::io::{self, BufRead};
+use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use walkdir::WalkDir;
@@ -44,8 +44,10 @@ pub(in crate::cli) fn items(words: &[String], out: &Path) -> Result<Vec<Item>, F
 
 fn of_word(word: &str, out: &Path) -> Result<Vec<Named>, Failure> {
     if word == "-" {
-        let lines = io::stdin().lock().lines().collect::<Result<Vec<_>, _>>();
-        return Ok(lined(&lines.map_err(|error| Failure::CouldNot(format!("stdin: {error}")))?));
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes);
+        read.map_err(|error| Failure::CouldNot(format!("stdin: {error}")))?;
+        return lined(&bytes, Path::new("stdin"));
     }
     if let Some(list) = word.strip_prefix('@') {
         return of_list(Path::new(list));
@@ -63,31 +65,58 @@ fn of_word(word: &str, out: &Path) -> Result<Vec<Named>, Failure> {
     }
 }
 
-/// A file a line; empty lines and those that begin with # say nothing.
-fn lined(lines: &[String]) -> Vec<Named> {
-    let lines = lines.iter().map(|line| line.trim_end_matches('\r'));
-    lines
-        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'))
-        .map(|line| (line.into(), vec![]))
-        .collect()
+/// A file a line; empty lines and those that begin with # say nothing. A path is the bytes that the system has for it.
+fn lined(bytes: &[u8], list: &Path) -> Result<Vec<Named>, Failure> {
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let lines = bytes.split(|byte| *byte == b'\n');
+    let lines = lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line));
+    let lines = lines.filter(|line| !line.trim_ascii().is_empty() && !line.starts_with(b"#"));
+    let path = |line| path_of(line).ok_or_else(|| not_utf8(list));
+    lines.map(|line| Ok((path(line)?, vec![]))).collect()
+}
+
+#[cfg(unix)]
+fn path_of(bytes: &[u8]) -> Option<PathBuf> {
+    use std::os::unix::ffi::OsStrExt;
+    Some(std::ffi::OsStr::from_bytes(bytes).into())
+}
+
+#[cfg(not(unix))]
+fn path_of(bytes: &[u8]) -> Option<PathBuf> {
+    std::str::from_utf8(bytes).ok().map(PathBuf::from)
+}
+
+fn not_utf8(list: &Path) -> Failure {
+    Failure::CouldNot(format!("{}: is not UTF-8; save the list as UTF-8", list.display()))
+}
+
+/// The list as text: what [`lined`] reads again.
+pub(in crate::cli) fn written(items: &[Item]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for item in items {
+        bytes.extend_from_slice(item.path.as_os_str().as_encoded_bytes());
+        bytes.push(b'\n');
+    }
+    bytes
 }
 
 fn of_list(list: &Path) -> Result<Vec<Named>, Failure> {
-    let text = String::from_utf8(files::read(list)?)
-        .map_err(|_| Failure::CouldNot(format!("{}: is not UTF-8", list.display())))?;
-    let wrong = |line: usize, reason: String| {
-        Failure::CouldNot(format!("{}:{line}: {reason}", list.display()))
-    };
-    match list.extension().and_then(|ending| ending.to_str()) {
-        Some("csv") => of_table(&text).map_err(|(line, reason)| wrong(line, reason)),
-        Some("jsonl" | "ndjson") => of_objects(&text).map_err(|(line, reason)| wrong(line, reason)),
-        _ => Ok(lined(&text.lines().map(str::to_owned).collect::<Vec<_>>())),
+    let bytes = files::read(list)?;
+    let ending = list.extension().map(|ending| ending.to_ascii_lowercase());
+    let ending = ending.as_ref().and_then(|ending| ending.to_str());
+    if !matches!(ending, Some("csv" | "jsonl" | "ndjson")) {
+        return lined(&bytes, list);
     }
+    let text = String::from_utf8(bytes).map_err(|_| not_utf8(list))?;
+    let text = text.trim_start_matches('\u{feff}');
+    let table = if ending == Some("csv") { of_table(text) } else { of_objects(text) };
+    table
+        .map_err(|(line, reason)| Failure::CouldNot(format!("{}:{line}: {reason}", list.display())))
 }
 
 /// A CSV table: a column `clip`, and columns named as options.
 fn of_table(text: &str) -> Result<Vec<Named>, (usize, String)> {
-    let mut reader = csv::Reader::from_reader(text.trim_start_matches('\u{feff}').as_bytes());
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
     let fault = |error: csv::Error| {
         (error.position().map_or(1, |place| place.line() as usize), error.to_string())
     };
@@ -148,13 +177,18 @@ fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
     let walk = WalkDir::new(folder).follow_links(true).sort_by_file_name();
     let mut found = Vec::new();
     for entry in walk.into_iter().filter_entry(|entry| !is_out(entry.path())) {
-        // A link in a circle is no clip; a folder that may not be read is said.
+        // A link in a circle is no clip, and one to nowhere is one that fails; a folder that may not be read is said.
         match entry {
             Ok(entry) if entry.file_type().is_file() && is_bvh(entry.path()) => {
                 found.push((entry.into_path(), vec![]));
             }
             Ok(_) => {}
             Err(error) if error.loop_ancestor().is_some() => {}
+            Err(error) if error.path().is_some_and(Path::is_symlink) => {
+                found.extend(
+                    error.path().filter(|path| is_clip(path)).map(|path| (path.into(), vec![])),
+                );
+            }
             Err(error) => return Err(Failure::CouldNot(error.to_string())),
         }
     }
@@ -184,17 +218,20 @@ fn matched(pattern: &str, out: &Path) -> Result<Vec<Named>, Failure> {
     }
 }
 
-/// Gives each clip its name.
+/// Gives each clip its name. Two that differ in capitals alone are told apart as two of one name are, because to many disks they
+/// are one.
 fn called(named: Vec<Named>) -> Vec<Item> {
     let parts: Vec<Vec<String>> = named.iter().map(|(path, _)| folders(path)).collect();
     let common = common(&parts);
-    let mut seen: HashMap<String, usize> = HashMap::new();
+    let mut seen: HashSet<String> = HashSet::new();
+    let mut counts: HashMap<String, usize> = HashMap::new();
     let item = |((path, own), parts): (Named, Vec<String>)| {
-        let mut name = parts[common..].join("/");
-        let count = seen.entry(name.clone()).or_default();
-        *count += 1;
-        if *count > 1 {
-            name = format!("{name}~{count}");
+        let plain = parts[common..].join("/");
+        let count = counts.entry(plain.to_lowercase()).or_insert(1);
+        let mut name = plain.clone();
+        while !seen.insert(name.to_lowercase()) {
+            *count += 1;
+            name = format!("{plain}~{count}");
         }
         let size = fs::metadata(&path).map_or(0, |about| about.len());
         Item { path, name, own, size }
@@ -240,6 +277,11 @@ mod tests {
             ["walk.bvh", "walk.bvh~2", "walk.bvh~3"]
         );
         assert_eq!(names(&["a", "a/b.bvh"]), ["a", "a/b.bvh"]);
+        assert_eq!(names(&["Walk.bvh", "walk.bvh"]), ["Walk.bvh", "walk.bvh~2"]);
+        assert_eq!(
+            names(&["walk.bvh~2", "walk.bvh", "walk.bvh"]),
+            ["walk.bvh~2", "walk.bvh", "walk.bvh~3"]
+        );
     }
 
     #[test]
@@ -258,8 +300,9 @@ mod tests {
 
     #[test]
     fn a_list_has_a_clip_a_line() {
-        let lines = ["# a list", "", "a b.bvh\r", "c.bvh"].map(str::to_owned);
-        let read: Vec<_> = lined(&lines).into_iter().map(|(path, _)| path).collect();
-        assert_eq!(read, ["a b.bvh", "c.bvh"].map(PathBuf::from));
+        let lines = "\u{feff}# a list\r\n\r\na b.bvh\r\n歩き.bvh".as_bytes();
+        let read: Vec<_> = lined(lines, Path::new("list.txt")).unwrap().into_iter().collect();
+        let paths: Vec<_> = read.into_iter().map(|(path, _)| path).collect();
+        assert_eq!(paths, ["a b.bvh", "歩き.bvh"].map(PathBuf::from));
     }
 }

@@ -10,7 +10,7 @@ use super::super::failure::Failure;
 use crate::deliver::Manifest;
 
 /// The folder in which each clip has its own.
-const CLIPS: &str = "clips";
+pub(super) const CLIPS: &str = "clips";
 
 /// Files with their digests.
 type Files = BTreeMap<String, String>;

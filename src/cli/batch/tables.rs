@@ -63,7 +63,7 @@ pub(in crate::cli) fn write<'a>(
 }
 
 /// The last line of a clip, in whichever journal.
-fn line(journals: &[Journal], name: &str) -> Result<Option<Line>, Failure> {
+pub(in crate::cli) fn line(journals: &[Journal], name: &str) -> Result<Option<Line>, Failure> {
     journals.iter().find_map(|journal| journal.line(name).transpose()).transpose()
 }
 

@@ -16,6 +16,7 @@ use super::super::results::Results;
 use super::super::words::Words;
 use super::super::{corrections, files, paths, stop};
 use super::list::Item;
+use super::pack::Parcel;
 use super::row::{Line, Row};
 use crate::deliver::{Drawings, Manifest, Report, Rows};
 use crate::edits::Edits;
@@ -138,14 +139,25 @@ impl<'a> Begun<'a> {
         (&self.file, self.asked.as_ref().map_or("", |(_, digest)| digest))
     }
 
-    /// Draws it, and writes its files into a folder of its own. A clip that cannot be done is a row as well; only what cannot be
+    /// Draws it, and writes its files into a folder of its own, or into a parcel. A clip that cannot be done is a row as well; only what cannot be
     /// written stops the batch.
-    pub(in crate::cli) fn finish(self, formats: &Formats, ready: &Path) -> Result<Line, Failure> {
+    pub(in crate::cli) fn finish(
+        self,
+        formats: &Formats,
+        ready: &Path,
+        mut parcel: Option<&mut Parcel>,
+    ) -> Result<Line, Failure> {
         let Self { at, item, file, asked } = self;
         let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
         let mut warnings = Vec::new();
         let drawn = asked.and_then(|(own, digest)| {
-            let work = || drawn(&own, &digest, formats, ready, &mut warnings);
+            let put = &mut |name: &str, bytes: &[u8], of: &str| match &mut parcel {
+                Some(parcel) => parcel
+                    .add(&item.name, name, of, bytes)
+                    .map_err(|source| Error::Io { path: item.path.clone(), source }),
+                None => write(&ready.join(name), bytes),
+            };
+            let work = || drawn(&own, &digest, formats, put, &mut warnings);
             let fault = |_| {
                 Failure::CouldNot(format!(
                     "{}: genga failed on this clip, which is a fault of its own",
@@ -194,11 +206,14 @@ struct Drawn {
     ms: [f64; 3],
 }
 
+/// Who takes a file of a clip: its name, its bytes, their digest.
+type Put<'a> = dyn FnMut(&str, &[u8], &str) -> Result<(), Error> + 'a;
+
 fn drawn(
     own: &OfOne,
     digest: &str,
     formats: &Formats,
-    ready: &Path,
+    put: &mut Put<'_>,
     warnings: &mut Vec<String>,
 ) -> Result<Drawn, Failure> {
     let (begin, mute) = (Instant::now(), Words::new(true));
@@ -226,8 +241,10 @@ fn drawn(
     Results::of_cut(&name, &clip, &breakdown, (recipe, edits), |cut| {
         formats.settle(cut)?;
         formats.each(cut, &mut |name, bytes| {
-            files.insert(name.to_owned(), Manifest::digest(bytes));
-            write(&ready.join(name), bytes)
+            let digest = Manifest::digest(bytes);
+            put(name, bytes, &digest)?;
+            files.insert(name.to_owned(), digest);
+            Ok(())
         })
     })?;
     let row = Row::done(&report, motion, digest.to_owned(), std::mem::take(warnings));

@@ -1,6 +1,5 @@
 //! `genga batch`: many clips at once, what is finished kept, and tables of all.
 
-use std::collections::HashSet;
 use std::fs;
 use std::io::{Write, stdout};
 use std::path::{Path, PathBuf};
@@ -9,10 +8,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use clap::{Args, ValueEnum};
 
 use crate::cli::batch::crew::Crew;
-use crate::cli::batch::journal::{Header, Journal, is_journal};
+use crate::cli::batch::journal::{Header, Journal, check_parts, is_journal};
 use crate::cli::batch::list::{self, Item};
+use crate::cli::batch::pack::{self, ARCHIVE, Pack, Parcel};
 use crate::cli::batch::place::Places;
-use crate::cli::batch::row::Row;
+use crate::cli::batch::row::{Line, Row};
 use crate::cli::batch::shard::{Shard, largest_first};
 use crate::cli::batch::tables::{self, Count, NAMED};
 use crate::cli::batch::work::{Asked, Begun};
@@ -57,6 +57,9 @@ pub(super) struct BatchArgs {
     /// Clips that are worked on at the same time [default: one a core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
+    /// One archive, clips.zip, in place of a folder a clip. --join makes one of those of all parts.
+    #[arg(long)]
+    pack: bool,
     /// Stop at the first clip that fails.
     #[arg(long)]
     fail_fast: bool,
@@ -86,6 +89,9 @@ enum Progress {
 /// Memory for all clips that are worked on at the same time, unless --memory says otherwise.
 const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
+/// What a clip costs besides its bytes, in bytes: by this and the size the bar says how long it takes still.
+const LEAST: u64 = 1 << 14;
+
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if !args.list {
         fs::create_dir_all(&args.out).map_err(|error| cannot(&args.out, &error))?;
@@ -94,10 +100,7 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         return join(args, words);
     }
     if args.list {
-        let lines = list::items(&args.clips, &args.out)?
-            .into_iter()
-            .map(|item| format!("{}\n", item.path.display()));
-        return files::to_stdout(lines.collect::<String>().as_bytes());
+        return files::to_stdout(&list::written(&list::items(&args.clips, &args.out)?));
     }
     let formats = Formats::new("deliver", &args.deliver, &[], &args.formats)?;
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
@@ -119,6 +122,7 @@ struct Batch<'a> {
     /// The places of its clips in the list, in order.
     own: Vec<usize>,
     crew: Crew,
+    is_packed: bool,
     fails_fast: bool,
     progress: Progress,
     state: Mutex<State>,
@@ -127,6 +131,8 @@ struct Batch<'a> {
 /// What changes while it is worked on.
 struct State {
     journal: Journal,
+    /// The archive, where there is one in place of folders.
+    pack: Option<Pack>,
     done: usize,
     failed: usize,
     /// Why it cannot go on.
@@ -145,7 +151,12 @@ impl<'a> Batch<'a> {
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
         let staging = Staging::within(&args.out).map_err(|error| cannot(&args.out, &error))?;
-        let journal = Journal::open(&args.out, Header::of(list, items.len(), shard), &names)?;
+        let header = Header::of(list, items.len(), shard);
+        let journal = Journal::open(&args.out, header, &names)?;
+        let pack = args
+            .pack
+            .then(|| Pack::open(&args.out, &journal.header, args.formats.force))
+            .transpose()?;
         // From here on a signal lets what is begun be finished.
         stop::gently();
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -159,9 +170,10 @@ impl<'a> Batch<'a> {
             staging,
             own: shard.deal(&sizes),
             crew: Crew { jobs, room },
+            is_packed: args.pack,
             fails_fast: args.fail_fast,
             progress: args.progress,
-            state: Mutex::new(State { journal, done: 0, failed: 0, fault: None }),
+            state: Mutex::new(State { journal, pack, done: 0, failed: 0, fault: None }),
         })
     }
 
@@ -171,8 +183,9 @@ impl<'a> Batch<'a> {
 
     fn work(&self, words: &Words) -> Result<(), Failure> {
         let is_watched = self.progress == Progress::Bar;
-        let bar = is_watched.then(|| words.counting(self.own.len(), "clips"));
         let sizes: Vec<u64> = self.own.iter().map(|at| self.items[*at].size).collect();
+        let bytes = sizes.iter().map(|size| size + LEAST).sum();
+        let bar = is_watched.then(|| words.weighing(bytes));
         let order: Vec<usize> = largest_first(&sizes).into_iter().map(|at| self.own[at]).collect();
         let is_over = || {
             let state = self.state();
@@ -200,8 +213,11 @@ impl<'a> Batch<'a> {
         let before = {
             let state = self.state();
             let line = state.journal.line(&item.name)?;
-            let is_there =
-                line.as_ref().is_some_and(|line| self.places.has(&item.name, &line.files));
+            let has = |line: &Line| match &state.pack {
+                Some(pack) => pack.has(&item.name, &line.files),
+                None => self.places.has(&item.name, &line.files),
+            };
+            let is_there = line.as_ref().is_some_and(has);
             if is_there && state.journal.has(&item.name, file, asked) {
                 return Ok(true);
             }
@@ -209,9 +225,17 @@ impl<'a> Batch<'a> {
         };
         let (ready, old) =
             (self.staging.place(&format!("{at}")), self.staging.place(&format!("{at}-old")));
-        let mut line = begun.finish(self.formats, &ready)?;
+        let mut parcel = self.is_packed.then(Parcel::default);
+        let mut line = begun.finish(self.formats, &ready, parcel.as_mut())?;
         let mut state = self.state();
         stop::undisturbed(|| {
+            if let (Some(pack), Some(parcel)) = (&mut state.pack, parcel) {
+                let is_done = line.row.is_done();
+                if is_done {
+                    pack.add(parcel)?;
+                }
+                return state.journal.add(line).map(|()| is_done);
+            }
             match self.places.put(&item.name, (&ready, &old), &line.files, &before) {
                 Err(Failure::AskedWrongly(message)) => {
                     line.row = Row::failed(message, vec![]);
@@ -229,8 +253,13 @@ impl<'a> Batch<'a> {
         let mut state = self.state();
         state.done += 1;
         state.failed += usize::from(!is_done);
-        bar.iter().for_each(|bar| bar.count());
         let (done, failed, of) = (state.done, state.failed, self.own.len());
+        if let Some(bar) = bar {
+            bar.weigh(
+                self.items[at].size + LEAST,
+                format!("{done} of {of} clips, {failed} failed"),
+            );
+        }
         let line = match self.progress {
             Progress::Bar | Progress::None => return Ok(()),
             Progress::Json => {
@@ -265,13 +294,18 @@ impl<'a> Batch<'a> {
                 "stopped with {finished} of {of} clips finished; the same command goes on from there"
             )));
         }
+        if let Some(pack) = state.pack {
+            let packs = [pack];
+            pack::all(packs[0].path(), &packs, &journals, names())?;
+            packs.into_iter().for_each(Pack::clear);
+        }
         end(&count, of, args, words)
     }
 }
 
 /// Makes the tables of all parts.
 fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let mut journals = Vec::new();
+    let (mut journals, mut packs) = (Vec::new(), Vec::new());
     for folder in &args.join {
         let entries = fs::read_dir(folder).map_err(|error| cannot(folder, &error))?;
         let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -280,7 +314,9 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         });
         files.sort();
         for file in files {
-            journals.push(Journal::read(&file)?);
+            let journal = Journal::read(&file)?;
+            packs.push(Pack::read(folder, &journal.header)?);
+            journals.push(journal);
         }
     }
     check_parts(&journals)?;
@@ -290,30 +326,12 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         .for_each(|journal| clips.extend(journal.places().map(|(at, name)| (at, name.to_owned()))));
     clips.sort();
     let of = journals.first().map_or(0, |journal| journal.header.clips);
-    let count = tables::write(&args.out, &journals, clips.iter().map(|(_, name)| name.as_str()))?;
+    let names = || clips.iter().map(|(_, name)| name.as_str());
+    let count = tables::write(&args.out, &journals, names())?;
+    if packs.iter().any(Pack::is_there) {
+        pack::all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
+    }
     end(&count, of, args, words)
-}
-
-/// Refuses parts that are not all of one list.
-fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
-    let wrongly = |message: String| Err(Failure::AskedWrongly(format!("--join: {message}")));
-    let Some(first) = journals.first() else {
-        return wrongly("there is no batch in these folders; name those that --out named".into());
-    };
-    let (list, parts) = (&first.header.list, first.header.parts);
-    if journals.iter().any(|journal| &journal.header.list != list || journal.header.parts != parts)
-    {
-        return wrongly(
-            "these folders are of different lists, or of lists that were dealt differently".into(),
-        );
-    }
-    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
-    match (1..=parts).find(|part| !there.contains(part)) {
-        Some(part) => wrongly(format!(
-            "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
-        )),
-        None => Ok(()),
-    }
 }
 
 /// Says how it ended.

@@ -1,0 +1,151 @@
+//! What happens to a large library: odd lists and names, a full disk, clips that come and go, two batches in one folder.
+
+use std::fs;
+
+use crate::batch::{code, library, results};
+use crate::clips::here;
+use crate::program::{Place, text};
+
+fn kick() -> Vec<u8> {
+    fs::read(here("data/kick.bvh")).unwrap()
+}
+
+#[test]
+fn a_list_of_another_system_is_read() {
+    let place = Place::new();
+    fs::create_dir(place.path("lib")).unwrap();
+    for name in ["a b.bvh", "歩き.bvh"] {
+        fs::write(place.path("lib").join(name), kick()).unwrap();
+    }
+    let list = "\u{feff}lib/a b.bvh\r\n\r\nlib/歩き.bvh\r\n";
+    fs::write(place.path("list.txt"), list).unwrap();
+    place.done("batch @list.txt --out listed");
+    assert_eq!(place.fed("batch - --out fed", list.as_bytes()).status.code(), Some(0));
+    let table = "\u{feff}{\"clip\": \"lib/a b.bvh\"}\r\n{\"clip\": \"lib/歩き.bvh\"}\r\n";
+    fs::write(place.path("list.jsonl"), table).unwrap();
+    place.done("batch @list.jsonl --out table");
+    place.done("batch lib --out walked");
+    for folder in ["listed", "fed", "table"] {
+        assert_eq!(results(&place, folder), results(&place, "walked"), "{folder}");
+    }
+    fs::write(place.path("none.txt"), "\u{feff}# nothing\r\n\r\n").unwrap();
+    let said = place.refused(2, "batch @none.txt --out o");
+    assert!(said.contains("there is no clip in @none.txt"), "{said}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_that_is_no_text_is_listed_and_found_again() {
+    use std::os::unix::ffi::OsStrExt;
+    let place = Place::new();
+    fs::create_dir(place.path("lib")).unwrap();
+    for name in [&b"walk\xff.bvh"[..], b"walk\xfe.bvh", b"run.bvh"] {
+        fs::write(place.path("lib").join(std::ffi::OsStr::from_bytes(name)), kick()).unwrap();
+    }
+    let listed = place.genga("batch lib --out out --list").stdout;
+    assert_eq!(listed, b"lib/run.bvh\nlib/walk\xfe.bvh\nlib/walk\xff.bvh\n");
+    fs::write(place.path("list.txt"), listed).unwrap();
+    place.done("batch @list.txt --out out");
+    let files = results(&place, "out");
+    for name in ["walk\u{fffd}.bvh", "walk\u{fffd}.bvh~2", "run.bvh"] {
+        assert!(files.contains_key(&format!("clips/{name}/sheet.json")), "{name}");
+    }
+}
+
+#[test]
+fn names_that_differ_in_capitals_alone_have_folders_of_their_own() {
+    let place = Place::new();
+    for folder in ["a", "b"] {
+        fs::create_dir(place.path(folder)).unwrap();
+    }
+    fs::write(place.path("a/Walk.bvh"), kick()).unwrap();
+    fs::write(place.path("b/walk.bvh"), kick()).unwrap();
+    fs::create_dir(place.path("lib")).unwrap();
+    fs::write(place.path("list.txt"), "lib/Walk.bvh\nlib/walk.bvh\n").unwrap();
+    fs::copy(place.path("a/Walk.bvh"), place.path("lib/Walk.bvh")).unwrap();
+    fs::copy(place.path("b/walk.bvh"), place.path("lib/walk.bvh")).unwrap();
+    place.done("batch @list.txt --out out");
+    let files = results(&place, "out");
+    assert!(files.contains_key("clips/Walk.bvh/sheet.json"));
+    assert!(files.contains_key("clips/walk.bvh~2/sheet.json"), "{:?}", files.keys());
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_a_circle_end() {
+    let place = Place::new();
+    fs::create_dir_all(place.path("lib/a/b")).unwrap();
+    fs::write(place.path("lib/a/kick.bvh"), kick()).unwrap();
+    std::os::unix::fs::symlink("../..", place.path("lib/a/b/up")).unwrap();
+    std::os::unix::fs::symlink("self", place.path("lib/self")).unwrap();
+    std::os::unix::fs::symlink("gone.bvh", place.path("lib/dangling.bvh")).unwrap();
+    let listed = text(&place.genga("batch lib --out out --list").stdout);
+    assert_eq!(listed, "lib/a/kick.bvh\nlib/dangling.bvh\n");
+    let (exit, said) = code(&place, "batch lib --out out");
+    assert!(exit == 1 && said.contains("1 of 2 failed: lib/dangling.bvh: "), "{said}");
+}
+
+#[test]
+fn two_batches_do_not_write_into_one_folder_at_once() {
+    let place = Place::new();
+    library(&place);
+    code(&place, "batch lib/a --out out");
+    let before = results(&place, "out");
+    let other = fs::OpenOptions::new().append(true).open(place.path("out/batch.jsonl")).unwrap();
+    other.lock().unwrap();
+    let said = place.refused(1, "batch lib/a --out out --set spacing.on=3");
+    assert!(said.contains("batch.jsonl: another batch is at work on this"), "{said}");
+    drop(other);
+    assert_eq!(results(&place, "out"), before);
+    place.done("batch lib/a --out out --set spacing.on=3");
+}
+
+#[test]
+fn a_clip_that_is_lost_is_a_row_and_comes_back() {
+    let place = Place::new();
+    library(&place);
+    let (kick, tennis) = (place.path("lib/a/kick.bvh"), place.path("lib/a/tennis.bvh"));
+    let list = place.genga("batch lib/a --out out --list").stdout;
+    fs::write(place.path("list.txt"), list).unwrap();
+    code(&place, "batch @list.txt --out whole");
+    // One is gone between the list and its turn, one is another motion, and then both are back.
+    let (moved, good) = (place.path("moved.bvh"), fs::read(&tennis).unwrap());
+    fs::rename(&kick, &moved).unwrap();
+    fs::copy(&moved, &tennis).unwrap();
+    let (exit, said) = code(&place, "batch @list.txt --out out");
+    assert!(exit == 1 && said.contains("1 of 4 failed: lib/a/kick.bvh: "), "{said}");
+    assert!(text(&results(&place, "out")["summary.csv"]).contains("kick.bvh,failed,"));
+    fs::rename(&moved, &kick).unwrap();
+    fs::write(&tennis, good).unwrap();
+    let (exit, said) = code(&place, "batch @list.txt --out out");
+    assert_eq!(exit, 0, "{said}");
+    assert_eq!(results(&place, "out"), results(&place, "whole"));
+}
+
+/// A limit for the size of a file is a disk that is full for the largest: the journal, or what is packed.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {
+    let place = Place::new();
+    library(&place);
+    for more in ["", " --deliver json,xdts,bars", " --pack"] {
+        code(&place, &format!("batch lib --out whole{more}"));
+        for blocks in [0, 1, 8, 16, 32] {
+            let command = format!(
+                "trap '' XFSZ; ulimit -f {blocks}; exec '{}' batch lib --out full{more} --jobs 2",
+                env!("CARGO_BIN_EXE_genga")
+            );
+            let output = std::process::Command::new("sh")
+                .args(["-c", &command])
+                .current_dir(place.path("."))
+                .output()
+                .unwrap();
+            let said = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(1), "{blocks}: {said}");
+            assert!(said.contains("File too large"), "{blocks}: {said}");
+            assert!(!said.contains("genga failed on this clip"), "{said}");
+        }
+        code(&place, &format!("batch lib --out full{more}"));
+        assert_eq!(results(&place, "full"), results(&place, "whole"));
+    }
+}
