@@ -67,7 +67,7 @@ impl Remap {
             let koma = if is_last { exposure.koma - 1 } else { exposure.koma };
             if koma > 0 {
                 let seconds = koma as f64 / rate;
-                let _ = write!(list, "{file}duration {seconds:.6}\n");
+                let _ = writeln!(list, "{file}duration {seconds:.6}");
             }
             // The last koma: of the last file ffmpeg overlooks the duration.
             if is_last {

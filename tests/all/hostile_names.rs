@@ -35,6 +35,8 @@ fn tables_hold_no_formula_and_names_of_files_nothing_hidden() {
     let out = place.genga(&format!("run {clip} --deliver all --out a"));
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
     place.genga(&format!("keys {clip} --per-joint --out a/joints.csv"));
+    place.genga(&format!("batch {clip} --out a/library --deliver csv"));
+    assert!(place.path("a/library/summary.csv").is_file());
     let files = files(&place.path("a"));
     assert!(files.iter().all(|file| !file.to_str().unwrap().contains(is_hidden)));
     let (mut tables, mut named) = (0, 0);

@@ -766,7 +766,10 @@ fn a_sheet_edited_by_hand_is_delivered_as_it_is() {
     let rows = |table: &str| column(&read(&place.path(table)), "koma").len();
     let before = rows("a/sheet.csv");
     let said = text(&place.genga("deliver a/sheet.json data/kick.bvh --to csv,remap").stderr);
-    assert!(said.contains("files       a: keys.csv drawings.csv sheet.csv remap.csv remap.ffconcat\n"), "{said}");
+    assert!(
+        said.contains("files       a: keys.csv drawings.csv sheet.csv remap.csv remap.ffconcat\n"),
+        "{said}"
+    );
     assert_eq!((rows("a/sheet.csv"), rows("a/remap.csv")), (before + 3, before + 3));
     let sheet = fs::read(place.path("a/sheet.json")).unwrap();
     let output = place.fed("deliver - data/kick.bvh --to json", &sheet);

@@ -10,6 +10,7 @@ use walkdir::WalkDir;
 use super::super::failure::Failure;
 use super::super::files;
 use super::super::paths::is_bvh;
+use crate::plain::is_hidden;
 
 /// A clip of a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -186,7 +187,7 @@ fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
             Err(error) if error.loop_ancestor().is_some() => {}
             Err(error) if error.path().is_some_and(Path::is_symlink) => {
                 found.extend(
-                    error.path().filter(|path| is_clip(path)).map(|path| (path.into(), vec![])),
+                    error.path().filter(|path| is_bvh(path)).map(|path| (path.into(), vec![])),
                 );
             }
             Err(error) => return Err(Failure::CouldNot(error.to_string())),
@@ -226,7 +227,8 @@ fn called(named: Vec<Named>) -> Vec<Item> {
     let mut seen: HashSet<String> = HashSet::new();
     let mut counts: HashMap<String, usize> = HashMap::new();
     let item = |((path, own), parts): (Named, Vec<String>)| {
-        let plain = parts[common..].join("/");
+        // Its folder is called so, too.
+        let plain = parts[common..].join("/").replace(is_hidden, "_");
         let count = counts.entry(plain.to_lowercase()).or_insert(1);
         let mut name = plain.clone();
         while !seen.insert(name.to_lowercase()) {

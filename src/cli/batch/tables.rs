@@ -9,6 +9,7 @@ use super::super::staging::Staging;
 use super::super::stop;
 use super::journal::Journal;
 use super::row::{Line, Row};
+use crate::plain::cell;
 
 /// The files, in the order in which they take their places.
 const FILES: [&str; 3] = ["keys.csv", "times.csv", "summary.csv"];
@@ -46,10 +47,14 @@ pub(in crate::cli) fn write<'a>(
     for name in names {
         let Some(line) = line(journals, name)? else { continue };
         count.add(&line);
-        summary.write_field(&line.clip).map_err(csv)?;
-        summary.write_record(line.row.cells()).map_err(csv)?;
+        let clip = cell(&line.clip);
+        summary.write_field(&*clip).map_err(csv)?;
+        for text in line.row.cells() {
+            summary.write_field(&*cell(text.as_ref())).map_err(csv)?;
+        }
+        summary.write_record(None::<&[u8]>).map_err(csv)?;
         let ms = line.ms.map(|ms| format!("{ms:.1}"));
-        times.write_record([&line.clip, &ms[0], &ms[1], &ms[2]]).map_err(csv)?;
+        times.write_record([&*clip, &ms[0], &ms[1], &ms[2]]).map_err(csv)?;
         copy_keys(&line, &mut keys, &mut has_header).map_err(csv)?;
     }
     for table in [&mut keys, &mut times, &mut summary] {
@@ -79,7 +84,7 @@ fn copy_keys(
         match at {
             0 if *has_header => continue,
             0 => keys.write_field("clip")?,
-            _ => keys.write_field(&line.clip)?,
+            _ => keys.write_field(&*cell(&line.clip))?,
         }
         *has_header = true;
         keys.write_record(&record)?;
