@@ -122,13 +122,13 @@ fn a_clip_that_is_lost_is_a_row_and_comes_back() {
     assert_eq!(results(&place, "out"), results(&place, "whole"));
 }
 
-/// A limit for the size of a file is a disk that is full for the largest: the journal, or what is packed.
+/// A limit for the size of a file is a disk that is full for the largest: the journal, what is packed, or a model.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {
     let place = Place::new();
     library(&place);
-    for more in ["", " --deliver json,xdts,bars", " --pack"] {
+    for more in ["", " --deliver json,xdts,bars", " --deliver glb", " --pack"] {
         code(&place, &format!("batch lib --out whole{more}"));
         for blocks in [0, 1, 8, 16, 32] {
             let command = format!(
@@ -144,6 +144,7 @@ fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {
             assert_eq!(output.status.code(), Some(1), "{blocks}: {said}");
             assert!(said.contains("File too large"), "{blocks}: {said}");
             assert!(!said.contains("genga failed on this clip"), "{said}");
+            assert!(!said.contains(" failed: "), "it is no fault of a clip: {said}");
         }
         code(&place, &format!("batch lib --out full{more}"));
         assert_eq!(results(&place, "full"), results(&place, "whole"));
