@@ -26,6 +26,7 @@ mod pixels;
 mod points;
 mod pose_row;
 mod preview;
+mod px;
 mod shared;
 mod sheet;
 mod spacing;

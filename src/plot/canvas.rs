@@ -9,6 +9,7 @@ use plotters::style::RGBColor;
 
 use crate::motion::BodySide;
 use crate::plot::figure::Drawn;
+use crate::plot::px::Point;
 use crate::plot::style;
 
 /// Where the text stands against its point.
@@ -67,9 +68,6 @@ impl Inks {
         }
     }
 }
-
-/// A point in px, from the upper left corner.
-pub(super) type Point = (f64, f64);
 
 /// A picture as it grows. Lengths are px, written to a tenth.
 pub(super) struct Canvas {

@@ -14,8 +14,9 @@ use plotters::series::LineSeries;
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};
 
 use crate::error::Error;
-use crate::plot::canvas::{Canvas, Point};
+use crate::plot::canvas::Canvas;
 use crate::plot::chart::backend::{Tenths, units};
+use crate::plot::px::Point;
 use crate::plot::style;
 
 pub(super) use axis::{Axis, number, range_with_zero};

@@ -7,13 +7,14 @@ use crate::error::Error;
 use crate::knob::{Knobs, knob, knobs};
 use crate::motion::Camera;
 use crate::motion::Clip;
-use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::chart::number;
 use crate::plot::drawings::{
     ShownDrawing, composed, drawn_poses, seconds_and_koma, shown_drawings,
 };
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
+use crate::plot::px::Point;
 use crate::plot::shared;
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::style;

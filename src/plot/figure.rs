@@ -5,7 +5,7 @@ use plotters::style::RGBColor;
 
 use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Joint, Skeleton};
-use crate::plot::canvas::Point;
+use crate::plot::px::Point;
 use crate::plot::style;
 
 impl BodySide {

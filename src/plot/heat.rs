@@ -4,8 +4,9 @@ use plotters::style::RGBColor;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::chart::{self, Plot, bar, number};
+use crate::plot::px::Point;
 use crate::plot::study_chart::{check_per_second, headline, name, named, shown, unit};
 use crate::plot::{style, title};
 use crate::study::{Axis, Grid, Measure, Plateau};

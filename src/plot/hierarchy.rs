@@ -6,9 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::Camera;
 use crate::motion::{Body, BodySide, Clip, Skeleton};
-use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::figure::Figure;
 use crate::plot::page::{self, Head};
+use crate::plot::px::Point;
 use crate::plot::stage::{Bounds, Stage, fitting};
 use crate::plot::style;
 

@@ -1,6 +1,7 @@
 //! What the signs of a picture mean, on the right of its title.
 
-use crate::plot::canvas::{Canvas, Point, Type};
+use crate::plot::canvas::{Canvas, Type};
+use crate::plot::px::Point;
 use crate::plot::style;
 
 /// A word, and how the sign that it explains is drawn about a point.

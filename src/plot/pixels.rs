@@ -8,9 +8,10 @@ use resvg::tiny_skia::{
 
 use crate::error::Error;
 use crate::motion::BodySide;
-use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::convert::pixels_from_svg;
 use crate::plot::figure::Drawn;
+use crate::plot::px::Point;
 use crate::plot::style;
 
 /// Pixels to draw on.

@@ -5,12 +5,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::{Camera, Clip};
-use crate::plot::canvas::{Align, Canvas, Inks, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::chart::number;
 use crate::plot::drawings::{ShownDrawing, composed, shown_drawings};
 use crate::plot::figure::Figure;
 use crate::plot::legend::{self, SIDES};
 use crate::plot::points::{Posing, Showing};
+use crate::plot::px::Point;
 use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::{style, title};
 use crate::sheet::{Role, Sheet, Source};

@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::SeenFrom;
-use crate::plot::canvas::{Canvas, Point, Type};
+use crate::plot::canvas::{Canvas, Type};
 use crate::plot::legend::{self, Entry, SPLIT};
+use crate::plot::px::Point;
 use crate::plot::sheet::fate::row_before;
 use crate::plot::sheet::paper::{Band, LEFT, Paper, badges};
 use crate::plot::{style, title};

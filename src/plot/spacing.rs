@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::{Clip, JointId};
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::chart::{Axis, Plot, curve, range_with_zero};
 use crate::plot::drawings::{shown, shown_drawings};
 use crate::plot::legend::{self, Entry};
+use crate::plot::px::Point;
 use crate::plot::style;
 use crate::sheet::Sheet;
 use crate::signal::Signals;

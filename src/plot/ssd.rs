@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::{Clip, Screen, SeenFrom};
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::chart::{Axis, Plot, bar, number};
 use crate::plot::drawings::shown;
 use crate::plot::legend::{self, Entry};
+use crate::plot::px::Point;
 use crate::plot::sheet::fate::{Fate, fates};
 use crate::plot::style;
 use crate::sheet::{Drawing, Exposure, Layer, Sheet};

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::motion::seen::view::View;
-use crate::plot::canvas::Point;
 use crate::plot::figure::{Drawn, Figure};
+use crate::plot::px::Point;
 
 /// The box round everything that is shown, seen from one side, in units of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]

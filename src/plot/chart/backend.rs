@@ -9,7 +9,8 @@ use plotters_backend::{
     FontStyle,
 };
 
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
+use crate::plot::px::Point;
 
 /// The library counts in whole units. One is a tenth of a px, which is what the canvas writes: so nothing
 /// becomes coarser than it would be anyhow.

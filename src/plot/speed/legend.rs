@@ -2,8 +2,9 @@
 
 use plotters::style::RGBColor;
 
-use crate::plot::canvas::{Canvas, Point};
+use crate::plot::canvas::Canvas;
 use crate::plot::legend::{Entry, SPLIT};
+use crate::plot::px::Point;
 use crate::plot::speed::SpeedCurves;
 use crate::plot::speed::curve::KEPT;
 use crate::plot::style;

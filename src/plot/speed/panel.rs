@@ -4,8 +4,9 @@ use plotters::style::RGBColor;
 
 use crate::error::Error;
 use crate::motion::JointId;
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::chart::{Axis, Plot, curve, number, range_with_zero};
+use crate::plot::px::Point;
 use crate::plot::speed::curve::{self, KEPT};
 use crate::plot::speed::{LEFT, SpeedCurves};
 use crate::plot::style;

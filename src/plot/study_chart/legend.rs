@@ -1,7 +1,8 @@
 //! Which line is which, beside a chart of a study, and what lies behind the lines.
 
-use crate::plot::canvas::{Canvas, Point, Type};
+use crate::plot::canvas::{Canvas, Type};
 use crate::plot::chart::Plot;
+use crate::plot::px::Point;
 use crate::plot::study_chart::lines::{LOOKS, Line, Look};
 use crate::plot::study_chart::{FEW_CLIPS, with_unit};
 use crate::plot::style;

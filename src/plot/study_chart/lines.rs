@@ -2,7 +2,8 @@
 
 use plotters::style::RGBColor;
 
-use crate::plot::canvas::{Canvas, Point};
+use crate::plot::canvas::Canvas;
+use crate::plot::px::Point;
 use crate::plot::study_chart::name;
 use crate::plot::style;
 use crate::study::Axis;

@@ -1,6 +1,7 @@
 //! What is written into the columns: key numbers and marks in ACTION, every drawing in CELL.
 
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
+use crate::plot::px::Point;
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
 use crate::plot::xsheet::half::{Half, Place, ROW};

@@ -1,8 +1,9 @@
 //! What stands above and below the koma: whose sheet it is, how long, how many drawings, and what the
 //! marks mean.
 
-use crate::plot::canvas::{Align, Canvas, Point, Type};
+use crate::plot::canvas::{Align, Canvas, Type};
 use crate::plot::drawings::seconds_and_koma;
+use crate::plot::px::Point;
 use crate::plot::style;
 use crate::plot::xsheet::InbetweenMark;
 use crate::plot::xsheet::grid::{FRAME, WIDTH, bottom};
