@@ -334,6 +334,23 @@ impl Layer {
         })
     }
 
+    /// The koma on which another drawing comes, from 0, with its index into [`Layer::drawings`]. One that goes on over two
+    /// exposures is no change.
+    ///
+    /// ```
+    /// use genga::sheet::{Exposure, Layer};
+    ///
+    /// let exposures = [(0, 3), (0, 1), (1, 2), (0, 1)];
+    /// let exposures = exposures.map(|(drawing, koma)| Exposure { drawing, koma }).to_vec();
+    /// let layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures };
+    /// assert!(layer.changes().eq([(0, 0), (4, 1), (6, 0)]));
+    /// ```
+    pub fn changes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let mut before = None;
+        let drawings = self.timed().map(|(koma, shown)| (koma, shown.drawing));
+        drawings.filter(move |(_, drawing)| before.replace(*drawing) != Some(*drawing))
+    }
+
     /// The drawing on each koma, as an index into [`Layer::drawings`].
     pub fn koma(&self) -> impl Iterator<Item = usize> + '_ {
         self.exposures

@@ -28,6 +28,11 @@ impl Failure {
         }
     }
 
+    /// What could not be done with a file or a folder, which the message names.
+    pub(super) fn at(path: &Path, reason: impl fmt::Display) -> Self {
+        Self::CouldNot(format!("{}: {reason}", path.display()))
+    }
+
     /// An error that concerns a file, which its message then names.
     pub(super) fn of_file(path: &Path, error: Error) -> Self {
         let name = path.display();

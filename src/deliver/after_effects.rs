@@ -30,11 +30,8 @@ pub fn time_remap(layer: &Layer) -> String {
          \tSource Height\t1080\n\tSource Pixel Aspect Ratio\t1\n\tComp Pixel Aspect Ratio\t1\n\n\
          Layer\nTime Remap\n\tFrame\tseconds\n"
     );
-    let mut before = None;
-    for (koma, shown) in layer.timed() {
-        if before.replace(shown.drawing) != Some(shown.drawing) {
-            let _ = writeln!(text, "\t{koma}\t{}", shown.drawing as f64 / KOMA_RATE);
-        }
+    for (koma, drawing) in layer.changes() {
+        let _ = writeln!(text, "\t{koma}\t{}", drawing as f64 / KOMA_RATE);
     }
     text.push_str("\nEnd of Keyframe Data\n");
     text

@@ -47,11 +47,8 @@ pub fn columns_csv(sheet: &Sheet) -> Result<String, Error> {
 /// What changes on a layer, koma by koma.
 fn column(layer: &Layer, length: usize, label: impl Fn(usize) -> String) -> Vec<String> {
     let mut cells = vec![String::new(); length];
-    let mut before = None;
-    for (koma, shown) in layer.timed() {
-        if before.replace(shown.drawing) != Some(shown.drawing) {
-            cells[koma] = label(shown.drawing);
-        }
+    for (koma, drawing) in layer.changes() {
+        cells[koma] = label(drawing);
     }
     if layer.length() < length {
         cells[layer.length()] = BLANK.into();

@@ -48,7 +48,7 @@ impl Remap {
     /// [`Error::Setting`] where a name has no place for the number, or more than one.
     pub fn validate(&self) -> Result<(), Error> {
         self.check()?;
-        self.picture(0).map(drop)
+        self.naming().map(drop)
     }
 
     /// A layer as a list for ffmpeg's *concat* reader: which picture of the source is shown, and for how long. Each
@@ -57,10 +57,10 @@ impl Remap {
     /// # Errors
     /// Those of [`Remap::validate`].
     pub fn ffconcat(&self, sheet: &Sheet, layer: &Layer) -> Result<String, Error> {
-        let rate = sheet.clock.koma_rate;
+        let (rate, naming) = (sheet.clock.koma_rate, self.naming()?);
         let mut list = String::from("ffconcat version 1.0\n");
         for (at, exposure) in layer.exposures.iter().enumerate() {
-            let picture = quoted(&self.picture(nearest(layer, exposure.drawing))?);
+            let picture = quoted(&naming.of(nearest(layer, exposure.drawing) + self.first));
             // Pictures are of 25 a second to ffmpeg unless told otherwise.
             let file = format!("file {picture}\noption framerate {rate}\n");
             let is_last = at + 1 == layer.exposures.len();
@@ -77,19 +77,18 @@ impl Remap {
         Ok(list)
     }
 
-    /// The name of the picture of a frame of the source.
-    fn picture(&self, frame: usize) -> Result<String, Error> {
+    /// How a picture is named.
+    fn naming(&self) -> Result<Naming<'_>, Error> {
         let parted = self.pictures.split_once('%').and_then(|(before, rest)| {
             let (digits, after) = rest.split_once('d')?;
             let width: usize = if digits.is_empty() { 0 } else { digits.parse().ok()? };
-            (width <= 20 && !after.contains('%')).then_some((before, width, after))
+            (width <= 20 && !after.contains('%')).then_some(Naming { before, width, after })
         });
-        let (before, width, after) = parted.ok_or_else(|| {
+        parted.ok_or_else(|| {
             let message =
                 format!("expected a name with one %d or %04d in it, found \"{}\"", self.pictures);
             Error::setting("remap.pictures", message)
-        })?;
-        Ok(format!("{before}{:0width$}{after}", frame + self.first))
+        })
     }
 
     /// The files of a sheet: the table, and a list a layer.
@@ -104,6 +103,20 @@ impl Remap {
             put(&name, list.as_bytes())?;
         }
         Ok(())
+    }
+}
+
+/// A name with a place for a number.
+struct Naming<'a> {
+    before: &'a str,
+    width: usize,
+    after: &'a str,
+}
+
+impl Naming<'_> {
+    fn of(&self, number: usize) -> String {
+        let Self { before, width, after } = self;
+        format!("{before}{number:0width$}{after}")
     }
 }
 

@@ -127,14 +127,9 @@ fn what_a_person_changed_is_kept_and_is_a_row() {
     assert_ne!(fs::read_to_string(&sheet).unwrap(), "mine");
 }
 
+/// Begins a batch twenty times and kills it; after each fifth time it has lost something besides.
 #[cfg(unix)]
-#[test]
-fn killed_at_any_time_and_begun_again_it_ends_as_if_undisturbed() {
-    let place = Place::new();
-    library(&place);
-    code(&place, "batch lib --out whole --deliver json,bars");
-    let whole = results(&place, "whole");
-    let args = "batch lib --out killed --deliver json,bars";
+pub(crate) fn killed_again_and_again(place: &Place, args: &str, lose: impl Fn()) {
     for at in 0..20_u64 {
         let mut child = place.begun(args);
         std::thread::sleep(std::time::Duration::from_millis((at * 37) % 190));
@@ -145,9 +140,22 @@ fn killed_at_any_time_and_begun_again_it_ends_as_if_undisturbed() {
             .unwrap();
         child.wait().unwrap();
         if at % 5 == 4 {
-            fs::remove_dir_all(place.path("killed/clips")).ok();
+            lose();
         }
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_at_any_time_and_begun_again_it_ends_as_if_undisturbed() {
+    let place = Place::new();
+    library(&place);
+    code(&place, "batch lib --out whole --deliver json,bars");
+    let whole = results(&place, "whole");
+    let args = "batch lib --out killed --deliver json,bars";
+    killed_again_and_again(&place, args, || {
+        fs::remove_dir_all(place.path("killed/clips")).ok();
+    });
     code(&place, args);
     assert_eq!(results(&place, "killed"), whole);
 }

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+#[cfg(unix)]
+use crate::batch::killed_again_and_again;
 use crate::batch::{code, library, results};
 use crate::folders::all;
 use crate::program::{Place, text};
@@ -74,24 +76,14 @@ fn killed_at_any_time_and_begun_again_it_is_the_same_archive() {
     library(&place);
     code(&place, "batch lib --out whole --deliver json,bars --pack");
     let args = "batch lib --out killed --deliver json,bars --pack";
-    for at in 0..20_u64 {
-        let mut child = place.begun(args);
-        std::thread::sleep(std::time::Duration::from_millis((at * 37) % 190));
-        let signal = ["KILL", "INT", "KILL", "TERM"][at as usize % 4];
-        std::process::Command::new("kill")
-            .args(["-s", signal, &child.id().to_string()])
-            .status()
-            .unwrap();
-        child.wait().unwrap();
-        if at % 5 == 4 {
-            fs::remove_file(place.path("killed/clips.zip")).ok();
-            // Half an entry, as a crash leaves it.
-            let spool = place.path("killed/clips.spool");
-            if let Ok(bytes) = fs::read(&spool) {
-                fs::write(&spool, &bytes[..bytes.len() * 2 / 3]).unwrap();
-            }
+    killed_again_and_again(&place, args, || {
+        fs::remove_file(place.path("killed/clips.zip")).ok();
+        // Half an entry, as a crash leaves it.
+        let spool = place.path("killed/clips.spool");
+        if let Ok(bytes) = fs::read(&spool) {
+            fs::write(&spool, &bytes[..bytes.len() * 2 / 3]).unwrap();
         }
-    }
+    });
     code(&place, args);
     assert_eq!(results(&place, "killed"), results(&place, "whole"));
 }

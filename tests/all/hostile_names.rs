@@ -1,17 +1,18 @@
 //! Names of joints, cuts and files that a spreadsheet would run or a terminal would obey.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use crate::program::Place;
+use crate::clips::here;
+use crate::folders::all;
+use crate::program::{Place, text};
 
 const RUN: &str = "=cmd|'/C-calc'!A0";
 const TURNED: &str = "+\u{202e}gnorts\u{1b}[2J";
 
 /// The kick with two joints of such names, in a file of such a name.
 fn clip(place: &Place) -> String {
-    let kick = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh"));
-    let text = kick.unwrap().replace("JOINT LeftArm\n", &format!("JOINT {RUN}\n"));
+    let kick = fs::read_to_string(here("data/kick.bvh")).unwrap();
+    let text = kick.replace("JOINT LeftArm\n", &format!("JOINT {RUN}\n"));
     let text = text.replace("JOINT RightArm\n", &format!("JOINT {TURNED}\n"));
     assert!(text.contains(RUN) && text.contains(TURNED));
     let name = "=1+1\u{202e}.bvh";
@@ -23,11 +24,6 @@ fn is_hidden(letter: char) -> bool {
     letter != '\n' && (letter.is_control() || ('\u{202a}'..='\u{202e}').contains(&letter))
 }
 
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
-}
-
 #[test]
 fn tables_hold_no_formula_and_names_of_files_nothing_hidden() {
     let place = Place::new();
@@ -37,12 +33,12 @@ fn tables_hold_no_formula_and_names_of_files_nothing_hidden() {
     place.genga(&format!("keys {clip} --per-joint --out a/joints.csv"));
     place.genga(&format!("batch {clip} --out a/library --deliver csv"));
     assert!(place.path("a/library/summary.csv").is_file());
-    let files = files(&place.path("a"));
-    assert!(files.iter().all(|file| !file.to_str().unwrap().contains(is_hidden)));
+    let files = all(&place.path("a"));
+    assert!(files.keys().all(|file| !file.contains(is_hidden)));
     let (mut tables, mut named) = (0, 0);
-    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "csv")) {
-        let text = fs::read_to_string(file).unwrap();
-        assert!(!text.contains(is_hidden), "{}", file.display());
+    for (file, bytes) in files.iter().filter(|(file, _)| file.ends_with(".csv")) {
+        let text = text(bytes);
+        assert!(!text.contains(is_hidden), "{file}");
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -51,7 +47,7 @@ fn tables_hold_no_formula_and_names_of_files_nothing_hidden() {
             for cell in record.unwrap().iter() {
                 let is_safe =
                     !cell.starts_with(['=', '+', '-', '@']) || cell.parse::<f64>().is_ok();
-                assert!(is_safe, "{}: {cell}", file.display());
+                assert!(is_safe, "{file}: {cell}");
                 named += usize::from(cell.contains("calc") || cell.contains("\\u{202e}gnorts"));
             }
         }

@@ -113,42 +113,36 @@ impl Journal {
 
     /// Reads the journal that this program alone writes on. A last line that was not written whole is cut off.
     fn held(path: &Path) -> Result<Self, Failure> {
-        let failed = |reason: &dyn std::fmt::Display| {
-            Failure::CouldNot(format!("{}: {reason}", path.display()))
-        };
         let file = OpenOptions::new().read(true).append(true).open(path);
-        let file = file.map_err(|error| failed(&error))?;
+        let file = file.map_err(|error| Failure::at(path, error))?;
         // Where a disk knows no locks nobody can be told.
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-            return Err(failed(
-                &"another batch is at work on this; wait for it, or name another folder with --out",
+            return Err(Failure::at(
+                path,
+                "another batch is at work on this; wait for it, or name another folder with --out",
             ));
         }
         let journal = Self::of(path, file)?;
-        journal.file.set_len(journal.end).map_err(|error| failed(&error))?;
+        journal.file.set_len(journal.end).map_err(|error| Failure::at(path, error))?;
         Ok(journal)
     }
 
     /// Reads a journal. A last line that was not written whole is not read.
     pub(in crate::cli) fn read(path: &Path) -> Result<Self, Failure> {
-        let file = File::open(path);
-        let file =
-            file.map_err(|error| Failure::CouldNot(format!("{}: {error}", path.display())))?;
+        let file = File::open(path).map_err(|error| Failure::at(path, error))?;
         Self::of(path, file)
     }
 
     fn of(path: &Path, file: File) -> Result<Self, Failure> {
-        let failed = |error: &dyn std::fmt::Display| {
-            Failure::CouldNot(format!("{}: {error}", path.display()))
-        };
-        let io = |error: io::Error| failed(&error);
+        let io = |error: io::Error| Failure::at(path, error);
         let mut lines = BufReader::new(&file);
         let mut text = String::new();
         let mut end = lines.read_line(&mut text).map_err(io)? as u64;
         let is_ours = |header: &Header| header.schema == SCHEMA;
         let header = serde_json::from_str(&text).ok().filter(is_ours);
-        let header: Header =
-            header.ok_or_else(|| failed(&"is no journal of a batch that this version can read"))?;
+        let header: Header = header.ok_or_else(|| {
+            Failure::at(path, "is no journal of a batch that this version can read")
+        })?;
         let mut known = HashMap::new();
         loop {
             text.clear();
@@ -181,7 +175,7 @@ impl Journal {
         let mut file = &self.file;
         let read = file.seek(SeekFrom::Start(span.begin)).and_then(|_| file.read_exact(&mut text));
         let line = read.and_then(|()| serde_json::from_slice(&text).map_err(io::Error::other));
-        line.map_err(|error| Failure::CouldNot(format!("{}: {error}", self.path.display())))
+        line.map_err(|error| Failure::at(&self.path, error))
     }
 
     /// Writes down a clip.
@@ -189,7 +183,7 @@ impl Journal {
         let text = encoded(&line);
         let span = Span { begin: self.end, length: text.len() };
         let written = self.file.write_all(text.as_bytes());
-        written.map_err(|error| Failure::CouldNot(format!("{}: {error}", self.path.display())))?;
+        written.map_err(|error| Failure::at(&self.path, error))?;
         self.end += text.len() as u64;
         let Line { at, clip, file, asked, row, .. } = line;
         self.known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });

@@ -13,7 +13,7 @@ use super::super::failure::Failure;
 use super::super::staging::Staging;
 use super::super::stop;
 use super::journal::{Header, Journal};
-use super::place::CLIPS;
+use super::place::{CLIPS, foreign};
 use super::tables;
 use super::zip::{Directory, Entry};
 
@@ -94,16 +94,12 @@ impl Pack {
     ) -> Result<Self, Failure> {
         let mut pack = Self::read(folder, header)?;
         if pack.is_foreign() && !is_forced {
-            return Err(Failure::AskedWrongly(format!(
-                "{}: this archive is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
-                 over it with --force",
-                pack.archive.display()
-            )));
+            return Err(foreign(&pack.archive, "archive"));
         }
         let end = pack.files[SPOOL].take().map_or(0, |(_, end)| end);
         let open = || OpenOptions::new().read(true).append(true).create(true).open(&pack.spool);
         let file = open().and_then(|file| file.set_len(end).map(|()| file));
-        pack.files[SPOOL] = Some((file.map_err(|error| cannot(&pack.spool, &error))?, end));
+        pack.files[SPOOL] = Some((file.map_err(|error| Failure::at(&pack.spool, error))?, end));
         Ok(pack)
     }
 
@@ -129,13 +125,14 @@ impl Pack {
         let file = match File::open(path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(error) => return Err(cannot(path, &error)),
+            Err(error) => return Err(Failure::at(path, error)),
         };
         let (mut begin, mut entries) = (0, BufReader::new(&file));
-        let all = file.metadata().map_err(|error| cannot(path, &error))?.len();
+        let all = file.metadata().map_err(|error| Failure::at(path, error))?.len();
         loop {
             let read = Entry::read(&mut entries, all - begin);
-            let Some((name, digest, entry)) = read.map_err(|error| cannot(path, &error))? else {
+            let Some((name, digest, entry)) = read.map_err(|error| Failure::at(path, error))?
+            else {
                 break;
             };
             self.known.insert((name, digest), Piece { file: which, begin, entry });
@@ -158,7 +155,7 @@ impl Pack {
     /// Appends a clip to the spool.
     pub(in crate::cli) fn add(&mut self, parcel: Parcel) -> Result<(), Failure> {
         let Some((file, end)) = &mut self.files[SPOOL] else { return Ok(()) };
-        file.write_all(&parcel.bytes).map_err(|error| cannot(&self.spool, &error))?;
+        file.write_all(&parcel.bytes).map_err(|error| Failure::at(&self.spool, error))?;
         for (key, begin, entry) in parcel.entries {
             self.known.insert(key, Piece { file: SPOOL, begin: *end + begin, entry });
         }
@@ -203,7 +200,7 @@ impl Packing {
             let (end, directory) = (0, Directory::default());
             Ok(Self { place: place.into(), staging, file, end, directory })
         });
-        begun.map_err(|error| cannot(place, &error))
+        begun.map_err(|error| Failure::at(place, error))
     }
 
     /// Copies the files of a clip, from whichever part has them.
@@ -224,7 +221,7 @@ impl Packing {
                 ))
             })?;
             self.directory.add(&called(clip, file), self.end, &piece.entry);
-            pack.copy(piece, &mut self.file).map_err(|error| cannot(&pack.archive, &error))?;
+            pack.copy(piece, &mut self.file).map_err(|error| Failure::at(&pack.archive, error))?;
             self.end += piece.entry.length();
         }
         Ok(())
@@ -235,7 +232,7 @@ impl Packing {
         let Self { place, staging, file, end, directory } = &mut self;
         let written = file.write_all(&directory.close(*end)).and_then(|()| file.flush());
         let put = || fs::rename(staging.place("archive"), &*place);
-        written.and_then(|()| stop::undisturbed(put)).map_err(|error| cannot(place, &error))
+        written.and_then(|()| stop::undisturbed(put)).map_err(|error| Failure::at(place, error))
     }
 }
 
@@ -253,8 +250,4 @@ pub(in crate::cli) fn all<'a>(
         }
     }
     packing.finish()
-}
-
-fn cannot(path: &Path, error: &io::Error) -> Failure {
-    Failure::CouldNot(format!("{}: {error}", path.display()))
 }

@@ -44,7 +44,7 @@ impl Places<'_> {
         before: &Files,
     ) -> Result<(), Failure> {
         let place = self.of(name);
-        let failed = |error| Failure::CouldNot(format!("{}: {error}", place.display()));
+        let failed = |error| Failure::at(&place, error);
         if place.exists() {
             self.spare(&place, come, before)?;
             fs::rename(&place, old).map_err(failed)?;
@@ -70,13 +70,18 @@ impl Places<'_> {
             let digest = fs::read(path).map(|bytes| Manifest::digest(&bytes)).unwrap_or_default();
             let is_ours = |files: &Files| files.get(&name) == Some(&digest);
             if !is_ours(come) && !is_ours(before) {
-                return Err(Failure::AskedWrongly(format!(
-                    "{}: this file is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
-                     over it with --force",
-                    path.display()
-                )));
+                return Err(foreign(path, "file"));
             }
         }
         Ok(())
     }
+}
+
+/// Refuses to write over what no batch wrote.
+pub(super) fn foreign(path: &Path, what: &str) -> Failure {
+    let path = path.display();
+    Failure::AskedWrongly(format!(
+        "{path}: this {what} is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
+         over it with --force"
+    ))
 }

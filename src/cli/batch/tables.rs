@@ -33,28 +33,23 @@ pub(in crate::cli) fn write<'a>(
     journals: &[Journal],
     names: impl Iterator<Item = &'a str>,
 ) -> Result<Count, Failure> {
-    let io = |error: io::Error| Failure::CouldNot(format!("{}: {error}", out.display()));
+    let io = |error: io::Error| Failure::at(out, error);
     let staging = Staging::within(out).map_err(io)?;
     let open = |name: &str| {
         File::create(staging.place(name)).map(BufWriter::new).map(csv::Writer::from_writer)
     };
     let [mut keys, mut times, mut summary] =
         [open(FILES[0]).map_err(io)?, open(FILES[1]).map_err(io)?, open(FILES[2]).map_err(io)?];
-    let csv = |error: csv::Error| Failure::CouldNot(format!("{}: {error}", out.display()));
+    let csv = |error: csv::Error| Failure::at(out, error);
     summary.write_record(Row::HEADER).map_err(csv)?;
     times.write_record(["clip", "read_ms", "draw_ms", "write_ms"]).map_err(csv)?;
     let (mut count, mut has_header) = (Count::default(), false);
     for name in names {
         let Some(line) = line(journals, name)? else { continue };
         count.add(&line);
-        let clip = cell(&line.clip);
-        summary.write_field(&*clip).map_err(csv)?;
-        for text in line.row.cells() {
-            summary.write_field(&*cell(text.as_ref())).map_err(csv)?;
-        }
-        summary.write_record(None::<&[u8]>).map_err(csv)?;
+        write_row(&mut summary, &line.clip, line.row.cells()).map_err(csv)?;
         let ms = line.ms.map(|ms| format!("{ms:.1}"));
-        times.write_record([&*clip, &ms[0], &ms[1], &ms[2]]).map_err(csv)?;
+        write_row(&mut times, &line.clip, ms).map_err(csv)?;
         copy_keys(&line, &mut keys, &mut has_header).map_err(csv)?;
     }
     for table in [&mut keys, &mut times, &mut summary] {
@@ -72,7 +67,18 @@ pub(in crate::cli) fn line(journals: &[Journal], name: &str) -> Result<Option<Li
     journals.iter().find_map(|journal| journal.line(name).transpose()).transpose()
 }
 
-/// The rows of a clip's key table, behind its name.
+/// A row of a clip, behind its name. No cell of it is a formula.
+fn write_row(
+    table: &mut csv::Writer<BufWriter<File>>,
+    clip: &str,
+    cells: impl IntoIterator<Item = String>,
+) -> Result<(), csv::Error> {
+    table.write_field(&*cell(clip))?;
+    cells.into_iter().try_for_each(|text| table.write_field(&*cell(&text)))?;
+    table.write_record(None::<&[u8]>)
+}
+
+/// The rows of a clip's key table, behind its name. They hold no formula as they are.
 fn copy_keys(
     line: &Line,
     keys: &mut csv::Writer<BufWriter<File>>,

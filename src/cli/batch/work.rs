@@ -123,15 +123,11 @@ pub(in crate::cli) struct Begun<'a> {
 
 impl<'a> Begun<'a> {
     pub(in crate::cli) fn of(asked: &Asked<'_>, at: usize, item: &'a Item) -> Self {
-        let file = digest_of_file(&item.path);
-        let asked = file.as_ref().map_err(|_| ()).map(|_| asked.of_one(item));
-        match (file, asked) {
-            (Ok(file), Ok(asked)) => Self { at, item, file, asked },
-            (file, _) => {
-                let failure = file.err().unwrap_or_else(|| Failure::CouldNot(String::new()));
-                Self { at, item, file: String::new(), asked: Err(failure) }
-            }
-        }
+        let (file, asked) = match digest_of_file(&item.path) {
+            Ok(file) => (file, asked.of_one(item)),
+            Err(failure) => (String::new(), Err(failure)),
+        };
+        Self { at, item, file, asked }
     }
 
     /// By what the clip and what is asked of it are known again.
@@ -149,13 +145,13 @@ impl<'a> Begun<'a> {
     ) -> Result<Line, Failure> {
         let Self { at, item, file, asked } = self;
         let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
-        let mut warnings = Vec::new();
+        let (mut warnings, mut is_unwritten) = (Vec::new(), false);
         let drawn = asked.and_then(|(own, digest)| {
             let put = &mut |name: &str, bytes: &[u8], of: &str| match &mut parcel {
                 Some(parcel) => parcel
                     .add(&item.name, name, of, bytes)
                     .map_err(|source| Error::Io { path: item.path.clone(), source }),
-                None => write(&ready.join(name), bytes),
+                None => write(&ready.join(name), bytes).inspect_err(|_| is_unwritten = true),
             };
             let work = || drawn(&own, &digest, formats, put, &mut warnings);
             let fault = |_| {
@@ -180,22 +176,15 @@ impl<'a> Begun<'a> {
             Ok(Drawn { row, keys, files, ms }) => {
                 (line.row, line.keys, line.files, line.ms) = (row, keys, files, ms)
             }
+            // The place is at fault, and not the clip.
+            Err(failure) if is_unwritten => return Err(failure),
             Err(failure) => {
-                if let Some(failure) = unwritten(&failure, ready) {
-                    return Err(failure);
-                }
                 let _ = fs::remove_dir_all(ready);
                 line.row = Row::failed(failure.to_string(), warnings);
             }
         }
         Ok(line)
     }
-}
-
-/// What could not be written: the name of a staged file is in its message.
-fn unwritten(failure: &Failure, ready: &Path) -> Option<Failure> {
-    let message = failure.to_string();
-    message.starts_with(&*ready.to_string_lossy()).then_some(Failure::CouldNot(message))
 }
 
 /// What came of a clip.

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{Write, stdout};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use clap::{Args, ValueEnum};
@@ -94,7 +94,7 @@ const LEAST: u64 = 1 << 14;
 
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if !args.list {
-        fs::create_dir_all(&args.out).map_err(|error| cannot(&args.out, &error))?;
+        fs::create_dir_all(&args.out).map_err(|error| Failure::at(&args.out, error))?;
     }
     if !args.join.is_empty() {
         return join(args, words);
@@ -150,7 +150,7 @@ impl<'a> Batch<'a> {
         let sizes: Vec<u64> = items.iter().map(|item| item.size).collect();
         let shard = args.shard.unwrap_or_default();
         let list = Manifest::digest(names.join("\n").as_bytes());
-        let staging = Staging::within(&args.out).map_err(|error| cannot(&args.out, &error))?;
+        let staging = Staging::within(&args.out).map_err(|error| Failure::at(&args.out, error))?;
         let header = Header::of(list, items.len(), shard);
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
@@ -307,7 +307,7 @@ impl<'a> Batch<'a> {
 fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     let (mut journals, mut packs) = (Vec::new(), Vec::new());
     for folder in &args.join {
-        let entries = fs::read_dir(folder).map_err(|error| cannot(folder, &error))?;
+        let entries = fs::read_dir(folder).map_err(|error| Failure::at(folder, error))?;
         let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
         files.retain(|file| {
             file.file_name().is_some_and(|name| is_journal(&name.to_string_lossy()))
@@ -360,8 +360,4 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         return Ok(());
     }
     Err(Failure::CouldNot(message))
-}
-
-fn cannot(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::CouldNot(format!("{}: {error}", path.display()))
 }

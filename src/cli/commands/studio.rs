@@ -115,7 +115,7 @@ mod shell {
             Ok(false) => {
                 Err(Failure::CouldNot(format!("{}: there is no such file", path.display())))
             }
-            Err(error) => Err(Failure::CouldNot(format!("{}: {error}", path.display()))),
+            Err(error) => Err(Failure::at(path, error)),
         }
     }
 

@@ -98,13 +98,8 @@ pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) ->
 fn entries(layer: &Layer, column: Column) -> Vec<Entry> {
     let genga = layer.genga_numbers();
     let mut entries = Vec::new();
-    let mut before = None;
-    for (koma, shown) in layer.timed() {
-        // A drawing that goes on is no change.
-        if before.replace(shown.drawing) == Some(shown.drawing) {
-            continue;
-        }
-        let key = genga[shown.drawing];
+    for (koma, drawing) in layer.changes() {
+        let key = genga[drawing];
         match (column, key) {
             (Column::Genga { .. }, Some(number)) => {
                 entries.push(entry(koma, number.to_string(), false));
@@ -114,7 +109,7 @@ fn entries(layer: &Layer, column: Column) -> Vec<Entry> {
             }
             (Column::Genga { has_marks: false }, None) => {}
             (Column::Douga { has_circles }, _) => {
-                let number = (shown.drawing + 1).to_string();
+                let number = (drawing + 1).to_string();
                 entries.push(entry(koma, number, has_circles && key.is_some()));
             }
         }

@@ -169,8 +169,7 @@ impl Recent {
         let text: String =
             lines.filter(|line| !line.contains('\n')).map(|line| line + "\n").collect();
         if let Some(folder) = file.parent() {
-            fs::create_dir_all(folder)
-                .map_err(|error| Failure::CouldNot(format!("{}: {error}", folder.display())))?;
+            fs::create_dir_all(folder).map_err(|error| Failure::at(folder, error))?;
         }
         files::write(file, text.as_bytes())
     }
