@@ -149,6 +149,7 @@ def read(
     repair: bool = False,
     strict: bool = False,
     keep_lead_in: bool = False,
+    keep_glitches: bool = False,
     trim: Optional[tuple[int, int]] = None,
 ) -> Clip: ...
 def run(

@@ -207,10 +207,10 @@ pub enum Given<'py> {
 }
 
 /// Reads a BVH file, from a path or from its bytes, as the program does: a T-pose put in front of the motion is left out
-/// unless `keep_lead_in`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`, `root`, `repair` and
+/// unless `keep_lead_in`, and single frames that fly off are replaced unless `keep_glitches`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`, `root`, `repair` and
 /// `strict` are those of the program.
 #[pyfunction]
-#[pyo3(signature = (source, *, name=None, fps=None, root=None, repair=false, strict=false, keep_lead_in=false, trim=None))]
+#[pyo3(signature = (source, *, name=None, fps=None, root=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn read(
     py: Python<'_>,
@@ -221,6 +221,7 @@ pub fn read(
     repair: bool,
     strict: bool,
     keep_lead_in: bool,
+    keep_glitches: bool,
     trim: Option<(usize, usize)>,
 ) -> PyResult<Clip> {
     let fps = fps.map(FrameRate::new).transpose().map_err(|error| raised(py, error))?;
@@ -236,7 +237,7 @@ pub fn read(
     let at = path.clone();
     let made = work::done(py, move |_| {
         let read = path.map_or_else(|| options.read(&bytes), |path| options.open(&path))?;
-        part(read, keep_lead_in, trim)
+        part(read, (keep_lead_in, keep_glitches), trim)
     })?;
     let (motion, warnings) = made.map_err(|error| raised_of(py, error, at.as_deref()))?;
     Ok(Clip::new(Arc::new(motion), file, warnings))
@@ -245,10 +246,12 @@ pub fn read(
 /// The part of a file that is worked on.
 fn part(
     read: bvh::Read,
-    keep_lead_in: bool,
+    (keep_lead_in, keep_glitches): (bool, bool),
     trim: Option<(usize, usize)>,
 ) -> Result<(Motion, Vec<Warning>), genga::Error> {
     let bvh::Read { clip, mut warnings, .. } = read;
+    let (clip, note) = if keep_glitches { (clip, None) } else { bvh::glitches::mend(clip) };
+    warnings.extend(note);
     let begin = trim.map_or(clip.first().0, |(begin, _)| begin);
     let (mut clip, note) = if keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
     warnings.extend(note.filter(|_| begin < clip.first().0));

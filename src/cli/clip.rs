@@ -46,6 +46,9 @@ pub(super) struct Reading {
     /// Of several trees of joints only the one whose root has this name.
     #[arg(long, value_name = "NAME")]
     root: Option<String>,
+    /// Keep single frames that fly off as they are.
+    #[arg(long)]
+    keep_glitches: bool,
     /// Hold the value before a nan or inf, and leave out what is too much in a row; said in a note.
     #[arg(long, conflicts_with = "strict")]
     repair: bool,
@@ -154,12 +157,13 @@ impl Part {
 }
 
 impl Reading {
-    /// Reads the whole file, with everything that stands in front of the motion.
+    /// Reads the whole file, with everything that stands in front of the motion. Frames that fly off are replaced
+    /// unless asked to be kept: that is a fact about the motion, too, and `--strict` lets it pass.
     fn read(&self, path: &Path) -> Result<bvh::Read, Failure> {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, repair, strict, memory } = self;
+        let Self { fps, root, keep_glitches, repair, strict, memory } = self;
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
         let (strict, repair, fps, root) = (*strict, *repair, *fps, root.clone());
         let options = bvh::Options { strict, repair, fps, root, stream };
@@ -168,12 +172,18 @@ impl Reading {
         } else {
             options.open(path)
         };
-        read.map_err(|error| match error {
+        let mut read = read.map_err(|error| match error {
             Error::Setting { name, message } => {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
             other => files::fault_of(path)(other),
-        })
+        })?;
+        if !keep_glitches {
+            let (clip, note) = bvh::glitches::mend(read.clip);
+            read.clip = clip;
+            read.warnings.extend(note);
+        }
+        Ok(read)
     }
 
     /// Reads the motion of a sheet, and says what there is to know of it.

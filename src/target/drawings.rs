@@ -1,6 +1,8 @@
 //! A number of drawings a second: koma-dori gives single ones, and the other settings of the sheet where
 //! its range ends.
 
+use std::ops::Range;
+
 use super::ladder::{denser, sparser, sparser_to_threes};
 use super::{Outcome, Target, between, layer, room};
 use crate::edits::Edits;
@@ -24,6 +26,10 @@ const MOST_SPARED: usize = 6;
 /// Of the drawings that are asked for so many are genga at the most, where keys may go: two thirds. With more there are
 /// no inbetweens left to take away, and the slow ones are held too long for the fast.
 const MOST_GENGA: f64 = 2.0 / 3.0;
+
+/// Of the drawings that are asked for at least so many stay found genga, where there are as many: a quarter. Rather
+/// the spacing gives way: a denser one would leave the sheet without the genga of the method.
+const FEWEST_GENGA: f64 = 0.25;
 
 /// How often the number of found keys is corrected for it.
 const MOST_THINNED: usize = 16;
@@ -257,35 +263,43 @@ impl Search<'_> {
     }
 
     /// Fewer drawings than there are with all keys on threes: fewer keys, on the first rung on which there
-    /// are few enough drawings without any found key. A hold has its bound, so on a denser one there are
-    /// too many whatever keys go.
+    /// are few enough drawings with the fewest keys. A hold has its bound, so on a denser one there are
+    /// too many, unless still more keys go.
     fn fewer(&mut self, from: Found) -> Result<Found, Error> {
         let found = room::found(self.engine, &from.recipe, self.edits)?;
+        let least = found.min(self.fewest_found(&from.recipe)?);
         let mut best = from.clone();
         let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);
         for spacing in rungs {
             let sparse = Recipe { spacing, ..from.recipe.clone() };
-            let fewest = self.hold_with(&sparse, 0)?;
+            let fewest = self.hold_with(&sparse, least)?;
             let is_enough = fewest.excess <= EXACT;
             best = best.or(fewest);
             if is_enough {
-                return self.with_most_keys(best, found + 1, &sparse);
+                return self.with_most_keys(best, least..found + 1, &sparse);
             }
         }
         Ok(best)
     }
 
-    /// The most keys with which there are few enough drawings, fewer than `too_many`.
+    /// How many found keys stay at least: a quarter of the drawings that are asked for.
+    fn fewest_found(&mut self, recipe: &Recipe) -> Result<usize, Error> {
+        let breakdown = self.engine.run(recipe, self.edits)?;
+        let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+        Ok((FEWEST_GENGA * self.per_second * seconds).ceil() as usize)
+    }
+
+    /// The most keys with which there are few enough drawings: from the start of the span on, fewer than its end.
     ///
     /// Fewer keys are not always fewer drawings, since inbetweens come where a key was. So the bisection is
     /// a search and no proof: what it gives was looked at, that no more keys would do is not certain.
     fn with_most_keys(
         &mut self,
         mut best: Found,
-        mut too_many: usize,
+        keys: Range<usize>,
         recipe: &Recipe,
     ) -> Result<Found, Error> {
-        let mut few_enough = 0;
+        let Range { start: mut few_enough, end: mut too_many } = keys;
         while few_enough + 1 < too_many {
             let count = usize::midpoint(few_enough, too_many);
             let found = self.hold_with(recipe, count)?;

@@ -156,17 +156,24 @@ fn drawings_never_cost_keys_that_were_asked_for() {
     assert!(said.contains("24 genga are wanted"), "{said}");
 }
 
-/// The same motions, and twice and three times as fast: so that genga are most of what fits.
+/// The same motions, and twice and three times as fast: so that genga are most of what fits. Of few drawings a
+/// quarter stay genga, where the method has as many.
 #[test]
 fn genga_go_first_where_they_leave_no_room_for_inbetweens() {
     let edits = Edits::default();
-    for (name, faster) in
-        [("kick", 1.0), ("tennis", 2.0), ("swing", 2.0), ("pitch", 3.0), ("kick", 3.0)]
-    {
+    for (name, faster) in [
+        ("kick", 1.0),
+        ("tennis", 1.0),
+        ("tennis", 2.0),
+        ("swing", 2.0),
+        ("pitch", 3.0),
+        ("kick", 3.0),
+    ] {
         let clip = sample(name);
         let rate = FrameRate::new(faster * clip.rate().fps()).unwrap();
         let mut engine = Engine::new(clip.with_rate(rate)).unwrap();
         let (mut fewer, mut genga_before) = (0, 0);
+        let of_the_method = figures(&mut engine, &Recipe::default(), &edits).0;
         for per_second in [4.0, 6.0, 8.0, 10.0, 12.0] {
             let target = [Target::DrawingsPerSecond(per_second)];
             let met = meet(&mut engine, &Recipe::default(), &edits, &target).unwrap();
@@ -175,6 +182,7 @@ fn genga_go_first_where_they_leave_no_room_for_inbetweens() {
             let what = format!("{name} x{faster}: {genga} genga of {drawings}, {asked:.1} asked");
             assert!((drawings as f64 - asked).abs() <= 1.0, "{what}");
             assert!((genga - 2) as f64 <= 2.0 / 3.0 * asked, "{what}");
+            assert!(genga - 2 >= ((asked / 4.0).ceil() as usize).min(of_the_method - 2), "{what}");
             assert!(genga >= genga_before && drawings > fewer, "{what}");
             (fewer, genga_before) = (drawings, genga);
         }

@@ -17,6 +17,7 @@ mod examples; // the examples print what they printed
 #[cfg(feature = "cli")]
 mod folders; // a results folder is one run
 mod found; // what fuzzing found
+mod glitches; // single frames that fly off
 mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]
 mod hostile_names; // names that a spreadsheet would run or a terminal obey

@@ -13,6 +13,7 @@ use crate::motion::Clip;
 mod careful;
 mod columns;
 mod file;
+pub mod glitches;
 mod hierarchy;
 pub mod lead_in;
 mod names;

@@ -1,0 +1,128 @@
+//! Single frames that fly off are found by every command, and nothing else is.
+
+use std::fs;
+use std::path::Path;
+
+use genga::motion::bvh::{glitches, read};
+use genga::motion::{Channel, Clip};
+use genga::time::Frame;
+use proptest::prelude::*;
+
+use crate::program::{Place, column, text};
+
+fn kick() -> Clip {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh");
+    read(&fs::read(file).unwrap()).unwrap().clip
+}
+
+/// A clip with some of its values moved: row, column, by how much.
+fn thrown(clip: &Clip, off: &[(usize, usize, f64)]) -> Clip {
+    let width = clip.skeleton().channels();
+    let mut values: Vec<f64> = clip.rows().flatten().copied().collect();
+    for (row, column, way) in off {
+        values[row * width + column] += way;
+    }
+    Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), values).unwrap()
+}
+
+/// The columns that turn a joint.
+fn turning(clip: &Clip) -> Vec<usize> {
+    let joints = clip.skeleton().joints.iter();
+    let of = |joint: &genga::motion::Joint| {
+        let first = joint.first_channel;
+        let turns = |(at, channel): (usize, &Channel)| {
+            matches!(channel, Channel::Rotation(_)).then_some(first + at)
+        };
+        joint.channels.iter().enumerate().filter_map(turns).collect::<Vec<_>>()
+    };
+    joints.flat_map(of).collect()
+}
+
+/// The joint that a column drives.
+fn joint_of(clip: &Clip, column: usize) -> &genga::motion::Joint {
+    let is_of = |joint: &&genga::motion::Joint| {
+        (joint.first_channel..joint.first_channel + joint.channels.len()).contains(&column)
+    };
+    clip.skeleton().joints.iter().find(is_of).unwrap()
+}
+
+#[test]
+fn a_frame_that_flies_off_is_replaced_with_a_note_unless_it_is_to_be_kept() {
+    let place = Place::new();
+    let clip = kick();
+    let off = thrown(&clip, &[(40, turning(&clip)[9], 150.0), (70, 0, 300.0)]);
+    fs::write(place.path("off.bvh"), genga::motion::bvh::write(&off)).unwrap();
+    let said = text(&place.genga("run off.bvh --out mended").stderr);
+    assert!(said.contains("[W_GLITCH]") && said.contains("--keep-glitches"), "{said}");
+    assert!(said.contains("frame 40 flies off for a single frame (the first of 2)"), "{said}");
+    let kept = text(&place.genga("run off.bvh --out kept --keep-glitches").stderr);
+    assert!(!kept.contains("W_GLITCH"), "{kept}");
+    let (mended, kept) = (place.path("mended/limited.bvh"), place.path("kept/limited.bvh"));
+    assert_ne!(fs::read(&mended).unwrap(), fs::read(kept).unwrap());
+    // The genga are those of the kick without a fault. Halfway between its neighbours a body is not where it was: one
+    // near there may go to the frame beside.
+    let frames = |clip: &str| -> Vec<f64> {
+        let frames = column(&place.done(&format!("keys {clip}")), "source_frame");
+        frames.iter().map(|frame| frame.parse().unwrap()).collect()
+    };
+    let (found, sound) = (frames("off.bvh"), frames("data/kick.bvh"));
+    assert_eq!(found.len(), sound.len());
+    assert!(found.iter().zip(&sound).all(|(a, b)| (a - b).abs() <= 1.0), "{found:?} {sound:?}");
+    // A sheet is delivered onto the same motion.
+    let made = fs::read(&mended).unwrap();
+    fs::remove_file(&mended).unwrap();
+    place.done("deliver mended/sheet.json off.bvh --to bvh");
+    assert_eq!(fs::read(&mended).unwrap(), made);
+    let said = text(&place.genga("inspect off.bvh --warnings").stdout);
+    assert!(said.contains("W_GLITCH"), "{said}");
+    assert!(place.genga("run off.bvh --strict --out strict").status.success());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Any joint thrown out of a sound clip for a frame is found, in that frame alone, and what is sound stays as it is.
+    /// Around it the joint turns less than a sixth of the way out.
+    #[test]
+    fn frames_that_are_thrown_are_found_and_no_others(
+        rows in prop::collection::btree_set(1_usize..8, 1..4),
+        column in 0_usize..60,
+        degrees in prop_oneof![-179.0..-120.0, 120.0..179.0],
+    ) {
+        let clip = kick();
+        let turning = turning(&clip);
+        let column = turning[column % turning.len()];
+        let rows: Vec<usize> = rows.into_iter().map(|at| 10 * at).collect();
+        let step = |row: usize| {
+            let of = |row: usize| genga::motion::local_rotation(joint_of(&clip, column), clip.row(Frame(row)));
+            of(row).angle_between(of(row + 1)).to_degrees()
+        };
+        let is_slow = |row: &usize| (row - 6..row + 6).all(|row| step(row) < 12.0);
+        prop_assume!(rows.iter().all(is_slow));
+        let off: Vec<_> = rows.iter().map(|row| (*row, column, degrees)).collect();
+        let off = thrown(&clip, &off);
+        let expected: Vec<Frame> = rows.iter().map(|row| Frame(*row)).collect();
+        prop_assert_eq!(glitches::find(&off), expected);
+        let (mended, note) = glitches::mend(off);
+        prop_assert!(note.is_some());
+        prop_assert_eq!(glitches::find(&mended), vec![]);
+        for (row, (was, is)) in clip.rows().zip(mended.rows()).enumerate() {
+            prop_assert!(rows.contains(&row) || was == is);
+        }
+    }
+
+    /// However fast a joint goes from pose to pose, held or not, it does not fly off.
+    #[test]
+    fn what_goes_somewhere_or_stays_there_is_no_glitch(
+        row in 12_usize..70,
+        stays in 2_usize..12,
+        column in 0_usize..60,
+        degrees in 20.0..170.0_f64,
+    ) {
+        let clip = kick();
+        let turning = turning(&clip);
+        let column = turning[column % turning.len()];
+        let moved: Vec<_> = (row..row + stays).map(|row| (row, column, degrees)).collect();
+        prop_assert_eq!(glitches::find(&thrown(&clip, &moved)), vec![]);
+    }
+}
