@@ -11,8 +11,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).map_or("data/kick.bvh".into(), PathBuf::from);
     let read = bvh::open(&path)?;
     // A T-pose in front of the motion would be its fastest frame.
-    let (clip, lead_in) = bvh::lead_in::strip(read.clip);
-    for warning in read.warnings.iter().chain(&lead_in) {
+    let (clip, cleaned) = bvh::Cleaning::default().of(read.clip)?;
+    for warning in read.warnings.iter().chain(&cleaned) {
         println!("{warning}");
     }
     println!("{} frames at {} a second: {:.2} s", clip.len(), clip.rate(), clip.seconds());

@@ -12,7 +12,7 @@ use genga::recipe::Recipe;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).map_or("data/kick.bvh".into(), PathBuf::from);
-    let (clip, _) = bvh::lead_in::strip(bvh::open(&path)?.clip);
+    let (clip, _) = bvh::Cleaning::default().of(bvh::open(&path)?.clip)?;
     let names: Vec<_> = clip.skeleton().joints.iter().map(|joint| joint.name.clone()).collect();
 
     let mut engine = Engine::new(clip)?;

@@ -81,8 +81,8 @@ pub(crate) fn named<'a>(takes: &'a [Take], name: &str) -> Outcome<&'a Take> {
 impl Take {
     fn of(name: String, bytes: &[u8]) -> Outcome<Self> {
         let read = bvh::read(bytes)?.clip;
-        let lead_in = bvh::LeadIn::find(&read).map_or(0, |lead_in| lead_in.len());
-        let (clip, _) = bvh::lead_in::strip(read);
+        let (clip, _) = bvh::Cleaning::default().of(read)?;
+        let lead_in = clip.first().0;
         let mut engine = Engine::new(clip.clone())?;
         let run = |merge| Run::of(&mut engine, merge);
         let runs = MERGES.into_iter().map(run).collect::<Outcome<_>>()?;

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn write(folder: &Path, path: &Path) -> Result<(), Box<dyn Error>> {
     let name = path.file_stem().unwrap_or_default();
-    let (clip, _) = bvh::lead_in::strip(bvh::read(&fs::read(path)?)?.clip);
+    let (clip, _) = bvh::Cleaning::default().of(bvh::read(&fs::read(path)?)?.clip)?;
     let mut engine = Engine::new(clip)?;
     let breakdown = engine.run_once(&Recipe::default(), &Edits::default())?;
     let made = Vmd::default().make(breakdown.clip, breakdown.sheet)?;

@@ -206,9 +206,10 @@ pub enum Given<'py> {
     Path(PathBuf),
 }
 
-/// Reads a BVH file, from a path or from its bytes, as the program does: a T-pose put in front of the motion is left out
-/// unless `keep_lead_in`, and single frames that fly off are replaced unless `keep_glitches`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`, `root`, `repair` and
-/// `strict` are those of the program.
+/// Reads a BVH file, from a path or from its bytes, as the program does. A T-pose put in front of the motion or behind it
+/// is left out unless `keep_lead_in`. Single frames that fly off are replaced, and ends at which the tracker comes from
+/// the origin are left out, unless `keep_glitches`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`,
+/// `root`, `repair` and `strict` are those of the program.
 #[pyfunction]
 #[pyo3(signature = (source, *, name=None, fps=None, root=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
@@ -250,15 +251,9 @@ fn part(
     trim: Option<(usize, usize)>,
 ) -> Result<(Motion, Vec<Warning>), genga::Error> {
     let bvh::Read { clip, mut warnings, .. } = read;
-    let (clip, note) = if keep_glitches { (clip, None) } else { bvh::glitches::mend(clip) };
-    warnings.extend(note);
-    let begin = trim.map_or(clip.first().0, |(begin, _)| begin);
-    let (mut clip, note) = if keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
-    warnings.extend(note.filter(|_| begin < clip.first().0));
-    if let Some((begin, end)) = trim {
-        let begin = Frame(begin.max(clip.first().0));
-        clip = clip.trimmed(begin, Frame(end))?;
-    }
+    let trim = trim.map(|(begin, end)| begin..end);
+    let (clip, notes) = bvh::Cleaning { keep_lead_in, keep_glitches, trim }.of(clip)?;
+    warnings.extend(notes);
     clip.check_size()?;
     Ok((clip, warnings))
 }

@@ -10,9 +10,10 @@ use super::{files, paths};
 use crate::deliver::ClipMark;
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
-use crate::motion::{Clip, StreamLimit, bvh};
+use crate::motion::bvh::{self, Cleaning, glitches};
+use crate::motion::{Clip, StreamLimit};
 use crate::pipeline::Budget;
-use crate::time::{Frame, FrameRate};
+use crate::time::FrameRate;
 
 /// The clip, and which part of it.
 #[derive(Debug, Clone, Args)]
@@ -27,7 +28,7 @@ pub(super) struct ClipArgs {
 /// Which part of a clip, and how it is read.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct Part {
-    /// Keep a T-pose that was put in front of the motion.
+    /// Keep a T-pose that was put in front of the motion or behind it.
     #[arg(long)]
     keep_lead_in: bool,
     /// Work on source frames A up to but not including B, numbered from 0 as in the file.
@@ -46,7 +47,7 @@ pub(super) struct Reading {
     /// Of several trees of joints only the one whose root has this name.
     #[arg(long, value_name = "NAME")]
     root: Option<String>,
-    /// Keep single frames that fly off as they are.
+    /// Keep single frames that fly off as they are, and ends at which the tracker comes from the origin.
     #[arg(long)]
     keep_glitches: bool,
     /// Hold the value before a nan or inf, and leave out what is too much in a row; said in a note.
@@ -118,30 +119,23 @@ impl Part {
         self.reading.memory.map_or(Budget::default(), Budget::gib)
     }
 
-    /// Reads the clip, leaves out an inserted T-pose unless asked to keep it, and trims.
+    /// Reads the clip, leaves out or mends what no body did unless asked to keep it, and trims.
     ///
-    /// A T-pose is a fact about the motion and no fault of the file: `--strict` lets it pass.
+    /// A T-pose or a glitch is a fact about the motion and no fault of the file: `--strict` lets it pass.
     pub(super) fn read(&self, path: &Path) -> Result<Source, Failure> {
         let bvh::Read { clip, warnings: mut notes, written_frame_time } =
             self.reading.read(path)?;
         let of = ClipMark::of(&paths::file_name(path), &clip);
-        let begin = self.trim.as_ref().map_or(clip.first().0, |frames| frames.start);
-        let (clip, note) = if self.keep_lead_in { (clip, None) } else { bvh::lead_in::strip(clip) };
-        notes.extend(note.filter(|_| begin < clip.first().0));
-        let clip = self.trimmed(clip, path)?;
-        clip.check_size().map_err(files::fault_of(path))?;
-        Ok(Source { clip, notes, written_frame_time, of })
-    }
-
-    fn trimmed(&self, clip: Clip, path: &Path) -> Result<Clip, Failure> {
-        let Some(frames) = &self.trim else { return Ok(clip) };
-        // A trim from before the motion means from its beginning.
-        let begin = Frame(frames.start.max(clip.first().0));
-        let end = Frame(if frames.end == usize::MAX { clip.last().0 + 1 } else { frames.end });
-        clip.trimmed(begin, end).map_err(|error| match error {
+        let Self { keep_lead_in, trim, reading } = self;
+        let (keep_lead_in, keep_glitches) = (*keep_lead_in, reading.keep_glitches);
+        let cleaning = Cleaning { keep_lead_in, keep_glitches, trim: trim.clone() };
+        let (clip, cleaned) = cleaning.of(clip).map_err(|error| match error {
             Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),
             other => files::fault_of(path)(other),
-        })
+        })?;
+        notes.extend(cleaned);
+        clip.check_size().map_err(files::fault_of(path))?;
+        Ok(Source { clip, notes, written_frame_time, of })
     }
 
     /// Reads every file, before any work on one begins; says what there is to know of each.
@@ -157,13 +151,12 @@ impl Part {
 }
 
 impl Reading {
-    /// Reads the whole file, with everything that stands in front of the motion. Frames that fly off are replaced
-    /// unless asked to be kept: that is a fact about the motion, too, and `--strict` lets it pass.
+    /// Reads the whole file, with everything that is no motion.
     fn read(&self, path: &Path) -> Result<bvh::Read, Failure> {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, keep_glitches, repair, strict, memory } = self;
+        let Self { fps, root, repair, strict, memory, .. } = self;
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
         let (strict, repair, fps, root) = (*strict, *repair, *fps, root.clone());
         let options = bvh::Options { strict, repair, fps, root, stream };
@@ -172,18 +165,12 @@ impl Reading {
         } else {
             options.open(path)
         };
-        let mut read = read.map_err(|error| match error {
+        read.map_err(|error| match error {
             Error::Setting { name, message } => {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
             other => files::fault_of(path)(other),
-        })?;
-        if !keep_glitches {
-            let (clip, note) = bvh::glitches::mend(read.clip);
-            read.clip = clip;
-            read.warnings.extend(note);
-        }
-        Ok(read)
+        })
     }
 
     /// Reads the motion of a sheet, and says what there is to know of it.
@@ -196,10 +183,12 @@ impl Reading {
         let of_sheet = files::fault_of(sheet);
         let read = self.read(path)?;
         let of = ClipMark::of(&paths::file_name(path), &read.clip);
-        let (source, notes) = file.fit(read.clip).map_err(&of_sheet)?;
+        let (clip, note) =
+            if self.keep_glitches { (read.clip, None) } else { glitches::mend(read.clip) };
+        let (source, notes) = file.fit(clip).map_err(&of_sheet)?;
         source.check_size().map_err(files::fault_of(path))?;
         let drawn = file.drawn(&source).map_err(&of_sheet)?;
-        read.warnings.iter().chain(&notes).for_each(|warning| words.warn(warning));
+        read.warnings.iter().chain(&note).chain(&notes).for_each(|warning| words.warn(warning));
         Ok(OfSheet { source, drawn, of })
     }
 }

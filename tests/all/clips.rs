@@ -15,11 +15,11 @@ pub(crate) fn sample(name: &str) -> Clip {
     read(&here("data").join(name))
 }
 
-/// A clip without its lead-in.
+/// A clip as every command takes it.
 pub(crate) fn read(path: &Path) -> Clip {
     let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let clip = bvh::read(&bytes).unwrap_or_else(|error| panic!("{}:{error}", path.display())).clip;
-    bvh::lead_in::strip(clip).0
+    bvh::Cleaning::default().of(clip).expect("all frames are asked for").0
 }
 
 /// The paths of the real clips, sorted; none when the folder is not there, which is an error in CI.

@@ -1,11 +1,15 @@
-//! Single frames that fly off are found by every command, and nothing else is.
+//! What no body did is found by every command: single frames that fly off, a tracker at the origin. A body that never
+//! moves gets one drawing.
 
 use std::fs;
 use std::path::Path;
 
+use genga::edits::Edits;
 use genga::motion::bvh::{glitches, read};
 use genga::motion::{Channel, Clip};
-use genga::time::Frame;
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use genga::time::{Frame, FrameRate};
 use proptest::prelude::*;
 
 use crate::program::{Place, column, text};
@@ -76,6 +80,67 @@ fn a_frame_that_flies_off_is_replaced_with_a_note_unless_it_is_to_be_kept() {
     let said = text(&place.genga("inspect off.bvh --warnings").stdout);
     assert!(said.contains("W_GLITCH"), "{said}");
     assert!(place.genga("run off.bvh --strict --out strict").status.success());
+}
+
+#[test]
+fn ends_at_which_the_tracker_is_at_the_origin_are_left_out_unless_they_are_to_be_kept() {
+    let place = Place::new();
+    let clip = kick();
+    let width = clip.skeleton().channels();
+    let mut values: Vec<f64> = clip.rows().flatten().copied().collect();
+    let last = clip.len() - 1;
+    for (row, share) in [(0, 0.0), (1, 0.3), (2, 0.6), (last - 1, 0.5), (last, 0.0)] {
+        values[row * width..row * width + 3].iter_mut().for_each(|place| *place *= share);
+    }
+    let ramped =
+        Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), values).unwrap();
+    fs::write(place.path("ramped.bvh"), genga::motion::bvh::write(&ramped)).unwrap();
+    let out = place.genga("run ramped.bvh --out cleaned");
+    let said = text(&out.stderr);
+    let expected = format!("frames 0 to 2 and frames {} to {last}: the tracker", last - 1);
+    assert!(said.contains(&expected), "{said}");
+    let frames =
+        column(&fs::read_to_string(place.path("cleaned/keys.csv")).unwrap(), "source_frame");
+    let ends = (frames.first().unwrap().as_str(), frames.last().unwrap().as_str());
+    assert_eq!(ends, ("3", &*(last - 2).to_string()));
+    let kept = text(&place.genga("run ramped.bvh --out kept --keep-glitches").stderr);
+    assert!(!kept.contains("W_RAMP"), "{kept}");
+    place.done("deliver cleaned/sheet.json ramped.bvh --to bvh --out again");
+    let bytes = |file: &str| fs::read(place.path(file)).unwrap();
+    assert_eq!(bytes("again/limited.bvh"), bytes("cleaned/limited.bvh"));
+}
+
+/// A body that never moves needs one drawing. The end is a row of its own in every table.
+#[test]
+fn a_body_that_never_moves_gets_one_drawing() {
+    for fps in [24.0, 30.0, 60.0, 120.0] {
+        for tremble in [0.0, 0.01] {
+            let clip = still(fps, tremble);
+            let mut engine = Engine::new(clip).unwrap();
+            let result = engine.run(&Recipe::default(), &Edits::default()).unwrap();
+            let drawings = result.sheet.layers[0].drawings.len();
+            assert_eq!(drawings, 1, "{fps} frames a second, {tremble} degrees");
+        }
+    }
+}
+
+/// Three seconds of the kick's first pose, in which every joint trembles by so many degrees.
+fn still(fps: f64, tremble: f64) -> Clip {
+    let clip = kick();
+    let frames = (3.0 * fps) as usize;
+    let turning = turning(&clip);
+    let mut values = Vec::new();
+    for frame in 0..frames {
+        let mut row = clip.row(Frame(0)).to_vec();
+        for (at, column) in turning.iter().enumerate() {
+            let hertz = 3.0 + (at * 37 % 61) as f64 / 10.0;
+            let seconds = frame as f64 / fps;
+            row[*column] += tremble * (std::f64::consts::TAU * hertz * seconds + at as f64).sin();
+        }
+        values.extend(row);
+    }
+    let rate = FrameRate::new(fps).unwrap();
+    Clip::new(clip.skeleton().clone(), rate, Frame(0), frames, values).unwrap()
 }
 
 proptest! {

@@ -222,7 +222,7 @@ fn pictures_of_the_documentation_are_those_that_the_program_draws() {
 #[test]
 fn the_library_does_what_the_guide_shows() -> Result<(), Box<dyn std::error::Error>> {
     let read = bvh::read(&std::fs::read("data/kick.bvh")?)?;
-    let (clip, _note) = bvh::lead_in::strip(read.clip);
+    let (clip, _notes) = bvh::Cleaning::default().of(read.clip)?;
     let mut engine = Engine::new(clip)?;
     let result = engine.run(&Recipe::default(), &Edits::default())?;
     #[allow(clippy::print_stdout, reason = "as the guide shows it")]

@@ -11,7 +11,9 @@ use crate::error::Warning;
 use crate::motion::Clip;
 
 mod careful;
+mod cleaning;
 mod columns;
+mod ends;
 mod file;
 pub mod glitches;
 mod hierarchy;
@@ -20,6 +22,7 @@ mod names;
 mod number;
 mod odd;
 mod places;
+mod ramps;
 mod read;
 mod repair;
 #[cfg(test)]
@@ -34,7 +37,9 @@ mod trees;
 pub mod warnings;
 mod write;
 
+pub use cleaning::Cleaning;
 pub use lead_in::LeadIn;
+pub use ramps::Ramps;
 pub use read::{Options, open, read};
 pub use write::{Writer, write};
 

@@ -20,7 +20,7 @@ const MOST_WRITTEN: usize = 40_000;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(read) = bvh::read(bytes) else { return };
-    let clip = bvh::lead_in::strip(read.clip).0;
+    let (clip, _) = bvh::Cleaning::default().of(read.clip).expect("all frames are asked for");
     let recipe = Recipe::default();
     let budget = Budget { bytes: Some(BUDGET as f64) };
     let Ok(engine) = Engine::new(clip) else { return };

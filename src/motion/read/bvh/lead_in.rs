@@ -1,4 +1,4 @@
-//! A pose that was put in front of the motion: found, and left out.
+//! A pose that was put in front of the motion or behind it: found, and left out.
 //!
 //! The cgspeed releases of the CMU clips start with a T-pose, and in the DAZ-friendly ones the next
 //! three or four steps still come out of it. A method that looks for the fastest frame finds these.
@@ -15,14 +15,9 @@ use glam::DQuat;
 
 use crate::error::Warning;
 use crate::maths;
+use crate::motion::bvh::ends::{End, Jump, MOST_HELD, following};
 use crate::motion::{Clip, Pose, is_t_pose};
 use crate::time::Frame;
-
-/// Seconds of motion that the jump is held against.
-const FOLLOWING: f64 = 0.25;
-
-/// Fewer steps than this say nothing about the motion, at whatever rate.
-const FEWEST_FOLLOWING: usize = 4;
 
 /// The jump is at least so many times the largest following step, and [`SOME_JOINTS`] of the joints
 /// jump: one that turns half round in a single step is an error of the capture, not a pose.
@@ -47,15 +42,9 @@ const MOST_JOINTS: f64 = 0.5;
 /// Radians below which a joint stands and is not asked.
 const STANDS: f64 = 1e-4;
 
-/// A step belongs to the jump while it is so many times the median of the steps that follow it.
-const TAIL: f64 = 3.0;
-
 /// Seconds that the way out of the pose may take after the jump: four frames at 120 and at 100
 /// frames a second. In a longer time a body can really stop.
 const LONGEST_TAIL: f64 = 0.035;
-
-/// So many frames may hold the inserted pose.
-const MOST_HELD: usize = 10;
 
 /// Radians a joint, on average, that make a jump: below 1 degree it does not matter.
 const SMALLEST_JUMP: f64 = 0.0175;
@@ -63,16 +52,17 @@ const SMALLEST_JUMP: f64 = 0.0175;
 /// Radians a joint, on average, below which a step is no motion but rounding.
 const STILL: f64 = 1e-7;
 
-/// A lead-in: frames at the start of a clip that are an inserted pose and the way out of it.
+/// A lead-in: frames at the start of a clip that are an inserted pose and the way out of it. At the end
+/// of a clip, a lead-out, they are the way into the pose and the pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeadIn {
-    /// The clip's first frame.
+    /// The first frame that is not motion: of a lead-in the clip's first.
     pub first: Frame,
-    /// The last frame that is not motion.
+    /// The last frame that is not motion: of a lead-out the clip's last.
     pub last: Frame,
-    /// How many times larger the jump is than the largest step of the quarter of a second after it.
+    /// How many times larger the jump is than the largest step of the quarter of a second beside it.
     pub ratio: f64,
-    /// Whether its first frame is a T-pose: arms spread level, in the body's own axes.
+    /// Whether the inserted pose is a T-pose: arms spread level, in the body's own axes.
     pub is_t_pose: bool,
 }
 
@@ -83,29 +73,28 @@ impl LeadIn {
     /// with the first step that is one of the motion. A clip too short to tell has none, nor has one
     /// that stands still after the jump: its frames are drawings, as in limited animation.
     pub fn find(clip: &Clip) -> Option<Self> {
-        let fps = clip.rate().fps();
-        let following = ((FOLLOWING * fps).round() as usize).max(FEWEST_FOLLOWING);
-        let tail = (LONGEST_TAIL * fps).round() as usize;
-        let joints = clip.skeleton().len() as f64;
-        let steps = Steps::of(clip, MOST_HELD + 1 + tail + following);
+        Self::find_at(clip, End::Front)
+    }
 
-        let jump = steps.sums.iter().take(MOST_HELD + 1).position(|step| *step > STILL * joints)?;
-        let is_far = |step: &usize| steps.sums[*step] > TAIL * steps.median(*step + 1, following);
-        let end = (jump + 1..steps.sums.len()).take(tail).take_while(is_far).last().unwrap_or(jump);
-        let after = steps.after(end + 1, following);
-        if after.len() < FEWEST_FOLLOWING.max(following / 2) {
-            return None;
-        }
-        let is_moving = steps.median(end + 1, following) > STILL * joints;
-        let ratio = steps.sums[jump] / after.iter().copied().fold(0.0, f64::max);
-        let jumping = steps.share_of_joints(jump, end + 1, following);
+    /// Finds the lead-out of a clip, if it has one: as [`LeadIn::find`] would in the clip played backwards.
+    pub fn find_out(clip: &Clip) -> Option<Self> {
+        Self::find_at(clip, End::Back)
+    }
+
+    fn find_at(clip: &Clip, end: End) -> Option<Self> {
+        let (following, tail) = (following(clip), (LONGEST_TAIL * clip.rate().fps()).round());
+        let joints = clip.skeleton().len() as f64;
+        let steps = Steps::of(clip, end, MOST_HELD + 1 + tail as usize + following);
+        let jump = Jump::find(&steps.sums, STILL * joints, tail as usize, following)?;
+        let size = steps.sums[jump.begin];
+        let ratio = size / jump.largest_after;
+        let jumping = steps.share_of_joints(jump.begin, jump.end + 1, following);
         let stands_out = ratio >= JUMP && jumping >= SOME_JOINTS
             || ratio >= COMMON_JUMP && jumping >= MOST_JOINTS;
-        let is_jump = is_moving && stands_out && steps.sums[jump] >= SMALLEST_JUMP * joints;
-        let first = clip.first();
+        let is_jump = stands_out && size >= SMALLEST_JUMP * joints;
         is_jump.then(|| {
-            let is_t_pose = is_t_pose(clip, first);
-            Self { first, last: Frame(first.0 + end), ratio, is_t_pose }
+            let (first, last) = end.span(clip, jump.end);
+            Self { first, last, ratio, is_t_pose: is_t_pose(clip, end.frame(clip, 0)) }
         })
     }
 
@@ -125,7 +114,7 @@ impl LeadIn {
             format!("frames {first} to {last} are")
         };
         let message = format!(
-            "{frames} an inserted {pose}, not motion: a jump {ratio:.0} times any step after it; left out (keep with --keep-lead-in)"
+            "{frames} an inserted {pose}, not motion: a jump {ratio:.0} times any step beside it; left out (keep with --keep-lead-in)"
         );
         Warning::new("W_LEAD_IN", message)
     }
@@ -140,7 +129,15 @@ pub fn strip(clip: Clip) -> (Clip, Option<Warning>) {
     (motion, Some(lead_in.warning()))
 }
 
-/// The first steps of a clip in radians; step 0 leads from row 0 to row 1.
+/// The clip without its lead-out, and what a person should know about that.
+pub fn strip_out(clip: Clip) -> (Clip, Option<Warning>) {
+    let Some(lead_out) = LeadIn::find_out(&clip) else { return (clip, None) };
+    let begin = clip.first();
+    let motion = clip.trimmed(begin, lead_out.first).expect("steps were seen before it");
+    (motion, Some(lead_out.warning()))
+}
+
+/// The steps from an end of a clip on, in radians; step 0 is the outermost.
 struct Steps {
     /// Of each joint, step after step.
     joints: Vec<Vec<f64>>,
@@ -149,34 +146,21 @@ struct Steps {
 }
 
 impl Steps {
-    fn of(clip: &Clip, most: usize) -> Self {
+    fn of(clip: &Clip, end: End, most: usize) -> Self {
         let count = clip.len().saturating_sub(1).min(most);
         let mut joints = Vec::with_capacity(count);
         if count > 0 {
             let mut from = Pose::rest(clip.skeleton());
             let mut to = from.clone();
-            from.take_frame(clip, clip.first());
-            for frame in 1..=count {
-                to.take_frame(clip, Frame(clip.first().0 + frame));
+            from.take_frame(clip, end.frame(clip, 0));
+            for step in 1..=count {
+                to.take_frame(clip, end.frame(clip, step));
                 joints.push(turned(&from, &to));
                 std::mem::swap(&mut from, &mut to);
             }
         }
         let sums = joints.iter().map(|step| step.iter().sum()).collect();
         Self { joints, sums }
-    }
-
-    /// Up to `count` sums from `begin` on.
-    fn after(&self, begin: usize, count: usize) -> &[f64] {
-        let end = (begin + count).min(self.sums.len());
-        &self.sums[begin.min(end)..end]
-    }
-
-    /// Their median; infinite when there is none, so that nothing is far from it.
-    fn median(&self, begin: usize, count: usize) -> f64 {
-        let mut sums = self.after(begin, count).to_vec();
-        sums.sort_by(f64::total_cmp);
-        sums.get(sums.len() / 2).copied().unwrap_or(f64::INFINITY)
     }
 
     /// The share of the joints which jump, of those that turn at all: 0 when none does.
@@ -261,7 +245,7 @@ mod tests {
 
     /// Every fourth frame, and every one of the fastest twentieth.
     fn starts(clip: &Clip) -> Vec<usize> {
-        let sums = Steps::of(clip, usize::MAX).sums;
+        let sums = Steps::of(clip, End::Front, usize::MAX).sums;
         let mut fastest: Vec<usize> = (0..sums.len()).collect();
         fastest.sort_by(|a, b| sums[*b].total_cmp(&sums[*a]));
         let mut starts = fastest[..sums.len() / 20].to_vec();
