@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use genga::Warning;
 use genga::motion::{Clip as Motion, bvh};
-use genga::time::{Frame, FrameRate};
+use genga::time::FrameRate;
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
 };

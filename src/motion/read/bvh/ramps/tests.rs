@@ -39,7 +39,7 @@ fn three_frames_of_ramp_at_either_end_are_found_at_every_rate() {
     for fps in [24.0, 30.0, 60.0, 100.0, 120.0, 240.0] {
         for held in [1, 2, 6] {
             // Held at the origin, then a third and two thirds of the way.
-            let share = |frame: usize| ((frame + 1) as f64 - held as f64).max(0.0).min(3.0) / 3.0;
+            let share = |frame: usize| ((frame + 1) as f64 - held as f64).clamp(0.0, 3.0) / 3.0;
             let front = clip(fps, |frame, _| share(frame));
             assert_eq!(found(&front), (held + 2, 0), "{held} at {fps}");
             let back = clip(fps, |frame, frames| share(frames - 1 - frame));
