@@ -3,6 +3,7 @@
 mod animation;
 mod binary;
 mod bones;
+mod hold;
 mod mesh;
 #[cfg(test)]
 mod tests;
@@ -19,7 +20,7 @@ use binary::Binary;
 use bones::Bones;
 
 /// The limited motion as GLB: a skeleton that holds each drawing's pose for as long as the drawing is
-/// exposed (every sampler `STEP`), in metres and +Y up.
+/// exposed (by default every sampler is `STEP`), in metres and +Y up.
 ///
 /// It has two animations: `koma` with every drawing, first because players show the first, and `genga`
 /// with the key drawings (原画) alone. The koma, number, role and source place of every drawing stand
@@ -36,7 +37,22 @@ pub struct Glb {
     /// Whether each bone has an octahedron to be seen by, default true. Without it most viewers show
     /// nothing and Blender still makes the armature.
     pub mesh: bool,
+    /// How a hold is keyed; default `single`.
+    pub step: Step,
 }
+
+/// How a hold (止め) is keyed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Step {
+    /// One key a drawing, `STEP`: it stands until the next.
+    #[default]
+    Single,
+    /// Two equal keys a drawing, `LINEAR`, the second a hundredth of a koma before the next drawing. For
+    /// readers that make lines of steps; the file's keys are twice as many.
+    Doubled,
+}
+
+choices!(Step { Single: "single", Doubled: "doubled" });
 
 /// A unit of length (単位), or that nobody knows it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -89,7 +105,7 @@ choices!(Up { Auto: "auto", Y: "y", Z: "z" });
 
 impl Default for Glb {
     fn default() -> Self {
-        Self { unit: LengthUnit::Auto, scale: 1.0, up: Up::Auto, mesh: true }
+        Self { unit: LengthUnit::Auto, scale: 1.0, up: Up::Auto, mesh: true, step: Step::Single }
     }
 }
 
@@ -104,6 +120,11 @@ knobs!(glb::Glb {
         "骨の形",
         "Whether each bone has an octahedron to be seen by; without it most viewers show nothing.",
         "骨を八面体で見せるか。ないと多くのビューアでは何も見えない。",
+    ),
+    step: knob(
+        "止めのキー",
+        "One stepped key a drawing, or two equal linear ones for programs that know no steps.",
+        "1枚にステップのキー1つ、またはステップのないソフト向けに同じリニアのキー2つ。",
     ),
 });
 
@@ -133,7 +154,7 @@ impl Glb {
         let bones = Bones::of(clip.skeleton(), space)?;
         let mut binary = Binary::default();
         let mut document = self.scene(&bones, &mut binary);
-        document["animations"] = animations(&composite, sheet, space, &mut binary);
+        document["animations"] = self.animations(&composite, sheet, space, &mut binary);
         Ok(binary.into_glb(document))
     }
 
@@ -169,29 +190,30 @@ impl Glb {
         document["scenes"] = json!([{ "nodes": scene }]);
         document
     }
+
+    /// Both animations, or the first alone where no drawing is a key.
+    fn animations(
+        &self,
+        composite: &Composite<'_>,
+        sheet: &Sheet,
+        space: Space,
+        binary: &mut Binary,
+    ) -> Value {
+        let layer = composite.layer();
+        let poses = animation::Poses::of(composite, space);
+        let write = |name: &str, shown: &[animation::Exposed], binary: &mut Binary| {
+            poses.animation(name, shown, (layer, sheet.clock.koma_rate), self.step, binary)
+        };
+        let mut animations = vec![write("koma", &animation::all(layer), binary)];
+        let genga = animation::genga(layer);
+        if !genga.is_empty() {
+            animations.push(write("genga", &genga, binary));
+        }
+        Value::Array(animations)
+    }
 }
 
 const GENERATOR: &str = concat!("genga ", env!("CARGO_PKG_VERSION"));
-
-/// Both animations, or the first alone where no drawing is a key.
-fn animations(
-    composite: &Composite<'_>,
-    sheet: &Sheet,
-    space: Space,
-    binary: &mut Binary,
-) -> Value {
-    let layer = composite.layer();
-    let poses = animation::Poses::of(composite, space);
-    let write = |name: &str, shown: &[animation::Exposed], binary: &mut Binary| {
-        poses.animation(name, shown, layer, sheet.clock.koma_rate, binary)
-    };
-    let mut animations = vec![write("koma", &animation::all(layer), binary)];
-    let genga = animation::genga(layer);
-    if !genga.is_empty() {
-        animations.push(write("genga", &genga, binary));
-    }
-    Value::Array(animations)
-}
 
 /// How the clip's space becomes that of glTF: metres, +Y up, right-handed as before.
 #[derive(Debug, Clone, Copy, PartialEq)]

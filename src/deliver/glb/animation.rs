@@ -1,11 +1,11 @@
-//! The poses of a sheet as stepped channels.
+//! The poses of a sheet as channels that hold each of them.
 
 use glam::DQuat;
 use serde_json::{Value, json};
 
-use super::Space;
 use super::binary::{Binary, Use};
 use super::bones::floats;
+use super::{Space, Step};
 use crate::motion::{Composite, CompositeRows, Joint, local_rotation, local_translation};
 use crate::sheet::{Layer, Source};
 
@@ -96,49 +96,43 @@ impl<'a> Poses<'a> {
         Self { composite, space, locals, joints: joints.len(), translated, rotated, steppers }
     }
 
-    /// An animation of some drawings, with a key at the end of the last: without it the last drawing
-    /// would last no time and a player would begin again at once.
+    /// An animation of some drawings of a layer at its rate.
     pub(super) fn animation(
         &self,
         name: &str,
         shown: &[Exposed],
-        layer: &Layer,
-        koma_rate: f64,
+        (layer, koma_rate): (&Layer, f64),
+        step: Step,
         binary: &mut Binary,
     ) -> Value {
-        let closing = shown.last().into_iter();
-        let times = shown.iter().map(|shown| shown.begin).chain(closing.map(|last| last.end));
-        let second = |koma: usize| [(koma as f64 / koma_rate) as f32];
-        let times: Vec<[f32; 1]> = times.map(second).collect();
+        let times = step.times(shown.iter().map(|shown| (shown.begin, shown.end)), koma_rate);
         let times = binary.add_bounded(Use::Data, "SCALAR", &times);
+        let held = Held { times, step };
         let mut tracks = Vec::new();
         for &joint in &self.translated {
-            let values: Vec<_> = self.track(joint, shown).map(|local| local.translation).collect();
-            tracks.push((joint, "translation", times, binary.add(Use::Data, "VEC3", &values)));
+            tracks.push(held.translation(joint, self.track(joint, shown), binary));
         }
         for &joint in &self.rotated {
-            let values = continuous(self.track(joint, shown).map(|local| local.rotation));
-            tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
+            tracks.push(held.rotation(joint, self.track(joint, shown), binary));
         }
         if self.composite.slides() {
             let travellers = self.composite.travellers();
             let followed = [travellers, &self.steppers].concat();
             let locals = self.on_ones(&followed, shown);
-            let times: Vec<[f32; 1]> = (0..locals.len() / followed.len()).map(second).collect();
+            let koma = locals.len() / followed.len();
+            let times = step.times((0..koma).map(|koma| (koma, koma + 1)), koma_rate);
             let times = binary.add_bounded(Use::Data, "SCALAR", &times);
+            let held = Held { times, step };
             let koma_by_koma = |at: usize| locals[at..].iter().step_by(followed.len()).copied();
             for (at, &joint) in travellers.iter().enumerate() {
-                let values: Vec<_> = koma_by_koma(at).map(|local| local.translation).collect();
-                tracks.push((joint, "translation", times, binary.add(Use::Data, "VEC3", &values)));
+                tracks.push(held.translation(joint, koma_by_koma(at), binary));
             }
             for (at, &joint) in (travellers.len()..).zip(&self.steppers) {
-                let values = continuous(koma_by_koma(at).map(|local| local.rotation));
-                tracks.push((joint, "rotation", times, binary.add(Use::Data, "VEC4", &values)));
+                tracks.push(held.rotation(joint, koma_by_koma(at), binary));
             }
         }
-        type Track = (usize, &'static str, usize, usize);
-        let sampler = |(_, _, times, values): &Track| json!({ "input": times, "interpolation": "STEP", "output": values });
-        let channel = |(sampler, (node, path, ..)): (usize, &Track)| json!({ "sampler": sampler, "target": { "node": node, "path": path } });
+        let sampler = |track: &Track| json!({ "input": track.times, "interpolation": step.interpolation(), "output": track.values });
+        let channel = |(sampler, track): (usize, &Track)| json!({ "sampler": sampler, "target": { "node": track.joint, "path": track.path } });
         json!({
             "name": name,
             "channels": tracks.iter().enumerate().map(channel).collect::<Vec<_>>(),
@@ -147,14 +141,12 @@ impl<'a> Poses<'a> {
         })
     }
 
-    /// A joint through some drawings, the last once more.
+    /// A joint through some drawings.
     fn track(&self, joint: usize, shown: &[Exposed]) -> impl Iterator<Item = Local> {
-        let drawings = shown.iter().chain(shown.last()).map(|shown| shown.drawing);
-        drawings.map(move |drawing| self.locals[drawing * self.joints + joint])
+        shown.iter().map(move |shown| self.locals[shown.drawing * self.joints + joint])
     }
 
-    /// Some joints koma by koma in an animation of some drawings, the last koma once more: what goes on while
-    /// they are held.
+    /// Some joints koma by koma in an animation of some drawings: what goes on while they are held.
     fn on_ones(&self, joints: &[usize], shown: &[Exposed]) -> Vec<Local> {
         let skeleton = self.composite.clip().skeleton();
         let mut row = vec![0.0; skeleton.channels()];
@@ -167,8 +159,45 @@ impl<'a> Poses<'a> {
                 locals.extend(joints.iter().map(local));
             }
         }
-        locals.extend_from_within(locals.len().saturating_sub(joints.len())..);
         locals
+    }
+}
+
+/// What a joint does: accessors of its times and of its values.
+struct Track {
+    joint: usize,
+    path: &'static str,
+    times: usize,
+    values: usize,
+}
+
+/// Holds at some times, to which tracks are written.
+struct Held {
+    times: usize,
+    step: Step,
+}
+
+impl Held {
+    fn translation(
+        &self,
+        joint: usize,
+        locals: impl Iterator<Item = Local>,
+        binary: &mut Binary,
+    ) -> Track {
+        let values = self.step.values(locals.map(|local| local.translation));
+        let values = binary.add(Use::Data, "VEC3", &values);
+        Track { joint, path: "translation", times: self.times, values }
+    }
+
+    fn rotation(
+        &self,
+        joint: usize,
+        locals: impl Iterator<Item = Local>,
+        binary: &mut Binary,
+    ) -> Track {
+        let values = self.step.values(continuous(locals.map(|local| local.rotation)));
+        let values = binary.add(Use::Data, "VEC4", &values);
+        Track { joint, path: "rotation", times: self.times, values }
     }
 }
 
@@ -216,14 +245,14 @@ fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
 
 /// Of q and −q, which are one rotation, the one nearer to the key before, so that a curve drawn through
 /// them does not jump.
-fn continuous(rotations: impl Iterator<Item = [f32; 4]>) -> Vec<[f32; 4]> {
+fn continuous(rotations: impl Iterator<Item = [f32; 4]>) -> impl Iterator<Item = [f32; 4]> {
     let mut before = [0.0, 0.0, 0.0, 1.0];
-    let near = |rotation: [f32; 4]| {
+    let near = move |rotation: [f32; 4]| {
         let dot: f32 = rotation.iter().zip(before).map(|(a, b)| a * b).sum();
         before = if dot < 0.0 { rotation.map(|value| -value) } else { rotation };
         before
     };
-    rotations.map(near).collect()
+    rotations.map(near)
 }
 
 fn quaternion(rotation: DQuat) -> [f32; 4] {

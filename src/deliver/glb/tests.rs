@@ -155,6 +155,38 @@ fn every_sampler_is_stepped_and_closes_where_the_cut_ends() {
 }
 
 #[test]
+fn doubled_holds_stay_whole_for_a_reader_of_lines_at_120_frames() {
+    let doubled = Glb { step: Step::Doubled, ..Glb::default() };
+    for settings in [&[][..], &[("root", "ones")], &[("root", "ones"), ("feet", "held")]] {
+        let (clip, sheet) = made("kick", settings);
+        check_positions(&clip, &sheet, &doubled);
+        let read = Read::of(&doubled.write(&clip, &sheet).unwrap());
+        assert!(read.samplers(0).iter().all(|own| own["interpolation"] == "LINEAR"));
+        let size = Stature::of(&clip).size * doubled.space(&clip).scale;
+        let expected = by_limited_bvh(&clip, &sheet, &doubled);
+        for frame in 0..5 * sheet.length() {
+            let shown = read.positions(0, frame as f64 / 120.0);
+            let off = furthest(&[shown[..clip.skeleton().len()].to_vec()], &expected[frame / 5..]);
+            // Where a koma begins, the float of its key may lie a little after the frame.
+            let most = if frame % 5 == 0 { 1e-3 } else { 1e-6 };
+            assert!(off < most * size, "frame {frame}: off by {}", off / size);
+        }
+    }
+}
+
+#[test]
+fn doubled_keys_are_a_pair_a_drawing_and_run_on_for_days() {
+    let holds = [(0, 3), (3, 4), (4, 6)];
+    let times = Step::Doubled.times(holds.into_iter(), 1.0);
+    assert_eq!(times, [[0.0], [2.99], [3.0], [3.99], [4.0], [6.0]]);
+    assert_eq!(Step::Doubled.values([7, 8, 9].into_iter()), [7, 7, 8, 8, 9, 9]);
+    let day = 24 * 60 * 60 * 24;
+    let late = Step::Doubled.times((day..day + 9).map(|koma| (koma, koma + 1)), 24.0);
+    assert!(late.is_sorted_by(|a, b| a[0] < b[0]), "{late:?}");
+    assert_eq!(Step::Doubled.times(std::iter::empty(), 24.0), [[0.0f32; 1]; 0]);
+}
+
+#[test]
 fn the_keys_alone_hold_from_one_genga_to_the_next() {
     let (clip, sheet) = made("kick", &[]);
     let read = read(&clip, &sheet);

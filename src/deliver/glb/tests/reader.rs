@@ -54,15 +54,26 @@ impl Read {
         let mut nodes = self.json["nodes"].clone();
         for channel in self.json["animations"][animation]["channels"].as_array().unwrap() {
             let sampler = &self.samplers(animation)[channel["sampler"].as_u64().unwrap() as usize];
-            assert_eq!(sampler["interpolation"], "STEP");
-            let times = self.floats(&sampler["input"]);
-            let key = times.iter().rposition(|key| f64::from(key[0]) <= time).unwrap_or(0);
             let target = &channel["target"];
             let node = &mut nodes[target["node"].as_u64().unwrap() as usize];
-            node[target["path"].as_str().unwrap()] =
-                self.floats(&sampler["output"])[key].clone().into();
+            node[target["path"].as_str().unwrap()] = self.value(sampler, time).into();
         }
         self.placed(&nodes)
+    }
+
+    /// What a sampler says at a time; a line between two rotations is taken as one between their four numbers.
+    fn value(&self, sampler: &Value, time: f64) -> Vec<f64> {
+        let (times, values) = (self.floats(&sampler["input"]), self.floats(&sampler["output"]));
+        let key = times.iter().rposition(|key| f64::from(key[0]) <= time).unwrap_or(0);
+        let next = (key + 1).min(times.len() - 1);
+        let (begin, end) = (f64::from(times[key][0]), f64::from(times[next][0]));
+        let share = match sampler["interpolation"].as_str().unwrap() {
+            "STEP" => 0.0,
+            "LINEAR" => ((time - begin) / (end - begin).max(1e-9)).clamp(0.0, 1.0),
+            other => panic!("interpolation {other}"),
+        };
+        let between = |(a, b): (&f32, &f32)| f64::from(*a) + share * f64::from(b - a);
+        values[key].iter().zip(&values[next]).map(between).collect()
     }
 
     pub(super) fn rest_positions(&self) -> Vec<DVec3> {
