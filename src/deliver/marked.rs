@@ -20,7 +20,6 @@ use crate::time::Frame;
 /// [`Error::Table`] with the place of what is wrong: no column of frames, a frame that is no number. [`Error::Sheet`]
 /// where there is no such column, or no genga in it.
 pub fn pins_from_table(bytes: &[u8], column: Option<&str>) -> Result<(Vec<Pin>, String), Error> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|error| {
         no_table("this is not text in UTF-8; save the table as CSV in UTF-8".into(), error)
     })?;

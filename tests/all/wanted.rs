@@ -393,6 +393,31 @@ fn the_keys_of_an_edited_table_or_sheet_come_back_alone_or_with_others() {
     }
 }
 
+/// As a table comes back from Excel: with its mark and with line ends of Windows.
+#[test]
+fn a_table_written_for_excel_comes_back_as_keys() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --out a --with csv.bom=true");
+    let own = frames(&fs::read_to_string(place.path("a/keys.csv")).unwrap());
+    assert!(own.len() > 5, "{own:?}");
+    for file in ["keys.csv", "drawings.csv", "sheet.csv"] {
+        let table = fs::read_to_string(place.path(&format!("a/{file}"))).unwrap();
+        assert!(table.starts_with('\u{feff}'), "{file}");
+        let saved = table.replace('\n', "\r\n");
+        fs::write(place.path("saved.csv"), &saved).unwrap();
+        for marked in [&*format!("a/{file}"), "saved.csv"] {
+            let back = place.done(&format!("keys data/kick.bvh --pin-from {marked} --only-pins"));
+            assert_eq!(frames(&back), own, "{marked} of {file}");
+        }
+        let output = place.fed("keys data/kick.bvh --pin-from - --only-pins", saved.as_bytes());
+        assert_eq!(frames(&text(&output.stdout)), own, "{file} from stdin");
+    }
+    // The mark stands before the very name that is looked for.
+    fs::write(place.path("frames.csv"), "\u{feff}source_frame\r\n12\r\n50\r\n").unwrap();
+    let back = frames(&place.done("keys data/kick.bvh --pin-from frames.csv --only-pins"));
+    assert!(back.contains(&"12".into()) && back.contains(&"50".into()), "{back:?}");
+}
+
 #[test]
 fn a_table_or_sheet_with_marked_keys_is_not_written_over() {
     let place = Place::new();

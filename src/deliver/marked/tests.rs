@@ -78,6 +78,7 @@ fn the_genga_of_every_table_and_of_the_sheet_come_back_by_their_names() {
 #[test]
 fn a_row_that_a_person_adds_needs_no_more_than_a_frame() {
     assert_eq!(frames("source_frame\n12\n150\n"), [12, 150]);
+    assert_eq!(frames("\u{feff}source_frame\r\n12\r\n150\r\n"), [12, 150]);
     assert_eq!(frames("role;source_frame\n;7\ngenga; 47.6\nend;90\ninbetween;50\n;\n"), [7, 48]);
     let rows = table(
         "source_frame\tname\tweight\tnote\n5\ttop\t0.5\tpinned: old\n6\t\t\tpinned: old; Hips turns\n",
