@@ -1,4 +1,7 @@
-"""python check.py CLIP.bvh FOLDER: what Blender makes of a run of genga, and what the add-on does in it."""
+"""python check.py CLIP.bvh FOLDER [OTHER]: what Blender makes of a run of genga, and what the add-on does in it.
+
+A sheet of several layers is only put onto the take. OTHER is the folder of a run of another take, which is refused.
+"""
 
 import json
 import os
@@ -10,16 +13,23 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "addons" / "blender"))
 import genga  # noqa: E402
-from genga import stepping  # noqa: E402
+from genga import fit, stepping  # noqa: E402
 
 # Of the body's size. Blender works in single precision, and angles of BVH go through it twice.
 CLOSE = 2e-5
 CLIP, FOLDER = Path(sys.argv[1]), Path(sys.argv[2])
+OTHER = Path(sys.argv[3]) if len(sys.argv) > 3 else None
 SHEET = json.loads((FOLDER / "sheet.json").read_text(encoding="utf-8"))
 LAYER = SHEET["layers"][0]
+
+
+def begins(layer):
+    return [sum(e["koma"] for e in layer["exposures"][:at]) for at in range(len(layer["exposures"]))]
+
+
 ROLES = {drawing["drawing"]: drawing["role"] for drawing in LAYER["drawings"]}
 SHOWN = [exposure["drawing"] for exposure in LAYER["exposures"] for _ in range(exposure["koma"])]
-BEGINS = [sum(e["koma"] for e in LAYER["exposures"][:at]) for at in range(len(LAYER["exposures"]))]
+BEGINS = begins(LAYER)
 KEYS = [koma for koma, e in zip(BEGINS, LAYER["exposures"]) if ROLES[e["drawing"]] != "inbetween"]
 TYPES = {"genga": "EXTREME", "end": "EXTREME", "inbetween": "BREAKDOWN"}
 
@@ -77,14 +87,84 @@ def check_types(thing, start):
             assert point.type == wanted, (curve.data_path, koma, point.type)
 
 
-def main():
-    print(f"{FOLDER.name} in Blender {bpy.app.version_string}")
-    koma = range(len(SHOWN))
-
+def stood():
+    """The joints, and where they stand on each koma by limited.bvh."""
     empty()
     limited = import_bvh(FOLDER / "limited.bvh")
     names = [bone.name for bone in limited.data.bones]
-    wanted = [places(limited, names, 1 + at) for at in koma]
+    return names, [places(limited, names, 1 + koma) for koma in range(len(SHOWN))]
+
+
+def take():
+    """The take on an armature, which is active."""
+    empty()
+    thing = import_bvh(CLIP)
+    bpy.context.view_layer.objects.active = thing
+    return thing
+
+
+def apply(folder=FOLDER, **options):
+    return bpy.ops.genga.apply_sheet(filepath=str(folder / "sheet.json"), **options)
+
+
+def refused(words, **options):
+    """That the add-on refuses to go on, in these words."""
+    try:
+        apply(**options)
+    except RuntimeError as error:
+        assert words in str(error), (words, str(error))
+        return
+    raise AssertionError(f"not refused: {words}")
+
+
+def check_layers():
+    """Each layer is on its own bones, and together they are the body."""
+    names, wanted = stood()
+    thing = take()
+    assert apply() == {"FINISHED"}
+    for curve in curves(thing):
+        bone = fit.bone_of(curve.data_path)
+        (layer,) = [layer for layer in SHEET["layers"] if bone in layer["joints"]]
+        found = [round(point.co.x) - 1 for point in curve.keyframe_points]
+        assert found == begins(layer), (curve.data_path, found)
+    worst, size = 0.0, max((p - q).length for p in wanted[0] for q in wanted[0])
+    for koma, pose in enumerate(wanted):
+        worst = max(worst, furthest(places(thing, names, 1 + koma), pose) / size)
+        assert worst < CLOSE, (koma, worst)
+    say(f"add-on, {len(SHEET['layers'])} layers: all {len(wanted)} koma stand as in limited.bvh, off by {worst:.1e}")
+
+
+def check_refusals():
+    """Another take, a rig that plays nothing and one that is on a sheet already."""
+    thing = take()
+    played = thing.animation_data.action
+    refused("seems to be another take", folder=OTHER)
+    refused("source frame 0 is said to lie on 5", first_frame=5)
+    assert thing.animation_data.action is played and len(bpy.data.actions) == 1, "nothing was done"
+    assert apply(OTHER, anyway=True) == {"FINISHED"}
+    refused("is on a sheet already")
+    thing.animation_data.action = None
+    refused("has no action")
+    thing.animation_data_clear()
+    refused("has no action")
+    bpy.context.view_layer.objects.active = None
+    refused("Select the rig")
+    say("add-on: another take, no action, a sheet twice: refused; another take is taken where that is asked for")
+
+
+def main():
+    print(f"{FOLDER.name} in Blender {bpy.app.version_string}")
+    koma = range(len(SHOWN))
+    if len(SHEET["layers"]) > 1:
+        genga.register()
+        check_layers()
+        return
+    if OTHER:
+        genga.register()
+        check_refusals()
+        genga.unregister()
+
+    names, wanted = stood()
     for at in koma[1:]:
         if SHOWN[at] == SHOWN[at - 1]:
             assert wanted[at] == wanted[at - 1], f"koma {at} holds"
@@ -99,18 +179,16 @@ def main():
     check_keys(glb, [*BEGINS, len(SHOWN)], 0, "limited.glb")
     compare(glb, names, wanted, 0, None, "limited.glb")
 
-    empty()
+    source = take()
     genga.register()
-    source = import_bvh(CLIP)
-    bpy.context.view_layer.objects.active = source
-    take = source.animation_data.action
+    played = source.animation_data.action
     before = [[tuple(point.co) for point in curve.keyframe_points] for curve in curves(source)]
-    assert bpy.ops.genga.apply_sheet(filepath=str(FOLDER / "sheet.json")) == {"FINISHED"}
+    assert apply() == {"FINISHED"}
     check_keys(source, BEGINS, 1, "add-on, sheet.json")
     check_types(source, 1)
     compare(source, names, wanted, 1, 1.0, "add-on, sheet.json")
-    assert source.animation_data.action is not take
-    after = [[tuple(point.co) for point in curve.keyframe_points] for curve in stepping.curves(take)]
+    assert source.animation_data.action is not played
+    after = [[tuple(point.co) for point in curve.keyframe_points] for curve in stepping.curves(played)]
     assert before == after, "the take itself stays"
     scene = bpy.context.scene
     assert (scene.frame_start, scene.frame_end, scene.render.fps) == (1, len(SHOWN), 24)

@@ -5,7 +5,11 @@ from bpy.props import BoolProperty, IntProperty, StringProperty
 from bpy.types import Operator
 from bpy_extras.io_utils import ImportHelper
 
-from . import files, stepping
+from . import files, fit, stepping
+
+
+# What a stepped action is known by: the take that it was.
+STEPPED = "genga_take"
 
 
 def set_scene(scene, fps, start, koma):
@@ -51,42 +55,78 @@ class GENGA_OT_apply_sheet(Operator, Koma):
         description="The motion was scaled to the scene's rate when it was imported",
         default=False,
     )
-    layer: StringProperty(name="Layer", description="The sheet's layer; empty is the first")
+    layer: StringProperty(
+        name="Layer",
+        description="One layer of the sheet for all bones; empty puts each layer on its own bones",
+    )
+    anyway: BoolProperty(
+        name="Apply Anyway",
+        description="Go on though the action seems to be another take, or this one retargeted or trimmed",
+        default=False,
+    )
 
     @classmethod
     def poll(cls, context):
-        thing = context.active_object
-        return bool(thing and thing.animation_data and thing.animation_data.action)
+        if context.active_object is None:
+            cls.poll_message_set("Select the rig that plays the take")
+            return False
+        return True
 
     def run(self, context):
-        sheet = files.Sheet.read(self.filepath, self.layer)
+        sheet = files.Sheet.read(self.filepath)
+        layers = sheet.of(self.layer)
         thing, scene = context.active_object, context.scene
-        animation = thing.animation_data
-        action, slot = animation.action, getattr(animation, "action_slot", None)
+        action, slot = self.take_of(thing)
         step = scene.render.fps / scene.render.fps_base / sheet.source_fps if self.scaled else 1.0
-        self.check_length(sheet, action, step)
-        source = stepping.Source(thing, stepping.curves(action, slot), self.first_frame, step)
+        self.compare(sheet, thing, action, step)
+        take = stepping.curves(action, slot)
+        parts, strangers = fit.by_layer(layers, sheet.joints, {curve.data_path for curve in take})
         stepped = action.copy()
         stepped.name = f"{action.name} koma"
+        stepped[STEPPED] = sheet.take
         # The take itself stays, and is saved though nothing plays it.
         action.use_fake_user = True
-        animation.action = stepped
+        thing.animation_data.action = stepped
         if slot:
-            animation.action_slot = stepped.slots[slot.identifier]
-        slot = getattr(animation, "action_slot", None)
-        stepping.write(stepping.curves(stepped, slot), source, sheet.exposures, self.start)
+            thing.animation_data.action_slot = stepped.slots[slot.identifier]
+        target = stepping.curves(stepped, getattr(thing.animation_data, "action_slot", None))
+        for layer, paths in zip(layers, parts):
+            own = lambda curves: [curve for curve in curves if curve.data_path in paths]
+            source = stepping.Source(thing, own(take), self.first_frame, step)
+            stepping.write(own(target), source, layer.exposures, self.start)
         stepped.use_frame_range = True
         stepped.frame_start, stepped.frame_end = self.start, self.start + sheet.length
         set_scene(scene, sheet.fps, self.start, sheet.length)
-        self.report({"INFO"}, f"{len(sheet.exposures)} drawings on {sheet.length} koma")
+        for sentence in fit.left_out(sheet):
+            self.report({"WARNING"}, sentence)
+        if strangers:
+            text = f"in no layer and with that of the root: {fit.listed(strangers)}"
+            self.report({"WARNING"}, text)
+        drawings = sum(len(layer.exposures) for layer in layers)
+        self.report({"INFO"}, f"{drawings} drawings on {sheet.length} koma")
         return {"FINISHED"}
 
-    def check_length(self, sheet, action, step):
-        last = max(place for exposure in sheet.exposures for place in exposure.places)
-        needed, there = self.first_frame + last * step, action.frame_range[1]
-        if needed > there + 0.5:
-            text = f"the sheet shows frame {needed:g}, but the action ends at {there:g}"
-            self.report({"WARNING"}, text)
+    def take_of(self, thing):
+        """The action that an object plays, and its slot."""
+        animation = thing.animation_data
+        action = animation.action if animation else None
+        slot = getattr(animation, "action_slot", None)
+        if action is None or not stepping.curves(action, slot):
+            raise files.NotAFile(f"{thing.name} has no action: let it play the take first")
+        if STEPPED in action:
+            raise files.NotAFile(f"{action.name} is on a sheet already: let {thing.name} play the take itself")
+        return action, slot
+
+    def compare(self, sheet, thing, action, step):
+        """Refuses an action that seems to be another take, or says why it does."""
+        bones = [bone.name for bone in thing.data.bones] if thing.type == "ARMATURE" else []
+        found = fit.doubts(sheet, bones, action.curve_frame_range, self.first_frame, step)
+        if not found:
+            return
+        if not self.anyway:
+            raise files.NotAFile(f"this seems to be another take: {'; '.join(found)}. Apply Anyway goes on")
+        for sentence in found:
+            self.report({"WARNING"}, sentence)
 
 
 class GENGA_OT_import_glb(Operator, Koma):

@@ -29,41 +29,52 @@ class Exposure:
         return self.between or (self.frame,)
 
 
-class Sheet:
-    """A layer of a sheet.json: its exposures in order, and how long it is in koma."""
+class Layer:
+    """A column of the sheet: which joints it draws, and its exposures in order."""
 
-    def __init__(self, fps, source_fps, exposures, length):
-        self.fps = fps
-        self.source_fps = source_fps
-        self.exposures = exposures
-        self.length = length
+    def __init__(self, layer):
+        self.name = layer["name"]
+        self.joints = [str(joint) for joint in layer.get("joints", [])]
+        drawings = {drawing["drawing"]: drawing for drawing in layer["drawings"]}
+        self.exposures, self.length = [], 0
+        for exposure in layer["exposures"]:
+            self.exposures.append(Exposure(self.length, drawings[exposure["drawing"]]))
+            self.length += exposure["koma"]
+        if not self.exposures:
+            raise NotAFile(f"layer {self.name} has no drawing")
+
+
+class Sheet:
+    """A sheet.json: its layers, how long it is in koma, and what it knows of the take that it was made of."""
+
+    def __init__(self, sheet):
+        if sheet["schema"] != SHEET_SCHEMA:
+            raise NotAFile(f"the sheet is {sheet['schema']}; this add-on reads {SHEET_SCHEMA}")
+        clip = sheet["clip"]
+        self.fps, self.source_fps = float(sheet["fps"]), float(clip["frame_rate"])
+        self.take = str(clip["file"])
+        self.joints = [str(joint) for joint in clip["joints"]]
+        self.first, self.frames = int(clip["first_frame"]), int(clip["frames"])
+        self.layers = [Layer(layer) for layer in sheet["layers"]]
+        self.length = max(layer.length for layer in self.layers)
+        self.root_on_ones = sheet.get("root") == "ones"
+        self.feet_held = sheet.get("feet") == "held"
+        self.exaggerated = "exaggerate" in sheet
 
     @classmethod
-    def read(cls, path, layer_name=""):
-        """Reads a layer by its name, or the first."""
+    def read(cls, path):
         try:
             with open(path, encoding="utf-8-sig") as file:
-                return cls._of(json.load(file), layer_name)
+                return cls(json.load(file))
         except (ValueError, KeyError, IndexError, TypeError) as error:
             raise NotAFile(f"{path} is no timesheet of genga: {error!r}") from error
 
-    @classmethod
-    def _of(cls, sheet, layer_name):
-        if sheet["schema"] != SHEET_SCHEMA:
-            raise NotAFile(f"the sheet is {sheet['schema']}; this add-on reads {SHEET_SCHEMA}")
-        layers = sheet["layers"]
-        names = [layer["name"] for layer in layers]
-        if layer_name and layer_name not in names:
-            raise NotAFile(f"no layer {layer_name}; there are {', '.join(names)}")
-        layer = layers[names.index(layer_name) if layer_name else 0]
-        drawings = {drawing["drawing"]: drawing for drawing in layer["drawings"]}
-        exposures, koma = [], 0
-        for exposure in layer["exposures"]:
-            exposures.append(Exposure(koma, drawings[exposure["drawing"]]))
-            koma += exposure["koma"]
-        if not exposures:
-            raise NotAFile(f"layer {layer['name']} has no drawing")
-        return cls(float(sheet["fps"]), float(sheet["clip"]["frame_rate"]), exposures, koma)
+    def of(self, name):
+        """The layers that are asked for: the one of that name, or all."""
+        names = [layer.name for layer in self.layers]
+        if name and name not in names:
+            raise NotAFile(f"no layer {name}; there are {', '.join(names)}")
+        return [layer for layer in self.layers if name in ("", layer.name)]
 
 
 def is_number(value):

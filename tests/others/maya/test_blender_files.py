@@ -7,10 +7,17 @@ import tempfile
 import unittest
 from pathlib import Path
 
-PLACE = Path(__file__).resolve().parents[3] / "addons" / "blender" / "genga" / "files.py"
-SPEC = importlib.util.spec_from_file_location("files", PLACE)
-files = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(files)
+PLACE = Path(__file__).resolve().parents[3] / "addons" / "blender" / "genga"
+
+
+def module(name):
+    spec = importlib.util.spec_from_file_location(name, PLACE / f"{name}.py")
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+files, fit = module("files"), module("fit")
 
 EXTRAS = {"fps": 24, "koma": 3, "keys": [{"koma": 0, "role": "end"}, {"koma": 2, "role": "genga"}]}
 
@@ -38,6 +45,71 @@ class Animations(unittest.TestCase):
         for document in ([], {"animations": [3]}, {"animations": 3}):
             with self.subTest(document=document), self.assertRaises(files.NotAFile):
                 self.read(document)
+
+
+def layer(name, joints):
+    drawing = {"drawing": 0, "role": "genga", "frame": 10}
+    return {"name": name, "joints": joints, "drawings": [drawing], "exposures": [{"drawing": 0, "koma": 3}]}
+
+
+TRUNK, ARM = layer("A", ["Hips", "Spine"]), layer("B", ["L Arm"])
+
+
+def sheet(**changed):
+    """A sheet of a take of 40 frames, from its frame 10 on, in two layers."""
+    clip = {"file": "kick.bvh", "frame_rate": 24, "first_frame": 10, "frames": 40}
+    clip["joints"] = ["Hips", "Spine", "L Arm"]
+    whole = {"schema": "genga-sheet-1", "fps": 24, "clip": clip, "layers": [TRUNK, ARM]}
+    return files.Sheet({**whole, **changed})
+
+
+class Takes(unittest.TestCase):
+    BONES = ["Hips", "Spine", "L Arm", "Extra"]
+
+    def doubts(self, bones=None, keyed=(1, 50), first_frame=1, step=1.0):
+        return fit.doubts(sheet(), bones or self.BONES, keyed, first_frame, step)
+
+    def test_the_take_itself_is_taken(self):
+        self.assertEqual(self.doubts(), [])
+        renamed = ["Rig:Hips", "spine.001", "L_Arm"]
+        self.assertEqual(self.doubts(renamed), [])
+        self.assertEqual(self.doubts(keyed=(1, 123.5), step=2.5), [])
+        self.assertEqual(self.doubts(keyed=(0, 49), first_frame=0), [])
+
+    def test_joints_that_the_rig_lacks_are_named(self):
+        self.assertEqual(self.doubts(["Hips"]), ["the rig lacks 2 of 3 joints of kick.bvh: Spine, L Arm"])
+
+    def test_another_length_is_said_either_way(self):
+        for keyed, words in (
+            ((1, 49), "ends on frame 49, but kick.bvh goes on to 50"),
+            ((1, 51), "goes on to frame 51, but kick.bvh ends on 50"),
+            ((3, 50), "begins on frame 3, but source frame 0 is said to lie on 1"),
+        ):
+            with self.subTest(keyed=keyed):
+                (sentence,) = self.doubts(keyed=keyed)
+                self.assertIn(words, sentence)
+
+    def test_each_layer_has_its_own_bones_and_the_root_has_the_rest(self):
+        path = lambda bone, what="rotation_euler": f'pose.bones["{bone}"].{what}'
+        paths = [path("Hips", "location"), path("L_Arm"), path("Spine"), "location", path('a \\"b\\"')]
+        parts, strangers = fit.by_layer(sheet().layers, sheet().joints, paths)
+        self.assertEqual(parts, [[paths[0], paths[2], paths[3], paths[4]], [paths[1]]])
+        self.assertEqual(strangers, ['a "b"'])
+        self.assertEqual(fit.by_layer(sheet().of("B"), sheet().joints, paths), ([paths], []))
+        swapped = sheet(layers=[ARM, TRUNK])
+        parts, _ = fit.by_layer(swapped.layers, swapped.joints, paths)
+        self.assertEqual(parts[1], [paths[0], paths[2], paths[3], paths[4]])
+
+    def test_layers_are_taken_by_name_and_others_refused(self):
+        self.assertEqual([layer.name for layer in sheet().of("")], ["A", "B"])
+        with self.assertRaisesRegex(files.NotAFile, "no layer C; there are A, B"):
+            sheet().of("C")
+
+    def test_what_poses_cannot_show_is_said(self):
+        self.assertEqual(fit.left_out(sheet()), [])
+        said = fit.left_out(sheet(root="ones", feet="held", exaggerate={"ease": 1}))
+        self.assertEqual(len(said), 3)
+        self.assertTrue(all(sentence.endswith("limited.bvh has it") for sentence in said))
 
 
 if __name__ == "__main__":
