@@ -53,7 +53,7 @@ pub use sts::sts;
 pub use study_table::study_csv;
 use table::{CsvText, csv_table, number};
 pub use turns::turns_csv;
-pub use vmd::{BoneMap, Vmd, VmdKey, VmdMade, VmdMotion, VmdReport};
+pub use vmd::{BoneMap, MmdModel, Vmd, VmdBones, VmdKey, VmdMade, VmdMotion, VmdReport};
 pub use xsheet::{XSheetFiles, xsheet};
 
 /// What the reader of JSON says, without the place: that counts within the part which was read.

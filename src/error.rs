@@ -85,6 +85,14 @@ pub enum Error {
         /// What is wrong with it, and what there is.
         message: String,
     },
+    /// A file is no model of MMD that can be used.
+    #[error("byte {byte}: {message}")]
+    Model {
+        /// The byte of the file, from 0.
+        byte: usize,
+        /// What was expected and what was found.
+        message: String,
+    },
     /// Reading or writing failed.
     #[error("{}: {source}", path.display())]
     Io {

@@ -230,7 +230,7 @@ pub(crate) trait Knobs {
 
 /// Declares the knobs of a settings struct of a section: `knobs!(filter::LowPass { width: knob(…), … })`.
 ///
-/// Behind `..` stands a field that has none, or in brackets those that have knobs of their own. What is forgotten does
+/// Behind `..` stand fields that have none, or in brackets those that have knobs of their own. What is forgotten does
 /// not compile.
 macro_rules! knobs {
     ($section:ident::$of:ident { $($rows:tt)* }) => {
@@ -242,13 +242,13 @@ macro_rules! knobs {
     (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..[$($under:ident),+]) => {
         $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [] [$($under),+]);
     };
-    (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..$bare:ident) => {
-        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [$bare] []);
+    (@rows $section:tt $of:ident $($field:ident: $knob:expr,)* ..$($bare:ident),+) => {
+        $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [$($bare),+] []);
     };
     (@rows $section:tt $of:ident $($field:ident: $knob:expr),* $(,)?) => {
         $crate::knob::knobs!(@impl $section $of [$($field: $knob),*] [] []);
     };
-    (@impl ($section:expr) $of:ident [$($field:ident: $knob:expr),*] [$($bare:ident)?] [$($under:ident),*]) => {
+    (@impl ($section:expr) $of:ident [$($field:ident: $knob:expr),*] [$($bare:ident),*] [$($under:ident),*]) => {
         impl $of {
             /// What is said of each setting.
             pub(crate) const KNOBS: &'static [$crate::knob::Knob] = &[$($knob.named(
@@ -259,13 +259,13 @@ macro_rules! knobs {
 
         impl $crate::knob::Knobs for $of {
             fn values(&self) -> Vec<(&'static $crate::knob::Knob, &dyn $crate::knob::Value)> {
-                let Self { $($field,)* $($bare: _,)? $($under,)* } = self;
+                let Self { $($field,)* $($bare: _,)* $($under,)* } = self;
                 let own: Vec<&dyn $crate::knob::Value> = vec![$($field),*];
                 Self::KNOBS.iter().zip(own)$(.chain($under.values()))*.collect()
             }
 
             fn values_mut(&mut self) -> Vec<(&'static $crate::knob::Knob, &mut dyn $crate::knob::Value)> {
-                let Self { $($field,)* $($bare: _,)? $($under,)* } = self;
+                let Self { $($field,)* $($bare: _,)* $($under,)* } = self;
                 let own: Vec<&mut dyn $crate::knob::Value> = vec![$($field),*];
                 Self::KNOBS.iter().zip(own)$(.chain($under.values_mut()))*.collect()
             }

@@ -47,7 +47,8 @@ impl Failure {
             Error::Clip { .. }
             | Error::Sheet { .. }
             | Error::Table { .. }
-            | Error::Camera { .. } => Self::CouldNot(format!("{name}: {error}")),
+            | Error::Camera { .. }
+            | Error::Model { .. } => Self::CouldNot(format!("{name}: {error}")),
             other => other.into(),
         }
     }

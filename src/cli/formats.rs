@@ -8,7 +8,7 @@ use super::corrections::assignment;
 use super::failure::Failure;
 use super::staging::Bundle;
 use super::{files, paths};
-use crate::deliver::{BoneMap, Cut, FORMATS, Format, Settings, Sink, sheet_json};
+use crate::deliver::{BoneMap, Cut, FORMATS, Format, MmdModel, Settings, Sink, Vmd, sheet_json};
 use crate::error::{Error, Warning};
 use crate::plot::Camera;
 
@@ -107,10 +107,14 @@ impl Formats {
             settings.look_from(camera);
         }
         for (name, value) in &args.with {
-            settings.set(name, value).map_err(|error| wrongly("with", &error))?;
+            if name == "vmd.model" && Vmd::is_file(value) {
+                settings.vmd.play(model(Path::new(value))?);
+            } else {
+                settings.set(name, value).map_err(|error| wrongly("with", &error))?;
+            }
         }
         let bones = |path| files::parsed("bones", path, BoneMap::parse);
-        settings.vmd.bones = args.bones.as_deref().map(bones).transpose()?;
+        settings.vmd.map = args.bones.as_deref().map(bones).transpose()?;
         Ok(Self { formats, named, settings, is_forced: args.force })
     }
 
@@ -214,6 +218,11 @@ impl Formats {
         }
         Ok(notes)
     }
+}
+
+/// The model of MMD in a file.
+fn model(path: &Path) -> Result<MmdModel, Failure> {
+    MmdModel::read(&files::read(path)?).map_err(files::fault_of(path))
 }
 
 /// Many names as the first and the last.

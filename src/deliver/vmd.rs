@@ -1,8 +1,10 @@
-//! The limited motion for MikuMikuDance (MMD): a VMD file for a model with the standard bones.
+//! The limited motion for MikuMikuDance (MMD): a VMD file for a model with the standard bones, or for a given one.
 
 mod bones;
 mod capture;
+mod cast;
 mod map;
+mod model;
 mod record;
 mod retarget;
 mod stance;
@@ -17,19 +19,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::deliver::csv_table;
 use crate::error::{Error, Warning};
-use crate::knob::{Knobs, knob, knobs};
+use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::{Clip, Composite, JointId, Skeleton};
 use crate::sheet::{Exposure, Sheet};
-use bones::{Model, Side};
+use bones::Model;
 use capture::Capture;
+use cast::Cast;
 pub use map::BoneMap;
 use map::Found;
+pub use model::MmdModel;
 pub use record::{VmdKey, VmdMotion};
 use retarget::{Local, Retarget};
 use stance::Stance;
 
 /// The longest name of a model, in bytes of CP932.
 const LONGEST_MODEL: usize = 20;
+
+/// The name of a model that nobody named.
+const NAMELESS: &str = "genga";
+
+/// Endings of files of models.
+const ENDINGS: [&str; 2] = [".pmx", ".pmd"];
 
 /// How a motion is written for MMD.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -39,18 +49,35 @@ pub struct Vmd {
     /// own rate a koma is a frame.
     pub fps: f64,
     /// How far below the horizontal the model's upper arms hang at rest, in degrees, 0 to 90; default
-    /// 35. Models differ from 30 to 45.
+    /// 35. Models differ from 30 to 45. Where a model is given, its own arms are taken.
     pub arm_angle: f64,
     /// The model's leg from where it begins (足) to the ankle (足首), in MMD units; default 9.7, that of
     /// a figure of 158 cm at 8 cm a unit. Ways are scaled by this over the capture's own leg, so that
-    /// feet stay where they stand.
+    /// feet stay where they stand. Where a model is given, its own leg is taken.
     pub leg: f64,
     /// The name of the model; default genga. MMD warns when another one loads the motion, and loads it.
     pub model: String,
+    /// Which bones the motion is for; default `standard`. Where a model is given, those that it has.
+    pub bones: VmdBones,
     /// Which joints drive which bone; none, the default, is the table that comes with the program.
     #[serde(skip)]
-    pub bones: Option<BoneMap>,
+    pub map: Option<BoneMap>,
+    /// The model that the motion is for; none by default: any with the standard bones.
+    #[serde(skip)]
+    pub body: Option<MmdModel>,
 }
+
+/// Which bones a motion is for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum VmdBones {
+    /// The standard ones (標準ボーン), which every model has. The chest turns 上半身.
+    #[default]
+    Standard,
+    /// The semi-standard ones (準標準ボーン) too: 上半身2 and 親指０. On a model without them their turning is lost.
+    Semi,
+}
+
+choices!(VmdBones { Standard: "standard", Semi: "semi" });
 
 /// A motion for MMD, and what became of the joints.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +128,15 @@ impl VmdReport {
 
 impl Default for Vmd {
     fn default() -> Self {
-        Self { fps: 30.0, arm_angle: 35.0, leg: 9.7, model: "genga".into(), bones: None }
+        Self {
+            fps: 30.0,
+            arm_angle: 35.0,
+            leg: 9.7,
+            model: NAMELESS.into(),
+            bones: VmdBones::Standard,
+            map: None,
+            body: None,
+        }
     }
 }
 
@@ -125,9 +160,18 @@ knobs!(vmd::Vmd {
         .unit("MMD units")
         .above(0.0)
         .at_most(1e6),
-    model: knob("モデル名", "The name of the model in the file.", "ファイルに書くモデル名。")
-        .unit("words"),
-    ..bones
+    model: knob(
+        "モデル",
+        "The model: its file (.pmx, .pmd), to which the motion then fits, or only its name.",
+        "モデル。ファイル（.pmx、.pmd）ならその骨格に合わせる。名前だけでもよい。",
+    )
+    .unit("words"),
+    bones: knob(
+        "ボーン",
+        "Which bones the motion is for: those of every model, or 上半身2 and 親指０ too.",
+        "どのボーンに書くか。全モデル共通の標準ボーンだけ、または上半身2と親指０も。",
+    ),
+    ..map, body
 });
 
 impl Vmd {
@@ -139,13 +183,13 @@ impl Vmd {
         self.check()
     }
 
-    /// The motion of a sheet for a model with MMD's standard bones, all layers on one another.
+    /// The motion of a sheet for the model, or for any with the standard bones, all layers on one another.
     ///
     /// MMD has no steps: where a drawing stays, its pose is written again on the frame before the next.
     ///
     /// # Errors
-    /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Clip`] when the clip has no frame, or no
-    /// joint is known to the map; [`Error::Setting`] when a setting is out of its range, or two koma would
+    /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Clip`] when the clip has no frame, no joint is
+    /// known to the map, or the model has no bone that they drive; [`Error::Setting`] when a setting is out of its range, or two koma would
     /// fall on one frame.
     pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
         self.validate()?;
@@ -154,42 +198,73 @@ impl Vmd {
             return Err(Error::clip("the clip has no frame: there is no pose to write"));
         }
         let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
-        let map = self.map();
-        let found = map.find(clip.skeleton())?;
-        let capture = Capture::of(clip, &map, &found);
+        let cast = self.cast(clip)?;
+        let Cast { model, found, .. } = &cast;
+        let capture = Capture::of(clip, model, found);
         let stance = Stance::of(&capture, self.arm_angle.to_radians());
-        let mut retarget = Retarget::new(&composite, &map.model, &capture, &stance, self.leg);
-        let (model, _) = cut(&self.model)?;
-        let report = report(clip.skeleton(), &map.model, &found, retarget.scale);
+        let leg = cast.leg.unwrap_or(self.leg);
+        let mut retarget = Retarget::new(&composite, model, &capture, &stance, leg);
+        let report = report(clip.skeleton(), model, found, retarget.scale);
+        let (name, _) = self.name()?;
         let notes = self.notes(clip, sheet)?;
         let keys = keys(&composite, &frames, &mut retarget)?;
-        let ik_off = ik_off(&map.model, &found);
-        Ok(VmdMade { motion: VmdMotion { model, keys, ik_off }, report, notes })
+        Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
     }
 
     /// What a person should know of the motion of a sheet: the notes of [`Vmd::make`].
     ///
     /// # Errors
-    /// [`Error::Clip`] when no joint is known to the map; [`Error::Setting`] when the model's name cannot
-    /// be written, or two koma would fall on one frame.
+    /// [`Error::Clip`] when no joint is known to the map, or the model has no bone that they drive; [`Error::Setting`]
+    /// when the model's name cannot be written, or two koma would fall on one frame.
     pub fn notes(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<Warning>, Error> {
         Frames::new(self.fps, sheet.clock.koma_rate)?;
-        let map = self.map();
-        let found = map.find(clip.skeleton())?;
-        let report = report(clip.skeleton(), &map.model, &found, 1.0);
-        let mut notes = notes(&report, &found);
-        notes.extend(cut(&self.model)?.1);
-        let legs = ["足", "ひざ", "足首"];
-        let has_legs = Side::BOTH.iter().any(|side| {
-            let bones = legs.map(|name| map.model.sided(*side, name));
-            bones.into_iter().flatten().all(|bone| !found.joints[bone].is_empty())
-        });
-        notes.extend((!has_legs).then(no_legs));
+        let cast = self.cast(clip)?;
+        let report = report(clip.skeleton(), &cast.model, &cast.found, 1.0);
+        let mut notes = notes(&report, &cast.found);
+        notes.extend(self.name()?.1);
+        notes.extend((!cast.has_leg()).then(no_legs));
+        notes.extend(cast.notes);
         Ok(notes)
     }
 
+    /// Whether what [`Vmd::model`] is set to names a file of a model, which only a program can read.
+    pub fn is_file(model: &str) -> bool {
+        let lower = model.to_ascii_lowercase();
+        ENDINGS.iter().any(|ending| lower.ends_with(ending))
+    }
+
+    /// Takes a model that the motion is for, and its name.
+    pub fn play(&mut self, body: MmdModel) {
+        self.model.clone_from(&body.name);
+        self.body = Some(body);
+    }
+
+    fn cast(&self, clip: &Clip) -> Result<Cast, Error> {
+        let map = self.map();
+        Cast::of(&map, map.find(clip.skeleton())?, self.bones, self.body.as_ref())
+    }
+
+    /// The model's name as the file has it.
+    fn name(&self) -> Result<(String, Option<Warning>), Error> {
+        if self.body.is_none() && Self::is_file(&self.model) {
+            let message =
+                "this is a file: the program reads it, in the library MmdModel::read does";
+            return Err(Error::setting("vmd.model", message));
+        }
+        match (cut(&self.model), &self.body) {
+            (Err(_), Some(body)) if body.name == self.model => {
+                let message = format!(
+                    "the model's name {} has letters that no VMD holds: MMD will say that the motion is for another",
+                    body.name
+                );
+                Ok((NAMELESS.into(), Some(Warning::new("W_VMD_MODEL_NAME", message))))
+            }
+            (named, _) => named,
+        }
+    }
+
     fn map(&self) -> Cow<'_, BoneMap> {
-        self.bones.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
+        self.map.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
     }
 }
 
@@ -298,18 +373,6 @@ impl Retarget<'_> {
             rotation: [-q.x, -q.y, q.z, q.w].map(single),
         }
     }
-}
-
-/// The IK of legs that have a motion of their own: left on, it would pull them back.
-fn ik_off(model: &Model, found: &Found) -> Vec<String> {
-    let has_leg = |side: &Side| {
-        let bones = ["足", "ひざ", "足首"].map(|name| model.sided(*side, name));
-        bones.into_iter().flatten().any(|bone| !found.joints[bone].is_empty())
-    };
-    let sides: Vec<Side> = Side::BOTH.into_iter().filter(has_leg).collect();
-    let names = ["足ＩＫ", "つま先ＩＫ"];
-    let ik = names.iter().flat_map(|name| sides.iter().map(move |side| (side, name)));
-    ik.map(|(side, name)| format!("{}{name}", side.word())).collect()
 }
 
 /// The model's name, cut where a VMD would cut it, but never within a letter.

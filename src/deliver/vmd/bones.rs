@@ -28,6 +28,11 @@ impl Side {
         }
     }
 
+    /// The bone of this side by its name without 左 or 右.
+    pub(super) fn named(self, bone: &str) -> String {
+        format!("{}{bone}", self.word())
+    }
+
     /// 1 for left, −1 for right: the sign of its x.
     pub(super) fn sign(self) -> f64 {
         match self {
@@ -54,7 +59,7 @@ pub(super) enum Part {
 }
 
 impl Part {
-    /// Where the bone of a limb points in a model at rest: arms hang `arm_angle` radians below the
+    /// Where the bone of a limb points in a standard model at rest: arms hang `arm_angle` radians below the
     /// horizontal, legs straight down. Axes as in BVH: +X is left, +Y up, +Z in front.
     pub(super) fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
         let (sin, cos) = maths::sin_cos(arm_angle);
@@ -73,6 +78,15 @@ pub(super) struct Bone {
     /// Index of the bone it hangs on, which stands before it.
     pub(super) parent: Option<usize>,
     pub(super) part: Part,
+    /// Where it points at rest, where a model says so.
+    pub(super) rest: Option<DVec3>,
+}
+
+impl Bone {
+    /// Where the bone of a limb points at rest: as its model has it, else with arms that hang `arm_angle` radians.
+    pub(super) fn rest_direction(&self, arm_angle: f64) -> Option<DVec3> {
+        self.rest.or_else(|| self.part.rest_direction(arm_angle))
+    }
 }
 
 /// Name, parent and part of those in the middle. Upper and lower body are siblings in MMD.
@@ -129,9 +143,9 @@ impl Model {
         }
         for side in Side::BOTH {
             for (name, parent, part) in SIDED {
-                let sided = format!("{}{parent}", side.word());
+                let sided = side.named(parent);
                 let parent = parent.strip_prefix('=').unwrap_or(&sided);
-                model.hang(format!("{}{name}", side.word()), Some(parent), part(side));
+                model.hang(side.named(name), Some(parent), part(side));
             }
         }
         model
@@ -139,7 +153,7 @@ impl Model {
 
     fn hang(&mut self, name: String, parent: Option<&str>, part: Part) {
         let parent = parent.map(|parent| self.find(parent).expect("parents stand first"));
-        self.bones.push(Bone { name, parent, part });
+        self.bones.push(Bone { name, parent, part, rest: None });
     }
 
     /// Adds a bone that a person named; it follows the one it hangs on.
@@ -151,7 +165,8 @@ impl Model {
         let Some(parent) = self.find(parent) else {
             return wrong(format!("{name} cannot hang on {parent}, which is no bone"));
         };
-        self.bones.push(Bone { name: name.into(), parent: Some(parent), part: Part::Follows });
+        let part = Part::Follows;
+        self.bones.push(Bone { name: name.into(), parent: Some(parent), part, rest: None });
         Ok(())
     }
 
@@ -161,6 +176,6 @@ impl Model {
 
     /// The bone of a side by its name without 左 or 右.
     pub(super) fn sided(&self, side: Side, name: &str) -> Option<usize> {
-        self.find(&format!("{}{name}", side.word()))
+        self.find(&side.named(name))
     }
 }

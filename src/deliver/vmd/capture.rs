@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::bones::{Model, Side};
-use super::map::{BoneMap, Found};
+use super::map::Found;
 use crate::motion::{Body, Clip, JointId, Poser, Stature, local_translation};
 use crate::time::Frame;
 
@@ -19,7 +19,7 @@ const LOWER: f64 = 0.05;
 /// The clip as the retargeting sees it.
 pub(super) struct Capture<'a> {
     clip: &'a Clip,
-    map: &'a BoneMap,
+    model: &'a Model,
     found: &'a Found,
     /// Where joints stand when none is turned.
     rest: Vec<DVec3>,
@@ -28,7 +28,7 @@ pub(super) struct Capture<'a> {
 }
 
 impl<'a> Capture<'a> {
-    pub(super) fn of(clip: &'a Clip, map: &'a BoneMap, found: &'a Found) -> Self {
+    pub(super) fn of(clip: &'a Clip, model: &'a Model, found: &'a Found) -> Self {
         let skeleton = clip.skeleton();
         let mut rest: Vec<DVec3> = Vec::with_capacity(skeleton.len());
         for (_, joint) in skeleton.iter() {
@@ -37,7 +37,7 @@ impl<'a> Capture<'a> {
             let parent = joint.parent.map_or(DVec3::ZERO, |parent| rest[parent.0]);
             rest.push(if joint.parent.is_some() { parent + from_parent } else { DVec3::ZERO });
         }
-        Self { clip, map, found, rest, looks: looks(clip) }
+        Self { clip, model, found, rest, looks: looks(clip) }
     }
 
     /// Up in the file, for a rest that does not show it.
@@ -46,7 +46,7 @@ impl<'a> Capture<'a> {
     }
 
     pub(super) fn model(&self) -> &Model {
-        &self.map.model
+        self.model
     }
 
     /// The joint whose turning is a bone's: the outermost of those that make it, which carries what

@@ -68,7 +68,7 @@ fn alignment(
     carried: DQuat,
     arm_angle: f64,
 ) -> DQuat {
-    match (bone.part.rest_direction(arm_angle), turn, capture.direction(index)) {
+    match (bone.rest_direction(arm_angle), turn, capture.direction(index)) {
         (None, ..) if bone.part == Part::Follows => carried,
         (None, ..) => DQuat::IDENTITY,
         (Some(rest), Some(turn), Some(own)) => {
@@ -181,12 +181,17 @@ fn trunk(
     }
 }
 
+/// The bone on which shoulders and neck hang: the outer one of the upper body that is driven.
+fn chest_bone(capture: &Capture<'_>) -> Option<usize> {
+    ["上半身2", "上半身"].into_iter().find_map(|name| {
+        let bone = capture.model().find(name)?;
+        capture.joint(bone).map(|_| bone)
+    })
+}
+
 fn chest(capture: &Capture<'_>, turns: &[Option<DQuat>]) -> Option<DQuat> {
     let model = capture.model();
-    let chest = ["上半身2", "上半身"].into_iter().find_map(|name| {
-        let bone = model.find(name)?;
-        capture.joint(bone).map(|_| bone)
-    })?;
+    let chest = chest_bone(capture)?;
     let pelvis = model.find("下半身").and_then(|bone| turns[bone]);
     let up = capture.direction(chest)?;
     let across = capture.rest_across("肩").or_else(|| capture.rest_across("腕"));
@@ -209,21 +214,21 @@ fn limb(
     turns: &[Option<DQuat>],
 ) -> Option<DQuat> {
     let target = part.rest_direction(0.0)?;
+    let model = capture.model();
     let (hinge, below, carrier) = match part {
-        Part::Arm(_) => (-side.sign() * DVec3::Y, "ひじ", "上半身2"),
-        _ => (DVec3::X, "ひざ", "下半身"),
+        Part::Arm(_) => (-side.sign() * DVec3::Y, "ひじ", chest_bone(capture)),
+        _ => (DVec3::X, "ひざ", model.find("下半身")),
     };
     let own = capture.direction(index)?;
     let joint = capture.joint(index)?;
     let bend = || {
-        let below = capture.model().sided(side, below)?;
+        let below = model.sided(side, below)?;
         let (lower, direction) = (capture.joint(below)?, capture.direction(below)?);
         let cross = |world: &[DQuat]| (world[joint.0] * own).cross(world[lower.0] * direction);
         capture.mean_local(joint, cross)
     };
     let carried = || {
-        let carrier = capture.model().find(carrier)?;
-        let (turn, carrier) = (turns[carrier]?, capture.joint(carrier)?);
+        let (turn, carrier) = (turns[carrier?]?, capture.joint(carrier?)?);
         capture.mean_local(joint, |world| world[carrier.0] * (turn.inverse() * hinge))
     };
     Some(turn(own, bend().or_else(carried)?, target, hinge))

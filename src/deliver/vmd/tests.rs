@@ -2,5 +2,6 @@
 
 mod body;
 mod file;
+mod given;
 mod reader;
 mod rests;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::deliver::Vmd;
+use crate::deliver::{Vmd, VmdBones};
 use crate::motion::Joint;
 use crate::motion::bvh::{self, sample};
 use crate::sheet::Sheet;
@@ -47,12 +47,13 @@ fn every_clip_speaks_a_dialect_and_what_is_left_out_is_told() {
     for (name, bytes) in sample::real_clips() {
         let clip = bvh::read(&bytes).unwrap().clip;
         let sheet = Sheet::on_ones(clip.clock(24.0), 1);
-        let made = Vmd::default().make(&clip, &sheet).unwrap();
+        let vmd = Vmd { bones: VmdBones::Semi, ..Vmd::default() };
+        let made = vmd.make(&clip, &sheet).unwrap();
         let (_, dialect, bones, _) =
             expected.iter().find(|(begin, ..)| name.starts_with(begin)).unwrap();
         assert_eq!(made.report.dialect, *dialect, "{name}");
         assert_eq!(made.report.bones.len(), *bones, "{name}: {:?}", made.report);
-        assert_eq!(made.notes, Vmd::default().notes(&clip, &sheet).unwrap(), "{name}");
+        assert_eq!(made.notes, vmd.notes(&clip, &sheet).unwrap(), "{name}");
         let told = made.notes.iter().find(|note| note.code == "W_VMD_LEFT_OUT");
         assert_eq!(told.is_some(), !made.report.left_out.is_empty(), "{name}");
         for joint in &made.report.left_out {

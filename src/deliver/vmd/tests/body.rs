@@ -7,7 +7,7 @@ use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
-use super::super::Vmd;
+use super::super::{Vmd, VmdBones};
 use super::reader::read;
 use crate::motion::bvh::{self, sample};
 use crate::motion::{Body, Clip, Pose, RowWriter, local_rotation, local_translation};
@@ -53,8 +53,18 @@ pub(super) struct Stood {
 impl Stood {
     /// A bone's world rotation.
     pub(super) fn world(&self, bone: &str) -> DQuat {
-        let local = self.local.get(bone).map_or(DQuat::IDENTITY, |(_, rotation)| *rotation);
+        let local = self.turned(bone);
         parent(bone).map_or(local, |parent| self.world(&parent) * local)
+    }
+
+    /// Against what it hangs on; not turned where the file says nothing of it.
+    pub(super) fn turned(&self, bone: &str) -> DQuat {
+        self.local.get(bone).map_or(DQuat::IDENTITY, |(_, rotation)| *rotation)
+    }
+
+    /// The bones that the file turns or moves.
+    pub(super) fn bones(&self) -> impl Iterator<Item = &str> {
+        self.local.keys().map(String::as_str)
     }
 
     pub(super) fn moved(&self) -> DVec3 {
@@ -115,7 +125,7 @@ impl Places<'_> {
 }
 
 /// The names of the joints of a limb in every clip at hand, upper, lower, end.
-fn limb<'a>(clip: &Clip, arm: bool, left: bool) -> [[&'a str; 4]; 3] {
+pub(super) fn limb<'a>(clip: &Clip, arm: bool, left: bool) -> [[&'a str; 4]; 3] {
     let biped = clip.skeleton().find("LeftElbow").is_some();
     match (arm, left, biped) {
         (true, true, true) => [["LeftShoulder"; 4], ["LeftElbow"; 4], ["LeftWrist"; 4]],
@@ -165,10 +175,15 @@ const LEGS: [[&str; 2]; 2] = [["左足", "左ひざ"], ["右足", "右ひざ"]];
 
 #[test]
 fn arms_and_legs_of_the_model_point_where_those_of_the_capture_do() {
-    let vmd = Vmd::default();
+    for bones in [VmdBones::Standard, VmdBones::Semi] {
+        limbs_point_as_captured(&Vmd { bones, ..Vmd::default() });
+    }
+}
+
+fn limbs_point_as_captured(vmd: &Vmd) {
     let (sin, cos) = vmd.arm_angle.to_radians().sin_cos();
     for (name, clip) in clips() {
-        each_koma(&clip, &vmd, |koma, model, capture| {
+        each_koma(&clip, vmd, |koma, model, capture| {
             for (arm, bones) in [(true, UPPER), (false, LEGS)] {
                 for (bones, left) in bones.iter().zip([true, false]) {
                     let sign = if left { 1.0 } else { -1.0 };
