@@ -1,6 +1,6 @@
 //! The built program, as a person or a script uses it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::fs;
 use std::io::Write;
@@ -1144,6 +1144,59 @@ fn the_motion_for_mmd_says_which_joints_it_leaves_out_and_takes_a_table_of_bones
     fs::write(place.path("bones.toml"), "[bones]\n\"左うで\" = \"A\"\n").unwrap();
     let said = place.refused(2, again);
     assert!(said.contains("--bones: ") && said.contains("2:1: there is no bone 左うで"), "{said}");
+}
+
+/// A PMD of some bones, each on the one before it.
+fn pmd(bones: &[(&str, [f32; 3])]) -> Vec<u8> {
+    let name = |text: &str| {
+        let mut field = encoding_rs::SHIFT_JIS.encode(text).0.into_owned();
+        field.resize(20, 0);
+        field
+    };
+    // Signature, version, name, comment; no vertices, no faces, no materials.
+    let mut file = [b"Pmd\0\0\x80\x3f", &*name("人形"), &[0; 256 + 3 * 4]].concat();
+    file.extend((bones.len() as u16).to_le_bytes());
+    for (at, (bone, place)) in bones.iter().enumerate() {
+        let parent = at.checked_sub(1).map_or(u16::MAX, |parent| parent as u16);
+        file.extend([name(bone), parent.to_le_bytes().to_vec(), vec![0; 5]].concat());
+        place.iter().for_each(|axis| file.extend(axis.to_le_bytes()));
+    }
+    file.extend([0; 2]);
+    file
+}
+
+#[test]
+fn the_motion_for_mmd_fits_the_model_whose_file_is_given() {
+    let place = Place::new();
+    let bones = [
+        ("センター", [0.0, 8.0, 0.0]),
+        ("上半身", [0.0, 12.0, 0.0]),
+        ("左腕", [1.0, 15.0, 0.0]),
+        ("左ひじ", [3.0, 13.0, 0.0]),
+    ];
+    fs::write(place.path("doll.PMD"), pmd(&bones)).unwrap();
+    let run = |more: &str| format!("run data/kick.bvh --deliver vmd --with {more} --out a");
+    let said = text(&place.genga(&run("vmd.model=doll.PMD")).stderr);
+    assert!(said.contains("the model has no bone 下半身, 首, "), "{said}");
+    let table = read(&place.path("a/kick-bones.csv"));
+    let driven: BTreeSet<&str> = table
+        .lines()
+        .filter(|line| line.ends_with(",drives"))
+        .filter_map(|line| line.split(',').nth(1))
+        .collect();
+    assert_eq!(driven, bones.iter().map(|(bone, _)| *bone).collect());
+    let motion = fs::read(place.path("a/kick.vmd")).unwrap();
+    assert_eq!(encoding_rs::SHIFT_JIS.decode(&motion[30..34]).0, "人形");
+    // A name alone is a name.
+    place.done(&run("vmd.model=doll"));
+    assert!(fs::read(place.path("a/kick.vmd")).unwrap()[30..].starts_with(b"doll\0"));
+    let mut file = pmd(&bones);
+    file.truncate(320);
+    fs::write(place.path("half.pmd"), file).unwrap();
+    let said = place.refused(1, &run("vmd.model=half.pmd"));
+    assert!(said.contains("half.pmd: byte 291: 4 bones do not go into the 27 bytes"), "{said}");
+    let said = place.refused(1, &run("vmd.model=none.pmx"));
+    assert!(said.contains("none.pmx: "), "{said}");
 }
 
 #[test]

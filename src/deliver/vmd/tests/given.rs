@@ -10,7 +10,8 @@ use crate::sheet::Sheet;
 use crate::time::KOMA_RATE;
 
 /// A model as those of the first years are: no 上半身2 and no 親指０, a グルーブ between センター and the body, arms that
-/// hang by 40° and come forward at the elbow, legs that are not quite straight. Places are in MMD's axes.
+/// hang by 40° and come forward at the elbow, legs that are not quite straight. Odd are that 下半身 hangs on 上半身, and
+/// the right arm beside its collar bone. Places are in MMD's axes.
 fn written() -> Written {
     let mut bones = vec![
         ("全ての親", None, [0.0, 0.0, 0.0]),
@@ -20,15 +21,16 @@ fn written() -> Written {
         ("頭", Some(5), [0.0, 17.0, -0.2]),
         ("上半身", Some(2), [0.0, 13.0, 0.0]),
         ("首", Some(4), [0.0, 16.0, 0.1]),
-        ("下半身", Some(2), [0.0, 13.0, 0.0]),
+        ("下半身", Some(4), [0.0, 13.0, 0.0]),
     ];
     let mut ik = Vec::new();
     for (side, x) in [("左", 1.0), ("右", -1.0)] {
         let at = bones.len();
+        let carrier = if side == "左" { at } else { 4 };
         let named = |name: &str| -> &'static str { format!("{side}{name}").leak() };
         bones.extend([
             (named("肩"), Some(4), [0.3 * x, 15.8, 0.0]),
-            (named("腕"), Some(at), [1.2 * x, 15.6, 0.1]),
+            (named("腕"), Some(carrier), [1.2 * x, 15.6, 0.1]),
             (named("腕捩"), Some(at + 1), [2.2 * x, 14.6, 0.1]),
             (named("ひじ"), Some(at + 2), [3.2 * x, 13.922, 0.1]),
             (named("手首"), Some(at + 3), [4.9 * x, 12.6, -0.6]),
@@ -109,7 +111,7 @@ fn a_model_with_semi_standard_bones_gets_them() {
     let chest = written.bones.len();
     written.bones.push(("上半身2", Some(4), [0.0, 14.5, 0.0]));
     for (bone, parent, _) in &mut written.bones {
-        if ["首", "左肩", "右肩"].contains(bone) {
+        if ["首", "左肩", "右肩", "右腕"].contains(bone) {
             *parent = Some(chest);
         }
     }
