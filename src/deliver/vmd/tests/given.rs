@@ -128,11 +128,12 @@ fn a_model_with_semi_standard_bones_gets_them() {
 
 #[test]
 fn without_a_model_the_standard_bones_alone_get_keys() {
-    let bones = |bones: VmdBones| -> Vec<String> {
-        let keys = on_ones(&standing(DVec3::ZERO), &Vmd { bones, ..Vmd::default() }).keys;
+    let bones = |vmd: Vmd| -> Vec<String> {
+        let keys = on_ones(&standing(DVec3::ZERO), &vmd).keys;
         keys.into_iter().map(|key| key.bone).collect()
     };
-    let (standard, semi) = (bones(VmdBones::Standard), bones(VmdBones::Semi));
+    let standard = bones(Vmd::default());
+    let semi = bones(Vmd { bones: VmdBones::Semi, ..Vmd::default() });
     let others: Vec<&String> = semi.iter().filter(|bone| !standard.contains(bone)).collect();
     assert_eq!(others, ["上半身2"]);
     assert!(standard.iter().all(|bone| semi.contains(bone)));
