@@ -151,6 +151,22 @@ mod tests {
     }
 
     #[test]
+    fn a_pose_behind_the_motion_goes_unless_it_is_to_stay() {
+        let row = |frame: usize| {
+            let seconds = frame as f64 / 24.0;
+            let angle = if frame < 59 { 40.0 + 20.0 * (6.0 * seconds).sin() } else { 0.0 };
+            format!("50 50 0 {angle} {angle} 0 {angle} {angle} 0")
+        };
+        let rows: Vec<String> = (0..60).map(row).collect();
+        let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+        let clip = read(sample::text("0.0416667", &rows).as_bytes()).unwrap().clip;
+        let (motion, notes) = Cleaning::default().of(clip.clone()).unwrap();
+        assert_eq!((frames(&motion), codes(&notes)), (0..59, vec!["W_LEAD_IN"]));
+        let kept = Cleaning { keep_lead_in: true, ..Cleaning::default() };
+        assert_eq!(kept.of(clip.clone()).unwrap(), (clip, vec![]));
+    }
+
+    #[test]
     fn a_trim_means_frames_of_the_motion_and_hears_of_what_it_asked_for() {
         let trimmed =
             |trim: Range<usize>| Cleaning { trim: Some(trim), ..Cleaning::default() }.of(spoiled());

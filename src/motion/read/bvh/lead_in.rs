@@ -327,6 +327,23 @@ mod tests {
     }
 
     #[test]
+    fn a_pose_behind_the_motion_is_found_as_one_in_front_of_the_clip_played_backwards() {
+        for (fps, held) in [(24.0, 1), (60.0, 2), (120.0, 5)] {
+            let pose = |frame: usize, joint| {
+                if frame < held { 0.0 } else { walk(frame as f64 / fps, joint) }
+            };
+            let front = LeadIn::find(&turning(fps, 200, pose)).unwrap();
+            let backwards = turning(fps, 200, |frame, joint| pose(199 - frame, joint));
+            let back = LeadIn::find_out(&backwards).unwrap();
+            let (first, last) = (Frame(199 - front.last.0), Frame(199 - front.first.0));
+            assert_eq!(back, LeadIn { first, last, ..front }, "{held} at {fps}");
+            let (motion, warning) = strip_out(backwards.clone());
+            assert_eq!(motion, backwards.trimmed(Frame(0), first).unwrap());
+            assert_eq!(warning, Some(back.warning()));
+        }
+    }
+
+    #[test]
     fn a_lead_in_is_left_out_with_a_sentence_and_frames_keep_their_numbers() {
         let pose =
             |frame: usize, joint| if frame < 2 { 0.0 } else { walk(frame as f64 / 120.0, joint) };
