@@ -1,5 +1,7 @@
 //! The motion of a command: which, which part of it, and how it is read.
 
+use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -42,7 +44,7 @@ pub(super) struct Part {
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct Reading {
     /// The frame rate, whatever the file says.
-    #[arg(long, value_name = "N", value_parser = rate)]
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
     fps: Option<FrameRate>,
     /// Of several trees of joints only the one whose root has this name.
     #[arg(long, value_name = "NAME")]
@@ -169,6 +171,7 @@ impl Reading {
             Error::Setting { name, message } => {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
+            Error::Bvh { .. } if is_sheet(path) => Failure::AskedWrongly(sheet(path)),
             other => files::fault_of(path)(other),
         })
     }
@@ -215,10 +218,30 @@ fn folder(path: &Path) -> String {
     let name = path.display();
     match paths::first_clip(path) {
         Some(clip) => {
-            format!("{name} is a folder: name a clip in it, such as {}", clip.display())
+            let clip = clip.display();
+            format!(
+                "{name} is a folder: name a clip in it, such as {clip}; of all: genga batch {name} --out library"
+            )
         }
         None => format!("{name} is a folder without a BVH file: name a clip"),
     }
+}
+
+/// Whether a file is a sheet of genga's.
+fn is_sheet(path: &Path) -> bool {
+    let mut begin = String::new();
+    let file = fs::File::open(path).map(|file| file.take(256));
+    // A letter of several bytes may be cut at the end: what was read before it is there.
+    let _ = file.and_then(|mut file| file.read_to_string(&mut begin));
+    begin.contains("\"genga-sheet-")
+}
+
+/// What to say where a sheet stands in place of a clip.
+fn sheet(path: &Path) -> String {
+    let sheet = path.display();
+    format!(
+        "{sheet} is a sheet and no motion; for files of it: genga deliver {sheet} CLIP.bvh --to xdts"
+    )
 }
 
 #[cfg(test)]

@@ -36,25 +36,32 @@ pub(super) struct Made<'a> {
     pub(super) given: Option<&'a str>,
 }
 
-/// What stands in a folder and is not of its run.
+/// What became of files that are not of the run.
 pub(super) struct Left {
+    /// Files of a run before that were removed.
+    gone: Vec<String>,
     /// Files of a run before that a person changed.
     changed: Vec<String>,
+    /// Files of a run before in another folder, to which a link leads.
+    linked: Vec<String>,
     /// Numbered files of a longer sheet, of which nothing else is known.
     stale: Vec<String>,
 }
 
 impl Left {
-    /// That they are there, as sentences.
+    /// As sentences.
     pub(super) fn notes(self) -> Vec<String> {
         let named = |of: &str, files: Vec<String>| {
             let named = format!("{of}: {}", shortened(files.clone()).join(" "));
             (!files.is_empty()).then_some(named)
         };
-        let changed =
-            named("of an earlier run, kept because they were changed since", self.changed);
-        let stale = named("of an earlier sheet, not of this one", self.stale);
-        changed.into_iter().chain(stale).collect()
+        let groups = [
+            ("of an earlier run, removed", self.gone),
+            ("of an earlier run, kept because they were changed since", self.changed),
+            ("of an earlier run, kept because a link leads to them", self.linked),
+            ("of an earlier sheet, not of this one", self.stale),
+        ];
+        groups.into_iter().filter_map(|(of, files)| named(of, files)).collect()
     }
 }
 
@@ -99,16 +106,18 @@ impl<'a> Folder<'a> {
         let (stay, rest) = self.others(&come, &made);
         let is_as_written =
             |name: &String| self.digest(name).is_some_and(|digest| self.has(name, &digest));
-        let (go, changed): (Vec<_>, Vec<_>) = rest.into_iter().partition(is_as_written);
-        let is_unknown = |name: &String| !go.contains(name) && !changed.contains(name);
-        let stale = made.stale.into_iter().filter(is_unknown).collect();
+        let (mut gone, changed): (Vec<_>, Vec<_>) = rest.into_iter().partition(is_as_written);
+        let linked: Vec<_> = gone.extract_if(.., |name| self.is_behind_link(name)).collect();
+        let is_known =
+            |name: &String| [&gone, &changed, &linked].iter().any(|of| of.contains(name));
+        let stale = made.stale.into_iter().filter(|name| !is_known(name)).collect();
         let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
         let mut manifest = Manifest::new(made.clip);
         manifest.recipe = recipe;
         manifest.files = stay.into_iter().chain(come).collect();
         bundle.add(MANIFEST, manifest.write()?)?;
-        bundle.finish(go)?;
-        Ok(Left { changed, stale })
+        bundle.finish(gone.clone())?;
+        Ok(Left { gone, changed, linked, stale })
     }
 
     /// The files of the run before that this one does not write: those that stay its, and the names of the rest.
@@ -158,6 +167,13 @@ impl<'a> Folder<'a> {
             Err(error) if error.kind() == ErrorKind::NotFound => None,
             Err(_) => Some(String::new()),
         }
+    }
+
+    /// Whether a link leads out of the folder on the way to a file.
+    fn is_behind_link(&self, name: &str) -> bool {
+        let way = Path::new(name).ancestors().skip(1);
+        way.filter(|part| !part.as_os_str().is_empty())
+            .any(|part| self.path.join(part).is_symlink())
     }
 
     fn has(&self, name: &str, digest: &str) -> bool {

@@ -53,7 +53,12 @@ fn what_a_run_does_not_write_again_is_gone() {
     place.done("run data/kick.bvh --deliver xdts,images --out a");
     check_manifest(&place, "a");
     assert!(place.path("a/kick_genga_ts.xdts").is_file() && place.path("a/images").is_dir());
-    place.done("run data/kick.bvh --keys 8 --out a");
+    let said = said(&place, "run data/kick.bvh --keys 8 --out a");
+    assert!(said.contains("of an earlier run, removed: "), "{said}");
+    assert!(
+        ["kick_genga_ts.xdts", "images/A_0001.png"].iter().all(|file| said.contains(file)),
+        "{said}"
+    );
     place.done("run data/kick.bvh --keys 8 --out fresh");
     assert_eq!(all(&place.path("a")), all(&place.path("fresh")), "as if nothing had been there");
     assert!(!place.path("a/images").exists(), "no empty folder either");
@@ -73,6 +78,20 @@ fn what_a_person_changed_is_kept_and_named() {
     assert!(!place.path("a/images/A_0001.png").exists());
     assert_eq!(fs::read(place.path("a/images/A_0003.png")).unwrap(), painted);
     assert_eq!(fs::read(place.path("a/images/sketch.png")).unwrap(), b"mine");
+}
+
+/// Such a folder may have come from anyone: what it lists must not reach into another.
+#[cfg(unix)]
+#[test]
+fn what_a_link_leads_to_is_not_removed() {
+    let place = Place::new();
+    place.done("run data/kick.bvh --deliver images --out a");
+    fs::rename(place.path("a/images"), place.path("elsewhere")).unwrap();
+    std::os::unix::fs::symlink("../elsewhere", place.path("a/images")).unwrap();
+    let before = all(&place.path("elsewhere"));
+    let said = said(&place, "run data/kick.bvh --out a");
+    assert!(said.contains("kept because a link leads to them: images/A_0001.png"), "{said}");
+    assert_eq!(all(&place.path("elsewhere")), before);
 }
 
 #[test]

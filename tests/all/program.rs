@@ -1207,6 +1207,8 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
     fs::create_dir(place.path("takes")).unwrap();
     fs::copy(here("data/kick.bvh"), place.path("takes/first.bvh")).unwrap();
     fs::create_dir(place.path("empty")).unwrap();
+    place.done("run kick.bvh --out made");
+    fs::rename(place.path("made/sheet.json"), place.path("sheet.json")).unwrap();
     for (args, say) in [
         ("kick.bvh", "genga run kick.bvh"),
         ("kick.bvh --keys 8", "genga run kick.bvh"),
@@ -1216,7 +1218,12 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         ("run kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
         ("run --out o kick.bvh more.bvh", "of many: genga batch kick.bvh more.bvh --out library"),
         ("keys kick.bvh more.bvh", "one clip at a time"),
-        ("run takes", "such as takes/first.bvh"),
+        ("run takes", "such as takes/first.bvh; of all: genga batch takes --out library"),
+        (
+            "run sheet.json",
+            "sheet.json is a sheet and no motion; for files of it: genga deliver sheet.json",
+        ),
+        ("keys kick.bvh --fps -24", "expected frames a second"),
         ("inspect takes", "such as takes/first.bvh"),
         ("run empty", "a folder without a BVH file"),
     ] {

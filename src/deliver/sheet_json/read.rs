@@ -114,7 +114,11 @@ fn exaggeration(text: Text<'_>, raw: &RawValue) -> Result<Exaggerate, Error> {
 
 fn check_version(text: Text<'_>) -> Result<(), Error> {
     if !text.0.trim_start().starts_with('{') {
-        return Err(Error::sheet("this is no sheet of genga, which is JSON and begins with {"));
+        let is_motion = text.0.trim_start().starts_with("HIERARCHY");
+        let way_out = if is_motion { "; a sheet stands first, its motion second" } else { "" };
+        let message =
+            format!("this is no sheet of genga, which is JSON and begins with {{{way_out}");
+        return Err(Error::sheet(message));
     }
     let AnyVersion { schema } = text.whole()?;
     let Some(raw) = schema else {

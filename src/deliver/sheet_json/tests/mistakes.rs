@@ -134,7 +134,10 @@ fn another_version_and_other_files_are_named() {
         ("{\"frames\": 92}", "this is no sheet of genga"),
         ("[]", "this is no sheet of genga, which is JSON"),
         ("", "this is no sheet of genga, which is JSON"),
-        ("HIERARCHY\nROOT Hips", "this is no sheet of genga, which is JSON"),
+        (
+            "HIERARCHY\nROOT Hips",
+            "this is no sheet of genga, which is JSON and begins with {; a sheet stands first, its motion second",
+        ),
         ("{", "1:1: EOF while parsing an object"),
     ] {
         let error = read(other.as_bytes()).unwrap_err().to_string();
