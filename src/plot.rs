@@ -47,6 +47,7 @@ pub(crate) use canvas::escaped;
 pub use contact_sheet::ContactSheet;
 #[cfg(feature = "cli")]
 pub use convert::{pdf_from_svg, png_from_svg};
+pub use figure::FigureBody;
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;
 pub use hierarchy::SkeletonPlot;

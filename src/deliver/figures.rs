@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::deliver::{Cut, Settings, Sink};
 use crate::error::Error;
 use crate::knob::{knob, knobs};
-use crate::plot::Camera;
+use crate::plot::{self, Camera, FigureBody};
 
 /// What all pictures of figures have in common.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -13,27 +13,37 @@ use crate::plot::Camera;
 pub struct FigureSettings {
     /// A PNG beside every page of SVG; default no.
     pub png: bool,
+    /// How figures are drawn; default mannequin.
+    pub body: FigureBody,
 }
 
 knobs!(figures::FigureSettings {
     png: knob("PNGも", "A PNG beside every page of SVG.", "SVGの各ページにPNGも添える。"),
+    body: knob(
+        "人物",
+        "A lay figure, where a rig has head, arms and legs, or bones alone.",
+        "デッサン人形、または棒人間で描く。頭と両腕両脚のない体は棒人間になる。"
+    ),
 });
 
 /// Source above, result below.
 pub(super) fn strip(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
-    let pages = settings.strip.draw(cut.name, cut.clip, cut.sheet)?;
+    let pages = plot::Strip { body: settings.figures.body, ..settings.strip.clone() }
+        .draw(cut.name, cut.clip, cut.sheet)?;
     put_pages("strip", &pages, &settings.figures, put)
 }
 
 /// The genga one by one.
 pub(super) fn contact(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
-    let pages = settings.contact.draw(cut.name, cut.clip, cut.sheet)?;
+    let pages = plot::ContactSheet { body: settings.figures.body, ..settings.contact.clone() }
+        .draw(cut.name, cut.clip, cut.sheet)?;
     put_pages("contact", &pages, &settings.figures, put)
 }
 
 /// Neighbouring drawings through each other.
 pub(super) fn onion(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
-    let pages = settings.onion.draw(cut.name, cut.clip, cut.sheet)?;
+    let pages = plot::OnionSkin { body: settings.figures.body, ..settings.onion.clone() }
+        .draw(cut.name, cut.clip, cut.sheet)?;
     put_pages("onion", &pages, &settings.figures, put)
 }
 
@@ -43,7 +53,8 @@ pub(super) fn flipbook(
     settings: &Settings,
     put: &mut Sink<'_>,
 ) -> Result<(), Error> {
-    let page = settings.flipbook.draw(cut.name, cut.clip, cut.sheet)?;
+    let page = plot::FlipBook { body: settings.figures.body, ..settings.flipbook.clone() }
+        .draw(cut.name, cut.clip, cut.sheet)?;
     put("flipbook.html", page.as_bytes())
 }
 
@@ -51,7 +62,8 @@ pub(super) fn flipbook(
 #[cfg(feature = "cli")]
 pub(super) fn preview(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
     let mut bytes = Vec::new();
-    settings.preview.draw(cut.name, cut.clip, cut.sheet, &mut bytes)?;
+    plot::Preview { body: settings.figures.body, ..settings.preview.clone() }
+        .draw(cut.name, cut.clip, cut.sheet, &mut bytes)?;
     put("preview.gif", &bytes)
 }
 
@@ -59,7 +71,8 @@ pub(super) fn preview(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) ->
 #[cfg(feature = "cli")]
 pub(super) fn images(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
     let each = |name: &str, png: Vec<u8>| put(&format!("images/{name}"), &png);
-    settings.images.draw(cut.clip, cut.sheet, each)
+    plot::NumberedImages { body: settings.figures.body, ..settings.images.clone() }
+        .draw(cut.clip, cut.sheet, each)
 }
 
 /// The first page has the name alone, the next `-2`, `-3` and so on.
@@ -105,7 +118,6 @@ impl Settings {
 mod tests {
     use super::*;
     use crate::deliver::Format;
-    use crate::plot;
 
     #[test]
     fn one_camera_for_every_picture_and_one_each_on_top() {
@@ -130,10 +142,16 @@ mod tests {
             names.push(name.to_owned());
             Ok(())
         };
-        put_pages("strip", &pages, &FigureSettings { png: false }, &mut put).unwrap();
+        put_pages("strip", &pages, &FigureSettings::default(), &mut put).unwrap();
         // Without the program there are no pixels.
         let png = cfg!(feature = "cli");
-        put_pages("onion", &pages[..1], &FigureSettings { png }, &mut put).unwrap();
+        put_pages(
+            "onion",
+            &pages[..1],
+            &FigureSettings { png, ..FigureSettings::default() },
+            &mut put,
+        )
+        .unwrap();
         let all = ["strip.svg", "strip-2.svg", "onion.svg", "onion.png"];
         assert_eq!(names, all[..3 + usize::from(png)]);
     }

@@ -3,6 +3,7 @@
 mod build;
 mod contact;
 pub mod landmarks;
+pub(crate) mod lay_figure;
 pub(crate) mod leg;
 pub(crate) mod mannequin;
 mod side;
@@ -13,6 +14,7 @@ pub(crate) use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
 pub(crate) use landmarks::below;
 pub use landmarks::{Foot, Landmarks, Point};
+pub(crate) use lay_figure::LayFigure;
 pub(crate) use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
 pub(crate) use t_pose::is_t_pose;

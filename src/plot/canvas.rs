@@ -8,7 +8,7 @@ use std::fmt::{Arguments, Write};
 use plotters::style::RGBColor;
 
 use crate::motion::BodySide;
-use crate::plot::figure::Drawn;
+use crate::plot::figure::{Drawn, Ink, Shape, Stroke};
 use crate::plot::px::Point;
 use crate::plot::style;
 
@@ -65,6 +65,24 @@ impl Inks {
             Self::Sides => side.color(),
             Self::Faded(paper) => style::mixed(side.color(), style::PAPER, paper),
             Self::One(color) => color,
+        }
+    }
+
+    /// The colour of a line.
+    pub(super) fn line(self, ink: Ink) -> RGBColor {
+        match (self, ink) {
+            (_, Ink::Side(side)) => self.of(side),
+            (Self::Sides, Ink::Guide) => style::INBETWEEN,
+            (Self::Faded(paper), Ink::Guide) => style::mixed(style::INBETWEEN, style::PAPER, paper),
+            (Self::One(color), Ink::Guide) => color,
+        }
+    }
+
+    /// What a part is filled with: paper with a breath of its side.
+    pub(super) fn fill(self, side: BodySide) -> RGBColor {
+        match side {
+            BodySide::Trunk => style::PAPER,
+            side => style::mixed(self.of(side), style::PAPER, 0.86),
         }
     }
 }
@@ -238,31 +256,49 @@ impl Canvas {
         self.text(&number.to_string(), (center.0, center.1 + 0.36 * size), look);
     }
 
-    /// A stick figure: neighbouring strokes of one look are one path.
+    /// A figure: neighbouring lines of one look are one path.
     pub(super) fn figure(&mut self, drawn: &Drawn, inks: Inks) {
         self.tag(format_args!("<g stroke-linecap=\"round\">"));
-        for run in drawn.strokes.chunk_by(|a, b| a.side == b.side && a.width == b.width) {
-            let bone = |bone: &crate::plot::figure::Stroke| {
-                format!("M{}L{}", pair(bone.from, ' '), pair(bone.to, ' '))
-            };
-            let way: String = run.iter().map(bone).collect();
-            let stroke = stroke(inks.of(run[0].side), run[0].width);
-            self.tag(format_args!("<path d=\"{way}\"{stroke}/>"));
-        }
-        let ink = inks.of(BodySide::Trunk);
-        if let Some((center, radius)) = drawn.head {
-            self.ring(center, radius, ink, (0.24 * radius).clamp(0.8, 4.0));
-        }
-        if let Some(dot) = drawn.dot {
-            self.disc(dot, 4.0, ink);
+        for run in drawn.shapes.chunk_by(is_alike) {
+            match &run[0] {
+                Shape::Line(stroke) => self.strokes(run, stroke, inks),
+                Shape::Part { outline, width, side } => {
+                    let (points, fill) = (list(outline), hex(inks.fill(*side)));
+                    let stroke = stroke(inks.of(*side), *width);
+                    self.tag(format_args!(
+                        "<polygon points=\"{points}\" fill=\"{fill}\"{stroke}/>"
+                    ));
+                }
+                Shape::Ring(center, radius) => {
+                    let width = (0.24 * radius).clamp(0.8, 4.0);
+                    self.ring(*center, *radius, inks.of(BodySide::Trunk), width);
+                }
+                Shape::Dot(dot) => self.disc(*dot, 4.0, inks.of(BodySide::Trunk)),
+            }
         }
         self.tag(format_args!("</g>"));
+    }
+
+    /// Lines that look as one of them does.
+    fn strokes(&mut self, run: &[Shape], one: &Stroke, inks: Inks) {
+        let ways = run.iter().filter_map(|shape| match shape {
+            Shape::Line(line) => Some(format!("M{}L{}", pair(line.from, ' '), pair(line.to, ' '))),
+            _ => None,
+        });
+        let (way, stroke) = (ways.collect::<String>(), stroke(inks.line(one.ink), one.width));
+        self.tag(format_args!("<path d=\"{way}\"{stroke}/>"));
     }
 
     fn tag(&mut self, tag: Arguments<'_>) {
         self.svg.write_fmt(tag).expect("a String takes every text");
         self.svg.push('\n');
     }
+}
+
+/// Whether two shapes are lines of one look.
+fn is_alike(a: &Shape, b: &Shape) -> bool {
+    let (Shape::Line(a), Shape::Line(b)) = (a, b) else { return false };
+    (a.ink, a.width) == (b.ink, b.width)
 }
 
 /// To a tenth of a px, without a needless zero; what no picture can hold is cut.

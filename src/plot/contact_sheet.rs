@@ -12,7 +12,7 @@ use crate::plot::chart::number;
 use crate::plot::drawings::{
     ShownDrawing, composed, drawn_poses, seconds_and_koma, shown_drawings,
 };
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Figure, FigureBody};
 use crate::plot::page::{self, Head};
 use crate::plot::px::Point;
 use crate::plot::shared;
@@ -27,6 +27,9 @@ use crate::sheet::{Role, Sheet};
 pub struct ContactSheet {
     /// From where it is seen; default auto.
     pub camera: Camera,
+    /// How figures are drawn; default mannequin. The setting `figures.body` is that of all pictures.
+    #[serde(skip)]
+    pub body: FigureBody,
     /// Width in px at most, 600 to 20000; default 1280.
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 130.
@@ -43,6 +46,7 @@ impl Default for ContactSheet {
     fn default() -> Self {
         Self {
             camera: Camera::Auto,
+            body: FigureBody::default(),
             width: 1280,
             figure_height: 130,
             in_row: 8,
@@ -70,6 +74,7 @@ knobs!(contact::ContactSheet {
         "Cards of the inbetweens too, in fainter line.",
         "中割りも薄い線で並べる。"
     ),
+    ..body
 });
 
 impl ContactSheet {
@@ -90,13 +95,14 @@ impl ContactSheet {
         self.validate()?;
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
-        let poses = drawn_poses(&composite, layer.drawings.len());
+        let figure = Figure::of(clip, self.body);
+        let poses = drawn_poses(&composite, figure.marks(), layer.drawings.len());
         let mut cards = shown_drawings(layer);
         cards.retain(|cell| self.inbetweens || cell.genga.is_some());
         if cards.is_empty() {
             return Err(style::cannot("the sheet has no genga to show"));
         }
-        let table = self.table(clip, &poses, &cards);
+        let table = self.table(clip, figure, &poses, &cards);
         let on_page = table.columns * self.rows;
         let pages = cards.len().div_ceil(on_page);
         let page = |(at, cards): (usize, &[ShownDrawing<'_>])| {
@@ -108,9 +114,14 @@ impl ContactSheet {
         Ok(cards.chunks(on_page).enumerate().map(page).collect())
     }
 
-    fn table(&self, clip: &Clip, poses: &[Vec<DVec3>], cards: &[ShownDrawing<'_>]) -> Table {
+    fn table(
+        &self,
+        clip: &Clip,
+        figure: Figure,
+        poses: &[Vec<DVec3>],
+        cards: &[ShownDrawing<'_>],
+    ) -> Table {
         let view = self.camera.view(clip, poses);
-        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let floor = Bounds::of(&figure, &view, poses).floor;
         let size = largest(&figure, &view, poses, floor);
         let room = f64::from(self.width) - 2.0 * style::MARGIN;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::motion::{Clip, Composite};
+use crate::motion::{Clip, Composite, Point};
 use crate::plot::points::Showing;
 use crate::plot::style;
 use crate::sheet::{Drawing, Exposure, Layer, Reason, Sheet};
@@ -128,15 +128,23 @@ pub(super) fn beginning(layer: &Layer, most: usize) -> Cow<'_, Layer> {
 }
 
 /// The points of the first drawings of a composite, as each is first on screen.
-pub(super) fn drawn_poses(composite: &Composite<'_>, drawings: usize) -> Vec<Vec<DVec3>> {
-    let mut showing = Showing::of(composite);
+pub(super) fn drawn_poses(
+    composite: &Composite<'_>,
+    marks: &[Point],
+    drawings: usize,
+) -> Vec<Vec<DVec3>> {
+    let mut showing = Showing::of(composite, marks);
     let first = composite.first_koma().into_iter().take(drawings).enumerate();
     first.map(|(drawing, koma)| showing.points(drawing, koma)).collect()
 }
 
 /// The points of what is on screen koma by koma, where that is not the same for all koma of a drawing.
-pub(super) fn sliding_poses(composite: &Composite<'_>, koma: usize) -> Option<Vec<Vec<DVec3>>> {
-    let mut showing = Showing::of(composite);
+pub(super) fn sliding_poses(
+    composite: &Composite<'_>,
+    marks: &[Point],
+    koma: usize,
+) -> Option<Vec<Vec<DVec3>>> {
+    let mut showing = Showing::of(composite, marks);
     let drawings = composite.layer().koma().take(koma).enumerate();
     let poses = drawings.map(|(koma, drawing)| showing.points(drawing, koma));
     composite.slides().then(|| poses.collect())

@@ -1,12 +1,33 @@
-//! The stick figure (棒人間): bones, a head, how wide each line is and which lies in front.
+//! The figure (人物): a lay figure with volume and a face, or sticks, as shapes from the far to the near.
+
+mod dummy;
+mod outline;
+mod sticks;
 
 use glam::DVec3;
 use plotters::style::RGBColor;
 
-use crate::motion::seen::view::View;
-use crate::motion::{BodySide, Joint, Skeleton};
+use crate::knob::choices;
+use crate::motion::seen::view::{View, extent};
+use crate::motion::{Body, BodySide, Clip, Point as Mark, Poser, Skeleton, Stature};
 use crate::plot::px::Point;
 use crate::plot::style;
+use dummy::Dummy;
+pub(crate) use dummy::{Line, Solid};
+use outline::outline;
+use sticks::Sticks;
+
+/// How figures are drawn (人物の描き方).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum FigureBody {
+    /// A lay figure (デッサン人形), where a rig has head, arms and legs; the default.
+    #[default]
+    Mannequin,
+    /// Bones alone (棒人間).
+    Sticks,
+}
+
+choices!(FigureBody { Mannequin: "mannequin", Sticks: "sticks" });
 
 impl BodySide {
     pub(crate) fn color(self) -> RGBColor {
@@ -18,75 +39,134 @@ impl BodySide {
     }
 }
 
-/// A line from one point of a pose to another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Bone {
-    pub(crate) from: usize,
-    pub(crate) to: usize,
-    pub(crate) side: BodySide,
-}
-
-/// What all figures of a clip have in common. A pose is its points: the joints, then the tips.
+/// What all figures of a clip have in common. A pose is its points: the joints, the tips, then the
+/// [marks](Figure::marks).
 #[derive(Debug, Clone)]
 pub(crate) struct Figure {
-    pub(crate) bones: Vec<Bone>,
-    /// The joint of the head and the point that ends it.
-    pub(crate) head: Option<(usize, usize)>,
+    form: Form,
+    /// Joints or tips that no part covers, each with what it hangs on.
+    guides: Vec<(usize, usize)>,
     /// The body's height in units of the file, as it stands in the first pose.
     pub(crate) height: f64,
 }
 
-/// A bone on paper, in px.
+#[derive(Debug, Clone)]
+enum Form {
+    Mannequin(Dummy),
+    Sticks(Sticks),
+}
+
+/// A line on paper, in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
     pub(crate) from: Point,
     pub(crate) to: Point,
     pub(crate) width: f64,
-    pub(crate) side: BodySide,
+    pub(crate) ink: Ink,
 }
 
-/// A figure on paper, in px.
+/// Of what a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ink {
+    Side(BodySide),
+    /// What is no part of the body: a root on the floor, a tail, a sword.
+    Guide,
+}
+
+/// A piece of a figure on paper, in px.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Drawn {
-    /// From the far to the near.
-    pub(crate) strokes: Vec<Stroke>,
-    /// Middle and radius of the ring that is the head, in front of everything.
-    pub(crate) head: Option<(Point, f64)>,
+pub(crate) enum Shape {
+    Line(Stroke),
+    /// A part with volume: its outline, and how wide that is.
+    Part {
+        outline: Vec<Point>,
+        width: f64,
+        side: BodySide,
+    },
+    /// The head of a stick figure: middle and radius.
+    Ring(Point, f64),
     /// What there is of a body without bones.
-    pub(crate) dot: Option<Point>,
+    Dot(Point),
+}
+
+/// A figure on paper, from the far to the near.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Drawn {
+    pub(crate) shapes: Vec<Shape>,
 }
 
 /// The figure height in px that the widths of the lines are made for.
 const MADE_FOR: f64 = 170.0;
 
+/// px of a guide, of an outline and of a line on a part, at that height.
+const GUIDE: f64 = 1.0;
+const EDGE: f64 = 1.35;
+const DETAIL: f64 = 1.1;
+
 impl Figure {
-    /// The figure of a skeleton that stands in a first pose, of which `up` is up.
-    pub(crate) fn of(skeleton: &Skeleton, first: &[DVec3], up: DVec3) -> Self {
-        let mut bones = Vec::new();
-        for (joint, data) in skeleton.iter() {
-            if let Some(parent) = data.parent {
-                bones.push(Bone { from: parent.0, to: joint.0, side: BodySide::of(&data.name) });
-            }
-        }
-        let mut tip = skeleton.len();
-        for (joint, data) in skeleton.iter() {
-            for _ in &data.end_sites {
-                bones.push(Bone { from: joint.0, to: tip, side: BodySide::of(&data.name) });
-                tip += 1;
-            }
-        }
-        let is_head = |joint: &Joint| joint.name.to_lowercase().contains("head");
-        let head = skeleton.joints.iter().position(is_head);
-        let end = |joint: usize| bones.iter().find(|bone| bone.from == joint).map(|bone| bone.to);
-        let head = head.map(|joint| (joint, end(joint).unwrap_or(joint)));
-        let height = crate::motion::seen::view::extent(first).dot(up).abs();
-        Self { bones, head, height }
+    /// The figure of a clip of at least one frame and joint.
+    pub(crate) fn of(clip: &Clip, body: FigureBody) -> Self {
+        let mut standing = Body::new(clip.skeleton());
+        standing.place(Poser::of(clip).frame(clip.first()));
+        let up = Stature::of(clip).up.unit();
+        let sticks = || Self::sticks(clip.skeleton(), standing.points(), up);
+        let dummy = match body {
+            FigureBody::Mannequin => Dummy::of(clip),
+            FigureBody::Sticks => None,
+        };
+        let Some(dummy) = dummy else { return sticks() };
+        let guides = bones(clip.skeleton()).filter(|(_, to)| !dummy.covers(*to)).collect();
+        let height = extent(standing.points()).dot(up).abs();
+        Self { form: Form::Mannequin(dummy), guides, height }
     }
 
-    /// The radius of the head in units of the file.
-    pub(crate) fn head_radius(&self, pose: &[DVec3]) -> f64 {
-        let length = self.head.map_or(0.0, |(joint, end)| (pose[end] - pose[joint]).length());
-        (0.55 * length).clamp(0.045 * self.height, 0.085 * self.height)
+    /// Sticks for a skeleton that stands in a first pose, of which `up` is up.
+    pub(crate) fn sticks(skeleton: &Skeleton, first: &[DVec3], up: DVec3) -> Self {
+        let height = extent(first).dot(up).abs();
+        let (sticks, guides) = Sticks::of(skeleton, first, height);
+        Self { form: Form::Sticks(sticks), guides, height }
+    }
+
+    /// What a pose has to have behind its joints and tips.
+    pub(crate) fn marks(&self) -> &[Mark] {
+        match &self.form {
+            Form::Mannequin(dummy) => dummy.marks(),
+            Form::Sticks(_) => &[],
+        }
+    }
+
+    /// How far the figure reaches beyond the points of a pose, in units of the file.
+    pub(crate) fn reach(&self, pose: &[DVec3]) -> f64 {
+        match &self.form {
+            Form::Mannequin(dummy) => dummy.reach(),
+            Form::Sticks(sticks) => sticks.head_radius(pose, self.height),
+        }
+    }
+
+    /// Joints or tips that no part covers, each with what it hangs on.
+    pub(crate) fn guides(&self) -> &[(usize, usize)] {
+        &self.guides
+    }
+
+    /// The bones of sticks, from what to what and of which side, and joint and end of their head; nothing of a lay figure.
+    pub(crate) fn bones(
+        &self,
+    ) -> (impl Iterator<Item = (usize, usize, BodySide)>, Option<(usize, usize)>) {
+        let sticks = match &self.form {
+            Form::Sticks(sticks) => Some(sticks),
+            Form::Mannequin(_) => None,
+        };
+        let bones = sticks.into_iter().flat_map(|sticks| &sticks.bones);
+        let head = sticks.and_then(|sticks| sticks.head);
+        (bones.map(|bone| (bone.from, bone.to, bone.side)), head)
+    }
+
+    /// The parts of a lay figure in a pose; none of sticks.
+    pub(crate) fn solid(&self, pose: &[DVec3]) -> Option<Solid> {
+        match &self.form {
+            Form::Mannequin(dummy) => Some(dummy.solid(pose)),
+            Form::Sticks(_) => None,
+        }
     }
 
     /// A pose on paper: `at` says where a point comes, `scale` is px for a unit of the file.
@@ -97,29 +177,66 @@ impl Figure {
         scale: f64,
         at: impl Fn(DVec3) -> Point,
     ) -> Drawn {
-        let depth = |bone: &&Bone| view.see(pose[bone.from] + pose[bone.to]).2;
-        let mut bones: Vec<&Bone> = self.bones.iter().collect();
-        bones.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
-        let stroke = |bone: &Bone| {
-            let (from, to) = (pose[bone.from], pose[bone.to]);
-            let width = self.width(bone.side, (to - from).length(), scale);
-            Stroke { from: at(from), to: at(to), width, side: bone.side }
+        let size = self.line_size(scale);
+        let guide = |(from, to): &(usize, usize)| {
+            let (from, to) = (at(pose[*from]), at(pose[*to]));
+            Shape::Line(Stroke { from, to, width: (GUIDE * size).max(0.6), ink: Ink::Guide })
         };
-        let head = self.head.map(|(joint, end)| {
-            (at(0.5 * (pose[joint] + pose[end])), self.head_radius(pose) * scale)
-        });
-        let dot = self.bones.is_empty().then(|| at(pose[0]));
-        Drawn { strokes: bones.into_iter().map(stroke).collect(), head, dot }
+        let mut shapes: Vec<Shape> = self.guides.iter().map(guide).collect();
+        match &self.form {
+            Form::Mannequin(dummy) => {
+                draw_solid(&dummy.solid(pose), view, (scale, size), at, &mut shapes);
+            }
+            Form::Sticks(sticks) => {
+                let scales = (scale, size, self.height);
+                sticks.draw(pose, view, scales, at, &mut shapes);
+            }
+        }
+        Drawn { shapes }
     }
 
-    /// px: the trunk is thick, fingers and toes are thin.
-    fn width(&self, side: BodySide, length: f64, scale: f64) -> f64 {
-        let size = (scale * self.height / MADE_FOR).clamp(0.4, 3.0);
-        let width = match side {
-            BodySide::Trunk => 5.0,
-            _ if length < 0.035 * self.height => 1.5,
-            _ => 3.25,
-        };
-        (width * size).max(1.0)
+    /// How many times as wide lines are as in a figure of the height that they are made for.
+    fn line_size(&self, scale: f64) -> f64 {
+        (scale * self.height / MADE_FOR).clamp(0.4, 3.0)
     }
+}
+
+/// The parts of a lay figure, the furthest first, each with the lines on it.
+fn draw_solid(
+    solid: &Solid,
+    view: &View,
+    (scale, size): (f64, f64),
+    at: impl Fn(DVec3) -> Point,
+    shapes: &mut Vec<Shape>,
+) {
+    let depth = |part: usize| solid.middle(part).dot(view.near);
+    let mut order: Vec<usize> = (0..solid.parts.len()).collect();
+    order.sort_by(|a, b| depth(*a).total_cmp(&depth(*b)));
+    for part in order {
+        let side = solid.parts[part].side;
+        let circles = solid.balls(part).iter().map(|ball| (at(ball.middle), ball.radius * scale));
+        let circles: Vec<(Point, f64)> = circles.collect();
+        shapes.push(Shape::Part {
+            outline: outline(&circles),
+            width: (EDGE * size).max(0.7),
+            side,
+        });
+        for line in solid.lines.iter().filter(|line| line.part == part) {
+            if solid.fronts[line.front].dot(view.near) < line.least {
+                continue;
+            }
+            let (from, to) = (at(line.from), at(line.to));
+            let (width, ink) = ((DETAIL * size).max(0.6), Ink::Side(side));
+            shapes.push(Shape::Line(Stroke { from, to, width, ink }));
+        }
+    }
+}
+
+/// From what to what each bone goes, in the numbers of points: to joints first, then to tips.
+fn bones(skeleton: &Skeleton) -> impl Iterator<Item = (usize, usize)> {
+    let joints = skeleton.iter();
+    let joints = joints.filter_map(|(joint, data)| Some((data.parent?.0, joint.0)));
+    let ends =
+        skeleton.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
+    joints.chain(ends.enumerate().map(|(tip, joint)| (joint, skeleton.len() + tip)))
 }

@@ -1,22 +1,25 @@
 //! The flip-book (パラパラ): one HTML file that plays the sheet.
 
+mod page_figure;
+
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::{Knobs, knobs};
 use crate::motion::seen::view::View;
-use crate::motion::{BodySide, Camera, Clip, Composite};
+use crate::motion::{Camera, Clip, Composite};
 use crate::plot::canvas::escaped;
 use crate::plot::drawings::{
     beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
 };
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Figure, FigureBody};
 use crate::plot::points::Posing;
 use crate::plot::shared;
 use crate::plot::stage::Bounds;
 use crate::plot::style;
 use crate::sheet::{Layer, Sheet, Source};
+use page_figure::PageFigure;
 
 /// A flip-book (パラパラ): source and result as one HTML file that needs nothing else, to play, to step
 /// through by koma and by drawing, and to look at from every side.
@@ -25,13 +28,16 @@ use crate::sheet::{Layer, Sheet, Source};
 pub struct FlipBook {
     /// From where it is seen first; default auto.
     pub camera: Camera,
+    /// How figures are drawn; default mannequin. The setting `figures.body` is that of all pictures.
+    #[serde(skip)]
+    pub body: FigureBody,
     /// Koma at most, from the first on, 1 to 100000; default 7200, five minutes.
     pub most: usize,
 }
 
 impl Default for FlipBook {
     fn default() -> Self {
-        Self { camera: Camera::Auto, most: 7200 }
+        Self { camera: Camera::Auto, body: FigureBody::default(), most: 7200 }
     }
 }
 
@@ -57,9 +63,7 @@ struct Take<'a> {
     length: String,
     height: f64,
     points: usize,
-    /// From, to, side: 0 trunk, 1 left, 2 right.
-    bones: Vec<[usize; 3]>,
-    head: Option<(usize, usize)>,
+    figure: PageFigure,
     camera: &'a str,
     /// Of each camera right, up and near.
     views: Vec<(&'a str, [[f64; 3]; 3])>,
@@ -85,7 +89,7 @@ struct PageDrawing {
     pose: Vec<i32>,
 }
 
-knobs!(flipbook::FlipBook { camera: shared::CAMERA, most: shared::MOST });
+knobs!(flipbook::FlipBook { camera: shared::CAMERA, most: shared::MOST, ..body });
 
 impl FlipBook {
     /// Checks the settings.
@@ -128,12 +132,13 @@ impl FlipBook {
         let clip = composite.clip();
         let koma = layer.length();
         let place = |koma| Source::At(sheet.clock.place_from_koma(koma));
-        let source = Posing::of(clip).all((0..koma).map(place));
-        let result = drawn_poses(composite, layer.drawings.len());
-        let sliding = sliding_poses(composite, koma);
+        let figure = Figure::of(clip, self.body);
+        let marks = figure.marks();
+        let source = Posing::of(clip, marks).all((0..koma).map(place));
+        let result = drawn_poses(composite, marks, layer.drawings.len());
+        let sliding = sliding_poses(composite, marks, koma);
         let views = Camera::ALL.map(|camera| (camera.word(), camera.view(clip, &source)));
         let auto = views[3].1;
-        let figure = Figure::of(clip.skeleton(), &source[0], auto.up);
         let steps = Steps::of(&figure, &auto, &source);
         let cells = shown_drawings(layer);
         let drawings = layer.drawings.iter().zip(&result).zip(layer.genga_numbers());
@@ -144,9 +149,8 @@ impl FlipBook {
             koma,
             length: seconds_and_koma(koma, sheet.clock.koma_rate),
             height: STEPS,
-            points: source[0].len(),
-            bones: figure.bones.iter().map(|bone| [bone.from, bone.to, side(bone.side)]).collect(),
-            head: figure.head,
+            points: page_figure::points(&figure, &source[0]).len(),
+            figure: PageFigure::of(&figure, &source[0], steps.unit),
             camera: self.camera.word(),
             views: views.into_iter().map(|(word, view)| (word, axes(&view))).collect(),
             cells: cells.iter().map(|cell| [cell.index, cell.koma, cell.held]).collect(),
@@ -158,11 +162,12 @@ impl FlipBook {
                     pinned: drawing.why.pinned.is_some(),
                     why: drawing.why.to_string(),
                     omitted: drawing.why.omitted_before,
-                    pose: steps.all(pose),
+                    pose: steps.all(&figure, pose),
                 })
                 .collect(),
-            source: source.iter().map(|pose| steps.all(pose)).collect(),
-            sliding: sliding.map(|poses| poses.iter().map(|pose| steps.all(pose)).collect()),
+            source: source.iter().map(|pose| steps.all(&figure, pose)).collect(),
+            sliding: sliding
+                .map(|poses| poses.iter().map(|pose| steps.all(&figure, pose)).collect()),
         }
     }
 }
@@ -182,17 +187,13 @@ impl Steps {
         Self { from, unit }
     }
 
-    fn all(&self, pose: &[DVec3]) -> Vec<i32> {
+    /// The points of a pose on the page, and where the fronts of the figure look, in thousandths.
+    fn all(&self, figure: &Figure, pose: &[DVec3]) -> Vec<i32> {
         let steps = |point: &DVec3| ((*point - self.from) / self.unit).round().to_array();
-        pose.iter().flat_map(steps).map(|step| step as i32).collect()
-    }
-}
-
-fn side(side: BodySide) -> usize {
-    match side {
-        BodySide::Trunk => 0,
-        BodySide::Left => 1,
-        BodySide::Right => 2,
+        let points = page_figure::points(figure, pose);
+        let fronts = page_figure::fronts(figure, pose);
+        let fronts = fronts.iter().flat_map(|front| (*front * 1000.0).round().to_array());
+        points.iter().flat_map(steps).chain(fronts).map(|step| step as i32).collect()
     }
 }
 

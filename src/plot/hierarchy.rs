@@ -69,7 +69,7 @@ impl SkeletonPlot {
         }
         let poses = [rest(skeleton)];
         let view = self.camera.view(clip, &poses);
-        let figure = Figure::of(skeleton, &poses[0], view.up);
+        let figure = Figure::sticks(skeleton, &poses[0], view.up);
         let bounds = Bounds::of(&figure, &view, &poses);
         let high = f64::from(self.figure_height);
         let size = (bounds.width(), bounds.top - bounds.floor);

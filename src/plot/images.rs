@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::knob::{Knobs, knob, knobs};
 use crate::motion::Camera;
+use crate::plot::figure::FigureBody;
 use crate::plot::shared;
 
 /// Numbered images (連番画像): `A_0001.png` and so on, a stick figure a drawing, as a guide to draw over.
@@ -19,6 +20,9 @@ use crate::plot::shared;
 pub struct NumberedImages {
     /// From where it is seen; default auto.
     pub camera: Camera,
+    /// How figures are drawn; default mannequin. The setting `figures.body` is that of all pictures.
+    #[serde(skip)]
+    pub body: FigureBody,
     /// Width in px, 64 to 8192; default 1280.
     pub width: u32,
     /// Height in px, 64 to 8192; default 720.
@@ -31,7 +35,14 @@ pub struct NumberedImages {
 
 impl Default for NumberedImages {
     fn default() -> Self {
-        Self { camera: Camera::Auto, width: 1280, height: 720, transparent: false, marks: false }
+        Self {
+            camera: Camera::Auto,
+            body: FigureBody::default(),
+            width: 1280,
+            height: 720,
+            transparent: false,
+            marks: false,
+        }
     }
 }
 
@@ -45,6 +56,7 @@ knobs!(images::NumberedImages {
         "Register marks, safe area, floor and number.",
         "トンボ、安全フレーム、床、番号を描く。"
     ),
+    ..body
 });
 
 impl NumberedImages {

@@ -10,7 +10,7 @@ use crate::motion::Clip;
 use crate::motion::seen::view::View;
 use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::drawings::{ShownDrawing, composed, drawn_poses, shown_drawings};
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Figure, FigureBody};
 use crate::plot::page::{self, Head};
 use crate::plot::px::Point;
 use crate::plot::shared;
@@ -25,6 +25,9 @@ use crate::sheet::Sheet;
 pub struct OnionSkin {
     /// From where it is seen; default auto.
     pub camera: Camera,
+    /// How figures are drawn; default mannequin. The setting `figures.body` is that of all pictures.
+    #[serde(skip)]
+    pub body: FigureBody,
     /// Width in px, 600 to 20000; default 1280.
     pub width: u32,
     /// Height of the tallest panel's figures in px, 40 to 2000; default 220.
@@ -35,7 +38,13 @@ pub struct OnionSkin {
 
 impl Default for OnionSkin {
     fn default() -> Self {
-        Self { camera: Camera::Auto, width: 1280, figure_height: 220, rows: 5 }
+        Self {
+            camera: Camera::Auto,
+            body: FigureBody::default(),
+            width: 1280,
+            figure_height: 220,
+            rows: 5,
+        }
     }
 }
 
@@ -53,6 +62,7 @@ knobs!(onion::OnionSkin {
     width: shared::WIDTH,
     figure_height: shared::FIGURE_HEIGHT,
     rows: shared::ROWS,
+    ..body
 });
 
 impl OnionSkin {
@@ -73,9 +83,9 @@ impl OnionSkin {
         self.validate()?;
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
-        let poses = drawn_poses(&composite, layer.drawings.len());
+        let figure = Figure::of(clip, self.body);
+        let poses = drawn_poses(&composite, figure.marks(), layer.drawings.len());
         let view = self.camera.view(clip, &poses);
-        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
         let cells = shown_drawings(layer);
         let ways = ways(&cells);
         let panels: Vec<Panel<'_>> =

@@ -2,15 +2,15 @@
 
 use plotters::style::RGBColor;
 use resvg::tiny_skia::{
-    FillRule, LineCap, Paint, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8, Rect, Stroke,
-    Transform,
+    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8,
+    Rect, Stroke, Transform,
 };
 
 use crate::error::Error;
 use crate::motion::BodySide;
 use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::convert::pixels_from_svg;
-use crate::plot::figure::Drawn;
+use crate::plot::figure::{Drawn, Shape};
 use crate::plot::px::Point;
 use crate::plot::style;
 
@@ -73,18 +73,39 @@ impl Pixels {
     }
 
     pub(super) fn figure(&mut self, drawn: &Drawn, inks: Inks) {
-        for stroke in &drawn.strokes {
-            self.line(stroke.from, stroke.to, inks.of(stroke.side), stroke.width);
-        }
         let ink = inks.of(BodySide::Trunk);
-        if let Some((center, radius)) = drawn.head {
-            let width = (0.24 * radius).clamp(0.8, 4.0);
-            self.disc(center, radius + 0.5 * width, ink);
-            self.disc(center, radius - 0.5 * width, style::PAPER);
+        for shape in &drawn.shapes {
+            match shape {
+                Shape::Line(stroke) => {
+                    self.line(stroke.from, stroke.to, inks.line(stroke.ink), stroke.width);
+                }
+                Shape::Part { outline, width, side } => {
+                    self.part(outline, inks.fill(*side), (inks.of(*side), *width));
+                }
+                Shape::Ring(center, radius) => {
+                    let width = (0.24 * radius).clamp(0.8, 4.0);
+                    self.disc(*center, radius + 0.5 * width, ink);
+                    self.disc(*center, radius - 0.5 * width, style::PAPER);
+                }
+                Shape::Dot(dot) => self.disc(*dot, 4.0, ink),
+            }
         }
-        if let Some(dot) = drawn.dot {
-            self.disc(dot, 4.0, ink);
-        }
+    }
+
+    /// What lies inside an outline, and the outline.
+    fn part(&mut self, outline: &[Point], fill: RGBColor, (ink, width): (RGBColor, f64)) {
+        let mut path = PathBuilder::new();
+        let mut points = outline.iter().map(|(x, y)| (*x as f32, *y as f32));
+        let Some((x, y)) = points.next() else { return };
+        path.move_to(x, y);
+        points.for_each(|(x, y)| path.line_to(x, y));
+        path.close();
+        let Some(path) = path.finish() else { return };
+        let stroke =
+            Stroke { width: width as f32, line_join: LineJoin::Round, ..Stroke::default() };
+        let identity = Transform::identity();
+        self.map.fill_path(&path, &paint(fill), FillRule::Winding, identity, None);
+        self.map.stroke_path(&path, &paint(ink), &stroke, identity, None);
     }
 }
 

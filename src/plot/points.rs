@@ -1,26 +1,27 @@
-//! Where the joints and the tips of the bones are in a drawing.
+//! Where the joints, the tips of the bones and the marks of a figure are in a drawing.
 
 use glam::DVec3;
 
-use crate::motion::{Body, Clip, Composite, CompositePoser, Poser};
+use crate::motion::{Body, Clip, Composite, CompositePoser, Point, Poser};
 use crate::sheet::Source;
 
-/// Turns sources into points: the joints in their order, then the tips in the order of their joints.
+/// Turns sources into points: the joints in their order, the tips in the order of their joints, then the marks.
 pub(crate) struct Posing<'a> {
     poser: Poser<'a>,
     body: Body,
+    marks: &'a [Point],
 }
 
 impl<'a> Posing<'a> {
-    /// For a clip of at least one frame.
-    pub(crate) fn of(clip: &'a Clip) -> Self {
-        Self { poser: Poser::of(clip), body: Body::new(clip.skeleton()) }
+    /// For a clip of at least one frame, and for what a figure has besides joints and tips.
+    pub(crate) fn of(clip: &'a Clip, marks: &'a [Point]) -> Self {
+        Self { poser: Poser::of(clip), body: Body::new(clip.skeleton()), marks }
     }
 
     /// The points of a drawing, in the file's unit.
     pub(crate) fn points(&mut self, source: Source) -> Vec<DVec3> {
         self.body.place(self.poser.drawing(source));
-        self.body.points().to_vec()
+        points(&self.body, self.marks)
     }
 
     /// The points of several drawings.
@@ -33,17 +34,24 @@ impl<'a> Posing<'a> {
 pub(super) struct Showing<'a> {
     poser: CompositePoser<'a>,
     body: Body,
+    marks: &'a [Point],
 }
 
 impl<'a> Showing<'a> {
-    pub(super) fn of(composite: &'a Composite<'a>) -> Self {
+    pub(super) fn of(composite: &'a Composite<'a>, marks: &'a [Point]) -> Self {
         let body = Body::new(composite.clip().skeleton());
-        Self { poser: CompositePoser::of(composite), body }
+        Self { poser: CompositePoser::of(composite), body, marks }
     }
 
     /// The points of a drawing as it is on screen on a koma.
     pub(super) fn points(&mut self, drawing: usize, koma: usize) -> Vec<DVec3> {
         self.body.place(self.poser.drawing(drawing, koma));
-        self.body.points().to_vec()
+        points(&self.body, self.marks)
     }
+}
+
+/// Joints, tips and marks of a body that stands.
+fn points(body: &Body, marks: &[Point]) -> Vec<DVec3> {
+    let marks = marks.iter().map(|mark| mark.position(body));
+    body.points().iter().copied().chain(marks).collect()
 }

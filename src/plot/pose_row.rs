@@ -8,7 +8,7 @@ use crate::motion::{Camera, Clip};
 use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::chart::number;
 use crate::plot::drawings::{ShownDrawing, composed, shown_drawings};
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Figure, FigureBody};
 use crate::plot::legend::{self, SIDES};
 use crate::plot::points::{Posing, Showing};
 use crate::plot::px::Point;
@@ -32,11 +32,21 @@ pub struct PoseRow {
     pub in_line: usize,
     /// Figures at most, from the first on, 1 to 1000; default 300. The picture says what is left out.
     pub most: usize,
+    /// How figures are drawn; default mannequin.
+    #[serde(skip)]
+    pub body: FigureBody,
 }
 
 impl Default for PoseRow {
     fn default() -> Self {
-        Self { clip: String::new(), width: 1200, figure_height: 170, in_line: 12, most: 300 }
+        Self {
+            clip: String::new(),
+            width: 1200,
+            figure_height: 170,
+            in_line: 12,
+            most: 300,
+            body: FigureBody::default(),
+        }
     }
 }
 
@@ -75,8 +85,9 @@ impl PoseRow {
             return Err(style::cannot("a pose's place in the source must be a number"));
         }
         let shown = frames.iter().take(self.most);
-        let poses = Posing::of(clip).all(shown.map(|frame| Source::At(frame.0)));
-        self.row(clip, frames, &poses)
+        let figure = Figure::of(clip, self.body);
+        let poses = Posing::of(clip, figure.marks()).all(shown.map(|frame| Source::At(frame.0)));
+        self.row(clip, &figure, frames, &poses)
     }
 
     /// Draws the genga and ends of a sheet as SVG, all layers on one another, numbered as in the key table.
@@ -104,16 +115,18 @@ impl PoseRow {
             let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
             (cell.drawing.source.place(), label, cell.drawing.role)
         };
-        let mut showing = Showing::of(&composite);
+        let figure = Figure::of(clip, self.body);
+        let mut showing = Showing::of(&composite, figure.marks());
         let shown = kept.iter().take(self.most);
         let poses: Vec<_> = shown.map(|cell| showing.points(cell.index, cell.koma)).collect();
-        self.row(clip, &kept.iter().map(frame).collect::<Vec<_>>(), &poses)
+        self.row(clip, &figure, &kept.iter().map(frame).collect::<Vec<_>>(), &poses)
     }
 
     /// The row of some poses, the first of those that have a label.
     fn row(
         &self,
         clip: &Clip,
+        figure: &Figure,
         frames: &[(f64, String, Role)],
         poses: &[Vec<DVec3>],
     ) -> Result<String, Error> {
@@ -122,11 +135,11 @@ impl PoseRow {
         }
         let (all, frames) = (frames.len(), &frames[..poses.len()]);
         let view = Camera::Auto.view(clip, poses);
-        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
-        let floor = Bounds::of(&figure, &view, poses).floor;
-        let size = largest(&figure, &view, poses, floor);
+        let floor = Bounds::of(figure, &view, poses).floor;
+        let size = largest(figure, &view, poses, floor);
         let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;
         let scale = fitting(size, (room, f64::from(self.figure_height)));
+        let figure = figure.clone();
         let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
         let high = size.1 * scale;
         let least = (size.0 * scale + GAP).max(70.0);

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::knob::{Knobs, knobs};
 use crate::motion::Camera;
+use crate::plot::figure::FigureBody;
 use crate::plot::shared;
 
 /// An animated preview (プレビュー): source beside result at 24 koma a second, as a GIF that repeats.
@@ -27,6 +28,9 @@ use crate::plot::shared;
 pub struct Preview {
     /// From where it is seen; default auto. It goes along with a body that goes far.
     pub camera: Camera,
+    /// How figures are drawn; default mannequin. The setting `figures.body` is that of all pictures.
+    #[serde(skip)]
+    pub body: FigureBody,
     /// Width in px, 320 to 1920; default 640.
     pub width: u32,
     /// Height in px, 200 to 1080; default 340.
@@ -37,7 +41,13 @@ pub struct Preview {
 
 impl Default for Preview {
     fn default() -> Self {
-        Self { camera: Camera::Auto, width: 640, height: 340, most: 480 }
+        Self {
+            camera: Camera::Auto,
+            body: FigureBody::default(),
+            width: 640,
+            height: 340,
+            most: 480,
+        }
     }
 }
 
@@ -47,6 +57,7 @@ knobs!(preview::Preview {
     height: shared::HEIGHT.at_least(200.0).at_most(1080.0),
     // A picture of each waits in memory.
     most: shared::MOST.at_most(10_000.0),
+    ..body
 });
 
 impl Preview {

@@ -30,7 +30,7 @@ impl Bounds {
         };
         for pose in poses {
             let (left, right) = view.sides(pose);
-            let head = figure.head_radius(pose);
+            let head = figure.reach(pose);
             bounds.left = bounds.left.min(left - head);
             bounds.right = bounds.right.max(right + head);
             for point in pose {

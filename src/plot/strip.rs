@@ -11,7 +11,7 @@ use crate::plot::canvas::{Align, Canvas, Inks, Type};
 use crate::plot::drawings::{
     ShownDrawing, beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
 };
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Figure, FigureBody};
 use crate::plot::page::{self, Head};
 use crate::plot::points::Posing;
 use crate::plot::px::Point;
@@ -27,6 +27,9 @@ use crate::sheet::{Sheet, Source};
 pub struct Strip {
     /// From where it is seen; default auto.
     pub camera: Camera,
+    /// How figures are drawn; default mannequin. The setting `figures.body` is that of all pictures.
+    #[serde(skip)]
+    pub body: FigureBody,
     /// Width in px, 600 to 20000; default 1280.
     pub width: u32,
     /// Height of the tallest figure in px, 40 to 2000; default 120.
@@ -43,6 +46,7 @@ impl Default for Strip {
     fn default() -> Self {
         Self {
             camera: Camera::Auto,
+            body: FigureBody::default(),
             width: 1280,
             figure_height: 120,
             in_line: 12,
@@ -73,6 +77,7 @@ knobs!(strip::Strip {
     in_line: shared::IN_ROW.unit("koma"),
     rows: shared::ROWS,
     most: shared::MOST,
+    ..body
 });
 
 impl Strip {
@@ -94,14 +99,16 @@ impl Strip {
         let composite = composed(clip, sheet)?;
         let whole = composite.layer();
         let layer = &*beginning(whole, self.most);
-        let result = drawn_poses(&composite, layer.drawings.len());
-        let sliding = sliding_poses(&composite, self.most);
+        let figure = Figure::of(clip, self.body);
+        let marks = figure.marks();
+        let result = drawn_poses(&composite, marks, layer.drawings.len());
+        let sliding = sliding_poses(&composite, marks, self.most);
         let place = |koma| sheet.clock.place_from_koma(koma);
         let koma = layer.length();
-        let source = Posing::of(clip).all((0..koma).map(|koma| Source::At(place(koma))));
+        let source = Posing::of(clip, marks).all((0..koma).map(|koma| Source::At(place(koma))));
         let cells = shown_drawings(layer);
         let all = sliding.as_ref().unwrap_or(&result);
-        let (stage, in_line, column) = self.stage(clip, &source, all);
+        let (stage, in_line, column) = self.stage(clip, &figure, &source, all);
         let lines = koma.div_ceil(in_line);
         let passed = passed_over(&cells, (0..koma).map(place), sheet.clock.frames_in_koma());
         let drawing = Lines {
@@ -131,14 +138,13 @@ impl Strip {
     fn stage(
         &self,
         clip: &Clip,
+        figure: &Figure,
         source: &[Vec<DVec3>],
         result: &[Vec<DVec3>],
     ) -> (Stage, usize, f64) {
         let view = self.camera.view(clip, source);
-        let figure = Figure::of(clip.skeleton(), &source[0], view.up);
-        let floor = Bounds::of(&figure, &view, source.iter().chain(result)).floor;
-        let (a, b) =
-            (largest(&figure, &view, source, floor), largest(&figure, &view, result, floor));
+        let floor = Bounds::of(figure, &view, source.iter().chain(result)).floor;
+        let (a, b) = (largest(figure, &view, source, floor), largest(figure, &view, result, floor));
         let size = (a.0.max(b.0), a.1.max(b.1));
         let room = f64::from(self.width) - 2.0 * style::MARGIN - SIDE;
         let high = f64::from(self.figure_height);
@@ -148,6 +154,7 @@ impl Strip {
         let in_line = [self.in_line].into_iter().chain(fewer).find(fits).unwrap_or(1);
         let column = room / in_line as f64;
         let scale = fitting(size, (column / APART, high));
+        let figure = figure.clone();
         (Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) }, in_line, column)
     }
 }

@@ -38,26 +38,26 @@ const ARM: f64 = 0.32;
 /// Where a mannequin's bones are in a rig.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Mannequin {
-    head: Point,
+    pub(super) head: Point,
     /// Where the arms part.
-    chest: usize,
-    arms: [Limb; 2],
-    legs: [Limb; 2],
+    pub(super) chest: usize,
+    pub(super) arms: [Limb; 2],
+    pub(super) legs: [Limb; 2],
     /// The height of a person with the legs of this rig, in the file's unit.
     height: f64,
 }
 
 /// An arm or a leg.
 #[derive(Debug, Clone, PartialEq)]
-struct Limb {
+pub(super) struct Limb {
     /// Shoulder or hip.
-    upper: Point,
+    pub(super) upper: Point,
     /// Elbow or knee; the end of the limb where it has none.
-    middle: Point,
+    pub(super) middle: Point,
     /// Wrist or ankle.
-    lower: Point,
+    pub(super) lower: Point,
     /// What hangs on it: fingertips, or the sole.
-    tips: Vec<Point>,
+    pub(super) tips: Vec<Point>,
 }
 
 /// A mannequin in a pose.
@@ -236,7 +236,7 @@ impl<'a> Pair<'a> {
 
 /// The tips of all that hangs on a joint, and the joints without any at its ends; none where nothing
 /// hangs on it.
-fn tips(skeleton: &Skeleton, top: usize) -> Vec<Point> {
+pub(super) fn tips(skeleton: &Skeleton, top: usize) -> Vec<Point> {
     let mut is_parent = vec![false; skeleton.len()];
     for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
         is_parent[parent.0] = true;

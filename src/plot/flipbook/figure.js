@@ -1,4 +1,4 @@
-// Stick figures on a canvas, drawn as the pictures draw them: far bones first, the head in front.
+// Figures on a canvas, drawn as the pictures draw them: from the far to the near.
 class Stage {
   constructor(take) {
     this.take = take;
@@ -95,24 +95,79 @@ class Stage {
     ctx.stroke();
   }
 
-  // Colours: trunk, left, right, paper.
+  // Colours: trunk, left, right, paper, guide.
   draw(ctx, pose, colors, middle = this.middle(pose)) {
-    const { bones, head, height } = this.take;
+    const { bones, head, guides, parts } = this.take.figure;
+    const size = Math.min(Math.max((this.scale * this.take.height) / 170, 0.4), 3);
+    ctx.lineCap = ctx.lineJoin = "round";
+    for (const [from, to] of guides) this.drawLine(ctx, pose, from, to, colors[4], Math.max(0.6, size), middle);
+    if (parts.length) return this.drawParts(ctx, pose, colors, size, middle);
     const depth = ([from, to]) => this.along(this.near, pose, from) + this.along(this.near, pose, to);
-    const size = Math.min(Math.max((this.scale * height) / 170, 0.4), 3);
-    ctx.lineCap = "round";
     for (const [from, to, side] of bones.slice().sort((a, b) => depth(a) - depth(b))) {
       const long = Math.hypot(...[0, 1, 2].map((i) => pose[3 * to + i] - pose[3 * from + i]));
-      const width = side === 0 ? 5 : long < 0.035 * height ? 1.5 : 3.25;
-      ctx.strokeStyle = colors[side];
-      ctx.lineWidth = Math.max(1, width * size);
-      ctx.beginPath();
-      ctx.moveTo(...this.place(pose, from, middle));
-      ctx.lineTo(...this.place(pose, to, middle));
-      ctx.stroke();
+      const width = side === 0 ? 5 : long < 0.035 * this.take.height ? 1.5 : 3.25;
+      this.drawLine(ctx, pose, from, to, colors[side], Math.max(1, width * size), middle);
     }
     if (head) this.drawHead(ctx, pose, head, colors, middle);
     if (bones.length === 0) this.drawDot(ctx, this.place(pose, 0, middle), 4, colors[0]);
+  }
+
+  drawLine(ctx, pose, from, to, color, width, middle) {
+    ctx.strokeStyle = color;
+    ctx.lineWidth = width;
+    ctx.beginPath();
+    ctx.moveTo(...this.place(pose, from, middle));
+    ctx.lineTo(...this.place(pose, to, middle));
+    ctx.stroke();
+  }
+
+  // A lay figure: the furthest part first, each with the lines on it that look this way.
+  drawParts(ctx, pose, colors, size, middle) {
+    const { parts, balls, lines } = this.take.figure;
+    const depth = ([first, count]) => {
+      let sum = 0;
+      for (let ball = first; ball < first + count; ball++) sum += this.along(this.near, pose, balls + ball);
+      return sum / count;
+    };
+    const order = parts.map((part, at) => [depth(part), at]).sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+    for (const [, at] of order) {
+      const side = parts[at][2];
+      ctx.beginPath();
+      for (const point of this.outline(pose, parts[at], middle)) ctx.lineTo(...point);
+      ctx.closePath();
+      ctx.fillStyle = colors[3];
+      ctx.fill();
+      if (side !== 0) {
+        ctx.globalAlpha = 0.14;
+        ctx.fillStyle = colors[side];
+        ctx.fill();
+        ctx.globalAlpha = 1;
+      }
+      ctx.strokeStyle = colors[side];
+      ctx.lineWidth = Math.max(0.7, 1.35 * size);
+      ctx.stroke();
+      for (const [from, to, part, front, least] of lines) {
+        const looks = this.along(this.near, pose, this.take.points + front);
+        if (part === at && looks >= least) this.drawLine(ctx, pose, from, to, colors[side], Math.max(0.6, 1.1 * size), middle);
+      }
+    }
+  }
+
+  // The band round the balls of a part.
+  outline(pose, [first, count], middle) {
+    const { balls, radii } = this.take.figure;
+    const circles = [];
+    for (let ball = first; ball < first + count; ball++) {
+      circles.push([...this.place(pose, balls + ball, middle), radii[ball] * this.scale]);
+    }
+    const directions = 20;
+    return Array.from({ length: directions }, (_, step) => {
+      const angle = ((step + 0.5) * 2 * Math.PI) / directions;
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const reach = ([x, y, radius]) => x * c + y * s + radius;
+      const [x, y, radius] = circles.reduce((far, circle) => (reach(circle) > reach(far) ? circle : far));
+      return [x + radius * c, y + radius * s];
+    });
   }
 
   drawHead(ctx, pose, [joint, end], colors, middle) {

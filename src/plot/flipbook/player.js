@@ -43,8 +43,8 @@ function drawStage(id, pose, skins) {
   stage.drawFloor(ctx, width, pose, colors.edge);
   // The skins stand where they are in the world, seen from where the figure is.
   const middle = stage.middle(pose);
-  for (const [skin, color] of skins) stage.draw(ctx, skin, [color, color, color, colors.paper], middle);
-  stage.draw(ctx, pose, [colors.ink, colors.left, colors.right, colors.paper]);
+  for (const [skin, color] of skins) stage.draw(ctx, skin, [color, color, color, colors.paper, color], middle);
+  stage.draw(ctx, pose, [colors.ink, colors.left, colors.right, colors.paper, colors.between]);
 }
 
 function sourceSkins() {

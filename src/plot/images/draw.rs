@@ -29,11 +29,12 @@ impl NumberedImages {
     ) -> Result<(), E> {
         self.validate()?;
         let composite = composed(clip, sheet)?;
-        let stage = self.stage(&composite);
+        let figure = Figure::of(clip, self.body);
+        let stage = self.stage(&composite, &figure);
         let backdrop = Pixels::of(&self.backdrop(&stage))?;
         let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
         let mut pixels = backdrop.clone();
-        let mut showing = Showing::of(&composite);
+        let mut showing = Showing::of(&composite, figure.marks());
         let name: String = composite.layer().name.chars().map(plain).collect();
         for (at, koma) in composite.first_koma().into_iter().enumerate() {
             pixels.copy(&backdrop);
@@ -52,16 +53,15 @@ impl NumberedImages {
         (share * f64::from(self.width), share * f64::from(self.height))
     }
 
-    fn stage(&self, composite: &Composite<'_>) -> Stage {
+    fn stage(&self, composite: &Composite<'_>, figure: &Figure) -> Stage {
         let clip = composite.clip();
-        let poses = drawn_poses(composite, composite.layer().drawings.len());
+        let poses = drawn_poses(composite, figure.marks(), composite.layer().drawings.len());
         let view = self.camera.view(clip, &poses);
-        let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
-        let bounds = Bounds::of(&figure, &view, &poses);
+        let bounds = Bounds::of(figure, &view, &poses);
         let (wide, high) = self.inside(1.0 - 4.0 * SAFE);
         let (width, height) = self.inside(1.0);
         let floor = (1.0 - 2.0 * SAFE) * height;
-        Stage::filling(figure, view, &bounds, (0.5 * width, floor), (wide, high))
+        Stage::filling(figure.clone(), view, &bounds, (0.5 * width, floor), (wide, high))
     }
 
     /// What all images have behind the figure.

@@ -9,6 +9,7 @@ use super::scene::Scene;
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::plot::drawings::composed;
+use crate::plot::figure::Figure;
 use crate::sheet::Sheet;
 
 impl Preview {
@@ -30,7 +31,8 @@ impl Preview {
         let layer = composite.layer();
         let koma = layer.length().min(self.most);
         let palette = Palette::new();
-        let mut scene = Scene::new(self, cut, &composite, sheet, koma)?;
+        let figure = Figure::of(clip, self.body);
+        let mut scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
         let mut movie = Movie::begin(file, (self.width, self.height), &palette)?;
         for (at, drawing) in layer.koma().take(koma).enumerate() {
             let pixels = scene.draw(at, drawing);

@@ -48,20 +48,20 @@ impl<'a> Scene<'a> {
     pub(super) fn new(
         preview: &Preview,
         cut: &str,
-        composite: &'a Composite<'a>,
+        (composite, figure): (&'a Composite<'a>, &'a Figure),
         sheet: &Sheet,
         koma: usize,
     ) -> Result<Self, Error> {
         let size = (f64::from(preview.width), f64::from(preview.height));
         let (clip, layer) = (composite.clip(), composite.layer());
-        let (stage, follows) = stage(preview, composite, size);
+        let (stage, follows) = stage(preview, composite, figure, size);
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
         let cells = shown_drawings(layer);
         let backdrop = Pixels::of(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
-            posing: Posing::of(clip),
-            showing: Showing::of(composite),
+            posing: Posing::of(clip, figure.marks()),
+            showing: Showing::of(composite, figure.marks()),
             clock: sheet.clock,
             layer,
             stages,
@@ -123,16 +123,20 @@ impl<'a> Scene<'a> {
 }
 
 /// The stage of one panel, its middle yet to be set, and whether the camera goes along.
-fn stage(preview: &Preview, composite: &Composite<'_>, size: (f64, f64)) -> (Stage, bool) {
+fn stage(
+    preview: &Preview,
+    composite: &Composite<'_>,
+    figure: &Figure,
+    size: (f64, f64),
+) -> (Stage, bool) {
     let clip = composite.clip();
-    let poses = drawn_poses(composite, composite.layer().drawings.len());
+    let poses = drawn_poses(composite, figure.marks(), composite.layer().drawings.len());
     let view = preview.camera.view(clip, &poses);
-    let figure = Figure::of(clip.skeleton(), &poses[0], view.up);
-    let bounds = Bounds::of(&figure, &view, &poses);
+    let bounds = Bounds::of(figure, &view, &poses);
     let room = (0.5 * size.0 - 2.0 * PAD, size.1 - TOP - BOTTOM);
     let follows = bounds.width() / bounds.height().max(1e-9) > FAR * room.0 / room.1;
-    let bounds = if follows { against_root(&bounds, &figure, &view, &poses) } else { bounds };
-    (Stage::filling(figure, view, &bounds, (0.0, 0.0), room), follows)
+    let bounds = if follows { against_root(&bounds, figure, &view, &poses) } else { bounds };
+    (Stage::filling(figure.clone(), view, &bounds, (0.0, 0.0), room), follows)
 }
 
 /// The box round all poses with their roots on one another.

@@ -237,7 +237,7 @@ fn an_edited_sheet_keeps_the_numbers_of_its_drawings() {
 #[test]
 fn a_blend_is_posed_as_a_blend_and_tips_follow_the_joints() {
     let (clip, _) = walk();
-    let mut posing = Posing::of(&clip);
+    let mut posing = Posing::of(&clip, &[]);
     let at = posing.points(Source::At(3.0));
     assert_eq!(at.len(), 6 + 1, "six joints and the tip of the head");
     assert!(at[6].abs_diff_eq(at[1] + 20.0 * DVec3::Y, 1e-12));

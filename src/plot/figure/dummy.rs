@@ -1,0 +1,299 @@
+//! The lay figure (デッサン人形) in a pose: balls that parts are stretched over, and lines that say which way a part faces.
+//!
+//! Lengths are heights of the body: usual proportions of a grown person.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::motion::{BodySide, Clip, LayFigure, Point as Mark};
+
+/// How thick a limb may be against its length: a toy's arms are short.
+const THICKEST: f64 = 0.3;
+
+/// Radii of arm and leg: at the shoulder, elbow, wrist; at the hip, knee, ankle.
+const ARM: [f64; 3] = [0.031, 0.024, 0.017];
+const LEG: [f64; 3] = [0.050, 0.033, 0.021];
+
+/// The head: how far up and ahead of its middle a ball is, and its radius. Skull, then chin.
+const HEAD: [(f64, f64, f64); 2] = [(0.014, -0.008, 0.057), (-0.043, 0.020, 0.028)];
+
+/// The nose line: how far up and ahead of the middle of the head its points are.
+const NOSE: [(f64, f64); 4] = [(0.030, 0.044), (0.008, 0.050), (-0.014, 0.068), (-0.020, 0.049)];
+
+/// The line of the eyes: up, ahead, and how far to each side.
+const EYES: (f64, f64, f64) = (0.012, 0.044, 0.030);
+
+/// What faces in a figure.
+const FACE: usize = 0;
+const CHEST: usize = 1;
+const HIPS: usize = 2;
+
+/// A ball, in units of the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ball {
+    pub(crate) middle: DVec3,
+    pub(crate) radius: f64,
+}
+
+/// What is stretched over some balls.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Part {
+    pub(crate) balls: Range<usize>,
+    pub(crate) side: BodySide,
+}
+
+/// A line on a part, seen while a front of the figure looks at least so much towards whoever looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Line {
+    pub(crate) from: DVec3,
+    pub(crate) to: DVec3,
+    pub(crate) part: usize,
+    /// Which of [`Solid::fronts`].
+    pub(crate) front: usize,
+    /// The least cosine.
+    pub(crate) least: f64,
+}
+
+/// A lay figure in a pose. In all poses of a clip it has the same parts and lines in the same order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Solid {
+    pub(crate) balls: Vec<Ball>,
+    pub(crate) parts: Vec<Part>,
+    pub(crate) lines: Vec<Line>,
+    /// Where face, chest and hips look; of length 1.
+    pub(crate) fronts: [DVec3; 3],
+}
+
+impl Solid {
+    /// The balls of a part.
+    pub(crate) fn balls(&self, part: usize) -> &[Ball] {
+        &self.balls[self.parts[part].balls.clone()]
+    }
+
+    /// The middle of a part.
+    pub(crate) fn middle(&self, part: usize) -> DVec3 {
+        let balls = self.balls(part);
+        balls.iter().map(|ball| ball.middle).sum::<DVec3>() / balls.len() as f64
+    }
+
+    /// Adds a part.
+    fn part(&mut self, side: BodySide, balls: impl IntoIterator<Item = (DVec3, f64)>) -> usize {
+        let begin = self.balls.len();
+        self.balls.extend(balls.into_iter().map(|(middle, radius)| Ball { middle, radius }));
+        self.parts.push(Part { balls: begin..self.balls.len(), side });
+        self.parts.len() - 1
+    }
+
+    /// Adds a line through points on a part.
+    fn line(&mut self, part: usize, front: usize, least: f64, points: &[DVec3]) {
+        let lines = points.windows(2);
+        self.lines.extend(lines.map(|ends| Line {
+            from: ends[0],
+            to: ends[1],
+            part,
+            front,
+            least,
+        }));
+    }
+}
+
+/// A lay figure that fits a rig.
+#[derive(Debug, Clone)]
+pub(crate) struct Dummy {
+    lay: LayFigure,
+    /// The joint that each point of a pose belongs to.
+    owners: Vec<usize>,
+}
+
+/// Right, up and forward of a box, each of length 1.
+#[derive(Debug, Clone, Copy)]
+struct Axes {
+    right: DVec3,
+    up: DVec3,
+    ahead: DVec3,
+}
+
+impl Axes {
+    /// Of a part that reaches along `up` and faces across it; `forward` is 1 or -1.
+    fn of(right: DVec3, up: DVec3, forward: f64) -> Self {
+        let up = up.normalize_or(DVec3::Y);
+        let right = (right - up * right.dot(up)).normalize_or(up.any_orthonormal_vector());
+        Self { right, up, ahead: forward * up.cross(right) }
+    }
+
+    fn place(&self, from: DVec3, (right, up, ahead): (f64, f64, f64)) -> DVec3 {
+        from + self.right * right + self.up * up + self.ahead * ahead
+    }
+}
+
+impl Dummy {
+    /// The lay figure of a clip; none where a body has no head, two arms and two legs.
+    pub(super) fn of(clip: &Clip) -> Option<Self> {
+        let lay = LayFigure::of(clip)?;
+        let skeleton = clip.skeleton();
+        let joints = skeleton.iter().map(|(joint, _)| joint.0);
+        let tips = skeleton.iter();
+        let tips = tips.flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
+        Some(Self { lay, owners: joints.chain(tips).collect() })
+    }
+
+    /// What a pose has to have behind its joints and tips.
+    pub(super) fn marks(&self) -> &[Mark] {
+        &self.lay.marks
+    }
+
+    /// Whether a part covers the bone that leads to a point, a joint or a tip.
+    pub(super) fn covers(&self, point: usize) -> bool {
+        let owner = self.owners[point];
+        self.lay.covered[owner] || owner != point && owner == self.lay.root
+    }
+
+    /// How far the figure reaches beyond its points.
+    pub(super) fn reach(&self) -> f64 {
+        0.03 * self.lay.height
+    }
+
+    /// The figure in a pose.
+    pub(crate) fn solid(&self, pose: &[DVec3]) -> Solid {
+        let mut solid = Solid::default();
+        let tall = self.lay.height;
+        let [[hip_l, ..], [hip_r, ..]] = self.lay.legs;
+        let [[shoulder_l, ..], [shoulder_r, ..]] = self.lay.arms;
+        let hips = pose[hip_l].midpoint(pose[hip_r]);
+        let neck = pose[shoulder_l].midpoint(pose[shoulder_r]);
+        let waist = self.lay.waist.map_or(hips.lerp(neck, 0.42), |joint| pose[joint]);
+        let forward = self.lay.forward;
+        let pelvis = Axes::of(pose[hip_r] - pose[hip_l], waist - hips, forward);
+        let chest = Axes::of(pose[shoulder_r] - pose[shoulder_l], neck - waist, forward);
+        let wide = 0.5 * pose[hip_l].distance(pose[hip_r]) / tall;
+        let broad = 0.5 * pose[shoulder_l].distance(pose[shoulder_r]) / tall;
+
+        let bend = waist.lerp(hips.midpoint(neck), 0.3);
+        solid.part(
+            BodySide::Trunk,
+            [
+                (pelvis.place(hips, (0.0, 0.03 * tall, 0.0)), 0.058 * tall),
+                (bend, 0.056 * tall),
+                (chest.place(neck, (0.0, -0.13 * tall, 0.0)), 0.060 * tall),
+            ],
+        );
+        self.hips(&mut solid, &pelvis, hips, wide.clamp(0.03, 0.08));
+        self.ribs(&mut solid, &chest, (neck, waist), broad.clamp(0.06, 0.13));
+        self.head(&mut solid, pose, neck);
+        for (side, (arm, leg)) in [BodySide::Left, BodySide::Right]
+            .into_iter()
+            .zip(self.lay.arms.iter().zip(&self.lay.legs))
+        {
+            self.limb(&mut solid, side, pose, arm, ARM);
+            self.hand(&mut solid, side, pose, arm);
+            self.limb(&mut solid, side, pose, leg, LEG);
+            self.foot(&mut solid, side, pose, leg);
+        }
+        solid.fronts[CHEST] = chest.ahead;
+        solid.fronts[HIPS] = pelvis.ahead;
+        solid
+    }
+
+    /// The pelvis: a box with rounded edges, narrower below, with a V in front.
+    fn hips(&self, solid: &mut Solid, axes: &Axes, hips: DVec3, wide: f64) {
+        let tall = self.lay.height;
+        let edge = 0.022;
+        let half = [(wide + 0.028 - edge, -0.012), (wide + 0.022 - edge, 0.062)];
+        let at = |right: f64, up: f64, ahead: f64| {
+            axes.place(hips, (right * tall, up * tall, ahead * tall))
+        };
+        let corners = half.into_iter().flat_map(|(half, up)| {
+            [(half, 0.030), (half, -0.032), (-half, 0.030), (-half, -0.032)]
+                .map(|(right, ahead)| (at(right, up, ahead), edge * tall))
+        });
+        let part = solid.part(BodySide::Trunk, corners);
+        let front = 0.030 + edge;
+        let point = at(0.0, -0.030, front);
+        let (left, right) = (at(-half[1].0, 0.066, front), at(half[1].0, 0.066, front));
+        solid.line(part, HIPS, 0.12, &[left, point, right]);
+    }
+
+    /// The ribcage: a box with rounded edges, with the breast bone and the arch of the ribs in front.
+    fn ribs(&self, solid: &mut Solid, axes: &Axes, (neck, waist): (DVec3, DVec3), broad: f64) {
+        let tall = self.lay.height;
+        let edge = 0.026;
+        let long = (neck.distance(waist) / tall).clamp(0.11, 0.17);
+        let half = [(0.72 * broad - edge, -0.028, 0.026), (0.085 - edge, 0.012 - long, 0.036)];
+        let at = |right: f64, up: f64, ahead: f64| {
+            axes.place(neck, (right * tall, up * tall, ahead * tall))
+        };
+        let corners = half.into_iter().flat_map(|(half, up, deep)| {
+            [(half, deep), (half, -deep), (-half, deep), (-half, -deep)]
+                .map(|(right, ahead)| (at(right, up, ahead), edge * tall))
+        });
+        let part = solid.part(BodySide::Trunk, corners);
+        let (top, low) = (at(0.0, -0.012, 0.026 + edge), 0.012 - long);
+        let breast = at(0.0, 0.45 * low, 0.034 + edge);
+        let arch = [-half[1].0, half[1].0].map(|right| at(right, low, 0.034 + edge));
+        solid.line(part, CHEST, 0.12, &[top, breast]);
+        solid.line(part, CHEST, 0.12, &[arch[0], breast, arch[1]]);
+    }
+
+    /// Neck, skull and chin, the line of the nose and that of the eyes.
+    fn head(&self, solid: &mut Solid, pose: &[DVec3], neck: DVec3) {
+        let tall = self.lay.height;
+        let [middle, nose, crown] = self.lay.head.map(|mark| pose[mark]);
+        let ahead = (nose - middle).normalize_or(DVec3::Z);
+        let up = (crown - middle).normalize_or(DVec3::Y);
+        let across = up.cross(ahead);
+        let at = |up_by: f64, ahead_by: f64| middle + tall * (up_by * up + ahead_by * ahead);
+        solid.part(BodySide::Trunk, [(neck, 0.026 * tall), (at(-0.03, -0.012), 0.024 * tall)]);
+        let balls = HEAD.map(|(up, ahead, radius)| (at(up, ahead), radius * tall));
+        let part = solid.part(BodySide::Trunk, balls);
+        solid.line(part, FACE, -0.25, &NOSE.map(|(up, ahead)| at(up, ahead)));
+        let (level, ahead_by, half) = EYES;
+        let eyes = [-half, half].map(|side| at(level, ahead_by) + tall * side * across);
+        solid.line(part, FACE, 0.15, &eyes);
+        solid.fronts[FACE] = ahead;
+    }
+
+    /// Upper and lower half of a limb, by the radii of its joints.
+    fn limb(
+        &self,
+        solid: &mut Solid,
+        side: BodySide,
+        pose: &[DVec3],
+        limb: &[usize; 4],
+        radii: [f64; 3],
+    ) {
+        for half in 0..2 {
+            let (from, to) = (pose[limb[half]], pose[limb[half + 1]]);
+            let most = THICKEST * from.distance(to);
+            let radius = |at: usize| (radii[at] * self.lay.height).min(most);
+            solid.part(side, [(from, radius(half)), (to, radius(half + 1))]);
+        }
+    }
+
+    /// A wedge from the wrist to the fingertips.
+    fn hand(&self, solid: &mut Solid, side: BodySide, pose: &[DVec3], arm: &[usize; 4]) {
+        let (wrist, tips) = (pose[arm[2]], pose[arm[3]]);
+        let ball = |share: f64, radius: f64| (wrist.lerp(tips, share), radius * self.lay.height);
+        solid.part(side, [ball(0.1, 0.016), ball(0.45, 0.024), ball(0.95, 0.011)]);
+    }
+
+    /// A wedge from heel to toes, below the ankle.
+    fn foot(&self, solid: &mut Solid, side: BodySide, pose: &[DVec3], leg: &[usize; 4]) {
+        let tall = self.lay.height;
+        let [knee, ankle, toes] = [leg[1], leg[2], leg[3]].map(|point| pose[point]);
+        let shin = (ankle - knee).normalize_or_zero();
+        let way = (toes - ankle).normalize_or_zero();
+        let sole = (way - shin * way.dot(shin).min(0.6)).normalize_or(way);
+        let heel = ankle + tall * (0.018 * shin - 0.022 * sole);
+        let ball = ankle.lerp(toes, 0.72);
+        solid.part(
+            side,
+            [
+                (ankle, 0.022 * tall),
+                (heel, 0.020 * tall),
+                (ball, 0.020 * tall),
+                (toes, 0.013 * tall),
+            ],
+        );
+    }
+}
