@@ -13,7 +13,7 @@ use crate::motion::{Body, BodySide, Clip, Point as Mark, Poser, Skeleton, Statur
 use crate::plot::px::Point;
 use crate::plot::style;
 use dummy::Dummy;
-pub(crate) use dummy::{Line, Solid};
+pub(crate) use dummy::{Line, Part, Solid};
 use outline::outline;
 use sticks::Sticks;
 
@@ -209,7 +209,7 @@ fn draw_solid(
     at: impl Fn(DVec3) -> Point,
     shapes: &mut Vec<Shape>,
 ) {
-    let depth = |part: usize| solid.middle(part).dot(view.near);
+    let depth = |part: usize| solid.middle(part).dot(view.near) + solid.parts[part].nearer;
     let mut order: Vec<usize> = (0..solid.parts.len()).collect();
     order.sort_by(|a, b| depth(*a).total_cmp(&depth(*b)));
     for part in order {

@@ -24,10 +24,10 @@ const LONGEST_FOOT: f64 = 0.16;
 const FOOT: f64 = 0.13;
 
 /// From between the shoulders to the middle of the head, in heights of the body.
-const NECK: f64 = 0.155;
+const NECK: f64 = 0.13;
 
 /// How far the middle of a head may be from its joint, in heights of the body.
-const HEAD: [f64; 2] = [0.05, 0.15];
+const HEAD: [f64; 2] = [0.0, 0.13];
 
 /// From the middle of a head to the tip of the nose and to the crown, in heights of the body.
 const NOSE: f64 = 0.07;

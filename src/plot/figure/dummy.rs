@@ -13,16 +13,21 @@ const THICKEST: f64 = 0.3;
 
 /// Radii of arm and leg: at the shoulder, elbow, wrist; at the hip, knee, ankle.
 const ARM: [f64; 3] = [0.031, 0.024, 0.017];
-const LEG: [f64; 3] = [0.050, 0.033, 0.021];
+const LEG: [f64; 3] = [0.047, 0.033, 0.021];
 
 /// The head: how far up and ahead of its middle a ball is, and its radius. Skull, then chin.
-const HEAD: [(f64, f64, f64); 2] = [(0.014, -0.008, 0.057), (-0.043, 0.020, 0.028)];
+const HEAD: [(f64, f64, f64); 2] = [(0.012, -0.008, 0.060), (-0.042, 0.018, 0.033)];
 
 /// The nose line: how far up and ahead of the middle of the head its points are.
 const NOSE: [(f64, f64); 4] = [(0.030, 0.044), (0.008, 0.050), (-0.014, 0.068), (-0.020, 0.049)];
 
 /// The line of the eyes: up, ahead, and how far to each side.
 const EYES: (f64, f64, f64) = (0.012, 0.044, 0.030);
+
+/// What is inside counts as further away, and what limbs come out of as nearer.
+const BELLY: f64 = -0.1;
+const THROAT: f64 = -0.08;
+const PELVIS: f64 = 0.035;
 
 /// What faces in a figure.
 const FACE: usize = 0;
@@ -41,6 +46,8 @@ pub(crate) struct Ball {
 pub(crate) struct Part {
     pub(crate) balls: Range<usize>,
     pub(crate) side: BodySide,
+    /// By how much it counts as nearer than its middle is, in units of the file.
+    pub(crate) nearer: f64,
 }
 
 /// A line on a part, seen while a front of the figure looks at least so much towards whoever looks.
@@ -81,7 +88,7 @@ impl Solid {
     fn part(&mut self, side: BodySide, balls: impl IntoIterator<Item = (DVec3, f64)>) -> usize {
         let begin = self.balls.len();
         self.balls.extend(balls.into_iter().map(|(middle, radius)| Ball { middle, radius }));
-        self.parts.push(Part { balls: begin..self.balls.len(), side });
+        self.parts.push(Part { balls: begin..self.balls.len(), side, nearer: 0.0 });
         self.parts.len() - 1
     }
 
@@ -170,7 +177,7 @@ impl Dummy {
         let broad = 0.5 * pose[shoulder_l].distance(pose[shoulder_r]) / tall;
 
         let bend = waist.lerp(hips.midpoint(neck), 0.3);
-        solid.part(
+        let belly = solid.part(
             BodySide::Trunk,
             [
                 (pelvis.place(hips, (0.0, 0.03 * tall, 0.0)), 0.058 * tall),
@@ -178,6 +185,7 @@ impl Dummy {
                 (chest.place(neck, (0.0, -0.13 * tall, 0.0)), 0.060 * tall),
             ],
         );
+        solid.parts[belly].nearer = BELLY * tall;
         self.hips(&mut solid, &pelvis, hips, wide.clamp(0.03, 0.08));
         self.ribs(&mut solid, &chest, (neck, waist), broad.clamp(0.06, 0.13));
         self.head(&mut solid, pose, neck);
@@ -208,6 +216,7 @@ impl Dummy {
                 .map(|(right, ahead)| (at(right, up, ahead), edge * tall))
         });
         let part = solid.part(BodySide::Trunk, corners);
+        solid.parts[part].nearer = PELVIS * tall;
         let front = 0.030 + edge;
         let point = at(0.0, -0.030, front);
         let (left, right) = (at(-half[1].0, 0.066, front), at(half[1].0, 0.066, front));
@@ -219,7 +228,10 @@ impl Dummy {
         let tall = self.lay.height;
         let edge = 0.026;
         let long = (neck.distance(waist) / tall).clamp(0.11, 0.17);
-        let half = [(0.72 * broad - edge, -0.028, 0.026), (0.085 - edge, 0.012 - long, 0.036)];
+        let half = [
+            (0.94 * broad - edge, -0.026, 0.024),
+            (0.70 * broad + 0.012 - edge, 0.012 - long, 0.036),
+        ];
         let at = |right: f64, up: f64, ahead: f64| {
             axes.place(neck, (right * tall, up * tall, ahead * tall))
         };
@@ -243,7 +255,9 @@ impl Dummy {
         let up = (crown - middle).normalize_or(DVec3::Y);
         let across = up.cross(ahead);
         let at = |up_by: f64, ahead_by: f64| middle + tall * (up_by * up + ahead_by * ahead);
-        solid.part(BodySide::Trunk, [(neck, 0.026 * tall), (at(-0.03, -0.012), 0.024 * tall)]);
+        let throat = [(neck, 0.026 * tall), (at(-0.03, -0.012), 0.024 * tall)];
+        let throat = solid.part(BodySide::Trunk, throat);
+        solid.parts[throat].nearer = THROAT * tall;
         let balls = HEAD.map(|(up, ahead, radius)| (at(up, ahead), radius * tall));
         let part = solid.part(BodySide::Trunk, balls);
         solid.line(part, FACE, -0.25, &NOSE.map(|(up, ahead)| at(up, ahead)));

@@ -124,8 +124,8 @@ class Stage {
   // A lay figure: the furthest part first, each with the lines on it that look this way.
   drawParts(ctx, pose, colors, size, middle) {
     const { parts, balls, lines } = this.take.figure;
-    const depth = ([first, count]) => {
-      let sum = 0;
+    const depth = ([first, count, , nearer]) => {
+      let sum = nearer * count;
       for (let ball = first; ball < first + count; ball++) sum += this.along(this.near, pose, balls + ball);
       return sum / count;
     };

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::motion::BodySide;
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Figure, Line, Part};
 
 /// What all figures of a page have in common. Sides: 0 trunk, 1 left, 2 right.
 #[derive(Serialize)]
@@ -16,8 +16,8 @@ pub(super) struct PageFigure {
     head: Option<(usize, usize)>,
     /// Thin lines to what is no part of the body: from, to.
     guides: Vec<[usize; 2]>,
-    /// Parts of a lay figure: its first ball, how many, side.
-    parts: Vec<[usize; 3]>,
+    /// Parts of a lay figure: its first ball, how many, side, and by how many steps it counts as nearer.
+    parts: Vec<(usize, usize, usize, i32)>,
     /// The number of the first ball among the points, and the radius of each in steps.
     balls: usize,
     radii: Vec<i32>,
@@ -43,17 +43,19 @@ impl PageFigure {
         };
         let balls = 1 + 2 * guides.len();
         let first_end = balls + solid.balls.len();
-        let line = |(at, line): (usize, &crate::plot::figure::Line)| {
+        let line = |(at, line): (usize, &Line)| {
             let from = first_end + 2 * at;
             (from, from + 1, line.part, line.front, (line.least * 1000.0).round() as i32)
+        };
+        let part = |part: &Part| {
+            let nearer = (part.nearer / unit).round() as i32;
+            (part.balls.start, part.balls.len(), side(part.side), nearer)
         };
         Self {
             bones: vec![],
             head: None,
             guides: (0..guides.len()).map(|guide| [1 + 2 * guide, 2 + 2 * guide]).collect(),
-            parts: (solid.parts.iter())
-                .map(|part| [part.balls.start, part.balls.len(), side(part.side)])
-                .collect(),
+            parts: solid.parts.iter().map(part).collect(),
             balls,
             radii: solid.balls.iter().map(|ball| (ball.radius / unit).round() as i32).collect(),
             lines: solid.lines.iter().enumerate().map(line).collect(),
