@@ -190,7 +190,9 @@ pub const FORMATS: &[Format] = &[
         help: "picture: genga and ends as poses in a row",
         japanese: "ポーズの図",
         files: &["poses.svg"],
-        make: |cut, _, put| put("poses.svg", pictures::poses(cut)?.as_bytes()),
+        make: |cut, settings, put| {
+            put("poses.svg", pictures::poses(cut, settings.figures.body)?.as_bytes())
+        },
         ..PLAIN
     },
     Format {

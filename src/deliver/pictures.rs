@@ -4,7 +4,7 @@ use crate::deliver::Cut;
 use crate::deliver::sheet_json::MadeWith;
 use crate::error::Error;
 use crate::motion::{Screen, SeenFrom};
-use crate::plot::{PoseRow, SheetPlot};
+use crate::plot::{FigureBody, PoseRow, SheetPlot};
 use crate::sheet::Sheet;
 use crate::timing::Stills;
 
@@ -28,6 +28,6 @@ pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
 ///
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Picture`] when it cannot be drawn.
-pub fn poses(cut: &Cut<'_>) -> Result<String, Error> {
-    PoseRow { clip: cut.name.to_owned(), ..PoseRow::default() }.draw_kept(cut.clip, cut.sheet)
+pub fn poses(cut: &Cut<'_>, body: FigureBody) -> Result<String, Error> {
+    PoseRow { clip: cut.name.to_owned(), body, ..PoseRow::default() }.draw_kept(cut.clip, cut.sheet)
 }

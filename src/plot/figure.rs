@@ -69,7 +69,7 @@ pub(crate) struct Stroke {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ink {
     Side(BodySide),
-    /// What is no part of the body: a root on the floor, a tail, a sword.
+    /// What is no part of the body: a root on the floor, a tail.
     Guide,
 }
 
@@ -93,6 +93,22 @@ pub(crate) enum Shape {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Drawn {
     pub(crate) shapes: Vec<Shape>,
+}
+
+impl Drawn {
+    /// Puts every point elsewhere.
+    #[cfg(feature = "studio")]
+    pub(crate) fn each_point(&mut self, place: impl Fn(Point) -> Point) {
+        for shape in &mut self.shapes {
+            match shape {
+                Shape::Line(line) => (line.from, line.to) = (place(line.from), place(line.to)),
+                Shape::Part { outline, .. } => {
+                    outline.iter_mut().for_each(|point| *point = place(*point));
+                }
+                Shape::Ring(point, _) | Shape::Dot(point) => *point = place(*point),
+            }
+        }
+    }
 }
 
 /// The figure height in px that the widths of the lines are made for.
@@ -233,10 +249,13 @@ fn draw_solid(
 }
 
 /// From what to what each bone goes, in the numbers of points: to joints first, then to tips.
-fn bones(skeleton: &Skeleton) -> impl Iterator<Item = (usize, usize)> {
+pub(crate) fn bones(skeleton: &Skeleton) -> impl Iterator<Item = (usize, usize)> {
     let joints = skeleton.iter();
     let joints = joints.filter_map(|(joint, data)| Some((data.parent?.0, joint.0)));
     let ends =
         skeleton.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
     joints.chain(ends.enumerate().map(|(tip, joint)| (joint, skeleton.len() + tip)))
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@ use super::Camera;
 use crate::motion::Clip;
 
 pub(crate) use super::drawings::{ShownDrawing, shown_drawings};
-pub(crate) use super::figure::{Drawn, Figure};
+pub(crate) use super::figure::{Drawn, Figure, FigureBody, Ink, Shape, bones};
 pub(crate) use super::heat::color as heat;
 pub(crate) use super::points::Posing;
 pub(crate) use super::ssd::Moves;

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use crate::motion::{Clip, Stature, Unit};
 use crate::plot::Camera;
-use crate::plot::parts::{Figure, Posing, View, seen_by};
+use crate::plot::parts::{Figure, FigureBody, Posing, View, seen_by};
 use crate::sheet::Source;
 use crate::time::KOMA_RATE;
 
@@ -41,12 +41,12 @@ impl Scene {
         let clock = clip.clock(KOMA_RATE);
         let step = koma.div_ceil(LOOKS).max(1);
         let places = (0..koma).step_by(step).map(|koma| clock.place_from_koma(koma));
-        let poses = Posing::of(clip).all(places.map(Source::At));
+        let figure = Figure::of(clip, FigureBody::Mannequin);
+        let poses = Posing::of(clip, figure.marks()).all(places.map(Source::At));
         let stature = Stature::of(clip);
         let view = |camera: Camera| seen_by(camera, clip, &poses);
         let up = stature.up.unit();
         let floor = poses.iter().flatten().map(|point| point.dot(up)).fold(f64::INFINITY, f64::min);
-        let figure = Figure::of(clip.skeleton(), &poses[0], up);
         let cell = CELL / Unit::nearest(stature.size).metres();
         Self {
             figure,

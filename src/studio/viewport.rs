@@ -78,7 +78,7 @@ impl Viewport {
     /// What a view that follows has in its middle: the body of the source, as it is a smooth way.
     fn anchor(&self, shown: &Shown<'_>) -> DVec3 {
         let place = shown.column.clock.place_from_koma(shown.at);
-        let root = Posing::of(shown.breakdown.source).points(Source::At(place))[0];
+        let root = Posing::of(shown.breakdown.source, &[]).points(Source::At(place))[0];
         shown.scene.on_floor(root) + shown.scene.up * (0.5 * shown.scene.figure.height)
     }
 
@@ -113,10 +113,11 @@ impl Viewport {
         let look = &shown.look;
         painter.rect_filled(rect, 4.0, look.ground);
         let stage = self.orbit.stage(shown.scene, rect, anchor);
-        let mut posing = Posing::of(match seen {
+        let clip = match seen {
             Seen::Source => shown.breakdown.source,
             _ => shown.breakdown.clip,
-        });
+        };
+        let mut posing = Posing::of(clip, shown.scene.figure.marks());
         floor::draw(&painter, &stage, shown);
         let source = match seen {
             Seen::Source => Source::At(shown.column.clock.place_from_koma(shown.at)),

@@ -36,7 +36,7 @@ const CROWN: f64 = 0.07;
 /// Where along the spine a body bends, as a share of the way from the hips to the shoulders.
 const WAIST: f64 = 0.42;
 
-/// What hangs further from the body's bones than this is no part of it, in heights of the body: hair, a tail, a sword.
+/// What hangs further from the body's bones than this is no part of it, in heights of the body: long hair, a tail.
 const COVERED: f64 = 0.22;
 
 /// An arm from the shoulder or a leg from the hip: the numbers of its points.
@@ -304,3 +304,6 @@ impl<'a> Rig<'a> {
         far.into_iter().map(|far| far <= COVERED * self.height).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

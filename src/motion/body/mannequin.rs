@@ -83,8 +83,11 @@ impl Mannequin {
         let legs = Pair::of(skeleton, &lengths, [left_foot.ankle.joint, right_foot.ankle.joint]);
         let hands = arms.ends.map(|wrist| tips(skeleton, wrist));
         let soles = [left_foot.sole, right_foot.sole].map(|sole| vec![sole]);
-        // The bones and not the motion: somebody who crouches has legs as long as ever.
-        let height = (lengths[head.joint.0] + legs.mean_length()) / TRUNK_AND_LEG;
+        // The bones and not the motion: somebody who crouches has legs as long as ever. A game's root on the floor is
+        // no bone.
+        let trunk = Pair::of(skeleton, &lengths, [head.joint, JointId(legs.fork)]);
+        let to_hips = lengths[trunk.fork];
+        let height = (lengths[head.joint.0] + legs.mean_length() - 2.0 * to_hips) / TRUNK_AND_LEG;
         let arms_found = arms.limbs(ARM * height, hands)?;
         let legs_found = legs.limbs(LEG * height, soles)?;
         let leg = |leg: &Limb| lengths[leg.lower.joint.0] - lengths[leg.upper.joint.0];

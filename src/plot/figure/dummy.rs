@@ -156,6 +156,14 @@ impl Dummy {
         self.lay.covered[owner] || owner != point && owner == self.lay.root
     }
 
+    /// That of the mirrored body, in which the same points are on the other side.
+    #[cfg(test)]
+    pub(super) fn mirrored(&self) -> Self {
+        let mut mirrored = self.clone();
+        mirrored.lay.forward = -self.lay.forward;
+        mirrored
+    }
+
     /// How far the figure reaches beyond its points.
     pub(super) fn reach(&self) -> f64 {
         0.03 * self.lay.height

@@ -1,9 +1,9 @@
-//! The figure in the window: thick bones with round ends, and a head.
+//! The figure in the window, from the far to the near.
 
-use egui::{Color32, Painter, Stroke};
+use egui::{Color32, Painter, Pos2, Stroke};
 
 use super::orbit::position;
-use crate::plot::parts::Drawn;
+use crate::plot::parts::{BodySide, Drawn, Ink, Shape};
 use crate::studio::look::Look;
 
 /// In what a figure is drawn.
@@ -11,44 +11,76 @@ use crate::studio::look::Look;
 pub(super) enum Inks {
     /// Left and right in colours of their own.
     Sides,
-    /// All in one, as thin as a share of its bones.
+    /// Its lines alone, all in one colour, as thin as a share of what they are.
     One(Color32, f32),
+    /// Filled with one colour.
+    Shadow(Color32),
+}
+
+/// How much of its side's colour a part is filled with.
+const BREATH: f32 = 0.14;
+
+impl Inks {
+    fn line(self, ink: Ink, look: &Look) -> Color32 {
+        match (self, ink) {
+            (Self::Sides, Ink::Side(side)) => look.of_side(side),
+            (Self::Sides, Ink::Guide) => look.inbetween,
+            (Self::One(color, _) | Self::Shadow(color), _) => color,
+        }
+    }
+
+    fn fill(self, side: BodySide, look: &Look) -> Color32 {
+        match (self, side) {
+            (Self::Sides, BodySide::Trunk) => look.ground,
+            (Self::Sides, side) => look.ground.lerp_to_gamma(look.of_side(side), BREATH),
+            (Self::One(..), _) => Color32::TRANSPARENT,
+            (Self::Shadow(color), _) => color,
+        }
+    }
+
+    /// How wide a line is of what it is elsewhere.
+    fn share(self) -> f32 {
+        if let Self::One(_, share) = self { share } else { 1.0 }
+    }
 }
 
 /// Draws a figure, from the far to the near.
 pub(super) fn draw(painter: &Painter, drawn: &Drawn, inks: Inks, look: &Look) {
-    let share = match inks {
-        Inks::Sides => 1.0,
-        Inks::One(_, share) => share,
-    };
-    for stroke in &drawn.strokes {
-        let color = match inks {
-            Inks::Sides => look.of_side(stroke.side),
-            Inks::One(color, _) => color,
-        };
-        let (from, to) = (position(stroke.from), position(stroke.to));
-        let width = stroke.width as f32 * share;
-        painter.line_segment([from, to], Stroke::new(width, color));
-        if width > 2.0 {
-            painter.circle_filled(from, 0.5 * width, color);
-            painter.circle_filled(to, 0.5 * width, color);
+    let ink = inks.line(Ink::Side(BodySide::Trunk), look);
+    for shape in &drawn.shapes {
+        match shape {
+            Shape::Line(line) => {
+                let (from, to) = (position(line.from), position(line.to));
+                bone(
+                    painter,
+                    [from, to],
+                    line.width as f32 * inks.share(),
+                    inks.line(line.ink, look),
+                );
+            }
+            Shape::Part { outline, width, side } => {
+                let outline: Vec<Pos2> = outline.iter().map(|point| position(*point)).collect();
+                let edge = inks.line(Ink::Side(*side), look);
+                let stroke = Stroke::new(*width as f32 * inks.share(), edge);
+                let fill = inks.fill(*side, look);
+                painter.add(egui::Shape::convex_polygon(outline, fill, stroke));
+            }
+            Shape::Ring(middle, radius) => {
+                let radius = *radius as f32;
+                let stroke = Stroke::new((0.26 * radius * inks.share()).max(1.0), ink);
+                painter.circle(position(*middle), radius, inks.fill(BodySide::Trunk, look), stroke);
+            }
+            Shape::Dot(dot) => {
+                painter.circle_filled(position(*dot), 4.0, ink);
+            }
         }
     }
-    let ink = match inks {
-        Inks::Sides => look.ink,
-        Inks::One(color, _) => color,
-    };
-    if let Some((middle, radius)) = drawn.head {
-        let fill = if matches!(inks, Inks::Sides) { look.ground } else { Color32::TRANSPARENT };
-        let radius = radius as f32;
-        painter.circle(
-            position(middle),
-            radius,
-            fill,
-            Stroke::new((0.26 * radius * share).max(1.0), ink),
-        );
-    }
-    if let Some(dot) = drawn.dot {
-        painter.circle_filled(position(dot), 4.0, ink);
+}
+
+/// A line with round ends.
+fn bone(painter: &Painter, ends: [Pos2; 2], width: f32, color: Color32) {
+    painter.line_segment(ends, Stroke::new(width, color));
+    if width > 2.0 {
+        ends.map(|end| painter.circle_filled(end, 0.5 * width, color));
     }
 }

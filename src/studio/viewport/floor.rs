@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::body;
 use super::orbit::placed;
-use crate::plot::parts::Stage;
+use crate::plot::parts::{Stage, View};
 use crate::studio::scene::Scene;
 use crate::studio::shown::Shown;
 
@@ -44,10 +44,13 @@ pub(super) fn draw(painter: &Painter, stage: &Stage, shown: &Shown<'_>) {
 
 /// Draws what of a pose falls on the floor from straight above.
 pub(super) fn shadow(painter: &Painter, stage: &Stage, pose: &[DVec3], shown: &Shown<'_>) {
-    let flat: Vec<DVec3> = pose.iter().map(|point| shown.scene.on_floor(*point)).collect();
-    let mut drawn = stage.draw(&flat);
-    drawn.head = None;
-    body::draw(painter, &drawn, body::Inks::One(shown.look.shadow, 1.0), &shown.look);
+    let (a, b) = axes(shown.scene);
+    let above = View { right: a, up: b, near: shown.scene.up };
+    let on_floor = |point: DVec3| (point.dot(a), point.dot(b));
+    let mut drawn = stage.figure.draw(pose, &above, 1.0, on_floor);
+    let height = shown.scene.up * shown.scene.floor;
+    drawn.each_point(|(x, y)| stage.place(a * x + b * y + height));
+    body::draw(painter, &drawn, body::Inks::Shadow(shown.look.shadow), &shown.look);
 }
 
 /// Two level axes.

@@ -4,7 +4,8 @@
 use egui::{Painter, Pos2, Shape, Stroke, Vec2};
 
 use super::orbit::placed;
-use crate::plot::parts::{Posing, Stage};
+use crate::motion::Skeleton;
+use crate::plot::parts::{Posing, Stage, bones};
 use crate::sheet::{Role, Source};
 use crate::studio::command::Seen;
 use crate::studio::shown::Shown;
@@ -34,16 +35,15 @@ pub(super) fn draw(
     let dots = dots(seen, shown);
     let poses = posing.all(dots.iter().map(|dot| dot.source));
     for joint in shown.joints {
-        let point = turned(stage, joint.0);
+        let point = turned(shown.breakdown.source.skeleton(), joint.0);
         let places: Vec<Pos2> = poses.iter().map(|pose| placed(stage, pose[point])).collect();
         path(painter, &places, &dots, shown);
     }
 }
 
 /// What a joint turns: the end of its own bone. The joint itself stays where it is when it turns.
-fn turned(stage: &Stage, joint: usize) -> usize {
-    let bone = stage.figure.bones.iter().find(|bone| bone.from == joint);
-    bone.map_or(joint, |bone| bone.to)
+fn turned(skeleton: &Skeleton, joint: usize) -> usize {
+    bones(skeleton).find(|(from, _)| *from == joint).map_or(joint, |(_, to)| to)
 }
 
 fn dots(seen: Seen, shown: &Shown<'_>) -> Vec<Dot> {
