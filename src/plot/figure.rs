@@ -52,7 +52,7 @@ pub(crate) struct Figure {
 
 #[derive(Debug, Clone)]
 enum Form {
-    Mannequin(Dummy),
+    Mannequin(Box<Dummy>),
     Sticks(Sticks),
 }
 
@@ -133,7 +133,7 @@ impl Figure {
         let Some(dummy) = dummy else { return sticks() };
         let guides = bones(clip.skeleton()).filter(|(_, to)| !dummy.covers(*to)).collect();
         let height = extent(standing.points()).dot(up).abs();
-        Self { form: Form::Mannequin(dummy), guides, height }
+        Self { form: Form::Mannequin(Box::new(dummy)), guides, height }
     }
 
     /// Sticks for a skeleton that stands in a first pose, of which `up` is up.

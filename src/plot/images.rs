@@ -11,7 +11,7 @@ use crate::motion::Camera;
 use crate::plot::figure::FigureBody;
 use crate::plot::shared;
 
-/// Numbered images (連番画像): `A_0001.png` and so on, a stick figure a drawing, as a guide to draw over.
+/// Numbered images (連番画像): `A_0001.png` and so on, a figure a drawing, as a guide to draw over.
 ///
 /// The number is the drawing's in the CELL column. All images have one camera, one frame and one scale,
 /// so that drawings fit on each other and a way that is gone is kept.

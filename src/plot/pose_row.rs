@@ -1,4 +1,4 @@
-//! Poses in a row as stick figures (棒人間).
+//! Poses in a row.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use crate::plot::stage::{Bounds, Stage, fitting, largest};
 use crate::plot::{style, title};
 use crate::sheet::{Role, Sheet, Source};
 
-/// Stick figures (棒人間) of some drawings, side by side, on one floor and of one scale.
+/// Figures of some drawings, side by side, on one floor and of one scale.
 ///
 /// Each figure stands in the middle of its own cell: where it is in the world is not shown.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,4 +1,4 @@
-//! The viewport (画面): the source and the result as stick figures, side by side or one over the other.
+//! The viewport (画面): the source and the result as figures, side by side or one over the other.
 
 mod body;
 mod floor;

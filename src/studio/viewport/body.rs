@@ -81,6 +81,8 @@ pub(super) fn draw(painter: &Painter, drawn: &Drawn, inks: Inks, look: &Look) {
 fn bone(painter: &Painter, ends: [Pos2; 2], width: f32, color: Color32) {
     painter.line_segment(ends, Stroke::new(width, color));
     if width > 2.0 {
-        ends.map(|end| painter.circle_filled(end, 0.5 * width, color));
+        for end in ends {
+            painter.circle_filled(end, 0.5 * width, color);
+        }
     }
 }
