@@ -1194,7 +1194,7 @@ fn the_motion_for_mmd_fits_the_model_whose_file_is_given() {
     file.truncate(320);
     fs::write(place.path("half.pmd"), file).unwrap();
     let said = place.refused(1, &run("vmd.model=half.pmd"));
-    assert!(said.contains("half.pmd: byte 291: 4 bones do not go into the 27 bytes"), "{said}");
+    assert!(said.contains("half.pmd: byte 295: 4 bones do not go into the 23 bytes"), "{said}");
     let said = place.refused(1, &run("vmd.model=none.pmx"));
     assert!(said.contains("none.pmx: "), "{said}");
 }
