@@ -7,6 +7,8 @@ mod after_effects;
 mod columns;
 mod comparison;
 mod cut;
+#[cfg(feature = "cli")]
+mod cut_folder;
 mod drawings;
 mod figures;
 mod format;

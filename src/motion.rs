@@ -26,6 +26,8 @@ pub use clip::{
     local_translation, set_local_rotation,
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
+#[cfg(feature = "cli")]
+pub(crate) use composite::layer_of;
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
 pub(crate) use read::{GIB, bytes_in_words};
 pub use read::{GltfCamera, StreamLimit, bvh};

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+#[cfg(feature = "cli")]
+use crate::deliver::cut_folder;
 use crate::deliver::settings::Settings;
 use crate::deliver::{
     Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
@@ -249,6 +251,16 @@ pub const FORMATS: &[Format] = &[
         files: &["images/A_0001.png"],
         is_numbered: true,
         make: figures::images,
+        ..PLAIN
+    },
+    #[cfg(feature = "cli")]
+    Format {
+        name: "cut",
+        help: "a folder as a cut is handed on: timesheets, and each column's pictures under the numbers of its cells",
+        japanese: "カット袋",
+        files: &["CUT/CUT_genga_ts.xdts", "CUT/douga/A/A_0001.png"],
+        is_numbered: true,
+        make: cut_folder::write,
         ..PLAIN
     },
 ];

@@ -8,15 +8,24 @@
 mod file;
 mod pins;
 mod read;
+mod retimed;
 mod tdts;
 #[cfg(test)]
 pub(super) mod tests;
 mod write;
 
 pub use pins::{Numbered, marked_keys, pins};
-pub use read::{Change, Column, Exchange, Mark, read};
+pub use read::{Change, Column, Exchange, Mark, read, read_cells};
+pub use retimed::retimed;
 pub use tdts::Tdts;
+pub(super) use write::name as column;
 pub use write::{Xdts, XdtsPair};
+
+/// Whether a file begins as an XDTS or a TDTS file does.
+pub fn is_timesheet(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    [SIGNATURE, TDTS_SIGNATURE].iter().any(|line| bytes.starts_with(line.as_bytes()))
+}
 
 /// How an XDTS file begins.
 const SIGNATURE: &str = "exchangeDigitalTimeSheet Save Data";

@@ -30,7 +30,7 @@ pub(crate) struct Composite<'a> {
     layer: Cow<'a, Layer>,
     /// For each drawing what its layers show: one source for each layer that has joints.
     drawings: Vec<Vec<Source>>,
-    /// Which layer each joint is of.
+    /// Which layer each joint is of, counted without layers that have none.
     layer_of: Vec<usize>,
     /// Joints whose place is the source's on every koma.
     travellers: Vec<usize>,
@@ -132,8 +132,11 @@ impl<'a> Composite<'a> {
     }
 }
 
-/// The layer of each joint.
-fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>, Error> {
+/// The layer of each joint: what no layer names, or one that shows nothing, is of the first.
+///
+/// # Errors
+/// [`Error::Sheet`] for a joint that is not there.
+pub(crate) fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>, Error> {
     let mut layer_of = vec![0; skeleton.len()];
     for (at, layer) in sheet.layers.iter().enumerate() {
         for name in &layer.joints {

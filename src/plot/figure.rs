@@ -46,6 +46,8 @@ pub(crate) struct Figure {
     form: Form,
     /// Joints or tips that no part covers, each with what it hangs on.
     guides: Vec<(usize, usize)>,
+    /// Of each joint whether what it turns is drawn; all where nothing is said.
+    only: Option<Vec<bool>>,
     /// The body's height in units of the file, as it stands in the first pose.
     pub(crate) height: f64,
 }
@@ -133,14 +135,25 @@ impl Figure {
         let Some(dummy) = dummy else { return sticks() };
         let guides = bones(clip.skeleton()).filter(|(_, to)| !dummy.covers(*to)).collect();
         let height = extent(standing.points()).dot(up).abs();
-        Self { form: Form::Mannequin(Box::new(dummy)), guides, height }
+        Self { form: Form::Mannequin(Box::new(dummy)), guides, only: None, height }
     }
 
     /// Sticks for a skeleton that stands in a first pose, of which `up` is up.
     pub(crate) fn sticks(skeleton: &Skeleton, first: &[DVec3], up: DVec3) -> Self {
         let height = extent(first).dot(up).abs();
         let (sticks, guides) = Sticks::of(skeleton, first, height);
-        Self { form: Form::Sticks(sticks), guides, height }
+        Self { form: Form::Sticks(sticks), guides, only: None, height }
+    }
+
+    /// The same figure, of which only what some joints turn is drawn.
+    #[cfg(feature = "cli")]
+    pub(crate) fn only(&self, joints: Vec<bool>) -> Self {
+        Self { only: Some(joints), ..self.clone() }
+    }
+
+    /// Whether what a joint turns is drawn.
+    fn shows(&self, joint: usize) -> bool {
+        self.only.as_ref().is_none_or(|only| only[joint])
     }
 
     /// What a pose has to have behind its joints and tips.
@@ -198,14 +211,16 @@ impl Figure {
             let (from, to) = (at(pose[*from]), at(pose[*to]));
             Shape::Line(Stroke { from, to, width: (GUIDE * size).max(0.6), ink: Ink::Guide })
         };
-        let mut shapes: Vec<Shape> = self.guides.iter().map(guide).collect();
+        let guides = self.guides.iter().filter(|(from, _)| self.shows(*from));
+        let mut shapes: Vec<Shape> = guides.map(guide).collect();
+        let shows = |joint: usize| self.shows(joint);
         match &self.form {
             Form::Mannequin(dummy) => {
-                draw_solid(&dummy.solid(pose), view, (scale, size), at, &mut shapes);
+                draw_solid(&dummy.solid(pose), shows, view, (scale, size), at, &mut shapes);
             }
             Form::Sticks(sticks) => {
                 let scales = (scale, size, self.height);
-                sticks.draw(pose, view, scales, at, &mut shapes);
+                sticks.draw(pose, shows, view, scales, at, &mut shapes);
             }
         }
         Drawn { shapes }
@@ -220,13 +235,15 @@ impl Figure {
 /// The parts of a lay figure, the furthest first, each with the lines on it.
 fn draw_solid(
     solid: &Solid,
+    shows: impl Fn(usize) -> bool,
     view: &View,
     (scale, size): (f64, f64),
     at: impl Fn(DVec3) -> Point,
     shapes: &mut Vec<Shape>,
 ) {
     let depth = |part: usize| solid.middle(part).dot(view.near) + solid.parts[part].nearer;
-    let mut order: Vec<usize> = (0..solid.parts.len()).collect();
+    let shown = (0..solid.parts.len()).filter(|part| shows(solid.parts[*part].joint));
+    let mut order: Vec<usize> = shown.collect();
     order.sort_by(|a, b| depth(*a).total_cmp(&depth(*b)));
     for part in order {
         let side = solid.parts[part].side;

@@ -11,12 +11,14 @@ use crate::cli::formats::{FormatArgs, Formats, help, long_help};
 use crate::cli::staging::Bundle;
 use crate::cli::words::{Words, counted};
 use crate::cli::{files, paths};
-use crate::deliver::{Cut, sheet_json};
+use crate::deliver::sheet_json::SheetFile;
+use crate::deliver::{Cut, sheet_json, xdts};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct DeliverArgs {
-    /// The sheet, a sheet.json; - is stdin.
+    /// The sheet, a sheet.json, or a timesheet of all drawings that came back from another program, XDTS or TDTS;
+    /// - is stdin.
     #[arg(value_name = "SHEET.json")]
     sheet: PathBuf,
     /// The motion it was made of, the whole BVH file.
@@ -25,6 +27,10 @@ pub(super) struct DeliverArgs {
     /// The formats to write: --to remap,bvh, or all.
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required_unless_present = "bvh")]
     to: Vec<String>,
+    /// Of a timesheet that came back: the sheet.json whose drawings its numbers mean [default: the one beside it, or one
+    /// or two folders above].
+    #[arg(long, value_name = "SHEET.json")]
+    drawings: Option<PathBuf>,
     #[command(flatten)]
     formats: FormatArgs,
     #[command(flatten)]
@@ -44,8 +50,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     let folder = args.out.as_deref().unwrap_or_else(|| beside(&args.sheet));
     formats.leave_sheet(&args.sheet, folder)?;
     formats.spare_edited(folder)?;
-    let file =
-        sheet_json::read(&files::read(&args.sheet)?).map_err(files::fault_of(&args.sheet))?;
+    let file = read(args, words)?;
     let bones = args.formats.bones.as_deref().map(|path| ("table of bones", path));
     let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
     for (what, path) in sources {
@@ -80,6 +85,36 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     left.notes().iter().for_each(|note| words.say(note));
     words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
     Ok(())
+}
+
+/// The sheet, with the timing of a timesheet where one was given.
+fn read(args: &DeliverArgs, words: &Words) -> Result<SheetFile, Failure> {
+    let (bytes, of_sheet) = (files::read(&args.sheet)?, files::fault_of(&args.sheet));
+    if !xdts::is_timesheet(&bytes) {
+        if args.drawings.is_some() {
+            let message = "--drawings belongs to a timesheet, XDTS or TDTS, and this is none";
+            return Err(Failure::AskedWrongly(message.into()));
+        }
+        return sheet_json::read(&bytes).map_err(of_sheet);
+    }
+    let timesheet = xdts::read_cells(&bytes).map_err(&of_sheet)?;
+    let path = args.drawings.clone().or_else(|| own_sheet(&args.sheet)).ok_or_else(|| {
+        Failure::AskedWrongly(format!(
+            "{}: a timesheet has numbers alone, and no sheet.json is beside it: name the one that it came from with \
+             --drawings kick-genga/sheet.json",
+            args.sheet.display()
+        ))
+    })?;
+    let file = sheet_json::read(&files::read(&path)?).map_err(files::fault_of(&path))?;
+    words.say(format_args!("drawings    動画       those of {}", path.display()));
+    let sheet = xdts::retimed(&timesheet, &file.sheet).map_err(of_sheet)?;
+    Ok(SheetFile { sheet, ..file })
+}
+
+/// The sheet.json that a timesheet came from: beside it, or above it as from a cut folder.
+fn own_sheet(timesheet: &Path) -> Option<PathBuf> {
+    let folders = beside(timesheet).ancestors().take(3);
+    folders.map(|folder| folder.join("sheet.json")).find(|file| file.is_file())
 }
 
 /// The folder that a file is in.

@@ -1,7 +1,9 @@
 //! XDTS as a sheet of columns, tolerant of what programs in use write.
 
 use super::file::{Entry, Header, Root, TimeTable};
-use super::{BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SIGNATURE, TDTS_SIGNATURE};
+use super::{
+    BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SIGNATURE, TDTS_CELL, TDTS_SIGNATURE,
+};
 use crate::deliver::json_words;
 use crate::error::Error;
 use crate::sheet::column_name;
@@ -62,6 +64,19 @@ pub enum Mark {
 /// # Errors
 /// [`Error::Sheet`] with line and column for what is neither, or not JSON of that shape.
 pub fn read(bytes: &[u8]) -> Result<Exchange, Error> {
+    read_field(bytes, |_| CELS)
+}
+
+/// The same, of a TDTS file its CELL column, on which every drawing has its number.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_cells(bytes: &[u8]) -> Result<Exchange, Error> {
+    read_field(bytes, |signature| if signature == TDTS_SIGNATURE { TDTS_CELL } else { CELS })
+}
+
+/// Reads the field that belongs to a signature.
+fn read_field(bytes: &[u8], field: impl Fn(&str) -> u32) -> Result<Exchange, Error> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let message = "expected UTF-8, which XDTS is written in; save the sheet again as XDTS";
@@ -88,7 +103,7 @@ pub fn read(bytes: &[u8]) -> Result<Exchange, Error> {
     let (header, table) = first_table(root).ok_or_else(|| {
         wrong((1, 1), "expected a time table (timeTables), found none; save a sheet with one")
     })?;
-    Ok(exchange(header, table))
+    Ok(exchange(header, table, field(signature)))
 }
 
 fn unsigned(text: &str) -> Error {
@@ -112,16 +127,18 @@ fn first_table(root: Root) -> Option<(Option<Header>, TimeTable)> {
     Some((root.header.or(sheet.header), sheet.time_tables.into_iter().next()?))
 }
 
-fn exchange(header: Option<Header>, table: TimeTable) -> Exchange {
+fn exchange(header: Option<Header>, table: TimeTable, field_id: u32) -> Exchange {
     let length = table.duration as usize;
     let headers = table.time_table_headers.into_iter();
-    let names: Vec<String> =
-        headers.filter(|header| header.field_id == CELS).flat_map(|header| header.names).collect();
+    let names: Vec<String> = headers
+        .filter(|header| header.field_id == field_id)
+        .flat_map(|header| header.names)
+        .collect();
     let name = |track: usize| match names.get(track).map(|name| name.trim()) {
         None | Some("") => column_name(track),
         Some(name) => name.into(),
     };
-    let fields = table.fields.into_iter().filter(|field| field.field_id == CELS);
+    let fields = table.fields.into_iter().filter(|field| field.field_id == field_id);
     let tracks = fields.flat_map(|field| field.tracks);
     let mut columns: Vec<_> = tracks
         .map(|track| Column {

@@ -133,7 +133,7 @@ fn entry(koma: usize, value: String, circled: bool) -> Entry {
 
 /// A column's name as programs take it: never empty, and never `S0` to `S9`, which Clip Studio reads
 /// as sound.
-fn name(track: usize, name: &str) -> String {
+pub(in crate::deliver) fn name(track: usize, name: &str) -> String {
     let is_sound = |name: &str| {
         name.strip_prefix(['S', 's'])
             .is_some_and(|rest| matches!(rest.as_bytes(), [digit] if digit.is_ascii_digit()))

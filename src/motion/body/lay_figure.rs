@@ -61,6 +61,8 @@ pub(crate) struct LayFigure {
     pub(crate) height: f64,
     /// The joint below which the whole body hangs.
     pub(crate) root: usize,
+    /// The joint at which the arms part.
+    pub(crate) chest: usize,
     /// Of each joint whether the bone that leads to it lies in the body.
     pub(crate) covered: Vec<bool>,
 }
@@ -95,6 +97,7 @@ impl LayFigure {
             forward,
             height: rig.height,
             root: rig.root(),
+            chest: rig.mannequin.chest,
             covered: rig.covered(),
             marks,
         })

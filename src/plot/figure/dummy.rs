@@ -24,6 +24,9 @@ const NOSE: [(f64, f64); 4] = [(0.030, 0.044), (0.008, 0.050), (-0.014, 0.068), 
 /// The line of the eyes: up, ahead, and how far to each side.
 const EYES: (f64, f64, f64) = (0.012, 0.044, 0.030);
 
+/// Which of the marks is the middle of the head.
+const HEAD_MARK: usize = 4;
+
 /// What is inside counts as further away, and what limbs come out of as nearer.
 const BELLY: f64 = -0.1;
 const THROAT: f64 = -0.08;
@@ -46,6 +49,8 @@ pub(crate) struct Ball {
 pub(crate) struct Part {
     pub(crate) balls: Range<usize>,
     pub(crate) side: BodySide,
+    /// The joint that turns it.
+    pub(crate) joint: usize,
     /// By how much it counts as nearer than its middle is, in units of the file.
     pub(crate) nearer: f64,
 }
@@ -85,10 +90,15 @@ impl Solid {
     }
 
     /// Adds a part.
-    fn part(&mut self, side: BodySide, balls: impl IntoIterator<Item = (DVec3, f64)>) -> usize {
+    fn part(
+        &mut self,
+        (side, joint): (BodySide, usize),
+        balls: impl IntoIterator<Item = (DVec3, f64)>,
+    ) -> usize {
         let begin = self.balls.len();
         self.balls.extend(balls.into_iter().map(|(middle, radius)| Ball { middle, radius }));
-        self.parts.push(Part { balls: begin..self.balls.len(), side, nearer: 0.0 });
+        let balls = begin..self.balls.len();
+        self.parts.push(Part { balls, side, joint, nearer: 0.0 });
         self.parts.len() - 1
     }
 
@@ -185,8 +195,9 @@ impl Dummy {
         let broad = 0.5 * pose[shoulder_l].distance(pose[shoulder_r]) / tall;
 
         let bend = waist.lerp(hips.midpoint(neck), 0.3);
+        let middle = self.lay.waist.unwrap_or(self.lay.root);
         let belly = solid.part(
-            BodySide::Trunk,
+            (BodySide::Trunk, middle),
             [
                 (pelvis.place(hips, (0.0, 0.03 * tall, 0.0)), 0.058 * tall),
                 (bend, 0.056 * tall),
@@ -223,7 +234,7 @@ impl Dummy {
             [(half, 0.030), (half, -0.032), (-half, 0.030), (-half, -0.032)]
                 .map(|(right, ahead)| (at(right, up, ahead), edge * tall))
         });
-        let part = solid.part(BodySide::Trunk, corners);
+        let part = solid.part((BodySide::Trunk, self.lay.root), corners);
         solid.parts[part].nearer = PELVIS * tall;
         let front = 0.030 + edge;
         let point = at(0.0, -0.030, front);
@@ -247,7 +258,7 @@ impl Dummy {
             [(half, deep), (half, -deep), (-half, deep), (-half, -deep)]
                 .map(|(right, ahead)| (at(right, up, ahead), edge * tall))
         });
-        let part = solid.part(BodySide::Trunk, corners);
+        let part = solid.part((BodySide::Trunk, self.lay.chest), corners);
         let (top, low) = (at(0.0, -0.012, 0.026 + edge), 0.012 - long);
         let breast = at(0.0, 0.45 * low, 0.034 + edge);
         let arch = [-half[1].0, half[1].0].map(|right| at(right, low, 0.034 + edge));
@@ -264,10 +275,11 @@ impl Dummy {
         let across = up.cross(ahead);
         let at = |up_by: f64, ahead_by: f64| middle + tall * (up_by * up + ahead_by * ahead);
         let throat = [(neck, 0.026 * tall), (at(-0.03, -0.012), 0.024 * tall)];
-        let throat = solid.part(BodySide::Trunk, throat);
+        let of_head = (BodySide::Trunk, self.lay.marks[HEAD_MARK].joint.0);
+        let throat = solid.part(of_head, throat);
         solid.parts[throat].nearer = THROAT * tall;
         let balls = HEAD.map(|(up, ahead, radius)| (at(up, ahead), radius * tall));
-        let part = solid.part(BodySide::Trunk, balls);
+        let part = solid.part(of_head, balls);
         solid.line(part, FACE, -0.25, &NOSE.map(|(up, ahead)| at(up, ahead)));
         let (level, ahead_by, half) = EYES;
         let eyes = [-half, half].map(|side| at(level, ahead_by) + tall * side * across);
@@ -288,7 +300,7 @@ impl Dummy {
             let (from, to) = (pose[limb[half]], pose[limb[half + 1]]);
             let most = THICKEST * from.distance(to);
             let radius = |at: usize| (radii[at] * self.lay.height).min(most);
-            solid.part(side, [(from, radius(half)), (to, radius(half + 1))]);
+            solid.part((side, limb[half]), [(from, radius(half)), (to, radius(half + 1))]);
         }
     }
 
@@ -296,7 +308,7 @@ impl Dummy {
     fn hand(&self, solid: &mut Solid, side: BodySide, pose: &[DVec3], arm: &[usize; 4]) {
         let (wrist, tips) = (pose[arm[2]], pose[arm[3]]);
         let ball = |share: f64, radius: f64| (wrist.lerp(tips, share), radius * self.lay.height);
-        solid.part(side, [ball(0.1, 0.016), ball(0.45, 0.024), ball(0.95, 0.011)]);
+        solid.part((side, arm[2]), [ball(0.1, 0.016), ball(0.45, 0.024), ball(0.95, 0.011)]);
     }
 
     /// A wedge from heel to toes, below the ankle.
@@ -309,7 +321,7 @@ impl Dummy {
         let heel = ankle + tall * (0.018 * shin - 0.022 * sole);
         let ball = ankle.lerp(toes, 0.72);
         solid.part(
-            side,
+            (side, leg[2]),
             [
                 (ankle, 0.022 * tall),
                 (heel, 0.020 * tall),

@@ -61,20 +61,21 @@ impl Sticks {
     pub(super) fn draw(
         &self,
         pose: &[DVec3],
+        shows: impl Fn(usize) -> bool,
         view: &View,
         (scale, size, height): (f64, f64, f64),
         at: impl Fn(DVec3) -> Point,
         shapes: &mut Vec<Shape>,
     ) {
         let depth = |bone: &&Bone| view.see(pose[bone.from] + pose[bone.to]).2;
-        let mut bones: Vec<&Bone> = self.bones.iter().collect();
+        let mut bones: Vec<&Bone> = self.bones.iter().filter(|bone| shows(bone.from)).collect();
         bones.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
         shapes.extend(bones.into_iter().map(|bone| {
             let (from, to) = (pose[bone.from], pose[bone.to]);
             let width = (width(bone.side, (to - from).length(), height) * size).max(1.0);
             Shape::Line(Stroke { from: at(from), to: at(to), width, ink: Ink::Side(bone.side) })
         }));
-        shapes.extend(self.head.map(|(joint, end)| {
+        shapes.extend(self.head.filter(|(joint, _)| shows(*joint)).map(|(joint, end)| {
             let middle = at(0.5 * (pose[joint] + pose[end]));
             Shape::Ring(middle, self.head_radius(pose, height) * scale)
         }));

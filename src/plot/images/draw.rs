@@ -2,18 +2,40 @@
 
 use super::NumberedImages;
 use crate::error::Error;
-use crate::motion::{Clip, Composite};
+use crate::motion::{Clip, Composite, layer_of};
 use crate::plot::canvas::{Canvas, Inks};
 use crate::plot::drawings::{composed, drawn_poses};
-use crate::plot::figure::Figure;
+use crate::plot::figure::{Drawn, Figure};
 use crate::plot::pixels::{Digits, Pixels};
 use crate::plot::points::Showing;
+use crate::plot::px::Point;
 use crate::plot::stage::{Bounds, Stage};
 use crate::plot::style;
 use crate::sheet::Sheet;
 
 /// The share of the picture on each side that figures stay out of: the safe area's edge.
 const SAFE: f64 = 0.05;
+
+/// What all images have in common, and the pixels of one.
+struct Easel {
+    stage: Stage,
+    backdrop: Pixels,
+    pixels: Pixels,
+    /// Where the number stands and its digits, where one is written.
+    number: Option<(Point, Digits)>,
+}
+
+impl Easel {
+    /// The picture of a figure, as PNG.
+    fn picture(&mut self, drawn: &Drawn, number: usize) -> Result<Vec<u8>, Error> {
+        self.pixels.copy(&self.backdrop);
+        self.pixels.figure(drawn, Inks::Sides);
+        if let Some((at, digits)) = &self.number {
+            digits.write(&mut self.pixels, number, *at);
+        }
+        self.pixels.png()
+    }
+}
 
 impl NumberedImages {
     /// Draws an image a drawing and gives each with its file name to `take`, one after the other.
@@ -27,25 +49,59 @@ impl NumberedImages {
         sheet: &Sheet,
         mut take: impl FnMut(&str, Vec<u8>) -> Result<(), E>,
     ) -> Result<(), E> {
-        self.validate()?;
         let composite = composed(clip, sheet)?;
         let figure = Figure::of(clip, self.body);
-        let stage = self.stage(&composite, &figure);
-        let backdrop = Pixels::of(&self.backdrop(&stage))?;
-        let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
-        let mut pixels = backdrop.clone();
+        let mut easel = self.easel(&composite, &figure)?;
+        let stage = easel.stage.clone();
         let mut showing = Showing::of(&composite, figure.marks());
         let name: String = composite.layer().name.chars().map(plain).collect();
         for (at, koma) in composite.first_koma().into_iter().enumerate() {
-            pixels.copy(&backdrop);
-            pixels.figure(&stage.draw(&showing.points(at, koma)), Inks::Sides);
-            if self.marks {
-                let (x, y) = self.inside(0.99 - SAFE);
-                digits.write(&mut pixels, at + 1, (x, y));
-            }
-            take(&format!("{name}_{:04}.png", at + 1), pixels.png()?)?;
+            let picture = easel.picture(&stage.draw(&showing.points(at, koma)), at + 1)?;
+            take(&format!("{name}_{:04}.png", at + 1), picture)?;
         }
         Ok(())
+    }
+
+    /// Draws each column alone, of the body what its joints turn, and gives each drawing that is on screen with the
+    /// numbers of its layer and of itself, from 0, to `take`. All fit on each other.
+    ///
+    /// # Errors
+    /// Those of [`NumberedImages::draw`].
+    pub fn draw_columns<E: From<Error>>(
+        &self,
+        clip: &Clip,
+        sheet: &Sheet,
+        mut take: impl FnMut(usize, usize, Vec<u8>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let composite = composed(clip, sheet)?;
+        let figure = Figure::of(clip, self.body);
+        let mut easel = self.easel(&composite, &figure)?;
+        let mut showing = Showing::of(&composite, figure.marks());
+        let on_screen: Vec<usize> = composite.layer().koma().collect();
+        let columns = layer_of(clip.skeleton(), sheet)?;
+        for (column, layer) in sheet.layers.iter().enumerate() {
+            let own = columns.iter().map(|of| *of == column).collect();
+            let stage = Stage { figure: figure.only(own), ..easel.stage.clone() };
+            let mut drawn = vec![false; layer.drawings.len()];
+            for (koma, exposure) in layer.timed() {
+                if std::mem::replace(&mut drawn[exposure.drawing], true) {
+                    continue;
+                }
+                let pose = showing.points(on_screen[koma], koma);
+                let picture = easel.picture(&stage.draw(&pose), exposure.drawing + 1)?;
+                take(column, exposure.drawing, picture)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn easel(&self, composite: &Composite<'_>, figure: &Figure) -> Result<Easel, Error> {
+        self.validate()?;
+        let stage = self.stage(composite, figure);
+        let backdrop = Pixels::of(&self.backdrop(&stage))?;
+        let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
+        let number = self.marks.then(|| (self.inside(0.99 - SAFE), digits));
+        Ok(Easel { stage, pixels: backdrop.clone(), backdrop, number })
     }
 
     /// A point as a share of the picture from its upper left corner.

@@ -1,0 +1,107 @@
+//! The way back: the timing of a timesheet that was edited in another program, on the drawings of the sheet it came from.
+
+use super::column;
+use super::read::{Change, Column, Exchange, Mark};
+use crate::error::Error;
+use crate::sheet::{Exposure, Layer, Sheet};
+
+/// A sheet with the timing of a timesheet on which every drawing has its number (CELL): drawings may be moved, held
+/// longer or shorter, shown twice or left out, and the sheet may have another length. Drawings keep their poses, roles
+/// and reasons. An unchanged timesheet gives the same sheet.
+///
+/// Columns are found by the names of layers; of one layer and one column the names do not matter.
+///
+/// # Errors
+/// [`Error::Sheet`] with column and koma for a number that the sheet does not have, for a koma without a drawing, for a
+/// layer without a column, and for a timesheet of key drawings alone (ACTION).
+///
+/// ```
+/// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+/// use genga::deliver::xdts::{Xdts, read_cells, retimed};
+///
+/// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+/// let mut engine = Engine::new(clip)?;
+/// let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
+/// let written = Xdts::default().write(breakdown.sheet, "kick")?.douga;
+/// let back = retimed(&read_cells(written.as_bytes())?, breakdown.sheet)?;
+/// assert_eq!(back.layers, breakdown.sheet.layers);
+/// # Ok::<(), genga::Error>(())
+/// ```
+pub fn retimed(timesheet: &Exchange, sheet: &Sheet) -> Result<Sheet, Error> {
+    if timesheet.length == 0 {
+        return Err(Error::sheet("the timesheet has no koma"));
+    }
+    let is_mark = |change: &Change| change.mark == Mark::Inbetween;
+    if timesheet.columns.iter().flat_map(|column| &column.changes).any(is_mark) {
+        return Err(Error::sheet(
+            "this is a timesheet of key drawings (ACTION), on which inbetweens have no numbers; give the one of all \
+             drawings (CELL), as CUT_douga_ts.xdts or CUT.tdts",
+        ));
+    }
+    let layers = sheet.layers.iter().enumerate();
+    let layers = layers.map(|(track, layer)| {
+        let column = column_of(timesheet, sheet, track)?;
+        let exposures = exposures(column, layer, timesheet.length)?;
+        Ok(Layer { exposures, ..layer.clone() })
+    });
+    Ok(Sheet { layers: layers.collect::<Result<_, Error>>()?, ..sheet.clone() })
+}
+
+/// The column of a layer.
+fn column_of<'a>(
+    timesheet: &'a Exchange,
+    sheet: &Sheet,
+    track: usize,
+) -> Result<&'a Column, Error> {
+    let name = column(track, &sheet.layers[track].name);
+    let named = timesheet.columns.iter().find(|column| column.name == name);
+    let only = match (&timesheet.columns[..], &sheet.layers[..]) {
+        ([column], [_]) => Some(column),
+        _ => None,
+    };
+    named.or(only).ok_or_else(|| {
+        let names: Vec<&str> = timesheet.columns.iter().map(|column| &*column.name).collect();
+        let there = if names.is_empty() { "none".into() } else { names.join(", ") };
+        Error::sheet(format!("the timesheet has no column {name}; it has {there}"))
+    })
+}
+
+/// What a column shows, koma after koma.
+fn exposures(column: &Column, layer: &Layer, length: usize) -> Result<Vec<Exposure>, Error> {
+    let mut exposures: Vec<Exposure> = Vec::with_capacity(column.changes.len());
+    let ends = column.changes.iter().skip(1).map(|change| change.koma).chain([length]);
+    for (change, end) in column.changes.iter().zip(ends) {
+        let koma = end.saturating_sub(change.koma);
+        match drawing(column, change, layer)? {
+            Some(drawing) if koma > 0 => exposures.push(Exposure { drawing, koma }),
+            // A mark: the drawing before it stays.
+            None => exposures.iter_mut().last().into_iter().for_each(|last| last.koma += koma),
+            Some(_) => {}
+        }
+    }
+    Ok(exposures)
+}
+
+/// The drawing that comes with a change; none where the one before stays.
+fn drawing(column: &Column, change: &Change, layer: &Layer) -> Result<Option<usize>, Error> {
+    let place = || format!("column {}, koma {}", column.name, change.koma + 1);
+    let count = layer.drawings.len();
+    match &change.mark {
+        Mark::Drawing(number) => match number.trim().parse::<usize>() {
+            Ok(number) if (1..=count).contains(&number) => Ok(Some(number - 1)),
+            _ => Err(Error::sheet(format!(
+                "{}: the sheet has no drawing {number}, it has 1 to {count}; one that was added by hand has no pose in \
+                 the capture: write the number of one that has, or pin a key there with --pin-from",
+                place()
+            ))),
+        },
+        Mark::Blank => Err(Error::sheet(format!(
+            "{}: nothing is shown there, and a motion has a pose on every koma; hold a drawing over it",
+            place()
+        ))),
+        Mark::Inbetween | Mark::Reverse => Ok(None),
+    }
+}
+
+#[cfg(test)]
+mod tests;
