@@ -110,3 +110,68 @@ fn what_is_no_timesheet_or_not_of_this_clip_is_refused_in_words() {
     let said = refused(place, &["keys", &kick, "--pin-from", "none.xdts"]);
     assert!(said.contains("none.xdts"), "{said}");
 }
+
+#[test]
+fn a_timesheet_that_was_edited_lays_its_timing_on_the_motion() {
+    let folder = delivered(&["--deliver", "cut"]);
+    let kick = kick();
+    let text = |file: &str| fs::read_to_string(folder.path().join(file)).unwrap();
+    let deliver = |sheet: &str, out: &str, more: &[&str]| {
+        let words = ["deliver", sheet, &kick, "--to", "csv,bvh", "--out", out];
+        let output = genga(folder.path(), &[&words, more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let said = deliver("out/kick_douga_ts.xdts", "same", &[]);
+    assert!(said.contains("those of out/sheet.json"), "{said}");
+    for file in ["limited.bvh", "sheet.csv", "keys.csv"] {
+        assert_eq!(text(&format!("same/{file}")), text(&format!("out/{file}")), "{file}");
+    }
+    // As from a program: one line, the members in another order, drawing 3 left out, drawing 5 once more on koma 88.
+    let (signature, json) = text("out/kick_douga_ts.xdts")
+        .split_once('\n')
+        .map(|(a, b)| (a.to_owned(), b.to_owned()))
+        .unwrap();
+    let mut file: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let frames = file["timeTables"][0]["fields"][0]["tracks"][0]["frames"].as_array_mut().unwrap();
+    let number =
+        |frame: &serde_json::Value| frame["data"][0]["values"][0].as_str().unwrap().to_owned();
+    frames.retain(|frame| number(frame) != "3");
+    let mut fifth = frames.iter().find(|frame| number(frame) == "5").unwrap().clone();
+    fifth["frame"] = 87.into();
+    frames.insert(0, fifth);
+    fs::write(folder.path().join("edited.xdts"), format!("{signature}\n{file}")).unwrap();
+    deliver("edited.xdts", "back", &["--drawings", "out/sheet.json"]);
+    let drawings = |file: &str| -> Vec<usize> {
+        let mut table = csv::Reader::from_path(folder.path().join(file)).unwrap();
+        table.records().map(|row| row.unwrap()[2].parse().unwrap()).collect()
+    };
+    let mut expected = drawings("out/sheet.csv");
+    expected.iter_mut().filter(|drawing| **drawing == 3).for_each(|drawing| *drawing = 2);
+    let end =
+        expected[87..].iter().position(|drawing| *drawing != expected[87]).map_or(92, |at| 87 + at);
+    expected[87..end].fill(5);
+    assert_eq!(drawings("back/sheet.csv"), expected);
+    // The pose of each koma is that of its drawing in the file of the whole run.
+    let rows = |file: &str| -> Vec<String> {
+        text(file)
+            .lines()
+            .skip_while(|line| !line.starts_with("Frame Time"))
+            .skip(1)
+            .map(str::to_owned)
+            .collect()
+    };
+    let (before, after) = (rows("out/limited.bvh"), rows("back/limited.bvh"));
+    let first =
+        |drawing: usize| drawings("out/sheet.csv").iter().position(|at| *at == drawing).unwrap();
+    for (koma, drawing) in expected.iter().enumerate() {
+        assert_eq!(after[koma], before[first(*drawing)], "koma {koma}");
+    }
+    // In a cut folder the sheet of the run stands two folders above.
+    deliver("out/kick/douga/kick_douga_ts.xdts", "cut", &[]);
+    let said = refused(folder.path(), &["deliver", "edited.xdts", &kick, "--to", "bvh"]);
+    assert!(said.contains("no sheet.json is beside it") && said.contains("--drawings"), "{said}");
+    let words = ["deliver", "out/kick_genga_ts.xdts", &kick, "--to", "bvh", "--out", "x"];
+    let said = refused(folder.path(), &words);
+    assert!(said.contains("out/kick_genga_ts.xdts: this is a timesheet of key drawings"), "{said}");
+}
