@@ -58,7 +58,10 @@ pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> R
     let paper = xsheet(&settings.xsheet, cut.name, cut.clip, cut.sheet)?;
     put(&at("CUT_timesheet.html"), paper.html.as_bytes())?;
     let mut columns = columns(cut);
-    let images = NumberedImages { body: settings.figures.body, ..settings.images.clone() };
+    // Columns lie on each other.
+    let transparent = settings.images.transparent || cut.sheet.layers.len() > 1;
+    let body = settings.figures.body;
+    let images = NumberedImages { transparent, body, ..settings.images.clone() };
     images.draw_columns(cut.clip, cut.sheet, |layer, drawing, png| {
         let number = cut.sheet.layers[layer].genga_numbers()[drawing];
         let column = &mut columns[layer];

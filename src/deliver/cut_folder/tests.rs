@@ -109,10 +109,18 @@ fn a_genga_has_the_picture_of_its_drawing() {
 fn a_column_has_its_own_joints_alone_and_all_columns_together_the_body() {
     let ink = |png: &[u8]| {
         let picture = resvg::tiny_skia::Pixmap::decode_png(png).unwrap();
-        let is_ink = |at: usize| picture.pixels()[at].green() < 200;
+        let is_ink = |at: usize| {
+            // As over paper.
+            let pixel = picture.pixels()[at];
+            u16::from(pixel.green()) + 255 - u16::from(pixel.alpha()) < 200
+        };
         (0..picture.pixels().len()).filter(|at| is_ink(*at)).collect::<BTreeSet<_>>()
     };
     let limbs = folder("limbs");
+    let corner =
+        |png: &[u8]| resvg::tiny_skia::Pixmap::decode_png(png).unwrap().pixels()[0].alpha();
+    assert_eq!(corner(&limbs["c012/genga/B/B_0001.png"]), 0, "one sees the columns below");
+    assert_eq!(corner(&folder("body")["c012/genga/A/A_0001.png"]), 255);
     let whole = ink(&limbs["whole/A-E_0001.png"]);
     let columns = ["A", "B", "C", "D", "E"]
         .map(|column| ink(&limbs[&format!("c012/douga/{column}/{column}_0001.png")]));
