@@ -21,6 +21,14 @@ pub enum Error {
         /// What was expected and what was found.
         message: String,
     },
+    /// A motion file of another format than BVH is not what it should be.
+    #[error("{place}{message}")]
+    Motion {
+        /// Where in the file.
+        place: Place,
+        /// What was expected and what was found.
+        message: String,
+    },
     /// A setting has a value it cannot have.
     #[error("{name}: {message}")]
     Setting {
@@ -141,10 +149,36 @@ impl Error {
     pub fn position(&self) -> Option<(usize, usize)> {
         match self {
             Self::Bvh { line, column, .. } => Some((*line, *column)),
+            Self::Motion { place: Place::Line(line, column), .. } => Some((*line, *column)),
             Self::Recipe { place, .. } | Self::Sheet { place, .. } | Self::Table { place, .. } => {
                 *place
             }
             _ => None,
+        }
+    }
+}
+
+/// Where in a motion file something is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// Nowhere: the file as a whole.
+    Whole,
+    /// In a line and its column, both from 1, of a file that is text.
+    Line(usize, usize),
+    /// At a byte, from 0, of one that is not.
+    Byte(u64),
+    /// In a part that has a name or a path, such as `animations[0].samplers[3]`.
+    Part(String),
+}
+
+/// As it stands before a message.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => Ok(()),
+            Self::Line(line, column) => write!(f, "{line}:{column}: "),
+            Self::Byte(byte) => write!(f, "byte {byte}: "),
+            Self::Part(path) => write!(f, "{path}: "),
         }
     }
 }

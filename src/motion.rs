@@ -30,5 +30,5 @@ pub(crate) use clip::{rotation_axes, turn_columns};
 pub(crate) use composite::layer_of;
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
 pub(crate) use read::{GIB, bytes_in_words};
-pub use read::{GltfCamera, StreamLimit, bvh};
+pub use read::{GltfCamera, StreamLimit, bvh, file};
 pub use seen::{Camera, Eye, Screen, SeenFrom};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use genga::Warning;
-use genga::motion::{Clip as Motion, bvh};
+use genga::motion::{Clip as Motion, bvh, file};
 use genga::time::FrameRate;
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
@@ -206,12 +206,12 @@ pub enum Given<'py> {
     Path(PathBuf),
 }
 
-/// Reads a BVH file, from a path or from its bytes, as the program does. A T-pose put in front of the motion or behind it
+/// Reads a motion file of any format, from a path or from its bytes, as the program does. A T-pose put in front of the motion or behind it
 /// is left out unless `keep_lead_in`. Single frames that fly off are replaced, and ends at which the tracker comes from
 /// the origin are left out, unless `keep_glitches`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`,
-/// `root`, `repair` and `strict` are those of the program.
+/// `root`, `take`, `sample_rate`, `repair` and `strict` are those of the program.
 #[pyfunction]
-#[pyo3(signature = (source, *, name=None, fps=None, root=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
+#[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, sample_rate=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn read(
     py: Python<'_>,
@@ -219,14 +219,19 @@ pub fn read(
     name: Option<String>,
     fps: Option<f64>,
     root: Option<String>,
+    take: Option<String>,
+    sample_rate: Option<f64>,
     repair: bool,
     strict: bool,
     keep_lead_in: bool,
     keep_glitches: bool,
     trim: Option<(usize, usize)>,
 ) -> PyResult<Clip> {
-    let fps = fps.map(FrameRate::new).transpose().map_err(|error| raised(py, error))?;
-    let options = bvh::Options { strict, repair, fps, root, ..bvh::Options::default() };
+    let rate = |rate: Option<f64>| rate.map(FrameRate::new).transpose();
+    let fps = rate(fps).map_err(|error| raised(py, error))?;
+    let sample_rate = rate(sample_rate).map_err(|error| raised(py, error))?;
+    let options =
+        file::Options { strict, repair, fps, root, take, sample_rate, ..file::Options::default() };
     let (path, bytes) = match source {
         Given::Path(path) => (Some(path), Vec::new()),
         // They are copied: the work goes on without the lock that keeps them in their place.
@@ -246,11 +251,11 @@ pub fn read(
 
 /// The part of a file that is worked on.
 fn part(
-    read: bvh::Read,
+    read: file::Read,
     (keep_lead_in, keep_glitches): (bool, bool),
     trim: Option<(usize, usize)>,
 ) -> Result<(Motion, Vec<Warning>), genga::Error> {
-    let bvh::Read { clip, mut warnings, .. } = read;
+    let file::Read { clip, mut warnings, .. } = read;
     let trim = trim.map(|(begin, end)| begin..end);
     let (clip, notes) = bvh::Cleaning { keep_lead_in, keep_glitches, trim }.of(clip)?;
     warnings.extend(notes);

@@ -32,7 +32,10 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     let file = file.filter(|_| {
         matches!(
             error,
-            genga::Error::Bvh { .. } | genga::Error::Clip { .. } | genga::Error::Recipe { .. }
+            genga::Error::Bvh { .. }
+                | genga::Error::Motion { .. }
+                | genga::Error::Clip { .. }
+                | genga::Error::Recipe { .. }
         )
     });
     let file = file.map(|file| file.display().to_string());

@@ -7,7 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
 use super::commands::Args;
-use super::paths::{first_clip, is_bvh};
+use super::paths::{first_clip, is_motion};
 
 /// More clips than this are named by the first and the last.
 const MOST_WORDS: usize = 4;
@@ -46,7 +46,7 @@ fn tip(error: &clap::Error) -> Option<String> {
 
 /// Several clips stand where one belongs: the command for them, as a shell reads it.
 fn many(other: &str) -> String {
-    let is_clip = |word: &String| word == other || word.to_lowercase().ends_with(".bvh");
+    let is_clip = |word: &String| word == other || is_motion(Path::new(word));
     let words = std::env::args_os().skip(2).map(|word| word.to_string_lossy().into_owned());
     let mut words: Vec<String> = words.filter(is_clip).map(quoted).collect();
     if words.len() > MOST_WORDS {
@@ -63,7 +63,7 @@ fn quoted(word: String) -> String {
 /// Somebody named a clip, or a folder of them, and no command.
 fn clip_of(path: &Path) -> Option<String> {
     let clip = if path.is_dir() { first_clip(path)? } else { path.to_owned() };
-    (is_bvh(&clip) || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
+    (is_motion(&clip) || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
 }
 
 /// The commands that begin as a word with a slip in it does.

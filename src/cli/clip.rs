@@ -12,7 +12,8 @@ use super::{files, paths};
 use crate::deliver::ClipMark;
 use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
-use crate::motion::bvh::{self, Cleaning, glitches};
+use crate::motion::bvh::{Cleaning, glitches};
+use crate::motion::file::{self, Found, Take};
 use crate::motion::{Clip, StreamLimit};
 use crate::pipeline::Budget;
 use crate::time::FrameRate;
@@ -20,8 +21,8 @@ use crate::time::FrameRate;
 /// The clip, and which part of it.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ClipArgs {
-    /// The motion, a BVH file; - is stdin.
-    #[arg(id = "clip", value_name = "CLIP.bvh")]
+    /// The motion, a BVH file or of another format that `genga inspect --help` lists; - is stdin.
+    #[arg(id = "clip", value_name = "CLIP")]
     pub(super) path: PathBuf,
     #[command(flatten)]
     pub(super) part: Part,
@@ -49,6 +50,12 @@ pub(super) struct Reading {
     /// Of several trees of joints only the one whose root has this name.
     #[arg(long, value_name = "NAME")]
     root: Option<String>,
+    /// Of several takes in one file this one; inspect lists them.
+    #[arg(long, value_name = "NAME")]
+    take: Option<String>,
+    /// Frames a second at which curves are sampled, in place of the file's own: of formats that have curves.
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
+    sample_rate: Option<FrameRate>,
     /// Keep single frames that fly off as they are, and ends at which the tracker comes from the origin.
     #[arg(long)]
     keep_glitches: bool,
@@ -92,8 +99,12 @@ fn rate(text: &str) -> Result<FrameRate, String> {
 pub(super) struct Source {
     pub(super) clip: Clip,
     pub(super) notes: Vec<Warning>,
-    /// Seconds a frame as the file writes them.
-    pub(super) written_frame_time: f64,
+    /// Seconds a frame as the file writes them, where it does.
+    pub(super) written_frame_time: Option<f64>,
+    /// What the file is, where it is no BVH.
+    pub(super) found: Vec<Found>,
+    /// Its takes, where the format has them.
+    pub(super) takes: Vec<Take>,
     /// By what the whole file is known again.
     pub(super) of: ClipMark,
 }
@@ -125,8 +136,8 @@ impl Part {
     ///
     /// A T-pose or a glitch is a fact about the motion and no fault of the file: `--strict` lets it pass.
     pub(super) fn read(&self, path: &Path) -> Result<Source, Failure> {
-        let bvh::Read { clip, warnings: mut notes, written_frame_time } =
-            self.reading.read(path)?;
+        let read = self.reading.read(path)?;
+        let file::Read { clip, warnings: mut notes, written_frame_time, found, takes } = read;
         let of = ClipMark::of(&paths::file_name(path), &clip);
         let Self { keep_lead_in, trim, reading } = self;
         let (keep_lead_in, keep_glitches) = (*keep_lead_in, reading.keep_glitches);
@@ -137,7 +148,7 @@ impl Part {
         })?;
         notes.extend(cleaned);
         clip.check_size().map_err(files::fault_of(path))?;
-        Ok(Source { clip, notes, written_frame_time, of })
+        Ok(Source { clip, notes, written_frame_time, found, takes, of })
     }
 
     /// Reads every file, before any work on one begins; says what there is to know of each.
@@ -154,14 +165,13 @@ impl Part {
 
 impl Reading {
     /// Reads the whole file, with everything that is no motion.
-    fn read(&self, path: &Path) -> Result<bvh::Read, Failure> {
+    fn read(&self, path: &Path) -> Result<file::Read, Failure> {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, repair, strict, memory, .. } = self;
+        let Self { fps, root, take, sample_rate, repair, strict, memory, .. } = self.clone();
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
-        let (strict, repair, fps, root) = (*strict, *repair, *fps, root.clone());
-        let options = bvh::Options { strict, repair, fps, root, stream };
+        let options = file::Options { strict, repair, fps, root, take, sample_rate, stream };
         let read = if paths::is_stream(path) {
             options.read(&files::read_up_to(stream, path)?)
         } else {
@@ -171,7 +181,9 @@ impl Reading {
             Error::Setting { name, message } => {
                 Failure::AskedWrongly(format!("--{name}: {message}"))
             }
-            Error::Bvh { .. } if is_sheet(path) => Failure::AskedWrongly(sheet(path)),
+            Error::Bvh { .. } | Error::Motion { .. } if is_sheet(path) => {
+                Failure::AskedWrongly(sheet(path))
+            }
             other => files::fault_of(path)(other),
         })
     }
@@ -223,7 +235,7 @@ fn folder(path: &Path) -> String {
                 "{name} is a folder: name a clip in it, such as {clip}; of all: genga batch {name} --out library"
             )
         }
-        None => format!("{name} is a folder without a BVH file: name a clip"),
+        None => format!("{name} is a folder without a motion file: name a clip"),
     }
 }
 

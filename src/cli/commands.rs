@@ -24,7 +24,7 @@ pub use studio::Disk;
 
 /// Motion capture to Japanese limited animation.
 ///
-/// Reads a BVH clip and finds its key drawings (genga, 原画), puts inbetweens (中割り) between them with
+/// Reads a clip and finds its key drawings (genga, 原画), puts inbetweens (中割り) between them with
 /// spacing (詰め), leaves out the fastest (naka-nashi, 中無し) and holds the slowest (koma-dori, コマ撮り).
 /// The result is a timesheet: which drawing stands on which koma of 24 a second.
 ///

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use crate::error::Error;
+use crate::error::{Error, Place};
 
 /// Why the program stops.
 #[derive(Debug)]
@@ -37,14 +37,15 @@ impl Failure {
     pub(super) fn of_file(path: &Path, error: Error) -> Self {
         let name = path.display();
         match error {
-            Error::Bvh { .. } | Error::Sheet { place: Some(_), .. } => {
-                Self::CouldNot(format!("{name}:{error}"))
-            }
+            Error::Bvh { .. }
+            | Error::Motion { place: Place::Line(..), .. }
+            | Error::Sheet { place: Some(_), .. } => Self::CouldNot(format!("{name}:{error}")),
             Error::Recipe { place, message, .. } => {
                 let place = place.map(|(line, column)| format!("{line}:{column}:"));
                 Self::AskedWrongly(format!("{name}:{} {message}", place.unwrap_or_default()))
             }
             Error::Clip { .. }
+            | Error::Motion { .. }
             | Error::Sheet { .. }
             | Error::Table { .. }
             | Error::Camera { .. }

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use crate::motion::file::FORMATS;
 
 /// Whether a path means stdin or stdout.
 pub(super) fn is_stream(path: &Path) -> bool {
@@ -41,15 +42,15 @@ pub(super) fn is_same(a: &Path, b: &Path) -> bool {
     !is_stream(a) && real(a).is_some_and(|a| real(b) == Some(a))
 }
 
-/// Whether a path is called as BVH files are.
-pub(super) fn is_bvh(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"))
+/// Whether a path is called as motion files are.
+pub(super) fn is_motion(path: &Path) -> bool {
+    FORMATS.iter().any(|format| format.ends(path))
 }
 
-/// The first BVH file of a folder, by name.
+/// The first motion file of a folder, by name.
 pub(super) fn first_clip(folder: &Path) -> Option<PathBuf> {
     let entries = folder.read_dir().ok()?.flatten().map(|entry| entry.path());
-    entries.filter(|path| is_bvh(path)).min()
+    entries.filter(|path| is_motion(path)).min()
 }
 
 /// The name a clip is called by: its file name without the ending.

@@ -1,6 +1,7 @@
 //! **Read** (読む): motion and cameras from files, a file or a folder a format.
 
 pub mod bvh;
+pub mod file;
 mod gltf_camera;
 mod stream;
 

@@ -23,7 +23,7 @@ pub(super) fn show(
         let middle = Rect::from_center_size(rect.center(), vec2(480.0, 240.0));
         let layout = Layout::top_down(Align::Center);
         ui.scope_builder(UiBuilder::new().max_rect(middle).layout(layout), |ui| {
-            let what = words.say("Drop a BVH clip here", "ここにBVHファイルをドロップ");
+            let what = words.say("Drop a clip here", "ここにモーションファイルをドロップ");
             ui.label(RichText::new(what).size(24.0).color(look.ink));
             ui.add_space(12.0);
             if ui.add(Button::new(words.say("Choose a file…", "ファイルを選ぶ…"))).clicked()

@@ -9,7 +9,7 @@ use walkdir::WalkDir;
 
 use super::super::failure::Failure;
 use super::super::files;
-use super::super::paths::is_bvh;
+use super::super::paths::is_motion;
 use crate::plain::is_hidden;
 
 /// A clip of a batch.
@@ -37,7 +37,7 @@ pub(in crate::cli) fn items(words: &[String], out: &Path) -> Result<Vec<Item>, F
     if named.is_empty() {
         let words = words.join(" ");
         return Err(Failure::AskedWrongly(format!(
-            "there is no clip in {words}: name BVH files or folders of them"
+            "there is no clip in {words}: name motion files or folders of them"
         )));
     }
     Ok(called(named))
@@ -180,14 +180,14 @@ fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
     for entry in walk.into_iter().filter_entry(|entry| !is_out(entry.path())) {
         // A link in a circle is no clip, and one to nowhere is one that fails; a folder that may not be read is said.
         match entry {
-            Ok(entry) if entry.file_type().is_file() && is_bvh(entry.path()) => {
+            Ok(entry) if entry.file_type().is_file() && is_motion(entry.path()) => {
                 found.push((entry.into_path(), vec![]));
             }
             Ok(_) => {}
             Err(error) if error.loop_ancestor().is_some() => {}
             Err(error) if error.path().is_some_and(Path::is_symlink) => {
                 found.extend(
-                    error.path().filter(|path| is_bvh(path)).map(|path| (path.into(), vec![])),
+                    error.path().filter(|path| is_motion(path)).map(|path| (path.into(), vec![])),
                 );
             }
             Err(error) => return Err(Failure::CouldNot(error.to_string())),
@@ -209,12 +209,12 @@ fn matched(pattern: &str, out: &Path) -> Result<Vec<Named>, Failure> {
         let path = path.map_err(|error| Failure::CouldNot(error.to_string()))?;
         match path.is_dir() {
             true => found.extend(walked(&path, out.as_deref().unwrap_or(Path::new("")))?),
-            false if is_bvh(&path) && !is_in_out(&path) => found.push((path, vec![])),
+            false if is_motion(&path) && !is_in_out(&path) => found.push((path, vec![])),
             false => {}
         }
     }
     match found.is_empty() {
-        true => Err(Failure::CouldNot(format!("{pattern}: no BVH file matches"))),
+        true => Err(Failure::CouldNot(format!("{pattern}: no motion file matches"))),
         false => Ok(found),
     }
 }

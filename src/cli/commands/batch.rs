@@ -30,7 +30,7 @@ use crate::deliver::Manifest;
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help())]
 pub(super) struct BatchArgs {
-    /// BVH files, folders of them, patterns ("lib/**/*.bvh"), @list.txt (a file a line), @table.csv or @table.jsonl (a
+    /// Motion files, folders of them, patterns ("lib/**/*.bvh"), @list.txt (a file a line), @table.csv or @table.jsonl (a
     /// column clip, others named as options: trim, fps, recipe, pin, set.spacing.on), - for a list on stdin.
     #[arg(value_name = "CLIPS", required_unless_present = "join")]
     clips: Vec<String>,

@@ -19,8 +19,8 @@ use crate::study::Noise;
 #[derive(Debug, Args)]
 #[command(after_help = help())]
 pub(super) struct CompareArgs {
-    /// The motions, BVH files; - is stdin.
-    #[arg(value_name = "CLIP.bvh", required = true)]
+    /// The motions; - is stdin.
+    #[arg(value_name = "CLIP", required = true)]
     clips: Vec<PathBuf>,
     #[command(flatten)]
     part: Part,

@@ -21,8 +21,8 @@ pub(super) struct DeliverArgs {
     /// - is stdin.
     #[arg(value_name = "SHEET.json")]
     sheet: PathBuf,
-    /// The motion it was made of, the whole BVH file.
-    #[arg(value_name = "CLIP.bvh")]
+    /// The motion it was made of, the whole file.
+    #[arg(value_name = "CLIP")]
     clip: PathBuf,
     /// The formats to write: --to remap,bvh, or all.
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required_unless_present = "bvh")]

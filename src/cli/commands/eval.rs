@@ -19,8 +19,8 @@ pub(super) struct EvalArgs {
     /// The sheet, a sheet.json; - is stdin.
     #[arg(value_name = "SHEET.json")]
     sheet: PathBuf,
-    /// The motion it was made of, the whole BVH file.
-    #[arg(long, short, value_name = "CLIP.bvh")]
+    /// The motion it was made of, the whole file.
+    #[arg(long, short, value_name = "CLIP")]
     clip: PathBuf,
     /// Keys of somebody else to judge the genga by: a sheet.json, a table of `genga keys`, a CSV with a
     /// column frame, or a list of source frames, one a line.

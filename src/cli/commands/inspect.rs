@@ -10,6 +10,7 @@ use crate::cli::failure::Failure;
 use crate::cli::words::Words;
 use crate::cli::{files, paths};
 use crate::error::Warning;
+use crate::motion::file::Take;
 use crate::motion::{Axis, Channel, Clip, Joint, Stature, Unit};
 use crate::plot::SkeletonPlot;
 use crate::time::{FrameRate, KOMA_RATE};
@@ -65,6 +66,8 @@ fn page(name: &str, source: &Source) -> String {
         let _ = writeln!(page, "{label:<9} {value}");
     };
     line("clip", name.into());
+    source.found.iter().for_each(|found| line(found.what, found.is.clone()));
+    source.takes.iter().for_each(|take| line("take", described_take(take)));
     line("frames", format!("{}, numbers {} to {}", clip.len(), clip.first(), clip.last()));
     line("rate", rate(clip.rate(), source.written_frame_time));
     line("length", format!("{:.2} s, {koma} koma at 24 a second", clip.seconds()));
@@ -81,9 +84,10 @@ fn page(name: &str, source: &Source) -> String {
 }
 
 /// The rate, and the one that the file writes when that is another.
-fn rate(rate: FrameRate, written: f64) -> String {
-    let by_file = 1.0 / written;
+fn rate(rate: FrameRate, written: Option<f64>) -> String {
     let text = format!("{rate} frames a second");
+    let Some(written) = written else { return text };
+    let by_file = 1.0 / written;
     // Told where five places show it.
     if (by_file - rate.fps()).abs() < 5e-6 {
         return text;
@@ -92,6 +96,11 @@ fn rate(rate: FrameRate, written: f64) -> String {
         return format!("{text} (the file writes {written} s a frame: {by_file:.5} a second)");
     }
     format!("{text} (the file writes {written} s a frame)")
+}
+
+fn described_take(take: &Take) -> String {
+    let still = if take.moves { "" } else { ", nothing moves" };
+    format!("{}, {:.2} s{still}", take.name, take.seconds)
 }
 
 fn described(joint: &Joint) -> String {

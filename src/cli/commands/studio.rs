@@ -18,8 +18,8 @@ pub use disk::Disk;
 #[derive(Debug, Args)]
 #[cfg_attr(not(feature = "studio"), allow(dead_code, reason = "this build has no studio"))]
 pub(super) struct StudioArgs {
-    /// The motion, a BVH file; without one the window waits for a file to be dropped on it.
-    #[arg(value_name = "CLIP.bvh")]
+    /// The motion; without one the window waits for a file to be dropped on it.
+    #[arg(value_name = "CLIP")]
     clip: Option<PathBuf>,
     #[command(flatten)]
     part: Part,

@@ -34,8 +34,8 @@ fn filters() -> PossibleValuesParser {
 #[derive(Debug, Args)]
 #[command(after_help = study_help())]
 pub(super) struct StudyArgs {
-    /// The motions, BVH files; - is stdin.
-    #[arg(value_name = "CLIP.bvh", required = true)]
+    /// The motions; - is stdin.
+    #[arg(value_name = "CLIP", required = true)]
     clips: Vec<PathBuf>,
     #[command(flatten)]
     part: Part,

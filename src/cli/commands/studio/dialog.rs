@@ -8,10 +8,15 @@ use std::thread::{self, Thread};
 
 use rfd::AsyncFileDialog;
 
+use crate::motion::file::FORMATS;
+
 /// The file that a person chooses; none when they choose none, and where the system has no dialog. It waits for them.
 pub(super) fn choose() -> Option<PathBuf> {
+    let endings = FORMATS.iter().flat_map(|format| format.endings);
+    let endings: Vec<String> =
+        endings.flat_map(|own| [(*own).into(), own.to_uppercase()]).collect();
     let dialog =
-        AsyncFileDialog::new().add_filter("BVH", &["bvh", "BVH"]).add_filter("genga", &["toml"]);
+        AsyncFileDialog::new().add_filter("motion", &endings).add_filter("genga", &["toml"]);
     waited(dialog.pick_file()).map(|file| file.path().to_owned())
 }
 

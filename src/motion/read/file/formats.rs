@@ -1,0 +1,61 @@
+//! The formats that motion comes in, a row each.
+
+use std::path::Path;
+
+use super::{Given, Options, Read};
+use crate::error::Error;
+
+/// A format that motion comes in (形式).
+#[derive(Debug)]
+pub struct Format {
+    /// What people call it.
+    pub name: &'static str,
+    /// How its files end, in small letters and without the dot. Folders are searched for these.
+    pub endings: &'static [&'static str],
+    /// What it can hold, in words.
+    pub holds: &'static str,
+    /// Whether its motion is curves, which can be asked for at any instant.
+    pub(super) has_curves: bool,
+    /// Whether a file begins as one of this format.
+    pub(super) begins: fn(&[u8]) -> bool,
+    /// Reads a file that is taken for one.
+    pub(super) read: fn(&Given<'_>, &Options) -> Result<Read, Error>,
+}
+
+/// All of them, the native one first.
+pub const FORMATS: &[Format] = &[Format {
+    name: "BVH",
+    endings: &["bvh"],
+    holds: "one take of joints, a row of angles a frame",
+    has_curves: false,
+    begins: is_bvh,
+    read: |given, options| Ok(options.for_bvh().read(given.bytes)?.into()),
+}];
+
+impl Format {
+    /// The format of a file: by its first bytes, and where they say nothing by its ending. What is called as none of
+    /// them is taken for a BVH.
+    pub(super) fn of(head: &[u8], path: Option<&Path>) -> &'static Self {
+        let by_content = FORMATS.iter().find(|format| (format.begins)(head));
+        let by_ending = || FORMATS.iter().find(|format| path.is_some_and(|path| format.ends(path)));
+        by_content.or_else(by_ending).unwrap_or(&FORMATS[0])
+    }
+
+    /// Whether a path ends as files of this format do.
+    pub fn ends(&self, path: &Path) -> bool {
+        let ending = path.extension().unwrap_or_default();
+        self.endings.iter().any(|own| ending.eq_ignore_ascii_case(own))
+    }
+
+    /// Whether it is BVH, which has a way of its own to be opened.
+    pub(super) fn is_native(&self) -> bool {
+        std::ptr::eq(self, &FORMATS[0]) || self.name == FORMATS[0].name
+    }
+}
+
+/// Whether there is the word that a BVH begins with: in UTF-16 there are zeros in it.
+fn is_bvh(head: &[u8]) -> bool {
+    let letters = head.iter().filter(|byte| byte.is_ascii_alphabetic());
+    let word = letters.take(9).map(u8::to_ascii_uppercase);
+    word.eq(*b"HIERARCHY")
+}

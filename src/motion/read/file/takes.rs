@@ -1,0 +1,73 @@
+//! The takes of a file, and which of them is read.
+
+use super::TAKES;
+use crate::error::{Error, Warning, nearest};
+
+/// A take (テイク): one motion of several that a file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Take {
+    /// What the file calls it.
+    pub name: String,
+    /// How long it is.
+    pub seconds: f64,
+    /// Whether a joint moves in it.
+    pub moves: bool,
+}
+
+/// Names at the most in a sentence.
+const MOST: usize = 12;
+
+/// The take that is read: the one asked for, else the first in which a joint moves. Where there are several and none
+/// was asked for, the warning says so. `None` where the file has none.
+///
+/// # Errors
+/// [`Error::Setting`] with the names that there are.
+#[cfg_attr(not(test), expect(dead_code, reason = "readers of several takes come next"))]
+pub(in crate::motion::read) fn choose(
+    asked: Option<&str>,
+    takes: &[Take],
+) -> Result<Option<(usize, Option<Warning>)>, Error> {
+    check(asked, takes)?;
+    if let Some(name) = asked {
+        return Ok(takes.iter().position(|take| take.name == name).map(|at| (at, None)));
+    }
+    let Some(at) = takes.iter().position(|take| take.moves).or((!takes.is_empty()).then_some(0))
+    else {
+        return Ok(None);
+    };
+    let warning = (takes.len() > 1).then(|| {
+        let message = format!(
+            "the file has {} takes, {}; {} is read, --take NAME reads another",
+            takes.len(),
+            listed(takes),
+            takes[at].name
+        );
+        Warning::new(TAKES, message)
+    });
+    Ok(Some((at, warning)))
+}
+
+/// Refuses a take that is not there.
+pub(super) fn check(asked: Option<&str>, takes: &[Take]) -> Result<(), Error> {
+    let Some(name) = asked.filter(|name| takes.iter().all(|take| take.name != **name)) else {
+        return Ok(());
+    };
+    let message = match takes {
+        [] => format!("there is no take {name:?}: the file has one motion, without a name"),
+        takes => {
+            let near = nearest(name, takes.iter().map(|take| take.name.as_str()));
+            let near = near.filter(|_| takes.len() > 1);
+            let tip = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
+            format!("there is no take {name:?}; there is {}{tip}", listed(takes))
+        }
+    };
+    Err(Error::setting("take", message))
+}
+
+fn listed(takes: &[Take]) -> String {
+    let mut names: Vec<&str> = takes.iter().take(MOST).map(|take| take.name.as_str()).collect();
+    if takes.len() > MOST {
+        names.push("…");
+    }
+    names.join(", ")
+}

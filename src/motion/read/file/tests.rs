@@ -1,0 +1,86 @@
+//! The door: which format a file is, and what it may ask for beside it.
+
+use std::fs;
+
+use super::*;
+
+#[test]
+fn content_decides_and_the_ending_only_where_it_says_nothing() {
+    let name = |head: &[u8], path: &str| Format::of(head, Some(path.as_ref())).name;
+    assert_eq!(name(b"\xef\xbb\xbf\n hierarchy\nROOT a", "walk.fbx"), "BVH");
+    assert_eq!(name(b"\xff\xfeH\0I\0E\0R\0A\0R\0C\0H\0Y\0", "walk"), "BVH");
+    assert_eq!(name(b"", "walk.txt"), "BVH", "whose reader then says what it expects");
+    for format in FORMATS {
+        for ending in format.endings {
+            let path = format!("a/walk.{}", ending.to_uppercase());
+            assert_eq!(name(b"\x01\x02\x03", &path), format.name);
+        }
+    }
+}
+
+#[test]
+fn a_bvh_is_what_it_is_without_the_door() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/kick.bvh").as_ref();
+    let plain = crate::motion::bvh::open(path).unwrap();
+    let bytes = fs::read(path).unwrap();
+    for read in [open(path).unwrap(), Options::default().read(&bytes).unwrap()] {
+        assert_eq!((&read.clip, &read.warnings), (&plain.clip, &plain.warnings));
+        assert_eq!(read.written_frame_time, Some(plain.written_frame_time));
+        assert!(read.found.is_empty() && read.takes.is_empty());
+    }
+}
+
+#[test]
+fn what_a_bvh_cannot_have_is_refused() {
+    let bytes = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/data/kick.bvh")).unwrap();
+    let said = |options: Options| options.read(&bytes).unwrap_err().to_string();
+    let take = said(Options { take: Some("Walk".into()), ..Options::default() });
+    assert_eq!(take, "take: there is no take \"Walk\": the file has one motion, without a name");
+    let rate = FrameRate::new(60.0).ok();
+    let rate = said(Options { sample_rate: rate, ..Options::default() });
+    assert!(rate.starts_with("sample-rate: BVH has a row a frame"), "{rate}");
+}
+
+fn take(name: &str, moves: bool) -> Take {
+    Take { name: name.into(), seconds: 1.0, moves }
+}
+
+#[test]
+fn the_first_take_that_moves_is_read_and_the_others_are_told() {
+    let all = [take("Bind", false), take("Walk", true), take("Run", true)];
+    let (at, warning) = takes::choose(None, &all).unwrap().unwrap();
+    let warning = warning.unwrap().to_string();
+    assert_eq!(at, 1);
+    assert_eq!(
+        warning,
+        "the file has 3 takes, Bind, Walk, Run; Walk is read, --take NAME reads another [W_TAKES]"
+    );
+    assert_eq!(takes::choose(Some("Run"), &all).unwrap(), Some((2, None)));
+    assert_eq!(takes::choose(None, &all[..1]).unwrap(), Some((0, None)));
+    assert_eq!(takes::choose(None, &[]).unwrap(), None);
+    let error = takes::choose(Some("Rum"), &all).unwrap_err().to_string();
+    assert!(error.ends_with("there is Bind, Walk, Run; did you mean Run?"), "{error}");
+}
+
+#[test]
+fn a_neighbour_lies_in_the_folder_or_below_it() {
+    let place = tempfile::tempdir().unwrap();
+    let at = |name: &str| place.path().join(name);
+    fs::create_dir(at("a")).unwrap();
+    for name in ["secret", "a/walk.amc", "a/b.asf", "a/a.ASF", "a/data.bin"] {
+        fs::write(at(name), name).unwrap();
+    }
+    let path = at("a/walk.amc");
+    let given = Given { bytes: b"", path: Some(&path) };
+    let beside = |name: &str| given.beside(name, Place::Byte(7), &Options::default());
+    assert_eq!(beside("data.bin").unwrap(), b"a/data.bin");
+    assert_eq!(beside("./data.bin").unwrap(), b"a/data.bin");
+    for outside in ["../secret", "/etc/hostname", "", "x/../../secret", "none"] {
+        assert!(beside(outside).unwrap_err().to_string().starts_with("byte 7: "), "{outside}");
+    }
+    assert_eq!(given.neighbours("asf"), [at("a/a.ASF"), at("a/b.asf")]);
+    let nowhere = Given { bytes: b"", path: None };
+    assert!(nowhere.neighbours("asf").is_empty());
+    let limit = Options { stream: StreamLimit { bytes: 3 }, ..Options::default() };
+    assert!(given.beside("data.bin", Place::Whole, &limit).is_err(), "more than may be read");
+}
