@@ -7,7 +7,7 @@ mod after_effects;
 mod columns;
 mod comparison;
 mod cut;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod cut_folder;
 mod drawings;
 mod figures;

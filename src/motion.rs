@@ -26,7 +26,7 @@ pub use clip::{
     local_translation, set_local_rotation,
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 pub(crate) use composite::layer_of;
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
 pub(crate) use read::{GIB, bytes_in_words};

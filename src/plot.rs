@@ -8,7 +8,7 @@
 mod canvas;
 mod chart;
 mod contact_sheet;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod convert;
 mod drawings;
 mod figure;
@@ -21,7 +21,7 @@ mod onion;
 mod page;
 #[cfg(feature = "studio")]
 pub(crate) mod parts;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod pixels;
 mod points;
 mod pose_row;
@@ -46,7 +46,9 @@ pub use crate::motion::Camera;
 pub(crate) use canvas::escaped;
 pub use contact_sheet::ContactSheet;
 #[cfg(feature = "cli")]
-pub use convert::{pdf_from_svg, png_from_svg};
+pub use convert::pdf_from_svg;
+#[cfg(feature = "pictures")]
+pub use convert::png_from_svg;
 pub use figure::FigureBody;
 pub use flipbook::FlipBook;
 pub use heat::HeatMap;

@@ -49,7 +49,7 @@ impl Handed<'_> {
     }
 }
 
-/// The formats there are: a dict each with `name`, `help`, `japanese` and `files`. GIF and PNG are the program's alone.
+/// The formats there are: a dict each with `name`, `help`, `japanese` and `files`.
 #[pyfunction]
 pub fn formats<'py>(py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let of_one = |format: &Format| {

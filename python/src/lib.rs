@@ -8,6 +8,7 @@ mod corrections;
 mod error;
 mod files;
 mod judge;
+mod knobs;
 mod recipe;
 mod result;
 mod table;
@@ -27,7 +28,7 @@ fn _genga(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<result::Sheet>()?;
     module.add_function(wrap_pyfunction!(clip::read, module)?)?;
     module.add_function(wrap_pyfunction!(result::run, module)?)?;
-    module.add_function(wrap_pyfunction!(recipe::knobs, module)?)?;
+    module.add_function(wrap_pyfunction!(knobs::knobs, module)?)?;
     module.add_function(wrap_pyfunction!(files::formats, module)?)?;
     module.add_function(wrap_pyfunction!(judge::study, module)?)?;
     module.add_function(wrap_pyfunction!(judge::evaluate, module)?)?;

@@ -1,7 +1,7 @@
 //! A recipe as a mapping with the names of its TOML.
 
 use genga::edits::Edits;
-use genga::recipe::{KNOBS, Recipe as Settings};
+use genga::recipe::Recipe as Settings;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -138,18 +138,4 @@ impl Recipe {
         let changed: Vec<_> = changed.map(|(name, word)| format!("'{name}': '{word}'")).collect();
         format!("Recipe(**{{{}}})", changed.join(", "))
     }
-}
-
-/// The settings there are: a dict each with `name`, `help`, `japanese` and `unit`.
-#[pyfunction]
-pub fn knobs<'py>(py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-    let of_knob = |knob: &genga::recipe::Knob| {
-        let about = PyDict::new(py);
-        about.set_item("name", knob.name)?;
-        about.set_item("help", knob.help)?;
-        about.set_item("japanese", knob.japanese)?;
-        about.set_item("unit", knob.unit)?;
-        Ok(about)
-    };
-    KNOBS.iter().map(of_knob).collect()
 }

@@ -167,6 +167,10 @@ hand_over! {
     to_bvh "bvh" "The motion stepped: a row a koma, holds repeated.",
     to_bvh_keys "bvh-keys" "The key drawings as poses: a row a genga.",
     to_xdts "xdts" "Timesheets for drawing programs.",
+    to_tdts "tdts" "Both timesheets in one file.",
+    to_sts "sts" "The timesheet as older programs read it.",
+    to_columns "columns" "The timesheet as a table, a column a layer and a row a koma.",
+    to_ae "ae" "Time remapping to paste into After Effects.",
     to_xsheet "xsheet" "The timesheet on paper: HTML, and a page each as SVG.",
     to_vmd "vmd" "The motion for MikuMikuDance, and which joint became which bone.",
     to_glb "glb" "The motion stepped, with bones to see and the role of every drawing.",
@@ -176,6 +180,9 @@ hand_over! {
     to_contact "contact" "Picture: contact sheet of the genga.",
     to_onion "onion" "Picture: the drawings from each genga to the next through each other.",
     to_flipbook "flipbook" "A page to play and step through in any browser.",
+    to_preview "preview" "Source beside result, moving: GIF.",
+    to_images "images" "A picture a drawing, numbered as the sheet, to draw over: PNG.",
+    to_cut "cut" "A folder as a cut is handed on: timesheets, and each column's pictures under the numbers of its cells.",
 }
 
 #[pymethods]

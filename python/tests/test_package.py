@@ -1,5 +1,7 @@
 """The built wheel: the same as the program, in Python's manners."""
 
+import contextlib
+import math
 import os
 import signal
 import subprocess
@@ -55,10 +57,11 @@ def test_the_same_bytes_as_the_program_on_real_clips(name, tmp_path):
 
 def test_settings_and_corrections_are_those_of_the_program(clip, tmp_path):
     options = ["--set", "keys.min_price=7.5", "--set", "spacing.on=3", "--pin", "30:wind-up", "--forbid", "50..60"]
+    options += ["--deliver", "images,preview"]
     program(KICK, tmp_path / "program", *options)
     settings = {"keys": {"min_price": 7.5}, "spacing__on": 3}
     result = genga.run(clip, pins=[(30, "wind-up")], forbid=["50..60"], **settings)
-    same_files(result, tmp_path, "json", "csv", "bvh")
+    same_files(result, tmp_path, "json", "csv", "bvh", "images", "preview")
     assert "wind-up" in result.keys["name"]
 
 
@@ -144,7 +147,51 @@ def test_a_recipe_is_a_mapping_with_the_names_of_its_file():
         recipe["rates"]
     with pytest.raises(genga.Error, match="filter.width"):
         recipe["filter.width"] = -1
-    assert {knob["name"] for knob in genga.knobs()} <= set(recipe)
+
+
+def bounds(knob):
+    """Numbers in words: a range says its ends, and whether they are in it, as `0 to below 1`."""
+    words = knob["takes"]
+    ends = [("above " not in words, knob["least"]), ("below" not in words, knob["most"])]
+    return [(is_in, end) for is_in, end in ends if math.isfinite(end)]
+
+
+def test_knobs_say_what_the_recipe_takes():
+    knobs = genga.knobs()
+    recipe = genga.Recipe()
+    assert [knob["name"] for knob in knobs] == list(recipe)
+    assert {knob["who"] for knob in knobs} == {"animator", "researcher"}
+    for knob in knobs:
+        name, kind = knob["name"], knob["kind"]
+        assert knob["default"] == recipe[name] and knob["help"] and knob["japanese_help"] and knob["japanese"], name
+        assert (kind == "choice") == bool(knob["choices"]), name
+        for choice in knob["choices"]:
+            genga.Recipe(**{name: choice})
+        if kind in ("number", "span"):
+            assert f"{knob['least']:g}" in knob["takes"], knob
+        for is_in, end in bounds(knob) if kind == "number" else []:
+            inside = contextlib.nullcontext() if is_in else pytest.raises(genga.Error)
+            with inside:
+                genga.Recipe(**{name: round(end) if knob["whole"] else end})
+        if kind == "number":
+            least, most = knob["slider"]
+            assert knob["least"] <= least < most <= knob["most"], name
+            with pytest.raises(genga.Error):
+                genga.Recipe(**{name: -1})
+        if knob["optional"]:
+            assert genga.Recipe(**{name: None})[name] is None
+    speaks = {knob["name"]: knob for knob in knobs}
+    assert (speaks["rate"]["unit"], speaks["rate"]["whole"]) == ("koma a second", False)
+    assert speaks["spacing.weight"]["most"] == 1.0 and speaks["keys.per_second"]["most"] == math.inf
+
+
+def test_every_format_has_its_method(clip):
+    result = genga.run(clip)
+    for form in genga.formats():
+        made = getattr(result, "to_" + form["name"].replace("-", "_"))()
+        suffixes = {Path(name).suffix for name in made}
+        assert {Path(name).suffix for name in form["files"]} <= suffixes, form["name"]
+        assert all(made.values()), form["name"]
 
 
 def test_layers_can_be_named_from_python(clip):

@@ -59,7 +59,7 @@ pub(super) fn flipbook(
 }
 
 /// Source beside result, moving. It is packed as it is drawn; what waits in memory is the packed file.
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 pub(super) fn preview(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
     let mut bytes = Vec::new();
     plot::Preview { body: settings.figures.body, ..settings.preview.clone() }
@@ -68,7 +68,7 @@ pub(super) fn preview(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) ->
 }
 
 /// A picture a drawing.
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 pub(super) fn images(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
     let each = |name: &str, png: Vec<u8>| put(&format!("images/{name}"), &png);
     plot::NumberedImages { body: settings.figures.body, ..settings.images.clone() }
@@ -92,12 +92,12 @@ fn put_pages(
     Ok(())
 }
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 fn png(svg: &str) -> Result<Vec<u8>, Error> {
     crate::plot::png_from_svg(svg, 1.0)
 }
 
-#[cfg(not(feature = "cli"))]
+#[cfg(not(feature = "pictures"))]
 fn png(_: &str) -> Result<Vec<u8>, Error> {
     Err(Error::setting("figures.png", "this build has no fonts and no pixels; it writes SVG alone"))
 }
@@ -144,7 +144,7 @@ mod tests {
         };
         put_pages("strip", &pages, &FigureSettings::default(), &mut put).unwrap();
         // Without the program there are no pixels.
-        let png = cfg!(feature = "cli");
+        let png = cfg!(feature = "pictures");
         put_pages(
             "onion",
             &pages[..1],
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn the_formats_of_figures_are_there_by_name() {
-        let pixels: &[&str] = if cfg!(feature = "cli") { &["preview", "images"] } else { &[] };
+        let pixels: &[&str] = if cfg!(feature = "pictures") { &["preview", "images"] } else { &[] };
         for name in ["strip", "contact", "onion", "flipbook"].iter().chain(pixels) {
             assert_eq!(&Format::find(name).unwrap().name, name);
         }

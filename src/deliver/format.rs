@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 use crate::deliver::cut_folder;
 use crate::deliver::settings::Settings;
 use crate::deliver::{
@@ -233,7 +233,7 @@ pub const FORMATS: &[Format] = &[
         notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, cut.sheet)),
         ..PLAIN
     },
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     Format {
         name: "preview",
         help: "source beside result, moving",
@@ -243,7 +243,7 @@ pub const FORMATS: &[Format] = &[
         notes: |cut, settings| Ok(shortened("preview", settings.preview.most, cut.sheet)),
         ..PLAIN
     },
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     Format {
         name: "images",
         help: "a picture a drawing, numbered as the sheet, to draw over",
@@ -253,7 +253,7 @@ pub const FORMATS: &[Format] = &[
         make: figures::images,
         ..PLAIN
     },
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     Format {
         name: "cut",
         help: "a folder as a cut is handed on: timesheets, and each column's pictures under the numbers of its cells",

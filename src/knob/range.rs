@@ -17,12 +17,12 @@ impl Range {
     pub(super) const LENGTH: Self = Self { from: Included(0.0), to: Excluded(f64::INFINITY) };
 
     /// Where it begins.
-    pub(super) const fn least(self) -> f64 {
+    pub const fn least(self) -> f64 {
         end(self.from)
     }
 
-    /// Where it ends.
-    pub(super) const fn most(self) -> f64 {
+    /// Where it ends; infinity where nothing ends it.
+    pub const fn most(self) -> f64 {
         end(self.to)
     }
 

@@ -191,7 +191,7 @@ impl Canvas {
     }
 
     /// A circle through which one sees.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     pub(super) fn hoop(&mut self, center: Point, radius: f64, color: RGBColor, width: f64) {
         self.circle(center, radius, None, Some((color, width)));
     }

@@ -146,7 +146,7 @@ impl Figure {
     }
 
     /// The same figure, of which only what some joints turn is drawn.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     pub(crate) fn only(&self, joints: Vec<bool>) -> Self {
         Self { only: Some(joints), ..self.clone() }
     }

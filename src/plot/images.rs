@@ -1,6 +1,6 @@
 //! Numbered images: a drawing each, to draw over. The settings are there in every build.
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod draw;
 
 use serde::{Deserialize, Serialize};

@@ -5,13 +5,13 @@
 //! is 1/24 s: its times are hundredths. A koma is 4 or 5 of them here, so that every koma begins within
 //! half a hundredth of its time and nothing drifts. The settings are there in every build.
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod draw;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod movie;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod palette;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod scene;
 
 use serde::{Deserialize, Serialize};

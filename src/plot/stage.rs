@@ -46,7 +46,7 @@ impl Bounds {
         self.right - self.left
     }
 
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     pub(crate) fn height(&self) -> f64 {
         self.top - self.floor
     }
@@ -67,7 +67,7 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// The stage on which a box fills as much of a picture as it can: in the middle, on the floor.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     pub(crate) fn filling(
         figure: Figure,
         view: View,

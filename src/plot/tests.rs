@@ -16,7 +16,7 @@ use crate::time::{Clock, Frame, FrameRate};
 
 mod figures;
 mod method;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 mod moving;
 mod ssd;
 mod study_chart;
@@ -572,7 +572,7 @@ fn reasons_have_as_many_lines_as_they_need() {
     assert!(lines(&[], 60.0).is_empty());
 }
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pictures")]
 #[test]
 fn a_png_has_the_size_of_its_svg_times_the_scale() {
     let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();
