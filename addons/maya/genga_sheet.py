@@ -37,6 +37,11 @@ def apply(path, nodes=None, first_frame=0.0, start=1, layer=""):
     nodes = nodes or cmds.ls(selection=True, long=True)
     if not nodes:
         raise RuntimeError("nothing is selected: select the root of the skeleton that plays the take")
+    return lay(cmds, sheet, nodes, first_frame, start)
+
+
+def lay(cmds, sheet, nodes, first_frame, start):
+    """Lays a layer of a sheet on nodes and what hangs on them, in one step of undo."""
     cmds.undoInfo(openChunk=True, chunkName="genga timesheet")
     try:
         step = scene_rate(cmds) / sheet["source_fps"]
@@ -55,14 +60,19 @@ def apply(path, nodes=None, first_frame=0.0, start=1, layer=""):
 
 
 def read(path, layer_name=""):
-    """A layer of a sheet: fps, source_fps, length in koma, and exposures as (first koma, source).
-
-    A source is one place in the take, or (place, place, share) for a blend of two.
-    """
+    """A layer of the sheet at `path`, as `layer_of` gives it."""
     with open(path, encoding="utf-8-sig") as file:
         sheet = json.load(file)
     if not isinstance(sheet, dict) or sheet.get("schema") != SCHEMA:
         raise ValueError(f"{path} is no timesheet of genga ({SCHEMA})")
+    return layer_of(sheet, layer_name)
+
+
+def layer_of(sheet, layer_name=""):
+    """A layer of a sheet: fps, source_fps, length in koma, and exposures as (first koma, source).
+
+    A source is one place in the take, or (place, place, share) for a blend of two.
+    """
     layers = {layer["name"]: layer for layer in reversed(sheet["layers"])}
     if layer_name and layer_name not in layers:
         raise ValueError(f"no layer {layer_name}; there are {', '.join(layers)}")

@@ -1,5 +1,6 @@
-"""As much of maya.cmds as the script asks for: nodes with keyed attributes, time units, undo."""
+"""As much of maya.cmds as the scripts ask for: nodes with keyed attributes, time units, undo."""
 
+import math
 import types
 
 
@@ -10,13 +11,15 @@ class Cmds(types.ModuleType):
         super().__init__("maya.cmds")
         self.unit = unit
         self.children = {}
+        self.kinds = {}
         self.attributes = {}
         self.keys = {}
         self.selected = []
         self.ranges = {}
         self.chunks = []
 
-    def add(self, node, parent=None, order=0, **values):
+    def add(self, node, parent=None, order=0, kind="transform", **values):
+        self.kinds[node] = kind
         self.children.setdefault(parent, []).append(node)
         self.children.setdefault(node, [])
         self.attributes[f"{node}.rotateOrder"] = order
@@ -36,7 +39,11 @@ class Cmds(types.ModuleType):
 
     def listRelatives(self, node, allDescendents=False, fullPath=False, type=None):
         below = [name for child in self.children[node] for name in [child, *(self.listRelatives(child) or [])]]
-        return below or None
+        # A joint is a transform too.
+        return [name for name in below if type in (None, "transform", self.kinds[name])] or None
+
+    def nodeType(self, node):
+        return self.kinds[node]
 
     def listAttr(self, node, keyable=False, scalar=False):
         found = [name.split(".")[1] for name in self.attributes if name.startswith(f"{node}.")]
@@ -46,6 +53,8 @@ class Cmds(types.ModuleType):
         return len(self.keys.get(name, ()))
 
     def getAttr(self, name, time=None):
+        if name.endswith(".worldMatrix[0]"):
+            return [value for row in self.world(name.split(".")[0], time) for value in row]
         keys = self.keys.get(name)
         if not keys:
             return self.attributes[name]
@@ -70,8 +79,31 @@ class Cmds(types.ModuleType):
         keys.append((float(time), value, outTangentType))
         keys.sort()
 
-    def playbackOptions(self, **ranges):
+    def playbackOptions(self, query=False, **ranges):
+        if query:
+            (name,) = ranges
+            return self.ranges[name]
         self.ranges = ranges
 
     def undoInfo(self, openChunk=False, closeChunk=False, chunkName=None):
         self.chunks.append("open" if openChunk else "close")
+
+    # How Maya poses a node: a point is a row, and what is below comes first.
+
+    def world(self, node, time):
+        value = lambda what: self.getAttr(f"{node}.{what}", time=time)
+        matrix = [[float(row == column) for column in range(4)] for row in range(4)]
+        for axis in ("xyz", "yzx", "zxy", "xzy", "yxz", "zyx")[self.attributes[f"{node}.rotateOrder"]]:
+            at = "xyz".index(axis)
+            sin, cos = (of(math.radians(value(f"rotate{axis.upper()}"))) for of in (math.sin, math.cos))
+            turn = [[float(row == column) for column in range(4)] for row in range(4)]
+            a, b = (at + 1) % 3, (at + 2) % 3
+            turn[a][a], turn[a][b], turn[b][a], turn[b][b] = cos, sin, -sin, cos
+            matrix = product(matrix, turn)
+        matrix[3][:3] = [value(f"translate{axis}") for axis in "XYZ"]
+        parent = next((parent for parent, children in self.children.items() if node in children and parent), None)
+        return product(matrix, self.world(parent, time)) if parent else matrix
+
+
+def product(a, b):
+    return [[sum(a[row][k] * b[k][column] for k in range(4)) for column in range(4)] for row in range(4)]
