@@ -1,6 +1,7 @@
 """The built wheel: the same as the program, in Python's manners."""
 
 import contextlib
+import json
 import math
 import os
 import signal
@@ -285,6 +286,45 @@ def test_ctrl_c_ends_a_study(clip):
     timer.cancel()
     signal.signal(signal.SIGINT, before)
     assert time.monotonic() - began < 2.0
+
+
+def test_any_readers_matrices_give_the_keys_of_the_clip(clip, tmp_path):
+    """What a reader of FBX would save, made of the clip with a scale on every matrix."""
+    turned = []
+    for joint, parent in enumerate(clip.parents):
+        x, y, z, w = clip.rotations[:, joint].T
+        own = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        ).transpose(2, 0, 1)
+        turned.append(own if parent < 0 else turned[parent] @ own)
+    matrices = np.zeros((len(clip), len(clip.names), 4, 4))
+    matrices[..., :3, :3] = 1.5 * np.array(turned).swapaxes(0, 1)
+    matrices[..., :3, 3], matrices[..., 3, 3] = clip.positions, 1.0
+    take, out = tmp_path / "take.npz", tmp_path / "keys.json"
+    np.savez(take, names=clip.names, parents=clip.parents, matrices=matrices, rate=clip.rate)
+    script = ROOT / "python" / "examples" / "keys_of_fbx.py"
+    subprocess.run([sys.executable, str(script), str(take), str(out)], check=True)
+    arrays = dict(names=clip.names, parents=clip.parents, offsets=clip.offsets, rotations=clip.rotations)
+    wanted = genga.run(genga.Clip(**arrays, root=clip.positions[:, 0], rate=clip.rate)).keys
+    keys = json.loads(out.read_text(encoding="utf-8"))["keys"]
+    assert [key["frame"] for key in keys] == wanted["frame"].tolist()
+    assert [key["reason"] for key in keys] == wanted["reason"].tolist()
+
+
+def test_a_plain_numpy_version_finds_the_same_six_cells(clip):
+    """The first paper in fifty lines that share nothing with the library: an oracle, and what speed is told beside."""
+    sys.path.insert(0, str(ROOT / "python" / "benches"))
+    try:
+        import beside_numpy
+    finally:
+        del sys.path[0]
+    table = genga.study(clip)
+    found = beside_numpy.six_cells(np.array(clip.rotations), clip.rate)
+    assert found == list(zip(table["union"].astype(int).tolist(), table["total"].astype(int).tolist()))
 
 
 @pytest.mark.parametrize(
