@@ -3,7 +3,7 @@
 use genga::Error;
 use genga::glam::{DQuat, DVec3};
 use genga::motion::{
-    Axis, Body, Channel, Clip, Joint, JointId, Pose, Skeleton, set_local_rotation,
+    Axis, Body, Channel, Clip, EndSite, Joint, JointId, Pose, Skeleton, set_local_rotation,
 };
 use genga::time::{Frame, FrameRate};
 
@@ -11,7 +11,7 @@ use genga::time::{Frame, FrameRate};
 const TURNS: [Channel; 3] =
     [Channel::Rotation(Axis::Z), Channel::Rotation(Axis::X), Channel::Rotation(Axis::Y)];
 
-/// Where a root is.
+/// Where a root is, or a joint that travels against its parent.
 const PLACE: [Channel; 3] =
     [Channel::Position(Axis::X), Channel::Position(Axis::Y), Channel::Position(Axis::Z)];
 
@@ -23,10 +23,29 @@ pub struct Arrays<'a> {
     pub offsets: &'a [f64],
     /// Frames × joints × 4, xyzw.
     pub rotations: &'a [f64],
-    /// Frames × 3.
-    pub root: &'a [f64],
+    pub places: Places<'a>,
+    /// Joints × 3, where the bone of a joint ends; not a number where that is left open.
+    pub tips: Option<&'a [f64]>,
     pub frames: usize,
     pub rate: f64,
+}
+
+/// Where joints are against their parents.
+#[derive(Clone, Copy)]
+pub enum Places<'a> {
+    /// Frames × 3: the roots move, the others keep their offsets.
+    Root(&'a [f64]),
+    /// Frames × joints × 3.
+    Each(&'a [f64]),
+}
+
+impl Places<'_> {
+    fn of(&self, frame: usize, joints: usize, index: usize) -> &[f64] {
+        match self {
+            Self::Root(flat) => &flat[3 * frame..3 * frame + 3],
+            Self::Each(flat) => &flat[3 * (frame * joints + index)..][..3],
+        }
+    }
 }
 
 impl Arrays<'_> {
@@ -42,8 +61,8 @@ impl Arrays<'_> {
             }
             let row = &mut values[frame * channels..(frame + 1) * channels];
             for (index, joint) in skeleton.joints.iter().enumerate() {
-                if joint.parent.is_none() {
-                    let place = &self.root[3 * frame..3 * frame + 3];
+                if joint.channels.len() > TURNS.len() {
+                    let place = self.places.of(frame, joints, index);
                     row[joint.first_channel..joint.first_channel + 3].copy_from_slice(place);
                 }
                 let at = 4 * (frame * joints + index);
@@ -75,9 +94,9 @@ impl Arrays<'_> {
                     "{name} comes before its parent: parents come first, and a root has -1"
                 )));
             }
-            let channels = match parent {
-                None => [PLACE, TURNS].concat(),
-                Some(_) => TURNS.to_vec(),
+            let channels = match parent.is_none() || self.travels(index) {
+                true => [PLACE, TURNS].concat(),
+                false => TURNS.to_vec(),
             };
             let first = first_channel;
             first_channel += channels.len();
@@ -87,10 +106,27 @@ impl Arrays<'_> {
                 offset: DVec3::from_slice(&self.offsets[3 * index..]),
                 channels,
                 first_channel: first,
-                end_sites: Vec::new(),
+                end_sites: self.tip(index).into_iter().collect(),
             })
         };
         self.names.iter().enumerate().map(joint).collect()
+    }
+
+    /// Whether a joint leaves its offset in any frame by what can be seen beside the skeleton.
+    fn travels(&self, index: usize) -> bool {
+        let offset = DVec3::from_slice(&self.offsets[3 * index..]);
+        let longest = self.offsets.chunks_exact(3).map(|offset| DVec3::from_slice(offset).length());
+        let seen = 1e-4 * longest.fold(0.0, f64::max);
+        let is_off = |frame| {
+            let place = DVec3::from_slice(self.places.of(frame, self.names.len(), index));
+            (place - offset).length() > seen
+        };
+        matches!(self.places, Places::Each(_)) && (0..self.frames).any(is_off)
+    }
+
+    fn tip(&self, index: usize) -> Option<EndSite> {
+        let offset = DVec3::from_slice(&self.tips?[3 * index..]);
+        offset.is_finite().then(|| EndSite { name: "Site".into(), offset })
     }
 }
 

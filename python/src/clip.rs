@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::arrays::{self, Arrays};
+use crate::arrays::{self, Arrays, Places};
 use crate::error::{asked_wrongly, raised, raised_of};
 use crate::work;
 
@@ -21,7 +21,9 @@ use crate::work;
 ///
 /// From arrays: `names` of the joints, `parents` (-1 for a root; parents come first), `offsets` (J, 3) from the
 /// parent, `rotations` (F, J, 4) against the parent as unit quaternions x, y, z, w, `root` (F, 3) where the roots are,
-/// `rate` in frames a second. Float64 arrays in C order are read where they are; of others NumPy makes a copy first.
+/// `rate` in frames a second. In place of `root`, `translations` (F, J, 3) say where every joint is against its parent,
+/// for rigs whose hips travel against a root on the floor. `tips` (J, 3) say where the bones of the joints end, NaN where
+/// that is left open: soles and hands are found by them. Float64 arrays in C order are read where they are; of others NumPy makes a copy first.
 #[pyclass(frozen, module = "genga")]
 pub struct Clip {
     pub motion: Arc<Motion>,
@@ -74,7 +76,7 @@ fn read_only(py: Python<'_>, array: &Bound<'_, PyAny>) -> PyResult<()> {
 #[pymethods]
 impl Clip {
     #[new]
-    #[pyo3(signature = (*, names, parents, offsets, rotations, root, rate, name="clip"))]
+    #[pyo3(signature = (*, names, parents, offsets, rotations, rate, root=None, translations=None, tips=None, name="clip"))]
     #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
     fn from_arrays(
         py: Python<'_>,
@@ -82,17 +84,33 @@ impl Clip {
         parents: Vec<i64>,
         offsets: &Bound<'_, PyAny>,
         rotations: &Bound<'_, PyAny>,
-        root: &Bound<'_, PyAny>,
         rate: f64,
+        root: Option<&Bound<'_, PyAny>>,
+        translations: Option<&Bound<'_, PyAny>>,
+        tips: Option<&Bound<'_, PyAny>>,
         name: &str,
     ) -> PyResult<Self> {
-        let [offsets, rotations, root] = [floats(offsets)?, floats(rotations)?, floats(root)?];
+        let (Some(places), true) =
+            (root.or(translations), root.is_none() || translations.is_none())
+        else {
+            let message = "root says where the roots are, translations where every joint is: give one of them";
+            return Err(asked_wrongly(py, message));
+        };
+        let [offsets, rotations, places] = [floats(offsets)?, floats(rotations)?, floats(places)?];
+        let tips = tips.map(floats).transpose()?;
         let (joints, frames) = (names.len(), rotations.shape().first().copied().unwrap_or(0));
         let shapes = [
             ("parents", vec![parents.len()], vec![joints]),
             ("offsets", offsets.shape().to_vec(), vec![joints, 3]),
             ("rotations", rotations.shape().to_vec(), vec![frames, joints, 4]),
-            ("root", root.shape().to_vec(), vec![frames, 3]),
+            match root {
+                Some(_) => ("root", places.shape().to_vec(), vec![frames, 3]),
+                None => ("translations", places.shape().to_vec(), vec![frames, joints, 3]),
+            },
+            match &tips {
+                Some(tips) => ("tips", tips.shape().to_vec(), vec![joints, 3]),
+                None => ("tips", vec![], vec![]),
+            },
         ];
         if let Some((what, is, asked)) = shapes.into_iter().find(|(_, is, asked)| is != asked) {
             let message = format!(
@@ -105,7 +123,11 @@ impl Clip {
             parents: parents.iter().map(|parent| usize::try_from(*parent).ok()).collect(),
             offsets: offsets.as_slice()?,
             rotations: rotations.as_slice()?,
-            root: root.as_slice()?,
+            places: match root {
+                Some(_) => Places::Root(places.as_slice()?),
+                None => Places::Each(places.as_slice()?),
+            },
+            tips: tips.as_ref().map(|tips| tips.as_slice()).transpose()?,
             frames,
             rate,
         };

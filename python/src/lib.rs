@@ -12,6 +12,7 @@ mod knobs;
 mod recipe;
 mod result;
 mod table;
+mod targets;
 mod words;
 mod work;
 

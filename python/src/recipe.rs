@@ -6,6 +6,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
+use crate::corrections::Corrections;
 use crate::error::raised;
 use crate::words::{settings, value, word};
 
@@ -50,6 +51,20 @@ impl Recipe {
     fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
         let (recipe, edits) = Settings::parse(text).map_err(|error| raised(py, error))?;
         Ok(Self { recipe, edits })
+    }
+
+    /// Adds corrections, each as `genga.run` takes it.
+    #[pyo3(signature = (*, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false))]
+    fn correct<'py>(
+        &mut self,
+        py: Python<'py>,
+        pins: Vec<Bound<'py, PyAny>>,
+        forbid: Vec<Bound<'py, PyAny>>,
+        moves: Vec<Bound<'py, PyAny>>,
+        holds: Vec<Bound<'py, PyAny>>,
+        only_pins: bool,
+    ) -> PyResult<()> {
+        Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut self.edits)
     }
 
     /// The recipe file, as the program writes it.

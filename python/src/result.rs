@@ -9,6 +9,7 @@ use genga::keys::Key;
 use genga::pipeline::{Breakdown, Engine, LayerBreakdown};
 use genga::sheet::{Drawing, Layer};
 use genga::signal::{Signals, Turn, TurnKind};
+use genga::target::{Outcome, Target, meet};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -20,6 +21,7 @@ use crate::error::raised;
 use crate::files::{Files, Handed};
 use crate::recipe::Recipe;
 use crate::table::{Column, plain, table};
+use crate::targets::{targets as targets_of, told};
 use crate::words::settings;
 use crate::work;
 
@@ -29,6 +31,7 @@ pub struct Result {
     /// What was made, stage by stage: to run it again with the same settings makes nothing.
     engine: Mutex<Engine>,
     settings: Recipe,
+    outcomes: Vec<Outcome>,
     cut: String,
     file: String,
 }
@@ -47,26 +50,41 @@ pub struct Sheet {
     exposures: Py<PyDict>,
 }
 
-/// Runs a clip with settings.
-fn found(
-    py: Python<'_>,
-    mut engine: Engine,
+/// What a run begins with.
+struct Begun {
+    engine: Engine,
     settings: Recipe,
+    targets: Vec<Target>,
     cut: String,
     file: String,
-) -> PyResult<Result> {
-    let (recipe, edits) = (settings.recipe.clone(), settings.edits.clone());
-    let made = work::done(py, move |_| engine.run(&recipe, &edits).map(|_| ()).map(|()| engine))?;
-    let engine = made.map_err(|error| raised(py, error))?;
-    Ok(Result { engine: Mutex::new(engine), settings, cut, file })
+}
+
+impl Begun {
+    /// Finds the settings that meet the targets, and runs the clip with them.
+    fn run(mut self) -> std::result::Result<Result, genga::Error> {
+        let Recipe { recipe, edits } = &mut self.settings;
+        let mut outcomes = Vec::new();
+        if !self.targets.is_empty() {
+            let met = meet(&mut self.engine, recipe, edits, &self.targets)?;
+            (*recipe, outcomes) = (met.recipe, met.outcomes);
+        }
+        self.engine.run(recipe, edits)?;
+        let Self { engine, settings, cut, file, .. } = self;
+        Ok(Result { engine: Mutex::new(engine), settings, outcomes, cut, file })
+    }
+
+    fn done(self, py: Python<'_>) -> PyResult<Result> {
+        work::done(py, move |_| self.run())?.map_err(|error| raised(py, error))
+    }
 }
 
 /// Finds the key drawings of a clip and times them. Settings are those of the recipe, by name: `keys={"min_price": 15}`,
 /// `keys__min_price=15` and `**{"keys.min_price": 15}` are the same. `pins` are frames that are keys whatever is found
 /// (42, (42, "contact"), "42:contact@0.5"), `forbid` frames near which none is (42, "120..140"), `moves` (from, to),
-/// `holds` (frame, koma). `name` is the name of the cut.
+/// `holds` (frame, koma). `targets` are what the sheet is to be, `{"keys": 9}`, `{"drawings_per_second": 6}` or
+/// `{"max_error": 8}` (% of body height): settings are searched for that make it so. `name` is the name of the cut.
 #[pyfunction]
-#[pyo3(signature = (clip, recipe=None, *, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false, name=None, **settings))]
+#[pyo3(signature = (clip, recipe=None, *, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false, targets=None, name=None, **settings))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn run<'py>(
     py: Python<'py>,
@@ -77,13 +95,20 @@ pub fn run<'py>(
     moves: Vec<Bound<'py, PyAny>>,
     holds: Vec<Bound<'py, PyAny>>,
     only_pins: bool,
+    targets: Option<&Bound<'py, PyDict>>,
     name: Option<String>,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Result> {
     let mut asked = recipe.unwrap_or_default().with(py, settings)?;
     Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut asked.edits)?;
-    let engine = Engine::new(clip.motion.clone()).map_err(|error| raised(py, error))?;
-    found(py, engine, asked, name.unwrap_or_else(|| clip.cut()), clip.file.clone())
+    let begun = Begun {
+        engine: Engine::new(clip.motion.clone()).map_err(|error| raised(py, error))?,
+        settings: asked,
+        targets: targets_of(py, targets)?,
+        cut: name.unwrap_or_else(|| clip.cut()),
+        file: clip.file.clone(),
+    };
+    begun.done(py)
 }
 
 impl Result {
@@ -273,14 +298,30 @@ impl Result {
         self.settings.clone()
     }
 
-    /// Runs the clip again with other settings, beginning with the first stage that changes.
-    #[pyo3(signature = (**settings))]
-    fn again(&self, py: Python<'_>, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let asked = self.settings.clone().with(py, settings)?;
+    /// What became of each target: a dict each with `target`, `asked`, `reached`, `why` (None where it was met) and
+    /// `words`.
+    #[getter]
+    fn outcomes<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        self.outcomes.iter().map(|outcome| told(py, outcome)).collect()
+    }
+
+    /// Runs the clip again, beginning with the first stage that changes. A recipe takes the place of settings and
+    /// corrections of this run, settings come on top.
+    #[pyo3(signature = (recipe=None, *, targets=None, **settings))]
+    fn again(
+        &self,
+        py: Python<'_>,
+        recipe: Option<Recipe>,
+        targets: Option<&Bound<'_, PyDict>>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let asked = recipe.unwrap_or_else(|| self.settings.clone()).with(py, settings)?;
         let engine = py.detach(|| self.engine.lock().map(|engine| engine.clone()).ok());
         let engine =
             engine.ok_or_else(|| PyRuntimeError::new_err("an earlier look at it failed"))?;
-        found(py, engine, asked, self.cut.clone(), self.file.clone())
+        let (cut, file) = (self.cut.clone(), self.file.clone());
+        let targets = targets_of(py, targets)?;
+        Begun { engine, settings: asked, targets, cut, file }.done(py)
     }
 
     /// Writes the files of some formats into a folder, which is made; returns their paths.

@@ -115,6 +115,35 @@ def test_a_clip_from_arrays_is_the_same_motion(clip):
     assert np.allclose(genga.read(made.to_bvh().encode()).positions, clip.positions, atol=1e-6)
 
 
+def test_joints_that_travel_and_tips_are_kept(clip):
+    hips = 1
+    travels = np.tile(clip.offsets, (len(clip), 1, 1))
+    travels[:, 0] = clip.positions[:, 0]
+    travels[:, hips, 0] += np.linspace(0, 30, len(clip))
+    tips = np.full((len(clip.names), 3), np.nan)
+    tips[-1] = (0, -7, 0)
+    arrays = {"names": clip.names, "parents": clip.parents, "offsets": clip.offsets, "rotations": clip.rotations}
+    made = genga.Clip(**arrays, translations=travels, tips=tips, rate=clip.rate)
+    plain = genga.Clip(**arrays, root=clip.positions[:, 0], rate=clip.rate)
+    moved = np.linalg.norm(made.positions - plain.positions, axis=2)
+    below = [joint for joint in range(len(clip.names)) if clip.names[joint].startswith(clip.names[hips])]
+    assert np.allclose(moved[-1, below], 30, atol=1e-6) and not moved[:, 0].any()
+    text = made.to_bvh()
+    assert text.count("Xposition") == 2 and "OFFSET 0 -7 0" in text
+    with pytest.raises(genga.Error, match="give one of them"):
+        genga.Clip(**arrays, rate=clip.rate)
+
+
+def test_targets_are_those_of_the_program(clip, tmp_path):
+    program(KICK, tmp_path / "program", "--keys", "9", "--drawings-per-second", "6")
+    result = genga.run(clip, targets={"keys": 9, "drawings_per_second": 6, "max_error": None})
+    same_files(result, tmp_path, "json", "csv")
+    assert [told["target"] for told in result.outcomes] == ["keys", "drawings_per_second"]
+    assert result.outcomes[0]["reached"] == 9 and result.outcomes[0]["why"] is None
+    with pytest.raises(genga.Error, match="no such target"):
+        genga.run(clip, targets={"frames": 9})
+
+
 def test_the_sheet_covers_every_koma(clip):
     sheet = genga.run(clip).sheet
     begins, koma = sheet.exposures["begin"], sheet.exposures["koma"]
@@ -255,6 +284,11 @@ def test_again_is_a_new_run_and_leaves_the_old(clip):
     before = first.to_json()
     again = first.again(spacing={"on": 3})
     assert again.to_json() == genga.run(clip, spacing={"on": 3}).to_json() != before == first.to_json()
+    recipe = genga.Recipe(spacing={"on": 3})
+    recipe.correct(pins=[30], forbid=["50..60"])
+    corrected = genga.run(clip, pins=[30], forbid=["50..60"], spacing={"on": 3})
+    assert again.again(recipe).to_json() == corrected.to_json() != again.to_json()
+    assert corrected.again(genga.Recipe()).to_json() == before
 
 
 def test_other_threads_run_meanwhile(clip):
