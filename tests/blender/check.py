@@ -4,16 +4,16 @@ A sheet of several layers is only put onto the take. OTHER is the folder of a ru
 """
 
 import json
-import os
 import sys
-import traceback
 from pathlib import Path
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "addons" / "blender"))
-import genga  # noqa: E402
-from genga import fit, stepping  # noqa: E402
+import addon
+from addon import empty, refused, say
+
+genga = addon.load()
+from genga_addon import fit, stepping  # noqa: E402
 
 # Of the body's size. Blender works in single precision, and angles of BVH go through it twice.
 CLOSE = 2e-5
@@ -34,9 +34,13 @@ KEYS = [koma for koma, e in zip(BEGINS, LAYER["exposures"]) if ROLES[e["drawing"
 TYPES = {"genga": "EXTREME", "end": "EXTREME", "inbetween": "BREAKDOWN"}
 
 
-def empty():
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.context.scene.render.fps = 24
+def held(drawing):
+    """Whether it is a moving hold: a rest, or an inbetween that stands for others."""
+    why = drawing.get("why", {})
+    return why.get("reason") == "rest" or (drawing["role"] == "inbetween" and why.get("held_for", 0) > 0)
+
+
+HELD = {drawing["drawing"] for drawing in LAYER["drawings"] if held(drawing)}
 
 
 def armature():
@@ -64,10 +68,6 @@ def furthest(a, b):
     return max((p - q).length for p, q in zip(a, b))
 
 
-def say(text):
-    print(f"  {text}")
-
-
 def check_keys(thing, koma, start, what):
     """Every curve: constant keys on those koma, typed by the role of what stands there."""
     for curve in curves(thing):
@@ -79,11 +79,13 @@ def check_keys(thing, koma, start, what):
     say(f"{what}: {len(curves(thing))} curves, constant keys on {len(koma)} koma")
 
 
-def check_types(thing, start):
+def check_types(thing, start, with_holds):
     for curve in curves(thing):
         for point in curve.keyframe_points:
             koma = round(point.co.x - start)
             wanted = TYPES[ROLES[SHOWN[koma]]] if koma < len(SHOWN) else "KEYFRAME"
+            if with_holds and SHOWN[koma] in HELD:
+                wanted = "MOVING_HOLD"
             assert point.type == wanted, (curve.data_path, koma, point.type)
 
 
@@ -107,16 +109,6 @@ def apply(folder=FOLDER, **options):
     return bpy.ops.genga.apply_sheet(filepath=str(folder / "sheet.json"), **options)
 
 
-def refused(words, **options):
-    """That the add-on refuses to go on, in these words."""
-    try:
-        apply(**options)
-    except RuntimeError as error:
-        assert words in str(error), (words, str(error))
-        return
-    raise AssertionError(f"not refused: {words}")
-
-
 def check_layers():
     """Each layer is on its own bones, and together they are the body."""
     names, wanted = stood()
@@ -138,17 +130,17 @@ def check_refusals():
     """Another take, a rig that plays nothing and one that is on a sheet already."""
     thing = take()
     played = thing.animation_data.action
-    refused("seems to be another take", folder=OTHER)
-    refused("source frame 0 is said to lie on 5", first_frame=5)
+    refused("seems to be another take", lambda: apply(OTHER))
+    refused("source frame 0 is said to lie on 5", lambda: apply(first_frame=5))
     assert thing.animation_data.action is played and len(bpy.data.actions) == 1, "nothing was done"
     assert apply(OTHER, anyway=True) == {"FINISHED"}
-    refused("is on a sheet already")
+    refused("is on a sheet already", apply)
     thing.animation_data.action = None
-    refused("has no action")
+    refused("has no action", apply)
     thing.animation_data_clear()
-    refused("has no action")
+    refused("has no action", apply)
     bpy.context.view_layer.objects.active = None
-    refused("Select the rig")
+    refused("Select the rig", apply)
     say("add-on: another take, no action, a sheet twice: refused; another take is taken where that is asked for")
 
 
@@ -169,8 +161,8 @@ def main():
         if SHOWN[at] == SHOWN[at - 1]:
             assert wanted[at] == wanted[at - 1], f"koma {at} holds"
     assert bpy.context.scene.render.fps == 24
-    held = sum(a == b for a, b in zip(SHOWN, SHOWN[1:]))
-    say(f"limited.bvh: {len(SHOWN)} koma, {held} held ones identical to the koma before")
+    same = sum(a == b for a, b in zip(SHOWN, SHOWN[1:]))
+    say(f"limited.bvh: {len(SHOWN)} koma, {same} held ones identical to the koma before")
 
     empty()
     bpy.ops.import_scene.gltf(filepath=str(FOLDER / "limited.glb"))
@@ -185,7 +177,7 @@ def main():
     before = [[tuple(point.co) for point in curve.keyframe_points] for curve in curves(source)]
     assert apply() == {"FINISHED"}
     check_keys(source, BEGINS, 1, "add-on, sheet.json")
-    check_types(source, 1)
+    check_types(source, 1, True)
     compare(source, names, wanted, 1, 1.0, "add-on, sheet.json")
     assert source.animation_data.action is not played
     after = [[tuple(point.co) for point in curve.keyframe_points] for curve in stepping.curves(played)]
@@ -199,7 +191,7 @@ def main():
     assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb")) == {"FINISHED"}
     imported = armature()
     check_keys(imported, [*BEGINS, len(SHOWN)], 1, "add-on, limited.glb")
-    check_types(imported, 1)
+    check_types(imported, 1, False)
     compare(imported, names, wanted, 1, None, "add-on, limited.glb")
     assert (scene.frame_start, scene.frame_end, scene.render.fps) == (1, len(SHOWN), 24)
     others = [action for action in bpy.data.actions if action.name.startswith("genga")]
@@ -229,13 +221,4 @@ def compare(thing, names, wanted, start, scale, what):
     say(f"{what}: all {len(found)} koma stand as in limited.bvh, off by {worst:.1e} of the body at most")
 
 
-try:
-    main()
-    failed = 0
-except BaseException:
-    traceback.print_exc()
-    failed = 1
-# Blender may never end while an add-on is registered.
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(failed)
+addon.run(main)

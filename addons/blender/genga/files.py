@@ -3,11 +3,13 @@
 import json
 import struct
 
+from .refused import Refused
+
 SHEET_SCHEMA = "genga-sheet-1"
 
 
-class NotAFile(Exception):
-    """The file is not what it should be; the text is for a person."""
+class NotAFile(Refused):
+    """The file is not what it should be."""
 
 
 class Exposure:
@@ -16,6 +18,9 @@ class Exposure:
     def __init__(self, koma, drawing):
         self.koma = koma
         self.role = drawing.get("role", "")
+        why = drawing.get("why", {})
+        # A rest, and an inbetween that stands for others too.
+        self.is_held = why.get("reason") == "rest" or (self.role == "inbetween" and why.get("held_for", 0) > 0)
         if "frame" in drawing:
             self.frame, self.between, self.share = float(drawing["frame"]), None, 0.0
         else:
@@ -24,9 +29,17 @@ class Exposure:
             self.share = float(drawing["share"])
 
     @property
-    def places(self):
-        """The source frames it needs."""
-        return self.between or (self.frame,)
+    def place(self):
+        """The source frame that it shows; of a blend the one that lies as far between its two."""
+        if self.between is None:
+            return self.frame
+        before, after = self.between
+        return before + self.share * (after - before)
+
+    @property
+    def is_key(self):
+        """Whether it is a genga, or an end: what has a number in a circle."""
+        return self.role != "inbetween"
 
 
 class Layer:

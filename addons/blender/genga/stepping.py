@@ -2,6 +2,7 @@
 
 from itertools import groupby
 
+import bpy
 from mathutils import Euler, Quaternion
 
 KEYFRAME_TYPES = {"genga": "EXTREME", "end": "EXTREME", "inbetween": "BREAKDOWN"}
@@ -20,19 +21,46 @@ def curves(action, slot=None):
     return found
 
 
-class Source:
-    """An action as the take that a sheet was made of.
+def new_curve(action, slot, channel, group):
+    """A curve of an action for a channel; since Blender 4.4 in the first layer of a slot."""
+    (path, index), group = channel, {"action_group": group} if group else {}
+    if not hasattr(action, "layers"):
+        return action.fcurves.new(path, index=index, **group)
+    layer = action.layers[0] if action.layers else action.layers.new("Layer")
+    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+    bag = strip.channelbag(slot, ensure=True)
+    curve = bag.fcurves.new(path, index=index)
+    if group:
+        name = group["action_group"]
+        curve.group = bag.groups.get(name) or bag.groups.new(name)
+    return curve
 
-    `first_frame` is where source frame 0 lies, `step` how many Blender frames a source frame takes.
+
+class Source:
+    """What the take's channels are at a place; angles are turned, the others go straight.
+
+    `channels` are data paths with their indices, `value` gives one of them at a whole source frame.
     """
 
-    def __init__(self, owner, action_curves, first_frame, step):
-        self.first_frame = first_frame
-        self.step = step
-        path = lambda curve: curve.data_path
-        ordered = sorted(action_curves, key=lambda curve: (curve.data_path, curve.array_index))
-        self.groups = [(rotation(owner, path), list(group)) for path, group in groupby(ordered, path)]
-        self.curves = [curve for _, group in self.groups for curve in group]
+    def __init__(self, owner, channels, value):
+        path = lambda channel: channel[0]
+        grouped = groupby(sorted(channels), path)
+        self.groups = [(rotation(owner, path), list(group)) for path, group in grouped]
+        self.value = value
+
+    @classmethod
+    def of_curves(cls, owner, action_curves, first_frame, step):
+        """Curves: `first_frame` is where source frame 0 lies, `step` how many Blender frames a source frame takes."""
+        by_channel = {(curve.data_path, curve.array_index): curve for curve in action_curves}
+        value = lambda channel, frame: by_channel[channel].evaluate(first_frame + frame * step)
+        return cls(owner, by_channel, value)
+
+    @classmethod
+    def of_rows(cls, owner, channels, rows):
+        """Values that were recorded, a row a source frame."""
+        columns = {channel: at for at, channel in enumerate(channels)}
+        last = len(rows) - 1
+        return cls(owner, channels, lambda channel, frame: float(rows[min(int(frame), last), columns[channel]]))
 
     def pose(self, exposure, near):
         """The value of every curve for an exposure; angles are the nearest ones to a pose before."""
@@ -49,8 +77,7 @@ class Source:
         return self._blend(pose, self._frame(before + 1), place - before, near)
 
     def _frame(self, frame):
-        at = self.first_frame + frame * self.step
-        return [[curve.evaluate(at) for curve in group] for _, group in self.groups]
+        return [[self.value(channel, frame) for channel in group] for _, group in self.groups]
 
     def _blend(self, before, after, share, near):
         blends = []
@@ -86,28 +113,41 @@ def blend(mode, before, after, share, near):
     return [a + share * (b - a) for a, b in zip(before, after)]
 
 
-def write(target, source, exposures, start):
-    """Puts the poses of the exposures onto curves, constant until the next."""
-    keys = {(curve.data_path, curve.array_index): [] for curve in source.curves}
-    near = None
+def type_of(exposure):
+    """The type of key of a drawing."""
+    return "MOVING_HOLD" if exposure.is_held else KEYFRAME_TYPES.get(exposure.role, "KEYFRAME")
+
+
+def write(target, source, exposures, frames):
+    """Puts the poses of the exposures onto curves, each on its frame, constant until the next."""
+    rows, near = [], None
     for exposure in exposures:
         near = source.pose(exposure, near)
-        for (_, group), values in zip(source.groups, near):
-            for curve, value in zip(group, values):
-                keys[curve.data_path, curve.array_index].append((start + exposure.koma, value))
+        rows.append([value for values in near for value in values])
+    channels = [channel for _, group in source.groups for channel in group]
+    columns = {channel: at for at, channel in enumerate(channels)}
+    types = [type_of(exposure) for exposure in exposures]
     for curve in target:
-        while curve.modifiers:
-            curve.modifiers.remove(curve.modifiers[0])
-        points = curve.keyframe_points
-        while points:
-            points.remove(points[-1], fast=True)
-        values = keys[curve.data_path, curve.array_index]
-        points.add(len(values))
-        for point, value, exposure in zip(points, values, exposures):
-            point.co = value
-            point.interpolation = "CONSTANT"
-            point.type = KEYFRAME_TYPES.get(exposure.role, "KEYFRAME")
-        curve.update()
+        at = columns[curve.data_path, curve.array_index]
+        put(curve, [number for frame, row in zip(frames, rows) for number in (frame, row[at])], types)
+
+
+def put(curve, places, types):
+    """Constant keys in place of all that a curve has: frame and value of each in a row, and their types."""
+    while curve.modifiers:
+        curve.modifiers.remove(curve.modifiers[0])
+    points = curve.keyframe_points
+    points.clear()
+    points.add(len(types))
+    points.foreach_set("co", places)
+    points.foreach_set("interpolation", [number("interpolation", "CONSTANT")] * len(types))
+    points.foreach_set("type", [number("type", name) for name in types])
+    curve.update()
+
+
+def number(name, word):
+    """The number that Blender has for a word of a key's property."""
+    return bpy.types.Keyframe.bl_rna.properties[name].enum_items[word].value
 
 
 def name_roles(action_curves, extras, start):

@@ -1,20 +1,25 @@
 """What the Blender add-on reads, without Blender."""
 
-import importlib.util
+import importlib
 import json
 import struct
+import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
 PLACE = Path(__file__).resolve().parents[3] / "addons" / "blender" / "genga"
 
 
+# Its files without the first, which asks for Blender.
+package = types.ModuleType("addon")
+package.__path__ = [str(PLACE)]
+sys.modules["addon"] = package
+
+
 def module(name):
-    spec = importlib.util.spec_from_file_location(name, PLACE / f"{name}.py")
-    loaded = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(loaded)
-    return loaded
+    return importlib.import_module(f"addon.{name}")
 
 
 files, fit = module("files"), module("fit")

@@ -1,0 +1,53 @@
+"""What was found, as files: timesheets and all else that genga writes, by its own code."""
+
+from bpy.props import EnumProperty, StringProperty
+from bpy.types import Operator
+
+from . import session
+from .refused import Refused, Reported
+
+FORMATS = (
+    ("xdts", "XDTS", "Timesheets for drawing programs"),
+    ("xsheet", "X-Sheet", "The timesheet on paper: HTML, and a page each as SVG"),
+    ("csv", "CSV", "Tables of the genga, of every drawing and of every koma"),
+    ("json", "Sheet", "The sheet itself, to edit by hand and deliver again"),
+    ("cut", "Cut Folder", "Both timesheets, and each column's pictures under the numbers of its cells"),
+    ("poses", "Poses", "Picture: the genga as poses in a row"),
+    ("flipbook", "Flip-Book", "A page to play and step through in any browser"),
+)
+
+
+class GENGA_OT_export(Reported, Operator):
+    """Write the timesheet that was found into a folder"""
+
+    bl_idname = "genga.export"
+    bl_label = "Export Timesheet"
+
+    directory: StringProperty(subtype="DIR_PATH")
+    filter_folder: StringProperty(default="", options={"HIDDEN"})
+    formats: EnumProperty(
+        name="Formats",
+        items=FORMATS,
+        options={"ENUM_FLAG"},
+        default={"xdts", "xsheet", "csv"},
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if session.of(context.active_object) is None:
+            cls.poll_message_set("Find the keys of an armature first")
+            return False
+        return True
+
+    def invoke(self, context, _event):
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def run(self, context):
+        if not self.formats or not self.directory:
+            raise Refused("choose a folder, and a format at least")
+        result = session.of(context.active_object).result
+        names = [name for name, *_ in FORMATS if name in self.formats]
+        written = result.write(self.directory, *names)
+        self.report({"INFO"}, f"{len(written)} files in {self.directory}")
+        return {"FINISHED"}

@@ -1,0 +1,107 @@
+"""Find Keys: samples the rig, lets genga find its keys, and puts them into an action of their own."""
+
+import time
+
+from bpy.types import Operator
+
+from . import session
+from .refused import Reported, Refused
+from .run import Session, Work
+from .sample import Sampling
+from .take import Take
+
+# How long Blender's window stands still at the most, and how often it is looked whether genga is done, in seconds.
+SLICE, LOOK = 0.05, 0.02
+
+
+class GENGA_OT_find_keys(Reported, Operator):
+    """Find the key drawings of the armature's take, and put them onto constant keys in an action of their own. Esc ends it"""
+
+    bl_idname = "genga.find_keys"
+    bl_label = "Find Keys"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        thing = context.active_object
+        if thing is None or thing.type != "ARMATURE":
+            cls.poll_message_set("Select the armature that plays the take")
+            return False
+        return True
+
+    def run(self, context):
+        """All at once, for scripts."""
+        sampling = Sampling(context, context.active_object.genga)
+        for _ in sampling.steps():
+            pass
+        self.begin_work(context, sampling)
+        self.work.join()
+        return self.finish(context)
+
+    def invoke(self, context, _event):
+        return self.reported(lambda: self.begin(context))
+
+    def begin(self, context):
+        """A part at a time, so that the window lives and Esc ends it."""
+        self.sampling = Sampling(context, context.active_object.genga)
+        self.steps, self.work = self.sampling.steps(), None
+        manager = context.window_manager
+        self.timer = manager.event_timer_add(LOOK, window=context.window)
+        manager.progress_begin(0, len(self.sampling))
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self.end(context)
+            self.report({"INFO"}, "Nothing was changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        done = self.reported(lambda: self.part(context))
+        if done != {"RUNNING_MODAL"}:
+            self.end(context)
+        return done
+
+    def part(self, context):
+        """Some frames more; when all are there genga's work, and in the end its result."""
+        if self.work is None:
+            until = time.perf_counter() + SLICE
+            for row in self.steps:
+                if time.perf_counter() > until:
+                    self.tell(context, row)
+                    return {"RUNNING_MODAL"}
+            self.begin_work(context, self.sampling)
+        if self.work.is_alive():
+            return {"RUNNING_MODAL"}
+        return self.finish(context)
+
+    def tell(self, context, row):
+        context.window_manager.progress_update(row)
+        context.workspace.status_text_set(f"genga: frame {row + 1} of {len(self.sampling)}. Esc ends it")
+
+    def begin_work(self, context, sampling):
+        sampled = sampling.sampled()
+        self.owner = sampling.thing.name
+        self.session = Session(sampled)
+        asked = session.asked(sampling.thing, sampling.take, sampled)
+        self.work = Work(lambda: self.session.find(*asked))
+
+    def finish(self, context):
+        self.work.result()
+        thing = context.scene.objects.get(self.owner)
+        if thing is None:
+            raise Refused(f"{self.owner} is not there any more")
+        session.SESSIONS[self.owner] = self.session
+        told, left_out = session.put(context.scene, thing, Take(thing), self.session)
+        for sentence in left_out:
+            self.report({"WARNING"}, sentence)
+        self.report({"INFO"}, ". ".join(told))
+        return {"FINISHED"}
+
+    def end(self, context):
+        """Leaves Blender as it was but for the result."""
+        self.steps.close()
+        context.window_manager.event_timer_remove(self.timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)

@@ -1,0 +1,156 @@
+"""What a run of the program left in files: its timesheet onto an action, its stepped GLB with the roles of its keys."""
+
+import bpy
+from bpy.props import BoolProperty, IntProperty, StringProperty
+from bpy.types import Operator
+from bpy_extras.io_utils import ImportHelper
+
+from . import files, fit, stepping
+from .refused import Reported
+from .take import STEPPED
+
+
+def set_scene(scene, fps, start, koma):
+    """The sheet's rate, and its length as the range that is played."""
+    scene.render.fps = max(1, round(fps))
+    scene.render.fps_base = scene.render.fps / fps
+    scene.frame_start, scene.frame_end = start, start + koma - 1
+
+
+class Koma(Reported, ImportHelper):
+    """What both operators ask."""
+
+    start: IntProperty(
+        name="First Koma",
+        description="The frame of the sheet's first koma; at 1 frames are numbered as on paper",
+        default=1,
+    )
+
+
+class GENGA_OT_apply_sheet(Operator, Koma):
+    """Keep only the poses on a genga timesheet, as constant keys in a copy of the active object's action"""
+
+    bl_idname = "genga.apply_sheet"
+    bl_label = "Apply genga Timesheet"
+    bl_options = {"REGISTER", "UNDO"}
+    filename_ext = ".json"
+
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+    first_frame: IntProperty(
+        name="Source Frame 0",
+        description="The frame on which source frame 0 lies; Blender's BVH import puts it on 1",
+        default=1,
+    )
+    scaled: BoolProperty(
+        name="Imported with Scale FPS",
+        description="The motion was scaled to the scene's rate when it was imported",
+        default=False,
+    )
+    layer: StringProperty(
+        name="Layer",
+        description="One layer of the sheet for all bones; empty puts each layer on its own bones",
+    )
+    anyway: BoolProperty(
+        name="Apply Anyway",
+        description="Go on though the action seems to be another take, or this one retargeted or trimmed",
+        default=False,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if context.active_object is None:
+            cls.poll_message_set("Select the rig that plays the take")
+            return False
+        return True
+
+    def run(self, context):
+        sheet = files.Sheet.read(self.filepath)
+        layers = sheet.of(self.layer)
+        thing, scene = context.active_object, context.scene
+        action, slot = self.take_of(thing)
+        step = scene.render.fps / scene.render.fps_base / sheet.source_fps if self.scaled else 1.0
+        self.compare(sheet, thing, action, step)
+        take = stepping.curves(action, slot)
+        parts, strangers = fit.by_layer(layers, sheet.joints, {curve.data_path for curve in take})
+        stepped = action.copy()
+        stepped.name = f"{action.name} koma"
+        stepped[STEPPED] = sheet.take
+        # The take itself stays, and is saved though nothing plays it.
+        action.use_fake_user = True
+        thing.animation_data.action = stepped
+        if slot:
+            thing.animation_data.action_slot = stepped.slots[slot.identifier]
+        target = stepping.curves(stepped, getattr(thing.animation_data, "action_slot", None))
+        for layer, paths in zip(layers, parts):
+            own = lambda curves: [curve for curve in curves if curve.data_path in paths]
+            source = stepping.Source.of_curves(thing, own(take), self.first_frame, step)
+            frames = [self.start + exposure.koma for exposure in layer.exposures]
+            stepping.write(own(target), source, layer.exposures, frames)
+        stepped.use_frame_range = True
+        stepped.frame_start, stepped.frame_end = self.start, self.start + sheet.length
+        set_scene(scene, sheet.fps, self.start, sheet.length)
+        for sentence in fit.left_out(sheet):
+            self.report({"WARNING"}, sentence)
+        if strangers:
+            text = f"in no layer and with that of the root: {fit.listed(strangers)}"
+            self.report({"WARNING"}, text)
+        drawings = sum(len(layer.exposures) for layer in layers)
+        self.report({"INFO"}, f"{drawings} drawings on {sheet.length} koma")
+        return {"FINISHED"}
+
+    def take_of(self, thing):
+        """The action that an object plays, and its slot."""
+        animation = thing.animation_data
+        action = animation.action if animation else None
+        slot = getattr(animation, "action_slot", None)
+        if action is None or not stepping.curves(action, slot):
+            raise files.NotAFile(f"{thing.name} has no action: let it play the take first")
+        if STEPPED in action:
+            raise files.NotAFile(f"{action.name} is on a sheet already: let {thing.name} play the take itself")
+        return action, slot
+
+    def compare(self, sheet, thing, action, step):
+        """Refuses an action that seems to be another take, or says why it does."""
+        bones = [bone.name for bone in thing.data.bones] if thing.type == "ARMATURE" else []
+        found = fit.doubts(sheet, bones, action.curve_frame_range, self.first_frame, step)
+        if not found:
+            return
+        if not self.anyway:
+            raise files.NotAFile(f"this seems to be another take: {'; '.join(found)}. Apply Anyway goes on")
+        for sentence in found:
+            self.report({"WARNING"}, sentence)
+
+
+class GENGA_OT_import_glb(Operator, Koma):
+    """Import genga's GLB with its genga as extremes and its inbetweens as breakdowns"""
+
+    bl_idname = "genga.import_glb"
+    bl_label = "Import genga GLB"
+    bl_options = {"REGISTER", "UNDO"}
+    filename_ext = ".glb"
+
+    filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
+
+    def run(self, context):
+        animations = files.glb_animations(self.filepath)
+        extras = next(iter(animations.values()))
+        # Before the import: keys land on whole frames only at the sheet's own rate.
+        set_scene(context.scene, extras["fps"], self.start, extras["koma"])
+        before = set(bpy.data.actions)
+        bpy.ops.import_scene.gltf(filepath=self.filepath)
+        # The longest name first: an action is called after its animation, sometimes with more behind it.
+        names = sorted(animations, key=len, reverse=True)
+        for action in set(bpy.data.actions) - before:
+            name = next((name for name in names if action.name.startswith(name)), None)
+            if name is not None:
+                stepping.name_roles(stepping.curves(action), animations[name], self.start)
+        context.scene.frame_set(self.start)
+        return {"FINISHED"}
+
+
+OPERATORS = (GENGA_OT_apply_sheet, GENGA_OT_import_glb)
+
+
+def menu(self, _context):
+    self.layout.operator(GENGA_OT_apply_sheet.bl_idname, text="genga Timesheet onto Action (.json)")
+    self.layout.operator(GENGA_OT_import_glb.bl_idname, text="genga GLB with Roles (.glb)")

@@ -1,0 +1,119 @@
+"""The panel in the sidebars of the 3-D view and of the dope sheet."""
+
+from bpy.types import Menu, Panel
+
+from . import knobs, session, turn
+
+
+class Sidebar:
+    bl_region_type = "UI"
+    bl_category = "genga"
+
+    @classmethod
+    def poll(cls, context):
+        thing = context.active_object
+        return thing is not None and thing.type == "ARMATURE"
+
+
+class Keys(Sidebar):
+    """Finding, and what was found."""
+
+    bl_label = "Genga"
+
+    def draw(self, context):
+        layout, thing = self.layout, context.active_object
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator("genga.find_keys", icon="KEYTYPE_EXTREME_VEC")
+        is_on_sheet = turn.is_on_sheet(thing)
+        text, icon = ("Show the Take", "PLAY") if is_on_sheet else ("Show the Sheet", "KEYFRAME_HLT")
+        layout.operator("genga.toggle", text=text, icon=icon)
+        told = layout.column(align=True)
+        for sentence in session.TOLD.get(thing.name, ()):
+            for line in wrapped(sentence, context.region.width):
+                told.label(text=line)
+
+
+class Knobs(Sidebar):
+    """What an animator turns."""
+
+    bl_label = "Knobs"
+
+    def draw(self, context):
+        layout, own = self.layout, context.active_object.genga
+        layout.use_property_split, layout.use_property_decorate = True, False
+        row = layout.row(align=True)
+        row.menu("GENGA_MT_presets")
+        row.prop(own, "live", text="", icon="FILE_REFRESH")
+        how_many = layout.column(align=True)
+        how_many.prop(own, "genga")
+        how_many.prop(own, "drawings")
+        layout.prop(own, "on")
+        layout.prop(own, "snap", slider=True)
+        left_out = layout.column(align=True)
+        left_out.prop(own, "naka_nashi", slider=True)
+        left_out.prop(own, "koma_dori", slider=True)
+        layout.prop(own, "rate")
+        layout.prop(own, "rest")
+        layout.prop(own, "markers")
+
+
+class Corrections(Sidebar):
+    """Which frames are genga, and which are none."""
+
+    bl_label = "Corrections"
+
+    def draw(self, context):
+        layout, own = self.layout, context.active_object.genga
+        row = layout.row(align=True)
+        for what, text, icon in (("PIN", "Pin", "PINNED"), ("FORBID", "Forbid", "CANCEL"), ("ONLY", "Only These", "KEY_HLT")):
+            row.operator("genga.mark", text=text, icon=icon).what = what
+        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(own, "pins")
+        layout.prop(own, "forbid")
+        layout.prop(own, "only_pins")
+        layout.operator("genga.mark", text="Clear", icon="X").what = "CLEAR"
+
+
+class Sampled(Sidebar):
+    """What is looked at, and what becomes of it."""
+
+    bl_label = "Take and Files"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, own = self.layout, context.active_object.genga
+        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(own, "frames")
+        layout.prop(own, "deforming")
+        layout.prop(own, "leave_out")
+        layout.operator("genga.export", icon="EXPORT")
+
+
+class GENGA_MT_presets(Menu):
+    bl_label = "Presets"
+
+    def draw(self, _context):
+        for name, label, *_ in knobs.PRESETS:
+            self.layout.operator("genga.preset", text=label).preset = name
+
+
+def wrapped(sentence, width):
+    """A sentence in lines that fit a sidebar."""
+    lines, most = [""], max(16, width // 8)
+    for word in sentence.split():
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > most:
+            lines.append("")
+        lines[-1] = f"{lines[-1]} {word}".strip()
+    return lines
+
+
+def in_space(part, space):
+    """A part of the panel for one kind of editor."""
+    name = f"GENGA_PT_{part.__name__.lower()}_{space.lower()}"
+    return type(name, (part, Panel), {"bl_idname": name, "bl_space_type": space})
+
+
+PARTS = (Keys, Knobs, Corrections, Sampled)
+PANELS = tuple(in_space(part, space) for space in ("VIEW_3D", "DOPESHEET_EDITOR") for part in PARTS)
+CLASSES = (GENGA_MT_presets, *PANELS)

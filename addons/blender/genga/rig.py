@@ -1,0 +1,116 @@
+"""The bones of a rig that a clip is made of, and how they hang on each other. Knows nothing of Blender.
+
+Any rig has bones that draw nothing: controls, targets, mechanisms. Those that stay hang on the nearest that stays.
+"""
+
+from fnmatch import fnmatchcase
+from typing import NamedTuple
+
+import numpy as np
+
+from .refused import Refused
+
+# Two bones lie on each other where they begin so near, beside the longest, and point so much the same way.
+NEAR = 1e-4
+SAME_WAY = 0.999
+
+
+class Bone(NamedTuple):
+    """A bone at rest, in the axes of its armature; `rest` is its matrix, 4 × 4."""
+
+    name: str
+    parent: int
+    rest: np.ndarray
+    length: float
+    deforms: bool = True
+
+    @property
+    def head(self):
+        return self.rest[:3, 3]
+
+    @property
+    def way(self):
+        return self.rest[:3, 1]
+
+
+class Chosen(NamedTuple):
+    """The bones of a clip: their numbers in the rig, parents first, and the parent of each among them, or -1."""
+
+    bones: list
+    parents: list
+
+
+def choose(bones, deforming, leave_out):
+    """The bones that stay: those that deform, where it is asked for and any do, without those of some patterns."""
+    patterns = [pattern.strip().casefold() for pattern in leave_out.split(",") if pattern.strip()]
+    only_deforming = deforming and any(bone.deforms for bone in bones)
+
+    def stays(bone):
+        is_named = any(fnmatchcase(bone.name.casefold(), pattern) for pattern in patterns)
+        return not is_named and (bone.deforms or not only_deforming)
+
+    stay = [at for at, bone in enumerate(bones) if stays(bone)]
+    if not stay:
+        raise Refused("no bone is left: leave out fewer, or take those that do not deform too")
+    return in_order(stay, Ancestry(bones, stay).parents())
+
+
+class Ancestry:
+    """Which bone that stays each bone hangs on."""
+
+    def __init__(self, bones, stay):
+        self.bones, self.stay = bones, stay
+        self.near = NEAR * max(bone.length for bone in bones)
+        self.is_staying = set(stay)
+
+    def parents(self):
+        found = {}
+        for at in self.stay:
+            found[at] = self.parent(at, found)
+        return found
+
+    def parent(self, at, found):
+        """The nearest ancestor that stays, or the bone that stays on an ancestor.
+
+        Rigs of controls hang the bones that deform on mechanisms, which lie on other bones that deform.
+        """
+        above = self.bones[at].parent
+        while above >= 0:
+            if above in self.is_staying:
+                return above
+            for other in self.stay:
+                if other != at and self.lies_on(other, above) and not is_above(at, other, found):
+                    return other
+            above = self.bones[above].parent
+        return -1
+
+    def lies_on(self, one, other):
+        one, other = self.bones[one], self.bones[other]
+        is_near = np.linalg.norm(one.head - other.head) <= self.near
+        return is_near and float(one.way @ other.way) >= SAME_WAY
+
+
+def is_above(at, other, parents):
+    """Whether `at` is an ancestor of `other`, as far as parents are known."""
+    while other >= 0:
+        if other == at:
+            return True
+        other = parents.get(other, -1)
+    return False
+
+
+def in_order(stay, parents):
+    """Parents first, else in the order of the rig."""
+    order, placed = [], {}
+
+    def place(at):
+        if at in placed:
+            return
+        if parents[at] >= 0:
+            place(parents[at])
+        placed[at] = len(order)
+        order.append(at)
+
+    for at in stay:
+        place(at)
+    return Chosen(order, [placed.get(parents[at], -1) for at in order])

@@ -1,0 +1,103 @@
+"""A rig's pose, frame after frame, as it is drawn: constraints, drivers and NLA tracks evaluated."""
+
+import time
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+
+from . import motion, rig
+from .refused import Refused
+from .take import Take
+
+
+class Sampling:
+    """The work of sampling, which `steps` does a frame at a time so that a window can live meanwhile."""
+
+    def __init__(self, context, settings):
+        self.thing = context.active_object
+        if self.thing is None or self.thing.type != "ARMATURE":
+            raise Refused("select the armature that plays the take")
+        self.scene, self.context = context.scene, context
+        self.take = Take(self.thing)
+        self.start, self.end = frames_of(settings.frames, self.scene, self.take)
+        if self.end < self.start:
+            raise Refused("the range has no frame: its end is before its start")
+        self.bones = bones_of(self.thing)
+        self.chosen = rig.choose(self.bones, settings.deforming, settings.leave_out)
+        self.poses = np.empty((len(self), len(self.chosen.bones), 4, 4), dtype=np.float32)
+        # Of a mix of NLA tracks no curve knows the values.
+        self.channels = sorted(self.take.channels()) if self.take.is_mixed else []
+        self.values = np.empty((len(self), len(self.channels)))
+        self.seconds = 0.0
+
+    def __len__(self):
+        return self.end - self.start + 1
+
+    def steps(self):
+        """Samples a frame each time it is asked; the scene is where it was when it ends, or is closed."""
+        frame, part = self.scene.frame_current, self.scene.frame_subframe
+        began = time.perf_counter()
+        try:
+            for row in range(len(self)):
+                self.scene.frame_set(self.start + row)
+                self.take_frame(row)
+                yield row
+        finally:
+            self.scene.frame_set(frame, subframe=part)
+            self.seconds = time.perf_counter() - began
+
+    def take_frame(self, row):
+        drawn = self.thing.evaluated_get(self.context.evaluated_depsgraph_get())
+        flat = np.empty(16 * len(self.bones), dtype=np.float32)
+        drawn.pose.bones.foreach_get("matrix", flat)
+        # Blender keeps columns.
+        own = flat.reshape(-1, 4, 4).transpose(0, 2, 1)[self.chosen.bones]
+        self.poses[row] = np.array(drawn.matrix_world, dtype=np.float32) @ own
+        for at, (path, index) in enumerate(self.channels):
+            value = drawn.path_resolve(path)
+            self.values[row, at] = value[index] if hasattr(value, "__len__") else value
+
+    def sampled(self):
+        """What was sampled: plain data, which outlives an undo."""
+        name, rate = bpy.path.clean_name(self.take.name), rate_of(self.scene)
+        clip = motion.clip(self.bones, self.chosen, self.poses, np.array(self.thing.matrix_world), rate, name)
+        return Sampled(clip, self.take.name, self.start, self.end, rate, self.channels, self.values)
+
+
+class Sampled(NamedTuple):
+    """A take as it was drawn. `channels` and `values`, a row a frame, are there where NLA tracks are mixed."""
+
+    clip: object
+    take: str
+    start: int
+    end: int
+    rate: float
+    channels: list
+    values: np.ndarray
+
+
+def rate_of(scene):
+    """Frames a second."""
+    return scene.render.fps / scene.render.fps_base
+
+
+def frames_of(which, scene, take):
+    """The range of the take, or of the scene: that of its preview where there is one."""
+    if which == "TAKE":
+        return take.frames()
+    if scene.use_preview_range:
+        return scene.frame_preview_start, scene.frame_preview_end
+    return scene.frame_start, scene.frame_end
+
+
+def bones_of(thing):
+    """The rig at rest, in the order of its pose."""
+    numbers = {bone.name: at for at, bone in enumerate(thing.pose.bones)}
+
+    def bone_of(posed):
+        bone = posed.bone
+        parent = numbers[bone.parent.name] if bone.parent else -1
+        return rig.Bone(bone.name, parent, np.array(bone.matrix_local), bone.length, bone.use_deform)
+
+    return [bone_of(posed) for posed in thing.pose.bones]

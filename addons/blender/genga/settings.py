@@ -1,0 +1,59 @@
+"""What an animator turns in the panel, as the settings and targets of genga. Knows nothing of Blender."""
+
+from .refused import Refused, engine
+
+
+def share(percent):
+    """A share of the inbetweens as a recipe has it: whole parts such as 1/3 exactly."""
+    for parts in (3, 6, 7, 9):
+        taken = percent * parts / 100.0
+        if round(taken) and abs(taken - round(taken)) < 1e-4 and not number(percent).is_integer():
+            return f"{round(taken)}/{parts}"
+    return f"{number(percent):g}%"
+
+
+def recipe(knobs, marked, start):
+    """The recipe of the knobs, with the corrections. `marked` are frames that are marked on the rig's own keys."""
+    from . import pins
+
+    made = engine().Recipe()
+    made.update(
+        {
+            "rate": number(knobs.rate),
+            "spacing.on": knobs.on,
+            "spacing.weight": number(knobs.snap),
+            "omission.naka_nashi": share(knobs.naka_nashi),
+            "omission.koma_dori": share(knobs.koma_dori),
+        }
+    )
+    for name, value in rest(knobs.rest):
+        made.update({name: value})
+    made.correct(
+        pins=pins.pins(pins.with_pins(knobs.pins, marked), start),
+        forbid=pins.forbidden(knobs.forbid, start),
+        only_pins=knobs.only_pins,
+    )
+    return made
+
+
+def number(value):
+    """A number of Blender's, which has single precision, as it was meant: 0.2 and not 0.20000000298."""
+    return float(f"{value:.6g}")
+
+
+def targets(knobs):
+    """What the sheet is to be; 0 is as it is found."""
+    return {"keys": knobs.genga or None, "drawings_per_second": number(knobs.drawings) or None}
+
+
+def rest(text):
+    """Further settings by their names: `keys.min_price=8; filter.width=0.2s`."""
+    made = []
+    for word in text.replace("\n", ";").split(";"):
+        if not word.strip():
+            continue
+        name, is_set, value = word.partition("=")
+        if not is_set or not value.strip():
+            raise Refused(f"a setting is a name and a value, such as keys.min_price=8, found “{word.strip()}”")
+        made.append((name.strip(), value.strip()))
+    return made

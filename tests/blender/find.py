@@ -1,0 +1,302 @@
+"""python find.py: what Find Keys does on a rig. GENGA is the program that it is compared with."""
+
+import json
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+import addon
+import rigs
+from addon import DATA, refused, say
+
+genga = addon.load()
+from genga_addon import apply, stepping, take  # noqa: E402
+
+PROGRAM = os.environ["GENGA"]
+KICK = DATA / "kick.bvh"
+FOLDER = Path(tempfile.mkdtemp())
+
+
+def find(thing=None):
+    thing = thing or bpy.context.active_object
+    assert bpy.ops.genga.find_keys() == {"FINISHED"}
+    return thing.animation_data.action
+
+
+def begin(make, *options):
+    """A rig with a take, and the add-on."""
+    thing = make(*options)
+    if not hasattr(bpy.types.Object, "genga"):
+        genga.register()
+    return thing
+
+
+def all_keys(action, slot=None):
+    """Every key of an action, to the last bit."""
+    rows = []
+    for curve in stepping.curves(action, slot):
+        places = np.empty(2 * len(curve.keyframe_points), dtype=np.float32)
+        curve.keyframe_points.foreach_get("co", places)
+        rows.append((curve.data_path, curve.array_index, places.tobytes()))
+    return rows
+
+
+def pose(thing, frame):
+    """The whole pose in the world at a frame, to the last bit."""
+    bpy.context.scene.frame_set(int(frame // 1), subframe=frame % 1)
+    drawn = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return b"".join(np.array(drawn.matrix_world @ bone.matrix, dtype=np.float32).tobytes() for bone in drawn.pose.bones)
+
+
+def check_held(thing, action):
+    """Each drawing stands still, to the last bit, and is what the take has at its place where that is a whole frame."""
+    begins, places = list(action[take.BEGINS]), list(action[take.PLACES])
+    end = action.frame_range[1]
+    held = 0
+    for at, begin in enumerate(begins):
+        until = begins[at + 1] if at + 1 < len(begins) else end
+        stood = pose(thing, begin)
+        for koma in range(int(begin), int(until)):
+            assert pose(thing, koma) == stood and pose(thing, koma + 0.9) == stood, koma
+            held += 1
+    shown = {at: pose(thing, begin) for at, begin in enumerate(begins) if places[at] == places[at] // 1}
+    bpy.ops.genga.toggle()
+    size = max(thing.dimensions) or 1.0
+    for at, drawn in shown.items():
+        off = np.abs(np.frombuffer(drawn, np.float32) - np.frombuffer(pose(thing, places[at]), np.float32)).max()
+        assert off < 1e-5 * max(size, 1.0), (at, off)
+    bpy.ops.genga.toggle()
+    assert thing.animation_data.action == action
+    return held, len(shown)
+
+
+def check_keys(action):
+    """Constant keys alone, typed by role."""
+    types = set()
+    for curve in stepping.curves(action):
+        assert [point.co.x for point in curve.keyframe_points] == list(action[take.BEGINS]), curve.data_path
+        for point in curve.keyframe_points:
+            assert point.interpolation == "CONSTANT"
+            types.add(point.type)
+    assert {"EXTREME", "BREAKDOWN"} <= types <= {"EXTREME", "BREAKDOWN", "MOVING_HOLD"}, types
+
+
+def the_programs_sheet(path, clip):
+    """The sheet of the BVH that Blender exports is the one on the rig, within a koma."""
+    thing = begin(rigs.of_bvh, clip)
+    played = thing.animation_data.action
+    before = all_keys(played)
+    first, last = (int(end) for end in played.curve_frame_range)
+    file = FOLDER / path
+    bpy.ops.export_anim.bvh(filepath=str(file), frame_start=first, frame_end=last)
+    out = file.with_suffix(".out")
+    subprocess.run([PROGRAM, "run", str(file), "--out", str(out), "--keep-lead-in", "--keep-glitches", "--quiet"], check=True)
+    layer = json.loads((out / "sheet.json").read_text(encoding="utf-8"))["layers"][0]
+    roles = {drawing["drawing"]: drawing["role"] for drawing in layer["drawings"]}
+    wanted, koma = [], 0
+    for exposure in layer["exposures"]:
+        if roles[exposure["drawing"]] != "inbetween":
+            wanted.append(koma)
+        koma += exposure["koma"]
+    action = find(thing)
+    result = genga.session.of(thing)
+    keys = [exposure.koma for exposure in result.sheet().layers[0].exposures if exposure.is_key]
+    assert len(keys) == len(wanted), (keys, wanted)
+    furthest = max(abs(a - b) for a, b in zip(keys, wanted))
+    assert furthest <= 1, (keys, wanted)
+    assert all_keys(played) == before and action != played and played.use_fake_user, "the take stays"
+    say(f"{path}: {len(keys)} genga as in the program's sheet of Blender's export, {furthest} koma off at the most")
+    return thing, action
+
+
+def held_still(thing, action):
+    check_keys(action)
+    held, same = check_held(thing, action)
+    markers = {marker.name for marker in bpy.context.scene.timeline_markers}
+    assert f"{thing.name} 1" in markers and action.pose_markers[0].frame == 1
+    say(f"{held} koma stand still to the last bit, {same} drawings are the take's frames")
+
+
+def undone():
+    """One undo leaves no trace, and what comes after it works."""
+    thing = begin(rigs.of_bvh, KICK)
+    name = thing.name
+    state = lambda: (sorted(action.name for action in bpy.data.actions), bpy.data.objects[name].animation_data.action.name,
+                     len(bpy.context.scene.timeline_markers), bpy.context.scene.frame_current,
+                     all_keys(bpy.data.objects[name].animation_data.action))
+    bpy.ops.ed.undo_push(message="before")
+    before = state()
+    assert bpy.ops.genga.find_keys("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert state() != before
+    bpy.ops.ed.undo()
+    assert state() == before, "one undo"
+    thing = bpy.data.objects[name]
+    thing.genga.on = "3"
+    assert thing.animation_data.action.name == "kick koma", "a knob after an undo"
+    say("one undo leaves no trace")
+
+
+def knobs_and_marks():
+    thing = begin(rigs.of_bvh, KICK)
+    fresh = genga.settings.recipe(thing.genga, [], 1)
+    import genga as engine
+
+    assert fresh == engine.Recipe(), "knobs that are not touched change nothing"
+    action = find(thing)
+    count = lambda: len(action[take.BEGINS])
+    all_drawings = count()
+    thing.genga.genga = 9
+    assert len(action.pose_markers) == 9, len(action.pose_markers)
+    thing.genga.genga = 0
+    bpy.ops.genga.preset(preset="threes")
+    assert thing.genga.on == "3" and count() < all_drawings
+    thing.genga.on = "2"
+    assert count() == all_drawings
+    keys = lambda: {marker.frame for marker in action.pose_markers}
+    # The take's frame 25 is marked by hand; the sheet shows frames of the take on koma of the same number.
+    played = take.Take(thing).action
+    for curve in stepping.curves(played)[:1]:
+        curve.keyframe_points[25].type = "EXTREME"
+    assert 26 not in keys()
+    find(thing)
+    assert 26 in keys(), "a key marked as extreme is pinned"
+    thing.genga.forbid = "26..30"
+    assert "26" in " ".join(genga.session.TOLD[thing.name]) or 26 in keys()
+    thing.genga.forbid = ""
+    bpy.context.scene.frame_set(50)
+    for curve in stepping.curves(action):
+        for point in curve.keyframe_points:
+            point.select_control_point = False
+    bpy.ops.genga.toggle()
+    for curve in stepping.curves(played):
+        for point in curve.keyframe_points:
+            point.select_control_point = False
+    bpy.ops.genga.mark(what="ONLY")
+    assert thing.genga.pins == "50" and thing.genga.only_pins
+    assert {1, 26, 50} < keys() and len(keys()) == 4, keys()
+    bpy.ops.genga.mark(what="CLEAR")
+    assert thing.genga.pins == "" and len(keys()) > 4
+    thing.genga.rest = "keys.min_prize=8"
+    assert "did you mean keys.min_price" in genga.session.TOLD[thing.name][0]
+    refused("did you mean keys.min_price", bpy.ops.genga.find_keys)
+    thing.genga.rest = ""
+    written = FOLDER / "sheet"
+    assert bpy.ops.genga.export(directory=str(written), formats={"xdts", "xsheet", "csv", "cut"}) == {"FINISHED"}
+    names = {path.name for path in written.rglob("*")}
+    assert {"kick_genga_ts.xdts", "kick_xsheet.html", "keys.csv", "A_0001.png"} <= names, sorted(names)[:20]
+    say("knobs, presets, marks and files")
+
+
+def told_kindly():
+    """What cannot be is refused in words."""
+    thing = begin(rigs.of_bvh, KICK)
+    refused("choose a folder", lambda: find() and bpy.ops.genga.export(directory="", formats={"csv"}))
+    thing.genga.pins = "soon"
+    refused("a pin is a frame, such as 40:contact", bpy.ops.genga.find_keys)
+    thing.genga.pins = "1000"
+    refused("its frame 0 is 1 here", bpy.ops.genga.find_keys)
+    thing.genga.pins = ""
+    thing.genga.leave_out = "*"
+    refused("no bone is left", bpy.ops.genga.find_keys)
+    thing.genga.leave_out = ""
+    thing.pose.bones["Head"].scale = (0.0, 0.0, 0.0)
+    thing.animation_data.action = take.Take(thing).action
+    refused("scaled to nothing", bpy.ops.genga.find_keys)
+    thing.animation_data.action = None
+    refused("has no action", bpy.ops.genga.find_keys)
+    thing.animation_data_clear()
+    refused("has no action", bpy.ops.genga.find_keys)
+    bpy.context.view_layer.objects.active = None
+    refused("Select the armature", bpy.ops.genga.find_keys)
+    say("what cannot be is refused in words")
+
+
+def mixed_by_nla():
+    """What NLA tracks mix is held too, and the strips are left alone."""
+    thing = begin(rigs.of_bvh, KICK)
+    animation = thing.animation_data
+    track = animation.nla_tracks.new()
+    strip = track.strips.new("kick", 1, animation.action)
+    strip.influence = 0.5
+    animation.action = None
+    turning = bpy.data.actions.new("turning")
+    animation.action = turning
+    slot = turning.slots.new(id_type="OBJECT", name=thing.name) if hasattr(turning, "slots") else None
+    if slot:
+        animation.action_slot = slot
+    for frame, value in ((1, 0.0), (92, 1.0)):
+        stepping.new_curve(turning, slot, ("rotation_euler", 2), "").keyframe_points.insert(frame, value) if frame == 1 else \
+            stepping.curves(turning, slot)[0].keyframe_points.insert(frame, value)
+    action = find(thing)
+    assert strip.action is not None and not track.mute and track.strips[:] == [strip]
+    check_keys(action)
+    held, same = check_held(thing, action)
+    assert (held, action.name) == (92, "turning koma")
+    say(f"NLA: {held} koma of a mix of two actions stand still, {same} drawings are its frames")
+
+
+def slots():
+    """Two armatures in one action: each is held by its own slot, and the other's take stays."""
+    if not hasattr(bpy.types.Action, "slots"):
+        return
+    one = begin(rigs.of_bvh, KICK)
+    shared = one.animation_data.action
+    bpy.ops.import_anim.bvh(filepath=str(DATA / "swing.bvh"))
+    two = bpy.context.active_object
+    slot = shared.slots.new(id_type="OBJECT", name="two")
+    for curve in list(stepping.curves(two.animation_data.action)):
+        made = stepping.new_curve(shared, slot, (curve.data_path, curve.array_index), "")
+        for point in curve.keyframe_points:
+            made.keyframe_points.insert(*point.co)
+    two.animation_data.action = shared
+    two.animation_data.action_slot = slot
+    before = all_keys(shared)
+    first = find(rigs.active(one))
+    second = find(rigs.active(two))
+    assert first == second and len(first.slots) == 2 and all_keys(shared) == before
+    for thing in (one, two):
+        own = stepping.curves(first, thing.animation_data.action_slot)
+        assert own and {point.interpolation for curve in own for point in curve.keyframe_points} == {"CONSTANT"}
+    lengths = {len(stepping.curves(first, thing.animation_data.action_slot)[0].keyframe_points) for thing in (one, two)}
+    assert len(lengths) == 2, "each has its own drawings"
+    say("slots: two armatures in one action are held each by its own slot")
+
+
+def importers():
+    """A take of each importer ends in constant keys that stand still."""
+    makers = {
+        "FBX": lambda: rigs.of_fbx(KICK, FOLDER),
+        "glTF": lambda: rigs.of_gltf(KICK, FOLDER),
+        "Rigify": lambda: rigs.of_rigify(KICK),
+    }
+    for name, make in makers.items():
+        thing = begin(make)
+        action = find(thing)
+        check_keys(action)
+        held, _ = check_held(thing, action)
+        clip = genga.session.of(thing).sampled.clip
+        keys = [marker.frame for marker in action.pose_markers]
+        assert held >= 91 and len(keys) >= 8, (held, keys)
+        say(f"{name}: {len(clip.names)} of {len(thing.data.bones)} bones, {len(keys)} genga, {held} koma stand still")
+
+
+def main():
+    print(f"Find Keys in Blender {bpy.app.version_string}")
+    held_still(*the_programs_sheet("kick.bvh", KICK))
+    run = addon.CLIPS / "cmu-09_01-run.bvh"
+    if run.exists():
+        the_programs_sheet("run.bvh", run)
+    undone()
+    knobs_and_marks()
+    told_kindly()
+    mixed_by_nla()
+    slots()
+    importers()
+    genga.unregister()
+
+
+addon.run(main)

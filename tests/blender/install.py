@@ -1,0 +1,27 @@
+"""python install.py EXTENSION.zip: Blender installs the extension, and the wheel inside it finds the keys of a take."""
+
+import sys
+
+import bpy
+
+import addon
+from addon import DATA, empty, say
+
+
+def main():
+    empty()
+    bpy.ops.preferences.addon_enable(module="bl_pkg")
+    done = bpy.ops.extensions.package_install_files(filepath=sys.argv[1], repo="user_default", enable_on_install=True)
+    assert done == {"FINISHED"}
+    import genga
+
+    assert bpy.utils.user_resource("EXTENSIONS") in genga.__file__, genga.__file__
+    bpy.ops.import_anim.bvh(filepath=str(DATA / "kick.bvh"))
+    assert bpy.ops.genga.find_keys() == {"FINISHED"}
+    names = [kind for kind in dir(bpy.types) if kind.startswith("GENGA_PT_")]
+    assert len(names) == 8, names
+    print(f"Installed in Blender {bpy.app.version_string}")
+    say(f"the wheel is its own, {len(names)} panels")
+
+
+addon.run(main)
