@@ -117,7 +117,7 @@ def held_still(thing, action):
     check_keys(action)
     held, same = check_held(thing, action)
     markers = {marker.name for marker in bpy.context.scene.timeline_markers}
-    assert f"{thing.name} 1" in markers and action.pose_markers[0].frame == 1
+    assert f"1 {thing.name}" in markers and action.pose_markers[0].frame == 1
     say(f"{held} koma stand still to the last bit, {same} drawings are the take's frames")
 
 

@@ -47,8 +47,8 @@ class GengaKnobs(PropertyGroup):
         update=turned,
     )
     drawings: FloatProperty(
-        name="Drawings a Second",
-        description="So many drawings a second; 0 is as they are found",
+        name="Per Second",
+        description="So many drawings a second, inbetweens too; 0 is as they are found",
         min=0.0,
         soft_max=12.0,
         precision=1,
@@ -96,8 +96,8 @@ class GengaKnobs(PropertyGroup):
         update=turned,
     )
     rate: FloatProperty(
-        name="Koma a Second",
-        description="24 in film and television, whatever rate the scene has",
+        name="Rate",
+        description="Koma a second of the sheet: 24 in film and television, whatever rate the scene has",
         min=2.0,
         max=1000.0,
         soft_max=60.0,
@@ -151,7 +151,7 @@ class GengaKnobs(PropertyGroup):
         update=turned,
     )
     only_pins: BoolProperty(
-        name="These Are the Only Genga",
+        name="Only Pins",
         description="Pins, and keys marked as extremes, are the only genga",
         update=turned,
     )

@@ -47,12 +47,12 @@ def set_markers(scene, thing, numbered):
     """Markers on the timeline for the genga of an object, in place of its earlier ones."""
     remove_markers(scene, thing)
     for number, frame in numbered:
-        scene.timeline_markers.new(f"{thing.name} {number}", frame=frame)
+        scene.timeline_markers.new(f"{number} {thing.name}", frame=frame)
 
 
 def remove_markers(scene, thing):
     def is_its(marker):
-        name, _, number = marker.name.rpartition(" ")
+        number, _, name = marker.name.partition(" ")
         return name == thing.name and number.isdigit()
 
     for marker in [marker for marker in scene.timeline_markers if is_its(marker)]:

@@ -66,7 +66,7 @@ class Corrections(Sidebar):
     def draw(self, context):
         layout, own = self.layout, context.active_object.genga
         row = layout.row(align=True)
-        for what, text, icon in (("PIN", "Pin", "PINNED"), ("FORBID", "Forbid", "CANCEL"), ("ONLY", "Only These", "KEY_HLT")):
+        for what, text, icon in (("PIN", "Pin", "PINNED"), ("FORBID", "Forbid", "CANCEL"), ("ONLY", "Only", "KEY_HLT")):
             row.operator("genga.mark", text=text, icon=icon).what = what
         layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(own, "pins")
