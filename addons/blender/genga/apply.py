@@ -5,7 +5,7 @@ import math
 import bpy
 
 from . import fit, stepping
-from .take import BEGINS, PLACES, SOURCE, STEPPED, show
+from .take import BEGINS, OWNER, PLACES, SOURCE, STEPPED, show
 
 
 # Of a frame: rates that are written with few digits are not quite those that are meant.
@@ -64,16 +64,16 @@ def source_of(thing, take, sampled, channels):
     return stepping.Source.of_curves(thing, curves, sampled.start, 1.0)
 
 
-def found(take):
-    """The action on a sheet that an earlier run made of this take, or nothing."""
-    is_its = lambda action: action.get(SOURCE) == take.action and (take.action or action[STEPPED] == take.name)
-    return next((action for action in bpy.data.actions if STEPPED in action and is_its(action)), None)
+def found(thing, take):
+    """The action on a sheet that an earlier run made of this take for this object, or nothing."""
+    is_its = lambda action: action.get(OWNER) == thing.name and action.get(SOURCE) == take.action
+    return next((action for action in bpy.data.actions if is_its(action)), None)
 
 
 def action_for(thing, take):
-    """The action on a sheet of a take, and its slot where Blender has slots."""
-    action = found(take) or bpy.data.actions.new(f"{take.name} koma")
-    action[STEPPED] = take.name
+    """The action on a sheet of a take, and its slot where Blender has slots. An action is for one object alone."""
+    action = found(thing, take) or bpy.data.actions.new(f"{take.name} koma")
+    action[STEPPED], action[OWNER] = take.name, thing.name
     if take.action:
         action[SOURCE] = take.action
         # It is saved though nothing plays it.

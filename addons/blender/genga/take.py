@@ -7,6 +7,8 @@ from .stepping import curves
 STEPPED = "genga_take"
 # The take's action; on which frames drawings begin, and which frames of the take they show.
 SOURCE, BEGINS, PLACES = "genga_source", "genga_begins", "genga_places"
+# The name of the object whose drawings they are.
+OWNER = "genga_object"
 
 
 class Take:

@@ -31,7 +31,7 @@ class GENGA_OT_toggle(OfArmature, Operator):
         if is_on_sheet(thing):
             show(thing, take.action, take.slot)
             return {"FINISHED"}
-        action = apply.found(take)
+        action = apply.found(thing, take)
         if action is None:
             raise Refused("there is no sheet of this take: find its keys first")
         show(thing, action, apply.slot_of(thing, take, action))
