@@ -13,8 +13,8 @@ FRAMES = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
 BONES = int(sys.argv[2]) if len(sys.argv) > 2 else 60
 
 genga = addon.load()
-from genga_addon import apply, sample, session, stepping, take  # noqa: E402
-from genga_addon.run import Session  # noqa: E402
+from genga_addon import apply, findings, sample, stepping, take  # noqa: E402
+from genga_addon.run import Finding  # noqa: E402
 
 
 def long_take():
@@ -56,11 +56,11 @@ def main():
     sampling = sample.Sampling(bpy.context, thing.genga)
     timed("Blender evaluates and is sampled", lambda: [None for _ in sampling.steps()])
     sampled = timed("matrices become a clip", sampling.sampled)
-    own = Session(sampled)
-    asked = session.asked(thing, sampling.take, sampled)
+    own = Finding(sampled)
+    asked = findings.asked(thing, sampling.take, sampled)
     timed("genga finds the keys", lambda: own.find(*asked))
-    timed("keys are put onto the rig", lambda: session.put(bpy.context.scene, thing, take.Take(thing), own))
-    session.SESSIONS[thing.name] = own
+    timed("keys are put onto the rig", lambda: findings.put(bpy.context.scene, thing, take.Take(thing), own))
+    findings.FINDINGS[thing.name] = own
     timed("a knob is turned (on threes), all of it", lambda: setattr(thing.genga, "on", "3"))
     print(f"{FRAMES} frames, {len(sampled.clip.names)} bones, Blender {bpy.app.version_string}")
     for what, seconds in took.items():

@@ -54,7 +54,7 @@ def strip(name, thing):
     action = thing.animation_data.action
     begins = list(action[take.BEGINS])
     numbers = {int(marker.frame): marker.name for marker in action.pose_markers}
-    clip = genga.session.of(thing).sampled.clip
+    clip = genga.findings.of(thing).sampled.clip
     names = [bone for bone in clip.names if not any(word in bone for word in SMALL)]
     sheet = [ends(thing, names, koma) for koma in KOMA]
     bpy.ops.genga.toggle()

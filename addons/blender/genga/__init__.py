@@ -3,7 +3,7 @@
 import bpy
 from bpy.props import PointerProperty
 
-from . import export, find, from_file, knobs, panel, session, turn
+from . import export, find, findings, from_file, knobs, panel, turn, words
 
 CLASSES = (
     knobs.GengaKnobs,
@@ -20,12 +20,15 @@ def register():
         bpy.utils.register_class(kind)
     bpy.types.Object.genga = PointerProperty(type=knobs.GengaKnobs)
     bpy.types.TOPBAR_MT_file_import.append(from_file.menu)
-    bpy.app.handlers.load_post.append(session.forget)
+    bpy.app.handlers.load_post.append(findings.forget)
+    operator = bpy.app.translations.contexts.operator_default
+    bpy.app.translations.register(__name__, words.translations(operator))
 
 
 def unregister():
-    session.forget()
-    bpy.app.handlers.load_post.remove(session.forget)
+    findings.forget()
+    bpy.app.translations.unregister(__name__)
+    bpy.app.handlers.load_post.remove(findings.forget)
     bpy.types.TOPBAR_MT_file_import.remove(from_file.menu)
     del bpy.types.Object.genga
     for kind in reversed(CLASSES):

@@ -3,7 +3,7 @@
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Operator
 
-from . import session
+from . import findings
 from .refused import Refused, Reported
 
 FORMATS = (
@@ -34,7 +34,7 @@ class GENGA_OT_export(Reported, Operator):
 
     @classmethod
     def poll(cls, context):
-        if session.of(context.active_object) is None:
+        if findings.of(context.active_object) is None:
             cls.poll_message_set("Find the keys of an armature first")
             return False
         return True
@@ -46,7 +46,7 @@ class GENGA_OT_export(Reported, Operator):
     def run(self, context):
         if not self.formats or not self.directory:
             raise Refused("choose a folder, and a format at least")
-        result = session.of(context.active_object).result
+        result = findings.of(context.active_object).result
         names = [name for name, *_ in FORMATS if name in self.formats]
         written = result.write(self.directory, *names)
         self.report({"INFO"}, f"{len(written)} files in {self.directory}")

@@ -4,9 +4,9 @@ import time
 
 from bpy.types import Operator
 
-from . import session
+from . import findings
 from .refused import Reported, Refused
-from .run import Session, Work
+from .run import Finding, Work
 from .sample import Sampling
 from .take import Take
 
@@ -83,17 +83,17 @@ class GENGA_OT_find_keys(Reported, Operator):
     def begin_work(self, context, sampling):
         sampled = sampling.sampled()
         self.owner = sampling.thing.name
-        self.session = Session(sampled)
-        asked = session.asked(sampling.thing, sampling.take, sampled)
-        self.work = Work(lambda: self.session.find(*asked))
+        self.finding = Finding(sampled)
+        asked = findings.asked(sampling.thing, sampling.take, sampled)
+        self.work = Work(lambda: self.finding.find(*asked))
 
     def finish(self, context):
         self.work.result()
         thing = context.scene.objects.get(self.owner)
         if thing is None:
             raise Refused(f"{self.owner} is not there any more")
-        session.SESSIONS[self.owner] = self.session
-        told, left_out = session.put(context.scene, thing, Take(thing), self.session)
+        findings.FINDINGS[self.owner] = self.finding
+        told, left_out = findings.put(context.scene, thing, Take(thing), self.finding)
         for sentence in left_out:
             self.report({"WARNING"}, sentence)
         self.report({"INFO"}, ". ".join(told))

@@ -3,7 +3,7 @@
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import PropertyGroup
 
-from . import session
+from . import findings
 
 # A name in the panel, what it does, and the knobs it sets on top of the others.
 PRESETS = (
@@ -21,7 +21,7 @@ together = False
 
 def turned(knobs, context):
     if knobs.live and not together:
-        session.again(context.scene, knobs.id_data)
+        findings.again(context.scene, knobs.id_data)
 
 
 def set_together(knobs, context, values):

@@ -2,7 +2,7 @@
 
 from bpy.types import Menu, Panel
 
-from . import knobs, session, turn
+from . import findings, knobs, turn
 
 
 class Sidebar:
@@ -29,7 +29,7 @@ class Keys(Sidebar):
         text, icon = ("Show the Take", "PLAY") if is_on_sheet else ("Show the Sheet", "KEYFRAME_HLT")
         layout.operator("genga.toggle", text=text, icon=icon)
         told = layout.column(align=True)
-        for sentence in session.TOLD.get(thing.name, ()):
+        for sentence in findings.TOLD.get(thing.name, ()):
             for line in wrapped(sentence, context.region.width):
                 told.label(text=line)
 

@@ -7,7 +7,7 @@ from .files import Sheet
 from .refused import Refused, engine
 
 
-class Session:
+class Finding:
     """What was sampled of an object, and the last result of it."""
 
     def __init__(self, sampled):

@@ -9,14 +9,14 @@ from . import apply, fit, marks, settings
 from .refused import Refused, kinds
 from .take import Take
 
-SESSIONS = {}
+FINDINGS = {}
 # What a turn of a knob came to, shown in the panel.
 TOLD = {}
 
 
 def of(thing):
-    """The session of an object, or nothing."""
-    return SESSIONS.get(thing.name) if thing is not None else None
+    """The finding of an object, or nothing."""
+    return FINDINGS.get(thing.name) if thing is not None else None
 
 
 def asked(thing, take, sampled):
@@ -25,28 +25,28 @@ def asked(thing, take, sampled):
     return settings.recipe(thing.genga, marked, sampled.start), settings.targets(thing.genga)
 
 
-def put(scene, thing, take, session):
-    """The session's result onto its rig; gives what is found, and what the rig does not show."""
-    sheet = session.sheet()
-    on_sheet = apply.apply(thing, take, session.sampled, sheet)
+def put(scene, thing, take, finding):
+    """The finding's result onto its rig; gives what is found, and what the rig does not show."""
+    sheet = finding.sheet()
+    on_sheet = apply.apply(thing, take, finding.sampled, sheet)
     marks.remove_markers(scene, thing)
     if thing.genga.markers:
         marks.set_markers(scene, thing, apply.numbered(on_sheet.exposures, on_sheet.frames))
-    TOLD[thing.name] = session.told()
+    TOLD[thing.name] = finding.told()
     return TOLD[thing.name], fit.left_out(sheet)
 
 
 def again(scene, thing):
     """Runs what was sampled again, with the knobs as they are; what is wrong is shown in the panel."""
-    session = of(thing)
-    if session is None:
+    finding = of(thing)
+    if finding is None:
         return
     try:
         take = Take(thing)
-        if take.name != session.sampled.take:
+        if take.name != finding.sampled.take:
             raise Refused("another action plays now: find its keys first")
-        session.find(*asked(thing, take, session.sampled))
-        put(scene, thing, take, session)
+        finding.find(*asked(thing, take, finding.sampled))
+        put(scene, thing, take, finding)
     except kinds() as error:
         TOLD[thing.name] = [str(error)]
 
@@ -54,5 +54,5 @@ def again(scene, thing):
 @bpy.app.handlers.persistent
 def forget(*_):
     """Another file is opened."""
-    SESSIONS.clear()
+    FINDINGS.clear()
     TOLD.clear()
