@@ -55,7 +55,10 @@ pub use sts::sts;
 pub use study_table::study_csv;
 use table::{CsvText, csv_table, number};
 pub use turns::turns_csv;
-pub use vmd::{BoneMap, MmdModel, Vmd, VmdBones, VmdKey, VmdMade, VmdMotion, VmdReport};
+use vmd::vrma;
+pub use vmd::{
+    BoneMap, MmdModel, STILL_LIMB, Vmd, VmdBones, VmdKey, VmdMade, VmdMotion, VmdReport,
+};
 pub use xsheet::{XSheetFiles, xsheet};
 
 /// What the reader of JSON says, without the place: that counts within the part which was read.

@@ -29,6 +29,9 @@ pub(crate) use clip::{rotation_axes, turn_columns};
 #[cfg(feature = "pictures")]
 pub(crate) use composite::layer_of;
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
+#[cfg(test)]
+pub(crate) use read::model_tests;
 pub(crate) use read::{GIB, bytes_in_words};
-pub use read::{GltfCamera, StreamLimit, bvh, file};
+pub use read::{GltfCamera, MmdModel, StreamLimit, bvh, file};
+pub(crate) use read::{is_vmd, vmd_key_frames};
 pub use seen::{Camera, Eye, Screen, SeenFrom};

@@ -56,6 +56,9 @@ pub(super) struct Reading {
     /// Frames a second at which curves are sampled, in place of the file's own: of formats that have curves.
     #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
     sample_rate: Option<FrameRate>,
+    /// The bones of a motion that has none: a model (.pmx, .pmd) of a VMD, the .asf of an AMC that does not lie beside it.
+    #[arg(long, value_name = "FILE")]
+    skeleton: Option<PathBuf>,
     /// Keep single frames that fly off as they are, and ends at which the tracker comes from the origin.
     #[arg(long)]
     keep_glitches: bool,
@@ -169,9 +172,11 @@ impl Reading {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, take, sample_rate, repair, strict, memory, .. } = self.clone();
+        let Self { fps, root, take, sample_rate, skeleton, repair, strict, memory, .. } =
+            self.clone();
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
-        let options = file::Options { strict, repair, fps, root, take, sample_rate, stream };
+        let options =
+            file::Options { strict, repair, fps, root, take, sample_rate, skeleton, stream };
         let read = if paths::is_stream(path) {
             options.read(&files::read_up_to(stream, path)?)
         } else {

@@ -5,9 +5,11 @@ use super::files;
 use super::folder::{Folder, Left, MANIFEST, Made};
 use super::formats::Formats;
 use super::staging::Bundle;
+use super::words::is_loss;
 use crate::deliver::sheet_json::MadeWith;
 use crate::deliver::{ClipMark, Cut, Manifest, Report};
 use crate::edits::Edits;
+use crate::error::Warning;
 use crate::pipeline::Breakdown;
 use crate::plot::SpeedPlot;
 use crate::recipe::Recipe;
@@ -81,7 +83,10 @@ impl Results<'_> {
         let mut bundle = Bundle::begin(folder.path())?;
         let of = (recipe, edits);
         let mut written = Self::of_cut(self.name, &self.clip, breakdown, of, |cut| {
-            report.notes.extend(formats.settle(cut)?.iter().map(ToString::to_string));
+            let (losses, notes): (Vec<Warning>, _) =
+                formats.settle(cut)?.into_iter().partition(is_loss);
+            report.losses.extend(losses.iter().map(ToString::to_string));
+            report.notes.extend(notes.iter().map(ToString::to_string));
             report.notes.extend(self.kept.map(str::to_owned));
             formats.write(cut, &mut bundle, self.tell)
         })?;

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::deliver::STILL_LIMB;
 use crate::error::Warning;
 use crate::motion::bvh::warnings::FRAMES_MISMATCH;
 use crate::plain::shown_lines;
@@ -26,6 +27,11 @@ impl Words {
         if !self.quiet {
             write_line(&line);
         }
+    }
+
+    /// What is missing, in words: said even when quiet.
+    pub(super) fn lose(&self, loss: impl Display) {
+        write_line(&loss);
     }
 
     /// What a reader says of its file. A loss is said even when quiet.
@@ -84,9 +90,10 @@ impl Words {
     }
 }
 
-/// Whether something of a clip is missing: the file ends early, in the middle of a row or before its last.
-fn is_loss(warning: &Warning) -> bool {
-    warning.code == FRAMES_MISMATCH
+/// Whether something is missing: of a clip, whose file ends early, in the middle of a row or before its last; or of what
+/// is written, an arm or a leg.
+pub(super) fn is_loss(warning: &Warning) -> bool {
+    [FRAMES_MISMATCH, STILL_LIMB].contains(&warning.code)
 }
 
 /// What is being done, or how much of it is; several threads may count.

@@ -7,7 +7,7 @@ use crate::deliver::cut_folder;
 use crate::deliver::settings::Settings;
 use crate::deliver::{
     Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
-    pictures, remap_csv, sheet_csv, sheet_json, sts, xsheet,
+    pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xsheet,
 };
 use crate::error::{Error, Warning};
 use crate::sheet::{Layer, Sheet};
@@ -177,6 +177,18 @@ pub const FORMATS: &[Format] = &[
         japanese: "リミテッドモーション",
         files: &["limited.glb"],
         make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
+        ..PLAIN
+    },
+    Format {
+        name: "vrma",
+        help: "the motion stepped for VRM avatars",
+        japanese: "VRMアニメーション",
+        files: &["CUT.vrma"],
+        make: |cut, settings, put| {
+            let made = vrma::write(cut.clip, cut.sheet, settings.vmd.map.as_ref())?;
+            put(&cut.file("CUT.vrma"), &made)
+        },
+        notes: |cut, settings| vrma::notes(cut.clip, settings.vmd.map.as_ref()),
         ..PLAIN
     },
     Format {

@@ -1,8 +1,8 @@
 //! The limited motion as GLB (glTF 2.0 in one file), every channel stepped.
 
-mod animation;
-mod binary;
-mod bones;
+pub(in crate::deliver) mod animation;
+pub(in crate::deliver) mod binary;
+pub(in crate::deliver) mod bones;
 mod hold;
 mod mesh;
 #[cfg(test)]
@@ -213,7 +213,7 @@ impl Glb {
     }
 }
 
-const GENERATOR: &str = concat!("genga ", env!("CARGO_PKG_VERSION"));
+pub(in crate::deliver) const GENERATOR: &str = concat!("genga ", env!("CARGO_PKG_VERSION"));
 
 /// How the clip's space becomes that of glTF: metres, +Y up, right-handed as before.
 #[derive(Debug, Clone, Copy, PartialEq)]

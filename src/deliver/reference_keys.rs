@@ -2,8 +2,18 @@
 
 use crate::deliver::sheet_json;
 use crate::error::Error;
+use crate::motion::{is_vmd, vmd_key_frames};
 use crate::sheet::Role;
-use crate::time::Frame;
+use crate::time::{Frame, FrameRate};
+
+/// Frames a second of every VMD.
+const VMD_RATE: f64 = 30.0;
+
+/// A share of frames with keys that no animator sets.
+const BAKED: f64 = 0.8;
+
+/// Frames of a motion so short that it may have a key on each.
+const SHORT: u32 = 12;
 
 /// Columns that say which frame a row is of, the first that a table has.
 const FRAMES: [&str; 2] = ["source_frame", "frame"];
@@ -13,12 +23,18 @@ const FRAMES: [&str; 2] = ["source_frame", "frame"];
 /// `source_frame`, of which the rows with a `role` other than genga do not count; a list of frames, one
 /// a line, in which `#` begins a comment.
 ///
+/// Of a motion of MMD (.vmd) they are the frames on which a bone of the body has a key, at 30 a second; `rate` is that of
+/// the clip whose frames are meant.
+///
 /// They come sorted, each once. A fractional frame counts as the nearest.
 ///
 /// # Errors
 /// [`Error::Sheet`] with line and column where a frame is no number, where there is no such column, and
 /// where there is no key at all.
-pub fn reference_keys(bytes: &[u8]) -> Result<Vec<Frame>, Error> {
+pub fn reference_keys(bytes: &[u8], rate: FrameRate) -> Result<Vec<Frame>, Error> {
+    if is_vmd(bytes) {
+        return of_vmd(bytes, rate);
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::sheet("this is not text in UTF-8; keys are a sheet.json, a CSV or a list of frames")
@@ -34,6 +50,25 @@ pub fn reference_keys(bytes: &[u8]) -> Result<Vec<Frame>, Error> {
     }
     frames.sort_unstable();
     frames.dedup();
+    Ok(frames)
+}
+
+/// The keys of an animator. Where nearly every frame has one they are none: that motion was captured, or baked.
+fn of_vmd(bytes: &[u8], rate: FrameRate) -> Result<Vec<Frame>, Error> {
+    let keyed = vmd_key_frames(bytes)?;
+    let span = keyed.last().zip(keyed.first()).map_or(0, |(last, first)| last - first + 1);
+    if span >= SHORT && keyed.len() as f64 >= BAKED * f64::from(span) {
+        return Err(Error::sheet(format!(
+            "{} of its {span} frames have a key: it was captured or baked, and an animator's keys are not in it",
+            keyed.len()
+        )));
+    }
+    let in_clip = |frame: u32| Frame((f64::from(frame) * rate.fps() / VMD_RATE).round() as usize);
+    let mut frames: Vec<Frame> = keyed.into_iter().map(in_clip).collect();
+    frames.dedup();
+    if frames.is_empty() {
+        return Err(Error::sheet("there is no key in it"));
+    }
     Ok(frames)
 }
 
@@ -96,13 +131,18 @@ fn no_frame(line: usize, column: usize, text: &str) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::deliver::{VmdKey, VmdMotion};
+
+    fn rate() -> FrameRate {
+        FrameRate::new(24.0).unwrap()
+    }
 
     fn keys(text: &str) -> Vec<usize> {
-        reference_keys(text.as_bytes()).unwrap().into_iter().map(|frame| frame.0).collect()
+        reference_keys(text.as_bytes(), rate()).unwrap().into_iter().map(|frame| frame.0).collect()
     }
 
     fn refused(text: &str) -> String {
-        reference_keys(text.as_bytes()).unwrap_err().to_string()
+        reference_keys(text.as_bytes(), rate()).unwrap_err().to_string()
     }
 
     #[test]
@@ -128,12 +168,34 @@ mod tests {
         assert!(refused("koma,drawing\n1,2\n").contains("begins with koma, drawing"));
     }
 
+    /// A motion of MMD with a head's key on some frames.
+    fn vmd(frames: impl Iterator<Item = u32>) -> Vec<u8> {
+        let key = |frame| VmdKey {
+            bone: "頭".into(),
+            frame,
+            translation: [0.0; 3],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+        };
+        let keys = frames.map(key).collect();
+        VmdMotion { model: "人形".into(), keys, ik_off: vec![] }.bytes().unwrap()
+    }
+
+    #[test]
+    fn keyed_frames_of_an_mmd_motion_are_keys_in_the_clips_own_frames() {
+        let found = reference_keys(&vmd([0, 10, 30, 55].into_iter()), rate()).unwrap();
+        assert_eq!(found, [0, 8, 24, 44].map(Frame));
+        let baked = reference_keys(&vmd(0..40), rate()).unwrap_err().to_string();
+        assert!(baked.starts_with("40 of its 40 frames have a key"), "{baked}");
+    }
+
     #[test]
     fn nothing_is_no_reference() {
         for nothing in ["", "  \n", "# none\n", "frame\n", "role,frame\nend,0\n"] {
             assert_eq!(refused(nothing), "there is no key in it", "{nothing:?}");
         }
-        assert!(reference_keys(&[0xff, 0xfe, 0x31]).unwrap_err().to_string().contains("UTF-8"));
+        assert!(
+            reference_keys(&[0xff, 0xfe, 0x31], rate()).unwrap_err().to_string().contains("UTF-8")
+        );
         assert!(refused("{\"schema\": \"other\"}").contains("schema"));
     }
 }

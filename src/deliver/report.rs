@@ -58,6 +58,9 @@ pub struct Report {
     /// of the first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<LayerReport>,
+    /// What the files of formats lack and should have, as sentences: said with the first line of a run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub losses: Vec<String>,
     /// What a person should know, as sentences.
     pub notes: Vec<String>,
 }
@@ -164,6 +167,7 @@ impl Report {
             actions: several(breakdown.actions),
             omission: first.omission.into(),
             layers: layers(breakdown),
+            losses: Vec::new(),
             notes,
         }
     }

@@ -4,12 +4,13 @@ mod bones;
 mod capture;
 mod cast;
 mod map;
-mod model;
 mod record;
 mod retarget;
 mod stance;
+mod structure;
 #[cfg(test)]
 mod tests;
+pub(super) mod vrma;
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -20,17 +21,20 @@ use serde::{Deserialize, Serialize};
 use crate::deliver::csv_table;
 use crate::error::{Error, Warning};
 use crate::knob::{Knobs, choices, knob, knobs};
+pub use crate::motion::MmdModel;
 use crate::motion::{Clip, Composite, JointId, Skeleton};
 use crate::sheet::{Exposure, Sheet};
 use bones::Model;
 use capture::Capture;
 use cast::Cast;
 pub use map::BoneMap;
-use map::Found;
-pub use model::MmdModel;
+use map::{Found, SHAPE};
 pub use record::{VmdKey, VmdMotion};
 use retarget::{Local, Retarget};
 use stance::Stance;
+
+/// The code of the warning that an arm or a leg has no motion in a file: a loss, which no list of notes should hide.
+pub const STILL_LIMB: &str = "W_STILL_LIMB";
 
 /// The longest name of a model, in bytes of CP932.
 const LONGEST_MODEL: usize = 20;
@@ -221,6 +225,7 @@ impl Vmd {
         let cast = self.cast(clip)?;
         let report = report(clip.skeleton(), &cast.model, &cast.found, 1.0);
         let mut notes = notes(&report, &cast.found);
+        notes.extend(cast.still_limbs());
         notes.extend(self.name()?.1);
         notes.extend((!cast.has_leg()).then(no_legs));
         notes.extend(cast.notes);
@@ -241,7 +246,7 @@ impl Vmd {
 
     fn cast(&self, clip: &Clip) -> Result<Cast, Error> {
         let map = self.map();
-        Cast::of(&map, map.find(clip.skeleton())?, self.bones, self.body.as_ref())
+        Cast::of(&map, map.of(clip)?, self.bones, self.body.as_ref())
     }
 
     /// The model's name as the file has it.
@@ -420,6 +425,18 @@ fn report(skeleton: &Skeleton, model: &Model, found: &Found, scale: f64) -> VmdR
 
 fn notes(report: &VmdReport, found: &Found) -> Vec<Warning> {
     let mut notes = Vec::new();
+    if !found.by_shape.is_empty() {
+        let message = if found.dialect == SHAPE {
+            "vmd: no joint has a name that is known: the shape of the body says which is which"
+                .into()
+        } else {
+            let bones = found.by_shape.join(", ");
+            format!(
+                "vmd: no joint is known by name to be {bones}: the shape of the body says which is"
+            )
+        };
+        notes.push(Warning::new("W_BY_SHAPE", message));
+    }
     if !report.left_out.is_empty() {
         let joints = report.left_out.join(", ");
         let message = format!(

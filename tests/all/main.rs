@@ -29,6 +29,8 @@ mod lead_ins; // the same lead-in in every dialect and at every rate
 mod licences; // what genga is built of may be handed on
 mod lies; // files that say what is not so end fast
 mod links; // links between the pages of the documentation
+#[cfg(feature = "cli")]
+mod lost_limbs; // an arm or a leg that a file will not move is said on the first line
 mod lying_files; // how such files are made
 mod mutated; // real files with anything changed: no panic, and what is read is written
 mod one_motion; // the same keys in any rig, at any rate, with noise
@@ -43,6 +45,7 @@ mod readme; // README and guide show what the program does
 mod real_clips; // the default recipe on every real clip
 mod rerig; // the same motion in another rig gives the same sheet
 mod rooms; // who may import whom
+mod same_take; // one take in another format: the same keys
 #[cfg(feature = "cli")]
 mod seen; // movement as a camera sees it
 #[cfg(feature = "cli")]

@@ -13,7 +13,7 @@ use super::super::failure::Failure;
 use super::super::formats::Formats;
 use super::super::plan::{Plan, PlanArgs};
 use super::super::results::Results;
-use super::super::words::Words;
+use super::super::words::{Words, is_loss};
 use super::super::{corrections, files, paths, stop};
 use super::list::Item;
 use super::pack::Parcel;
@@ -228,7 +228,8 @@ fn drawn(
     let mut formats = formats.clone();
     let motion = clip.motion.clone();
     Results::of_cut(&name, &clip, &breakdown, (recipe, edits), |cut| {
-        formats.settle(cut)?;
+        let losses = formats.settle(cut)?.into_iter().filter(is_loss);
+        warnings.extend(losses.map(|warning| warning.code.into()));
         formats.each(cut, &mut |name, bytes| {
             let digest = Manifest::digest(bytes);
             put(name, bytes, &digest)?;

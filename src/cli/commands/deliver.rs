@@ -69,7 +69,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         splits: &[],
         made_with: file.made_with.as_ref(),
     };
-    formats.settle(&cut)?.iter().for_each(|note| words.say(note));
+    formats.settle(&cut)?.iter().for_each(|note| words.warn(note));
     let mut bundle = Bundle::begin(folder)?;
     let written = formats.write(&cut, &mut bundle, &|_| {})?;
     let (clip, stale) = (motion.of.clone(), written.stale);

@@ -23,7 +23,7 @@ pub(super) struct EvalArgs {
     #[arg(long, short, value_name = "CLIP")]
     clip: PathBuf,
     /// Keys of somebody else to judge the genga by: a sheet.json, a table of `genga keys`, a CSV with a
-    /// column frame, or a list of source frames, one a line.
+    /// column frame, a list of source frames, one a line, or an MMD motion (.vmd), whose keyed frames they are.
     #[arg(long, value_name = "KEYS")]
     reference: Option<PathBuf>,
     /// How far a genga may be from a key of the reference and still be the same, in koma.
@@ -57,9 +57,11 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     check_files(args)?;
     let of_sheet = files::fault_of(&args.sheet);
     let file = sheet_json::read(&files::read(&args.sheet)?).map_err(&of_sheet)?;
-    let keys = |path: &PathBuf| reference_keys(&files::read(path)?).map_err(files::fault_of(path));
-    let reference = args.reference.as_ref().map(keys).transpose()?;
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
+    let rate = motion.source.rate();
+    let keys =
+        |path: &PathBuf| reference_keys(&files::read(path)?, rate).map_err(files::fault_of(path));
+    let reference = args.reference.as_ref().map(keys).transpose()?;
     if motion.drawn.is_some() {
         words.say("the sheet is of an exaggerated motion, and is judged beside that: it is the source here");
     }

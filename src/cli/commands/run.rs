@@ -127,9 +127,13 @@ fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
 
 fn summary(words: &Words, cut: &str, report: &Report) {
     let Report { frames, joints, frame_rate, seconds, koma, .. } = report;
-    words.say(format_args!(
-        "{cut}: {frames} frames at {frame_rate} fps, {joints} joints, {seconds:.2} s"
-    ));
+    let line =
+        format!("{cut}: {frames} frames at {frame_rate} fps, {joints} joints, {seconds:.2} s");
+    if report.losses.is_empty() {
+        words.say(line);
+    } else {
+        words.lose(format_args!("{line}; warning: {}", report.losses.join("; ")));
+    }
     report.notes.iter().for_each(|note| words.say(format_args!("note        {note}")));
     if let Some(seen_from) = &report.seen_from {
         words.say(format_args!("seen from   画面       {seen_from}"));

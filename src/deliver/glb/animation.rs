@@ -245,7 +245,9 @@ fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
 
 /// Of q and −q, which are one rotation, the one nearer to the key before, so that a curve drawn through
 /// them does not jump.
-fn continuous(rotations: impl Iterator<Item = [f32; 4]>) -> impl Iterator<Item = [f32; 4]> {
+pub(in crate::deliver) fn continuous(
+    rotations: impl Iterator<Item = [f32; 4]>,
+) -> impl Iterator<Item = [f32; 4]> {
     let mut before = [0.0, 0.0, 0.0, 1.0];
     let near = move |rotation: [f32; 4]| {
         let dot: f32 = rotation.iter().zip(before).map(|(a, b)| a * b).sum();
@@ -255,6 +257,6 @@ fn continuous(rotations: impl Iterator<Item = [f32; 4]>) -> impl Iterator<Item =
     rotations.map(near)
 }
 
-fn quaternion(rotation: DQuat) -> [f32; 4] {
+pub(in crate::deliver) fn quaternion(rotation: DQuat) -> [f32; 4] {
     rotation.normalize().to_array().map(|value| value as f32)
 }

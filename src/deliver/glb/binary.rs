@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 /// What the values of an accessor are for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Use {
+pub(in crate::deliver) enum Use {
     /// Times, keys and matrices.
     Data,
     /// Vertices of a mesh.
@@ -25,7 +25,7 @@ impl Use {
 }
 
 /// A type of number that a buffer can hold.
-pub(super) trait Component: Copy {
+pub(in crate::deliver) trait Component: Copy {
     /// glTF's number for the type.
     const TYPE: u32;
     fn put(self, bytes: &mut Vec<u8>);
@@ -62,7 +62,7 @@ impl Component for u32 {
 
 /// The bytes, and the views and accessors that say what they are.
 #[derive(Debug, Default)]
-pub(super) struct Binary {
+pub(in crate::deliver) struct Binary {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -70,7 +70,7 @@ pub(super) struct Binary {
 
 impl Binary {
     /// Adds values of one shape, such as `VEC3`; gives the number of their accessor.
-    pub(super) fn add<C: Component, const N: usize>(
+    pub(in crate::deliver) fn add<C: Component, const N: usize>(
         &mut self,
         usage: Use,
         shape: &str,
@@ -96,7 +96,7 @@ impl Binary {
     }
 
     /// The same for floats that a reader wants the bounds of: times and positions.
-    pub(super) fn add_bounded<const N: usize>(
+    pub(in crate::deliver) fn add_bounded<const N: usize>(
         &mut self,
         usage: Use,
         shape: &str,
@@ -114,7 +114,7 @@ impl Binary {
     }
 
     /// The whole file: header, the document with the buffer's parts entered, the bytes.
-    pub(super) fn into_glb(self, mut document: Value) -> Vec<u8> {
+    pub(in crate::deliver) fn into_glb(self, mut document: Value) -> Vec<u8> {
         document["buffers"] = json!([{ "byteLength": self.bytes.len() }]);
         document["bufferViews"] = Value::Array(self.views);
         document["accessors"] = Value::Array(self.accessors);

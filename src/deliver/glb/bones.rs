@@ -133,6 +133,6 @@ fn free_name(taken: &HashSet<String>, wish: &str) -> String {
     names.find(|name| !taken.contains(name)).expect("one of endlessly many names is free")
 }
 
-pub(super) fn floats(vector: DVec3) -> [f32; 3] {
+pub(in crate::deliver) fn floats(vector: DVec3) -> [f32; 3] {
     vector.as_vec3().to_array().map(|value| value + 0.0)
 }

@@ -7,7 +7,7 @@ const GAP: f64 = 0.01;
 
 impl Step {
     /// glTF's word for what happens between two keys.
-    pub(super) fn interpolation(self) -> &'static str {
+    pub(in crate::deliver) fn interpolation(self) -> &'static str {
         match self {
             Self::Single => "STEP",
             Self::Doubled => "LINEAR",
@@ -16,7 +16,7 @@ impl Step {
 
     /// The times of the keys of holds that follow one another, each from koma `begin` until before `end`. The
     /// last ends with a key: without it the last drawing would last no time and a player would begin again at once.
-    pub(super) fn times(
+    pub(in crate::deliver) fn times(
         self,
         holds: impl Iterator<Item = (usize, usize)>,
         koma_rate: f64,
@@ -41,7 +41,7 @@ impl Step {
     }
 
     /// The values at those times, of one value a hold.
-    pub(super) fn values<T: Copy>(self, holds: impl Iterator<Item = T>) -> Vec<T> {
+    pub(in crate::deliver) fn values<T: Copy>(self, holds: impl Iterator<Item = T>) -> Vec<T> {
         match self {
             Self::Single => {
                 let mut values: Vec<T> = holds.collect();

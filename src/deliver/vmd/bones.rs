@@ -28,6 +28,13 @@ impl Side {
         }
     }
 
+    pub(super) fn english(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+
     /// The bone of this side by its name without 左 or 右.
     pub(super) fn named(self, bone: &str) -> String {
         format!("{}{bone}", self.word())

@@ -108,6 +108,16 @@ impl<'a> Capture<'a> {
         ways.chain(ends).find(|way| way.length() > least)
     }
 
+    /// From one joint to another at rest, in the file's axes.
+    pub(super) fn rest_way(&self, from: JointId, to: JointId) -> DVec3 {
+        self.rest[to.0] - self.rest[from.0]
+    }
+
+    /// From the legs' beginning to a joint at rest.
+    pub(super) fn over_legs(&self, joint: JointId) -> Option<DVec3> {
+        Some(self.rest[joint.0] - self.leg_roots()?)
+    }
+
     fn extent(&self) -> f64 {
         self.rest.iter().map(|place| place.length()).fold(0.0, f64::max)
     }
@@ -152,7 +162,7 @@ impl<'a> Capture<'a> {
 
     /// From the legs' beginning to the waist at rest.
     pub(super) fn waist_over_legs(&self) -> Option<DVec3> {
-        Some(self.rest[self.waist()?.0] - self.leg_roots()?)
+        self.over_legs(self.waist()?)
     }
 
     /// The length of a leg from where it begins to the ankle, on average of both.

@@ -1,12 +1,11 @@
 //! The cast (配役): which bones the model that plays the motion has, and what of the capture each of them takes over.
 
-use super::VmdBones;
 use super::bones::{Bone, Model, Part, Side};
 use super::map::{BoneMap, Found};
-use super::model::MmdModel;
-use super::record;
+use super::{STILL_LIMB, VmdBones};
+use super::{record, structure};
 use crate::error::{Error, Warning};
-use crate::motion::JointId;
+use crate::motion::{JointId, MmdModel};
 
 /// The longest name of an IK in a VMD, in bytes of CP932.
 const LONGEST_IK: usize = 20;
@@ -84,6 +83,16 @@ impl Cast {
     /// The joints of a bone by its name; none when the model has it not.
     pub(super) fn joints(&self, bone: &str) -> &[JointId] {
         self.model.find(bone).map_or(&[], |bone| &self.found.joints[bone])
+    }
+
+    /// That arms or legs have no motion, where no joint is known to be theirs.
+    pub(super) fn still_limbs(&self) -> Option<Warning> {
+        let still = structure::still_limbs(|bone| !self.joints(bone).is_empty());
+        let message = format!(
+            "vmd: {} will not move: no joint is known to be there; a file of bones says which (--bones)",
+            still.join(", ")
+        );
+        (!still.is_empty()).then(|| Warning::new(STILL_LIMB, message))
     }
 
     /// Whether both joints of a leg are known on one side at least.

@@ -7,12 +7,15 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::bones::{LONGEST_NAME, Model, Side};
-use super::record;
+use super::{record, structure};
 use crate::error::Error;
-use crate::motion::{JointId, Skeleton, plain_name};
+use crate::motion::{Clip, JointId, Skeleton, plain_name};
 
 /// The table that comes with the program.
 const DIALECTS: &str = include_str!("dialects.toml");
+
+/// What stands for a dialect where no name is known and the shape of the body alone says what is what.
+pub(super) const SHAPE: &str = "by shape";
 
 /// The table of bones (ボーン対応表): how programs name the joints of each MMD bone, and a person's own
 /// rows over that.
@@ -37,6 +40,8 @@ pub(super) struct Found {
     pub(super) dialect: String,
     /// Of each bone of the model its joints, from the body outward; none when it is not driven.
     pub(super) joints: Vec<Vec<JointId>>,
+    /// Bones whose joints no name says: the shape of the body does.
+    pub(super) by_shape: Vec<String>,
     /// Names in a person's own rows that no joint has.
     pub(super) missing: Vec<String>,
 }
@@ -100,11 +105,26 @@ impl BoneMap {
         Ok(())
     }
 
-    /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
+    /// What a clip has of the dialect that names most of its bones, and of those most joints; where that leaves a
+    /// limb, the shape of the body says whose joints they are.
     ///
     /// # Errors
     /// [`Error::Clip`] when no joint is known: the message names them and the way out.
-    pub(super) fn find(&self, skeleton: &Skeleton) -> Result<Found, Error> {
+    pub(super) fn of(&self, clip: &Clip) -> Result<Found, Error> {
+        let mut found = self.find(clip.skeleton());
+        let is_unknown = score(&found.joints) == (0, 0);
+        found.by_shape = structure::fill(&self.model, &mut found.joints, clip);
+        if is_unknown && found.by_shape.is_empty() {
+            return Err(unknown(clip.skeleton()));
+        }
+        if is_unknown {
+            found.dialect = SHAPE.into();
+        }
+        Ok(found)
+    }
+
+    /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
+    fn find(&self, skeleton: &Skeleton) -> Found {
         let names = Names::of(skeleton);
         let nothing = Dialect { name: "own".into(), rows: BTreeMap::new() };
         let mut best = self.joints(&nothing, &names);
@@ -115,12 +135,9 @@ impl BoneMap {
                 (best, dialect) = (joints, other);
             }
         }
-        if score(&best) == (0, 0) {
-            return Err(unknown(skeleton));
-        }
         let own = self.own.values().flatten();
         let missing = own.filter(|name| names.find(name).is_none()).cloned().collect();
-        Ok(Found { dialect: dialect.name.clone(), joints: best, missing })
+        Found { dialect: dialect.name.clone(), joints: best, by_shape: Vec::new(), missing }
     }
 
     fn joints(&self, dialect: &Dialect, names: &Names) -> Vec<Vec<JointId>> {

@@ -109,6 +109,11 @@ impl<'a> Retarget<'a> {
         center.into_iter().chain(self.turned()).collect()
     }
 
+    /// Where a joint is in the pose that was taken last, after `up` and in the capture's unit.
+    pub(super) fn place(&self, joint: JointId) -> DVec3 {
+        self.up * self.body.positions()[joint.0]
+    }
+
     fn turned(&self) -> Vec<Local> {
         let mut worlds = vec![None; self.model.bones.len()];
         for Driven { bone, joint, right } in &self.driven {

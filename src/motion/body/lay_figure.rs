@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use crate::motion::body::landmarks::{above, below};
 use crate::motion::body::mannequin::{Limb, Mannequin, tips};
-use crate::motion::{Body, BodySide, Build, Clip, Point, Poser, Skeleton};
+use crate::motion::{Body, BodySide, Build, Clip, Joint, JointId, Point, Poser, Skeleton};
 use crate::time::Frame;
 
 /// Frames that are looked at to know which way a head looks.
@@ -101,6 +101,33 @@ impl LayFigure {
             covered: rig.covered(),
             marks,
         })
+    }
+}
+
+impl LayFigure {
+    /// The joint that turns the head. Where the head is short the landmark is the neck: then the last that turns in the
+    /// one line that goes on from there.
+    pub(crate) fn head_joint(&self, skeleton: &Skeleton) -> usize {
+        // After both toes and both fingertips come the marks of the head, which it carries.
+        let mut head = self.marks[4].joint.0;
+        let carries = |joint: usize| {
+            let is_on = |other: &Joint| other.parent == Some(JointId(joint));
+            skeleton.joints.iter().any(is_on) || !skeleton.joints[joint].end_sites.is_empty()
+        };
+        let goes_on = |head: usize| {
+            let turning = skeleton
+                .iter()
+                .filter(|(_, joint)| joint.parent == Some(JointId(head)) && joint.turns());
+            let children: Vec<usize> = turning.map(|(joint, _)| joint.0).collect();
+            <[usize; 1]>::try_from(children)
+                .ok()
+                .map(|[child]| child)
+                .filter(|child| carries(*child))
+        };
+        while let Some(child) = goes_on(head) {
+            head = child;
+        }
+        head
     }
 }
 

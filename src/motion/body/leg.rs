@@ -38,11 +38,11 @@ pub(in crate::motion) struct Leg {
 
 /// The turns in the world that bring a foot elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Reach {
+pub(in crate::motion) struct Reach {
     /// Of the whole leg at the hip, after the knee.
-    swing: DQuat,
+    pub(in crate::motion) swing: DQuat,
     /// Of the shin at the knee.
-    bend: DQuat,
+    pub(in crate::motion) bend: DQuat,
 }
 
 impl Leg {
@@ -115,7 +115,11 @@ impl Leg {
 /// The knee turns about its hinge until hip and ankle are as far apart as they have to be, then the leg
 /// swings there by the shortest way. What bones and hinge leave askew stays so: the lengths across the
 /// hinge obey the law of cosines, those along it do not change.
-fn reach([hip, knee, ankle]: [DVec3; 3], hinge: DVec3, target: DVec3) -> Option<Reach> {
+pub(in crate::motion) fn reach(
+    [hip, knee, ankle]: [DVec3; 3],
+    hinge: DVec3,
+    target: DVec3,
+) -> Option<Reach> {
     let (thigh, shin) = (hip - knee, ankle - knee);
     let (along_thigh, along_shin) = (thigh.dot(hinge), shin.dot(hinge));
     let (a, b) = (thigh - along_thigh * hinge, shin - along_shin * hinge);

@@ -15,7 +15,7 @@ mod tests;
 
 use std::fs::File;
 use std::io::{Read as _, Seek};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Place, Warning};
 use crate::motion::{Clip, StreamLimit, bytes_in_words};
@@ -49,6 +49,9 @@ pub struct Options {
     /// Frames a second at which curves are sampled. Default: none, the file's own rate. Lowered, what is between
     /// the samples is lost.
     pub sample_rate: Option<FrameRate>,
+    /// The file that has the bones, of a format whose motions have none: a model of MMD (`.pmx`, `.pmd`) for a VMD, an
+    /// `.asf` for an AMC. Default: none, a figure of usual proportions, and the `.asf` that lies beside it.
+    pub skeleton: Option<PathBuf>,
     /// How much is read of what is no regular file, and of a file that is read whole. What is sampled of curves, or
     /// unpacked, may take as much again.
     pub stream: StreamLimit,
@@ -156,6 +159,11 @@ impl Options {
                 format.name
             );
             return Err(Error::setting("sample-rate", message));
+        }
+        if self.skeleton.is_some() && !format.has_skeleton_file {
+            let message =
+                format!("{} has its bones itself, and takes none of another file", format.name);
+            return Err(Error::setting("skeleton", message));
         }
         Ok(())
     }

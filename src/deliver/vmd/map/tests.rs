@@ -19,7 +19,7 @@ fn skeleton(names: &[&str]) -> Skeleton {
 /// The bones that are driven, with their joints.
 fn driven(map: &BoneMap, names: &[&str]) -> Vec<(String, Vec<String>)> {
     let skeleton = skeleton(names);
-    let found = map.find(&skeleton).unwrap();
+    let found = map.find(&skeleton);
     let name = |joint: &JointId| skeleton.joints[joint.0].name.clone();
     let bones = map.model.bones.iter().zip(&found.joints);
     let bones = bones.filter(|(_, joints)| !joints.is_empty());
@@ -120,7 +120,7 @@ joints = \"LeftToeBase\"
     assert_eq!(of("左腕"), ["MyArm"]);
     assert_eq!(of("頭"), ["Nod", "Shake"]);
     assert_eq!(of("左足先EX"), ["LeftToeBase"]);
-    assert_eq!(map.find(&skeleton(&names)).unwrap().missing, ["Absent"]);
+    assert_eq!(map.find(&skeleton(&names)).missing, ["Absent"]);
     let text = "\
 [[dialect]]
 name = \"mine\"
@@ -130,7 +130,7 @@ sides = [\"li\", \"re\"]
 \"左ひじ\" = \"@Elle\"
 ";
     let map = BoneMap::parse(text).unwrap();
-    let found = map.find(&skeleton(&["liArm", "liElle", "reArm", "reElle"])).unwrap();
+    let found = map.find(&skeleton(&["liArm", "liElle", "reArm", "reElle"]));
     assert_eq!(found.dialect, "mine");
     assert_eq!(found.joints.iter().flatten().count(), 4);
     assert_eq!(map.dialects().next(), Some("mine"));
@@ -161,8 +161,10 @@ fn a_wrong_file_is_refused_with_its_place() {
 
 #[test]
 fn a_clip_of_unknown_names_is_told_the_way_out() {
-    let error =
-        BoneMap::default().find(&skeleton(&["ボーン1", "ボーン2"])).unwrap_err().to_string();
+    let rate = crate::time::FrameRate::new(24.0).unwrap();
+    let unknown = skeleton(&["ボーン1", "ボーン2"]);
+    let clip = Clip::new(unknown, rate, crate::time::Frame(0), 1, vec![]).unwrap();
+    let error = BoneMap::default().of(&clip).unwrap_err().to_string();
     assert!(error.contains("ボーン1, ボーン2") && error.contains("[bones]"), "{error}");
     let own = BoneMap::parse("[bones]\n\"頭\" = \"ボーン2\"\n").unwrap();
     assert_eq!(driven(&own, &["ボーン1", "ボーン2"]), [("頭".into(), vec!["ボーン2".into()])]);

@@ -2,10 +2,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::model::tests::{Layout, Written};
 use super::super::{MmdModel, Vmd, VmdBones};
 use super::body::{Stood, clips, each_koma, limb};
 use super::rests::{kick, on_ones, standing};
+use crate::motion::model_tests::{Layout, Written};
 use crate::sheet::Sheet;
 use crate::time::KOMA_RATE;
 

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::{Given, Options, Read};
-use crate::error::Error;
+use crate::error::{Error, Place};
+use crate::motion::read::{acclaim, mmd};
 
 /// A format that motion comes in (形式).
 #[derive(Debug)]
@@ -16,6 +17,8 @@ pub struct Format {
     pub holds: &'static str,
     /// Whether its motion is curves, which can be asked for at any instant.
     pub(super) has_curves: bool,
+    /// Whether its bones are in a file of their own, which can be named.
+    pub(super) has_skeleton_file: bool,
     /// Whether a file begins as one of this format.
     pub(super) begins: fn(&[u8]) -> bool,
     /// Reads a file that is taken for one.
@@ -23,14 +26,45 @@ pub struct Format {
 }
 
 /// All of them, the native one first.
-pub const FORMATS: &[Format] = &[Format {
-    name: "BVH",
-    endings: &["bvh"],
-    holds: "one take of joints, a row of angles a frame",
-    has_curves: false,
-    begins: is_bvh,
-    read: |given, options| Ok(options.for_bvh().read(given.bytes)?.into()),
-}];
+pub const FORMATS: &[Format] = &[
+    Format {
+        name: "BVH",
+        endings: &["bvh"],
+        holds: "one take of joints, a row of angles a frame",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: is_bvh,
+        read: |given, options| Ok(options.for_bvh().read(given.bytes)?.into()),
+    },
+    Format {
+        name: "VMD",
+        endings: &["vmd"],
+        holds: "keys of the bones of an MMD model, with curves between them",
+        has_curves: false,
+        has_skeleton_file: true,
+        begins: mmd::is_motion,
+        read: mmd::read,
+    },
+    Format {
+        name: "ASF/AMC",
+        endings: &["amc"],
+        holds: "one take of bones, a row of angles a frame; the skeleton is an .asf beside it",
+        has_curves: false,
+        has_skeleton_file: true,
+        begins: |head| acclaim::is_motion(head) || acclaim::is_skeleton(head),
+        read: acclaim::read,
+    },
+    Format {
+        name: "TRC, C3D",
+        // No folder is searched for them: there is nothing to read.
+        endings: &[],
+        holds: "points, which are no skeleton: they are refused",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: is_points,
+        read: |_, _| Err(points()),
+    },
+];
 
 impl Format {
     /// The format of a file: by its first bytes, and where they say nothing by its ending. What is called as none of
@@ -58,4 +92,16 @@ fn is_bvh(head: &[u8]) -> bool {
     let letters = head.iter().filter(|byte| byte.is_ascii_alphabetic());
     let word = letters.take(9).map(u8::to_ascii_uppercase);
     word.eq(*b"HIERARCHY")
+}
+
+/// Whether a file is one of markers: TRC has a word for it, C3D a number of its first block and then 80.
+fn is_points(head: &[u8]) -> bool {
+    head.starts_with(b"PathFileType")
+        || matches!(head, [2..=10, 0x50, _, _, ..]) && head.len() >= 512
+}
+
+fn points() -> Error {
+    let message = "these are the paths of markers and no skeleton: solve them in the program of the capture, and give what it \
+                   exports with joints (BVH, FBX, glTF, AMC)";
+    Error::Motion { place: Place::Whole, message: message.into() }
 }

@@ -4,32 +4,31 @@ mod bytes;
 mod pmd;
 mod pmx;
 #[cfg(test)]
-pub(super) mod tests;
+pub(crate) mod tests;
 
 use glam::DVec3;
 
-use super::bones::Side;
 use crate::error::Error;
 use bytes::{Bytes, damaged};
 
-/// A model of MMD as its file has it, PMD or PMX 2.0 and 2.1: what [`Vmd::body`](super::Vmd::body) takes.
+/// A model of MMD as its file has it, PMD or PMX 2.0 and 2.1: what [`Vmd::body`](crate::deliver::Vmd::body) takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MmdModel {
     /// Its name (モデル名).
     pub name: String,
-    bones: Vec<ModelBone>,
+    pub(super) bones: Vec<ModelBone>,
     ik: Vec<Ik>,
 }
 
 /// A bone of a model.
 #[derive(Debug, Clone, PartialEq)]
-struct ModelBone {
-    name: String,
-    parent: Option<usize>,
+pub(super) struct ModelBone {
+    pub(super) name: String,
+    pub(super) parent: Option<usize>,
     /// Bones above it.
-    depth: usize,
+    pub(super) depth: usize,
     /// Where it begins at rest, in MMD units; +X is left, +Y up, +Z in front, as in BVH.
-    place: DVec3,
+    pub(super) place: DVec3,
 }
 
 /// An IK, which turns the bones it links.
@@ -58,40 +57,40 @@ impl MmdModel {
         self.bones.iter().map(|bone| &bone.name[..])
     }
 
-    pub(super) fn find(&self, name: &str) -> Option<usize> {
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.bones.iter().position(|bone| bone.name == name)
     }
 
     /// How many bones are above a bone.
-    pub(super) fn depth(&self, bone: usize) -> usize {
+    pub(crate) fn depth(&self, bone: usize) -> usize {
         self.bones[bone].depth
     }
 
     /// The names of the bones above a bone, the nearest first.
-    pub(super) fn above(&self, bone: usize) -> impl Iterator<Item = &str> {
+    pub(crate) fn above(&self, bone: usize) -> impl Iterator<Item = &str> {
         let parent = |bone: &usize| self.bones[*bone].parent;
         std::iter::successors(parent(&bone), parent).map(|bone| &self.bones[bone].name[..])
     }
 
     /// The way from where one bone begins to where another does.
-    pub(super) fn way(&self, from: &str, to: &str) -> Option<DVec3> {
+    pub(crate) fn way(&self, from: &str, to: &str) -> Option<DVec3> {
         let place = |name| self.find(name).map(|bone| self.bones[bone].place);
         Some(place(to)? - place(from)?)
     }
 
     /// The length of a leg from 足 to 足首, on average of both.
-    pub(super) fn leg(&self) -> Option<f64> {
-        let leg = |side: Side| {
-            let [top, knee, ankle] = ["足", "ひざ", "足首"].map(|name| side.named(name));
+    pub(crate) fn leg(&self) -> Option<f64> {
+        let leg = |side: &str| {
+            let [top, knee, ankle] = ["足", "ひざ", "足首"].map(|name| format!("{side}{name}"));
             Some(self.way(&top, &knee)?.length() + self.way(&knee, &ankle)?.length())
         };
-        let legs: Vec<f64> = Side::BOTH.into_iter().filter_map(leg).collect();
+        let legs: Vec<f64> = ["左", "右"].into_iter().filter_map(leg).collect();
         let mean = legs.iter().sum::<f64>() / legs.len().max(1) as f64;
         (mean > 0.0).then_some(mean)
     }
 
     /// The names of the IK that turn any of some bones.
-    pub(super) fn ik_of(&self, is_one: impl Fn(&str) -> bool) -> Vec<String> {
+    pub(crate) fn ik_of(&self, is_one: impl Fn(&str) -> bool) -> Vec<String> {
         let turns = |ik: &&Ik| ik.links.iter().any(|link| is_one(&self.bones[*link].name));
         self.ik.iter().filter(turns).map(|ik| self.bones[ik.bone].name.clone()).collect()
     }

@@ -6,17 +6,17 @@ use super::*;
 
 /// A model to be written: bones with what they hang on and where they begin in MMD's axes, and IK with their links.
 #[derive(Debug, Clone)]
-pub(in crate::deliver::vmd) struct Written {
-    pub(in crate::deliver::vmd) bones: Vec<(&'static str, Option<usize>, [f32; 3])>,
-    pub(in crate::deliver::vmd) ik: Vec<(usize, Vec<usize>)>,
+pub(crate) struct Written {
+    pub(crate) bones: Vec<(&'static str, Option<usize>, [f32; 3])>,
+    pub(crate) ik: Vec<(usize, Vec<usize>)>,
 }
 
 /// How a PMX is laid out.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::deliver::vmd) struct Layout {
-    pub(in crate::deliver::vmd) is_utf8: bool,
+pub(crate) struct Layout {
+    pub(crate) is_utf8: bool,
     /// Bytes of the number of a bone.
-    pub(in crate::deliver::vmd) width: usize,
+    pub(crate) width: usize,
 }
 
 impl Written {
@@ -31,7 +31,7 @@ impl Written {
         Self { bones, ik: vec![(4, vec![2, 1])] }
     }
 
-    pub(in crate::deliver::vmd) fn pmd(&self) -> Vec<u8> {
+    pub(crate) fn pmd(&self) -> Vec<u8> {
         let name = |text: &str| {
             let mut field = SHIFT_JIS.encode(text).0.into_owned();
             // What stands behind the end of a name is rubbish in many files.
@@ -66,7 +66,7 @@ impl Written {
         file
     }
 
-    pub(in crate::deliver::vmd) fn pmx(&self, layout: Layout) -> Vec<u8> {
+    pub(crate) fn pmx(&self, layout: Layout) -> Vec<u8> {
         let Layout { is_utf8, width } = layout;
         let text = |text: &str| {
             let units = text.encode_utf16().flat_map(u16::to_le_bytes);

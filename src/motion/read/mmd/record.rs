@@ -1,0 +1,231 @@
+//! The records of a VMD: keys of bones, and which IK is on.
+
+use std::collections::{BTreeMap, HashMap};
+
+use encoding_rs::SHIFT_JIS;
+use glam::{DQuat, DVec3};
+
+use super::curve::Curve;
+use super::{SIGNATURE, damaged};
+use crate::error::Error;
+
+/// Bytes of a bone's key, of its name, of a morph's key, and so on.
+const KEY: usize = 111;
+const NAME: usize = 15;
+const MORPH: usize = 23;
+const CAMERA: usize = 61;
+const LIGHT: usize = 28;
+const SHADOW: usize = 9;
+const SWITCH: usize = 21;
+
+/// A key of a bone, in right-handed axes with +Z in front.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Key {
+    pub(super) frame: u32,
+    /// From its place at rest, in units of MMD.
+    pub(super) translation: DVec3,
+    /// Against its parent.
+    pub(super) rotation: DQuat,
+    /// How X, Y, Z and the rotation come here from the key before.
+    pub(super) curves: [Curve; 4],
+}
+
+/// What a motion says of bones.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Motion {
+    /// The model's name.
+    pub(super) model: String,
+    /// Keys by bone, each bone's by frame.
+    pub(super) bones: BTreeMap<String, Vec<Key>>,
+    /// From which frame an IK is on or off, by its bone and in order.
+    pub(super) switches: HashMap<String, Vec<(u32, bool)>>,
+    /// The last frame of all, and the byte of a key there.
+    pub(super) last: (u32, usize),
+    /// What else the file has, in words.
+    pub(super) left_out: Vec<String>,
+}
+
+/// The bytes that are left, and where they begin.
+struct Bytes<'a> {
+    all: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Bytes<'a> {
+    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Error> {
+        let taken = self.all.get(self.at..).and_then(|left| left.get(..count));
+        let taken = taken.ok_or_else(|| {
+            damaged(self.at, format!("the file ends in its {what}: {count} more bytes belong here"))
+        })?;
+        self.at += count;
+        Ok(taken)
+    }
+
+    fn long(&mut self, what: &str) -> Result<u32, Error> {
+        let bytes = self.take(4, what)?;
+        Ok(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+    }
+
+    /// How many of something follow, each of so many bytes: no more than can be there.
+    fn count(&mut self, size: usize, what: &str) -> Result<usize, Error> {
+        let at = self.at;
+        let (count, left) = (self.long(what)? as usize, self.all.len() - self.at);
+        if count > left / size {
+            let message = format!("{count} {what} do not go into the {left} bytes that are left");
+            return Err(damaged(at, message));
+        }
+        Ok(count)
+    }
+
+    /// Whether nothing follows: files of older versions end early, between two kinds of records.
+    fn is_done(&self) -> bool {
+        self.at >= self.all.len()
+    }
+}
+
+impl Motion {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`Error::Motion`] with the byte where it ends early, says more records than it has, has a number that is none,
+    /// or has no key of a bone.
+    pub(super) fn read(all: &[u8]) -> Result<Self, Error> {
+        let mut bytes = Bytes { all, at: 0 };
+        let signature = bytes.take(30, "signature")?;
+        if !signature.starts_with(SIGNATURE) {
+            return Err(damaged(0, "this is no VMD: expected Vocaloid Motion Data"));
+        }
+        // The first version, "Vocaloid Motion Data file", has a shorter name.
+        let is_first = signature[SIGNATURE.len()..].starts_with(b" file");
+        let model = text(bytes.take(if is_first { 10 } else { 20 }, "model's name")?);
+        let mut motion = Self {
+            model,
+            bones: BTreeMap::new(),
+            switches: HashMap::new(),
+            last: (0, bytes.at),
+            left_out: Vec::new(),
+        };
+        motion.read_keys(&mut bytes)?;
+        for (size, what) in [
+            (MORPH, "keys of the face"),
+            (CAMERA, "keys of the camera"),
+            (LIGHT, "keys of the light"),
+            (SHADOW, "keys of the shadow"),
+        ] {
+            motion.skip(&mut bytes, size, what)?;
+        }
+        motion.read_switches(&mut bytes)?;
+        if motion.bones.is_empty() {
+            let other = motion.left_out.join(", ");
+            let other = if other.is_empty() { String::new() } else { format!(", but {other}") };
+            return Err(damaged(all.len(), format!("this VMD has no key of a bone{other}")));
+        }
+        Ok(motion)
+    }
+
+    fn read_keys(&mut self, bytes: &mut Bytes<'_>) -> Result<(), Error> {
+        let count = bytes.count(KEY, "keys of bones")?;
+        let mut names: HashMap<&[u8], String> = HashMap::new();
+        for _ in 0..count {
+            let at = bytes.at;
+            let record = bytes.take(KEY, "keys of bones")?;
+            let name = names.entry(&record[..NAME]).or_insert_with(|| text(&record[..NAME]));
+            let key = Key::of(record, at)?;
+            if key.frame >= self.last.0 {
+                self.last = (key.frame, at);
+            }
+            match self.bones.get_mut(name.as_str()) {
+                Some(keys) => keys.push(key),
+                None => drop(self.bones.insert(name.clone(), vec![key])),
+            }
+        }
+        for keys in self.bones.values_mut() {
+            // Of two keys on one frame the later one counts, as it is read over the other.
+            keys.reverse();
+            keys.sort_by_key(|key| key.frame);
+            keys.dedup_by_key(|key| key.frame);
+        }
+        Ok(())
+    }
+
+    fn skip(&mut self, bytes: &mut Bytes<'_>, size: usize, what: &str) -> Result<(), Error> {
+        if bytes.is_done() {
+            return Ok(());
+        }
+        let count = bytes.count(size, what)?;
+        bytes.take(count * size, what)?;
+        if count > 0 {
+            self.left_out.push(format!("{count} {what}"));
+        }
+        Ok(())
+    }
+
+    fn read_switches(&mut self, bytes: &mut Bytes<'_>) -> Result<(), Error> {
+        if bytes.is_done() {
+            return Ok(());
+        }
+        for _ in 0..bytes.count(4 + 1 + 4, "switches of IK")? {
+            let frame = bytes.long("switches of IK")?;
+            bytes.take(1, "switches of IK")?;
+            for _ in 0..bytes.count(SWITCH, "switches of IK")? {
+                let switch = bytes.take(SWITCH, "switches of IK")?;
+                let of = self.switches.entry(text(&switch[..SWITCH - 1])).or_default();
+                of.push((frame, switch[SWITCH - 1] != 0));
+            }
+        }
+        self.switches.values_mut().for_each(|of| of.sort_by_key(|(frame, _)| *frame));
+        Ok(())
+    }
+
+    /// Whether an IK is on at a frame: it is until it is switched off.
+    pub(super) fn is_on(&self, ik: &str, frame: u32) -> bool {
+        let before = |of: &Vec<(u32, bool)>| {
+            of[..of.partition_point(|(from, _)| *from <= frame)].last().is_none_or(|(_, on)| *on)
+        };
+        self.switches.get(ik).is_none_or(before)
+    }
+}
+
+impl Key {
+    fn of(record: &[u8], at: usize) -> Result<Self, Error> {
+        let long =
+            |from: usize| [record[from], record[from + 1], record[from + 2], record[from + 3]];
+        let single = |from: usize| -> Result<f64, Error> {
+            let number = f64::from(f32::from_le_bytes(long(from)));
+            if number.is_finite() {
+                Ok(number)
+            } else {
+                Err(damaged(
+                    at + from,
+                    format!("a key of {} has a value that is no number", text(&record[..NAME])),
+                ))
+            }
+        };
+        let [x, y, z] = [single(19)?, single(23)?, single(27)?];
+        let [a, b, c, d] = [single(31)?, single(35)?, single(39)?, single(43)?];
+        // A rotation of zeros stands for none.
+        let rotation = DQuat::from_xyzw(-a, -b, c, d);
+        let is_none = rotation.length_squared() < 1e-12;
+        let rotation = if is_none { DQuat::IDENTITY } else { rotation.normalize() };
+        let curve = |of: usize| Curve::of(CURVES[of].map(|at| record[INTERPOLATION + at]));
+        Ok(Self {
+            frame: u32::from_le_bytes(long(NAME)),
+            translation: DVec3::new(x, y, -z),
+            rotation,
+            curves: [curve(0), curve(1), curve(2), curve(3)],
+        })
+    }
+}
+
+/// Where the curves stand in a record.
+const INTERPOLATION: usize = 47;
+
+/// The four bytes of the curves of X, Y, Z and the rotation. Newer versions of MMD keep something else in the third and
+/// the fourth byte: those two are read where they stand again, in the second row.
+const CURVES: [[usize; 4]; 4] = [[0, 4, 8, 12], [1, 5, 9, 13], [17, 6, 10, 14], [18, 7, 11, 15]];
+
+/// A name in CP932 up to its first zero.
+fn text(field: &[u8]) -> String {
+    let name = field.split(|byte| *byte == 0).next().unwrap_or_default();
+    SHIFT_JIS.decode_without_bom_handling(name).0.into_owned()
+}

@@ -1,0 +1,156 @@
+//! The bones of a motion (ボーン構成): those that its keys move, and those without which a body is none.
+
+use std::collections::HashSet;
+
+use encoding_rs::SHIFT_JIS;
+use glam::DVec3;
+
+use super::figure;
+use super::model::MmdModel;
+use super::record::{Key, Motion};
+
+/// Bytes of a bone's name in a motion: a longer one is cut.
+const NAME: usize = 15;
+
+/// A bone as it rests.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RestBone {
+    pub(super) name: String,
+    pub(super) parent: Option<usize>,
+    /// In units of MMD; +X is left, +Y up, +Z in front.
+    pub(super) place: DVec3,
+}
+
+/// A bone with its keys.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RigBone {
+    pub(super) rest: RestBone,
+    /// None where it has none.
+    pub(super) keys: Vec<Key>,
+    /// Whether it is where IK brings a foot, and no joint.
+    pub(super) is_target: bool,
+}
+
+/// A leg that its IK brings to its foot.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct LegIk {
+    /// Hip, knee and ankle.
+    pub(super) joints: [usize; 3],
+    /// Where the ankle goes.
+    pub(super) target: usize,
+    /// The bone of the toes as it rests against the ankle, and where they go; none where nothing turns the foot.
+    pub(super) toes: Option<(DVec3, usize)>,
+    /// The names of both IK.
+    pub(super) names: [String; 2],
+}
+
+/// What a motion moves.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Rig {
+    /// Parents first.
+    pub(super) bones: Vec<RigBone>,
+    pub(super) legs: Vec<LegIk>,
+    /// Keyed bones that there are not.
+    pub(super) strangers: Vec<String>,
+    /// From the last bones of limbs and head to where they end.
+    pub(super) tips: Vec<(usize, DVec3)>,
+}
+
+impl Rig {
+    /// The bones of a model, or of the usual figure, that a motion moves or a body has.
+    pub(super) fn of(motion: &Motion, model: Option<&MmdModel>) -> Self {
+        let all = model.map_or_else(figure::bones, of_model);
+        let keys = |name: &str| motion.bones.get(&cut(name));
+        let is_kept = |bone: &RestBone| keys(&bone.name).is_some() || figure::is_core(&bone.name);
+        let mut places: Vec<Option<usize>> = Vec::with_capacity(all.len());
+        let mut bones: Vec<RigBone> = Vec::new();
+        for bone in &all {
+            let above = |at: &usize| all[*at].parent;
+            let mut up = std::iter::successors(bone.parent, above);
+            let parent = up.find_map(|at| places[at]);
+            places.push(is_kept(bone).then_some(bones.len()));
+            if is_kept(bone) {
+                let keys = keys(&bone.name).cloned().unwrap_or_default();
+                let is_target = figure::is_target(&bone.name);
+                let rest = RestBone { parent, ..bone.clone() };
+                bones.push(RigBone { rest, keys, is_target });
+            }
+        }
+        let known: HashSet<String> = all.iter().map(|bone| cut(&bone.name)).collect();
+        let strangers =
+            motion.bones.keys().filter(|name| !known.contains(*name)).cloned().collect();
+        let mut rig = Self { bones, legs: Vec::new(), strangers, tips: Vec::new() };
+        rig.legs = ["左", "右"].into_iter().filter_map(|side| rig.leg(side, &all)).collect();
+        rig.tips = tips(&rig, &all);
+        rig
+    }
+
+    fn find(&self, name: &str) -> Option<usize> {
+        self.bones.iter().position(|bone| bone.rest.name == name)
+    }
+
+    /// A leg whose IK has keys.
+    fn leg(&self, side: &str, all: &[RestBone]) -> Option<LegIk> {
+        let named = |name: &str| format!("{side}{name}");
+        let bone = |name: &str| self.find(&named(name));
+        let joints = [bone("足")?, bone("ひざ")?, bone("足首")?];
+        let names = ["足ＩＫ", "つま先ＩＫ"].map(named);
+        let target = self.find(&names[0])?;
+        let place =
+            |name: &str| all.iter().find(|bone| bone.name == named(name)).map(|bone| bone.place);
+        let toes = place("つま先").or_else(|| place("つま先ＩＫ"));
+        let ankle = self.bones[joints[2]].rest.place;
+        let toes = toes.map(|toes| toes - ankle).filter(|way| way.length() > 0.0);
+        let toes = toes.zip(self.find(&names[1]));
+        Some(LegIk { joints, target, toes, names })
+    }
+
+    /// How the legs are moved.
+    pub(super) fn legs_in_words(&self) -> String {
+        let names: Vec<&str> = self.legs.iter().map(|leg| &leg.names[0][..]).collect();
+        match &names[..] {
+            [] => "legs turned by their own keys".into(),
+            names => format!("legs brought to their feet by {}", names.join(", ")),
+        }
+    }
+}
+
+/// The bones of a model, parents first.
+fn of_model(model: &MmdModel) -> Vec<RestBone> {
+    let mut order: Vec<usize> = (0..model.bones.len()).collect();
+    order.sort_by_key(|bone| model.bones[*bone].depth);
+    let mut places = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(at, bone)| places[*bone] = at);
+    let rest = |bone: &usize| {
+        let bone = &model.bones[*bone];
+        let parent = bone.parent.map(|parent| places[parent]);
+        RestBone { name: bone.name.clone(), parent, place: bone.place }
+    };
+    order.iter().map(rest).collect()
+}
+
+/// Where hands, feet and head end: at the next bone that is no joint here, or as far as is usual.
+fn tips(rig: &Rig, all: &[RestBone]) -> Vec<(usize, DVec3)> {
+    const HEAD: DVec3 = DVec3::new(0.0, 2.4, 0.0);
+    const FOOT: DVec3 = DVec3::new(0.0, -1.3, 1.4);
+    let place = |name: String| all.iter().find(|bone| bone.name == name).map(|bone| bone.place);
+    let way = |from: &str, to: String| Some(place(to)? - place(from.to_owned())?);
+    let mut tips: Vec<(&str, Option<DVec3>)> = vec![("頭", Some(HEAD))];
+    for (wrist, elbow, finger) in
+        [("左手首", "左ひじ", "左中指１"), ("右手首", "右ひじ", "右中指１")]
+    {
+        let along = way(elbow, wrist.to_owned()).map(|forearm| 0.4 * forearm);
+        tips.push((wrist, way(wrist, finger.to_owned()).or(along)));
+    }
+    for (ankle, toes) in [("左足首", "左つま先"), ("右足首", "右つま先")] {
+        let toes = way(ankle, toes.to_owned()).or_else(|| way(ankle, format!("{toes}ＩＫ")));
+        tips.push((ankle, toes.or(Some(FOOT))));
+    }
+    tips.into_iter().filter_map(|(bone, way)| Some((rig.find(bone)?, way?))).collect()
+}
+
+/// A name as a motion has it.
+fn cut(name: &str) -> String {
+    let (bytes, ..) = SHIFT_JIS.encode(name);
+    SHIFT_JIS.decode_without_bom_handling(&bytes[..bytes.len().min(NAME)]).0.into_owned()
+}

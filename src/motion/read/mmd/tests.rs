@@ -1,0 +1,213 @@
+use glam::{DQuat, DVec3};
+use proptest::prelude::*;
+
+use super::curve::Curve;
+use super::*;
+use crate::motion::model_tests::{Layout, Written};
+use crate::motion::{Body, Clip, Poser};
+use crate::time::Frame;
+
+/// A key as a file has it: bone, frame, translation, rotation, and the handles of all its curves.
+type Key<'a> = (&'a str, u32, [f32; 3], [f32; 4], [u8; 4]);
+
+const STILL: [f32; 3] = [0.0; 3];
+const NONE: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
+const LINEAR: [u8; 4] = [20, 20, 107, 107];
+
+/// A file of keys, and of IK that is switched off at frame 0.
+pub(super) fn file(keys: &[Key<'_>], off: &[&str]) -> Vec<u8> {
+    let field = |text: &str, width: usize| {
+        let mut field = encoding_rs::SHIFT_JIS.encode(text).0.into_owned();
+        field.resize(width, 0);
+        field
+    };
+    let mut bytes = field("Vocaloid Motion Data 0002", 30);
+    bytes.extend(field("人形", 20));
+    bytes.extend((keys.len() as u32).to_le_bytes());
+    for (bone, frame, translation, rotation, [x1, y1, x2, y2]) in keys {
+        bytes.extend(field(bone, 15));
+        bytes.extend(frame.to_le_bytes());
+        translation.iter().chain(rotation).for_each(|number| bytes.extend(number.to_le_bytes()));
+        let mut row: Vec<u8> = [x1, y1, x2, y2].into_iter().flat_map(|byte| [*byte; 4]).collect();
+        for first in [true, false, false, false] {
+            let mut written = row.clone();
+            if first {
+                // The switch of the physics.
+                written[2..4].copy_from_slice(&[99, 15]);
+            }
+            bytes.extend(&written);
+            row.remove(0);
+            row.push(0);
+        }
+    }
+    bytes.extend([0; 16]);
+    bytes.extend(1u32.to_le_bytes());
+    bytes.extend(0u32.to_le_bytes());
+    bytes.push(1);
+    bytes.extend((off.len() as u32).to_le_bytes());
+    for ik in off {
+        bytes.extend(field(ik, 20));
+        bytes.push(0);
+    }
+    bytes
+}
+
+fn read(bytes: &[u8]) -> Result<Read, Error> {
+    Options::default().read(bytes)
+}
+
+/// Where a joint is at a frame, in units of MMD.
+fn place(clip: &Clip, name: &str, frame: usize) -> DVec3 {
+    let mut body = Body::new(clip.skeleton());
+    body.place(Poser::of(clip).frame(Frame(frame)));
+    body.positions()[clip.skeleton().find(name).unwrap_or_else(|| panic!("{name}")).0] / CENTIMETRES
+}
+
+#[test]
+fn a_curve_of_equal_handles_is_a_line_and_others_are_beziers() {
+    let line = Curve::of(LINEAR);
+    assert_eq!(line.done(0.3), 0.3);
+    let slow = Curve::of([127, 0, 0, 127]);
+    // There it stands upright: the time says less of the place than elsewhere.
+    assert!((slow.done(0.5) - 0.5).abs() < 1e-4);
+    // At t = ¼: x = 3·¼·9⁄16 + 1⁄64, y = 3·1⁄16·¾ + 1⁄64.
+    assert!((slow.done(28.0 / 64.0) - 10.0 / 64.0).abs() < 1e-9);
+    assert_eq!((slow.done(0.0), slow.done(1.0), slow.done(2.0)), (0.0, 1.0, 1.0));
+}
+
+proptest! {
+    #[test]
+    fn a_curve_never_goes_back_and_ends_where_it_should(bytes in prop::array::uniform4(0u8..=127)) {
+        let curve = Curve::of(bytes);
+        let places: Vec<f64> = (0..=64).map(|at| curve.done(f64::from(at) / 64.0)).collect();
+        prop_assert_eq!((places[0], places[64]), (0.0, 1.0));
+        for pair in places.windows(2) {
+            prop_assert!(pair[1] >= pair[0] - 1e-9, "{:?}", places);
+        }
+    }
+
+    #[test]
+    fn bytes_of_any_kind_are_read_or_refused(cut in 0usize..700, at in 0usize..700, byte in any::<u8>()) {
+        let mut bytes = file(&[
+            ("センター", 0, [1.0, 2.0, 3.0], NONE, LINEAR),
+            ("左足ＩＫ", 12, STILL, [0.1, 0.2, 0.3, 0.9], [1, 2, 3, 4]),
+            ("左腕", 7, STILL, NONE, LINEAR),
+        ], &["左足ＩＫ"]);
+        bytes.truncate(cut);
+        if let Some(byte_there) = bytes.get_mut(at) {
+            *byte_there = byte;
+        }
+        let options = Options { stream: crate::motion::StreamLimit { bytes: 1 << 20 }, ..Options::default() };
+        if let Ok(read) = options.read(&bytes) {
+            prop_assert!(!read.clip.is_empty());
+        }
+    }
+}
+
+#[test]
+fn keys_move_bones_between_them_by_their_curves() {
+    let quarter = [0.0, 0.0, -0.5f32.sqrt(), 0.5f32.sqrt()];
+    let bytes = file(
+        &[
+            ("センター", 0, STILL, NONE, LINEAR),
+            ("センター", 8, [8.0, 0.0, -16.0], NONE, LINEAR),
+            ("左腕", 4, STILL, NONE, LINEAR),
+            ("左腕", 14, STILL, quarter, [127, 0, 0, 127]),
+        ],
+        &[],
+    );
+    let Read { clip, warnings, found, .. } = read(&bytes).unwrap();
+    assert_eq!((clip.len(), clip.rate().fps()), (15, 30.0));
+    assert_eq!(warnings.len(), 1, "what it was read as: {warnings:?}");
+    assert!(found.iter().any(|found| found.is == "VMD for 人形"), "{found:?}");
+    let center = |frame| place(&clip, "センター", frame);
+    assert!(center(2).abs_diff_eq(DVec3::new(2.0, 8.0, 4.0), 1e-9), "{}", center(2));
+    assert_eq!(center(14), center(8), "after its last key it stays");
+    let arm = |frame| place(&clip, "左ひじ", frame) - place(&clip, "左腕", frame);
+    assert!(arm(4).abs_diff_eq(arm(0), 1e-9), "before its first key it is as there");
+    // Half the time of a slow curve is half the way; the arm turns by 90° about −Z of the left-handed axes.
+    let turned = DQuat::from_rotation_z(-45f64.to_radians()) * arm(4);
+    assert!(arm(9).abs_diff_eq(turned, 1e-3), "{} {turned}", arm(9));
+    let early = arm(4).angle_between(arm(6)).to_degrees();
+    assert!((1.0..10.0).contains(&early), "the curve begins slowly: {early}");
+}
+
+#[test]
+fn a_keyed_ik_brings_the_foot_and_its_switch_lets_it_go() {
+    let up = [0.0, 3.0, -2.0];
+    let keys = [("左足ＩＫ", 0, up, NONE, LINEAR), ("センター", 0, [0.0, -1.0, 0.0], NONE, LINEAR)];
+    let clip = read(&file(&keys, &[])).unwrap().clip;
+    let (hip, knee, ankle) =
+        (place(&clip, "左足", 0), place(&clip, "左ひざ", 0), place(&clip, "左足首", 0));
+    // In front is the other way in the file.
+    assert!(ankle.abs_diff_eq(DVec3::new(0.8, 4.5, 2.0), 1e-6), "{ankle}");
+    assert!((hip.distance(knee) - 4.9).abs() < 1e-6 && (knee.distance(ankle) - 4.8).abs() < 1e-6);
+    assert!(knee.z > hip.z.midpoint(ankle.z) + 1.0, "the knee bends to the front: {knee}");
+    let right = place(&clip, "右足首", 0);
+    assert!(right.abs_diff_eq(DVec3::new(-0.8, 0.5, 0.0), 1e-6), "its IK has no key: {right}");
+    let off = read(&file(&keys, &["左足ＩＫ"])).unwrap().clip;
+    assert!(place(&off, "左足首", 0).abs_diff_eq(DVec3::new(0.8, 0.5, 0.0), 1e-6));
+}
+
+#[test]
+fn a_model_says_where_bones_are_and_a_stranger_is_told() {
+    let bones = vec![
+        ("センター", None, [0.0, 9.0, 0.0]),
+        ("上半身", Some(0), [0.0, 13.0, 0.0]),
+        ("首", Some(1), [0.0, 17.0, 0.0]),
+        ("頭", Some(2), [0.0, 18.0, 0.0]),
+    ];
+    let written = Written { bones, ik: vec![] }.pmx(Layout { is_utf8: false, width: 1 });
+    let place_of = tempfile::tempdir().unwrap();
+    let path = place_of.path().join("doll.pmx");
+    std::fs::write(&path, written).unwrap();
+    let bytes = file(&[("頭", 0, STILL, NONE, LINEAR), ("尾", 3, STILL, NONE, LINEAR)], &[]);
+    let options = Options { skeleton: Some(path), ..Options::default() };
+    let read = options.read(&bytes).unwrap();
+    assert_eq!(place(&read.clip, "頭", 0), DVec3::new(0.0, 18.0, 0.0));
+    assert_eq!(read.clip.skeleton().len(), 4);
+    assert!(read.warnings[0].to_string().contains("尾") && read.warnings[0].code == BONES);
+    let bvh = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/data/kick.bvh")).unwrap();
+    assert!(options.read(&bvh).unwrap_err().to_string().starts_with("skeleton: BVH has its bones"));
+}
+
+#[test]
+fn what_is_damaged_is_refused_at_its_byte() {
+    let good = file(&[("頭", 5, STILL, NONE, LINEAR)], &[]);
+    let said = |bytes: &[u8]| Motion::read(bytes).unwrap_err().to_string();
+    assert!(said(&good[..40]).starts_with("byte 30: the file ends in its model's name"));
+    assert!(said(&good[..60]).starts_with("byte 50: 1 keys of bones do not go into the 6 bytes"));
+    let mut nan = good.clone();
+    nan[54 + 19..54 + 23].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert_eq!(said(&nan), "byte 73: a key of 頭 has a value that is no number");
+    let mut late = good.clone();
+    late[54 + 15..54 + 19].copy_from_slice(&u32::MAX.to_le_bytes());
+    let late = read(&late).unwrap_err().to_string();
+    assert!(late.starts_with("byte 54: frame 4294967295 is the last: so long"), "{late}");
+    let none = file(&[], &[]);
+    assert!(said(&none).ends_with("this VMD has no key of a bone"), "{}", said(&none));
+    let mut camera = none[..54].to_vec();
+    camera.extend([0, 0, 0, 0, 1, 0, 0, 0]);
+    camera.extend([0; 61]);
+    assert!(
+        said(&camera).ends_with("no key of a bone, but 1 keys of the camera"),
+        "{}",
+        said(&camera)
+    );
+    let mut old = good[..54 + 111].to_vec();
+    assert!(Motion::read(&old).is_ok(), "old files end after the bones");
+    old.extend([9, 0, 0, 0]);
+    assert!(said(&old).starts_with("byte 165: 9 keys of the face"));
+}
+
+#[test]
+fn frames_with_a_key_of_the_body_are_an_animators_keys() {
+    let keys = [
+        ("左腕", 9, STILL, NONE, LINEAR),
+        ("センター", 0, STILL, NONE, LINEAR),
+        ("頭", 9, STILL, NONE, LINEAR),
+        ("左人指１", 4, STILL, NONE, LINEAR),
+        ("右足ＩＫ", 20, STILL, NONE, LINEAR),
+    ];
+    assert_eq!(key_frames(&file(&keys, &[])).unwrap(), [0, 9, 20], "a finger is none");
+}

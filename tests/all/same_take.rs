@@ -1,0 +1,91 @@
+//! One take in another format: the same keys.
+
+use genga::deliver::{Vmd, VmdBones, limited_bvh};
+use genga::edits::Edits;
+use genga::motion::{Clip, file};
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use genga::sheet::Sheet;
+
+use crate::clips;
+
+/// Takes of half a minute at most, of every dialect at hand but that whose spine lies elsewhere.
+const TAKES: [&str; 10] = [
+    "cmu-02_04",
+    "cmu-05_11",
+    "cmu-06_15",
+    "cmu-07_01",
+    "cmu-09_01",
+    "cmu-10_03",
+    "cmu-11_01",
+    "cmu-131_03",
+    "cmu-135_04",
+    "threejs",
+];
+
+/// Koma of each genga, counted from the beginning.
+fn keys(clip: Clip) -> Vec<f64> {
+    let (first, in_koma) = (clip.first().0 as f64, 24.0 / clip.rate().fps());
+    let mut engine = Engine::new(clip).unwrap();
+    let breakdown = engine.run(&Recipe::default(), &Edits::default()).unwrap();
+    let drawings = breakdown.sheet.layers[0].drawings.iter();
+    let kept = drawings.filter(|drawing| drawing.role.is_kept());
+    kept.map(|drawing| (drawing.source.place() - first) * in_koma).collect()
+}
+
+/// F1 of two sorted lists whose members belong together within a koma, one to one.
+fn f1(a: &[f64], b: &[f64]) -> f64 {
+    let (mut at, mut other, mut both) = (0, 0, 0);
+    while let (Some(x), Some(y)) = (a.get(at), b.get(other)) {
+        if (x - y).abs() <= 1.0 {
+            (at, other, both) = (at + 1, other + 1, both + 1);
+        } else if x < y {
+            at += 1;
+        } else {
+            other += 1;
+        }
+    }
+    2.0 * f64::from(both) / (a.len() + b.len()) as f64
+}
+
+/// The take on every frame of MMD's, 30 a second.
+fn on_thirties(clip: &Clip) -> Sheet {
+    let frames = (clip.seconds() * 30.0).floor() as usize + 1;
+    Sheet::on_ones(clip.clock(30.0), frames)
+}
+
+/// The same as a VMD for a model with the semi-standard bones, read again without the model.
+fn through_vmd(clip: &Clip) -> Clip {
+    let vmd = Vmd { bones: VmdBones::Semi, ..Vmd::default() };
+    let bytes = vmd.make(clip, &on_thirties(clip)).unwrap().motion.bytes().unwrap();
+    file::Options::default().read(&bytes).unwrap().clip
+}
+
+/// The same as a BVH.
+fn through_bvh(clip: &Clip) -> Clip {
+    let text = limited_bvh(clip, &on_thirties(clip)).unwrap();
+    file::Options::default().read(text.as_bytes()).unwrap().clip
+}
+
+/// MMD has 30 frames a second. That alone moves a key of a take at 120 here and there, so the VMD is held against the BVH
+/// of the same frames; what both together cost is printed too.
+#[test]
+#[allow(clippy::print_stderr, reason = "the figures that the documentation states")]
+fn a_take_as_vmd_has_the_keys_of_its_bvh() {
+    let mut found = Vec::new();
+    for path in clips::real() {
+        let name = clips::name(&path);
+        if !TAKES.iter().any(|take| name.starts_with(take)) {
+            continue;
+        }
+        let clip = clips::read(&path);
+        let (own, bvh) = (keys(clip.clone()), keys(through_bvh(&clip)));
+        let vmd = keys(through_vmd(&clip));
+        let (same, both) = (f1(&bvh, &vmd), f1(&own, &vmd));
+        eprintln!("{name}: {same:.3} beside 30 frames a second, {both:.3} beside the file");
+        assert!(same > 0.85, "{name}: {bvh:?}\n{vmd:?}");
+        found.push(same);
+    }
+    let mean = found.iter().sum::<f64>() / found.len().max(1) as f64;
+    assert!(found.is_empty() || (found.len() == TAKES.len() && mean >= 0.95), "{mean}");
+}
