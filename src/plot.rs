@@ -5,6 +5,7 @@
 //! One canvas writes SVG. A library draws the axes and curves of charts on it; only what is by the hundred goes
 //! straight to pixels.
 
+pub(crate) mod browser;
 mod canvas;
 mod chart;
 mod contact_sheet;

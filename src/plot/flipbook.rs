@@ -1,14 +1,11 @@
 //! The flip-book (パラパラ): one HTML file that plays the sheet.
 
-mod page_figure;
-
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::{Knobs, knobs};
-use crate::motion::seen::view::View;
 use crate::motion::{Camera, Clip, Composite};
+use crate::plot::browser::{self, PageFigure, STEPS, Steps, axes};
 use crate::plot::canvas::escaped;
 use crate::plot::drawings::{
     beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
@@ -16,10 +13,7 @@ use crate::plot::drawings::{
 use crate::plot::figure::{Figure, FigureBody};
 use crate::plot::points::Posing;
 use crate::plot::shared;
-use crate::plot::stage::Bounds;
-use crate::plot::style;
 use crate::sheet::{Layer, Sheet, Source};
-use page_figure::PageFigure;
 
 /// A flip-book (パラパラ): source and result as one HTML file that needs nothing else, to play, to step
 /// through by koma and by drawing, and to look at from every side.
@@ -45,13 +39,10 @@ const PAGE: &str = include_str!("flipbook/page.html");
 const LOOK: &str = include_str!("flipbook/look.css");
 const SCRIPTS: [&str; 4] = [
     include_str!("flipbook/words.js"),
-    include_str!("flipbook/figure.js"),
+    browser::FIGURE,
     include_str!("flipbook/sheet.js"),
     include_str!("flipbook/player.js"),
 ];
-
-/// Steps in a body's height that places are written to.
-const STEPS: f64 = 1000.0;
 
 /// What the player gets. Koma and drawings count from 0 here.
 #[derive(Serialize)]
@@ -110,16 +101,14 @@ impl FlipBook {
         let composite = composed(clip, sheet)?;
         let layer = beginning(composite.layer(), self.most);
         let take = self.take(cut, &composite, sheet, &layer);
-        let take = serde_json::to_string(&take).map_err(style::failed)?;
-        // Inside a script no text may end it; in JSON a < can only be part of a text.
-        let take = take.replace('<', "\\u003c");
+        let take = browser::json_in_script(&take)?;
         let filled = [
             ("{{title}}", escaped(cut)),
             ("{{look}}", LOOK.to_owned()),
             ("{{take}}", take),
             ("{{script}}", SCRIPTS.concat()),
         ];
-        Ok(fill(PAGE, &filled))
+        Ok(browser::fill(PAGE, &filled))
     }
 
     fn take<'a>(
@@ -149,7 +138,7 @@ impl FlipBook {
             koma,
             length: seconds_and_koma(koma, sheet.clock.koma_rate),
             height: STEPS,
-            points: page_figure::points(&figure, &source[0]).len(),
+            points: browser::points(&figure, &source[0]).len(),
             figure: PageFigure::of(&figure, &source[0], steps.unit),
             camera: self.camera.word(),
             views: views.into_iter().map(|(word, view)| (word, axes(&view))).collect(),
@@ -170,50 +159,4 @@ impl FlipBook {
                 .map(|poses| poses.iter().map(|pose| steps.all(&figure, pose)).collect()),
         }
     }
-}
-
-/// Places as whole numbers: steps from the first pose's root, on the floor.
-struct Steps {
-    from: DVec3,
-    unit: f64,
-}
-
-impl Steps {
-    fn of(figure: &Figure, view: &View, poses: &[Vec<DVec3>]) -> Self {
-        let floor = Bounds::of(figure, view, poses).floor;
-        let root = poses[0][0];
-        let from = root + view.up * (floor - root.dot(view.up));
-        let unit = if figure.height > 0.0 { figure.height / STEPS } else { 1.0 };
-        Self { from, unit }
-    }
-
-    /// The points of a pose on the page, and where the fronts of the figure look, in thousandths.
-    fn all(&self, figure: &Figure, pose: &[DVec3]) -> Vec<i32> {
-        let steps = |point: &DVec3| ((*point - self.from) / self.unit).round().to_array();
-        let points = page_figure::points(figure, pose);
-        let fronts = page_figure::fronts(figure, pose);
-        let fronts = fronts.iter().flat_map(|front| (*front * 1000.0).round().to_array());
-        points.iter().flat_map(steps).chain(fronts).map(|step| step as i32).collect()
-    }
-}
-
-/// Right, up and near, to what a picture can show.
-fn axes(view: &View) -> [[f64; 3]; 3] {
-    let short = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
-    [view.right, view.up, view.near].map(|axis| axis.to_array().map(short))
-}
-
-/// The page with each place filled, left to right: what is filled in is not looked at again.
-fn fill(page: &str, places: &[(&str, String)]) -> String {
-    let mut filled = String::new();
-    let mut rest = page;
-    while let Some(begin) = rest.find("{{") {
-        filled.push_str(&rest[..begin]);
-        rest = &rest[begin..];
-        let place = places.iter().find(|(name, _)| rest.starts_with(name));
-        let (name, text) = place.map_or(("{{", "{{"), |(name, text)| (*name, text.as_str()));
-        filled.push_str(text);
-        rest = &rest[name.len()..];
-    }
-    filled + rest
 }

@@ -17,8 +17,8 @@ const state = {
   dark: matchMedia("(prefers-color-scheme: dark)").matches,
   language: navigator.language.startsWith("ja") ? "ja" : "en",
 };
-const stage = new Stage(take);
-stage.look(views.get(state.camera));
+const poses = take.source.concat(take.drawings.map((drawing) => drawing.pose));
+const stage = new Stage(take, poses, views.get(state.camera));
 stage.goAlong(stage.isFar());
 let colors = {};
 let started = { time: 0, koma: 0 };

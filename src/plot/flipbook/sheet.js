@@ -1,18 +1,6 @@
 // The sheet: as bars under the stage, and as the column of the paper that follows.
 const ROW = 20;
 
-// A canvas of the size it has on the page, sharp on every screen, empty.
-function prepared(canvas) {
-  const box = canvas.getBoundingClientRect();
-  const sharp = window.devicePixelRatio || 1;
-  const [width, height] = [Math.max(1, Math.round(box.width * sharp)), Math.max(1, Math.round(box.height * sharp))];
-  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-  const ctx = canvas.getContext("2d");
-  ctx.setTransform(sharp, 0, 0, sharp, 0, 0);
-  ctx.clearRect(0, 0, box.width, box.height);
-  return [ctx, box.width, box.height];
-}
-
 function roleColor(role, colors) {
   return { genga: colors.genga, end: colors.end, inbetween: colors.between }[role];
 }

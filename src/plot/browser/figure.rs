@@ -7,8 +7,8 @@ use crate::motion::BodySide;
 use crate::plot::figure::{Figure, Line, Part};
 
 /// What all figures of a page have in common. Sides: 0 trunk, 1 left, 2 right.
-#[derive(Serialize)]
-pub(super) struct PageFigure {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct PageFigure {
     /// Bones of a stick figure: from, to, side.
     bones: Vec<[usize; 3]>,
     /// Joint and end of its head.
@@ -27,7 +27,7 @@ pub(super) struct PageFigure {
 
 impl PageFigure {
     /// Of a pose; `unit` is the length of a step.
-    pub(super) fn of(figure: &Figure, pose: &[DVec3], unit: f64) -> Self {
+    pub(crate) fn of(figure: &Figure, pose: &[DVec3], unit: f64) -> Self {
         let guides = figure.guides();
         let Some(solid) = figure.solid(pose) else {
             let (bones, head) = figure.bones();
@@ -65,7 +65,7 @@ impl PageFigure {
 
 /// The points of a pose that the page gets, the root first. Of sticks joints and tips; of a lay figure the ends of guides,
 /// the middles of balls and the ends of lines.
-pub(super) fn points(figure: &Figure, pose: &[DVec3]) -> Vec<DVec3> {
+pub(in crate::plot) fn points(figure: &Figure, pose: &[DVec3]) -> Vec<DVec3> {
     let Some(solid) = figure.solid(pose) else { return pose.to_vec() };
     let guides = figure.guides().iter().flat_map(|(from, to)| [pose[*from], pose[*to]]);
     let balls = solid.balls.iter().map(|ball| ball.middle);

@@ -1,10 +1,23 @@
+// A canvas of the size it has on the page, sharp on every screen, empty.
+function prepared(canvas) {
+  const box = canvas.getBoundingClientRect();
+  const sharp = window.devicePixelRatio || 1;
+  const [width, height] = [Math.max(1, Math.round(box.width * sharp)), Math.max(1, Math.round(box.height * sharp))];
+  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+  const ctx = canvas.getContext("2d");
+  ctx.setTransform(sharp, 0, 0, sharp, 0, 0);
+  ctx.clearRect(0, 0, box.width, box.height);
+  return [ctx, box.width, box.height];
+}
+
 // Figures on a canvas, drawn as the pictures draw them: from the far to the near.
 class Stage {
-  constructor(take) {
+  // A figure with its height and points, all poses that it takes on, and from where it is seen.
+  constructor(take, poses, view) {
     this.take = take;
-    this.poses = take.source.concat(take.drawings.map((drawing) => drawing.pose));
+    this.poses = poses;
     this.follow = false;
-    this.look(take.views[0][1]);
+    this.look(view);
   }
 
   // Right, up and near; turned by an angle about up.
