@@ -24,7 +24,7 @@
 //! [`pipeline`] runs them in order from a [`Recipe`](recipe::Recipe) and a person's
 //! [`Edits`](edits::Edits), and gives a [`Breakdown`](pipeline::Breakdown) of every intermediate
 //! result; before the speeds are measured, [`exaggerate`] may change the motion (誇張); [`study`] varies recipes, [`target`] finds those that give what is wanted, and [`quality`] judges
-//! what comes out. `studio` is the window in which all of it is tuned, and `cli` the program; no room stands on them. Both
+//! what comes out; [`trial`] asks people. `studio` is the window in which all of it is tuned, and `cli` the program; no room stands on them. Both
 //! use what is public here. The one exception is `plot::parts`: figures, cells and colours that the window shares with the
 //! pictures.
 //!
@@ -98,6 +98,7 @@ pub mod study;
 pub mod target;
 pub mod time;
 pub mod timing;
+pub mod trial;
 
 pub use error::{Error, Warning};
 /// The vectors and rotations of skeletons and poses.

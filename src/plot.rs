@@ -13,6 +13,7 @@ mod contact_sheet;
 mod convert;
 mod drawings;
 mod figure;
+pub(crate) mod films;
 mod flipbook;
 mod heat;
 mod hierarchy;

@@ -4,6 +4,7 @@ mod actions;
 mod events;
 mod keys;
 mod laws;
+mod people;
 mod poses;
 mod rates;
 mod rigs;
@@ -12,7 +13,14 @@ use crate::part::Part;
 use crate::takes::Take;
 use crate::{Outcome, root, windows};
 
-/// The whole page.
+/// What needs no clip.
+pub(crate) fn from_samples() -> Outcome<Part> {
+    let mut part = Part::default();
+    part.text("people", people::table());
+    Ok(part)
+}
+
+/// All that is of real clips.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     let events = events::read(&root().join("docs/evidence/events.csv"))?;
     let mut part = Part::default();

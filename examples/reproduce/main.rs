@@ -65,7 +65,7 @@ const PAGES: [Page; 3] = [
     },
     Page {
         name: "evidence",
-        from_samples: &[],
+        from_samples: &[evidence::from_samples],
         from_takes: &[evidence::from_takes],
         is_bound: false,
     },

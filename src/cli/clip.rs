@@ -125,6 +125,11 @@ impl ClipArgs {
 }
 
 impl Part {
+    /// How a clip is read.
+    pub(super) fn reading(&self) -> &Reading {
+        &self.reading
+    }
+
     /// What work may take, where that is asked for, in bytes.
     pub(super) fn memory(&self) -> Option<f64> {
         self.reading.memory.map(|gib| gib * 1024.0 * 1024.0 * 1024.0)

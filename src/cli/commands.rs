@@ -13,6 +13,7 @@ mod run;
 mod split;
 mod studio;
 mod study;
+mod trial;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -61,6 +62,8 @@ enum Command {
     Eval(eval::EvalArgs),
     /// Several ways to choose the same number of keys, side by side, the best possible among them.
     Compare(compare::CompareArgs),
+    /// A blind test for people: a page that asks which of two films they take, and what they answered.
+    Trial(trial::TrialArgs),
     /// What is in a clip: joints, rate, length, size, an inserted T-pose, warnings.
     Inspect(inspect::InspectArgs),
     /// The commented default recipe on stdout.
@@ -88,6 +91,7 @@ impl Args {
             Command::Study(args) => study::run(&args, words),
             Command::Eval(args) => eval::run(&args, words),
             Command::Compare(args) => compare::run(&args, words),
+            Command::Trial(args) => trial::run(&args, words),
             Command::Inspect(args) => inspect::run(&args, words),
             Command::Recipe(args) => recipe::run(&args),
             Command::Completions { shell } => pages::completions(shell, Self::command()),

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::knob::{Setting, knob};
+use crate::maths::mixed;
 use crate::motion::{Channel, Clip};
 use crate::recipe::Knob;
 
@@ -82,14 +83,6 @@ fn normal(at: u64) -> f64 {
     let sum: u64 = (0..3).map(|of| quarters(word(of))).sum();
     // Each of the twelve is a middle of one of 65536 equal parts of 0 to 1.
     (sum as f64 + 6.0) / 65536.0 - 6.0
-}
-
-/// A number that looks drawn by lot for each number (the finaliser of SplitMix64).
-fn mixed(number: u64) -> u64 {
-    let mut mixed = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    mixed ^ (mixed >> 31)
 }
 
 #[cfg(test)]

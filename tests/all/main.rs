@@ -4,6 +4,8 @@
 
 mod actions; // a long take as its actions
 #[cfg(feature = "cli")]
+mod asked; // people asked which of two films they take
+#[cfg(feature = "cli")]
 mod batch; // many clips at once
 #[cfg(feature = "cli")]
 mod batch_in_trouble; // lists of other systems, full disks, clips that are lost, two at once

@@ -36,7 +36,7 @@ const FILES: [(&str, &str); 13] = [
     ("speed.svg", "<svg "),
 ];
 
-const SUBCOMMANDS: [&str; 14] = [
+const SUBCOMMANDS: [&str; 15] = [
     "run",
     "batch",
     "studio",
@@ -47,6 +47,7 @@ const SUBCOMMANDS: [&str; 14] = [
     "study",
     "eval",
     "compare",
+    "trial",
     "inspect",
     "recipe",
     "completions",

@@ -11,7 +11,7 @@ mod picture;
 mod public;
 
 /// From left to right. The first entry is the ground, whose modules may know each other.
-const ROOMS: [&[&str]; 15] = [
+const ROOMS: [&[&str]; 16] = [
     &["error", "knob", "maths", "plain", "time", "sheet", "edits"],
     &["motion"],
     &["exaggerate"],
@@ -25,6 +25,7 @@ const ROOMS: [&[&str]; 15] = [
     &["quality"],
     &["plot"],
     &["deliver"],
+    &["trial"],
     &["studio"],
     &["cli"],
 ];
