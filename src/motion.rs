@@ -26,6 +26,8 @@ pub use clip::{
     local_translation, set_local_rotation,
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
+#[cfg(feature = "studio")]
+pub(crate) use composite::Cels;
 #[cfg(feature = "pictures")]
 pub(crate) use composite::layer_of;
 pub(crate) use composite::{Composite, CompositePoser, CompositeRows};

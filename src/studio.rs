@@ -36,6 +36,8 @@ mod keyboard;
 mod knobs;
 mod look;
 mod map;
+mod notice;
+mod on_screen;
 mod opening;
 mod player;
 mod scene;
@@ -46,6 +48,7 @@ mod timesheet;
 mod transport;
 mod viewport;
 mod welcome;
+mod why;
 mod words;
 
 use std::path::PathBuf;
@@ -53,7 +56,6 @@ use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
-use bar::Message;
 use column::Column;
 use command::Command;
 use counts::Counts;
@@ -65,10 +67,12 @@ use key_menu::KeyPanel;
 use knobs::Knobs;
 use look::Look;
 use map::Map;
+use notice::Message;
+use on_screen::OnScreen;
 use opening::Opening;
 use player::Player;
 use shown::Shown;
-use take::Take;
+use take::{Results, Take};
 use timesheet::Timesheet;
 use viewport::Viewport;
 use words::Words;
@@ -91,8 +95,9 @@ pub struct Studio {
     message: Option<Message>,
     file: FileField,
     is_help_open: bool,
-    bar_height: f32,
     player: Player,
+    /// The column of the sheet that is worked on.
+    chosen: usize,
     viewport: Viewport,
     timesheet: Timesheet,
     curves: Curves,
@@ -119,8 +124,8 @@ impl Studio {
             message: None,
             file: FileField::default(),
             is_help_open: false,
-            bar_height: 0.0,
             player: Player::default(),
+            chosen: 0,
             viewport: Viewport::default(),
             timesheet: Timesheet::default(),
             curves: Curves::default(),
@@ -167,20 +172,15 @@ impl Studio {
         self.receive(ui);
         let mut commands = keyboard::pressed(ui);
         let frame = Frame::side_top_panel(ui.style());
-        let bar = Panel::top("bar").frame(frame).show(ui, |ui| {
+        Panel::top("bar").frame(frame).show(ui, |ui| {
             let is_exporting = self.exporting.is_some();
             bar::show(ui, self.take.as_mut(), self.before, is_exporting, words, &mut commands);
-            self.stripes(ui, &look, words, &mut commands);
         });
-        // A panel that has grown is as high as before for a frame, and what it has more is not drawn.
-        let height = bar.response.rect.height();
-        if std::mem::replace(&mut self.bar_height, height) != height {
-            ui.ctx().request_discard("the bar has another height");
-        }
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
             None => welcome::show(ui, &look, &self.recent, words, &mut commands),
         }
+        self.notices(ui, &look, words, &mut commands);
         help::show(ui, &mut self.is_help_open, words);
         for command in commands {
             self.act(ui, command);
@@ -188,40 +188,50 @@ impl Studio {
         self.settle(ui);
     }
 
-    /// What lies under the bar: a field for files, what is read, what went wrong, what was left.
-    fn stripes(&mut self, ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
-        if self.file.is_open {
-            self.file.show(ui, self.take.is_some(), &self.recent, words, commands);
-        }
-        if let Some(opening) = &self.opening {
-            opening.show(ui, words);
-        }
-        if let Some(exporting) = &self.exporting {
-            exporting.show(ui, words);
-        }
-        if let Some(message) = &self.message {
-            bar::message(ui, message, look, words, commands);
-        }
-        if self.take.as_ref().is_some_and(|take| take.left.is_some()) {
-            bar::recovery(ui, look, words, commands);
-        }
+    /// What lies over the table: a field for files, what is read, what went wrong, what was left.
+    fn notices(&mut self, ui: &Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
+        let is_left = self.take.as_ref().is_some_and(|take| take.left.is_some());
+        notice::over(ui, |ui| {
+            if self.file.is_open {
+                notice::one(ui, look.faint, |ui| {
+                    self.file.show(ui, self.take.is_some(), &self.recent, words, commands);
+                });
+            }
+            if let Some(opening) = &self.opening {
+                notice::one(ui, look.playhead, |ui| opening.show(ui, words));
+            }
+            if let Some(exporting) = &self.exporting {
+                notice::one(ui, look.playhead, |ui| exporting.show(ui, words));
+            }
+            if let Some(message) = &self.message {
+                notice::message(ui, message, look, words, commands);
+            }
+            if is_left {
+                notice::recovery(ui, look, words, commands);
+            }
+        });
     }
 
     /// The clip with its panels.
     fn table(&mut self, ui: &mut Ui, look: Look, words: Words, commands: &mut Vec<Command>) {
         let Some(take) = &mut self.take else { return };
-        let (breakdown, scene, wanted) = take.results();
-        let column = Column::of(&breakdown);
+        let Results { breakdown, cels, scene, wanted } = take.results();
+        let columns = Column::all(&breakdown);
+        self.chosen = self.chosen.min(columns.len() - 1);
+        let column = &columns[self.chosen];
         let now = ui.input(|input| input.time);
         if let Some(wait) = self.player.advance(now, column.clock.koma_rate, column.length) {
             ui.ctx().request_repaint_after_secs(wait as f32);
         }
         let (at, joints) = (self.player.at, &self.curves.chosen.clone());
-        let shown = Shown { breakdown, column, scene, wanted, joints, at, look, words };
+        let on_screen = OnScreen::of(breakdown.clip, cels);
+        let chosen = self.chosen;
+        let shown =
+            Shown { breakdown, on_screen, columns, chosen, scene, wanted, joints, at, look, words };
         Panel::left("knobs").default_size(306.0).size_range(250.0..=460.0).show(ui, |ui| {
             self.knobs.show(ui, &mut self.map, &shown, commands);
         });
-        Panel::right("sheet").default_size(236.0).size_range(170.0..=420.0).show(ui, |ui| {
+        Panel::right("sheet").default_size(236.0).size_range(170.0..=640.0).show(ui, |ui| {
             self.key_panel.show(ui, &shown, commands);
             ui.separator();
             self.timesheet.show(ui, &shown, commands);
@@ -281,9 +291,9 @@ impl Studio {
     }
 
     fn put_on_table(&mut self, mut take: Take) {
-        let (breakdown, ..) = take.results();
+        let breakdown = take.results().breakdown;
         self.curves = Curves::of(breakdown.filtered.movers_first(breakdown.clip.skeleton()));
-        self.player = Player::default();
+        (self.player, self.chosen) = (Player::default(), 0);
         self.viewport = Viewport::of(&take.scene);
         self.timesheet = Timesheet::default();
         self.key_panel = KeyPanel::default();

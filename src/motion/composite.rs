@@ -9,6 +9,8 @@ mod rows;
 mod tests;
 
 use std::borrow::Cow;
+use std::ops::Deref;
+use std::sync::Arc;
 
 use crate::error::{Error, nearest};
 use crate::motion::{Channel, Clip, Skeleton};
@@ -19,15 +21,12 @@ use feet::{FootHold, HeldFeet};
 pub(crate) use poser::CompositePoser;
 pub(crate) use rows::CompositeRows;
 
-/// What is on screen of all layers together, as one column of drawings.
-///
-/// Of a single layer it is that layer. Of several it has a drawing wherever one of them has a new one;
-/// it is a genga where one of theirs is, and shows its place and reasons.
+/// The cels of a sheet laid on one another, without the motion that they are poses of: what may be kept while
+/// the sheet stays.
 #[derive(Debug, Clone)]
-pub(crate) struct Composite<'a> {
-    clip: &'a Clip,
+pub(crate) struct Cels {
     clock: Clock,
-    layer: Cow<'a, Layer>,
+    layer: Layer,
     /// For each drawing what its layers show: one source for each layer that has joints.
     drawings: Vec<Vec<Source>>,
     /// Which layer each joint is of, counted without layers that have none.
@@ -35,16 +34,33 @@ pub(crate) struct Composite<'a> {
     /// Joints whose place is the source's on every koma.
     travellers: Vec<usize>,
     /// Feet that stay where they stand, where they are to.
-    feet: Option<HeldFeet>,
+    feet: Option<Arc<HeldFeet>>,
 }
 
-impl<'a> Composite<'a> {
-    /// The layers of a sheet laid on one another. What no layer names, or one that shows nothing, is of
+impl Cels {
+    /// Lays the layers of a sheet on one another. What no layer names, or one that shows nothing, is of
     /// the first; a layer that ends before the others stays on its last drawing.
     ///
     /// # Errors
     /// [`Error::Sheet`] as [`Sheet::first_layer`], and for a joint that the clip does not have.
-    pub(crate) fn of(clip: &'a Clip, sheet: &'a Sheet) -> Result<Self, Error> {
+    pub(crate) fn of(clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
+        let feet = match sheet.feet {
+            Feet::Free => None,
+            Feet::Held => HeldFeet::of(clip, sheet.clock).map(Arc::new),
+        };
+        Self::on(clip, sheet, feet)
+    }
+
+    /// The same for another sheet of the same motion, whose feet stand where they stood.
+    ///
+    /// # Errors
+    /// Those of [`Cels::of`].
+    #[cfg(feature = "studio")]
+    pub(crate) fn again(&self, clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
+        Self::on(clip, sheet, self.feet.clone())
+    }
+
+    fn on(clip: &Clip, sheet: &Sheet, feet: Option<Arc<HeldFeet>>) -> Result<Self, Error> {
         let first = sheet.first_layer()?;
         let layer_of = layer_of(clip.skeleton(), sheet)?;
         let mut layers: Vec<usize> = std::iter::once(0).chain(layer_of.iter().copied()).collect();
@@ -57,32 +73,79 @@ impl<'a> Composite<'a> {
         let (layer, drawings) = match layers.as_slice() {
             [_] => {
                 let alone = first.drawings.iter().map(|drawing| vec![drawing.source]).collect();
-                (Cow::Borrowed(first), alone)
+                (first.clone(), alone)
             }
-            layers => {
-                let (layer, drawings) = flat::flattened(layers);
-                (Cow::Owned(layer), drawings)
-            }
+            layers => flat::flattened(layers),
         };
         let travellers = match sheet.root {
             RootMotion::Drawings => Vec::new(),
             RootMotion::Ones => travellers(clip),
         };
-        let feet = match sheet.feet {
-            Feet::Free => None,
-            Feet::Held => HeldFeet::of(clip, sheet.clock),
-        };
-        Ok(Self { clip, clock: sheet.clock, layer, drawings, layer_of, travellers, feet })
-    }
-
-    /// The motion.
-    pub(crate) fn clip(&self) -> &'a Clip {
-        self.clip
+        Ok(Self { clock: sheet.clock, layer, drawings, layer_of, travellers, feet })
     }
 
     /// All layers as one.
     pub(crate) fn layer(&self) -> &Layer {
         &self.layer
+    }
+
+    /// Whether the body goes on through the room while a drawing is held.
+    pub(crate) fn slides(&self) -> bool {
+        !self.travellers.is_empty()
+    }
+
+    /// What a joint shows in a drawing.
+    pub(crate) fn source(&self, drawing: usize, joint: usize) -> Source {
+        self.drawings[drawing][self.layer_of[joint]]
+    }
+
+    /// Where the koma stands in the source.
+    fn place(&self, koma: usize) -> f64 {
+        self.clock.place_from_koma(koma)
+    }
+
+    /// Number of layers.
+    fn layers(&self) -> usize {
+        self.layer_of.iter().max().map_or(1, |last| last + 1)
+    }
+}
+
+/// What is on screen of all layers together, as one column of drawings.
+///
+/// Of a single layer it is that layer. Of several it has a drawing wherever one of them has a new one;
+/// it is a genga where one of theirs is, and shows its place and reasons.
+#[derive(Debug, Clone)]
+pub(crate) struct Composite<'a> {
+    clip: &'a Clip,
+    cels: Cow<'a, Cels>,
+}
+
+impl Deref for Composite<'_> {
+    type Target = Cels;
+
+    fn deref(&self) -> &Cels {
+        &self.cels
+    }
+}
+
+impl<'a> Composite<'a> {
+    /// The layers of a sheet laid on one another, as [`Cels::of`] does.
+    ///
+    /// # Errors
+    /// Those of [`Cels::of`].
+    pub(crate) fn of(clip: &'a Clip, sheet: &Sheet) -> Result<Self, Error> {
+        Ok(Self { clip, cels: Cow::Owned(Cels::of(clip, sheet)?) })
+    }
+
+    /// Cels that were laid before, of this motion.
+    #[cfg(feature = "studio")]
+    pub(crate) fn with(clip: &'a Clip, cels: &'a Cels) -> Self {
+        Self { clip, cels: Cow::Borrowed(cels) }
+    }
+
+    /// The motion.
+    pub(crate) fn clip(&self) -> &'a Clip {
+        self.clip
     }
 
     /// The koma on which each drawing is first on screen; of one that never is, where its own place is.
@@ -95,16 +158,6 @@ impl<'a> Composite<'a> {
         first
     }
 
-    /// What a joint shows in a drawing.
-    pub(crate) fn source(&self, drawing: usize, joint: usize) -> Source {
-        self.drawings[drawing][self.layer_of[joint]]
-    }
-
-    /// Whether the body goes on through the room while a drawing is held.
-    pub(crate) fn slides(&self) -> bool {
-        !self.travellers.is_empty()
-    }
-
     /// Joints whose place is the source's on every koma.
     pub(crate) fn travellers(&self) -> &[usize] {
         &self.travellers
@@ -113,22 +166,12 @@ impl<'a> Composite<'a> {
     /// Joints that turn while a drawing is held: the legs of feet that stay while the body goes on.
     pub(crate) fn steppers(&self) -> Vec<usize> {
         let feet = self.feet.iter().filter(|_| self.slides());
-        feet.flat_map(HeldFeet::joints).collect()
+        feet.flat_map(|feet| feet.joints()).collect()
     }
 
     /// What holds the feet of its poses, where they are held.
     fn foot_hold(&self) -> Option<FootHold<'_>> {
-        self.feet.as_ref().map(|feet| FootHold::of(feet, self.clip))
-    }
-
-    /// Where the koma stands in the source.
-    fn place(&self, koma: usize) -> f64 {
-        self.clock.place_from_koma(koma)
-    }
-
-    /// Number of layers.
-    fn layers(&self) -> usize {
-        self.layer_of.iter().max().map_or(1, |last| last + 1)
+        self.feet.as_deref().map(|feet| FootHold::of(feet, self.clip))
     }
 }
 

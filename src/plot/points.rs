@@ -31,20 +31,20 @@ impl<'a> Posing<'a> {
 }
 
 /// Turns what is on screen into points, as [`Posing`] does with sources.
-pub(super) struct Showing<'a> {
+pub(crate) struct Showing<'a> {
     poser: CompositePoser<'a>,
     body: Body,
     marks: &'a [Point],
 }
 
 impl<'a> Showing<'a> {
-    pub(super) fn of(composite: &'a Composite<'a>, marks: &'a [Point]) -> Self {
+    pub(crate) fn of(composite: &'a Composite<'a>, marks: &'a [Point]) -> Self {
         let body = Body::new(composite.clip().skeleton());
         Self { poser: CompositePoser::of(composite), body, marks }
     }
 
     /// The points of a drawing as it is on screen on a koma.
-    pub(super) fn points(&mut self, drawing: usize, koma: usize) -> Vec<DVec3> {
+    pub(crate) fn points(&mut self, drawing: usize, koma: usize) -> Vec<DVec3> {
         self.body.place(self.poser.drawing(drawing, koma));
         points(&self.body, self.marks)
     }

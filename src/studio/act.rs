@@ -13,7 +13,7 @@ use super::errand::Errand;
 use super::exporting::Exporting;
 use super::here::Here;
 use super::opening::Opening;
-use super::take::Take;
+use super::take::{Results, Take};
 use super::viewport::Orbit;
 use super::words::Language;
 use crate::error::Error;
@@ -102,14 +102,22 @@ impl Studio {
             | Command::Zoom(_)
             | Command::Follow
             | Command::Onion
-            | Command::Trails => self.look(&command),
+            | Command::Trails
+            | Command::Exaggerated => self.look(&command),
             Command::ToggleKey
             | Command::Lock
             | Command::Nudge(_)
             | Command::NudgeFrame(_)
             | Command::Hold(_)
             | Command::Crowd(_) => self.correct_here(&command),
+            Command::SheetZoom(factor) => self.timesheet.zoom_by(factor),
+            Command::Column(column) => self.chosen = column,
+            Command::NextColumn => {
+                let columns = self.take.iter_mut().map(|take| take.results().columns()).sum();
+                self.chosen = (self.chosen + 1) % usize::max(columns, 1);
+            }
             Command::Correct(_)
+            | Command::CorrectOf(..)
             | Command::Drag(_)
             | Command::Set(..)
             | Command::Preset(_)
@@ -165,8 +173,8 @@ impl Studio {
     /// Moves the play head.
     fn go(&mut self, ui: &Ui, command: &Command) {
         let Some(take) = &mut self.take else { return };
-        let (breakdown, ..) = take.results();
-        let column = Column::of(&breakdown);
+        let columns = Column::all(&take.results().breakdown);
+        let column = &columns[self.chosen.min(columns.len() - 1)];
         let (player, length) = (&mut self.player, column.length);
         let at = player.at;
         let now = ui.input(|input| input.time);
@@ -204,6 +212,7 @@ impl Studio {
             Command::Zoom(factor) => viewport.orbit.zoom_by(*factor),
             Command::Follow => viewport.orbit.follows = !viewport.orbit.follows,
             Command::Onion => viewport.onion = !viewport.onion,
+            Command::Exaggerated => viewport.exaggerated = !viewport.exaggerated,
             _ => viewport.trails = !viewport.trails,
         }
     }
@@ -211,10 +220,15 @@ impl Studio {
     /// Corrects the key at the play head, or how long its drawing stays.
     fn correct_here(&mut self, command: &Command) {
         let Some(take) = &mut self.take else { return };
+        // Of two presses in one frame the second is for what the first has made.
+        if let Err(error) = take.renew(false) {
+            return self.fail(error.to_string());
+        }
         let at = self.player.at;
-        let (breakdown, _, wanted) = take.results();
-        let column = Column::of(&breakdown);
-        let here = Here { clip: breakdown.clip, column: &column, wanted, at };
+        let Results { breakdown, wanted, .. } = take.results();
+        let columns = Column::all(&breakdown);
+        let column = &columns[self.chosen.min(columns.len() - 1)];
+        let here = Here { clip: breakdown.clip, column, wanted, at };
         let Some(correction) = here.correction(command) else { return };
         if let Correction::Move(_, to) = &correction {
             let koma = column.clock.koma_from_frame(*to);
@@ -226,15 +240,21 @@ impl Studio {
     /// Changes the document.
     fn change(&mut self, command: Command) {
         let Some(take) = &mut self.take else { return };
+        let column = take.results().named(self.chosen);
+        let column = column.as_deref();
         let wanted = &mut take.wanted;
         let changed = match command {
             Command::Correct(correction) => {
-                wanted.edits = correction.on(&wanted.edits);
+                wanted.edits = correction.on(&wanted.edits, column);
+                Ok(())
+            }
+            Command::CorrectOf(column, correction) => {
+                wanted.edits = correction.on(&wanted.edits, column.as_deref());
                 Ok(())
             }
             Command::Drag(correction) => {
                 let before = self.held.get_or_insert_with(|| wanted.clone());
-                wanted.edits = correction.on(&before.edits);
+                wanted.edits = correction.on(&before.edits, column);
                 Ok(())
             }
             Command::Set(knob, value) => wanted.recipe.set(knob, &value),

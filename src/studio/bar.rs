@@ -1,11 +1,10 @@
 //! The bar on top (ツールバー): files, undo, what the clip costs, how it looks.
 
-use egui::{Align, Button, Color32, Frame, Layout, RichText, Ui};
+use egui::{Align, Button, Layout, RichText, Ui};
 
 use super::command::Command;
 use super::counts::Counts;
 use super::icon::{self, Icon};
-use super::look::Look;
 use super::take::Take;
 use super::words::{Language, Words};
 
@@ -78,50 +77,4 @@ fn switches(ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
     if button.accessible_name(accessible).clicked() {
         commands.push(Command::Language);
     }
-}
-
-/// What a person is told.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Message {
-    pub(super) text: String,
-    pub(super) is_failure: bool,
-}
-
-/// Shows a message until it is closed.
-pub(super) fn message(
-    ui: &mut Ui,
-    message: &Message,
-    look: &Look,
-    words: Words,
-    commands: &mut Vec<Command>,
-) {
-    let color = if message.is_failure { look.genga } else { look.playhead };
-    stripe(ui, color, |ui| {
-        ui.label(&message.text);
-        let close = words.say("Close the message", "閉じる");
-        if icon::button(ui, Icon::Cross, close).clicked() {
-            commands.push(Command::Dismiss);
-        }
-    });
-}
-
-/// Offers what an earlier session left.
-pub(super) fn recovery(ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
-    stripe(ui, look.genga, |ui| {
-        ui.label(words.say(
-            "An earlier session left corrections that were not saved.",
-            "前回保存されなかった修正があります。",
-        ));
-        if ui.button(words.say("Recover", "復元する")).clicked() {
-            commands.push(Command::Recover);
-        }
-        if ui.button(words.say("Discard", "捨てる")).clicked() {
-            commands.push(Command::Discard);
-        }
-    });
-}
-
-fn stripe(ui: &mut Ui, color: Color32, add: impl FnOnce(&mut Ui)) {
-    let frame = Frame::new().inner_margin(6).fill(color.gamma_multiply(0.22)).corner_radius(4);
-    frame.show(ui, |ui| ui.horizontal(add));
 }

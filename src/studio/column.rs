@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use crate::edits::{Edits, Hold};
 use crate::keys::Key;
-use crate::pipeline::Breakdown;
+use crate::pipeline::{Breakdown, LayerBreakdown};
 use crate::plot::parts;
 use crate::sheet::{Layer, Source};
 use crate::time::{Clock, Frame};
@@ -36,24 +36,45 @@ impl<'a> Deref for KeyedCell<'a> {
     }
 }
 
-/// The first column of a sheet, exposure after exposure.
+/// A column of a sheet, exposure after exposure.
 #[derive(Debug, Clone)]
 pub(super) struct Column<'a> {
+    pub(super) name: &'a str,
     pub(super) cells: Vec<KeyedCell<'a>>,
     pub(super) clock: Clock,
     /// Koma of the column.
     pub(super) length: usize,
+    /// The column on the sheet, and before anything was left out.
+    pub(super) layer: &'a Layer,
+    pub(super) spaced: &'a Layer,
+    /// What was decided for it.
+    pub(super) found: LayerBreakdown<'a>,
 }
 
 impl<'a> Column<'a> {
-    pub(super) fn of(breakdown: &Breakdown<'a>) -> Self {
-        let layer: &'a Layer = &breakdown.sheet.layers[0];
+    /// Every column of a sheet.
+    pub(super) fn all(breakdown: &Breakdown<'a>) -> Vec<Self> {
+        let layers = breakdown.sheet.layers.iter().zip(&breakdown.spaced.layers);
+        let found = layers.zip(breakdown.layers());
+        found.map(|(sheets, found)| Self::of(sheets, found, breakdown.clock)).collect()
+    }
+
+    fn of(
+        (layer, spaced): (&'a Layer, &'a Layer),
+        found: LayerBreakdown<'a>,
+        clock: Clock,
+    ) -> Self {
         let with_key = |on_paper: parts::ShownDrawing<'a>| {
-            let key = key_at(&breakdown.first_layer().keys.keys, on_paper.drawing.source);
+            let key = key_at(&found.keys.keys, on_paper.drawing.source);
             KeyedCell { on_paper, key }
         };
         let cells = parts::shown_drawings(layer).into_iter().map(with_key).collect();
-        Self { cells, clock: breakdown.clock, length: layer.length() }
+        Self { name: &layer.name, cells, clock, length: layer.length(), layer, spaced, found }
+    }
+
+    /// The keys that were found and set.
+    pub(super) fn keys(&self) -> &'a [Key] {
+        &self.found.keys.keys
     }
 
     /// Which exposure is on screen at a koma.
@@ -93,6 +114,12 @@ impl<'a> Column<'a> {
             cell.key.is_some_and(|key| self.clock.koma_from_frame(key.frame) == koma)
         };
         self.cells.iter().find(stands_here).and_then(|cell| cell.key).or(cell.key)
+    }
+
+    /// The koma on which the drawing of a place stood before anything was left out.
+    pub(super) fn spaced_koma(&self, place: f64) -> Option<usize> {
+        let is_it = |drawing: usize| self.spaced.drawings[drawing].source.place() == place;
+        self.spaced.timed().find(|(_, shown)| is_it(shown.drawing)).map(|(koma, _)| koma)
     }
 }
 

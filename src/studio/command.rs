@@ -38,6 +38,8 @@ pub(super) enum Command {
     Follow,
     Onion,
     Trails,
+    /// The source as it is drawn, or as it was captured.
+    Exaggerated,
     /// How far the body moves into each koma.
     Movement,
     /// The map of what is found with other settings of the smoothing.
@@ -54,10 +56,18 @@ pub(super) enum Command {
     Hold(isize),
     /// The inbetweens of the key at the play head crowd so much closer to it.
     Crowd(f64),
+    /// Koma of the sheet become so many times as high.
+    SheetZoom(f32),
+    /// Another column is worked on.
+    Column(usize),
+    /// The next column is worked on, and the first after the last.
+    NextColumn,
     /// Gives a name to the key at the play head.
     FocusName,
-    /// A correction.
+    /// A correction of the column that is worked on.
     Correct(Correction),
+    /// A correction of the column that is named, or of all.
+    CorrectOf(Option<String>, Correction),
     /// A correction in the making: what was there when the hand took hold is corrected so.
     Drag(Correction),
     /// A knob and its value.

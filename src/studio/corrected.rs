@@ -7,14 +7,22 @@ use super::corrections::Correction;
 use super::icon::{self, Icon};
 use super::shown::Shown;
 use super::words::Words;
-use crate::edits::Pin;
+use crate::edits::{LayerEdits, Pin};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
 /// Shows the list; nothing where nothing was corrected.
 pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let (edits, words) = (&shown.wanted.edits, shown.words);
-    let keys = edits.pins.len() + edits.moves.len() + edits.forbidden.len();
+    let all = LayerEdits {
+        pins: edits.pins.clone(),
+        forbidden: edits.forbidden.clone(),
+        moves: edits.moves.clone(),
+        frozen: vec![],
+    };
+    let own = edits.layers.iter().map(|(name, own)| (Some(name.as_str()), own));
+    let lists: Vec<_> = [(None, &all)].into_iter().chain(own).collect();
+    let keys = lists.iter().map(|(_, own)| count(own)).sum::<usize>();
     let count = keys + edits.holds.len();
     if count == 0 && !edits.again {
         return;
@@ -23,32 +31,51 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) 
     let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt("corrections");
     header.default_open(true).show_unindented(ui, |ui| {
         again(ui, shown, commands);
-        for pin in &edits.pins {
-            let what = format!("{} {}", words.say("locked", "固定"), pin.frame);
-            let what = with_mark(what, pin, words);
-            let back = Correction::TakeBack(key(pin.frame, Origin::Pinned));
-            row(ui, &what, Some(pin.frame), back, shown, commands);
-        }
-        for moved in &edits.moves {
-            let (from, to) = (moved.from, moved.to);
-            let (moves, arrow) = (words.say("moved", "移動"), words.say("to", "→"));
-            let what = with_mark(format!("{moves} {from} {arrow} {to}"), &moved.pin(), words);
-            let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
-            row(ui, &what, Some(moved.to), back, shown, commands);
-        }
-        for range in &edits.forbidden {
-            let what = format!("{} {range}", words.say("no genga", "原画にしない"));
-            let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
-            row(ui, &what, at, Correction::Allow(*range), shown, commands);
+        for (column, own) in lists {
+            keys_of(ui, column, own, shown, commands);
         }
         for hold in &edits.holds {
             let koma = shown.words.say("koma", "コマ");
             let what =
                 format!("{} {}: {} {koma}", words.say("held", "止め"), hold.frame, hold.koma);
             let back = Correction::LetGo(hold.frame);
-            row(ui, &what, Some(hold.frame), back, shown, commands);
+            Row { column: None, what, at: Some(hold.frame) }.show(ui, back, shown, commands);
         }
     });
+}
+
+/// How many keys are corrected.
+fn count(own: &LayerEdits) -> usize {
+    own.pins.len() + own.moves.len() + own.forbidden.len()
+}
+
+/// The corrections of the keys of a column, or of all.
+fn keys_of(
+    ui: &mut Ui,
+    column: Option<&str>,
+    own: &LayerEdits,
+    shown: &Shown<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let words = shown.words;
+    let mut row = |what, at, back| Row { column, what, at }.show(ui, back, shown, commands);
+    for pin in &own.pins {
+        let what = format!("{} {}", words.say("locked", "固定"), pin.frame);
+        let back = Correction::TakeBack(key(pin.frame, Origin::Pinned));
+        row(with_mark(what, pin, words), Some(pin.frame), back);
+    }
+    for moved in &own.moves {
+        let (from, to) = (moved.from, moved.to);
+        let (moves, arrow) = (words.say("moved", "移動"), words.say("to", "→"));
+        let what = with_mark(format!("{moves} {from} {arrow} {to}"), &moved.pin(), words);
+        let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
+        row(what, Some(moved.to), back);
+    }
+    for range in &own.forbidden {
+        let what = format!("{} {range}", words.say("no genga", "原画にしない"));
+        let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
+        row(what, at, Correction::Allow(*range));
+    }
 }
 
 /// Whether each correction changes its neighbourhood alone, or all keys are chosen again around them.
@@ -75,26 +102,32 @@ fn with_mark(what: String, pin: &Pin, words: Words) -> String {
     what + &name + &weight
 }
 
-fn row(
-    ui: &mut Ui,
-    what: &str,
+/// A correction in the list.
+struct Row<'a> {
+    /// The column that it is of; none where it is of all.
+    column: Option<&'a str>,
+    what: String,
     at: Option<Frame>,
-    back: Correction,
-    shown: &Shown<'_>,
-    commands: &mut Vec<Command>,
-) {
-    let what = what.trim();
-    ui.horizontal(|ui| {
-        let name = format!("{}: {what}", shown.words.say("Take back", "取り消す"));
-        if icon::button(ui, Icon::Cross, &name).clicked() {
-            commands.push(Command::Correct(back));
-        }
-        if ui.link(what).clicked()
-            && let Some(frame) = at
-        {
-            commands.push(Command::Go(shown.column.clock.koma_from_frame(frame)));
-        }
-    });
+}
+
+impl Row<'_> {
+    /// What takes it back, and where it is.
+    fn show(self, ui: &mut Ui, back: Correction, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let what = self.column.map(|name| format!("{name} ")).unwrap_or_default() + &self.what;
+        ui.horizontal(|ui| {
+            let name = format!("{}: {what}", shown.words.say("Take back", "取り消す"));
+            if icon::button(ui, Icon::Cross, &name).clicked() {
+                commands.push(Command::CorrectOf(self.column.map(String::from), back));
+            }
+            if ui.link(&what).clicked()
+                && let Some(frame) = self.at
+            {
+                let column = shown.columns.iter().position(|own| Some(own.name) == self.column);
+                commands.extend(column.and_then(|column| shown.choose(column)));
+                commands.push(Command::Go(shown.column().clock.koma_from_frame(frame)));
+            }
+        });
+    }
 }
 
 /// A key as a correction knows it: by frame and origin.

@@ -1,6 +1,6 @@
 //! Corrections (修正) of keys and holds, as a hand makes them: each is a change of the [`Edits`].
 
-use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
@@ -32,97 +32,156 @@ pub(super) enum Correction {
 }
 
 impl Correction {
-    /// The corrections with this one.
-    pub(super) fn on(&self, edits: &Edits) -> Edits {
-        let mut edits = edits.clone();
+    /// The corrections with this one: of all columns, or of the one that is named. What is set for all is corrected
+    /// there.
+    pub(super) fn on(&self, edits: &Edits, column: Option<&str>) -> Edits {
+        let mut on = Of { edits: edits.clone(), column };
         match self {
-            Self::Pin(frame) => pin(&mut edits, *frame),
-            Self::Lock(key) => drop(own_pin(&mut edits, key)),
-            Self::TakeBack(key) => take_back(&mut edits, key),
-            Self::Forbid(key) => forbid(&mut edits, key),
-            Self::Move(key, to) => move_to(&mut edits, key, *to),
+            Self::Pin(frame) => on.pin(*frame),
+            Self::Lock(key) => drop(on.own_pin(key)),
+            Self::TakeBack(key) => on.take_back(key),
+            Self::Forbid(key) => on.forbid(key),
+            Self::Move(key, to) => on.move_to(key, *to),
             Self::Name(key, name) => {
                 let name = name.trim();
                 let name = (!name.is_empty()).then(|| name.to_owned());
-                match own_move(&mut edits, key) {
+                match on.own_move(key) {
                     Some(moved) => moved.name = name,
-                    None => own_pin(&mut edits, key).name = name,
+                    None => on.own_pin(key).name = name,
                 }
             }
-            Self::Weight(key, weight) => match own_move(&mut edits, key) {
+            Self::Weight(key, weight) => match on.own_move(key) {
                 Some(moved) => moved.weight = *weight,
-                None => own_pin(&mut edits, key).weight = *weight,
+                None => on.own_pin(key).weight = *weight,
             },
-            Self::Allow(range) => edits.forbidden.retain(|other| other != range),
-            Self::Hold(frame, koma) => hold(&mut edits, *frame, *koma),
-            Self::Again(again) => edits.again = *again,
-            Self::LetGo(frame) => edits.holds.retain(|hold| hold.frame != *frame),
+            Self::Allow(range) => on.edits.forbidden_of(column).retain(|other| other != range),
+            Self::Hold(frame, koma) => on.hold(*frame, *koma),
+            Self::Again(again) => on.edits.again = *again,
+            Self::LetGo(frame) => on.edits.holds.retain(|hold| hold.frame != *frame),
         }
-        edits
+        on.done()
     }
 }
 
-fn pin(edits: &mut Edits, frame: Frame) {
-    edits.forbidden.retain(|range| *range != Forbidden::one(frame));
-    edits.pins.push(Pin { frame, name: None, weight: None });
-    edits.pins.sort_by_key(|pin| pin.frame);
+/// Corrections of all columns, or of one, in the making.
+struct Of<'a> {
+    edits: Edits,
+    column: Option<&'a str>,
 }
 
-fn take_back(edits: &mut Edits, key: &Key) {
-    match key.origin {
-        Origin::Moved { from } => edits.moves.retain(|moved| moved.from != from),
-        _ => edits.pins.retain(|pin| pin.frame != key.frame),
+impl Of<'_> {
+    fn pin(&mut self, frame: Frame) {
+        self.allow(frame);
+        let is_it = |pin: &Pin| pin.frame == frame;
+        if [self.column, None].iter().any(|column| self.edits.pins_of(*column).iter().any(is_it)) {
+            return;
+        }
+        self.insert(Pin { frame, name: None, weight: None });
     }
-    // Without a pin nothing would be left to be the only key.
-    edits.only_pins &= !(edits.pins.is_empty() && edits.moves.is_empty());
-}
 
-fn forbid(edits: &mut Edits, key: &Key) {
-    take_back(edits, key);
-    let found = match key.origin {
-        Origin::Moved { from } => from,
-        _ => key.frame,
-    };
-    let range = Forbidden::one(found);
-    if !edits.forbidden.contains(&range) {
-        edits.forbidden.push(range);
-        edits.forbidden.sort_by_key(|range| range.from);
+    /// A place for a pin among those of the column.
+    fn insert(&mut self, pin: Pin) -> &mut Pin {
+        let pins = self.edits.pins_of(self.column);
+        let at = pins.partition_point(|other| other.frame < pin.frame);
+        pins.insert(at, pin);
+        &mut pins[at]
     }
-}
 
-fn move_to(edits: &mut Edits, key: &Key, to: Frame) {
-    if let Some(moved) = own_move(edits, key) {
-        moved.to = to;
-        edits.moves.retain(|moved| moved.from != moved.to);
-    } else if key.origin == Origin::Pinned {
-        own_pin(edits, key).frame = to;
-        edits.pins.sort_by_key(|pin| pin.frame);
-    } else if to != key.frame {
-        edits.moves.push(Move { from: key.frame, to, name: None, weight: None });
-        edits.moves.sort_by_key(|moved| moved.from);
+    /// A frame alone is not forbidden any more.
+    fn allow(&mut self, frame: Frame) {
+        let range = Forbidden::one(frame);
+        for column in [self.column, None] {
+            self.edits.forbidden_of(column).retain(|other| *other != range);
+        }
     }
-}
 
-fn hold(edits: &mut Edits, frame: Frame, koma: usize) {
-    edits.holds.retain(|hold| hold.frame != frame);
-    edits.holds.push(Hold { frame, koma });
-    edits.holds.sort_by_key(|hold| hold.frame);
-}
+    fn take_back(&mut self, key: &Key) {
+        for column in [self.column, None] {
+            match key.origin {
+                Origin::Moved { from } => {
+                    self.edits.moves_of(column).retain(|moved| moved.from != from);
+                }
+                _ => self.edits.pins_of(column).retain(|pin| pin.frame != key.frame),
+            }
+        }
+        // Without a pin nothing would be left to be the only key.
+        let (edits, layers) = (&self.edits, &self.edits.layers);
+        let mut own = layers.values().map(|own| own.pins.len() + own.moves.len());
+        let of_all = edits.pins.len() + edits.moves.len();
+        let is_left = of_all > 0 || own.any(|count| count > 0);
+        self.edits.only_pins &= is_left;
+    }
 
-/// The move that put a key where it is.
-fn own_move<'a>(edits: &'a mut Edits, key: &Key) -> Option<&'a mut Move> {
-    let Origin::Moved { from } = key.origin else { return None };
-    edits.moves.iter_mut().find(|moved| moved.from == from)
-}
+    fn forbid(&mut self, key: &Key) {
+        self.take_back(key);
+        let found = match key.origin {
+            Origin::Moved { from } => from,
+            _ => key.frame,
+        };
+        let range = Forbidden::one(found);
+        if self.edits.forbidden.contains(&range) {
+            return;
+        }
+        let forbidden = self.edits.forbidden_of(self.column);
+        if !forbidden.contains(&range) {
+            forbidden.push(range);
+            forbidden.sort_by_key(|range| range.from);
+        }
+    }
 
-/// The pin of a key; one that was found gets it now.
-fn own_pin<'a>(edits: &'a mut Edits, key: &Key) -> &'a mut Pin {
-    let at = edits.pins.iter().position(|pin| pin.frame == key.frame).unwrap_or_else(|| {
-        let after = edits.pins.partition_point(|pin| pin.frame < key.frame);
-        edits.pins.insert(after, Pin { frame: key.frame, name: None, weight: None });
-        after
-    });
-    &mut edits.pins[at]
+    fn move_to(&mut self, key: &Key, to: Frame) {
+        if let Some(moved) = self.own_move(key) {
+            moved.to = to;
+            for column in [self.column, None] {
+                self.edits.moves_of(column).retain(|moved| moved.from != moved.to);
+            }
+        } else if key.origin == Origin::Pinned {
+            self.own_pin(key).frame = to;
+            for column in [self.column, None] {
+                self.edits.pins_of(column).sort_by_key(|pin| pin.frame);
+            }
+        } else if to != key.frame {
+            let moves = self.edits.moves_of(self.column);
+            moves.push(Move { from: key.frame, to, name: None, weight: None });
+            moves.sort_by_key(|moved| moved.from);
+        }
+    }
+
+    fn hold(&mut self, frame: Frame, koma: usize) {
+        let holds = &mut self.edits.holds;
+        holds.retain(|hold| hold.frame != frame);
+        holds.push(Hold { frame, koma });
+        holds.sort_by_key(|hold| hold.frame);
+    }
+
+    /// The move that put a key where it is.
+    fn own_move(&mut self, key: &Key) -> Option<&mut Move> {
+        let Origin::Moved { from } = key.origin else { return None };
+        let is_it = |moved: &Move| moved.from == from;
+        let column = [self.column, None]
+            .into_iter()
+            .find(|column| self.edits.moves_of(*column).iter().any(is_it))?;
+        self.edits.moves_of(column).iter_mut().find(|moved| is_it(moved))
+    }
+
+    /// The pin of a key; one that was found gets it now.
+    fn own_pin(&mut self, key: &Key) -> &mut Pin {
+        let is_it = |pin: &Pin| pin.frame == key.frame;
+        let column = [self.column, None].into_iter().find_map(|column| {
+            let at = self.edits.pins_of(column).iter().position(is_it)?;
+            Some((column, at))
+        });
+        match column {
+            Some((column, at)) => &mut self.edits.pins_of(column)[at],
+            None => self.insert(Pin { frame: key.frame, name: None, weight: None }),
+        }
+    }
+
+    /// The corrections. A column of which nothing is said is not named.
+    fn done(mut self) -> Edits {
+        self.edits.layers.retain(|_, own| *own != LayerEdits::default());
+        self.edits
+    }
 }
 
 #[cfg(test)]
@@ -135,7 +194,7 @@ mod tests {
     }
 
     fn on(edits: &Edits, corrections: &[Correction]) -> Edits {
-        corrections.iter().fold(edits.clone(), |edits, correction| correction.on(&edits))
+        corrections.iter().fold(edits.clone(), |edits, correction| correction.on(&edits, None))
     }
 
     #[test]
@@ -143,69 +202,93 @@ mod tests {
         let found = key(42, Origin::Turn);
         let name = Correction::Name(found.clone(), " contact ".into());
         let edits = on(&Edits::default(), &[Correction::Lock(found.clone()), name]);
-        let edits = Correction::Weight(found, Some(0.5)).on(&edits);
+        let edits = Correction::Weight(found, Some(0.5)).on(&edits, None);
         assert_eq!(edits.pins, [Pin::parse("42:contact@0.5").unwrap()]);
         let pinned = key(42, Origin::Pinned);
-        assert_eq!(Correction::TakeBack(pinned).on(&edits), Edits::default());
+        assert_eq!(Correction::TakeBack(pinned).on(&edits, None), Edits::default());
     }
 
     #[test]
     fn a_found_key_moves_on_and_back() {
         let to = |key, frame| Correction::Move(key, Frame(frame));
-        let edits = to(key(41, Origin::Turn), 43).on(&Edits::default());
+        let edits = to(key(41, Origin::Turn), 43).on(&Edits::default(), None);
         assert_eq!(edits.moves, [Move::parse("41:43").unwrap()]);
         let moved = key(43, Origin::Moved { from: Frame(41) });
-        let edits = to(moved.clone(), 44).on(&edits);
+        let edits = to(moved.clone(), 44).on(&edits, None);
         assert_eq!(edits.moves, [Move::parse("41:44").unwrap()]);
-        let named = Correction::Name(moved.clone(), "hit".into()).on(&edits);
+        let named = Correction::Name(moved.clone(), "hit".into()).on(&edits, None);
         assert_eq!(named.moves, [Move::parse("41:44:hit").unwrap()]);
-        assert_eq!(to(moved.clone(), 41).on(&edits), Edits::default(), "it is where it was");
-        assert_eq!(Correction::TakeBack(moved).on(&edits), Edits::default());
-        assert_eq!(to(key(7, Origin::Rest), 7).on(&Edits::default()), Edits::default());
+        assert_eq!(to(moved.clone(), 41).on(&edits, None), Edits::default(), "it is where it was");
+        assert_eq!(Correction::TakeBack(moved).on(&edits, None), Edits::default());
+        assert_eq!(to(key(7, Origin::Rest), 7).on(&Edits::default(), None), Edits::default());
     }
 
     #[test]
     fn a_pin_moves_as_a_pin() {
-        let edits = Correction::Pin(Frame(9)).on(&Edits::default());
-        let edits = Correction::Move(key(9, Origin::Pinned), Frame(12)).on(&edits);
+        let edits = Correction::Pin(Frame(9)).on(&Edits::default(), None);
+        let edits = Correction::Move(key(9, Origin::Pinned), Frame(12)).on(&edits, None);
         assert_eq!((edits.pins[0].frame, edits.moves.len()), (Frame(12), 0));
     }
 
     #[test]
     fn a_drawing_is_held_held_otherwise_and_let_go() {
-        let edits = Correction::Hold(Frame(42), 4).on(&Edits::default());
+        let edits = Correction::Hold(Frame(42), 4).on(&Edits::default(), None);
         let edits = on(&edits, &[Correction::Hold(Frame(7), 3), Correction::Hold(Frame(42), 2)]);
         assert_eq!(edits.holds, ["7:3", "42:2"].map(|text| Hold::parse(text).unwrap()));
-        let edits = Correction::LetGo(Frame(7)).on(&edits);
+        let edits = Correction::LetGo(Frame(7)).on(&edits, None);
         assert_eq!(edits.holds, [Hold::parse("42:2").unwrap()]);
-        assert_eq!(Correction::LetGo(Frame(42)).on(&edits), Edits::default());
+        assert_eq!(Correction::LetGo(Frame(42)).on(&edits, None), Edits::default());
     }
 
     #[test]
     fn a_forbidden_key_is_forbidden_where_it_was_found_and_may_be_again() {
         let one = |frame| vec![Forbidden::one(Frame(frame))];
-        let edits = Correction::Forbid(key(41, Origin::Turn)).on(&Edits::default());
+        let edits = Correction::Forbid(key(41, Origin::Turn)).on(&Edits::default(), None);
         assert_eq!(edits.forbidden, one(41));
-        let moved = Correction::Move(key(41, Origin::Turn), Frame(43)).on(&Edits::default());
-        let gone = Correction::Forbid(key(43, Origin::Moved { from: Frame(41) })).on(&moved);
+        let moved = Correction::Move(key(41, Origin::Turn), Frame(43)).on(&Edits::default(), None);
+        let gone = Correction::Forbid(key(43, Origin::Moved { from: Frame(41) })).on(&moved, None);
         assert_eq!((gone.forbidden, gone.moves), (one(41), vec![]));
-        assert_eq!(Correction::Allow(Forbidden::one(Frame(41))).on(&edits), Edits::default());
-        let pinned = Correction::Pin(Frame(41)).on(&edits);
+        assert_eq!(Correction::Allow(Forbidden::one(Frame(41))).on(&edits, None), Edits::default());
+        let twice =
+            Correction::Pin(Frame(41)).on(&Correction::Pin(Frame(41)).on(&edits, None), None);
+        assert_eq!(twice.pins.len(), 1, "once is enough");
+        let pinned = Correction::Pin(Frame(41)).on(&edits, None);
         assert_eq!((pinned.forbidden.len(), pinned.pins.len()), (0, 1), "the last word counts");
     }
 
     #[test]
     fn all_keys_are_chosen_again_while_a_person_wants_it() {
-        let edits = Correction::Again(true).on(&Edits::default());
+        let edits = Correction::Again(true).on(&Edits::default(), None);
         assert!(edits.again);
-        assert_eq!(Correction::Again(false).on(&edits), Edits::default());
+        assert_eq!(Correction::Again(false).on(&edits, None), Edits::default());
     }
 
     #[test]
     fn the_last_of_the_only_pins_takes_that_wish_with_it() {
-        let edits = Correction::Pin(Frame(9)).on(&Edits { only_pins: true, ..Edits::default() });
+        let edits =
+            Correction::Pin(Frame(9)).on(&Edits { only_pins: true, ..Edits::default() }, None);
         assert!(edits.only_pins);
-        let edits = Correction::TakeBack(key(9, Origin::Pinned)).on(&edits);
+        let edits = Correction::TakeBack(key(9, Origin::Pinned)).on(&edits, None);
         assert!(!edits.only_pins, "the chain refuses to run without any key");
+    }
+
+    #[test]
+    fn a_column_has_corrections_of_its_own_and_those_of_all_are_corrected_there() {
+        let all = Correction::Pin(Frame(9)).on(&Edits::default(), None);
+        let edits = Correction::Pin(Frame(20)).on(&all, Some("B"));
+        assert_eq!(edits.pins, [Pin::parse("9").unwrap()]);
+        assert_eq!(edits.layers["B"].pins, [Pin::parse("20").unwrap()]);
+        let moved = Correction::Move(key(30, Origin::Turn), Frame(33)).on(&edits, Some("C"));
+        assert_eq!(moved.layers["C"].moves, [Move::parse("30:33").unwrap()]);
+        let name = Correction::Name(key(9, Origin::Pinned), "hit".into());
+        assert_eq!(name.on(&edits, Some("B")).pins, [Pin::parse("9:hit").unwrap()]);
+        let bare = Correction::TakeBack(key(20, Origin::Pinned)).on(&edits, Some("B"));
+        assert_eq!(bare, all, "a column of which nothing is said is not named");
+        let none = Correction::TakeBack(key(9, Origin::Pinned)).on(&bare, Some("B"));
+        assert_eq!(none, Edits::default());
+        let forbidden = Correction::Forbid(key(41, Origin::Turn)).on(&Edits::default(), Some("B"));
+        assert_eq!(forbidden.layers["B"].forbidden, [Forbidden::one(Frame(41))]);
+        let allowed = Correction::Allow(Forbidden::one(Frame(41))).on(&forbidden, Some("B"));
+        assert_eq!(allowed, Edits::default());
     }
 }

@@ -2,8 +2,9 @@
 
 use super::words::Words;
 use crate::pipeline::Breakdown;
+use crate::sheet::Layer;
 
-/// What a producer asks for.
+/// What a producer asks for, of all columns together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Counts {
     pub(super) genga: usize,
@@ -15,12 +16,12 @@ pub(super) struct Counts {
 
 impl Counts {
     pub(super) fn of(breakdown: &Breakdown<'_>) -> Self {
-        let layer = &breakdown.sheet.layers[0];
+        let layers = &breakdown.sheet.layers;
         Self {
-            genga: layer.genga(),
-            drawings: layer.shown().count(),
-            longest_hold: layer.longest_hold(),
-            koma: layer.length(),
+            genga: layers.iter().map(Layer::genga).sum(),
+            drawings: layers.iter().map(|layer| layer.shown().count()).sum(),
+            longest_hold: layers.iter().map(Layer::longest_hold).max().unwrap_or(0),
+            koma: breakdown.sheet.length(),
             koma_rate: breakdown.clock.koma_rate,
         }
     }

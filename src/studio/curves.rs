@@ -88,7 +88,7 @@ impl Curves {
     ) {
         let (painter, look) = (ui.painter_at(rect), &shown.look);
         painter.rect_filled(rect, 0.0, look.paper);
-        let place = |koma: usize| time.x(shown.column.clock.place_from_koma(koma));
+        let place = |koma: usize| time.x(shown.column().clock.place_from_koma(koma));
         if let Some(range) = &player.range {
             let played = place(range.start)..=place(range.end);
             painter.rect_filled(Rect::from_x_y_ranges(played, inside.y_range()), 0.0, look.chosen);

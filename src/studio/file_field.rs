@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, Key, TextEdit, Ui};
+use egui::text::{CCursor, CCursorRange};
+use egui::{Button, Key, Response, TextEdit, Ui};
 
 use super::command::Command;
 use super::words::Words;
@@ -40,6 +41,7 @@ impl FileField {
         let field = ui.add(field).accessible_name(words.say("File", "ファイル"));
         if std::mem::take(&mut self.wants_focus) {
             field.request_focus();
+            choose_all(ui, &field, &self.text);
         }
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let name = self.text.trim();
@@ -58,6 +60,15 @@ impl FileField {
         if button(ui, true, words.say("Choose…", "選ぶ…")) {
             commands.push(Command::Choose);
         }
+    }
+}
+
+/// What is typed next stands in the place of what is there.
+fn choose_all(ui: &Ui, field: &Response, text: &str) {
+    if let Some(mut state) = TextEdit::load_state(ui.ctx(), field.id) {
+        let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
+        state.cursor.set_char_range(Some(all));
+        state.store(ui.ctx(), field.id);
     }
 }
 

@@ -1,11 +1,13 @@
 //! What can be done to a key, as a menu and as a small panel.
 
-use egui::{DragValue, RichText, Slider, TextEdit, Ui};
+use egui::{DragValue, Label, RichText, TextEdit, Ui, UiBuilder, vec2};
 
 use super::command::Command;
 use super::corrections::Correction;
+use super::here::MOST_WEIGHT;
 use super::icon::{self, Icon};
 use super::shown::Shown;
+use super::why;
 use super::words::Words;
 use crate::keys::{Key, Origin};
 
@@ -43,6 +45,10 @@ fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
 
 /// How long a drawing may be asked to stay: two seconds, as a sheet is turned by then.
 const LONGEST: usize = 48;
+/// The panel is as high with all there may be in it as with little, so that the sheet below stays where it is.
+const HEIGHT: f32 = 152.0;
+/// Lines that a reason has.
+const REASON: f32 = 28.0;
 
 /// The panel of the key at the play head.
 #[derive(Debug, Clone, Default)]
@@ -56,9 +62,18 @@ pub(super) struct KeyPanel {
 impl KeyPanel {
     /// Shows the key, or that there is none.
     pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let (_, place) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
+        let inside = ui.clip_rect().intersect(place.expand(2.0));
+        ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+            ui.set_clip_rect(inside);
+            self.inside(ui, shown, commands);
+        });
+    }
+
+    fn inside(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         let words = shown.words;
-        let cell = shown.column.cell(shown.at);
-        let Some(key) = shown.column.key(shown.at) else {
+        let cell = shown.column().cell(shown.at);
+        let Some(key) = shown.column().key(shown.at) else {
             self.wants_focus = false;
             let what = match cell.genga {
                 Some(_) => words.say("End of the clip", "クリップの端"),
@@ -78,10 +93,8 @@ impl KeyPanel {
                 false => format!("frame {frame}"),
             });
         });
-        if !words.is_japanese() {
-            ui.label(RichText::new(cell.drawing.why.to_string()).size(11.0).weak());
-        }
-        ui.horizontal_wrapped(|ui| show(ui, key, words, commands));
+        reason(ui, &why::sentence(&cell.drawing.why, words));
+        ui.horizontal(|ui| show(ui, key, words, commands));
         self.name(ui, key, words, commands);
         weight(ui, key, shown, commands);
         hold(ui, shown, commands);
@@ -114,26 +127,40 @@ impl KeyPanel {
     }
 }
 
+/// Why the drawing is there, on two lines; all of it where the mouse rests.
+fn reason(ui: &mut Ui, text: &str) {
+    let (_, place) = ui.allocate_space(vec2(ui.available_width(), REASON));
+    let label = Label::new(RichText::new(text).size(11.0).weak()).wrap();
+    let inside = ui.clip_rect().intersect(place);
+    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+        ui.set_clip_rect(inside);
+        ui.add(label).on_hover_text(text);
+    });
+}
+
 /// The spacing weight from this key on.
 fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>) {
     let words = shown.words;
     let label = words.say("Own spacing weight", "この原画の詰め");
-    let mut is_own = key.weight.is_some();
-    if ui.checkbox(&mut is_own, label).changed() {
-        let weight = is_own.then_some(shown.wanted.recipe.spacing.weight);
-        commands.push(Command::Correct(Correction::Weight(key.clone(), weight)));
-    }
-    if let Some(mut weight) = key.weight {
-        let slider = Slider::new(&mut weight, 0.0..=0.95).fixed_decimals(2);
-        if ui.add(slider).accessible_name(label).changed() {
-            commands.push(Command::Correct(Correction::Weight(key.clone(), Some(weight))));
+    ui.horizontal(|ui| {
+        let mut is_own = key.weight.is_some();
+        if ui.checkbox(&mut is_own, label).changed() {
+            let weight = is_own.then_some(shown.wanted.recipe.spacing.weight);
+            commands.push(Command::Correct(Correction::Weight(key.clone(), weight)));
         }
-    }
+        if let Some(mut weight) = key.weight {
+            let value = DragValue::new(&mut weight).range(0.0..=MOST_WEIGHT).speed(0.01);
+            let value = ui.add(value.fixed_decimals(2)).accessible_name(label);
+            if value.changed() {
+                commands.push(Command::Correct(Correction::Weight(key.clone(), Some(weight))));
+            }
+        }
+    });
 }
 
 /// How long the drawing at the play head stays.
 fn hold(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
-    let (words, cell) = (shown.words, shown.column.cell(shown.at));
+    let (words, cell) = (shown.words, shown.column().cell(shown.at));
     let frame = cell.hold_frame(&shown.wanted.edits);
     ui.horizontal(|ui| {
         let label = words.say("Hold", "止め");

@@ -1,6 +1,6 @@
 //! The keyboard (キー): which key gives which command. The list that `?` shows is made from this table.
 
-use egui::{Event, Key, KeyboardShortcut, Modifiers, TextEdit, Ui};
+use egui::{Event, Key, KeyboardShortcut, Modifiers, Popup, TextEdit, Ui};
 
 use super::command::{Command, Seen, Standard};
 use super::words::Words;
@@ -94,6 +94,13 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::C, Command::Follow, "camera follows the body", "カメラが体を追う"),
     key(NONE, Key::G, Command::Onion, "onion skin", "オニオンスキン"),
     key(NONE, Key::T, Command::Trails, "trails of the chosen joints", "選んだ関節の軌跡"),
+    key(
+        NONE,
+        Key::E,
+        Command::Exaggerated,
+        "source as captured or exaggerated",
+        "素材の誇張前・誇張後",
+    ),
     key(NONE, Key::H, Command::Map, "map of the smoothing", "表1の地図"),
     key(NONE, Key::M, Command::Movement, "movement into each koma", "動きの大きさ"),
     key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
@@ -102,6 +109,9 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::CloseBracket, Command::Hold(1), "hold a koma longer", "止めを1コマ長く"),
     key(NONE, Key::Comma, Command::Crowd(-0.05), "inbetweens away from the genga", "詰めを弱く"),
     key(NONE, Key::Period, Command::Crowd(0.05), "inbetweens closer to the genga", "詰めを強く"),
+    key(SHIFT, Key::R, Command::SheetZoom(1.0 / 1.25), "sheet lower", "シートを縮める"),
+    key(NONE, Key::R, Command::SheetZoom(1.25), "sheet higher", "シートを広げる"),
+    key(NONE, Key::A, Command::NextColumn, "next column of the sheet", "次のセル"),
     key(NONE, Key::N, Command::FocusName, "name the genga here", "原画に名前"),
     key(NONE, Key::D, Command::Theme, "light, dark", "明るい・暗い画面"),
     key(NONE, Key::J, Command::Language, "Japanese labels", "英語表示"),
@@ -119,7 +129,12 @@ const OF_WIDGETS: [Key; 6] =
 pub(super) fn pressed(ui: &Ui) -> Vec<Command> {
     let focused = ui.memory(|memory| memory.focused());
     let is_typing = focused.is_some_and(|id| TextEdit::load_state(ui.ctx(), id).is_some());
+    // An open menu or list closes itself by Escape.
+    let is_menu_open = Popup::is_any_open(ui.ctx());
     let is_free = |binding: &Binding| {
+        if is_menu_open && binding.key == Key::Escape {
+            return false;
+        }
         let is_of_widget = binding.modifiers.is_none() && OF_WIDGETS.contains(&binding.key);
         match focused {
             None => true,

@@ -1,6 +1,7 @@
 //! The knobs (調整): every setting of the recipe as a slider or a choice, made from
 //! [`KNOBS`](crate::recipe::KNOBS).
 
+mod choices;
 mod measured;
 pub(super) mod presets;
 
@@ -19,8 +20,11 @@ use crate::recipe::{KNOBS, Kind, Knob, Recipe, Who};
 const ON: [&str; 8] = ["1", "2", "3", "4", "1-2", "1-3", "2-3", "2-4"];
 /// Sides to look from that are offered; a recipe may have a place.
 const SEEN_FROM: [&str; 5] = ["world", "auto", "front", "side", "three-quarter"];
-/// Width of the labels.
+/// Layers that are offered; a recipe may name its own.
+const LAYERS: [&str; 3] = ["body", "limbs", "joints"];
+/// Width of the labels: at the least, and where one is wider.
 const LABEL: f32 = 108.0;
+const WIDEST_LABEL: f32 = 150.0;
 
 /// The values of all knobs as text. They are made again only when the recipe has changed.
 #[derive(Debug, Clone)]
@@ -59,6 +63,7 @@ impl Knobs {
         ScrollArea::vertical().id_salt("knobs").auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().slider_width = 92.0;
             self.presets(ui, words, commands);
+            let wide = label_width(ui, words);
             for section in sections() {
                 let (name, is_open) = named(section, words);
                 let header = CollapsingHeader::new(RichText::new(name).strong());
@@ -67,7 +72,7 @@ impl Knobs {
                     |ui| {
                         for (at, knob) in KNOBS.iter().enumerate() {
                             if section_of(knob) == section {
-                                self.row(ui, at, knob, words, commands);
+                                self.row(ui, (at, wide), knob, words, commands);
                             }
                         }
                     },
@@ -104,7 +109,7 @@ impl Knobs {
     fn row(
         &self,
         ui: &mut Ui,
-        at: usize,
+        (at, wide): (usize, f32),
         knob: &'static Knob,
         words: Words,
         commands: &mut Vec<Command>,
@@ -118,11 +123,11 @@ impl Knobs {
             let text = if is_own { text.strong() } else { text };
             let text = egui::Label::new(text).truncate();
             let label = ui.scope(|ui| {
-                ui.set_width(LABEL);
+                ui.set_width(wide);
                 ui.add(text)
             });
             help(label.response, knob, default, words);
-            ui.name_inputs(knob.name, |ui| control(ui, knob, value, &mut set));
+            ui.name_inputs(knob.name, |ui| control(ui, knob, value, words, &mut set));
             let unit = short(knob, words);
             if !unit.is_empty() {
                 ui.label(RichText::new(unit).size(10.5).weak());
@@ -156,21 +161,22 @@ fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
 }
 
 /// The control that a kind of knob has. It gives the text that [`Recipe::set`] takes.
-fn control(ui: &mut Ui, knob: &'static Knob, value: &str, set: &mut impl FnMut(String)) {
+fn control(
+    ui: &mut Ui,
+    knob: &'static Knob,
+    value: &str,
+    words: Words,
+    set: &mut impl FnMut(String),
+) {
     match knob.kind {
         Kind::Number { min, max, whole, optional } => {
             number(ui, knob, value, (min, max, whole, optional), set);
         }
         Kind::Span | Kind::Amount | Kind::Band => measured::show(ui, knob, value, set),
-        Kind::On => choice(ui, knob, value, &ON, set),
-        Kind::SeenFrom => choice(ui, knob, value, &SEEN_FROM, set),
-        Kind::Choice(choices) => choice(ui, knob, value, choices, set),
-        Kind::Text => {
-            let mut text = value.to_owned();
-            if ui.text_edit_singleline(&mut text).changed() {
-                set(text);
-            }
-        }
+        Kind::On => choice(ui, (knob, words), value, &ON, set),
+        Kind::SeenFrom => choice(ui, (knob, words), value, &SEEN_FROM, set),
+        Kind::Choice(choices) => choice(ui, (knob, words), value, choices, set),
+        Kind::Text => choice(ui, (knob, words), value, &LAYERS, set),
         Kind::Flag => {
             let mut is_on = value == "true";
             if ui.checkbox(&mut is_on, "").accessible_name(knob.name).changed() {
@@ -205,21 +211,33 @@ fn number(
 
 fn choice(
     ui: &mut Ui,
-    knob: &'static Knob,
+    (knob, words): (&'static Knob, Words),
     value: &str,
     choices: &[&str],
     set: &mut impl FnMut(String),
 ) {
-    let shown = value.replace('_', " ");
+    let shown = choices::said(knob, value, words);
     let combo = ComboBox::from_id_salt(knob.name).selected_text(shown).width(128.0).truncate();
     let combo = combo.show_ui(ui, |ui| {
         for choice in choices {
-            if ui.selectable_label(value == *choice, choice.replace('_', " ")).clicked() {
+            let name = choices::said(knob, choice, words);
+            if ui.selectable_label(value == *choice, name).clicked() {
                 set((*choice).to_owned());
             }
         }
     });
     combo.response.accessible_name(knob.name);
+}
+
+/// How wide the labels are, so that none of an animator's is cut.
+fn label_width(ui: &Ui, words: Words) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let ink = ui.visuals().text_color();
+    let own = KNOBS.iter().filter(|knob| knob.who == Who::Animator);
+    let wide = own.map(|knob| {
+        ui.painter().layout_no_wrap(label(knob, words), font.clone(), ink).size().x.ceil() + 2.0
+    });
+    wide.fold(LABEL, f32::max).min(WIDEST_LABEL)
 }
 
 /// The section of the knobs that nobody draws with.

@@ -27,6 +27,8 @@ pub(super) struct Look {
     pub(super) shadow: Color32,
     pub(super) before: Color32,
     pub(super) after: Color32,
+    /// Where an action begins.
+    pub(super) action: Color32,
     pub(super) playhead: Color32,
     pub(super) chosen: Color32,
 }
@@ -64,6 +66,7 @@ impl Look {
             shadow: Color32::from_rgb(219, 223, 227),
             before: Color32::from_rgb(214, 160, 178),
             after: Color32::from_rgb(146, 190, 160),
+            action: Color32::from_rgb(120, 84, 160),
             playhead: Color32::from_rgb(0, 128, 96),
             chosen: Color32::from_rgb(214, 240, 230),
         }
@@ -89,6 +92,7 @@ impl Look {
             shadow: gray(16),
             before: Color32::from_rgb(122, 76, 94),
             after: Color32::from_rgb(62, 108, 80),
+            action: Color32::from_rgb(176, 140, 220),
             playhead: Color32::from_rgb(72, 208, 160),
             chosen: Color32::from_rgb(24, 62, 50),
         }

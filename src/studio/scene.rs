@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use crate::motion::{Clip, Stature, Unit};
+use crate::motion::{Clip, JointId, Skeleton, Stature, Unit};
 use crate::plot::Camera;
-use crate::plot::parts::{Figure, FigureBody, Posing, View, seen_by};
+use crate::plot::parts::{Figure, FigureBody, Posing, View, bones, seen_by};
 use crate::sheet::Source;
 use crate::time::KOMA_RATE;
 
@@ -29,6 +29,8 @@ pub(super) struct Scene {
     pub(super) cell: f64,
     /// Points that the motion reaches, for what has to fit into a view.
     pub(super) reached: Vec<DVec3>,
+    /// For each joint the point that hangs on it and goes the longest way.
+    ends: Vec<usize>,
     front: View,
     side: View,
     three_quarter: View,
@@ -53,11 +55,17 @@ impl Scene {
             up,
             floor,
             cell,
+            ends: ends(clip.skeleton(), &poses),
             front: view(Camera::Front),
             side: view(Camera::Side),
             three_quarter: view(Camera::ThreeQuarter),
             reached: poses.concat(),
         }
+    }
+
+    /// The point of a pose that goes the longest way of all that hang on a joint: a hand, a foot, the tip of a toe.
+    pub(super) fn fastest_end(&self, joint: JointId) -> usize {
+        self.ends[joint.0]
     }
 
     /// A level view.
@@ -84,4 +92,23 @@ impl Scene {
     pub(super) fn on_floor(&self, point: DVec3) -> DVec3 {
         point - self.up * (point.dot(self.up) - self.floor)
     }
+}
+
+/// For each joint the point below it that goes the longest way.
+fn ends(skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Vec<usize> {
+    let way = |point: usize| -> f64 {
+        poses.windows(2).map(|pair| pair[0][point].distance(pair[1][point])).sum()
+    };
+    let mut ends: Vec<(usize, f64)> = (0..skeleton.len()).map(|joint| (joint, 0.0)).collect();
+    let mut bones: Vec<(usize, usize)> = bones(skeleton).collect();
+    // Children have higher numbers than their parents, and tips than all joints: the last come first.
+    bones.sort_unstable_by_key(|(_, to)| std::cmp::Reverse(*to));
+    for (from, to) in bones {
+        let below = ends.get(to).copied().filter(|(end, _)| *end != to);
+        let end = below.unwrap_or_else(|| (to, way(to)));
+        if end.1 > ends[from].1 {
+            ends[from] = end;
+        }
+    }
+    ends.into_iter().map(|(end, _)| end).collect()
 }

@@ -4,6 +4,7 @@ use super::column::Column;
 use super::command::Command;
 use super::document::Document;
 use super::look::Look;
+use super::on_screen::OnScreen;
 use super::scene::Scene;
 use super::words::Words;
 use crate::motion::JointId;
@@ -13,7 +14,11 @@ use crate::time::Frame;
 /// A look at the results from one koma.
 pub(super) struct Shown<'a> {
     pub(super) breakdown: Breakdown<'a>,
-    pub(super) column: Column<'a>,
+    /// All columns on one another.
+    pub(super) on_screen: OnScreen<'a>,
+    /// Every column, and which of them is worked on.
+    pub(super) columns: Vec<Column<'a>>,
+    pub(super) chosen: usize,
     pub(super) scene: &'a Scene,
     /// What is asked for: of a clip that takes long not yet what the results are made of.
     pub(super) wanted: &'a Document,
@@ -25,11 +30,26 @@ pub(super) struct Shown<'a> {
     pub(super) words: Words,
 }
 
-impl Shown<'_> {
+impl<'a> Shown<'a> {
+    /// The column that is worked on.
+    pub(super) fn column(&self) -> &Column<'a> {
+        &self.columns[self.chosen]
+    }
+
+    /// Whether another motion is drawn than was captured.
+    pub(super) fn is_exaggerated(&self) -> bool {
+        !self.wanted.recipe.exaggerate.is_off()
+    }
+
     /// To a koma, if the play head is elsewhere.
     pub(super) fn go(&self, koma: usize) -> Option<Command> {
-        let koma = koma.min(self.column.length.saturating_sub(1));
+        let koma = koma.min(self.column().length.saturating_sub(1));
         (koma != self.at).then_some(Command::Go(koma))
+    }
+
+    /// To a column, if another is worked on.
+    pub(super) fn choose(&self, column: usize) -> Option<Command> {
+        (column != self.chosen).then_some(Command::Column(column))
     }
 
     /// The source frame nearest to a place, within the clip.
@@ -39,15 +59,8 @@ impl Shown<'_> {
         Frame(frame.clamp(clip.first().0, clip.last().0))
     }
 
-    /// The koma on which the drawing of a place stood before anything was left out.
-    pub(super) fn spaced_koma(&self, place: f64) -> Option<usize> {
-        let layer = &self.breakdown.spaced.layers[0];
-        let is_it = |drawing: usize| layer.drawings[drawing].source.place() == place;
-        layer.timed().find(|(_, shown)| is_it(shown.drawing)).map(|(koma, _)| koma)
-    }
-
     /// The source frame nearest to a koma, within the clip.
     pub(super) fn frame_of_koma(&self, koma: usize) -> Frame {
-        self.frame(self.column.clock.place_from_koma(koma))
+        self.frame(self.column().clock.place_from_koma(koma))
     }
 }

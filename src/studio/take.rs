@@ -15,9 +15,35 @@ use super::step::Step;
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::pipeline::{Breakdown, Engine};
+use crate::plot::parts::Cels;
+use crate::recipe::Recipe;
 
 /// Seconds a run may take and still be made again while something is dragged.
 const QUICK: f64 = 0.04;
+
+/// Everything that was made of a clip and its document, and what is asked for next.
+pub(super) struct Results<'a> {
+    pub(super) breakdown: Breakdown<'a>,
+    /// All columns on one another.
+    pub(super) cels: &'a Cels,
+    pub(super) scene: &'a Scene,
+    /// What a hand asks for: of a slow clip not yet what the results are made of.
+    pub(super) wanted: &'a Document,
+}
+
+impl Results<'_> {
+    /// How many columns the sheet has.
+    pub(super) fn columns(&self) -> usize {
+        self.breakdown.sheet.layers.len()
+    }
+
+    /// The name of a column, by which it is corrected; none of a sheet that has no other.
+    pub(super) fn named(&self, column: usize) -> Option<String> {
+        let layers = &self.breakdown.sheet.layers;
+        let column = layers.get(column).or(layers.last()).filter(|_| layers.len() > 1);
+        column.map(|layer| layer.name.clone())
+    }
+}
 
 /// A clip that is worked on.
 pub(super) struct Take {
@@ -36,6 +62,8 @@ pub(super) struct Take {
     engine: Engine,
     /// The document of the results: one that the chain has taken.
     document: Document,
+    /// All columns of its sheet on one another, as the files have them; none before the chain has run.
+    cels: Option<Cels>,
     saved: Document,
     autosaved: Document,
     is_slow: bool,
@@ -57,7 +85,7 @@ impl Take {
         let left = read(desk, &beside(path, AUTOSAVE)).ok().flatten();
         let mut engine = Engine::new(opened.clip).map_err(|error| error.to_string())?;
         let scene = Scene::of(engine.clip());
-        run(&mut engine, &saved, begin)
+        let cels = run(&mut engine, &saved, begin)
             .map_err(|error| format!("{}: {error}", recipe.display()))?;
         Ok(Self {
             path: path.to_owned(),
@@ -69,6 +97,7 @@ impl Take {
             left: left.filter(|left| *left != saved),
             engine,
             document: saved.clone(),
+            cels: Some(cels),
             autosaved: saved.clone(),
             saved,
             is_slow: false,
@@ -86,10 +115,11 @@ impl Take {
     }
 
     /// The results, with the scene they stand in.
-    pub(super) fn results(&mut self) -> (Breakdown<'_>, &Scene, &Document) {
+    pub(super) fn results(&mut self) -> Results<'_> {
         let Document { recipe, edits } = &self.document;
         let breakdown = self.engine.run(recipe, edits).expect("the chain has taken this document");
-        (breakdown, &self.scene, &self.wanted)
+        let cels = self.cels.as_ref().expect("cels are laid once the chain has run");
+        Results { breakdown, cels, scene: &self.scene, wanted: &self.wanted }
     }
 
     /// Makes the results again if something else is wanted. A clip that takes long waits for the hand.
@@ -101,8 +131,11 @@ impl Take {
             return Ok(false);
         }
         let begin = Instant::now();
-        match self.engine.run(&self.wanted.recipe, &self.wanted.edits) {
-            Ok(_) => self.document = self.wanted.clone(),
+        let Document { recipe, edits } = &self.wanted;
+        let before = (&self.document.recipe, self.cels.as_ref());
+        let laid = self.engine.run(recipe, edits);
+        match laid.and_then(|breakdown| laid_again(&breakdown, recipe, before)) {
+            Ok(cels) => (self.cels, self.document) = (Some(cels), self.wanted.clone()),
             Err(error) => {
                 self.wanted = self.document.clone();
                 return Err(error);
@@ -113,7 +146,7 @@ impl Take {
     }
 
     pub(super) fn counts(&mut self) -> Counts {
-        Counts::of(&self.results().0)
+        Counts::of(&self.results().breakdown)
     }
 
     /// Whether something would be lost without a save.
@@ -186,14 +219,28 @@ impl Take {
 }
 
 /// Runs the chain for the first time, step by step.
-fn run(engine: &mut Engine, document: &Document, begin: impl Fn(Step)) -> Result<(), Error> {
+fn run(engine: &mut Engine, document: &Document, begin: impl Fn(Step)) -> Result<Cels, Error> {
     let Document { recipe, edits } = document;
     begin(Step::Measure);
     engine.find_turns(recipe)?;
     begin(Step::Choose);
     engine.find_keys(recipe, edits)?;
     begin(Step::Time);
-    engine.run(recipe, edits).map(drop)
+    let breakdown = engine.run(recipe, edits)?;
+    Cels::of(breakdown.clip, breakdown.sheet)
+}
+
+/// The columns of other results on one another. Where feet stand is looked for again only in another motion.
+fn laid_again(
+    breakdown: &Breakdown<'_>,
+    recipe: &Recipe,
+    (of, cels): (&Recipe, Option<&Cels>),
+) -> Result<Cels, Error> {
+    let motion = |recipe: &Recipe| (recipe.exaggerate.clone(), recipe.rate, recipe.feet);
+    match cels.filter(|_| motion(of) == motion(recipe)) {
+        Some(cels) => cels.again(breakdown.clip, breakdown.sheet),
+        None => Cels::of(breakdown.clip, breakdown.sheet),
+    }
 }
 
 /// What the file beside a clip is called that keeps what is not saved.

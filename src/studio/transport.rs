@@ -30,8 +30,8 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
     }
     button(ui, Icon::Step { is_back: false }, "Next koma", "次のコマ", Command::Koma(1));
     button(ui, Icon::Skip { is_back: false }, "Next genga", "次の原画", Command::Genga(1));
-    let (at, length) = (shown.at + 1, shown.column.length);
-    let rate = shown.column.clock.koma_rate;
+    let (at, length) = (shown.at + 1, shown.column().length);
+    let rate = shown.column().clock.koma_rate;
     let seconds = shown.at as f64 / rate;
     ui.monospace(match words.is_japanese() {
         true => format!("コマ {at:>4} / {length}  {seconds:>6.2} 秒"),
@@ -49,7 +49,7 @@ const HEIGHT: f32 = 22.0;
 fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
     let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
     let response = ui.interact(rect, Id::unique("scrub"), Sense::click_and_drag());
-    let column = &shown.column;
+    let column = shown.column();
     let inside = rect.shrink2(vec2(6.0, 3.0));
     let wide = inside.width() / column.length.max(1) as f32;
     let x = |koma: usize| inside.min.x + wide * koma as f32;

@@ -9,12 +9,14 @@ mod trails;
 
 use glam::DVec3;
 
-use egui::{Align2, FontId, Id, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2};
+use egui::{
+    Align2, FontId, Id, Painter, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2,
+};
 
 use super::command::{Command, Seen};
 use super::scene::Scene;
 use super::shown::Shown;
-use crate::plot::parts::Posing;
+use crate::plot::parts::{Posing, Stage};
 use crate::sheet::Source;
 
 pub(super) use orbit::Orbit;
@@ -28,11 +30,19 @@ pub(super) struct Viewport {
     pub(super) onion: bool,
     /// Whether chosen joints leave trails.
     pub(super) trails: bool,
+    /// Whether the source is as it is drawn, over what was captured.
+    pub(super) exaggerated: bool,
 }
 
 impl Default for Viewport {
     fn default() -> Self {
-        Self { orbit: Orbit::default(), seen: Seen::Both, onion: false, trails: true }
+        Self {
+            orbit: Orbit::default(),
+            seen: Seen::Both,
+            onion: false,
+            trails: true,
+            exaggerated: true,
+        }
     }
 }
 
@@ -51,8 +61,8 @@ impl Viewport {
     pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.add_space(6.0);
-            let shining = (self.onion, self.trails);
-            sides::show(ui, shown.words, (self.seen, &self.orbit), shining, commands);
+            let shining = (self.onion, self.trails, self.exaggerated);
+            sides::show(ui, shown, (self.seen, &self.orbit), shining, commands);
         });
         let whole = ui.available_rect_before_wrap();
         let anchor = self.anchor(shown);
@@ -68,7 +78,7 @@ impl Viewport {
             let id = Id::unique(("viewport", *seen == Seen::Source));
             let response = ui.interact(*rect, id, Sense::click_and_drag());
             self.handle(ui, &response, shown, commands);
-            self.draw(ui, *rect, *seen, anchor, shown);
+            self.draw(&ui.painter_at(*rect), *rect, *seen, anchor, shown);
             let name = self.heading(*seen, shown);
             response.widget_info(|| egui::WidgetInfo::labeled(Role::Canvas, true, &name));
         }
@@ -77,7 +87,7 @@ impl Viewport {
 
     /// What a view that follows has in its middle: the body of the source, as it is a smooth way.
     fn anchor(&self, shown: &Shown<'_>) -> DVec3 {
-        let place = shown.column.clock.place_from_koma(shown.at);
+        let place = shown.column().clock.place_from_koma(shown.at);
         let root = Posing::of(shown.breakdown.source, &[]).points(Source::At(place))[0];
         shown.scene.on_floor(root) + shown.scene.up * (0.5 * shown.scene.figure.height)
     }
@@ -108,38 +118,55 @@ impl Viewport {
         }
     }
 
-    fn draw(&self, ui: &Ui, rect: Rect, seen: Seen, anchor: DVec3, shown: &Shown<'_>) {
-        let painter = ui.painter_at(rect);
-        let look = &shown.look;
-        painter.rect_filled(rect, 4.0, look.ground);
+    /// Draws a half.
+    fn draw(&self, painter: &Painter, rect: Rect, seen: Seen, anchor: DVec3, shown: &Shown<'_>) {
+        painter.rect_filled(rect, 4.0, shown.look.ground);
         let stage = self.orbit.stage(shown.scene, rect, anchor);
-        let clip = match seen {
-            Seen::Source => shown.breakdown.source,
-            _ => shown.breakdown.clip,
-        };
-        let mut posing = Posing::of(clip, shown.scene.figure.marks());
-        floor::draw(&painter, &stage, shown);
-        let source = match seen {
-            Seen::Source => Source::At(shown.column.clock.place_from_koma(shown.at)),
-            _ => shown.column.cell(shown.at).drawing.source,
-        };
-        let pose = posing.points(source);
-        floor::shadow(&painter, &stage, &pose, shown);
+        floor::draw(painter, &stage, shown);
+        let marks = shown.scene.figure.marks();
+        if seen == Seen::Source {
+            let place = |koma| Source::At(shown.column().clock.place_from_koma(koma));
+            let mut captured = Posing::of(shown.breakdown.source, marks);
+            let mut drawn = Posing::of(shown.breakdown.clip, marks);
+            let is_drawn = self.exaggerated && shown.is_exaggerated();
+            let posing = if is_drawn { &mut drawn } else { &mut captured };
+            self.body(painter, &stage, seen, shown, |koma| posing.points(place(koma)));
+            if is_drawn {
+                let pose = stage.draw(&captured.points(place(shown.at)));
+                let ink = body::Inks::One(shown.look.faint, 0.6);
+                body::draw(painter, &pose, ink, &shown.look);
+            }
+        } else {
+            let mut posing = shown.on_screen.posing(marks);
+            self.body(painter, &stage, seen, shown, |koma| posing.koma(koma));
+        }
+        self.words(painter, rect, seen, shown);
+    }
+
+    /// The figure at the play head, with its shadow, its neighbours and its trails.
+    fn body(
+        &self,
+        painter: &Painter,
+        stage: &Stage,
+        seen: Seen,
+        shown: &Shown<'_>,
+        mut pose: impl FnMut(usize) -> Vec<DVec3>,
+    ) {
+        let now = pose(shown.at);
+        floor::shadow(painter, stage, &now, shown);
         if self.onion {
-            ghosts::draw(&painter, &stage, &mut posing, seen, shown);
+            ghosts::draw(painter, stage, shown, &mut pose);
         }
-        body::draw(&painter, &stage.draw(&pose), body::Inks::Sides, look);
+        body::draw(painter, &stage.draw(&now), body::Inks::Sides, &shown.look);
         if self.trails {
-            trails::draw(&painter, &stage, &mut posing, seen, shown);
+            trails::draw(painter, stage, seen, shown, &mut pose);
         }
-        let at = rect.min + vec2(10.0, 8.0);
-        painter.text(
-            at,
-            Align2::LEFT_TOP,
-            self.heading(seen, shown),
-            FontId::proportional(14.0),
-            look.ink,
-        );
+    }
+
+    fn words(&self, painter: &Painter, rect: Rect, seen: Seen, shown: &Shown<'_>) {
+        let (at, look) = (rect.min + vec2(10.0, 8.0), &shown.look);
+        let heading = self.heading(seen, shown);
+        painter.text(at, Align2::LEFT_TOP, heading, FontId::proportional(14.0), look.ink);
         let at = pos2(rect.min.x + 10.0, rect.max.y - 8.0);
         let standing = standing(seen, shown);
         painter.text(at, Align2::LEFT_BOTTOM, standing, FontId::proportional(12.0), look.faint);
@@ -148,6 +175,9 @@ impl Viewport {
     fn heading(&self, seen: Seen, shown: &Shown<'_>) -> String {
         let words = shown.words;
         match seen {
+            Seen::Source if self.exaggerated && shown.is_exaggerated() => {
+                words.say("Source, exaggerated", "素材（誇張後）").into()
+            }
             Seen::Source => words.say("Source", "素材").into(),
             _ => words.say("Result", "結果").into(),
         }
@@ -156,7 +186,7 @@ impl Viewport {
 
 /// What stands at the play head, in words.
 fn standing(seen: Seen, shown: &Shown<'_>) -> String {
-    let (words, column) = (shown.words, &shown.column);
+    let (words, column) = (shown.words, shown.column());
     if seen == Seen::Source {
         let place = column.clock.place_from_koma(shown.at);
         let frame = (place * 10.0).round() / 10.0;
@@ -173,8 +203,12 @@ fn standing(seen: Seen, shown: &Shown<'_>) -> String {
         (None, false) => "inbetween".into(),
     };
     let (drawing, since, held) = (cell.number(), shown.at - cell.koma + 1, cell.held);
+    let name = if shown.columns.len() > 1 { format!("{} · ", column.name) } else { String::new() };
     match words.is_japanese() {
-        true => format!("動画 {drawing} · {number} · {since}/{held}コマ目"),
-        false => format!("drawing {drawing} · {number} · koma {since} of {held}"),
+        true => format!("{name}動画 {drawing} · {number} · {since}/{held}コマ目"),
+        false => format!("{name}drawing {drawing} · {number} · koma {since} of {held}"),
     }
 }
+
+#[cfg(test)]
+mod tests;

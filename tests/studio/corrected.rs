@@ -1,7 +1,6 @@
 //! Keys by hand: on the keyboard, on the sheet, over the curves.
 
-use egui::accesskit::Role;
-use egui::{Key, Modifiers, Pos2, Rect, pos2};
+use egui::{Key, Modifiers, pos2};
 use egui_kittest::kittest::Queryable;
 use genga::time::Frame;
 
@@ -11,34 +10,6 @@ use crate::table::Table;
 const ROW: f32 = 17.0;
 
 impl Table {
-    fn tap(&mut self, modifiers: Modifiers, key: Key) {
-        self.harness.key_press_modifiers(modifiers, key);
-        self.harness.run();
-    }
-
-    /// To a koma, from 1, by the keyboard.
-    fn go(&mut self, koma: usize) {
-        self.tap(Modifiers::NONE, Key::Home);
-        (1..koma).for_each(|_| self.harness.key_press(Key::ArrowRight));
-        self.harness.run();
-    }
-
-    fn canvas(&self, name: &str) -> Rect {
-        self.harness.get_by_role_and_label(Role::Canvas, name).rect()
-    }
-
-    fn drag(&mut self, from: Pos2, to: Pos2) {
-        self.harness.hover_at(from);
-        self.harness.drag_at(from);
-        self.harness.run();
-        for step in 1..=6 {
-            self.harness.hover_at(from + (to - from) * (step as f32 / 6.0));
-            self.harness.run();
-        }
-        self.harness.drop_at(to);
-        self.harness.run();
-    }
-
     fn pins(&self) -> Vec<usize> {
         self.edits().pins.iter().map(|pin| pin.frame.0).collect()
     }

@@ -4,9 +4,11 @@
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test")]
 
+mod at_ease; // what once was rough: quick hands, menus, notices, Japanese
 mod corrected; // keys by hand: on the keyboard, on the sheet, over the curves
 mod desk; // files in memory, and a disk that is full
 mod kept; // saved, opened, recovered, exported
+mod layered; // several columns, each with its own pins
 mod pictures; // what it looks like
 mod seen; // play, step, loop, flip, look from a side
 mod soft; // a renderer without a graphics card

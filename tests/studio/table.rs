@@ -5,8 +5,10 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use egui::Theme;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Pos2, Rect, Theme};
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
 use genga::edits::Edits;
 use genga::recipe::Recipe;
 use genga::studio::{Desk, Language, Studio};
@@ -101,5 +103,33 @@ impl Table {
 
     pub(crate) fn edits(&self) -> &Edits {
         &self.harness.state().document().unwrap().edits
+    }
+
+    pub(crate) fn tap(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.harness.run();
+    }
+
+    /// To a koma, from 1, by the keyboard.
+    pub(crate) fn go(&mut self, koma: usize) {
+        self.tap(Modifiers::NONE, Key::Home);
+        (1..koma).for_each(|_| self.harness.key_press(Key::ArrowRight));
+        self.harness.run();
+    }
+
+    pub(crate) fn canvas(&self, name: &str) -> Rect {
+        self.harness.get_by_role_and_label(Role::Canvas, name).rect()
+    }
+
+    pub(crate) fn drag(&mut self, from: Pos2, to: Pos2) {
+        self.harness.hover_at(from);
+        self.harness.drag_at(from);
+        self.harness.run();
+        for step in 1..=6 {
+            self.harness.hover_at(from + (to - from) * (step as f32 / 6.0));
+            self.harness.run();
+        }
+        self.harness.drop_at(to);
+        self.harness.run();
     }
 }

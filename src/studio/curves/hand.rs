@@ -108,13 +108,13 @@ impl<'a> Ruler<'a> {
     fn key(&self, at: Pos2) -> Option<&'a Key> {
         let away = |key: &Key| self.away(key.frame.0 as f64, at);
         let near = |key: &&Key| away(key) < NEAR && at.y < self.top.max.y;
-        let keys = self.shown.breakdown.first_layer().keys.keys.iter();
+        let keys = self.shown.column().keys().iter();
         keys.filter(near).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// The place of the inbetween whose dot is there.
     fn inbetween(&self, at: Pos2) -> Option<f64> {
-        let cells = self.shown.column.cells.iter().filter(|cell| cell.genga.is_none());
+        let cells = self.shown.column().cells.iter().filter(|cell| cell.genga.is_none());
         let places = cells.map(|cell| cell.drawing.source.place());
         let near = |place: &f64| self.away(*place, at) < NEAR_DOT && at.y < self.top.max.y;
         places.filter(near).min_by(|a, b| self.away(*a, at).total_cmp(&self.away(*b, at)))
@@ -126,7 +126,7 @@ impl<'a> Ruler<'a> {
         let dot = self.inbetween(at).filter(|place| {
             key.is_none_or(|key| self.away(*place, at) < self.away(key.frame.0 as f64, at))
         });
-        match dot.and_then(|place| self.shown.spaced_koma(place).zip(Some(place))) {
+        match dot.and_then(|place| self.shown.column().spaced_koma(place).zip(Some(place))) {
             Some((koma, place)) => {
                 let (key, weight) = pulled(koma, place, self.shown)?;
                 Some(Held::Inbetween { koma, key: key.clone(), weight })
@@ -138,17 +138,15 @@ impl<'a> Ruler<'a> {
 
 /// The key on the side of an inbetween, and the weight that takes the inbetween to a place.
 fn pulled<'a>(koma: usize, place: f64, shown: &Shown<'a>) -> Option<(&'a Key, f64)> {
-    let breakdown = &shown.breakdown;
-    let spaced = &breakdown.spaced.layers[0];
+    let column = shown.column();
     let spacing = &shown.wanted.recipe.spacing;
-    let pull =
-        spacing.pulled(breakdown.first_layer().keys, spaced, breakdown.clock, koma, place)?;
-    let keys = &breakdown.first_layer().keys.keys;
+    let pull = spacing.pulled(column.found.keys, column.spaced, column.clock, koma, place)?;
+    let keys = column.keys();
     let at = keys.binary_search_by_key(&pull.key, |key| key.frame).ok()?;
     Some((&keys[at], (pull.weight * HUNDREDTHS).round() / HUNDREDTHS))
 }
 
 /// To the koma of a frame.
 fn go(frame: Frame, shown: &Shown<'_>) -> Option<Command> {
-    shown.go(shown.column.clock.koma_from_frame(frame))
+    shown.go(shown.column().clock.koma_from_frame(frame))
 }

@@ -14,11 +14,12 @@ const SHARE: f32 = 0.5;
 /// Draws the lane. Bars are as high as the root of the SSD, so that twice as high is twice as far.
 pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
     let (look, breakdown) = (&shown.look, &shown.breakdown);
-    let [before, after] = [breakdown.spaced, breakdown.sheet]
-        .map(|sheet| Moves::of(breakdown.clip, &sheet.layers[0], breakdown.screen));
+    let column = shown.column();
+    let [before, after] = [column.spaced, column.layer]
+        .map(|layer| Moves::of(breakdown.clip, layer, breakdown.screen));
     let most = before.largest().max(after.largest()).sqrt();
     let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
-    let clock = &shown.column.clock;
+    let clock = &shown.column().clock;
     let bar = |koma: usize, ssd: f64, share: f32| {
         let [left, right] = [koma, koma + 1].map(|koma| time.x(clock.place_from_koma(koma)));
         let half = 0.5 * share * (right - left).max(1.0);
@@ -30,7 +31,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_
     for (koma, ssd) in before.ssd.iter().enumerate().filter(|(_, ssd)| **ssd > 0.0) {
         clipped.rect_filled(bar(koma, *ssd, 0.92), 0.0, look.grid);
     }
-    for cell in &shown.column.cells {
+    for cell in &shown.column().cells {
         let is_after_a_gap = cell.drawing.why.omitted_before > 0;
         let color = if is_after_a_gap { look.genga } else { look.wall };
         clipped.rect_filled(bar(cell.koma, after.ssd[cell.koma], SHARE), 0.0, color);

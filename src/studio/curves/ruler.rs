@@ -22,7 +22,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, sho
     }
     inbetweens(painter, rect, time, shown);
     let mut last = f32::NEG_INFINITY;
-    for cell in &shown.column.cells {
+    for cell in &shown.column().cells {
         let (Some(number), Source::At(place)) = (cell.genga, cell.drawing.source) else { continue };
         let x = time.x(place);
         if x < rect.min.x - 9.0 || x > rect.max.x + 9.0 {
@@ -42,7 +42,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, sho
 
 /// A dot where each inbetween is taken from.
 fn inbetweens(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
-    for cell in shown.column.cells.iter().filter(|cell| cell.genga.is_none()) {
+    for cell in shown.column().cells.iter().filter(|cell| cell.genga.is_none()) {
         let at = pos2(time.x(cell.drawing.source.place()), rect.max.y - 11.0);
         if rect.x_range().contains(at.x) {
             painter.circle_filled(at, 2.6, shown.look.inbetween);

@@ -1,17 +1,16 @@
 //! The hand on the sheet (手): it takes a genga by its number, a drawing by its end, and else the play head.
 
-use egui::{CursorIcon, PointerButton, Pos2, Rect, Response};
+use egui::{CursorIcon, PointerButton, Pos2, Response};
 
+use super::paper::Paper;
 use crate::keys::Key;
-use crate::studio::column::KeyedCell;
+use crate::studio::column::{Column, KeyedCell};
 use crate::studio::command::Command;
 use crate::studio::corrections::Correction;
 use crate::studio::held_key::HeldKey;
 use crate::studio::shown::Shown;
 use crate::time::Frame;
 
-/// Height of a koma on the sheet.
-pub(super) const ROW: f32 = 17.0;
 /// How near a hand has to be to the end of a hold.
 const NEAR_END: f32 = 3.5;
 
@@ -33,15 +32,15 @@ pub(super) struct Hand {
 }
 
 impl Hand {
-    /// Takes what the hand does to the column in `rect`. Gives the koma that it brings the play head to.
+    /// Takes what the hand does to the columns. Gives the koma that it brings the play head to.
     pub(super) fn handle(
         &mut self,
         response: &Response,
-        rect: Rect,
+        paper: &Paper,
         shown: &Shown<'_>,
         commands: &mut Vec<Command>,
     ) -> Option<usize> {
-        if response.hover_pos().is_some_and(|at| ending(at, rect, shown).is_some()) {
+        if response.hover_pos().is_some_and(|at| Under::of(at, paper, shown).ending().is_some()) {
             response.ctx.set_cursor_icon(CursorIcon::ResizeVertical);
         }
         let Some(at) = response.interact_pointer_pos() else {
@@ -49,37 +48,43 @@ impl Hand {
             return None;
         };
         let origin = response.ctx.input(|input| input.pointer.press_origin()).unwrap_or(at);
+        let (under, pressed) = (Under::of(at, paper, shown), Under::of(origin, paper, shown));
+        if response.is_pointer_button_down_on() {
+            commands.extend(pressed.at.and_then(|column| shown.choose(column)));
+        }
         if response.drag_started_by(PointerButton::Primary) {
-            self.held = grasped(origin, rect, shown);
+            self.held = pressed.grasped(shown);
         }
         if response.secondary_clicked() {
-            self.asked = key(at, rect, shown).cloned();
+            self.asked = under.key().cloned();
         }
         if let Some(held) = self.held.as_mut().filter(|_| response.dragged()) {
-            commands.extend(held.follow(at, rect, shown).map(Command::Drag));
+            commands.extend(held.follow(at, paper, shown).map(Command::Drag));
         }
         // A hand that comes down on an end may be about to drag it: only a click is meant for the play head.
         let is_of_end = match &self.held {
             Some(held) => matches!(held, Held::End { .. }),
-            None => ending(origin, rect, shown).is_some(),
+            None => pressed.ending().is_some(),
         };
         let is_down = response.is_pointer_button_down_on() && !is_of_end;
         if response.drag_stopped() {
             self.held = None;
         }
         let goes = is_down || response.clicked() || response.secondary_clicked();
-        goes.then(|| koma(at, rect, shown))
+        goes.then(|| under.koma)
     }
 }
 
 impl Held {
     /// What brings it under the hand, when that has come to another koma.
-    fn follow(&mut self, at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Correction> {
+    fn follow(&mut self, at: Pos2, paper: &Paper, shown: &Shown<'_>) -> Option<Correction> {
         match self {
-            Self::Key(key) => key.carry(shown.frame_of_koma(koma(at, rect, shown))),
+            Self::Key(key) => {
+                let koma = paper.koma(at.y, shown.column().length);
+                key.carry(shown.frame_of_koma(koma))
+            }
             Self::End { frame, begin, koma } => {
-                let line = ((at.y - rect.min.y) / ROW).round().max(0.0) as usize;
-                let wanted = line.saturating_sub(*begin).max(1);
+                let wanted = paper.line(at.y).0.saturating_sub(*begin).max(1);
                 let is_new = std::mem::replace(koma, wanted) != wanted;
                 is_new.then_some(Correction::Hold(*frame, wanted))
             }
@@ -87,34 +92,43 @@ impl Held {
     }
 }
 
-/// What a hand takes that comes down there.
-fn grasped(at: Pos2, rect: Rect, shown: &Shown<'_>) -> Option<Held> {
-    if let Some(cell) = ending(at, rect, shown) {
-        let frame = cell.hold_frame(&shown.wanted.edits);
-        return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
+/// What lies under a point of the sheet.
+struct Under<'a, 'b> {
+    /// The column that the point is in, and the one that is meant: beside them all, the one that is worked on.
+    at: Option<usize>,
+    column: &'b Column<'a>,
+    koma: usize,
+    line: (usize, f32),
+}
+
+impl<'a, 'b> Under<'a, 'b> {
+    fn of(at: Pos2, paper: &Paper, shown: &'b Shown<'a>) -> Self {
+        let own = paper.column(at.x);
+        let column = &shown.columns[own.unwrap_or(shown.chosen)];
+        let koma = paper.koma(at.y, column.length);
+        Self { at: own, column, koma, line: paper.line(at.y) }
     }
-    key(at, rect, shown).map(|key| Held::Key(HeldKey::take(key)))
-}
 
-/// The koma that is there.
-fn koma(at: Pos2, rect: Rect, shown: &Shown<'_>) -> usize {
-    (((at.y - rect.min.y) / ROW).max(0.0) as usize).min(shown.column.length - 1)
-}
+    /// What a hand takes that comes down there.
+    fn grasped(&self, shown: &Shown<'_>) -> Option<Held> {
+        if let Some(cell) = self.ending() {
+            let frame = cell.hold_frame(&shown.wanted.edits);
+            return Some(Held::End { frame, begin: cell.koma, koma: cell.held });
+        }
+        self.key().map(|key| Held::Key(HeldKey::take(key)))
+    }
 
-/// The key whose number is there.
-fn key<'a>(at: Pos2, rect: Rect, shown: &Shown<'a>) -> Option<&'a Key> {
-    let koma = koma(at, rect, shown);
-    let cell = shown.column.cell(koma);
-    cell.key.filter(|_| cell.koma == koma)
-}
+    /// The key whose number is there.
+    fn key(&self) -> Option<&'a Key> {
+        let cell = self.column.cell(self.koma);
+        cell.key.filter(|_| cell.koma == self.koma)
+    }
 
-/// The drawing that ends there; the last one ends with the sheet.
-fn ending<'a, 'b>(at: Pos2, rect: Rect, shown: &'b Shown<'a>) -> Option<&'b KeyedCell<'a>> {
-    let lines = (at.y - rect.min.y) / ROW;
-    let line = lines.round();
-    let is_near = (lines - line).abs() * ROW <= NEAR_END && line >= 1.0;
-    let is_end = |cell: &&KeyedCell<'_>| cell.koma + cell.held == line as usize;
-    let ends = (line as usize) < shown.column.length;
-    let cell = (is_near && ends).then(|| shown.column.cell(line as usize - 1));
-    cell.filter(is_end)
+    /// The drawing that ends there; the last one ends with the sheet.
+    fn ending(&self) -> Option<&'b KeyedCell<'a>> {
+        let (line, away) = self.line;
+        let is_end = |cell: &&KeyedCell<'_>| cell.koma + cell.held == line;
+        let is_near = away <= NEAR_END && line >= 1 && line < self.column.length;
+        is_near.then(|| self.column.cell(line - 1)).filter(is_end)
+    }
 }

@@ -1,52 +1,45 @@
-//! Onion skin (オニオンスキン): the neighbouring drawings, the further the fainter.
+//! Onion skin (オニオンスキン): the genga before and after, in a colour each, the further the fainter.
 
 use egui::{Color32, Painter};
+use glam::DVec3;
 
 use super::body;
-use crate::plot::parts::{Posing, Stage};
-use crate::sheet::Source;
-use crate::studio::command::Seen;
+use crate::plot::parts::{ShownDrawing, Stage};
 use crate::studio::shown::Shown;
 
 /// Neighbours to each side.
 const NEIGHBOURS: usize = 2;
 
-/// Draws the neighbours of what is shown: drawings of the result, koma of the source.
+/// Draws the neighbours of what is shown; `pose` gives the points of a koma.
 pub(super) fn draw(
     painter: &Painter,
     stage: &Stage,
-    posing: &mut Posing<'_>,
-    seen: Seen,
     shown: &Shown<'_>,
+    mut pose: impl FnMut(usize) -> Vec<DVec3>,
 ) {
     let look = &shown.look;
-    for away in (1..=NEIGHBOURS).rev() {
-        for (source, color) in [
-            (neighbour(seen, shown, away, false), look.before),
-            (neighbour(seen, shown, away, true), look.after),
-        ] {
-            let Some(source) = source else { continue };
+    let [before, after] = neighbours(shown);
+    for away in (0..NEIGHBOURS).rev() {
+        for (koma, color) in [(&before, look.before), (&after, look.after)] {
+            let Some(koma) = koma.get(away) else { continue };
             let color = faded(color, look.ground, away);
-            let drawn = stage.draw(&posing.points(source));
+            let drawn = stage.draw(&pose(*koma));
             body::draw(painter, &drawn, body::Inks::One(color, 0.6), look);
         }
     }
 }
 
-fn neighbour(seen: Seen, shown: &Shown<'_>, away: usize, is_after: bool) -> Option<Source> {
-    let column = &shown.column;
-    let step = |at: usize, count: usize| {
-        let there = if is_after { at + away } else { at.checked_sub(away)? };
-        (there < count).then_some(there)
-    };
-    if seen == Seen::Source {
-        let koma = step(shown.at, column.length)?;
-        return Some(Source::At(column.clock.place_from_koma(koma)));
-    }
-    let cell = step(column.at(shown.at), column.cells.len())?;
-    Some(column.cells[cell].drawing.source)
+/// The koma of the genga before and after what is shown, the nearest first.
+fn neighbours(shown: &Shown<'_>) -> [Vec<usize>; 2] {
+    let on_screen = &shown.on_screen;
+    let now = on_screen.at(shown.at);
+    let (before, after) = on_screen.cells.split_at(now);
+    let kept = |cell: &&ShownDrawing<'_>| cell.drawing.role.is_kept();
+    let before = before.iter().rev().filter(kept).take(NEIGHBOURS);
+    let after = after.iter().skip(1).filter(kept).take(NEIGHBOURS);
+    [before.map(|cell| cell.koma).collect(), after.map(|cell| cell.koma).collect()]
 }
 
 fn faded(color: Color32, ground: Color32, away: usize) -> Color32 {
-    color.lerp_to_gamma(ground, (away as f32 - 1.0) * 0.5)
+    color.lerp_to_gamma(ground, away as f32 * 0.5)
 }

@@ -4,16 +4,17 @@ use egui::{Button, Ui};
 
 use super::orbit::Orbit;
 use crate::studio::command::{Command, Seen, Standard};
-use crate::studio::words::Words;
+use crate::studio::shown::Shown;
 
 /// Shows the buttons.
 pub(super) fn show(
     ui: &mut Ui,
-    words: Words,
+    shown: &Shown<'_>,
     (seen, orbit): (Seen, &Orbit),
-    (onion, trails): (bool, bool),
+    (onion, trails, exaggerated): (bool, bool, bool),
     commands: &mut Vec<Command>,
 ) {
+    let words = shown.words;
     let choices = [
         (Seen::Both, words.say("Both", "並べて")),
         (Seen::Source, words.say("Source", "素材")),
@@ -37,11 +38,15 @@ pub(super) fn show(
         }
     }
     ui.separator();
-    for (is_on, name, command) in [
+    let shining = [
         (orbit.follows, words.say("Follow", "追従"), Command::Follow),
         (onion, words.say("Onion skin", "オニオンスキン"), Command::Onion),
         (trails, words.say("Trails", "軌跡"), Command::Trails),
-    ] {
+        (exaggerated, words.say("Exaggerated", "誇張後"), Command::Exaggerated),
+    ];
+    // There is nothing to compare where nothing is exaggerated.
+    let count = shining.len() - usize::from(!shown.is_exaggerated());
+    for (is_on, name, command) in shining.into_iter().take(count) {
         if ui.add(Button::selectable(is_on, name)).clicked() {
             commands.push(command);
         }

@@ -1,12 +1,12 @@
-//! Trails (軌跡): where chosen joints go, with a dot at every koma of the source and every drawing of the
+//! Trails (軌跡): where the ends of chosen limbs go, with a dot at every koma of the source and every drawing of the
 //! result. Where dots stand close it is slow: spacing can be seen.
 
 use egui::{Painter, Pos2, Shape, Stroke, Vec2};
+use glam::DVec3;
 
 use super::orbit::placed;
-use crate::motion::Skeleton;
-use crate::plot::parts::{Posing, Stage, bones};
-use crate::sheet::{Role, Source};
+use crate::plot::parts::Stage;
+use crate::sheet::Role;
 use crate::studio::command::Seen;
 use crate::studio::shown::Shown;
 
@@ -15,52 +15,51 @@ const REACH: usize = 24;
 
 /// A point of a trail.
 struct Dot {
-    source: Source,
+    koma: usize,
     /// Of a drawing; koma of the source have none.
     role: Option<Role>,
     is_now: bool,
 }
 
-/// Draws the trails of the chosen joints.
+/// Draws the trails of the chosen joints; `pose` gives the points of a koma.
 pub(super) fn draw(
     painter: &Painter,
     stage: &Stage,
-    posing: &mut Posing<'_>,
     seen: Seen,
     shown: &Shown<'_>,
+    mut pose: impl FnMut(usize) -> Vec<DVec3>,
 ) {
     if shown.joints.is_empty() {
         return;
     }
     let dots = dots(seen, shown);
-    let poses = posing.all(dots.iter().map(|dot| dot.source));
-    for joint in shown.joints {
-        let point = turned(shown.breakdown.source.skeleton(), joint.0);
-        let places: Vec<Pos2> = poses.iter().map(|pose| placed(stage, pose[point])).collect();
+    let poses: Vec<Vec<DVec3>> = dots.iter().map(|dot| pose(dot.koma)).collect();
+    let mut ends: Vec<usize> =
+        shown.joints.iter().map(|joint| shown.scene.fastest_end(*joint)).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    for end in ends {
+        let places: Vec<Pos2> = poses.iter().map(|pose| placed(stage, pose[end])).collect();
         path(painter, &places, &dots, shown);
     }
 }
 
-/// What a joint turns: the end of its own bone. The joint itself stays where it is when it turns.
-fn turned(skeleton: &Skeleton, joint: usize) -> usize {
-    bones(skeleton).find(|(from, _)| *from == joint).map_or(joint, |(_, to)| to)
-}
-
 fn dots(seen: Seen, shown: &Shown<'_>) -> Vec<Dot> {
-    let column = &shown.column;
+    let length = shown.column().length;
     let from = shown.at.saturating_sub(REACH);
-    let past = (shown.at + REACH + 1).min(column.length);
+    let past = (shown.at + REACH + 1).min(length);
     if seen == Seen::Source {
-        let source = |koma| Source::At(column.clock.place_from_koma(koma));
-        let dot = |koma| Dot { source: source(koma), role: None, is_now: koma == shown.at };
+        let dot = |koma| Dot { koma, role: None, is_now: koma == shown.at };
         return (from..past).map(dot).collect();
     }
-    let now = column.at(shown.at);
+    let on_screen = &shown.on_screen;
+    let now = on_screen.at(shown.at);
     let dot = |at: usize| {
-        let drawing = column.cells[at].drawing;
-        Dot { source: drawing.source, role: Some(drawing.role), is_now: at == now }
+        let cell = &on_screen.cells[at];
+        let (koma, is_now) = (if at == now { shown.at } else { cell.koma }, at == now);
+        Dot { koma, role: Some(cell.drawing.role), is_now }
     };
-    (column.at(from)..=column.at(past - 1)).map(dot).collect()
+    (on_screen.at(from)..=on_screen.at(past - 1)).map(dot).collect()
 }
 
 fn path(painter: &Painter, places: &[Pos2], dots: &[Dot], shown: &Shown<'_>) {

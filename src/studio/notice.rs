@@ -1,0 +1,74 @@
+//! Notices (お知らせ): what a person is told, over the table and not in its way. Nothing moves when one comes or goes.
+
+use egui::{Align2, Area, Color32, Frame, Id, Label, Order, Stroke, Ui, vec2};
+
+use super::command::Command;
+use super::icon::{self, Icon};
+use super::look::Look;
+use super::words::Words;
+
+/// How far below the top they begin: under the buttons.
+const TOP: f32 = 58.0;
+/// How wide they are at the most.
+const WIDE: f32 = 860.0;
+
+/// What a person is told.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Message {
+    pub(super) text: String,
+    pub(super) is_failure: bool,
+}
+
+/// Shows notices one below the other, over everything else.
+pub(super) fn over(ui: &Ui, add: impl FnOnce(&mut Ui)) {
+    let area = Area::new(Id::unique("notices")).order(Order::Foreground);
+    area.anchor(Align2::CENTER_TOP, vec2(0.0, TOP)).show(ui.ctx(), |ui| {
+        ui.set_max_width(WIDE.min(ui.ctx().content_rect().width() - 40.0));
+        ui.spacing_mut().item_spacing.y = 6.0;
+        add(ui);
+    });
+}
+
+/// A notice.
+pub(super) fn one(ui: &mut Ui, color: Color32, add: impl FnOnce(&mut Ui)) {
+    let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.5, color)).inner_margin(8);
+    frame.show(ui, add);
+}
+
+/// A message until it is closed.
+pub(super) fn message(
+    ui: &mut Ui,
+    message: &Message,
+    look: &Look,
+    words: Words,
+    commands: &mut Vec<Command>,
+) {
+    let color = if message.is_failure { look.genga } else { look.playhead };
+    one(ui, color, |ui| {
+        ui.horizontal_top(|ui| {
+            let close = words.say("Close the message", "閉じる");
+            if icon::button(ui, Icon::Cross, close).clicked() {
+                commands.push(Command::Dismiss);
+            }
+            ui.add(Label::new(&message.text).wrap());
+        });
+    });
+}
+
+/// Offers what an earlier session left.
+pub(super) fn recovery(ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
+    one(ui, look.genga, |ui| {
+        ui.horizontal(|ui| {
+            ui.label(words.say(
+                "An earlier session left corrections that were not saved.",
+                "前回保存されなかった修正があります。",
+            ));
+            if ui.button(words.say("Recover", "復元する")).clicked() {
+                commands.push(Command::Recover);
+            }
+            if ui.button(words.say("Discard", "捨てる")).clicked() {
+                commands.push(Command::Discard);
+            }
+        });
+    });
+}

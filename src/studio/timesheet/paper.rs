@@ -1,0 +1,99 @@
+//! Where koma and columns stand on the sheet (用紙).
+
+use std::ops::Range;
+
+use egui::{Rangef, Rect};
+
+/// Room for the numbers of the koma.
+pub(super) const KOMA: f32 = 40.0;
+/// From the middle of one column to that of the next.
+pub(super) const PITCH: f32 = 34.0;
+/// Where the middle of the first column stands.
+const MIDDLE: f32 = 62.0;
+/// From the middle of the last column to the words.
+const WORDS: f32 = 22.0;
+/// Room that the words have at the least.
+const LEAST_WORDS: f32 = 60.0;
+
+/// The sheet as it lies in the window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Paper {
+    pub(super) rect: Rect,
+    /// How high a koma is.
+    pub(super) row: f32,
+    pub(super) columns: usize,
+}
+
+impl Paper {
+    /// How wide a sheet of so many columns has to be.
+    pub(super) fn wide(columns: usize) -> f32 {
+        MIDDLE + PITCH * columns.saturating_sub(1) as f32 + WORDS + LEAST_WORDS
+    }
+
+    /// The middle of a column.
+    pub(super) fn x(&self, column: usize) -> f32 {
+        self.rect.min.x + MIDDLE + PITCH * column as f32
+    }
+
+    /// Where the words begin.
+    pub(super) fn words(&self) -> f32 {
+        self.x(self.columns - 1) + WORDS
+    }
+
+    /// The column that is there; none beside them.
+    pub(super) fn column(&self, x: f32) -> Option<usize> {
+        let at = (x - self.x(0)) / PITCH + 0.5;
+        let column = at.floor() as usize;
+        (at >= 0.0 && column < self.columns).then_some(column)
+    }
+
+    /// Where a koma begins.
+    pub(super) fn y(&self, koma: usize) -> f32 {
+        self.rect.min.y + self.row * koma as f32
+    }
+
+    pub(super) fn koma_range(&self, koma: usize) -> Rangef {
+        Rangef::new(self.y(koma), self.y(koma + 1))
+    }
+
+    /// The koma that is there, of so many.
+    pub(super) fn koma(&self, y: f32, length: usize) -> usize {
+        let koma = ((y - self.rect.min.y) / self.row).max(0.0) as usize;
+        koma.min(length.saturating_sub(1))
+    }
+
+    /// The line between two koma that is the nearest, and how far away it is.
+    pub(super) fn line(&self, y: f32) -> (usize, f32) {
+        let lines = (y - self.rect.min.y) / self.row;
+        let line = lines.round().max(0.0);
+        (line as usize, (lines - line).abs() * self.row)
+    }
+
+    /// The koma in view.
+    pub(super) fn rows(&self, seen: Rect, length: usize) -> Range<usize> {
+        let first = (seen.min.y / self.row).floor().max(0.0) as usize;
+        let past = (seen.max.y / self.row).ceil().max(0.0) as usize;
+        first.min(length)..past.min(length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    #[test]
+    fn what_is_under_a_point_is_what_is_drawn_there() {
+        let rect = Rect::from_min_size(pos2(100.0, 50.0), vec2(300.0, 170.0));
+        let paper = Paper { rect, row: 17.0, columns: 3 };
+        for column in 0..3 {
+            assert_eq!(paper.column(paper.x(column)), Some(column));
+        }
+        assert_eq!((paper.column(100.0), paper.column(paper.words())), (None, None));
+        assert_eq!((paper.koma(paper.y(4) + 1.0, 10), paper.koma(1e4, 10)), (4, 9));
+        assert_eq!(paper.line(paper.y(4) + 2.0), (4, 2.0));
+        let seen = Rect::from_min_size(pos2(0.0, 40.0), vec2(300.0, 60.0));
+        assert_eq!(paper.rows(seen, 10), 2..6);
+        assert_eq!(paper.rows(seen, 4), 2..4);
+    }
+}

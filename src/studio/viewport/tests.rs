@@ -1,0 +1,155 @@
+//! What is on screen at a koma is what `limited.bvh` has in that row.
+
+use std::path::Path;
+
+use egui::{Context, Painter, Pos2, RawInput, Rect, Shape, Theme, pos2, vec2};
+use glam::DVec3;
+
+use super::{Viewport, body};
+use crate::deliver::limited_bvh;
+use crate::motion::bvh;
+use crate::plot::parts::Posing;
+use crate::sheet::Source;
+use crate::studio::column::Column;
+use crate::studio::command::Seen;
+use crate::studio::desk::{Desk, Export, Opened};
+use crate::studio::look::Look;
+use crate::studio::on_screen::OnScreen;
+use crate::studio::shown::Shown;
+use crate::studio::take::{Results, Take};
+use crate::studio::words::Words;
+
+/// The samples, and nothing else.
+struct Samples;
+
+impl Desk for Samples {
+    fn open(&self, clip: &Path) -> Result<Opened, String> {
+        let read = bvh::open(clip).map_err(|error| error.to_string())?;
+        Ok(Opened { clip: read.clip, notes: vec![] })
+    }
+
+    fn read(&self, _: &Path) -> Result<Option<String>, String> {
+        Ok(None)
+    }
+
+    fn write(&self, _: &Path, _: &str) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn remove(&self, _: &Path) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Vec<String>, String> {
+        Ok(vec![])
+    }
+}
+
+/// A take with some knobs turned.
+fn take(clip: &str, knobs: &[(&str, &str)]) -> Take {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(clip);
+    let mut take = Take::open(&Samples, &path, None, |_| {}).unwrap();
+    knobs.iter().for_each(|(knob, value)| take.wanted.recipe.set(knob, value).unwrap());
+    take.renew(false).unwrap();
+    take
+}
+
+/// The points of everything that is painted, shape by shape.
+fn painted(paint: impl FnOnce(&Painter)) -> Vec<Vec<Pos2>> {
+    let mut paint = Some(paint);
+    let output = Context::default().run_ui(RawInput::default(), |ui| {
+        let all = Rect::from_min_size(Pos2::ZERO, vec2(2000.0, 2000.0));
+        if let Some(paint) = paint.take() {
+            paint(&ui.painter().with_clip_rect(all));
+        }
+    });
+    let mut points = Vec::new();
+    output.shapes.iter().for_each(|clipped| collect(&clipped.shape, &mut points));
+    points
+}
+
+fn collect(shape: &Shape, points: &mut Vec<Vec<Pos2>>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, points)),
+        Shape::Path(path) => points.push(path.points.clone()),
+        Shape::LineSegment { points: ends, .. } => points.push(ends.to_vec()),
+        Shape::Circle(circle) => points.push(vec![circle.center]),
+        _ => {}
+    }
+}
+
+/// Whether all shapes of a figure stand one after the other among others.
+fn stands_in(figure: &[Vec<Pos2>], all: &[Vec<Pos2>]) -> bool {
+    let is_near = |(a, b): (&Pos2, &Pos2)| a.distance(*b) < 0.05;
+    let is_same =
+        |(a, b): (&Vec<Pos2>, &Vec<Pos2>)| a.len() == b.len() && a.iter().zip(b).all(is_near);
+    all.windows(figure.len()).any(|part| figure.iter().zip(part).all(is_same))
+}
+
+/// On how many koma the window shows what the file has, and of how many.
+fn same_koma(clip: &str, knobs: &[(&str, &str)]) -> (usize, usize) {
+    let mut take = take(clip, knobs);
+    let Results { breakdown, cels, scene, wanted } = take.results();
+    let file = limited_bvh(breakdown.clip, breakdown.sheet).unwrap();
+    let file = bvh::read(file.as_bytes()).unwrap().clip;
+    let rect = Rect::from_min_size(pos2(40.0, 30.0), vec2(800.0, 700.0));
+    let viewport = Viewport { onion: false, trails: false, ..Viewport::default() };
+    let stage = viewport.orbit.stage(scene, rect, DVec3::ZERO);
+    let mut shown = Shown {
+        breakdown,
+        on_screen: OnScreen::of(breakdown.clip, cels),
+        columns: Column::all(&breakdown),
+        chosen: 0,
+        scene,
+        wanted,
+        joints: &[],
+        at: 0,
+        look: Look::of(Theme::Light),
+        words: Words { language: Default::default(), has_japanese: false },
+    };
+    let mut posing = Posing::of(&file, scene.figure.marks());
+    let mut is_same = |koma: usize| {
+        shown.at = koma;
+        let row = posing.points(Source::At((file.first().0 + koma) as f64));
+        let figure = painted(|painter| {
+            body::draw(painter, &stage.draw(&row), body::Inks::Sides, &shown.look);
+        });
+        let window =
+            painted(|painter| viewport.draw(painter, rect, Seen::Result, DVec3::ZERO, &shown));
+        assert!(!figure.is_empty() && window.len() > figure.len(), "{koma}");
+        stands_in(&figure, &window)
+    };
+    let same = (0..file.len()).filter(|koma| is_same(*koma)).count();
+    (same, file.len())
+}
+
+#[test]
+fn at_every_koma_the_window_shows_what_limited_bvh_has_in_that_row() {
+    let layers = ("layers", "limbs");
+    let (root, feet) = (("root", "ones"), ("feet", "held"));
+    let smear = ("exaggerate.cartoon", "0.5");
+    for (clip, knobs) in [
+        ("kick.bvh", &[][..]),
+        ("kick.bvh", &[layers]),
+        ("kick.bvh", &[root]),
+        ("kick.bvh", &[root, feet]),
+        ("kick.bvh", &[layers, root, feet, smear]),
+        ("pitch.bvh", &[layers, ("spacing.source", "blend")]),
+    ] {
+        let (same, koma) = same_koma(clip, knobs);
+        assert_eq!(same, koma, "{clip} {knobs:?}");
+        assert!(koma > 60);
+    }
+}
+
+#[test]
+fn feet_are_looked_for_again_in_another_motion_alone() {
+    let mut take = take("kick.bvh", &[("feet", "held"), ("root", "ones")]);
+    for (knob, value) in [("spacing.on", "3"), ("exaggerate.cartoon", "0.5"), ("feet", "free")] {
+        take.wanted.recipe.set(knob, value).unwrap();
+        take.renew(false).unwrap();
+        let Results { breakdown, cels, .. } = take.results();
+        let fresh = crate::plot::parts::Cels::of(breakdown.clip, breakdown.sheet).unwrap();
+        assert_eq!(format!("{cels:?}"), format!("{fresh:?}"), "after {knob}");
+    }
+}
