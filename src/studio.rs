@@ -17,6 +17,7 @@ mod act;
 mod bar;
 mod column;
 mod command;
+mod copied;
 mod corrected;
 mod corrections;
 mod counts;
@@ -26,6 +27,8 @@ mod document;
 mod errand;
 mod exporting;
 mod file_field;
+mod files;
+mod freeze;
 mod held_key;
 mod help;
 mod here;
@@ -34,16 +37,20 @@ mod icon;
 mod key_menu;
 mod keyboard;
 mod knobs;
+mod local;
 mod look;
 mod map;
 mod notice;
 mod on_screen;
 mod opening;
+mod order;
+mod order_panel;
 mod player;
 mod scene;
 mod shown;
 mod step;
 mod take;
+mod takes;
 mod timesheet;
 mod transport;
 mod viewport;
@@ -70,9 +77,11 @@ use map::Map;
 use notice::Message;
 use on_screen::OnScreen;
 use opening::Opening;
+use order_panel::OrderPanel;
 use player::Player;
 use shown::Shown;
 use take::{Results, Take};
+use takes::Takes;
 use timesheet::Timesheet;
 use viewport::Viewport;
 use words::Words;
@@ -86,10 +95,16 @@ pub struct Studio {
     desk: Arc<dyn Desk>,
     language: Language,
     take: Option<Take>,
+    /// The takes of the folder that was opened.
+    takes: Takes,
     opening: Option<Opening>,
     exporting: Option<Exporting>,
     /// The dialog of the system for a file.
     choosing: Option<Errand<Option<PathBuf>>>,
+    /// And the one for a folder.
+    choosing_folder: Option<Errand<Option<PathBuf>>>,
+    /// What is to be exported, while that is asked.
+    order: OrderPanel,
     /// The clips that were opened last.
     recent: Vec<PathBuf>,
     message: Option<Message>,
@@ -98,6 +113,8 @@ pub struct Studio {
     player: Player,
     /// The column of the sheet that is worked on.
     chosen: usize,
+    /// Whether frames of the source are counted, and not koma.
+    counts_frames: bool,
     viewport: Viewport,
     timesheet: Timesheet,
     curves: Curves,
@@ -118,14 +135,18 @@ impl Studio {
             desk,
             language,
             take: None,
+            takes: Takes::default(),
             opening: None,
             exporting: None,
             choosing: None,
+            choosing_folder: None,
+            order: OrderPanel::default(),
             message: None,
             file: FileField::default(),
             is_help_open: false,
             player: Player::default(),
             chosen: 0,
+            counts_frames: false,
             viewport: Viewport::default(),
             timesheet: Timesheet::default(),
             curves: Curves::default(),
@@ -197,11 +218,14 @@ impl Studio {
                     self.file.show(ui, self.take.is_some(), &self.recent, words, commands);
                 });
             }
+            if self.order.order.is_some() {
+                notice::one(ui, look.faint, |ui| self.order.show(ui, words, commands));
+            }
             if let Some(opening) = &self.opening {
                 notice::one(ui, look.playhead, |ui| opening.show(ui, words));
             }
             if let Some(exporting) = &self.exporting {
-                notice::one(ui, look.playhead, |ui| exporting.show(ui, words));
+                notice::one(ui, look.playhead, |ui| exporting.show(ui, words, commands));
             }
             if let Some(message) = &self.message {
                 notice::message(ui, message, look, words, commands);
@@ -215,6 +239,7 @@ impl Studio {
     /// The clip with its panels.
     fn table(&mut self, ui: &mut Ui, look: Look, words: Words, commands: &mut Vec<Command>) {
         let Some(take) = &mut self.take else { return };
+        let on_table = &take.path.clone();
         let Results { breakdown, cels, scene, wanted } = take.results();
         let columns = Column::all(&breakdown);
         self.chosen = self.chosen.min(columns.len() - 1);
@@ -225,9 +250,25 @@ impl Studio {
         }
         let (at, joints) = (self.player.at, &self.curves.chosen.clone());
         let on_screen = OnScreen::of(breakdown.clip, cels);
-        let chosen = self.chosen;
-        let shown =
-            Shown { breakdown, on_screen, columns, chosen, scene, wanted, joints, at, look, words };
+        let shown = Shown {
+            breakdown,
+            on_screen,
+            columns,
+            chosen: self.chosen,
+            scene,
+            wanted,
+            joints,
+            at,
+            counts_frames: self.counts_frames,
+            look,
+            words,
+        };
+        if self.takes.is_open() {
+            let takes = &mut self.takes;
+            Panel::left("takes").default_size(168.0).size_range(120.0..=320.0).show(ui, |ui| {
+                takes.show(ui, on_table, &look, words, commands);
+            });
+        }
         Panel::left("knobs").default_size(306.0).size_range(250.0..=460.0).show(ui, |ui| {
             self.knobs.show(ui, &mut self.map, &shown, commands);
         });
@@ -275,10 +316,19 @@ impl Studio {
             Some(errand::Look::BrokeOff) => self.choosing = None,
             Some(errand::Look::Waiting) | None => {}
         }
+        match self.choosing_folder.as_ref().map(Errand::look) {
+            Some(errand::Look::Done(chosen)) => {
+                self.choosing_folder = None;
+                chosen.into_iter().for_each(|path| self.order.take(&path));
+            }
+            Some(errand::Look::BrokeOff) => self.choosing_folder = None,
+            Some(errand::Look::Waiting) | None => {}
+        }
         self.map.receive();
         let is_waiting = self.opening.is_some()
             || self.exporting.is_some()
             || self.choosing.is_some()
+            || self.choosing_folder.is_some()
             || self.map.is_waiting();
         if is_waiting {
             ui.ctx().request_repaint_after_secs(0.05);
@@ -291,6 +341,9 @@ impl Studio {
     }
 
     fn put_on_table(&mut self, mut take: Take) {
+        if let Some(before) = self.take.as_ref().filter(|_| self.takes.share) {
+            take.wanted.recipe = before.document().recipe.clone();
+        }
         let breakdown = take.results().breakdown;
         self.curves = Curves::of(breakdown.filtered.movers_first(breakdown.clip.skeleton()));
         (self.player, self.chosen) = (Player::default(), 0);
@@ -312,7 +365,7 @@ impl Studio {
             Ok(false) => {}
             Ok(true) => ui.ctx().request_repaint(),
             Err(error) => {
-                self.message = Some(Message { text: error.to_string(), is_failure: true });
+                self.message = Some(Message::failure(error.to_string()));
                 ui.ctx().request_repaint();
             }
         }
@@ -331,10 +384,16 @@ impl Studio {
     }
 
     fn fail(&mut self, text: String) {
-        self.message = Some(Message { text, is_failure: true });
+        self.message = Some(Message::failure(text));
+    }
+
+    /// Says a sentence in the language of the labels.
+    fn tell(&mut self, english: &str, japanese: &str) {
+        self.say(english.to_owned());
+        self.message.iter_mut().for_each(|said| said.japanese = Some(japanese.to_owned()));
     }
 
     fn say(&mut self, text: String) {
-        self.message = Some(Message { text, is_failure: false });
+        self.message = Some(Message { text, japanese: None, is_failure: false });
     }
 }

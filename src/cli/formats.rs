@@ -41,6 +41,14 @@ enum BvhRows {
     Keys,
 }
 
+impl FormatArgs {
+    /// Nothing but a camera.
+    #[cfg(feature = "studio")]
+    pub(super) fn seen_from(camera: Camera) -> Self {
+        Self { camera: Some(camera), ..Self::default() }
+    }
+}
+
 /// The formats, a line each.
 pub(super) fn help() -> String {
     let lines = FORMATS.iter().map(|format| {
@@ -63,6 +71,9 @@ const MOST_NAMES: usize = 3;
 
 /// The sheet, which a person may have edited.
 const SHEET: &str = "sheet.json";
+
+/// Hears of each file before it is written, and may stop it all.
+pub(super) type Tell<'a> = &'a dyn Fn(&str) -> Result<(), Error>;
 
 /// What was written.
 pub(super) struct Written {
@@ -174,13 +185,14 @@ impl Formats {
         &self,
         cut: &Cut<'_>,
         bundle: &mut Bundle<'_>,
-        tell: &dyn Fn(&str),
+        tell: Tell<'_>,
     ) -> Result<Written, Failure> {
         let (mut files, mut stale) = (Vec::new(), Vec::new());
         for format in &self.formats {
-            tell(format.name);
+            tell(format.name)?;
             let mut names = Vec::new();
             format.write(cut, &self.settings, &mut |name, bytes| {
+                tell(name)?;
                 names.push(name.to_owned());
                 bundle.add(name, bytes)
             })?;

@@ -34,10 +34,7 @@ pub(super) fn freeze(
             pins_from_sheet(&file, Some(&layer.name)).map_err(files::fault_of(&path))?;
         let frames = pins.iter().map(|pin| pin.frame);
         count += pins.len();
-        match pins::layer(&name, engine, recipe)? {
-            None => edits.frozen.extend(frames),
-            Some(own) => edits.layers.entry(own.to_owned()).or_default().frozen.extend(frames),
-        }
+        edits.frozen_of(pins::layer(&name, engine, recipe)?).extend(frames);
     }
     check_frames(edits, engine, &path)?;
     match count {

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::files;
 use super::folder::{Folder, Left, MANIFEST, Made};
-use super::formats::Formats;
+use super::formats::{Formats, Tell};
 use super::staging::Bundle;
 use super::words::is_loss;
 use crate::deliver::sheet_json::MadeWith;
@@ -36,8 +36,8 @@ pub(super) struct Results<'a> {
     pub(super) is_own_recipe: bool,
     /// Why the recipe in the folder stays as it is; none where it is written.
     pub(super) kept: Option<&'static str>,
-    /// Who is told what is being written.
-    pub(super) tell: &'a dyn Fn(&str),
+    /// Who is told what is being written, and may stop it.
+    pub(super) tell: Tell<'a>,
 }
 
 /// What came of it.
@@ -90,7 +90,7 @@ impl Results<'_> {
             report.notes.extend(self.kept.map(str::to_owned));
             formats.write(cut, &mut bundle, self.tell)
         })?;
-        (self.tell)("speed.svg");
+        (self.tell)("speed.svg")?;
         bundle.add("speed.svg", speeds(self.name, breakdown)?)?;
         let settings = recipe.write(edits);
         let digest = Manifest::digest(settings.as_bytes());

@@ -71,6 +71,21 @@ impl Edits {
         }
     }
 
+    /// The frozen keys of a layer alone, or of all.
+    pub fn frozen_of(&mut self, layer: Option<&str>) -> &mut Vec<Frame> {
+        match layer {
+            None => &mut self.frozen,
+            Some(name) => &mut self.own(name).frozen,
+        }
+    }
+
+    /// The same without layers of which nothing is said.
+    #[must_use]
+    pub fn without_empty_layers(mut self) -> Self {
+        self.layers.retain(|_, own| !is_default(own));
+        self
+    }
+
     fn own(&mut self, layer: &str) -> &mut LayerEdits {
         self.layers.entry(layer.to_owned()).or_default()
     }

@@ -96,6 +96,8 @@ pub struct LayerBreakdown<'a> {
     pub did_not_fit: usize,
     /// The layer before anything was left out.
     pub spaced: &'a Layer,
+    /// Where all joints stand in its drawings; none after [`Engine::run_once`](super::Engine::run_once), which forgets it.
+    pub stills: Option<&'a Stills>,
     /// The layer on the sheet.
     pub layer: &'a Layer,
     /// What was left out, and what could not be.
@@ -351,6 +353,7 @@ impl LayerStages {
             uncorrected: &self.corrected.output().value()[0].keys,
             did_not_fit: spaced.did_not_fit,
             spaced: &spaced.layer,
+            stills: self.stills.last(),
             layer: &omitted.layer,
             omission: &omitted.report,
         }

@@ -152,6 +152,11 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
         self.last = None;
     }
 
+    /// The last output; none where it was forgotten or never made.
+    pub(super) fn last(&self) -> Option<&Output> {
+        self.last.as_deref().map(|last| &last.output)
+    }
+
     /// The last output.
     ///
     /// # Panics

@@ -69,6 +69,23 @@ impl Moves {
         Self { ssd: [0.0].into_iter().chain(ssd).collect(), begins }
     }
 
+    /// [`Moves::of`] by where the joints stand in the drawings of another layer that has all of its own; none where it
+    /// has not.
+    #[cfg(feature = "studio")]
+    pub(crate) fn among(stills: &Stills, all: &Layer, layer: &Layer) -> Option<Self> {
+        let same = |drawing: &Drawing| {
+            let place = drawing.source.place();
+            let by_place = |other: &Drawing| other.source.place().total_cmp(&place);
+            let at = all.drawings.binary_search_by(by_place).ok()?;
+            (all.drawings[at].source == drawing.source).then_some(at)
+        };
+        let own: Vec<usize> = layer.drawings.iter().map(same).collect::<Option<_>>()?;
+        let drawings: Vec<usize> = layer.koma().map(|drawing| own[drawing]).collect();
+        let ssd = drawings.windows(2).map(|pair| stills.ssd(pair[0], pair[1]));
+        let begins = layer.timed().map(|(koma, _)| koma).collect();
+        Some(Self { ssd: [0.0].into_iter().chain(ssd).collect(), begins })
+    }
+
     pub(crate) fn largest(&self) -> f64 {
         self.ssd.iter().copied().fold(0.0, f64::max)
     }

@@ -1,7 +1,6 @@
 //! What is done when a hand or a key asks for it.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use egui::{Theme, Ui};
 
@@ -9,7 +8,6 @@ use super::Studio;
 use super::column::Column;
 use super::command::{Command, Seen};
 use super::corrections::Correction;
-use super::errand::Errand;
 use super::exporting::Exporting;
 use super::here::Here;
 use super::opening::Opening;
@@ -47,39 +45,8 @@ impl Studio {
                 }
             }
             None if is_recipe => self.fail("Open a clip first: a recipe is for one.".into()),
-            _ => self.open(path, None),
+            _ => self.open_folder_or_clip(path),
         }
-    }
-
-    fn save_as(&mut self, path: &Path) {
-        if let Some(take) = &mut self.take {
-            take.recipe = path.to_owned();
-        }
-        self.save();
-    }
-
-    fn save(&mut self) {
-        let Some(take) = &mut self.take else { return };
-        match take.save(&*self.desk) {
-            Ok(()) => {
-                let recipe = take.recipe.display().to_string();
-                self.say(format!("saved {recipe}"));
-            }
-            Err(text) => self.fail(text),
-        }
-    }
-
-    /// Writes what a run writes. One export at a time: the next would write the same files.
-    fn export(&mut self) {
-        if let (Some(take), None) = (&self.take, &self.exporting) {
-            self.message = None;
-            self.exporting = Some(Exporting::begin(&self.desk, take.parcel()));
-        }
-    }
-
-    fn choose(&mut self) {
-        let desk = Arc::clone(&self.desk);
-        self.choosing.get_or_insert_with(|| Errand::begin(move || desk.choose()));
     }
 
     /// Does what a command says.
@@ -110,6 +77,12 @@ impl Studio {
             | Command::NudgeFrame(_)
             | Command::Hold(_)
             | Command::Crowd(_) => self.correct_here(&command),
+            Command::Freeze => self.freeze(),
+            Command::FindAgain => self.find_again(),
+            Command::CopyKeys => self.copy_keys(ui),
+            Command::PasteKeys(text) => self.paste_keys(&text),
+            Command::Other => self.take_other(),
+            Command::Frames => self.counts_frames = !self.counts_frames,
             Command::SheetZoom(factor) => self.timesheet.zoom_by(factor),
             Command::Column(column) => self.chosen = column,
             Command::NextColumn => {
@@ -128,7 +101,10 @@ impl Studio {
             Command::Movement => self.curves.movement = !self.curves.movement,
             Command::FocusName => self.key_panel.wants_focus = true,
             Command::Save => self.save(),
-            Command::Export => self.export(),
+            Command::AskExport => self.ask_export(),
+            Command::Export(order) => self.export(order),
+            Command::StopExport => self.exporting.iter().for_each(Exporting::stop),
+            Command::ChooseFolder => self.choose_folder(),
             Command::OpenFile => {
                 self.file.is_open = !self.file.is_open;
                 self.file.wants_focus = self.file.is_open;
@@ -141,6 +117,8 @@ impl Studio {
                 self.file.is_open = false;
                 self.save_as(&path);
             }
+            Command::Take(by) => self.step_take(by),
+            Command::Mark(is_done) => self.mark_take(is_done),
             Command::Choose => self.choose(),
             Command::Recover => self.take.iter_mut().for_each(Take::recover),
             Command::Discard => self.discard(),
@@ -158,6 +136,7 @@ impl Studio {
             Command::Dismiss => {
                 ui.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
                 (self.message, self.is_help_open, self.file.is_open) = (None, false, false);
+                self.order.order = None;
             }
         }
         ui.ctx().request_repaint();
@@ -238,7 +217,7 @@ impl Studio {
     }
 
     /// Changes the document.
-    fn change(&mut self, command: Command) {
+    pub(super) fn change(&mut self, command: Command) {
         let Some(take) = &mut self.take else { return };
         let column = take.results().named(self.chosen);
         let column = column.as_deref();

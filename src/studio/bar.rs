@@ -27,7 +27,7 @@ pub(super) fn show(
         button(ui, true, words.say("Open", "開く"), Command::OpenFile);
         button(ui, is_open, words.say("Save", "保存"), Command::Save);
         let can_export = is_open && !is_exporting;
-        button(ui, can_export, words.say("Export", "書き出し"), Command::Export);
+        button(ui, can_export, words.say("Export", "書き出し"), Command::AskExport);
         ui.separator();
         let can = |can: fn(&Take) -> bool| take.as_deref().is_some_and(can);
         let (can_undo, can_redo) = (
@@ -42,6 +42,18 @@ pub(super) fn show(
             let name = RichText::new(format!("{}{changed}", take.name())).strong();
             let response = ui.label(name);
             response.on_hover_text(notes(take));
+            if let Some(letter) = take.letter() {
+                let other = words.say("The other sheet (X)", "もう一つのシート (X)");
+                if ui.button(letter).on_hover_text(other).accessible_name(other).clicked() {
+                    commands.push(Command::Other);
+                }
+            }
+            if take.document().edits.freeze() {
+                let thaw = words.say("Frozen", "凍結中");
+                if ui.button(thaw).on_hover_text("W").clicked() {
+                    commands.push(Command::Freeze);
+                }
+            }
             let counts = take.counts();
             for (what, count) in counts.words(&before.unwrap_or(counts), words) {
                 ui.weak(what);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::corrections::Correction;
+use super::order::Order;
 
 /// What a hand asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +45,18 @@ pub(super) enum Command {
     Movement,
     /// The map of what is found with other settings of the smoothing.
     Map,
+    /// All genga stay as they are whatever the knobs say, or may be found again.
+    Freeze,
+    /// In the part that is played genga are found again; those outside stay.
+    FindAgain,
+    /// The genga of the column, or of the part that is played, go to the clipboard.
+    CopyKeys,
+    /// Genga of a text are set in the column.
+    PasteKeys(String),
+    /// The other sheet of the take; at first the one there is.
+    Other,
+    /// Frames are counted, or koma.
+    Frames,
     /// A key at the play head, or none.
     ToggleKey,
     /// The key at the play head stays, or may go again.
@@ -83,11 +96,22 @@ pub(super) enum Command {
     OpenFile,
     /// Opens a clip, or a recipe for the one on the table.
     Open(PathBuf),
+    /// The take of the folder that is so many further.
+    Take(isize),
+    /// The take is done, or flagged; asked again it is not.
+    Mark(bool),
     /// Saves the recipe under another name.
     SaveAs(PathBuf),
     /// Lets the person choose a file in a dialog of the system.
     Choose,
-    Export,
+    /// Asks what is exported, and where.
+    AskExport,
+    /// Exports it.
+    Export(Order),
+    /// Stops writing; nothing of it stays.
+    StopExport,
+    /// Lets the person choose a folder for the export.
+    ChooseFolder,
     /// Takes what an earlier session left.
     Recover,
     /// Throws it away.

@@ -1,6 +1,6 @@
 //! Corrections (修正) of keys and holds, as a hand makes them: each is a change of the [`Edits`].
 
-use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
@@ -29,6 +29,8 @@ pub(super) enum Correction {
     LetGo(Frame),
     /// Whether all keys are chosen again around the corrections.
     Again(bool),
+    /// Keys that were copied, where there is none yet.
+    Paste(Vec<Pin>),
 }
 
 impl Correction {
@@ -56,10 +58,14 @@ impl Correction {
             },
             Self::Allow(range) => on.edits.forbidden_of(column).retain(|other| other != range),
             Self::Hold(frame, koma) => on.hold(*frame, *koma),
+            Self::Paste(pins) => pins.iter().for_each(|pin| {
+                on.allow(pin.frame);
+                *on.own_pin(&Key::set(pin.frame)) = pin.clone();
+            }),
             Self::Again(again) => on.edits.again = *again,
             Self::LetGo(frame) => on.edits.holds.retain(|hold| hold.frame != *frame),
         }
-        on.done()
+        on.edits.without_empty_layers()
     }
 }
 
@@ -175,12 +181,6 @@ impl Of<'_> {
             Some((column, at)) => &mut self.edits.pins_of(column)[at],
             None => self.insert(Pin { frame: key.frame, name: None, weight: None }),
         }
-    }
-
-    /// The corrections. A column of which nothing is said is not named.
-    fn done(mut self) -> Edits {
-        self.edits.layers.retain(|_, own| *own != LayerEdits::default());
-        self.edits
     }
 }
 

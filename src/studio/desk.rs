@@ -2,10 +2,12 @@
 //! tried without a disk, and on a full one.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use crate::edits::Edits;
 use crate::motion::Clip;
 use crate::pipeline::Breakdown;
+use crate::plot::Camera;
 use crate::recipe::Recipe;
 
 /// Files, as a program has them. Whatever fails is said in one plain sentence.
@@ -52,6 +54,29 @@ pub trait Desk: Send + Sync {
         None
     }
 
+    /// Lets the person choose a folder, as [`choose`](Self::choose) a file.
+    fn choose_folder(&self) -> Option<PathBuf> {
+        None
+    }
+
+    /// The names of the formats that every export has.
+    fn always(&self) -> Vec<&'static str> {
+        vec![]
+    }
+
+    /// The clips in a folder, in the order of their names; none for what is no folder.
+    fn clips_in(&self, _folder: &Path) -> Vec<PathBuf> {
+        vec![]
+    }
+
+    /// What was last noted under a name; none on a desk that remembers nothing.
+    fn noted(&self, _name: &str) -> Option<String> {
+        None
+    }
+
+    /// Notes how a person likes to work, for the next time.
+    fn note(&self, _name: &str, _text: &str) {}
+
     /// The clips that were opened last, the newest first; none on a desk that remembers nothing.
     fn recent(&self) -> Vec<PathBuf> {
         vec![]
@@ -81,6 +106,12 @@ pub struct Export<'a> {
     pub recipe: &'a Recipe,
     /// The corrections it was made with.
     pub edits: &'a Edits,
+    /// Formats beside those that every export has.
+    pub formats: &'a [&'static str],
+    /// From where figures are seen.
+    pub camera: Camera,
+    /// Set once the person wants no more of it: what is yet to be written is not.
+    pub stop: &'a AtomicBool,
     /// What the reader said of the file.
     pub notes: &'a [String],
 }

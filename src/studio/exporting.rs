@@ -1,13 +1,16 @@
 //! Results that are being written (書き出し).
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::Ui;
 
+use super::command::Command;
 use super::desk::{Desk, Export};
 use super::document::Document;
 use super::errand::{Errand, Look};
+use super::order::Order;
 use super::words::Words;
 use crate::pipeline::Engine;
 
@@ -15,7 +18,7 @@ use crate::pipeline::Engine;
 pub(super) struct Parcel {
     /// The clip's file.
     pub(super) clip: PathBuf,
-    pub(super) folder: PathBuf,
+    pub(super) order: Order,
     pub(super) document: Document,
     pub(super) notes: Vec<String>,
     /// With the results made so far.
@@ -23,12 +26,19 @@ pub(super) struct Parcel {
 }
 
 impl Parcel {
-    fn write(mut self, desk: &dyn Desk, tell: &dyn Fn(&str)) -> Result<Vec<String>, String> {
+    fn write(
+        mut self,
+        desk: &dyn Desk,
+        stop: &AtomicBool,
+        tell: &dyn Fn(&str),
+    ) -> Result<Vec<String>, String> {
         let Document { recipe, edits } = &self.document;
         let breakdown = self.engine.run(recipe, edits).map_err(|error| error.to_string())?;
         let (clip, notes) = (&*self.clip, &*self.notes);
-        let export = Export { clip, breakdown: &breakdown, recipe, edits, notes };
-        desk.export(&self.folder, &export, tell)
+        let (formats, camera) = (&*self.order.formats, self.order.camera);
+        let export =
+            Export { clip, breakdown: &breakdown, recipe, edits, formats, camera, stop, notes };
+        desk.export(&self.order.folder, &export, tell)
     }
 }
 
@@ -37,20 +47,24 @@ pub(super) struct Exporting {
     folder: PathBuf,
     /// What is being written.
     what: Arc<Mutex<String>>,
+    stop: Arc<AtomicBool>,
     errand: Errand<Result<Vec<String>, String>>,
 }
 
 impl Exporting {
     /// Begins to write.
     pub(super) fn begin(desk: &Arc<dyn Desk>, parcel: Parcel) -> Self {
-        let (desk, folder) = (Arc::clone(desk), parcel.folder.clone());
+        let (desk, folder) = (Arc::clone(desk), parcel.order.folder.clone());
         let what: Arc<Mutex<String>> = Arc::default();
         let told = Arc::clone(&what);
         // A word is whole whatever happened to whoever wrote the last one.
         let tell = move |name: &str| {
             *told.lock().unwrap_or_else(PoisonError::into_inner) = name.to_owned();
         };
-        Self { folder, what, errand: Errand::begin(move || parcel.write(&*desk, &tell)) }
+        let stop: Arc<AtomicBool> = Arc::default();
+        let stopped = Arc::clone(&stop);
+        let errand = Errand::begin(move || parcel.write(&*desk, &stopped, &tell));
+        Self { folder, what, stop, errand }
     }
 
     /// What was written, or why nothing was, as a sentence; nothing while it is written.
@@ -63,13 +77,21 @@ impl Exporting {
         }
     }
 
-    /// Says what is being written.
-    pub(super) fn show(&self, ui: &mut Ui, words: Words) {
+    /// Wants no more of it.
+    pub(super) fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Says what is being written, and lets it be stopped.
+    pub(super) fn show(&self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.spinner();
             let exporting = words.say("exporting to", "書き出し中");
             let what = self.what.lock().unwrap_or_else(PoisonError::into_inner);
             ui.label(format!("{exporting} {}: {what}", self.folder.display()));
+            if ui.button(words.say("Stop writing", "書き出しを中止")).clicked() {
+                commands.push(Command::StopExport);
+            }
         });
     }
 }

@@ -26,20 +26,16 @@ impl Here<'_> {
         let column = self.column;
         let key = column.key(self.at).cloned();
         Some(match (command, key) {
-            (Command::ToggleKey, Some(key)) if self.is_here(&key) => match key.origin {
-                Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => {
-                    Correction::Forbid(key)
-                }
-                _ => Correction::TakeBack(key),
+            (Command::ToggleKey, Some(key)) if self.is_here(&key) => match self.is_set(&key) {
+                false => Correction::Forbid(key),
+                true => Correction::TakeBack(key),
             },
             (Command::ToggleKey, _) => {
                 Correction::Pin(self.frame(column.clock.place_from_koma(self.at)))
             }
-            (Command::Lock, Some(key)) => match key.origin {
-                Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => {
-                    Correction::Lock(key)
-                }
-                _ => Correction::TakeBack(key),
+            (Command::Lock, Some(key)) => match self.is_set(&key) {
+                false => Correction::Lock(key),
+                true => Correction::TakeBack(key),
             },
             (Command::Nudge(by), Some(key)) => {
                 let way = *by as f64 * column.clock.frames_in_koma();
@@ -62,6 +58,16 @@ impl Here<'_> {
             }
             _ => return None,
         })
+    }
+
+    /// Whether a correction put a key where it is; one that is frozen alone may look so.
+    fn is_set(&self, key: &Key) -> bool {
+        let edits = self.wanted.edits.of_layer(self.column.name);
+        match key.origin {
+            Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => false,
+            Origin::Moved { .. } => true,
+            Origin::Pinned => edits.pins.iter().any(|pin| pin.frame == key.frame),
+        }
     }
 
     /// Whether a key stands at the play head: on the koma nearest to it, or on that with which it begins.

@@ -64,10 +64,10 @@ impl KeyPanel {
     pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         let (_, place) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
         let inside = ui.clip_rect().intersect(place.expand(2.0));
-        ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-            ui.set_clip_rect(inside);
-            self.inside(ui, shown, commands);
-        });
+        // A child of its own: what lies below begins under the place and not under what is in it.
+        let mut child = ui.new_child(UiBuilder::new().max_rect(place));
+        child.set_clip_rect(inside);
+        self.inside(&mut child, shown, commands);
     }
 
     fn inside(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
@@ -132,10 +132,9 @@ fn reason(ui: &mut Ui, text: &str) {
     let (_, place) = ui.allocate_space(vec2(ui.available_width(), REASON));
     let label = Label::new(RichText::new(text).size(11.0).weak()).wrap();
     let inside = ui.clip_rect().intersect(place);
-    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-        ui.set_clip_rect(inside);
-        ui.add(label).on_hover_text(text);
-    });
+    let mut child = ui.new_child(UiBuilder::new().max_rect(place));
+    child.set_clip_rect(inside);
+    child.add(label).on_hover_text(text);
 }
 
 /// The spacing weight from this key on.

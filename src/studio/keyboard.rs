@@ -53,7 +53,11 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(COMMAND, Key::S, Command::Save, "save the recipe", "レシピを保存"),
     key(COMMAND_SHIFT, Key::O, Command::Choose, "choose a file", "ファイルを選ぶ"),
     key(COMMAND, Key::O, Command::OpenFile, "open a clip or a recipe", "クリップかレシピを開く"),
-    key(COMMAND, Key::E, Command::Export, "export everything", "すべて書き出す"),
+    key(COMMAND, Key::ArrowDown, Command::Take(1), "next take of the folder", "次のテイク"),
+    key(COMMAND, Key::ArrowUp, Command::Take(-1), "take before", "前のテイク"),
+    key(COMMAND, Key::D, Command::Mark(true), "this take is done", "このテイクは済"),
+    key(COMMAND, Key::F, Command::Mark(false), "flag this take", "このテイクは要確認"),
+    key(COMMAND, Key::E, Command::AskExport, "export", "書き出す"),
     key(
         ALT_SHIFT,
         Key::ArrowLeft,
@@ -101,8 +105,24 @@ pub(super) const BINDINGS: &[Binding] = &[
         "source as captured or exaggerated",
         "素材の誇張前・誇張後",
     ),
-    key(NONE, Key::H, Command::Map, "map of the smoothing", "表1の地図"),
+    key(
+        NONE,
+        Key::H,
+        Command::Map,
+        "map: turns by width and persistence",
+        "地図: 幅と連続フレーム数ごとの変わり目",
+    ),
     key(NONE, Key::M, Command::Movement, "movement into each koma", "動きの大きさ"),
+    key(NONE, Key::W, Command::Freeze, "freeze all genga, or thaw them", "原画をすべて凍結・解除"),
+    key(
+        NONE,
+        Key::Y,
+        Command::FindAgain,
+        "find the genga of the played part again",
+        "再生範囲の原画を選び直す",
+    ),
+    key(NONE, Key::X, Command::Other, "the other sheet (A, B)", "もう一つのシート (A/B)"),
+    key(NONE, Key::U, Command::Frames, "count frames, or koma", "フレームで数える・コマで数える"),
     key(NONE, Key::K, Command::ToggleKey, "genga here, or none", "ここを原画に・取り消し"),
     key(NONE, Key::L, Command::Lock, "lock the genga here, or unlock it", "原画を固定・解除"),
     key(NONE, Key::OpenBracket, Command::Hold(-1), "hold a koma shorter", "止めを1コマ短く"),
@@ -145,7 +165,7 @@ pub(super) fn pressed(ui: &Ui) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.input_mut(|input| {
         input.events.retain(|event| {
-            let command = command_of(event, is_free);
+            let command = command_of(event, is_typing, is_free);
             let is_kept = command.is_none();
             commands.extend(command);
             is_kept
@@ -154,8 +174,17 @@ pub(super) fn pressed(ui: &Ui) -> Vec<Command> {
     commands
 }
 
-/// What a press of a key asks for.
-fn command_of(event: &Event, is_free: impl Fn(&Binding) -> bool) -> Option<Command> {
+/// What a press of a key asks for; what is copied and pasted in a field is left to it.
+fn command_of(
+    event: &Event,
+    is_typing: bool,
+    is_free: impl Fn(&Binding) -> bool,
+) -> Option<Command> {
+    match event {
+        Event::Copy if !is_typing => return Some(Command::CopyKeys),
+        Event::Paste(text) if !is_typing => return Some(Command::PasteKeys(text.clone())),
+        _ => {}
+    }
     let Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
     let is_meant =
         |binding: &&Binding| binding.key == *key && modifiers.matches_logically(binding.modifiers);

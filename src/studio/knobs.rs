@@ -22,6 +22,14 @@ const ON: [&str; 8] = ["1", "2", "3", "4", "1-2", "1-3", "2-3", "2-4"];
 const SEEN_FROM: [&str; 5] = ["world", "auto", "front", "side", "three-quarter"];
 /// Layers that are offered; a recipe may name its own.
 const LAYERS: [&str; 3] = ["body", "limbs", "joints"];
+/// Knobs that find fewer turns, and what comes of it while fills are on: genga hardly become fewer.
+const FEWER_TURNS: [&str; 2] = ["filter.width", "turns.persistence"];
+const FILLED: (&str, &str) = (
+    "Where the body would go astray, fills take the place of turns that go (keys.fill): genga hardly become fewer. \
+     keys.min_price and keys.per_second make them fewer.",
+    "変わり目が減っても、動きが崩れるところには補いの原画が入るので（keys.fill）、枚数はほとんど減らない。\
+     減らすのは keys.min_price と keys.per_second。",
+);
 /// Width of the labels: at the least, and where one is wider.
 const LABEL: f32 = 108.0;
 const WIDEST_LABEL: f32 = 150.0;
@@ -152,6 +160,9 @@ fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
             ui.label(knob.japanese);
         }
         ui.label(words.say(knob.help, knob.japanese_help));
+        if FEWER_TURNS.contains(&knob.name) {
+            ui.label(words.say(FILLED.0, FILLED.1));
+        }
         // Units are said in Japanese by the row; the words of a choice are those of the recipe.
         if !words.is_japanese() || matches!(knob.kind, Kind::Choice(_)) {
             ui.weak(knob.takes());

@@ -64,8 +64,8 @@ impl Look {
             paper: of(parts::PAPER),
             ground: Color32::from_rgb(240, 242, 244),
             shadow: Color32::from_rgb(219, 223, 227),
-            before: Color32::from_rgb(214, 160, 178),
-            after: Color32::from_rgb(146, 190, 160),
+            before: Color32::from_rgb(214, 150, 110),
+            after: Color32::from_rgb(110, 160, 214),
             action: Color32::from_rgb(120, 84, 160),
             playhead: Color32::from_rgb(0, 128, 96),
             chosen: Color32::from_rgb(214, 240, 230),
@@ -90,8 +90,8 @@ impl Look {
             paper: gray(24),
             ground: gray(30),
             shadow: gray(16),
-            before: Color32::from_rgb(122, 76, 94),
-            after: Color32::from_rgb(62, 108, 80),
+            before: Color32::from_rgb(150, 104, 44),
+            after: Color32::from_rgb(60, 96, 160),
             action: Color32::from_rgb(176, 140, 220),
             playhead: Color32::from_rgb(72, 208, 160),
             chosen: Color32::from_rgb(24, 62, 50),
@@ -113,6 +113,71 @@ impl Look {
             BodySide::Left => self.left,
             BodySide::Right => self.right,
             BodySide::Trunk => self.ink,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What eyes without one kind of cones see, in linear light: red, green, blue (Machado, Oliveira and Fernandes 2009).
+    const EYES: [[[f64; 3]; 3]; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [
+            [0.152286, 1.052583, -0.204868],
+            [0.114503, 0.786281, 0.099216],
+            [-0.003882, -0.048116, 1.051998],
+        ],
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.01182, 0.04294, 0.968881],
+        ],
+        [
+            [1.255528, -0.076749, -0.178779],
+            [-0.078411, 0.930809, 0.147602],
+            [0.004733, 0.691367, 0.3039],
+        ],
+    ];
+
+    fn times(matrix: [[f64; 3]; 3], color: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(color).map(|(a, b)| a * b).sum())
+    }
+
+    /// A colour as an eye sees it, in CIE L*a*b*.
+    fn seen(color: Color32, eye: [[f64; 3]; 3]) -> [f64; 3] {
+        let linear = |channel: u8| {
+            let value = f64::from(channel) / 255.0;
+            if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+        };
+        let light = times(eye, [color.r(), color.g(), color.b()].map(linear));
+        let xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
+        let [x, y, z] = times(xyz, light.map(|value| value.clamp(0.0, 1.0)));
+        let root = |t: f64| if t > 0.008856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+        let [x, y, z] = [root(x / 0.9505), root(y), root(z / 1.089)];
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    #[test]
+    fn what_is_told_apart_by_colour_is_so_for_every_eye() {
+        for look in [Look::day(), Look::night()] {
+            for (a, b) in [
+                (look.genga, look.wall),
+                (look.genga, look.inbetween),
+                (look.genga, look.end),
+                (look.genga, look.playhead),
+                (look.genga, look.action),
+                (look.action, look.playhead),
+                (look.left, look.right),
+                (look.before, look.after),
+            ] {
+                for eye in EYES {
+                    let (a, b) = (seen(a, eye), seen(b, eye));
+                    let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+                    assert!(apart.sqrt() > 20.0, "{a:?} {b:?}: {:.0}", apart.sqrt());
+                }
+            }
         }
     }
 }

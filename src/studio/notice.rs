@@ -16,7 +16,16 @@ const WIDE: f32 = 860.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Message {
     pub(super) text: String,
+    /// The same in Japanese, where there is such a sentence.
+    pub(super) japanese: Option<String>,
     pub(super) is_failure: bool,
+}
+
+impl Message {
+    /// What went wrong.
+    pub(super) fn failure(text: String) -> Self {
+        Self { text, japanese: None, is_failure: true }
+    }
 }
 
 /// Shows notices one below the other, over everything else.
@@ -50,7 +59,8 @@ pub(super) fn message(
             if icon::button(ui, Icon::Cross, close).clicked() {
                 commands.push(Command::Dismiss);
             }
-            ui.add(Label::new(&message.text).wrap());
+            let japanese = message.japanese.as_deref().unwrap_or(&message.text);
+            ui.add(Label::new(words.say(&message.text, japanese)).wrap());
         });
     });
 }

@@ -26,6 +26,8 @@ pub(super) struct Shown<'a> {
     pub(super) joints: &'a [JointId],
     /// The koma of the play head.
     pub(super) at: usize,
+    /// Whether frames of the source are counted, and not koma.
+    pub(super) counts_frames: bool,
     pub(super) look: Look,
     pub(super) words: Words,
 }

@@ -1,6 +1,7 @@
 //! A take (テイク) on the table: a clip, the document, and the last results that could be made of them.
 
 use std::ffi::OsString;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -9,7 +10,9 @@ use super::counts::Counts;
 use super::desk::Desk;
 use super::document::Document;
 use super::exporting::Parcel;
+use super::freeze;
 use super::history::History;
+use super::order::Order;
 use super::scene::Scene;
 use super::step::Step;
 use crate::error::Error;
@@ -59,6 +62,9 @@ pub(super) struct Take {
     pub(super) wanted: Document,
     /// What an earlier session left that was not saved.
     pub(super) left: Option<Document>,
+    /// The other sheet, and whether the one that is worked on is the second.
+    other: Option<Document>,
+    is_second: bool,
     engine: Engine,
     /// The document of the results: one that the chain has taken.
     document: Document,
@@ -95,6 +101,8 @@ impl Take {
             history: History::of(&saved),
             wanted: saved.clone(),
             left: left.filter(|left| *left != saved),
+            other: None,
+            is_second: false,
             engine,
             document: saved.clone(),
             cels: Some(cels),
@@ -143,6 +151,41 @@ impl Take {
         }
         self.is_slow = begin.elapsed().as_secs_f64() > QUICK;
         Ok(true)
+    }
+
+    /// Freezes every genga, or thaws them. Says whether they are frozen now.
+    pub(super) fn freeze(&mut self) -> Result<bool, Error> {
+        self.renew(false)?;
+        let edits = &self.wanted.edits;
+        let is_frozen = edits.freeze();
+        self.wanted.edits = match is_frozen {
+            true => freeze::thawed(edits),
+            false => freeze::frozen(&edits.clone(), &self.results().breakdown),
+        };
+        Ok(!is_frozen)
+    }
+
+    /// Has the genga of some koma found again. What is outside is frozen as it is.
+    pub(super) fn find_again(&mut self, koma: &Range<usize>) -> Result<(), Error> {
+        if !self.wanted.edits.freeze() {
+            self.freeze()?;
+        }
+        let Document { recipe, edits } = &self.wanted;
+        let fresh = self.engine.run(recipe, &freeze::thawed(edits))?;
+        self.wanted.edits = freeze::found_again(edits, &fresh, koma);
+        Ok(())
+    }
+
+    /// Takes the other sheet; at first both are the one there is.
+    pub(super) fn take_other(&mut self) {
+        let other = self.other.take().unwrap_or_else(|| self.wanted.clone());
+        self.other = Some(std::mem::replace(&mut self.wanted, other));
+        self.is_second = !self.is_second;
+    }
+
+    /// Which of two sheets is worked on; none where there is one.
+    pub(super) fn letter(&self) -> Option<&'static str> {
+        self.other.as_ref().map(|_| if self.is_second { "B" } else { "A" })
     }
 
     pub(super) fn counts(&mut self) -> Counts {
@@ -201,11 +244,17 @@ impl Take {
         desk.remove(&beside(&self.path, AUTOSAVE))
     }
 
+    /// The folder in which results are written where nothing else is asked for: in `into`, else beside the clip.
+    pub(super) fn folder(&self, into: Option<&Path>) -> PathBuf {
+        let name = format!("{}-genga", self.name());
+        into.map_or_else(|| self.path.with_file_name(&name), |into| into.join(&name))
+    }
+
     /// All results as they are now, to be written elsewhere than on the table.
-    pub(super) fn parcel(&self) -> Parcel {
+    pub(super) fn parcel(&self, order: Order) -> Parcel {
         Parcel {
             clip: self.path.clone(),
-            folder: self.path.with_file_name(format!("{}-genga", self.name())),
+            order,
             document: self.document.clone(),
             notes: self.notes.clone(),
             engine: self.engine.clone(),

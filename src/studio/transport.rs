@@ -33,9 +33,17 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
     let (at, length) = (shown.at + 1, shown.column().length);
     let rate = shown.column().clock.koma_rate;
     let seconds = shown.at as f64 / rate;
-    ui.monospace(match words.is_japanese() {
-        true => format!("コマ {at:>4} / {length}  {seconds:>6.2} 秒"),
-        false => format!("koma {at:>4} / {length}  {seconds:>6.2} s"),
+    let second = words.say("s", "秒");
+    ui.monospace(match shown.counts_frames {
+        true => {
+            let (frame, last) = (shown.frame_of_koma(shown.at), shown.breakdown.clip.last());
+            let name = words.say("frame", "フレーム");
+            format!("{name} {:>4} / {last}  {seconds:>6.2} {second}", frame.0)
+        }
+        false => {
+            let name = words.say("koma", "コマ");
+            format!("{name} {at:>4} / {length}  {seconds:>6.2} {second}")
+        }
     });
     if player.range.is_some() {
         button(ui, Icon::Cross, "Play all", "全部を再生", Command::LoopAll);
@@ -44,6 +52,10 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
 
 /// Height of the scrub bar.
 const HEIGHT: f32 = 22.0;
+/// Room for the number of a koma.
+const LABEL: f32 = 30.0;
+/// Lines nearer than this cannot be told apart.
+const CLOSEST: f32 = 1.0;
 
 /// The whole sheet as a bar: a line a genga, the play head, what is played.
 fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
@@ -66,7 +78,14 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         let played = Rect::from_x_y_ranges(x(played.start)..=x(played.end), inside.y_range());
         painter.rect_filled(played, 3.0, look.chosen);
     }
+    let mut last = [f32::NEG_INFINITY; 2];
     for cell in &column.cells {
+        let last = &mut last[usize::from(cell.drawing.role.is_kept())];
+        // What falls on one point of the window is one line.
+        if x(cell.koma) - *last < CLOSEST {
+            continue;
+        }
+        *last = x(cell.koma);
         let color = look.of_role(cell.drawing.role);
         let (high, stroke) = match cell.drawing.role.is_kept() {
             true => (1.0, Stroke::new(1.5, color)),
@@ -74,6 +93,9 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         };
         let top = inside.max.y - high * inside.height();
         painter.vline(x(cell.koma), top..=inside.max.y, stroke);
+    }
+    for koma in shown.breakdown.actions.koma(column.clock) {
+        painter.vline(x(koma), rect.y_range(), Stroke::new(2.0, look.action));
     }
     let now = x(shown.at);
     let head = Rect::from_min_max(pos2(now, rect.min.y), pos2(now + wide.max(3.0), rect.max.y));
@@ -89,16 +111,18 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         ..WidgetInfo::labeled(Role::Slider, true, name)
     });
     let second = column.clock.koma_rate.round().max(1.0) as usize;
-    for koma in (second..column.length).step_by(second) {
-        let at = pos2(x(koma) + 2.0, inside.min.y);
-        if wide * second as f32 > 24.0 {
-            painter.text(
-                at,
-                Align2::LEFT_TOP,
-                format!("{}", koma / second),
-                FontId::proportional(9.0),
-                look.faint,
-            );
+    let mut free = f32::NEG_INFINITY;
+    for koma in (second..=column.length).step_by(second) {
+        // The number of a koma, or the frame that it shows.
+        let number = match shown.counts_frames {
+            true => shown.frame_of_koma(koma - 1).0,
+            false => koma,
+        };
+        let at = pos2(x(koma - 1) + 2.0, inside.min.y);
+        if at.x >= free && at.x + LABEL < inside.max.x {
+            let font = FontId::proportional(9.0);
+            painter.text(at, Align2::LEFT_TOP, number, font, look.faint);
+            free = at.x + LABEL;
         }
     }
 }

@@ -190,9 +190,9 @@ fn standing(seen: Seen, shown: &Shown<'_>) -> String {
     if seen == Seen::Source {
         let place = column.clock.place_from_koma(shown.at);
         let frame = (place * 10.0).round() / 10.0;
-        return match words.is_japanese() {
-            true => format!("素材フレーム {frame}"),
-            false => format!("source frame {frame}"),
+        return match shown.counts_frames {
+            true => format!("{} {frame}", words.say("source frame", "素材フレーム")),
+            false => format!("{} {}", words.say("koma", "コマ"), shown.at + 1),
         };
     }
     let cell = column.cell(shown.at);

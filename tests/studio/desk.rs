@@ -22,6 +22,8 @@ pub(crate) struct Memory {
     pub(crate) chosen: Mutex<Option<PathBuf>>,
     /// The clips that were opened, the newest first.
     pub(crate) opened: Mutex<Vec<PathBuf>>,
+    /// What was noted, by its name.
+    pub(crate) notes: Mutex<BTreeMap<String, String>>,
     disk: Disk,
 }
 
@@ -71,6 +73,26 @@ impl Desk for Memory {
 
     fn choose(&self) -> Option<PathBuf> {
         self.chosen.lock().unwrap().take()
+    }
+
+    fn choose_folder(&self) -> Option<PathBuf> {
+        self.choose()
+    }
+
+    fn always(&self) -> Vec<&'static str> {
+        self.disk.always()
+    }
+
+    fn clips_in(&self, folder: &Path) -> Vec<PathBuf> {
+        self.disk.clips_in(folder)
+    }
+
+    fn noted(&self, name: &str) -> Option<String> {
+        self.notes.lock().unwrap().get(name).cloned()
+    }
+
+    fn note(&self, name: &str, text: &str) {
+        self.notes.lock().unwrap().insert(name.to_owned(), text.to_owned());
     }
 
     fn recent(&self) -> Vec<PathBuf> {

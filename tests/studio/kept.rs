@@ -32,6 +32,14 @@ impl Table {
         self.wait();
     }
 
+    /// Exports as it was last.
+    fn export(&mut self) {
+        self.tap(Modifiers::COMMAND, Key::E);
+        self.harness.get_by_label("Write the files").click();
+        (0..3).for_each(|_| self.harness.step());
+        self.rest();
+    }
+
     fn pin_contact(&mut self) {
         self.harness.key_press(Key::Home);
         (0..42).for_each(|_| self.harness.key_press(Key::ArrowRight));
@@ -146,6 +154,9 @@ fn an_export_is_what_a_run_writes() {
     std::fs::copy(sample("kick.bvh"), &clip).unwrap();
     let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
     table.harness.get_by_label("Export").click();
+    table.harness.run();
+    table.harness.get_by_label("Write the files").click();
+    table.harness.step();
     table.harness.step();
     assert!(table.harness.state().is_exporting(), "it does not wait for the disk");
     table.rest();
@@ -157,9 +168,68 @@ fn an_export_is_what_a_run_writes() {
     // A sheet that was edited by hand is spared, as by a run.
     let sheet = std::fs::read_to_string(folder.join("sheet.json")).unwrap();
     std::fs::write(folder.join("sheet.json"), sheet.replace("\"koma\": 2", "\"koma\": 3")).unwrap();
-    table.harness.get_by_label("Export").click();
-    table.rest();
+    table.export();
     table.harness.get_by_label_contains("is not as a run wrote it");
+}
+
+#[test]
+fn an_export_is_asked_for_remembered_and_goes_where_it_is_told() {
+    let place = tempfile::tempdir().unwrap();
+    let clip = place.path().join("kick.bvh");
+    std::fs::copy(sample("kick.bvh"), &clip).unwrap();
+    let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
+    table.tap(Modifiers::COMMAND, Key::E);
+    for format in ["xdts", "xsheet"] {
+        table.harness.get_by_label(format).click();
+        table.harness.run();
+    }
+    let out = place.path().join("out/first");
+    *table.desk.chosen.lock().unwrap() = Some(out.clone());
+    table.harness.get_by_label("Choose the folder…").click();
+    for _ in 0..40 {
+        table.harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    table.harness.get_by_label("Write the files").click();
+    table.harness.step();
+    table.harness.step();
+    table.rest();
+    for file in ["sheet.json", "kick_genga_ts.xdts", "xsheet/0001.svg"] {
+        assert!(out.join(file).is_file(), "{file}");
+    }
+    let desk = Arc::clone(&table.desk);
+    let mut again = Table::with(&clip, desk, Language::English, Theme::Light);
+    again.tap(Modifiers::COMMAND, Key::E);
+    let is_on = |table: &Table, format: &str| {
+        use egui_kittest::kittest::NodeT;
+        let shown = table.harness.get_by_label(format);
+        shown.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    assert!(is_on(&again, "xdts") && is_on(&again, "json") && !is_on(&again, "strip"));
+    let folder = again.harness.get_by_label("Folder of the export");
+    let folder = egui_kittest::kittest::NodeT::accesskit_node(&folder).value().unwrap();
+    assert_eq!(Path::new(&folder), place.path().join("out/kick-genga"));
+    again.tap(Modifiers::NONE, Key::Escape);
+    assert!(again.harness.query_by_label("Write the files").is_none());
+}
+
+#[test]
+fn an_export_that_is_stopped_leaves_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    let clip = place.path().join("kick.bvh");
+    std::fs::copy(sample("kick.bvh"), &clip).unwrap();
+    let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
+    let hold = Arc::clone(&table.desk);
+    let writing = hold.is_writing.lock().unwrap();
+    table.tap(Modifiers::COMMAND, Key::E);
+    table.harness.get_by_label("Write the files").click();
+    (0..3).for_each(|_| table.harness.step());
+    table.harness.get_by_label("Stop writing").click();
+    (0..3).for_each(|_| table.harness.step());
+    drop(writing);
+    table.rest();
+    table.harness.get_by_label_contains("stopped: nothing was written");
+    assert!(!place.path().join("kick-genga").join("sheet.json").exists());
 }
 
 #[test]
@@ -168,6 +238,9 @@ fn the_work_goes_on_while_results_are_written() {
     let hold = Arc::clone(&table.desk);
     let writing = hold.is_writing.lock().unwrap();
     table.harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    table.harness.step();
+    table.harness.step();
+    table.harness.key_press(Key::Enter);
     table.harness.step();
     table.harness.step();
     let name = "exporting to";
@@ -209,4 +282,37 @@ fn a_clip_is_chosen_in_a_dialog_and_offered_again() {
     empty.harness.step();
     empty.wait();
     assert_eq!(empty.harness.state().title(), "swing – genga");
+}
+
+#[test]
+fn a_folder_is_a_list_of_takes_to_go_through() {
+    let place = tempfile::tempdir().unwrap();
+    for name in ["kick.bvh", "pitch.bvh", "swing.bvh"] {
+        std::fs::copy(sample(name), place.path().join(name)).unwrap();
+    }
+    std::fs::write(place.path().join("notes.txt"), "no take").unwrap();
+    let mut table = Table::empty(Arc::default(), Language::English, Theme::Light);
+    table.drop_file(place.path());
+    assert_eq!(table.harness.state().title(), "kick – genga");
+    table.harness.get_by_label("Takes 0 / 3");
+    table.tap(Modifiers::COMMAND, Key::D);
+    table.harness.get_by_label("kick · done");
+    table.harness.get_by_label("On threes").click();
+    table.harness.run();
+    table.harness.get_by_label("One recipe for all").click();
+    table.harness.run();
+    table.harness.get_by_label("Next").click();
+    table.harness.step();
+    table.wait();
+    assert_eq!(table.harness.state().title(), "pitch * – genga");
+    assert_eq!(table.recipe().get("spacing.on").unwrap(), "3");
+    table.tap(Modifiers::COMMAND, Key::F);
+    table.harness.get_by_label("pitch · flagged");
+    table.harness.key_press_modifiers(Modifiers::COMMAND, Key::ArrowUp);
+    table.harness.step();
+    table.wait();
+    assert_eq!(table.harness.state().title(), "kick – genga", "a step saves");
+    assert_eq!(table.recipe().get("spacing.on").unwrap(), "3");
+    let marks = table.desk.text(&place.path().join("genga-takes.txt")).unwrap();
+    assert_eq!(marks, "done kick.bvh\nflagged pitch.bvh\n");
 }

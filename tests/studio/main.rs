@@ -9,6 +9,7 @@ mod corrected; // keys by hand: on the keyboard, on the sheet, over the curves
 mod desk; // files in memory, and a disk that is full
 mod kept; // saved, opened, recovered, exported
 mod layered; // several columns, each with its own pins
+mod local; // frozen genga, a part found again, genga copied, two sheets
 mod pictures; // what it looks like
 mod seen; // play, step, loop, flip, look from a side
 mod soft; // a renderer without a graphics card

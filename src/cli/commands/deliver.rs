@@ -71,7 +71,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     };
     formats.settle(&cut)?.iter().for_each(|note| words.warn(note));
     let mut bundle = Bundle::begin(folder)?;
-    let written = formats.write(&cut, &mut bundle, &|_| {})?;
+    let written = formats.write(&cut, &mut bundle, &|_| Ok(()))?;
     let (clip, stale) = (motion.of.clone(), written.stale);
     let made = Made { clip, recipe: None, stale, adds: true, given: None };
     let left = place.finish(bundle, made)?;

@@ -78,7 +78,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         notes,
         is_own_recipe: given(args, &folder).is_some(),
         kept: kept(given(args, &folder), (recipe, edits)),
-        tell: &|_| {},
+        tell: &|_| Ok(()),
     };
     let Outcome { report, files, left } = results.write(&mut formats, place)?;
     drop(working);

@@ -45,27 +45,52 @@ mod shell {
     use std::path::Path;
     use std::sync::Arc;
 
-    use eframe::egui::{Ui, ViewportBuilder, ViewportCommand};
+    use eframe::egui::{Ui, Vec2, ViewportBuilder, ViewportCommand};
 
     use super::{Disk, Failure, StudioArgs};
     use crate::cli::paths;
-    use crate::studio::{Language, Studio};
+    use crate::studio::{Desk, Language, Studio};
 
     /// The window and what it was last called.
     struct Shell {
         studio: Studio,
         title: String,
+        desk: Arc<Disk>,
+        size: Vec2,
     }
 
     impl eframe::App for Shell {
         fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
             self.studio.ui(ui);
+            self.size = ui.ctx().content_rect().size();
             let title = self.studio.title();
             if title != self.title {
                 ui.ctx().send_viewport_cmd(ViewportCommand::Title(title.clone()));
                 self.title = title;
             }
         }
+
+        fn on_exit(&mut self) {
+            self.desk.note(WINDOW, &written(self.size));
+        }
+    }
+
+    /// Under what name the size of the window is noted.
+    const WINDOW: &str = "window";
+    /// The size that it has at first, and the least.
+    const USUAL: Vec2 = Vec2::new(1440.0, 900.0);
+    const LEAST: Vec2 = Vec2::new(900.0, 600.0);
+
+    fn written(size: Vec2) -> String {
+        format!("{} {}\n", size.x.round(), size.y.round())
+    }
+
+    /// The size that was noted; the usual one where that is none.
+    fn size_of(text: &str) -> Vec2 {
+        let mut sides = text.split_whitespace().map(|side| side.parse().ok());
+        let size = sides.next().flatten().zip(sides.next().flatten());
+        let size = size.map(|(wide, high)| Vec2::new(wide, high));
+        size.filter(|size| size.is_finite()).map_or(USUAL, |size| size.max(LEAST))
     }
 
     pub(in crate::cli::commands) fn run(args: StudioArgs) -> Result<(), Failure> {
@@ -77,17 +102,18 @@ mod shell {
         for path in clip.iter().chain(&recipe) {
             there_is(path)?;
         }
-        let desk = Disk::with(clip.clone(), part);
-        let mut studio = Studio::new(Arc::new(desk), language());
+        let desk = Arc::new(Disk::with(clip.clone(), part));
+        let size = size_of(&desk.noted(WINDOW).unwrap_or_default());
+        let mut studio = Studio::new(Arc::clone(&desk) as _, language());
         if let Some(clip) = &clip {
             studio.open(clip, recipe.as_deref());
         }
         let viewport = ViewportBuilder::default()
             .with_app_id("genga")
-            .with_inner_size([1440.0, 900.0])
-            .with_min_inner_size([900.0, 600.0]);
+            .with_inner_size(size)
+            .with_min_inner_size(LEAST);
         let options = eframe::NativeOptions { viewport, ..eframe::NativeOptions::default() };
-        let shell = Shell { studio, title: String::new() };
+        let shell = Shell { studio, title: String::new(), desk, size };
         let window = eframe::run_native("genga", options, Box::new(|_| Ok(Box::new(shell))));
         window.map_err(|error| Failure::CouldNot(no_window(&error)))
     }
@@ -126,6 +152,21 @@ mod shell {
         match locale.is_some_and(|locale| locale.starts_with("ja")) {
             true => Language::Japanese,
             false => Language::English,
+        }
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn the_size_of_the_window_is_read_back_and_never_too_small() {
+            let size = Vec2::new(1280.0, 1024.0);
+            assert_eq!(size_of(&written(size)), size);
+            assert_eq!(size_of("10 2000"), Vec2::new(900.0, 2000.0));
+            for text in ["", "wide", "1200", "NaN 800"] {
+                assert_eq!(size_of(text), USUAL, "{text}");
+            }
         }
     }
 }

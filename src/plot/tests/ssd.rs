@@ -2,6 +2,8 @@
 
 use super::figures::walk;
 use super::*;
+#[cfg(feature = "studio")]
+use crate::plot::ssd::Moves;
 
 /// Six koma on ones of a walk, and what is left: 1 is held as 2 and has got a koma, 4 is left out.
 fn omitted() -> (Clip, Sheet, Sheet) {
@@ -95,4 +97,18 @@ fn a_small_picture_looks_as_it_did() {
     let (clip, before, after) = omitted();
     let plot = SsdPlot { width: 400, height: 300, ..SsdPlot::default() };
     insta::assert_snapshot!("ssd", plot.draw(&clip, &before, &after).unwrap());
+}
+
+#[test]
+#[cfg(feature = "studio")]
+fn movement_is_the_same_by_stills_of_all_drawings() {
+    let (clip, before, after) = omitted();
+    let (all, left) = (&before.layers[0], &after.layers[0]);
+    let stills = crate::timing::Stills::of(&clip, all);
+    for layer in [all, left] {
+        let direct = Moves::of(&clip, layer, &motion::Screen::WORLD);
+        let among = Moves::among(&stills, all, layer).unwrap();
+        assert_eq!(among.ssd, direct.ssd);
+    }
+    assert!(Moves::among(&stills, left, all).is_none(), "one is missing");
 }

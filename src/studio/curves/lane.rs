@@ -13,6 +13,15 @@ use crate::studio::shown::Shown;
 /// How far a raw peak may stand out over the filtered curve.
 const OVER: f64 = 1.6;
 
+/// The share of the frames that are usual, and how far over them one has to be to be cut off.
+const USUAL: f64 = 0.99;
+const OUTLIER: f64 = 3.0;
+/// Frames that are looked at for it.
+const LOOKS: usize = 4000;
+
+/// Marks of turns nearer than this cover each other.
+const CLOSEST: f32 = 2.0;
+
 /// Points across that a band has at the least.
 const THIN: f32 = 2.0;
 
@@ -34,14 +43,41 @@ pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, 
         let line = points(values, first, time, rect, y);
         clipped.add(Shape::line(line, Stroke::new(width, color)));
     }
+    cut_off(&clipped, rect, (filtered, first), (low, high), time, look);
+    let mut last = f32::NEG_INFINITY;
     for turn in &breakdown.turns[joint.0] {
         let place = turn.frame.0 as f64;
-        if place >= time.from && place <= time.to {
+        if place >= time.from && place <= time.to && time.x(place) - last >= CLOSEST {
+            last = time.x(place);
             let at = pos2(time.x(place), y(filtered[turn.frame.0 - first]));
             mark(&clipped, at, turn, look.genga, look.wall, look.paper);
         }
     }
     values(painter, rect, (low, high), joint, shown);
+}
+
+/// An arrow and the value where the curve goes beyond the lane.
+fn cut_off(
+    painter: &Painter,
+    rect: Rect,
+    (values, first): (&[f64], usize),
+    (low, high): (f64, f64),
+    time: &Scale,
+    look: &Look,
+) {
+    let is_beyond = |value: f64| value > high || value < low;
+    let mut from = 0;
+    for run in values.chunk_by(|a, b| is_beyond(*a) == is_beyond(*b)) {
+        let begin = from;
+        from += run.len();
+        if !is_beyond(run[0]) {
+            continue;
+        }
+        let x = time.x((first + begin) as f64 + 0.5 * (run.len() - 1) as f64);
+        let top = pos2(x, rect.min.y + 1.0);
+        let corners = [vec2(0.0, 0.0), vec2(4.0, 6.0), vec2(-4.0, 6.0)].map(|way| top + way);
+        painter.add(Shape::convex_polygon(corners.to_vec(), look.genga, Stroke::NONE));
+    }
 }
 
 /// Shades where the joint neither speeds up nor slows down (等速): only what is not shaded can turn.
@@ -77,9 +113,22 @@ fn range(raw: &[f64], filtered: &[f64]) -> (f64, f64) {
         values.iter().fold((0.0, 0.0), wider)
     };
     let (whole, most) = (bounds(filtered), bounds(raw));
+    let whole = (whole.0.max(-usual(filtered)), whole.1.min(usual(filtered)));
     let low = most.0.max(OVER * whole.0).min(whole.0);
     let high = most.1.min(OVER * whole.1).max(whole.1);
     if high > low { (low, high) } else { (0.0, 1.0) }
+}
+
+/// How high a curve is taken to go: where a few frames stand out far over all others, over those.
+fn usual(values: &[f64]) -> f64 {
+    // So many are enough to tell, and no more are sorted with every frame of the window.
+    let step = values.len().div_ceil(LOOKS).max(1);
+    let mut sizes: Vec<f64> = values.iter().step_by(step).map(|value| value.abs()).collect();
+    let Some(last) = sizes.len().checked_sub(1) else { return f64::INFINITY };
+    let at = (USUAL * last as f64).ceil() as usize;
+    let usual = *sizes.select_nth_unstable_by(at, f64::total_cmp).1;
+    let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    if usual > 0.0 && most > OUTLIER * usual { usual } else { f64::INFINITY }
 }
 
 /// The curve in view. Where a point of the window has many frames, it has the lowest and the highest of them.
@@ -160,5 +209,16 @@ mod tests {
         assert_eq!(range(&[1.0, 2.5], &[1.0, 2.0]), (0.0, 2.5));
         assert_eq!(range(&[0.0], &[0.0]), (0.0, 1.0), "what is still has a lane too");
         assert_eq!(range(&[-3.0, 1.0], &[-2.0, 1.0]), (-3.0, 1.0));
+    }
+
+    #[test]
+    fn one_frame_that_flies_off_does_not_flatten_all_others() {
+        let mut values: Vec<f64> = (0..400).map(|at| 10.0 + f64::from(at % 3)).collect();
+        assert_eq!(range(&values, &values), (0.0, 12.0));
+        values[200] = 900.0;
+        assert_eq!(range(&values, &values), (0.0, OVER * 12.0));
+        // A movement that lasts is no outlier, however still the rest of the clip is.
+        values.iter_mut().take(20).for_each(|value| *value = 900.0);
+        assert_eq!(range(&values, &values), (0.0, 900.0));
     }
 }

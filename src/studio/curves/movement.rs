@@ -6,6 +6,7 @@ use egui::{Align2, FontId, Painter, Rect, Stroke, pos2, vec2};
 use super::lane;
 use super::time::Scale;
 use crate::plot::parts::Moves;
+use crate::studio::column::KeyedCell;
 use crate::studio::shown::Shown;
 
 /// How much of a koma the bars of the result take.
@@ -15,8 +16,11 @@ const SHARE: f32 = 0.5;
 pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
     let (look, breakdown) = (&shown.look, &shown.breakdown);
     let column = shown.column();
-    let [before, after] = [column.spaced, column.layer]
-        .map(|layer| Moves::of(breakdown.clip, layer, breakdown.screen));
+    let [before, after] = [column.spaced, column.layer].map(|layer| {
+        let known = column.found.stills;
+        let known = known.and_then(|stills| Moves::among(stills, column.found.spaced, layer));
+        known.unwrap_or_else(|| Moves::of(breakdown.clip, layer, breakdown.screen))
+    });
     let most = before.largest().max(after.largest()).sqrt();
     let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     let clock = &shown.column().clock;
@@ -28,13 +32,31 @@ pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_
         let middle = 0.5 * (left + right);
         Rect::from_min_max(pos2(middle - half, rect.max.y - high), pos2(middle + half, rect.max.y))
     };
-    for (koma, ssd) in before.ssd.iter().enumerate().filter(|(_, ssd)| **ssd > 0.0) {
-        clipped.rect_filled(bar(koma, *ssd, 0.92), 0.0, look.grid);
+    // Where a point of the window has many koma, the highest of them stands for all.
+    let across = time.x(clock.place_from_koma(1)) - time.x(clock.place_from_koma(0));
+    let bunch = (1.0 / across.max(1e-3)).floor().max(1.0) as usize;
+    let seen = |koma: usize| {
+        let x = time.x(clock.place_from_koma(koma));
+        x >= rect.min.x - 2.0 * across.max(1.0) && x <= rect.max.x
+    };
+    for (at, bunched) in before.ssd.chunks(bunch).enumerate().filter(|(at, _)| seen(at * bunch)) {
+        let ssd = bunched.iter().copied().fold(0.0, f64::max);
+        if ssd > 0.0 {
+            clipped.rect_filled(bar(at * bunch, ssd, 0.92), 0.0, look.grid);
+        }
     }
-    for cell in &shown.column().cells {
-        let is_after_a_gap = cell.drawing.why.omitted_before > 0;
+    let mut cells = shown.column().cells.as_slice();
+    while let [first, ..] = cells {
+        let is_with = |cell: &&KeyedCell<'_>| cell.koma / bunch == first.koma / bunch;
+        let (bunched, rest) = cells.split_at(cells.iter().take_while(is_with).count());
+        cells = rest;
+        if !seen(first.koma) {
+            continue;
+        }
+        let ssd = bunched.iter().map(|cell| after.ssd[cell.koma]).fold(0.0, f64::max);
+        let is_after_a_gap = bunched.iter().any(|cell| cell.drawing.why.omitted_before > 0);
         let color = if is_after_a_gap { look.genga } else { look.wall };
-        clipped.rect_filled(bar(cell.koma, after.ssd[cell.koma], SHARE), 0.0, color);
+        clipped.rect_filled(bar(first.koma, ssd, SHARE), 0.0, color);
     }
     painter.hline(rect.x_range(), rect.max.y, Stroke::new(1.0, look.grid));
     lane::title(painter, rect, shown.words.say("Movement √SSD", "動きの大きさ √SSD"), look);

@@ -2,6 +2,8 @@
 
 use egui::{PointerButton, Rangef, Rect, Response, Ui};
 
+use crate::time::Clock;
+
 /// The fewest frames that can be looked at.
 const FEWEST: f64 = 4.0;
 
@@ -87,6 +89,25 @@ impl Scale {
         self.from + f64::from((x - self.x.min) / self.x.span()) * (self.to - self.from)
     }
 
+    /// Koma in view by their numbers from 1, with their places: as far apart as lines on a sheet, with `room` points
+    /// between them.
+    pub(super) fn koma(&self, room: f32, clock: Clock) -> Vec<(f64, usize)> {
+        let first = clock.place_from_koma(0);
+        let number = |place: f64| (place - first) / clock.frames_in_koma() + 1.0;
+        let least =
+            (number(self.to) - number(self.from)) * f64::from(room / self.x.span().max(1.0));
+        let second = clock.koma_rate.round().max(1.0) as usize;
+        let steps = [1, 2, 3, 6, 12].into_iter().filter(|step| *step < second);
+        let longer =
+            [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1800, 3600].map(|times| times * second);
+        let step = steps.chain(longer).find(|step| *step as f64 >= least).unwrap_or(second * 3600);
+        let past = number(self.to).floor().max(0.0) as usize;
+        let numbers = (1..=past / step).map(|times| times * step);
+        let place = |number: usize| clock.place_from_koma(number - 1);
+        let places = numbers.map(|number| (place(number), number));
+        places.filter(|(place, _)| *place >= self.from).collect()
+    }
+
     /// Whole numbers that are in view, so far apart that `room` points lie between them.
     pub(super) fn ticks(&self, room: f32) -> impl Iterator<Item = f64> + use<> {
         let least = (self.to - self.from) * f64::from(room / self.x.span().max(1.0));
@@ -116,6 +137,18 @@ mod tests {
         assert_eq!((window.from, window.to), (60.0, 110.0));
         window.zoom(110.0, 1e-9);
         assert_eq!((window.from, window.to), (10.0, 110.0));
+    }
+
+    #[test]
+    fn koma_are_numbered_as_on_the_sheet() {
+        let rate = crate::time::FrameRate::new(120.0).unwrap();
+        let clock = Clock { first: crate::time::Frame(10), frame_rate: rate, koma_rate: 24.0 };
+        let window = Window { from: 10.0, to: 130.0, whole: (10.0, 130.0) };
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(300.0, 50.0));
+        let koma = window.scale(rect).koma(50.0, clock);
+        assert_eq!(koma, [(35.0, 6), (65.0, 12), (95.0, 18), (125.0, 24)]);
+        let wide = window.scale(rect).koma(2.0, clock);
+        assert_eq!((wide[0], wide.len()), ((10.0, 1), 25));
     }
 
     #[test]

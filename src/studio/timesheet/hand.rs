@@ -71,7 +71,7 @@ impl Hand {
             self.held = None;
         }
         let goes = is_down || response.clicked() || response.secondary_clicked();
-        goes.then(|| under.koma)
+        goes.then_some(under.koma)
     }
 }
 

@@ -104,6 +104,7 @@ fn same_koma(clip: &str, knobs: &[(&str, &str)]) -> (usize, usize) {
         wanted,
         joints: &[],
         at: 0,
+        counts_frames: false,
         look: Look::of(Theme::Light),
         words: Words { language: Default::default(), has_japanese: false },
     };

@@ -20,6 +20,11 @@ pub(super) fn choose() -> Option<PathBuf> {
     waited(dialog.pick_file()).map(|file| file.path().to_owned())
 }
 
+/// The folder that a person chooses, in the same way.
+pub(super) fn choose_folder() -> Option<PathBuf> {
+    waited(AsyncFileDialog::new().pick_folder()).map(|folder| folder.path().to_owned())
+}
+
 /// Wakes a thread.
 struct Woken(Thread);
 

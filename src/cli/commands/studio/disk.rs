@@ -2,8 +2,9 @@
 
 use std::env;
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
 use super::dialog;
@@ -14,6 +15,7 @@ use crate::cli::formats::{FormatArgs, Formats};
 use crate::cli::results::{ALWAYS, OWN, Outcome, Results};
 use crate::cli::{files, paths};
 use crate::deliver::ClipMark;
+use crate::error::Error;
 use crate::studio::{Desk, Export, Opened};
 
 /// Files on a disk.
@@ -88,6 +90,38 @@ impl Desk for Disk {
         dialog::choose()
     }
 
+    fn choose_folder(&self) -> Option<PathBuf> {
+        dialog::choose_folder()
+    }
+
+    fn always(&self) -> Vec<&'static str> {
+        ALWAYS.to_vec()
+    }
+
+    fn clips_in(&self, folder: &Path) -> Vec<PathBuf> {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let paths = entries.map(|entry| entry.path());
+        let is_clip = |path: &PathBuf| {
+            let ending = path.extension();
+            ending.is_some_and(|ending| ending.eq_ignore_ascii_case("bvh")) && path.is_file()
+        };
+        let mut clips: Vec<PathBuf> = paths.filter(is_clip).collect();
+        clips.sort();
+        clips
+    }
+
+    fn noted(&self, name: &str) -> Option<String> {
+        self.recent.note_of(name).and_then(|file| fs::read_to_string(file).ok())
+    }
+
+    fn note(&self, name: &str, text: &str) {
+        // As of the list of clips: it is worth no word.
+        if let Some(file) = self.recent.note_of(name) {
+            let folder = file.parent().unwrap_or(Path::new("."));
+            drop(fs::create_dir_all(folder).map(|()| files::write(&file, text.as_bytes())));
+        }
+    }
+
     fn recent(&self) -> Vec<PathBuf> {
         self.recent.clips()
     }
@@ -105,7 +139,19 @@ fn written(
     clip: ClipMark,
     tell: &dyn Fn(&str),
 ) -> Result<Vec<String>, Failure> {
-    let mut formats = Formats::new("deliver", &[], &ALWAYS, &FormatArgs::default())?;
+    let names: Vec<String> = export.formats.iter().map(|name| (*name).to_owned()).collect();
+    let args = FormatArgs::seen_from(export.camera);
+    let mut formats = Formats::new("deliver", &names, &ALWAYS, &args)?;
+    let tell = |name: &str| {
+        tell(name);
+        match export.stop.load(Ordering::Relaxed) {
+            true => {
+                let source = io::Error::new(ErrorKind::Interrupted, "stopped: nothing was written");
+                Err(Error::Io { path: folder.to_owned(), source })
+            }
+            false => Ok(()),
+        }
+    };
     let name = paths::stem(export.clip);
     formats.spare("motion", export.clip, folder, &name)?;
     let motion = [("motion", Some(export.clip))];
@@ -120,7 +166,7 @@ fn written(
         notes: export.notes.to_vec(),
         is_own_recipe: false,
         kept: None,
-        tell,
+        tell: &tell,
     };
     let Outcome { mut files, left, .. } =
         results.write(&mut formats, Folder::look(folder, false))?;
@@ -149,6 +195,11 @@ impl Recent {
                 .or_else(|| folder("HOME").map(|home| home.join(".local/state"))),
         };
         Self(state.map(|state| state.join("genga/recent.txt")))
+    }
+
+    /// The file of a note, beside the list.
+    fn note_of(&self, name: &str) -> Option<PathBuf> {
+        self.0.as_ref().map(|list| list.with_file_name(format!("{name}.txt")))
     }
 
     /// The clips that are still there.

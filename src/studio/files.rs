@@ -1,0 +1,96 @@
+//! Files (ファイル): what is saved, exported and chosen, and the takes of a folder.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::Studio;
+use super::errand::Errand;
+use super::exporting::Exporting;
+use super::order::Order;
+use super::takes::{Mark, Takes};
+
+/// Under what names the desk has the last order, and where it went.
+const EXPORT: &str = "export";
+const INTO: &str = "export-into";
+
+impl Studio {
+    /// Opens a clip; of a folder all takes, and the first of them.
+    pub(super) fn open_folder_or_clip(&mut self, path: &Path) {
+        let clips = self.desk.clips_in(path);
+        let Some(first) = clips.first().cloned() else { return self.open(path, None) };
+        let marks = self.desk.read(&Takes::file(path)).ok().flatten().unwrap_or_default();
+        self.takes = Takes::of(path, clips, &marks);
+        self.open(&first, None);
+    }
+
+    /// The take of the folder that is so many further; this one is saved first.
+    pub(super) fn step_take(&mut self, by: isize) {
+        let Some(take) = &mut self.take else { return };
+        let Some(clip) = self.takes.step(&take.path, by) else { return };
+        let saved = if take.is_changed() { take.save(&*self.desk) } else { Ok(()) };
+        match saved {
+            Ok(()) => self.open(&clip, None),
+            Err(text) => self.fail(text),
+        }
+    }
+
+    pub(super) fn mark_take(&mut self, is_done: bool) {
+        let Some(take) = self.take.as_ref().filter(|_| self.takes.is_open()) else { return };
+        self.takes.mark(&take.path, if is_done { Mark::Done } else { Mark::Flagged });
+        let (file, text) = self.takes.kept();
+        if let Err(text) = self.desk.write(&file, &text) {
+            self.fail(text);
+        }
+    }
+
+    pub(super) fn save_as(&mut self, path: &Path) {
+        if let Some(take) = &mut self.take {
+            take.recipe = path.to_owned();
+        }
+        self.save();
+    }
+
+    pub(super) fn save(&mut self) {
+        let Some(take) = &mut self.take else { return };
+        match take.save(&*self.desk) {
+            Ok(()) => {
+                let recipe = take.recipe.display().to_string();
+                self.say(format!("saved {recipe}"));
+            }
+            Err(text) => self.fail(text),
+        }
+    }
+
+    /// Asks what is exported, as it was last; not while something is.
+    pub(super) fn ask_export(&mut self) {
+        let (Some(take), None) = (&self.take, &self.exporting) else { return };
+        let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
+        let folder = take.folder(into.as_deref().map(|into| Path::new(into.trim())));
+        let order = Order::remembered(&self.desk.noted(EXPORT).unwrap_or_default(), folder);
+        self.order.ask(order, self.desk.always());
+    }
+
+    pub(super) fn choose_folder(&mut self) {
+        let desk = Arc::clone(&self.desk);
+        self.choosing_folder.get_or_insert_with(|| Errand::begin(move || desk.choose_folder()));
+    }
+
+    pub(super) fn choose(&mut self) {
+        let desk = Arc::clone(&self.desk);
+        self.choosing.get_or_insert_with(|| Errand::begin(move || desk.choose()));
+    }
+
+    /// Writes what a run writes. One export at a time: the next would write the same files.
+    pub(super) fn export(&mut self, order: Order) {
+        self.order.order = None;
+        self.desk.note(EXPORT, &order.text());
+        // Elsewhere than beside the clip: the next export goes there too.
+        let beside = self.take.as_ref().map(|take| take.folder(None));
+        let into = order.folder.parent().filter(|_| beside.as_ref() != Some(&order.folder));
+        self.desk.note(INTO, &into.map(|into| into.display().to_string()).unwrap_or_default());
+        if let (Some(take), None) = (&self.take, &self.exporting) {
+            self.message = None;
+            self.exporting = Some(Exporting::begin(&self.desk, take.parcel(order)));
+        }
+    }
+}
