@@ -21,6 +21,7 @@ mod pictures;
 mod reference_keys;
 mod remap;
 mod report;
+mod run;
 mod settings;
 pub mod sheet_json;
 mod sts;
@@ -32,6 +33,8 @@ mod turns;
 mod vmd;
 pub mod xdts;
 mod xsheet;
+#[cfg(feature = "zip")]
+pub mod zip;
 
 pub use actions::actions_csv;
 pub use after_effects::time_remap;
@@ -50,6 +53,7 @@ pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;
 pub use remap::{Remap, remap_csv};
 pub use report::{LayerReport, Report};
+pub use run::Run;
 pub use settings::{CsvSettings, Settings};
 pub use sts::sts;
 pub use study_table::study_csv;

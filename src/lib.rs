@@ -92,7 +92,7 @@ pub mod quality;
 pub mod recipe;
 pub mod sheet;
 pub mod signal;
-#[cfg(feature = "studio")]
+#[cfg(feature = "panels")]
 pub mod studio;
 pub mod study;
 pub mod target;

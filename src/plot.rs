@@ -21,7 +21,7 @@ mod images;
 mod legend;
 mod onion;
 mod page;
-#[cfg(feature = "studio")]
+#[cfg(feature = "panels")]
 pub(crate) mod parts;
 #[cfg(feature = "pictures")]
 mod pixels;

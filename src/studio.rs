@@ -331,7 +331,7 @@ impl Studio {
             || self.choosing_folder.is_some()
             || self.map.is_waiting();
         if is_waiting {
-            ui.ctx().request_repaint_after_secs(0.05);
+            ui.ctx().request_repaint_after_secs(errand::LOOK_AGAIN);
         }
         let dropped =
             ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));

@@ -27,7 +27,7 @@ pub use measure::Measure;
 pub use noise::Noise;
 pub use plateau::Plateau;
 pub use steadiness::{Steadiness, steadiness};
-pub use sweep::Study;
+pub use sweep::{Study, Walk};
 
 /// The recipe of a Table 1 study: the paper to the letter, with the dead band of 0.03 °/frame² at
 /// 100 fps (300 °/s²) that its counts imply.

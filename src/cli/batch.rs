@@ -7,7 +7,6 @@
 //! work     one clip: read, drawn, written aside
 //! place    the folder of a clip takes its place
 //! pack     one archive in place of a folder a clip
-//! zip      entries and directory of such an archive
 //! journal  what is finished, a line a clip, so that the next batch goes on from there
 //! crew     who works: threads, a room of memory, and an end at any time
 //! tables   summary.csv, keys.csv and times.csv, of one journal or of several
@@ -22,4 +21,3 @@ pub(super) mod row;
 pub(super) mod shard;
 pub(super) mod tables;
 pub(super) mod work;
-pub(super) mod zip;

@@ -80,7 +80,7 @@ pub(super) fn write_json(path: &Path, data: &impl Serialize) -> Result<(), Failu
 }
 
 /// Data as JSON; `name` is what the file is called.
-pub(super) fn json(name: &impl Display, data: &impl Serialize) -> Result<String, Failure> {
+fn json(name: &impl Display, data: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(data)
         .map_err(|error| Failure::CouldNot(format!("{name}: {error}")))?;
     Ok(text + "\n")

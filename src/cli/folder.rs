@@ -9,10 +9,7 @@ use std::path::Path;
 use super::failure::Failure;
 use super::formats::shortened;
 use super::staging::{self, Bundle};
-use crate::deliver::{ClipMark, Manifest};
-
-/// The file that lists the others.
-pub(super) const MANIFEST: &str = "manifest.json";
+use crate::deliver::{ClipMark, Manifest, Run};
 
 /// A folder as it is before anything is written.
 pub(super) struct Folder<'a> {
@@ -69,7 +66,7 @@ impl<'a> Folder<'a> {
     /// Looks at a folder, and finishes what a dead run had begun there.
     pub(super) fn look(path: &'a Path, is_forced: bool) -> Self {
         staging::sweep(path);
-        let text = fs::read_to_string(path.join(MANIFEST)).unwrap_or_default();
+        let text = fs::read_to_string(path.join(Run::MANIFEST)).unwrap_or_default();
         let before = Manifest::read(&text).ok();
         let is_as_written = |read: &Manifest| read.write().is_ok_and(|written| written == text);
         Self { path, before: before.filter(is_as_written), is_forced }
@@ -115,7 +112,7 @@ impl<'a> Folder<'a> {
         let mut manifest = Manifest::new(made.clip);
         manifest.recipe = recipe;
         manifest.files = stay.into_iter().chain(come).collect();
-        bundle.add(MANIFEST, manifest.write()?)?;
+        bundle.add(Run::MANIFEST, manifest.write()?)?;
         bundle.finish(gone.clone())?;
         Ok(Left { gone, changed, linked, stale })
     }
@@ -144,8 +141,8 @@ impl<'a> Folder<'a> {
             Some(there) => there == *digest || self.has(name, &there) || given == Some(name),
         };
         let mut others: Vec<&str> = Vec::new();
-        if self.before.is_none() && self.path.join(MANIFEST).is_file() {
-            others.push(MANIFEST);
+        if self.before.is_none() && self.path.join(Run::MANIFEST).is_file() {
+            others.push(Run::MANIFEST);
         }
         others.extend(
             come.iter().filter(|(name, digest)| !is_ours(name, digest)).map(|(name, _)| &**name),

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::error::Error;
 use crate::keys::{Action, Actions};
 use crate::motion::SeenFrom;
 use crate::pipeline::{Breakdown, LayerBreakdown};
@@ -134,6 +135,16 @@ fn layers(breakdown: &Breakdown<'_>) -> Vec<LayerReport> {
 }
 
 impl Report {
+    /// Its text.
+    ///
+    /// # Errors
+    /// [`Error::Encoding`] never happens: it is plain data.
+    pub fn write(&self) -> Result<String, Error> {
+        let text = serde_json::to_string_pretty(self);
+        text.map(|text| text + "\n")
+            .map_err(|source| Error::Encoding { what: "a report", source: source.into() })
+    }
+
     /// The figures of a breakdown; `notes` are the reader's and the program's own words.
     pub fn of(breakdown: &Breakdown<'_>, notes: Vec<String>) -> Self {
         let layer = &breakdown.sheet.layers[0];

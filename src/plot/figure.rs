@@ -99,7 +99,7 @@ pub(crate) struct Drawn {
 
 impl Drawn {
     /// Puts every point elsewhere.
-    #[cfg(feature = "studio")]
+    #[cfg(feature = "panels")]
     pub(crate) fn each_point(&mut self, place: impl Fn(Point) -> Point) {
         for shape in &mut self.shapes {
             match shape {

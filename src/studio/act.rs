@@ -36,7 +36,7 @@ impl Studio {
     }
 
     /// Opens a recipe for the clip on the table, or a clip.
-    pub(super) fn open_any(&mut self, path: &Path) {
+    pub fn open_any(&mut self, path: &Path) {
         let is_recipe = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
         match &mut self.take {
             Some(take) if is_recipe => {

@@ -30,6 +30,14 @@ pub trait Desk: Send + Sync {
     /// Why it cannot be written. What was there before still is.
     fn write(&self, path: &Path, text: &str) -> Result<(), String>;
 
+    /// Keeps what is not saved, in case of a crash: writes it, unless a desk has a better place for it.
+    ///
+    /// # Errors
+    /// Those of [`Desk::write`].
+    fn keep(&self, path: &Path, text: &str) -> Result<(), String> {
+        self.write(path, text)
+    }
+
     /// Takes a file away. One that is not there is no failure.
     ///
     /// # Errors

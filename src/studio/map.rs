@@ -64,7 +64,7 @@ impl Map {
         };
         if self.made.as_ref().is_none_or(|(of, _)| *of != study) {
             let of = study.clone();
-            let errand = Errand::begin(move || survey::run(&study, clip));
+            let errand = Errand::in_steps(survey::steps(study, clip));
             self.waiting = Some((of, errand));
         }
     }

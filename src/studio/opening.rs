@@ -29,10 +29,19 @@ impl Opening {
         let (desk, clip) = (Arc::clone(desk), path.to_owned());
         let recipe = recipe.map(Path::to_owned);
         let step = Arc::new(AtomicUsize::new(0));
-        let told = Arc::clone(&step);
-        let errand = Errand::begin(move || {
-            let tell = |step: Step| told.store(step as usize, Ordering::Relaxed);
-            Take::open(&*desk, &clip, recipe.as_deref(), tell)
+        let (told, mut begun) = (Arc::clone(&step), None::<Take>);
+        let errand = Errand::in_steps(move || {
+            let at = told.load(Ordering::Relaxed);
+            let taken = match begun.take() {
+                None => Take::read(&*desk, &clip, recipe.as_deref()),
+                Some(mut take) => take.run(Step::ALL[at]).map(|()| take),
+            };
+            match taken {
+                Ok(take) if at + 1 < Step::ALL.len() => begun = Some(take),
+                last => return Some(last),
+            }
+            told.store(at + 1, Ordering::Relaxed);
+            None
         });
         Self { path: path.to_owned(), errand, step }
     }

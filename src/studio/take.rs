@@ -4,7 +4,8 @@ use std::ffi::OsString;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use super::counts::Counts;
 use super::desk::Desk;
@@ -76,23 +77,19 @@ pub(super) struct Take {
 }
 
 impl Take {
-    /// Opens a clip with its recipe: the one that is named, or the one saved beside it. Each step is told when it
-    /// begins.
-    pub(super) fn open(
+    /// Opens a clip with its recipe: the one that is named, or the one saved beside it. The chain has yet to run,
+    /// [step](Self::run) by step.
+    pub(super) fn read(
         desk: &dyn Desk,
         path: &Path,
         recipe: Option<&Path>,
-        begin: impl Fn(Step),
     ) -> Result<Self, String> {
-        begin(Step::Read);
         let opened = desk.open(path)?;
         let recipe = recipe.map_or_else(|| beside(path, ".genga.toml"), Path::to_owned);
         let saved = read(desk, &recipe)?.unwrap_or_default();
         let left = read(desk, &beside(path, AUTOSAVE)).ok().flatten();
-        let mut engine = Engine::new(opened.clip).map_err(|error| error.to_string())?;
+        let engine = Engine::new(opened.clip).map_err(|error| error.to_string())?;
         let scene = Scene::of(engine.clip());
-        let cels = run(&mut engine, &saved, begin)
-            .map_err(|error| format!("{}: {error}", recipe.display()))?;
         Ok(Self {
             path: path.to_owned(),
             recipe,
@@ -105,11 +102,26 @@ impl Take {
             is_second: false,
             engine,
             document: saved.clone(),
-            cels: Some(cels),
+            cels: None,
             autosaved: saved.clone(),
             saved,
             is_slow: false,
         })
+    }
+
+    /// Runs the chain for the first time, up to the end of a step.
+    pub(super) fn run(&mut self, step: Step) -> Result<(), String> {
+        let (engine, Document { recipe, edits }) = (&mut self.engine, &self.document);
+        let ran = match step {
+            Step::Read => Ok(()),
+            Step::Measure => engine.find_turns(recipe).map(drop),
+            Step::Choose => engine.find_keys(recipe, edits).map(drop),
+            Step::Time => engine.run(recipe, edits).and_then(|breakdown| {
+                self.cels = Some(Cels::of(breakdown.clip, breakdown.sheet)?);
+                Ok(())
+            }),
+        };
+        ran.map_err(|error| format!("{}: {error}", self.recipe.display()))
     }
 
     /// What the clip is called.
@@ -224,7 +236,7 @@ impl Take {
         // Tried once for each document: a full disk is said once and not with every frame.
         self.autosaved = self.document.clone();
         if self.is_changed() {
-            desk.write(&beside(&self.path, AUTOSAVE), &self.document.text())
+            desk.keep(&beside(&self.path, AUTOSAVE), &self.document.text())
         } else {
             desk.remove(&beside(&self.path, AUTOSAVE))
         }
@@ -265,18 +277,6 @@ impl Take {
     pub(super) fn clip(&self) -> Arc<Clip> {
         self.engine.shared_clip()
     }
-}
-
-/// Runs the chain for the first time, step by step.
-fn run(engine: &mut Engine, document: &Document, begin: impl Fn(Step)) -> Result<Cels, Error> {
-    let Document { recipe, edits } = document;
-    begin(Step::Measure);
-    engine.find_turns(recipe)?;
-    begin(Step::Choose);
-    engine.find_keys(recipe, edits)?;
-    begin(Step::Time);
-    let breakdown = engine.run(recipe, edits)?;
-    Cels::of(breakdown.clip, breakdown.sheet)
 }
 
 /// The columns of other results on one another. Where feet stand is looked for again only in another motion.

@@ -25,7 +25,9 @@ pub(super) struct Words {
 impl Words {
     pub(super) fn of(language: Language, context: &egui::Context) -> Self {
         let font = egui::FontId::default();
-        let has_japanese = context.fonts_mut(|fonts| fonts.has_glyphs(&font, LETTERS));
+        // A browser draws the letters that no font of the window has.
+        let has_japanese = cfg!(target_family = "wasm")
+            || context.fonts_mut(|fonts| fonts.has_glyphs(&font, LETTERS));
         Self { language, has_japanese }
     }
 

@@ -161,15 +161,30 @@ impl Study {
         for (at, cell) in measured {
             cells[at] = Some(cell?);
         }
-        Ok(Some(Grid {
+        Ok(Some(self.grid(&bench.clean, cells)))
+    }
+
+    /// Begins to measure, [a cell at a time](Walk): for whoever has one core, and other work for it.
+    ///
+    /// # Errors
+    /// Those of [`Study::validate`].
+    pub fn begin(self, clip: impl Into<Arc<Clip>>) -> Result<Walk, Error> {
+        self.validate()?;
+        let bench = Bench::new(clip.into(), self.budget)?;
+        let (order, cells) = (self.chain_order().into_iter(), vec![None; self.len()]);
+        Ok(Walk { study: self, bench, order, cells })
+    }
+
+    fn grid(&self, clip: &Clip, cells: Vec<Option<Cell>>) -> Grid {
+        Grid {
             x: self.x.clone(),
             y: self.y.clone(),
             measures: self.measures.clone(),
-            own: self.own_cell(bench.clean.rate()),
-            seconds: bench.clean.len() as f64 / bench.clean.rate().fps(),
-            frames_in_koma: bench.clean.clock(self.recipe.rate).frames_in_koma(),
+            own: self.own_cell(clip.rate()),
+            seconds: clip.len() as f64 / clip.rate().fps(),
+            frames_in_koma: clip.clock(self.recipe.rate).frames_in_koma(),
             cells: cells.into_iter().flatten().collect(),
-        }))
+        }
     }
 
     fn base(&self) -> Setting {
@@ -221,6 +236,29 @@ impl Study {
         let asked = self.measures.iter().map(|measure| measure.reach());
         let keys = self.keep_keys.then_some(Reach::Keys);
         asked.chain(keys).max().unwrap_or(Reach::Joints)
+    }
+}
+
+/// A study on its way.
+pub struct Walk {
+    study: Study,
+    bench: Bench,
+    order: std::vec::IntoIter<usize>,
+    cells: Vec<Option<Cell>>,
+}
+
+impl Walk {
+    /// Measures the next cell; gives the grid when there is none left.
+    ///
+    /// # Errors
+    /// Those of [`Engine::run`].
+    pub fn step(&mut self) -> Result<Option<Grid>, Error> {
+        let Some(at) = self.order.next() else {
+            let cells = std::mem::take(&mut self.cells);
+            return Ok(Some(self.study.grid(&self.bench.clean, cells)));
+        };
+        self.cells[at] = Some(self.study.measured(&mut self.bench, at)?);
+        Ok(None)
     }
 }
 

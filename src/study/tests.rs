@@ -171,6 +171,9 @@ fn a_sweep_gives_what_an_engine_of_its_own_gives_each_cell() {
         // Many cores take a cell or two each. One alone goes from cell to cell with what it has.
         let again = alone.install(|| study.run(clip.clone(), || ())).unwrap();
         assert_eq!(again, grid, "{x} {y:?}");
+        let mut walk = study.clone().begin(clip.clone()).unwrap();
+        let walked = (0..=study.len()).find_map(|_| walk.step().unwrap());
+        assert_eq!(walked.as_ref(), Some(&grid), "{x} {y:?}");
         assert_eq!(counted.into_inner(), study.len());
         assert_eq!(grid.frames_in_koma, 5.0, "120 frames a second, 24 koma");
         assert_eq!(grid.cell(1, grid.rows() - 1), &grid.cells[2 * grid.rows() - 1]);

@@ -73,7 +73,7 @@ fn fault(package: &Value) -> Option<String> {
     let of = |field: &str| package[field].as_str().unwrap_or("none").to_owned();
     let name = format!("{} {}", of("name"), of("version"));
     let is_ours = package["source"].is_null()
-        && (package["name"] == "genga" || package["name"] == "genga-python");
+        && ["genga", "genga-browser", "genga-python"].iter().any(|own| package["name"] == *own);
     if !is_ours && !of("source").starts_with(REGISTRY) {
         return Some(format!("{name}: its source is {}", of("source")));
     }

@@ -15,7 +15,7 @@ use super::super::stop;
 use super::journal::{Header, Journal};
 use super::place::{CLIPS, foreign};
 use super::tables;
-use super::zip::{Directory, Entry};
+use crate::deliver::zip::{Directory, Entry};
 
 /// The archive and the spool of a part.
 #[derive(Debug)]

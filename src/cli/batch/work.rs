@@ -12,13 +12,12 @@ use clap::{Args, Command, FromArgMatches};
 use super::super::failure::Failure;
 use super::super::formats::Formats;
 use super::super::plan::{Plan, PlanArgs};
-use super::super::results::Results;
 use super::super::words::{Words, is_loss};
 use super::super::{corrections, files, paths, stop};
 use super::list::Item;
 use super::pack::Parcel;
 use super::row::{Line, Row};
-use crate::deliver::{Drawings, Manifest, Report, Rows};
+use crate::deliver::{Drawings, Manifest, Report, Rows, Run};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::recipe::Recipe;
@@ -227,7 +226,8 @@ fn drawn(
     let mut files = BTreeMap::new();
     let mut formats = formats.clone();
     let motion = clip.motion.clone();
-    Results::of_cut(&name, &clip, &breakdown, (recipe, edits), |cut| {
+    let run = Run { name: &name, clip: &clip, breakdown: &breakdown, recipe, edits };
+    run.with_cut(|cut| {
         let losses = formats.settle(cut)?.into_iter().filter(is_loss);
         warnings.extend(losses.map(|warning| warning.code.into()));
         formats.each(cut, &mut |name, bytes| {

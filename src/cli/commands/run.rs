@@ -8,10 +8,10 @@ use crate::cli::failure::Failure;
 use crate::cli::folder::Folder;
 use crate::cli::formats::{FormatArgs, Formats, help, long_help};
 use crate::cli::plan::{Plan, PlanArgs};
-use crate::cli::results::{ALWAYS, OWN, Outcome, RECIPE, Results};
+use crate::cli::results::{OWN, Outcome, Results};
 use crate::cli::words::{Words, counted};
 use crate::cli::{corrections, files, paths, pins, seen};
-use crate::deliver::{LayerReport, Report};
+use crate::deliver::{LayerReport, Report, Run};
 use crate::edits::Edits;
 use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
@@ -45,7 +45,7 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::of(&args.plan)?;
-    let mut formats = Formats::new("deliver", &args.deliver, &ALWAYS, &args.formats)?;
+    let mut formats = Formats::new("deliver", &args.deliver, &Run::FORMATS, &args.formats)?;
     let clip = &args.plan.clip.path;
     let name = paths::stem(clip);
     paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
@@ -101,7 +101,7 @@ fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<
     ];
     for (what, path) in sources.into_iter().filter_map(|(what, path)| Some((what, path?))) {
         formats.spare(what, path, folder, cut)?;
-        let mut own = OWN.iter().filter(|file| (what, **file) != ("recipe", RECIPE));
+        let mut own = OWN.iter().filter(|file| (what, **file) != ("recipe", Run::RECIPE));
         own.try_for_each(|file| paths::spare(&[(what, Some(path))], &folder.join(file)))?;
     }
     pins::spare(corrections, formats, folder, cut)?;
@@ -111,7 +111,7 @@ fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<
 /// The recipe that was given, where it is the one in the folder.
 fn given<'a>(args: &'a RunArgs, folder: &Path) -> Option<&'a Path> {
     let given = args.plan.corrections.settings.recipe.as_deref()?;
-    paths::is_same(given, &folder.join(RECIPE)).then_some(given)
+    paths::is_same(given, &folder.join(Run::RECIPE)).then_some(given)
 }
 
 /// Why the recipe in the folder stays as it is; none where it is to be written, as it is for one that was

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use rayon::ThreadPoolBuilder;
-
 use crate::motion::Clip;
 use crate::pipeline::Budget;
 use crate::recipe::Recipe;
@@ -69,13 +67,19 @@ fn values(step: f64, is_seconds: bool, rate: FrameRate) -> String {
     (1..=STEPS).map(value).collect::<Vec<_>>().join(",")
 }
 
-/// Measures every cell on one core: the others are the window's.
-pub(super) fn run(study: &Study, clip: Arc<Clip>) -> Result<Grid, String> {
-    let measured = match ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(alone) => alone.install(|| study.run(clip, || {})),
-        Err(_) => study.run(clip, || {}),
-    };
-    measured.map_err(|error| error.to_string())
+/// Measures a cell a step, and none in parallel: the other cores are the window's.
+pub(super) fn steps(
+    study: Study,
+    clip: Arc<Clip>,
+) -> impl FnMut() -> Option<Result<Grid, String>> + Send {
+    let mut walk = study.begin(clip);
+    move || {
+        let step = walk
+            .as_mut()
+            .map_err(|error| error.to_string())
+            .and_then(|walk| walk.step().map_err(|error| error.to_string()));
+        step.transpose()
+    }
 }
 
 /// Where a value stands on an axis: 0 for its first value, 1 for the next. What lies beyond stands at the end.

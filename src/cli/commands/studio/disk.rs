@@ -12,9 +12,9 @@ use crate::cli::clip::Part;
 use crate::cli::failure::Failure;
 use crate::cli::folder::Folder;
 use crate::cli::formats::{FormatArgs, Formats};
-use crate::cli::results::{ALWAYS, OWN, Outcome, Results};
+use crate::cli::results::{OWN, Outcome, Results};
 use crate::cli::{files, paths};
-use crate::deliver::ClipMark;
+use crate::deliver::{ClipMark, Run};
 use crate::error::Error;
 use crate::studio::{Desk, Export, Opened};
 
@@ -95,7 +95,7 @@ impl Desk for Disk {
     }
 
     fn always(&self) -> Vec<&'static str> {
-        ALWAYS.to_vec()
+        Run::FORMATS.to_vec()
     }
 
     fn clips_in(&self, folder: &Path) -> Vec<PathBuf> {
@@ -141,7 +141,7 @@ fn written(
 ) -> Result<Vec<String>, Failure> {
     let names: Vec<String> = export.formats.iter().map(|name| (*name).to_owned()).collect();
     let args = FormatArgs::seen_from(export.camera);
-    let mut formats = Formats::new("deliver", &names, &ALWAYS, &args)?;
+    let mut formats = Formats::new("deliver", &names, &Run::FORMATS, &args)?;
     let tell = |name: &str| {
         tell(name);
         match export.stop.load(Ordering::Relaxed) {

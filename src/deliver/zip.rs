@@ -1,6 +1,8 @@
-//! Entries and the directory of a ZIP archive, with 64-bit places where it is large: what a pack needs of APPNOTE.TXT 6.3.
+//! ZIP archives (アーカイブ), with 64-bit places where they are large: what genga needs of APPNOTE.TXT 6.3.
 
 use std::io::{self, Read};
+
+use super::Manifest;
 
 /// The first day that an archive can name, so that the same files are the same bytes.
 const DATE: u16 = 0x21;
@@ -27,9 +29,25 @@ const HEAD: usize = 30;
 /// From 1 to 9: larger ones take several times as long for a few percent.
 const LEVEL: u8 = 6;
 
+/// An archive of files with their names.
+///
+/// # Errors
+/// Those of [`Entry::write`].
+pub fn archive<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> io::Result<Vec<u8>> {
+    let (mut to, mut directory) = (Vec::new(), Directory::default());
+    for (name, bytes) in files {
+        let begin = to.len() as u64;
+        let entry = Entry::write(name, &Manifest::digest(bytes), bytes, &mut to)?;
+        directory.add(name, begin, &entry);
+    }
+    let end = to.len() as u64;
+    to.extend(directory.close(end));
+    Ok(to)
+}
+
 /// What the directory says of an entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::cli) struct Entry {
+pub struct Entry {
     method: u16,
     crc: u32,
     packed: u32,
@@ -40,17 +58,15 @@ pub(in crate::cli) struct Entry {
 
 impl Entry {
     /// Bytes of the entry with its head.
-    pub(in crate::cli) fn length(&self) -> u64 {
+    pub fn length(&self) -> u64 {
         u64::from(self.head) + u64::from(self.packed)
     }
 
     /// Packs a file, unless it gets larger by it, and appends it.
-    pub(in crate::cli) fn write(
-        name: &str,
-        digest: &str,
-        bytes: &[u8],
-        to: &mut Vec<u8>,
-    ) -> io::Result<Self> {
+    ///
+    /// # Errors
+    /// One that says which limit of such an archive is passed.
+    pub fn write(name: &str, digest: &str, bytes: &[u8], to: &mut Vec<u8>) -> io::Result<Self> {
         let mut packed = miniz_oxide::deflate::compress_to_vec(bytes, LEVEL);
         let is_smaller = packed.len() < bytes.len();
         if !is_smaller {
@@ -86,7 +102,10 @@ impl Entry {
 
     /// Reads the next entry with its name and digest, and passes over its bytes. None where no whole one of ours follows; `left` is
     /// how many bytes do.
-    pub(in crate::cli) fn read<R: Read + io::Seek>(
+    ///
+    /// # Errors
+    /// Those of `from`.
+    pub fn read<R: Read + io::Seek>(
         from: &mut io::BufReader<R>,
         left: u64,
     ) -> io::Result<Option<(String, String, Self)>> {
@@ -123,17 +142,17 @@ impl Entry {
 
 /// The directory at the end of an archive.
 #[derive(Debug, Default)]
-pub(in crate::cli) struct Directory {
+pub struct Directory {
     bytes: Vec<u8>,
     count: u64,
 }
 
 impl Directory {
     /// Bytes of an archive without entries.
-    pub(in crate::cli) const LEAST: u64 = 22;
+    pub const LEAST: u64 = 22;
 
     /// Names an entry that begins there.
-    pub(in crate::cli) fn add(&mut self, name: &str, begin: u64, entry: &Entry) {
+    pub fn add(&mut self, name: &str, begin: u64, entry: &Entry) {
         let small = u32::try_from(begin).ok().filter(|begin| *begin != ELSEWHERE);
         let to = &mut self.bytes;
         put32(to, [CENTRAL]);
@@ -150,7 +169,7 @@ impl Directory {
     }
 
     /// The directory of an archive whose entries end there.
-    pub(in crate::cli) fn close(&mut self, end: u64) -> Vec<u8> {
+    pub fn close(&mut self, end: u64) -> Vec<u8> {
         let mut to = std::mem::take(&mut self.bytes);
         let size = to.len() as u64;
         let small = |number: u64| u32::try_from(number).unwrap_or(ELSEWHERE);

@@ -1,0 +1,93 @@
+//! One file with everything in it (一枚のページ): a page that is opened from a disk may read no file beside it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD as STANDARD;
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use wasm_bindgen_cli_support::Bindgen;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+/// The page without its program.
+const PAGE: &str = include_str!("page.html");
+/// Small rather than soon: it is done once.
+const LEVEL: u8 = 10;
+/// What the browser's program is called after it was bound.
+const BOUND: &str = "genga.wasm";
+
+/// Builds the page into a folder, and gives its place.
+pub(super) fn page(folder: &Path, is_quick: bool) -> Result<PathBuf, String> {
+    let compiled = compile(is_quick)?;
+    let (glue, program) = bind(&compiled)?;
+    let work = compiled.with_file_name(BOUND);
+    let program = if is_quick { program } else { smaller(&work, program)? };
+    let packed = compress_to_vec_zlib(&program, LEVEL);
+    let text =
+        PAGE.replace("/* glue */", &glue).replace("<!-- program -->", &STANDARD.encode(&packed));
+    let page = folder.join("index.html");
+    let put = || fs::create_dir_all(folder).and_then(|()| fs::write(&page, &text));
+    put().map_err(of(&page))?;
+    let kb = |bytes: usize| bytes.div_ceil(1000);
+    println!(
+        "{}: {} KB; its program {} KB, packed {} KB",
+        page.display(),
+        kb(text.len()),
+        kb(program.len()),
+        kb(packed.len())
+    );
+    Ok(page)
+}
+
+/// Compiles the page's program.
+fn compile(is_quick: bool) -> Result<PathBuf, String> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let repository = here.parent().unwrap_or(here);
+    let (profile, folder) = if is_quick { ("dev", "debug") } else { ("page", "page") };
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut cargo = Command::new(cargo);
+    cargo.current_dir(repository).args(["build", "--locked", "--package", "genga-browser"]);
+    cargo.args(["--lib", "--target", TARGET, "--profile", profile]);
+    let ended = cargo.status().map_err(|error| format!("cargo: {error}"))?;
+    if !ended.success() {
+        return Err(format!("the page's program was not compiled (rustup target add {TARGET})"));
+    }
+    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    let target = repository.join(target.unwrap_or_else(|| "target".into()));
+    Ok(target.join(TARGET).join(folder).join("genga_browser.wasm"))
+}
+
+/// What joins program and page, as a script, and the program that it joins.
+fn bind(compiled: &Path) -> Result<(String, Vec<u8>), String> {
+    let wrong = |error| format!("{}: {error:#}", compiled.display());
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(compiled).typescript(false);
+    bindgen.no_modules(true).map_err(wrong)?;
+    let mut bound = bindgen.generate_output().map_err(wrong)?;
+    Ok((bound.js().to_owned(), bound.wasm_mut().emit_wasm()))
+}
+
+/// The program as Binaryen makes it, if that is here.
+fn smaller(work: &Path, program: Vec<u8>) -> Result<Vec<u8>, String> {
+    let optimized = work.with_extension("opt.wasm");
+    fs::write(work, &program).map_err(of(work))?;
+    let ended = Command::new("wasm-opt")
+        .args(["-O3", "--all-features"])
+        .arg(work)
+        .arg("-o")
+        .arg(&optimized)
+        .status();
+    match ended {
+        Err(_) => {
+            eprintln!("there is no wasm-opt here (Binaryen): the page is larger than need be");
+            Ok(program)
+        }
+        Ok(ended) if ended.success() => fs::read(&optimized).map_err(of(&optimized)),
+        Ok(_) => Err("wasm-opt could not read the program; is it of an older kind?".into()),
+    }
+}
+
+fn of(path: &Path) -> impl Fn(std::io::Error) -> String {
+    move |error| format!("{}: {error}", path.display())
+}
