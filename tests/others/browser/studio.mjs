@@ -59,6 +59,14 @@ export class Studio {
     });
   }
 
+  // The first name on screen that is as expected.
+  named(expected) {
+    return this.until(`there is ${expected}`, async () => {
+      const places = await this.page.evaluate(() => wasm_bindgen.places());
+      return places.map((place) => place[0]).find((name) => expected.test(name));
+    });
+  }
+
   async click(name) {
     const { x, y, width, height } = await this.place(name, "Button");
     await this.page.mouse.click(x + width / 2, y + height / 2);
