@@ -3,7 +3,7 @@
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import PropertyGroup
 
-from . import findings
+from . import findings, words
 
 # A name in the panel, what it does, and the knobs it sets on top of the others.
 PRESETS = (
@@ -57,6 +57,7 @@ class GengaKnobs(PropertyGroup):
     )
     on: EnumProperty(
         name="On",
+        translation_context=words.CONTEXT,
         description="How many koma a drawing stays between two genga",
         items=(
             ("1", "Ones", "A drawing a koma"),
@@ -70,6 +71,7 @@ class GengaKnobs(PropertyGroup):
     )
     snap: FloatProperty(
         name="Snap",
+        translation_context=words.CONTEXT,
         description="How far inbetweens crowd towards their genga (spacing)",
         min=0.0,
         max=0.95,
@@ -97,6 +99,7 @@ class GengaKnobs(PropertyGroup):
     )
     rate: FloatProperty(
         name="Rate",
+        translation_context=words.CONTEXT,
         description="Koma a second of the sheet: 24 in film and television, whatever rate the scene has",
         min=2.0,
         max=1000.0,

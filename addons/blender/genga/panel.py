@@ -2,7 +2,7 @@
 
 from bpy.types import Menu, Panel
 
-from . import findings, knobs, turn
+from . import findings, knobs, turn, words
 
 
 class Sidebar:
@@ -67,12 +67,12 @@ class Corrections(Sidebar):
         layout, own = self.layout, context.active_object.genga
         row = layout.row(align=True)
         for what, text, icon in (("PIN", "Pin", "PINNED"), ("FORBID", "Forbid", "CANCEL"), ("ONLY", "Only", "KEY_HLT")):
-            row.operator("genga.mark", text=text, icon=icon).what = what
+            row.operator("genga.mark", text=text, text_ctxt=words.CONTEXT, icon=icon).what = what
         layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(own, "pins")
         layout.prop(own, "forbid")
         layout.prop(own, "only_pins")
-        layout.operator("genga.mark", text="Clear", icon="X").what = "CLEAR"
+        layout.operator("genga.mark", text="Clear", text_ctxt=words.CONTEXT, icon="X").what = "CLEAR"
 
 
 class Sampled(Sidebar):

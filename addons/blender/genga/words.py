@@ -1,4 +1,7 @@
-"""The panel in Japanese. Knows nothing of Blender but that a word is looked for with and without being an operator's."""
+"""The panel in Japanese. Knows nothing of Blender but that it looks for a word in a context."""
+
+# Of words that Blender has for something else, such as Snap.
+CONTEXT = "genga"
 
 JAPANESE = {
     # Operators.
@@ -73,5 +76,5 @@ JAPANESE = {
 
 def translations(operator_context, any_context="*"):
     """What Blender takes: a word in a context, and its translation."""
-    contexts = (any_context, operator_context)
+    contexts = (CONTEXT, any_context, operator_context)
     return {"ja_JP": {(context, word): its for word, its in JAPANESE.items() for context in contexts}}
