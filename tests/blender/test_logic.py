@@ -6,6 +6,7 @@ import types
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import genga
 import numpy as np
@@ -145,6 +146,26 @@ class Settings(unittest.TestCase):
         knobs = SimpleNamespace(genga=9, drawings=np.float32(6.1).item())
         self.assertEqual(settings.targets(knobs), {"keys": 9, "drawings_per_second": 6.1})
         self.assertEqual(set(settings.targets(self.KNOBS).values()), {None})
+
+
+class Errors(unittest.TestCase):
+    def test_an_add_on_without_its_wheel_says_so(self):
+        with mock.patch.dict(sys.modules, {"genga": None}):
+            with self.assertRaisesRegex(refused.Refused, "install the zip that addons/blender/build makes"):
+                refused.engine()
+            self.assertEqual(refused.kinds(), (refused.Refused, OSError))
+
+    def test_what_is_no_persons_fault_stays_an_error(self):
+        operator = type("Operator", (refused.Reported,), {"report": lambda self, *told: heard.append(told)})()
+        heard = []
+
+        def fails(error):
+            raise error
+
+        self.assertEqual(operator.reported(lambda: fails(refused.Refused("so"))), {"CANCELLED"})
+        self.assertEqual(heard, [({"ERROR"}, "so")])
+        with self.assertRaises(KeyError):
+            operator.reported(lambda: fails(KeyError("a fault of ours")))
 
 
 class Works(unittest.TestCase):
