@@ -1226,7 +1226,7 @@ fn a_command_line_that_was_not_understood_says_what_to_type() {
         ),
         ("keys kick.bvh --fps -24", "expected frames a second"),
         ("inspect takes", "such as takes/first.bvh"),
-        ("run empty", "a folder without a BVH file"),
+        ("run empty", "a folder without a motion file"),
     ] {
         let output = place.genga(args);
         let errors = String::from_utf8(output.stderr).unwrap();
