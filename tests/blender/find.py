@@ -1,4 +1,4 @@
-"""python find.py: what Find Keys does on a rig. GENGA is the program that it is compared with."""
+"""python find.py: what Find Keys does on a rig. GENGA is the program that it is compared with; QUICK=1 leaves the importers out."""
 
 import json
 import os
