@@ -18,7 +18,7 @@ use crate::knob::{Kind, Range, Setting, as_word, by_word};
 pub const KOMA_RATE: f64 = 24.0;
 
 /// Rates that files mean when they write a rounded frame time, in frames a second.
-const USUAL_RATES: [f64; 15] = [
+pub(crate) const USUAL_RATES: [f64; 15] = [
     23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 72.0, 90.0, 100.0, 119.88, 120.0,
     240.0,
 ];

@@ -2,9 +2,13 @@
 
 mod acclaim;
 pub mod bvh;
+mod fbx;
 pub mod file;
+mod gltf;
 mod gltf_camera;
 pub(crate) mod mmd;
+mod posed;
+mod rates;
 mod stream;
 
 pub use gltf_camera::GltfCamera;

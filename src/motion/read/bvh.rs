@@ -39,6 +39,7 @@ mod write;
 
 pub use cleaning::Cleaning;
 pub use lead_in::LeadIn;
+pub(super) use names::renamed;
 pub use ramps::Ramps;
 pub use read::{Options, open, read};
 pub use write::{Writer, write};

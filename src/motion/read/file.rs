@@ -139,6 +139,11 @@ impl Options {
         self.given(bytes, None)
     }
 
+    /// As [`takes::choose`] has it.
+    pub(super) fn choose(&self, takes: &[Take]) -> Result<Option<(usize, Option<Warning>)>, Error> {
+        takes::choose(self.take.as_deref(), takes)
+    }
+
     /// What BVH knows of these.
     pub(super) fn for_bvh(&self) -> super::bvh::Options {
         let Self { strict, repair, fps, ref root, stream, .. } = *self;

@@ -1,16 +1,17 @@
 //! A camera of a glTF file (.glb or .gltf): where it stands and which way it looks.
 
-mod document;
+mod carried;
 #[cfg(test)]
 mod tests;
 
 use glam::DVec3;
 
+use super::gltf::Document;
 use crate::error::Error;
 use crate::maths;
 use crate::motion::seen::looks;
 use crate::motion::{Axis, Clip, Eye, Stature, Unit};
-use document::Document;
+use carried::Cameras;
 
 /// How much further off than it is a camera without perspective is put, where none is left to be seen.
 const FAR: f64 = 1000.0;
@@ -42,14 +43,15 @@ impl GltfCamera {
     /// [`Error::Camera`] when the bytes are no glTF 2.0, or have no such camera; then with the names of those
     /// there are.
     pub fn read(bytes: &[u8], name: Option<&str>) -> Result<Self, Error> {
-        let document = Document::read(bytes)?;
-        let cameras = document.cameras();
+        let (document, _) = Document::read(bytes).map_err(of_camera)?;
+        let stand = Cameras::of(&document).map_err(of_camera)?;
+        let cameras = stand.all();
         let is_asked = |names: &[&str]| name.is_none_or(|name| names.contains(&name));
         let Some(found) = cameras.iter().find(|camera| is_asked(&camera.names)) else {
             let names: Vec<String> = cameras.iter().map(|camera| camera.name()).collect();
             return Err(none_of(name, &names));
         };
-        let place = document.place(found.node)?;
+        let place = stand.place(found.node);
         let towards = place.transform_vector3(DVec3::NEG_Z).normalize_or_zero();
         if !place.translation.is_finite() || towards == DVec3::ZERO {
             let message =
@@ -61,7 +63,7 @@ impl GltfCamera {
             at: place.translation,
             towards,
             is_orthographic: found.is_orthographic,
-            is_animated: document.is_animated(found.node)?,
+            is_animated: stand.is_animated(found.node),
         })
     }
 
@@ -93,6 +95,11 @@ impl GltfCamera {
         let [at, target] = [target - back * towards, target].map(|place| rounded(place, distance));
         Ok(Eye { at, target })
     }
+}
+
+/// What is wrong with the file, as an error of its camera.
+fn of_camera(error: Error) -> Error {
+    Error::Camera { message: error.to_string() }
 }
 
 /// Where a body is in the mean over its joints and a clip.

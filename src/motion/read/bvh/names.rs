@@ -21,7 +21,7 @@ pub(super) fn make_unique(joints: &mut [Joint], at: &[usize], notices: &mut Noti
 
 /// New names for those that stand there a second time, with their index. Linear in the names: no
 /// candidate is tried twice, and one is taken only if it is a name itself.
-pub(super) fn renamed(names: &[&str]) -> Vec<(usize, String)> {
+pub(in crate::motion::read) fn renamed(names: &[&str]) -> Vec<(usize, String)> {
     let taken: HashSet<&str> = names.iter().copied().collect();
     if taken.len() == names.len() {
         return Vec::new();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{Given, Options, Read};
 use crate::error::{Error, Place};
-use crate::motion::read::{acclaim, mmd};
+use crate::motion::read::{acclaim, fbx, gltf, mmd};
 
 /// A format that motion comes in (形式).
 #[derive(Debug)]
@@ -35,6 +35,24 @@ pub const FORMATS: &[Format] = &[
         has_skeleton_file: false,
         begins: is_bvh,
         read: |given, options| Ok(options.for_bvh().read(given.bytes)?.into()),
+    },
+    Format {
+        name: "FBX",
+        endings: &["fbx"],
+        holds: "takes of bones or nodes, as curves",
+        has_curves: true,
+        has_skeleton_file: false,
+        begins: fbx::begins,
+        read: fbx::read,
+    },
+    Format {
+        name: "glTF",
+        endings: &["glb", "gltf", "vrma", "vrm"],
+        holds: "animations of joints or nodes, as curves; GLB and VRM are glTF",
+        has_curves: true,
+        has_skeleton_file: false,
+        begins: gltf::begins,
+        read: gltf::read,
     },
     Format {
         name: "VMD",

@@ -22,7 +22,6 @@ const MOST: usize = 12;
 ///
 /// # Errors
 /// [`Error::Setting`] with the names that there are.
-#[cfg_attr(not(test), expect(dead_code, reason = "readers of several takes come next"))]
 pub(in crate::motion::read) fn choose(
     asked: Option<&str>,
     takes: &[Take],

@@ -130,7 +130,7 @@ fn a_file_that_is_no_gltf_is_refused() {
         let message = GltfCamera::read(bytes, None).unwrap_err().to_string();
         assert!(message.contains(why), "{message}");
     };
-    refused(b"HIERARCHY", "is no glTF 2.0: expected value at line 1");
+    refused(b"HIERARCHY", "1:1: is no glTF 2.0: expected value");
     refused(b"", "is no glTF 2.0");
     refused(&whole[..whole.len() - 8], "is cut off");
     refused(&whole[..15], "does not come first");

@@ -1,0 +1,261 @@
+//! A scene as ufbx gives it, to a clip.
+
+use std::cell::Cell;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use ufbx::{
+    AnimStack, CoordinateAxes, CoordinateAxis, InheritModeHandling, LoadOpts, Matrix, Node,
+    ProgressCb, ProgressResult, Scene, SceneRoot, SpaceConversion, Transform,
+};
+
+use super::takes::{Curves, listed};
+use crate::error::{Error, Place, Warning};
+use crate::motion::read::file::{Found, Given, Options, Read};
+use crate::motion::read::posed::{Bone, Posed, Stand};
+use crate::motion::read::rates;
+use crate::time::FrameRate;
+
+/// Keys lie closer together than the frames of the scene.
+const KEYS_FINER: &str = "W_KEYS_FINER";
+
+/// Bytes after which ufbx says how far it has read.
+const STEP: u64 = 4096;
+
+/// Metres of a centimetre.
+const CENTIMETRE: f64 = 0.01;
+
+/// Reads a file.
+pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> {
+    let scene = loaded(given.bytes, options)?;
+    let takes = listed(&scene);
+    let Some((at, told)) = options.choose(&takes)? else {
+        let message = "there is no take: nothing moves in this file; export it with its animation";
+        return Err(Error::Motion { place: Place::Whole, message: message.into() });
+    };
+    let stack = &scene.anim_stacks[at];
+    let curves = Curves::of(&scene, stack);
+    let own = own_rate(&scene, stack)?;
+    let rate = options.sample_rate.unwrap_or(own);
+    let (begin, end) = curves.range(stack);
+    let frames = rates::frames(end - begin, rate);
+    let joints = joints(&scene, &curves);
+    let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
+    let stand = |frame: usize, stands: &mut [DAffine3]| {
+        place(&scene, stack, begin + frame as f64 / rate.fps(), &mut world);
+        stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = world[*node]);
+    };
+    let (clip, named) = Posed::of(bones(&scene, &joints), frames, options, stand)
+        .and_then(|posed| posed.clip(rate))
+        .map_err(|error| of_take(error, stack))?;
+    let mut warnings: Vec<Warning> = told.into_iter().chain(named).collect();
+    warnings.extend(finer(&curves, rate).filter(|_| options.sample_rate.is_none()));
+    let found = found(&scene, stack, rate);
+    Ok(Read { clip, warnings, written_frame_time: None, found, takes })
+}
+
+/// The scene without what no motion needs, in a memory that is bounded.
+fn loaded(bytes: &[u8], options: &Options) -> Result<SceneRoot, Error> {
+    let read = Cell::new(0);
+    let mut wanted = LoadOpts {
+        ignore_geometry: true,
+        ignore_embedded: true,
+        skip_skin_vertices: true,
+        skip_mesh_parts: true,
+        target_axes: CoordinateAxes {
+            right: CoordinateAxis::PositiveX,
+            up: CoordinateAxis::PositiveY,
+            front: CoordinateAxis::PositiveZ,
+        },
+        target_unit_meters: CENTIMETRE,
+        space_conversion: SpaceConversion::TransformRoot,
+        inherit_mode_handling: InheritModeHandling::HelperNodes,
+        node_depth_limit: 4096,
+        progress_interval_hint: STEP,
+        ..LoadOpts::default()
+    };
+    let most = usize::try_from(options.stream.bytes).unwrap_or(usize::MAX);
+    wanted.temp_allocator.memory_limit = most;
+    wanted.result_allocator.memory_limit = most;
+    let mut progress = |progress: &ufbx::Progress| {
+        read.set(progress.bytes_read);
+        ProgressResult::Continue
+    };
+    wanted.progress_cb = ProgressCb::Mut(&mut progress);
+    ufbx::load_memory(bytes, wanted).map_err(|error| {
+        let place = Place::Byte(read.get().min(bytes.len() as u64));
+        let reason = error.description.to_string();
+        let message = format!("is no whole FBX: {}, at or behind this byte", reason.to_lowercase());
+        Error::Motion { place, message }
+    })
+}
+
+/// An error of the motion names its take.
+fn of_take(error: Error, stack: &AnimStack) -> Error {
+    let place = Place::Part(format!("take {}", stack.element.name));
+    match error {
+        Error::Motion { place: Place::Whole, message } | Error::Clip { message } => {
+            Error::Motion { place, message }
+        }
+        other => other,
+    }
+}
+
+fn own_rate(scene: &Scene, stack: &AnimStack) -> Result<FrameRate, Error> {
+    let fps = scene.settings.frames_per_second;
+    FrameRate::from_frame_time(1.0 / fps).map_err(|_| {
+        let message = format!("{fps} frames a second are no rate; --sample-rate gives one");
+        of_take(Error::Motion { place: Place::Whole, message }, stack)
+    })
+}
+
+/// The nodes that become joints, parents first, each with the place of its parent among them.
+fn joints(scene: &Scene, curves: &Curves<'_>) -> Vec<(usize, Option<usize>)> {
+    let parent = |node: usize| scene.nodes[node].parent.as_ref().map(|node| id(node));
+    let has_bones = scene.bones.count > 0;
+    let mut chosen: Vec<bool> = scene.nodes.into_iter().map(is_bone).collect();
+    if !has_bones {
+        chosen.clone_from(&curves.nodes);
+        // What moves carries what hangs on it.
+        for node in 0..chosen.len() {
+            let about = &scene.nodes[node];
+            let is_seen = about.camera.is_some() || about.light.is_some() || about.mesh.is_some();
+            chosen[node] |= !is_seen && parent(node).is_some_and(|parent| chosen[parent]);
+        }
+    }
+    let mut places = vec![None; chosen.len()];
+    let mut joints = Vec::new();
+    // ufbx lists parents first.
+    for node in 0..chosen.len() {
+        let carrier = parent(node).and_then(|parent| places[parent]);
+        let is_helper = scene.nodes[node].is_scale_helper;
+        places[node] = carrier;
+        if chosen[node] && !scene.nodes[node].is_root && !is_helper {
+            places[node] = Some(joints.len());
+            joints.push((node, carrier));
+        }
+    }
+    joints
+}
+
+/// Whether a node is a bone. Where scales are inherited oddly, ufbx gives the node a helper, which takes the bone over.
+fn is_bone(node: &Node) -> bool {
+    let helper = node.scale_helper.as_ref();
+    node.bone.is_some() || helper.is_some_and(|helper| helper.bone.is_some())
+}
+
+/// The joints with how they rest: bound, as far as the file says how, else as the scene stands.
+fn bones(scene: &Scene, joints: &[(usize, Option<usize>)]) -> Vec<Bone> {
+    let mut rests: Vec<DAffine3> = Vec::with_capacity(joints.len());
+    let stands = |node: usize| affine(&scene.nodes[node].node_to_world);
+    let mut bone = |(node, parent): &(usize, Option<usize>)| {
+        let by_parent = || {
+            let on_parent = |parent: usize| stands(joints[parent].0).inverse() * stands(*node);
+            parent.map_or_else(|| stands(*node), |parent| rests[parent] * on_parent(parent))
+        };
+        let rest = bound(&scene.nodes[*node]).unwrap_or_else(by_parent);
+        rests.push(rest);
+        let name = scene.nodes[*node].element.name.to_string();
+        Bone { name, parent: *parent, rest: Stand::of(&rest) }
+    };
+    joints.iter().map(&mut bone).collect()
+}
+
+/// How a node was bound to a skin, in the world of the scene as it is turned now.
+fn bound(node: &Node) -> Option<DAffine3> {
+    let pose = node.bind_pose.as_ref().filter(|pose| pose.is_bind_pose)?;
+    let own = pose.bone_poses.iter().find(|own| id(&own.bone_node) == id(node))?;
+    let bound = affine(&own.bone_to_world);
+    (bound.is_finite() && bound.matrix3.determinant().abs() > 1e-12).then_some(bound)
+}
+
+fn id(node: &Node) -> usize {
+    node.element.typed_id as usize
+}
+
+/// Where every node stands at an instant.
+fn place(scene: &Scene, stack: &AnimStack, time: f64, world: &mut [DAffine3]) {
+    for (at, node) in scene.nodes.into_iter().enumerate() {
+        let own = match node.is_root {
+            true => affine(&node.node_to_parent),
+            false => local(&ufbx::evaluate_transform(&stack.anim, node, time)),
+        };
+        world[at] = match node.parent.as_ref().map(|parent| id(parent)) {
+            Some(parent) => world[parent] * own,
+            None => own,
+        };
+    }
+}
+
+fn local(transform: &Transform) -> DAffine3 {
+    let Transform { translation, rotation, scale } = transform;
+    DAffine3::from_scale_rotation_translation(
+        DVec3::new(scale.x, scale.y, scale.z),
+        DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
+        DVec3::new(translation.x, translation.y, translation.z),
+    )
+}
+
+fn affine(m: &Matrix) -> DAffine3 {
+    let column = |x, y, z| DVec3::new(x, y, z);
+    DAffine3 {
+        matrix3: DMat3::from_cols(
+            column(m.m00, m.m10, m.m20),
+            column(m.m01, m.m11, m.m21),
+            column(m.m02, m.m12, m.m22),
+        ),
+        translation: column(m.m03, m.m13, m.m23),
+    }
+}
+
+/// Says where keys lie closer together than frames do.
+fn finer(curves: &Curves<'_>, rate: FrameRate) -> Option<Warning> {
+    let keys = rates::of_keys(&curves.times())?;
+    // Keys on half a frame of a lower rate also fit a rate that nothing has.
+    (keys.fps() > 1.001 * rate.fps() && rate.fps() > 1.0).then(|| {
+        let message = format!(
+            "the scene has {rate} frames a second and its keys lie {keys} a second; --sample-rate {keys} reads them all"
+        );
+        Warning::new(KEYS_FINER, message)
+    })
+}
+
+/// What the file is, in words.
+fn found(scene: &Scene, stack: &AnimStack, rate: FrameRate) -> Vec<Found> {
+    let about = &scene.metadata;
+    let (major, minor) = (about.version / 1000, about.version % 1000 / 100);
+    let kind = if about.ascii { "text" } else { "binary" };
+    let mut format = format!("FBX {major}.{minor}, {kind}");
+    let maker = [&about.latest_application.name, &about.original_application.name];
+    let maker = maker.into_iter().map(|name| name.trim()).find(|name| !name.is_empty());
+    let creator = Some(about.creator.trim()).filter(|name| !name.is_empty());
+    if let Some(maker) = maker.or(creator) {
+        format += &format!(", by {maker}");
+    }
+    // The settings say what they are now, the properties what the file says.
+    let said = |name: &str| {
+        let properties = &scene.settings.props.props;
+        properties.iter().find(|own| own.name.as_ref() == name).map(|own| own.value_vec4.x)
+    };
+    let up = match said("UpAxis").unwrap_or(1.0) as i64 {
+        0 => "X up, turned to Y up",
+        2 => "Z up, turned to Y up",
+        _ => "Y up",
+    };
+    let unit = said("UnitScaleFactor").unwrap_or(1.0);
+    let unit = match (unit - 1.0).abs() < 1e-6 {
+        true => "centimetres".into(),
+        false => format!("a unit of {} cm, measured in centimetres", rounded(unit)),
+    };
+    let name = stack.element.name.to_string();
+    vec![
+        Found::new("format", format),
+        Found::new("up", up),
+        Found::new("unit", unit),
+        Found::new("read", format!("take {name}, sampled {rate} a second")),
+    ]
+}
+
+/// As people write it.
+fn rounded(number: f64) -> f64 {
+    (number * 1e6).round() / 1e6
+}

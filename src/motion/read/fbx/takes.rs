@@ -1,0 +1,73 @@
+//! The takes of a scene: FBX calls them animation stacks.
+
+use ufbx::{AnimCurve, AnimStack, ElementType, Scene};
+
+use crate::motion::read::file::Take;
+
+/// Keys that are looked at of each curve: more tell nothing new.
+const MOST_KEYS: usize = 2000;
+
+/// What of a take moves nodes.
+pub(super) struct Curves<'a> {
+    /// Nodes with curves, by their place in the scene.
+    pub(super) nodes: Vec<bool>,
+    curves: Vec<&'a AnimCurve>,
+}
+
+impl<'a> Curves<'a> {
+    pub(super) fn of(scene: &Scene, stack: &'a AnimStack) -> Self {
+        let mut found = Self { nodes: vec![false; scene.nodes.count], curves: Vec::new() };
+        for prop in stack.layers.into_iter().flat_map(|layer| &layer.anim_props) {
+            let element = prop.element.as_ref();
+            let moves = ["Lcl Translation", "Lcl Rotation", "Lcl Scaling"];
+            if element.type_ != ElementType::Node || !moves.contains(&prop.prop_name.as_ref()) {
+                continue;
+            }
+            let before = found.curves.len();
+            found.curves.extend(prop.anim_value.curves.iter().flatten().map(AsRef::as_ref));
+            if let Some(node) = found.nodes.get_mut(element.typed_id as usize) {
+                *node |= found.curves.len() > before;
+            }
+        }
+        found
+    }
+
+    /// Whether anything is not the same all the time.
+    pub(super) fn move_something(&self) -> bool {
+        self.curves.iter().any(|curve| curve.max_value > curve.min_value)
+    }
+
+    /// When keys stand.
+    pub(super) fn times(&self) -> Vec<f64> {
+        let keys = self.curves.iter().flat_map(|curve| curve.keyframes.iter().take(MOST_KEYS));
+        keys.map(|key| key.time).collect()
+    }
+
+    /// From the first key to the last.
+    fn span(&self) -> Option<(f64, f64)> {
+        let spans = self.curves.iter().filter(|curve| curve.keyframes.count > 0);
+        spans
+            .map(|curve| (curve.min_time, curve.max_time))
+            .reduce(|all, own| (all.0.min(own.0), all.1.max(own.1)))
+    }
+
+    /// When the take begins and ends: as it says, or as its keys do where it does not.
+    pub(super) fn range(&self, stack: &AnimStack) -> (f64, f64) {
+        let said = (stack.time_begin, stack.time_end);
+        match self.span() {
+            Some(span) if said.1 <= said.0 => span,
+            _ => said,
+        }
+    }
+}
+
+/// The takes as a person sees them.
+pub(super) fn listed(scene: &Scene) -> Vec<Take> {
+    let take = |stack: &AnimStack| {
+        let curves = Curves::of(scene, stack);
+        let (begin, end) = curves.range(stack);
+        let moves = curves.move_something();
+        Take { name: stack.element.name.to_string(), seconds: (end - begin).max(0.0), moves }
+    };
+    scene.anim_stacks.into_iter().map(take).collect()
+}

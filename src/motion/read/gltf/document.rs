@@ -1,0 +1,297 @@
+//! A glTF document, as far as nodes, cameras and animations go; all else is passed over.
+
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::error::{Error, Place};
+
+/// The parts of a document that are read.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::motion::read) struct Document {
+    pub(super) asset: Asset,
+    pub(in crate::motion::read) nodes: Vec<Node>,
+    pub(super) skins: Vec<Skin>,
+    pub(in crate::motion::read) cameras: Vec<Lens>,
+    pub(in crate::motion::read) animations: Vec<Animation>,
+    pub(super) accessors: Vec<Accessor>,
+    #[serde(rename = "bufferViews")]
+    pub(super) views: Vec<View>,
+    pub(super) buffers: Vec<Buffer>,
+    pub(super) extensions: serde_json::Map<String, Value>,
+}
+
+/// Who wrote it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Asset {
+    pub(super) version: String,
+    pub(super) generator: String,
+}
+
+/// A node.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::motion::read) struct Node {
+    pub(in crate::motion::read) name: Option<String>,
+    pub(in crate::motion::read) camera: Option<usize>,
+    pub(super) mesh: Option<usize>,
+    pub(in crate::motion::read) children: Vec<usize>,
+    matrix: Option<[f64; 16]>,
+    pub(super) translation: Option<[f64; 3]>,
+    pub(super) rotation: Option<[f64; 4]>,
+    pub(super) scale: Option<[f64; 3]>,
+}
+
+/// A camera.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::motion::read) struct Lens {
+    pub(in crate::motion::read) name: Option<String>,
+    #[serde(rename = "type")]
+    pub(in crate::motion::read) kind: String,
+}
+
+/// A skin: the nodes that carry it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Skin {
+    pub(super) joints: Vec<usize>,
+}
+
+/// An animation.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::motion::read) struct Animation {
+    pub(super) name: Option<String>,
+    pub(in crate::motion::read) channels: Vec<Channel>,
+    pub(super) samplers: Vec<Sampler>,
+}
+
+/// What of an animation moves one property of one node.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::motion::read) struct Channel {
+    pub(super) sampler: usize,
+    pub(in crate::motion::read) target: Target,
+}
+
+/// A property of a node.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::motion::read) struct Target {
+    pub(in crate::motion::read) node: Option<usize>,
+    pub(super) path: String,
+}
+
+/// Keys: seconds, values and what is between them.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Sampler {
+    pub(super) input: usize,
+    pub(super) output: usize,
+    pub(super) interpolation: Option<String>,
+}
+
+/// Numbers in a view.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Accessor {
+    #[serde(rename = "bufferView")]
+    pub(super) view: Option<usize>,
+    #[serde(rename = "byteOffset")]
+    pub(super) offset: usize,
+    #[serde(rename = "componentType")]
+    pub(super) component: u32,
+    pub(super) normalized: bool,
+    pub(super) count: usize,
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    pub(super) sparse: Option<Sparse>,
+}
+
+/// Numbers that stand in place of others.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Sparse {
+    pub(super) count: usize,
+    pub(super) indices: Part,
+    pub(super) values: Part,
+}
+
+/// Where those stand.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Part {
+    #[serde(rename = "bufferView")]
+    pub(super) view: usize,
+    #[serde(rename = "byteOffset")]
+    pub(super) offset: usize,
+    #[serde(rename = "componentType")]
+    pub(super) component: u32,
+}
+
+/// Part of a buffer.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct View {
+    pub(super) buffer: usize,
+    #[serde(rename = "byteOffset")]
+    pub(super) offset: usize,
+    #[serde(rename = "byteLength")]
+    pub(super) length: usize,
+    #[serde(rename = "byteStride")]
+    pub(super) stride: Option<usize>,
+}
+
+/// Bytes in the file itself or beside it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Buffer {
+    pub(super) uri: Option<String>,
+}
+
+/// Bytes before the document of a `.glb`: those of the file, and of its first chunk.
+const BEFORE: usize = 20;
+
+impl Document {
+    /// The document of a `.glb`, which has it in its first chunk, or of a `.gltf`, which is it; and the bytes of the
+    /// second chunk, where there is one.
+    pub(in crate::motion::read) fn read(bytes: &[u8]) -> Result<(Self, Option<&[u8]>), Error> {
+        if !bytes.starts_with(b"glTF") {
+            let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+            let place = |line, column| Place::Line(line, column);
+            return Ok((parsed(json, place)?, None));
+        }
+        let (json, rest) = chunk(bytes)?;
+        // The document of a GLB is one line, as a rule.
+        let place = |line, column: usize| match line {
+            1 => Place::Byte((BEFORE + column.saturating_sub(1)) as u64),
+            _ => Place::Byte(BEFORE as u64),
+        };
+        Ok((parsed(json, place)?, binary(rest)))
+    }
+
+    /// The node that carries each, none for those that nothing carries.
+    ///
+    /// # Errors
+    /// [`Error::Motion`] where a node carries itself, is carried twice, or carries one that is not there.
+    pub(in crate::motion::read) fn parents(&self) -> Result<Vec<Option<usize>>, Error> {
+        let mut parents = vec![None; self.nodes.len()];
+        for (node, data) in self.nodes.iter().enumerate() {
+            for (at, child) in data.children.iter().enumerate() {
+                let part = || format!("nodes[{node}].children[{at}]");
+                let Some(parent) = parents.get_mut(*child) else {
+                    return Err(super::wrong(part(), format!("there is no node {child}")));
+                };
+                if parent.replace(node).is_some() {
+                    return Err(super::wrong(part(), format!("node {child} is carried twice")));
+                }
+            }
+        }
+        // Who is never reached from a root hangs in a circle.
+        let mut reached = 0;
+        let mut open: Vec<usize> =
+            (0..parents.len()).filter(|node| parents[*node].is_none()).collect();
+        let mut seen = vec![false; parents.len()];
+        while let Some(node) = open.pop() {
+            seen[node] = true;
+            reached += 1;
+            open.extend(&self.nodes[node].children);
+        }
+        if reached < parents.len() {
+            let node = seen.iter().position(|seen| !seen).unwrap_or_default();
+            return Err(super::wrong(
+                format!("nodes[{node}]"),
+                format!("node {node} carries itself"),
+            ));
+        }
+        Ok(parents)
+    }
+}
+
+impl Node {
+    /// How it stands on its parent where nothing moves it.
+    pub(in crate::motion::read) fn local(&self) -> DAffine3 {
+        if let Some(matrix) = &self.matrix {
+            return DAffine3::from_mat4(DMat4::from_cols_array(matrix));
+        }
+        placed(self.translation, self.rotation, self.scale)
+    }
+
+    /// The three parts that an animation may replace.
+    pub(super) fn parts(&self) -> ([f64; 3], [f64; 4], [f64; 3]) {
+        if let Some(matrix) = &self.matrix {
+            let matrix = DAffine3::from_mat4(DMat4::from_cols_array(matrix));
+            let (scale, turn, place) = matrix.to_scale_rotation_translation();
+            return (place.to_array(), turn.to_array(), scale.to_array());
+        }
+        let turn = self.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        (self.translation.unwrap_or_default(), turn, self.scale.unwrap_or([1.0; 3]))
+    }
+}
+
+/// A place of three parts, of which each may be missing.
+pub(super) fn placed(
+    translation: Option<[f64; 3]>,
+    rotation: Option<[f64; 4]>,
+    scale: Option<[f64; 3]>,
+) -> DAffine3 {
+    let rotation = rotation.map_or(DQuat::IDENTITY, |rotation| {
+        let rotation = DQuat::from_array(rotation);
+        let length = rotation.length();
+        if length > 0.0 { rotation / length } else { DQuat::IDENTITY }
+    });
+    let scale = scale.map_or(DVec3::ONE, DVec3::from_array);
+    let translation = translation.map_or(DVec3::ZERO, DVec3::from_array);
+    DAffine3::from_scale_rotation_translation(scale, rotation, translation)
+}
+
+fn parsed(json: &[u8], place: impl Fn(usize, usize) -> Place) -> Result<Document, Error> {
+    // Chunks are filled with blanks, by some writers with zeros.
+    let filled = json.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+    let document: Document = serde_json::from_slice(&json[..filled]).map_err(|error| {
+        let text = error.to_string();
+        let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |(reason, _)| reason);
+        let message = format!("is no glTF 2.0: {reason}");
+        Error::Motion { place: place(error.line(), error.column()), message }
+    })?;
+    if document.asset.version.starts_with("2.") {
+        return Ok(document);
+    }
+    let found = match document.asset.version.as_str() {
+        "" => "it has none".to_owned(),
+        version => format!("found {version:?}"),
+    };
+    let message = format!("is no glTF 2.0: expected asset.version 2.0, {found}");
+    Err(Error::Motion { place: Place::Whole, message })
+}
+
+/// The JSON of a `.glb`, and what is behind it.
+fn chunk(bytes: &[u8]) -> Result<(&[u8], &[u8]), Error> {
+    let wrong = |byte: u64, message: &str| {
+        Err(Error::Motion { place: Place::Byte(byte), message: message.into() })
+    };
+    match (word(bytes, 4), word(bytes, 12), bytes.get(16..20)) {
+        (Some(2), Some(length), Some(b"JSON")) => match bytes[BEFORE..].split_at_checked(length) {
+            Some(parts) => Ok(parts),
+            None => wrong(12, "is cut off: its document is longer than the file"),
+        },
+        (Some(2), ..) => wrong(12, "is no glTF 2.0: its document does not come first"),
+        _ => wrong(4, "is a GLB of another version than 2"),
+    }
+}
+
+/// The bytes of the second chunk, as far as they are there.
+fn binary(rest: &[u8]) -> Option<&[u8]> {
+    let length = word(rest, 0)?;
+    let bytes = rest.get(4..8).filter(|kind| *kind == b"BIN\0").and_then(|_| rest.get(8..))?;
+    Some(&bytes[..length.min(bytes.len())])
+}
+
+/// A little-endian number of four bytes.
+fn word(bytes: &[u8], at: usize) -> Option<usize> {
+    let word = bytes.get(at..at + 4)?.try_into().ok()?;
+    usize::try_from(u32::from_le_bytes(word)).ok()
+}

@@ -1,0 +1,303 @@
+//! Nodes that stand in the world, frame after frame, become a clip: what every format of node trees needs.
+//!
+//! A clip's rest pose has no rotation, while a node rests as its program left it. So each joint turns against how its
+//! node stands at rest: W·G⁻¹ of parents and G·W⁻¹ of the joint, G being how it stands and W how it rests. World
+//! positions stay what they are, whatever scales, pre-rotations and parents made them. A joint that keeps its place on
+//! its parent has that place as its offset; one that leaves it has position channels.
+
+#[cfg(test)]
+mod tests;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use super::bvh::renamed;
+use super::bvh::warnings::{NAME_MISSING, NAME_TWICE, ROOTS};
+use super::file::Options;
+use crate::error::{Error, Place, Warning};
+use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton, set_local_rotation};
+use crate::time::{Frame, FrameRate};
+
+/// A joint that strays less than this share of the body's size on its parent does not move there: single floats have
+/// such noise.
+const STILL: f64 = 2e-6;
+
+/// Bytes of a joint in a frame while a clip is made: how it stands, and its row.
+const POSE: u64 = 104;
+
+/// How a node stands: in the world, or on its parent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stand {
+    pub(super) place: DVec3,
+    pub(super) turn: DQuat,
+}
+
+impl Stand {
+    /// Of a matrix, whose scale and shear only move what hangs on it.
+    pub(super) fn of(matrix: &DAffine3) -> Self {
+        let [x, y] = [matrix.matrix3.x_axis, matrix.matrix3.y_axis];
+        let x = x.normalize_or_zero();
+        let y = (y - x * x.dot(y)).normalize_or_zero();
+        let turn = DMat3::from_cols(x, y, x.cross(y));
+        // What is scaled away points nowhere.
+        let turn = if turn.determinant() > 0.5 { DQuat::from_mat3(&turn) } else { DQuat::IDENTITY };
+        Self { place: matrix.translation, turn: turn.normalize() }
+    }
+}
+
+/// A node that becomes a joint.
+#[derive(Debug, Clone)]
+pub(super) struct Bone {
+    pub(super) name: String,
+    /// The bone that carries it, one before it in the list.
+    pub(super) parent: Option<usize>,
+    /// How it rests in the world.
+    pub(super) rest: Stand,
+}
+
+/// Bones over frames: what a clip is made of.
+pub(super) struct Posed {
+    bones: Vec<Bone>,
+    /// How each bone stands on its parent, frame after frame.
+    local: Vec<Stand>,
+    warnings: Vec<Warning>,
+}
+
+impl Posed {
+    /// Asks for the bones of each frame: `stand` fills how they stand in the world. Of several trees the one of
+    /// `options.root`.
+    ///
+    /// # Errors
+    /// [`Error::Motion`] when there is no bone, or more poses than memory is allowed for; [`Error::Setting`] when no
+    /// tree has that root.
+    pub(super) fn of(
+        mut bones: Vec<Bone>,
+        frames: usize,
+        options: &Options,
+        mut stand: impl FnMut(usize, &mut [DAffine3]),
+    ) -> Result<Self, Error> {
+        let mut warnings = Vec::new();
+        name(&mut bones, &mut warnings);
+        let kept = tree(&bones, options.root.as_deref(), &mut warnings)?;
+        let count = kept.iter().filter(|kept| **kept).count();
+        check_size(count, frames, options)?;
+        let mut world = vec![DAffine3::IDENTITY; bones.len()];
+        let mut turned = vec![Stand { place: DVec3::ZERO, turn: DQuat::IDENTITY }; bones.len()];
+        let mut local = Vec::with_capacity(frames * count);
+        for frame in 0..frames {
+            stand(frame, &mut world);
+            for (at, bone) in bones.iter().enumerate() {
+                let Stand { place, turn } = Stand::of(&world[at]);
+                turned[at] = Stand { place, turn: turn * bone.rest.turn.conjugate() };
+                if kept[at] {
+                    local.push(on_parent(turned[at], bone.parent.map(|parent| turned[parent])));
+                }
+            }
+        }
+        let bones = select(bones, &kept);
+        Ok(Self { bones, local, warnings })
+    }
+
+    /// The clip, and what there is to say of its joints.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] where a value is not finite.
+    pub(super) fn clip(self, rate: FrameRate) -> Result<(Clip, Vec<Warning>), Error> {
+        let count = self.bones.len();
+        let size = self.size();
+        let moves: Vec<bool> = (0..count).map(|bone| self.moves(bone, size)).collect();
+        let tips: Vec<bool> = (0..count).map(|bone| self.is_tip(bone, &moves)).collect();
+        let skeleton = self.skeleton(&moves, &tips);
+        let joints: Vec<usize> = (0..count).filter(|bone| !tips[*bone]).collect();
+        let (width, frames) = (skeleton.channels(), self.local.len() / count.max(1));
+        let mut values = vec![0.0; width * frames];
+        for (frame, stands) in self.local.chunks_exact(count).enumerate() {
+            let (before, after) = values.split_at_mut(frame * width);
+            let row = &mut after[..width];
+            // Angles run on from those of the row before.
+            if let Some(before) = before.rchunks_exact(width.max(1)).next() {
+                row.copy_from_slice(before);
+            }
+            for (joint, bone) in skeleton.joints.iter().zip(&joints) {
+                write(joint, &stands[*bone], row);
+            }
+        }
+        Ok((Clip::new(skeleton, rate, Frame(0), frames, values)?, self.warnings))
+    }
+
+    /// How large the bones are together, in their first frame.
+    fn size(&self) -> f64 {
+        self.local.iter().take(self.bones.len()).zip(&self.bones).fold(0.0, |sum, (stand, bone)| {
+            sum + if bone.parent.is_some() { stand.place.length() } else { 0.0 }
+        })
+    }
+
+    /// Whether a bone leaves its place on its parent; a root is always free to.
+    fn moves(&self, bone: usize, size: f64) -> bool {
+        let mut places = self.local.iter().skip(bone).step_by(self.bones.len());
+        let Some(first) = places.next().map(|stand| stand.place) else { return true };
+        let strays = |stand: &Stand| (stand.place - first).length() > STILL * size;
+        self.bones[bone].parent.is_none() || places.any(strays)
+    }
+
+    /// Whether a bone only says where the one before it ends: it is called so, carries nothing and never moves.
+    fn is_tip(&self, bone: usize, moves: &[bool]) -> bool {
+        let Bone { name, parent, .. } = &self.bones[bone];
+        let called = ["end", "nub", "tip", "site"];
+        let name = name.to_lowercase();
+        let turns = || {
+            let mut stands = self.local.iter().skip(bone).step_by(self.bones.len());
+            let first = stands.next().map_or(DQuat::IDENTITY, |stand| stand.turn);
+            stands.any(|stand| stand.turn.dot(first).abs() < 1.0 - 1e-9)
+        };
+        parent.is_some()
+            && !moves[bone]
+            && called.iter().any(|end| name.ends_with(end))
+            && self.bones.iter().all(|other| other.parent != Some(bone))
+            && !turns()
+    }
+
+    fn skeleton(&self, moves: &[bool], tips: &[bool]) -> Skeleton {
+        let mut skeleton = Skeleton::default();
+        let mut joints = vec![0; self.bones.len()];
+        let mut first_channel = 0;
+        for (at, bone) in self.bones.iter().enumerate() {
+            let rest = bone.parent.map_or(DVec3::ZERO, |parent| self.bones[parent].rest.place);
+            let here = self.local.get(at).filter(|_| !moves[at]);
+            let offset = here.map_or(bone.rest.place - rest, |stand| stand.place);
+            let parent = bone.parent.map(|parent| joints[parent]);
+            if let (true, Some(parent)) = (tips[at], parent) {
+                let parent: &mut Joint = &mut skeleton.joints[parent];
+                parent.end_sites.push(EndSite { name: bone.name.clone(), offset });
+                continue;
+            }
+            joints[at] = skeleton.len();
+            let positions = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
+            let positions = positions.into_iter().filter(|_| moves[at]);
+            let rotations = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
+            let channels: Vec<Channel> = positions.chain(rotations).collect();
+            let (name, parent) = (bone.name.clone(), parent.map(JointId));
+            let width = channels.len();
+            let end_sites = Vec::new();
+            skeleton.joints.push(Joint {
+                name,
+                parent,
+                offset,
+                channels,
+                first_channel,
+                end_sites,
+            });
+            first_channel += width;
+        }
+        skeleton
+    }
+}
+
+/// Writes how a joint stands on its parent.
+fn write(joint: &Joint, stand: &Stand, row: &mut [f64]) {
+    for (at, channel) in joint.channels.iter().enumerate() {
+        if let Channel::Position(axis) = channel {
+            row[joint.first_channel + at] = stand.place[*axis as usize];
+        }
+    }
+    set_local_rotation(joint, stand.turn, row);
+}
+
+fn on_parent(stand: Stand, parent: Option<Stand>) -> Stand {
+    let Some(parent) = parent else { return stand };
+    let back = parent.turn.conjugate();
+    Stand { place: back * (stand.place - parent.place), turn: (back * stand.turn).normalize() }
+}
+
+fn check_size(bones: usize, frames: usize, options: &Options) -> Result<(), Error> {
+    let wrong = |message: String| Err(Error::Motion { place: Place::Whole, message });
+    if bones == 0 || frames == 0 {
+        return wrong("there is no joint that moves: there is no motion".into());
+    }
+    let bytes = (bones as u64).saturating_mul(frames as u64).saturating_mul(POSE);
+    if bytes <= options.stream.bytes {
+        return Ok(());
+    }
+    wrong(format!(
+        "{bones} joints in {frames} frames are more than is taken into memory; --sample-rate takes fewer frames, \
+         --memory GIB allows more"
+    ))
+}
+
+/// Gives every bone a name of its own that stands on one line.
+fn name(bones: &mut [Bone], warnings: &mut Vec<Warning>) {
+    let mut missing = None;
+    for (at, bone) in bones.iter_mut().enumerate() {
+        let plain = |letter: char| if letter.is_control() { ' ' } else { letter };
+        let words: String = bone.name.chars().map(plain).collect();
+        bone.name = words.split_whitespace().collect::<Vec<_>>().join(" ");
+        if bone.name.is_empty() {
+            bone.name = format!("joint_{at}");
+            missing = missing.or(Some(at));
+        }
+    }
+    if let Some(at) = missing {
+        let message = format!("a joint has no name; it is called {}", bones[at].name);
+        warnings.push(Warning::new(NAME_MISSING, message));
+    }
+    let names: Vec<&str> = bones.iter().map(|bone| bone.name.as_str()).collect();
+    let renamed = renamed(&names);
+    if let Some((at, new)) = renamed.first() {
+        let more = if renamed.len() > 1 {
+            format!(" (the first of {})", renamed.len())
+        } else {
+            String::new()
+        };
+        let message =
+            format!("two joints are called {}; this one is called {new}{more}", names[*at]);
+        warnings.push(Warning::new(NAME_TWICE, message));
+    }
+    for (at, name) in renamed {
+        bones[at].name = name;
+    }
+}
+
+/// Which bones are of the tree that is read.
+fn tree(
+    bones: &[Bone],
+    root: Option<&str>,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<bool>, Error> {
+    let mut trees: Vec<usize> = Vec::with_capacity(bones.len());
+    for (at, bone) in bones.iter().enumerate() {
+        trees.push(bone.parent.map_or(at, |parent| trees[parent]));
+    }
+    let roots = bones.iter().filter(|bone| bone.parent.is_none());
+    let names: Vec<&str> = roots.map(|bone| bone.name.as_str()).collect();
+    let listed = names.iter().take(8).copied().collect::<Vec<_>>().join(", ");
+    let Some(root) = root else {
+        if names.len() > 1 {
+            let count = names.len();
+            let message =
+                format!("the file has {count} trees, all of them used; --root takes one: {listed}");
+            warnings.push(Warning::new(ROOTS, message));
+        }
+        return Ok(vec![true; bones.len()]);
+    };
+    let asked = bones.iter().position(|bone| bone.parent.is_none() && bone.name == root);
+    match asked {
+        Some(asked) => Ok(trees.iter().map(|tree| *tree == asked).collect()),
+        None => {
+            let message = format!("no tree is called {root:?}; the file has {listed}");
+            Err(Error::setting("root", message))
+        }
+    }
+}
+
+/// The bones that are kept, with their parents among them.
+fn select(bones: Vec<Bone>, kept: &[bool]) -> Vec<Bone> {
+    let mut places = Vec::with_capacity(bones.len());
+    let mut selected = Vec::new();
+    for (bone, kept) in bones.into_iter().zip(kept) {
+        places.push(selected.len());
+        if *kept {
+            let parent = bone.parent.map(|parent| places[parent]);
+            selected.push(Bone { parent, ..bone });
+        }
+    }
+    selected
+}
