@@ -21,7 +21,7 @@ use crate::time::FrameRate;
 /// The clip, and which part of it.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ClipArgs {
-    /// The motion, a BVH file or of another format that `genga inspect --help` lists; - is stdin.
+    /// The motion: BVH, FBX, glTF, GLB or VRM, known by its content; - is stdin.
     #[arg(id = "clip", value_name = "CLIP")]
     pub(super) path: PathBuf,
     #[command(flatten)]

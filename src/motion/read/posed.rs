@@ -208,6 +208,31 @@ fn on_parent(stand: Stand, parent: Option<Stand>) -> Stand {
     Stand { place: back * (stand.place - parent.place), turn: (back * stand.turn).normalize() }
 }
 
+/// Chooses the lowest node that carries all trees, where there is one that may be a joint, and what is between. `order`
+/// has parents first.
+pub(super) fn join(
+    order: &[usize],
+    parents: &[Option<usize>],
+    chosen: &mut [bool],
+    may: impl Fn(usize) -> bool,
+) {
+    let total = chosen.iter().filter(|chosen| **chosen).count();
+    let mut below: Vec<usize> = chosen.iter().map(|chosen| usize::from(*chosen)).collect();
+    for &node in order.iter().rev() {
+        if let Some(parent) = parents[node] {
+            below[parent] += below[node];
+        }
+    }
+    // The last in the order that carries all.
+    let carries = |node: &&usize| below[**node] == total && total > 0;
+    let Some(&top) = order.iter().rev().find(carries).filter(|top| may(**top)) else { return };
+    let mut inside = vec![false; chosen.len()];
+    for &node in order {
+        inside[node] = node == top || parents[node].is_some_and(|parent| inside[parent]);
+        chosen[node] |= inside[node] && below[node] > 0;
+    }
+}
+
 fn check_size(bones: usize, frames: usize, options: &Options) -> Result<(), Error> {
     let wrong = |message: String| Err(Error::Motion { place: Place::Whole, message });
     if bones == 0 || frames == 0 {

@@ -11,7 +11,7 @@ use ufbx::{
 use super::takes::{Curves, listed};
 use crate::error::{Error, Place, Warning};
 use crate::motion::read::file::{Found, Given, Options, Read};
-use crate::motion::read::posed::{Bone, Posed, Stand};
+use crate::motion::read::posed::{Bone, Posed, Stand, join};
 use crate::motion::read::rates;
 use crate::time::FrameRate;
 
@@ -122,6 +122,10 @@ fn joints(scene: &Scene, curves: &Curves<'_>) -> Vec<(usize, Option<usize>)> {
             chosen[node] |= !is_seen && parent(node).is_some_and(|parent| chosen[parent]);
         }
     }
+    // Some programs write what carries all bones, and travels, as no bone.
+    let order: Vec<usize> = (0..chosen.len()).collect();
+    let parents: Vec<Option<usize>> = order.iter().map(|node| parent(*node)).collect();
+    join(&order, &parents, &mut chosen, |top| curves.nodes[top]);
     let mut places = vec![None; chosen.len()];
     let mut joints = Vec::new();
     // ufbx lists parents first.

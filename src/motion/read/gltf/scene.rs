@@ -98,7 +98,7 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
         found.push(Found::new("names", message));
     }
     if motion.left_out > 0 {
-        let message = format!("left out {} curves of shapes or other things", motion.left_out);
+        let message = format!("left out: curves of shapes or other things, {}", motion.left_out);
         found.push(Found::new("left out", message));
     }
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })

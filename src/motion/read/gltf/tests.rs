@@ -113,7 +113,7 @@ fn a_bare_tree_is_what_moves_and_what_hangs_on_it() {
             "Y up",
             "metres",
             "animation walk, sampled 24 a second",
-            "left out 1 curves of shapes or other things"
+            "left out: curves of shapes or other things, 1"
         ]
     );
     let finer = Options { sample_rate: FrameRate::new(48.0).ok(), ..Options::default() };

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::document::{Document, Node};
+use crate::motion::read::posed::join;
 
 /// All nodes, parents first, the children of each in their order.
 pub(super) fn order(document: &Document, parents: &[Option<usize>]) -> Vec<usize> {
@@ -39,7 +40,7 @@ pub(super) fn of(
             chosen[node] |= !is_seen && parents[node].is_some_and(|parent| chosen[parent]);
         }
     }
-    join(&order, parents, &mut chosen);
+    join(&order, parents, &mut chosen, |_| true);
     let mut places: Vec<Option<usize>> = vec![None; parents.len()];
     let mut joints = Vec::new();
     for node in order {
@@ -51,24 +52,4 @@ pub(super) fn of(
         }
     }
     joints
-}
-
-/// Chooses the lowest node that carries all trees, where there is one, and what is between.
-fn join(order: &[usize], parents: &[Option<usize>], chosen: &mut [bool]) {
-    let total = chosen.iter().filter(|chosen| **chosen).count();
-    let mut below: Vec<usize> = chosen.iter().map(|chosen| usize::from(*chosen)).collect();
-    for &node in order.iter().rev() {
-        if let Some(parent) = parents[node] {
-            below[parent] += below[node];
-        }
-    }
-    // The last in the order that carries all.
-    let Some(&top) = order.iter().rev().find(|node| below[**node] == total && total > 0) else {
-        return;
-    };
-    let mut inside = vec![false; chosen.len()];
-    for &node in order {
-        inside[node] = node == top || parents[node].is_some_and(|parent| inside[parent]);
-        chosen[node] |= inside[node] && below[node] > 0;
-    }
 }
