@@ -11,7 +11,7 @@ mod formats;
 mod given;
 mod takes;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 use std::fs::File;
 use std::io::{Read as _, Seek};

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::error::{Error, Place};
 use crate::motion::file::{Options, Read};
+use crate::motion::read::file::tests::read_changed;
 use crate::motion::{Body, Clip, Poser, StreamLimit};
 use crate::time::{Frame, FrameRate};
 
@@ -199,4 +200,9 @@ fn what_is_damaged_is_refused_with_a_place_and_never_more() {
     assert!(error.starts_with("take Walk: 3 joints in "), "{error}");
     let little = Options { stream: StreamLimit { bytes: 2000 }, ..Options::default() };
     assert!(little.read(whole).is_err(), "ufbx may not take more than is allowed");
+}
+
+#[test]
+fn a_scene_that_was_changed_is_read_or_refused() {
+    read_changed(scene(1, 1.0, &[walk()]).as_bytes(), 500);
 }

@@ -84,3 +84,42 @@ fn a_neighbour_lies_in_the_folder_or_below_it() {
     let limit = Options { stream: StreamLimit { bytes: 3 }, ..Options::default() };
     assert!(given.beside("data.bin", Place::Whole, &limit).is_err(), "more than may be read");
 }
+
+/// Reads files that were changed in up to five places: bytes turned, cut out, doubled, numbers replaced by odd ones. None
+/// may panic, each is read or refused as a motion file is.
+pub(in crate::motion::read) fn read_changed(whole: &[u8], times: u64) {
+    let odd: [&[u8]; 6] = [b"-1", b"1e308", b"99999999999", b"4294967295", b"0", b""];
+    let options = Options { stream: StreamLimit { bytes: 16 << 20 }, ..Options::default() };
+    for seed in 1..=times {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut below = |most: usize| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state % most.max(1) as u64) as usize
+        };
+        let mut bytes = whole.to_vec();
+        for _ in 0..=below(5) {
+            let at = below(bytes.len());
+            let end = (at + below(40)).min(bytes.len());
+            match below(5) {
+                0 => bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 1 << (seed % 8)),
+                1 => drop(bytes.drain(at..end)),
+                2 => bytes.extend_from_within(at..end),
+                3 => bytes.truncate(at.max(16)),
+                _ => {
+                    let digit = (at..bytes.len()).find(|at| bytes[*at].is_ascii_digit());
+                    let number = odd[below(odd.len())];
+                    if let Some(digit) = digit {
+                        bytes.splice(digit..=digit, number.iter().copied());
+                    }
+                }
+            }
+        }
+        match options.read(&bytes) {
+            Ok(read) => assert!(!read.clip.is_empty(), "{seed}: a clip without a frame"),
+            Err(Error::Motion { .. } | Error::Bvh { .. }) => {}
+            Err(other) => panic!("{seed}: {other}"),
+        }
+    }
+}

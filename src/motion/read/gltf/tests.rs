@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::*;
 use crate::motion::file::{Options, Read};
+use crate::motion::read::file::tests::read_changed;
 use crate::motion::{Body, Clip, Poser, StreamLimit};
 use crate::time::{Frame, FrameRate};
 
@@ -281,4 +282,11 @@ fn what_lies_is_refused_with_its_path() {
     let little = Options { stream: StreamLimit { bytes: 60 }, ..Options::default() };
     let error = little.read(document("LINEAR").to_string().as_bytes()).unwrap_err().to_string();
     assert!(error.contains("--memory"), "{error}");
+}
+
+#[test]
+fn a_document_that_was_changed_is_read_or_refused() {
+    for between in ["LINEAR", "CUBICSPLINE"] {
+        read_changed(document(between).to_string().as_bytes(), 1000);
+    }
 }
