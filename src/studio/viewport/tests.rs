@@ -16,6 +16,7 @@ use crate::studio::desk::{Desk, Export, Opened};
 use crate::studio::look::Look;
 use crate::studio::on_screen::OnScreen;
 use crate::studio::shown::Shown;
+use crate::studio::step::Step;
 use crate::studio::take::{Results, Take};
 use crate::studio::words::Words;
 
@@ -48,7 +49,8 @@ impl Desk for Samples {
 /// A take with some knobs turned.
 fn take(clip: &str, knobs: &[(&str, &str)]) -> Take {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(clip);
-    let mut take = Take::open(&Samples, &path, None, |_| {}).unwrap();
+    let mut take = Take::read(&Samples, &path, None).unwrap();
+    Step::ALL.iter().for_each(|step| take.run(*step).unwrap());
     knobs.iter().for_each(|(knob, value)| take.wanted.recipe.set(knob, value).unwrap());
     take.renew(false).unwrap();
     take
