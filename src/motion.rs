@@ -26,7 +26,7 @@ pub use clip::{
     local_translation, set_local_rotation,
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
-#[cfg(feature = "studio")]
+#[cfg(feature = "panels")]
 pub(crate) use composite::Cels;
 #[cfg(feature = "pictures")]
 pub(crate) use composite::layer_of;

@@ -55,7 +55,7 @@ impl Cels {
     ///
     /// # Errors
     /// Those of [`Cels::of`].
-    #[cfg(feature = "studio")]
+    #[cfg(feature = "panels")]
     pub(crate) fn again(&self, clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
         Self::on(clip, sheet, self.feet.clone())
     }
@@ -138,7 +138,7 @@ impl<'a> Composite<'a> {
     }
 
     /// Cels that were laid before, of this motion.
-    #[cfg(feature = "studio")]
+    #[cfg(feature = "panels")]
     pub(crate) fn with(clip: &'a Clip, cels: &'a Cels) -> Self {
         Self { clip, cels: Cow::Borrowed(cels) }
     }

@@ -71,7 +71,7 @@ impl Moves {
 
     /// [`Moves::of`] by where the joints stand in the drawings of another layer that has all of its own; none where it
     /// has not.
-    #[cfg(feature = "studio")]
+    #[cfg(feature = "panels")]
     pub(crate) fn among(stills: &Stills, all: &Layer, layer: &Layer) -> Option<Self> {
         let same = |drawing: &Drawing| {
             let place = drawing.source.place();

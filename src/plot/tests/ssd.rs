@@ -2,7 +2,7 @@
 
 use super::figures::walk;
 use super::*;
-#[cfg(feature = "studio")]
+#[cfg(feature = "panels")]
 use crate::plot::ssd::Moves;
 
 /// Six koma on ones of a walk, and what is left: 1 is held as 2 and has got a koma, 4 is left out.
@@ -100,7 +100,7 @@ fn a_small_picture_looks_as_it_did() {
 }
 
 #[test]
-#[cfg(feature = "studio")]
+#[cfg(feature = "panels")]
 fn movement_is_the_same_by_stills_of_all_drawings() {
     let (clip, before, after) = omitted();
     let (all, left) = (&before.layers[0], &after.layers[0]);
