@@ -110,6 +110,7 @@ impl Settings {
         self.onion.camera = camera;
         self.flipbook.camera = camera;
         self.preview.camera = camera;
+        self.mp4.camera = camera;
         self.images.camera = camera;
     }
 }

@@ -257,6 +257,16 @@ pub const FORMATS: &[Format] = &[
     },
     #[cfg(feature = "pictures")]
     Format {
+        name: "mp4",
+        help: "source beside result as a video, where the system has ffmpeg",
+        japanese: "動画ファイル",
+        files: &["CUT.mp4"],
+        make: |cut, settings, put| settings.mp4.write(settings.figures.body, cut, put),
+        notes: |_, settings| settings.mp4.notes(),
+        ..PLAIN
+    },
+    #[cfg(feature = "cli")]
+    Format {
         name: "images",
         help: "a picture a drawing, numbered as the sheet, to draw over",
         japanese: "連番画像",

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::deliver::xdts::{Tdts, Xdts};
-use crate::deliver::{FigureSettings, Glb, Remap, Vmd};
+use crate::deliver::{FigureSettings, Glb, Mp4, Remap, Vmd};
 use crate::error::Error;
 use crate::knob::{Knob, Knobs, knob, knobs};
 use crate::plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip, XSheet};
@@ -36,6 +36,8 @@ pub struct Settings {
     pub flipbook: FlipBook,
     /// Source beside result, moving.
     pub preview: Preview,
+    /// The same as a video.
+    pub mp4: Mp4,
     /// A picture a drawing.
     pub images: NumberedImages,
     /// The stepped motion as GLB.
@@ -68,7 +70,7 @@ impl CsvSettings {
 knobs!(Settings {
     ..[
         csv, remap, xdts, tdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview,
-        images, glb
+        mp4, images, glb
     ]
 });
 
@@ -78,7 +80,9 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] naming the first that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        self.check()
+        self.check()?;
+        self.remap.validate()?;
+        self.mp4.validate()
     }
 
     /// Sets one setting from text, as `--with FORMAT.SETTING=VALUE` does.

@@ -34,6 +34,11 @@ impl Pixels {
         self.map.pixels()
     }
 
+    /// The same as bytes.
+    pub(super) fn bytes(&self) -> &[u8] {
+        self.map.data()
+    }
+
     /// # Errors
     /// [`Error::Picture`] when memory runs out.
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
