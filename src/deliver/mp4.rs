@@ -2,7 +2,8 @@
 
 #[cfg(feature = "cli")]
 mod pack;
-#[cfg(all(test, feature = "cli"))]
+#[cfg(feature = "cli")]
+#[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};

@@ -86,6 +86,15 @@ def glb(path, sheet):
     assert abs(max(ends) * sheet.fps - sheet.length) < 1e-3, max(ends)
 
 
+def vrma(path, sheet):
+    """Holds end a hair before the change, and so does the last."""
+    read = pygltflib.GLTF2().load_binary(str(path))
+    assert "VRMC_vrm_animation" in read.extensionsUsed
+    (animation,) = read.animations
+    ends = [read.accessors[sampler.input].max[0] for sampler in animation.samplers]
+    assert sheet.length - 1 <= max(ends) * sheet.fps <= sheet.length + 1e-3, max(ends)
+
+
 def vmd(path, sheet):
     read = pypmxvmd.load_vmd(str(path))
     last = max(frame.frame_number for frame in read.bone_frames)
@@ -148,6 +157,7 @@ READERS = [
     (r".*\.ffconcat", concat),
     (r".*\.bvh", motion),
     (r".*\.glb", glb),
+    (r".*\.vrma", vrma),
     (r".*\.vmd", vmd),
     (r".*\.[xt]dts", digital),
     (r".*\.sts", sts),
