@@ -20,12 +20,12 @@ pub struct Handed<'a> {
 }
 
 impl Handed<'_> {
-    /// The files of some formats, as the program writes them.
+    /// The files of some formats, as the program writes them. Between two files `go_on` is asked, whose error ends it.
     pub fn files(
         &self,
         breakdown: &Breakdown<'_>,
-        formats: &[&Format],
-        settings: &Settings,
+        (formats, settings): (&[&Format], &Settings),
+        mut go_on: impl FnMut() -> Result<(), genga::Error>,
     ) -> Result<Files, genga::Error> {
         let exaggerate = &self.recipe.exaggerate;
         let cut = Cut {
@@ -42,7 +42,7 @@ impl Handed<'_> {
         for format in formats {
             format.write(&cut, settings, &mut |name, bytes| {
                 files.push((name.to_owned(), bytes.to_vec()));
-                Ok(())
+                go_on()
             })?;
         }
         Ok(files)

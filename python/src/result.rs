@@ -142,7 +142,16 @@ impl Result {
         }
         let Recipe { recipe, edits } = &self.settings;
         let handed = Handed { cut: &self.cut, file: &self.file, recipe, edits };
-        self.look(py, |breakdown| handed.files(breakdown, &formats, &own))
+        let mut interrupt = None;
+        let go_on = || {
+            // Of Ctrl-C the caller's thread alone is told, and this is that thread.
+            Python::attach(|py| py.check_signals()).map_err(|error| {
+                interrupt = Some(error);
+                genga::Error::clip("ended by Ctrl-C")
+            })
+        };
+        let files = self.look(py, |breakdown| handed.files(breakdown, (&formats, &own), go_on));
+        interrupt.map_or(files, Err)
     }
 
     fn dict<'py>(
