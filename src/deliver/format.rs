@@ -255,7 +255,7 @@ pub const FORMATS: &[Format] = &[
         notes: |cut, settings| Ok(shortened("preview", settings.preview.most, cut.sheet)),
         ..PLAIN
     },
-    #[cfg(feature = "pictures")]
+    #[cfg(feature = "cli")]
     Format {
         name: "mp4",
         help: "source beside result as a video, where the system has ffmpeg",
@@ -265,7 +265,7 @@ pub const FORMATS: &[Format] = &[
         notes: |_, settings| settings.mp4.notes(),
         ..PLAIN
     },
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "pictures")]
     Format {
         name: "images",
         help: "a picture a drawing, numbered as the sheet, to draw over",
