@@ -208,6 +208,7 @@ hand_over! {
     to_xsheet "xsheet" "The timesheet on paper: HTML, and a page each as SVG.",
     to_vmd "vmd" "The motion for MikuMikuDance, and which joint became which bone.",
     to_glb "glb" "The motion stepped, with bones to see and the role of every drawing.",
+    to_vrma "vrma" "The motion stepped for VRM avatars.",
     to_bars "bars" "Picture: a bar a drawing over koma.",
     to_poses "poses" "Picture: genga and ends as poses in a row.",
     to_strip "strip" "Picture: source above, result below, koma by koma.",
