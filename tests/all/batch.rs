@@ -244,7 +244,7 @@ fn what_there_is_no_clip_of_is_said() {
     for (args, code, reason) in [
         ("batch none --out o", 2, "there is no clip in none"),
         ("batch nowhere.bvh --out o", 1, "nowhere.bvh: there is no such file"),
-        ("batch lib/*.mp4 --out o", 1, "lib/*.mp4: no BVH file matches"),
+        ("batch lib/*.mp4 --out o", 1, "lib/*.mp4: no motion file matches"),
         ("batch lib --out o --shard 5/4", 2, "expected a part"),
     ] {
         let said = place.refused(code, args);

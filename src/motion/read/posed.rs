@@ -142,7 +142,7 @@ impl Posed {
     /// Whether a bone only says where the one before it ends: it is called so, carries nothing and never moves.
     fn is_tip(&self, bone: usize, moves: &[bool]) -> bool {
         let Bone { name, parent, .. } = &self.bones[bone];
-        let called = ["end", "nub", "tip", "site"];
+        let called = ["end", "leaf", "nub", "tip", "site"];
         let name = name.to_lowercase();
         let turns = || {
             let mut stands = self.local.iter().skip(bone).step_by(self.bones.len());

@@ -22,4 +22,6 @@ for clip in map(Path, sys.argv[2:]):
         filepath=str(folder / f"{clip.stem}.glb"),
         export_force_sampling=True,
         export_optimize_animation_size=False,
+        # Tips of bones, which its FBX has without being asked.
+        export_leaf_bone=True,
     )
