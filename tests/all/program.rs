@@ -897,16 +897,17 @@ fn all_goes_without_what_cannot_be_made_and_says_so() {
     fs::write(place.path("k.bvh"), bvh).unwrap();
     let unknown = "all goes without vmd: vmd: no joint has a name that is known";
     let fast = "all goes without vmd: vmd.fps: 48 koma a second do not go into 30 frames";
-    for (args, note) in [("k.bvh", unknown), ("data/kick.bvh --set rate=48", fast)] {
-        let said = text(&place.genga(&format!("run {args} --deliver all --out o")).stderr);
+    for (o, args, note) in [("o", "k.bvh", unknown), ("r", "data/kick.bvh --set rate=48", fast)] {
+        let said = text(&place.genga(&format!("run {args} --deliver all --out {o}")).stderr);
         assert!(said.contains(note), "{said}");
-        assert!(read(&place.path("o/report.json")).contains(note));
-        assert!(!place.files("o").keys().any(|name| name.ends_with(".vmd")));
+        assert!(read(&place.path(&format!("{o}/report.json"))).contains(note));
+        assert!(!place.files(o).keys().any(|name| name.ends_with(".vmd")));
         let clip = args.split(' ').next().unwrap();
-        let output = place.genga(&format!("deliver o/sheet.json {clip} --to all --out p"));
+        let output = place.genga(&format!("deliver {o}/sheet.json {clip} --to all --out {o}-all"));
         assert!(text(&output.stderr).contains(note) && output.status.success());
-        let output = place.genga(&format!("deliver o/sheet.json {clip} --to all,vmd --out q"));
-        assert!(!output.status.success() && !place.path("q").exists());
+        let output =
+            place.genga(&format!("deliver {o}/sheet.json {clip} --to all,vmd --out {o}-vmd"));
+        assert!(!output.status.success() && !place.path(&format!("{o}-vmd")).exists());
     }
 }
 
