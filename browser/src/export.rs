@@ -26,7 +26,10 @@ pub(crate) fn archive(
         for format in formats {
             tell(format.name);
             report.notes.extend(format.notes(cut, &settings)?.iter().map(ToString::to_string));
-            format.write(cut, &settings, &mut |name, bytes| Ok(files.add(name, bytes.to_vec())))?;
+            format.write(cut, &settings, &mut |name, bytes| {
+                files.add(name, bytes.to_vec());
+                Ok(())
+            })?;
         }
         Ok(())
     })
