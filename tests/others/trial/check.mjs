@@ -184,6 +184,8 @@ async function answerAll(visit, choose, each = async () => {}) {
   assert.ok(await visit.page.isVisible("#sure"));
   await visit.press("Tab");
   await visit.press("Enter");
+  // A dialog tells of its end a moment later.
+  await visit.page.waitForSelector("#start:not([hidden])");
   await visit.at("start");
   const next = await visit.state();
   assert.deepEqual(next.answers, []);
