@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use divan::Bencher;
 use egui::{Context, Pos2, RawInput, Rect, vec2};
-use genga::studio::{Desk, Export, Language, Opened, Studio};
+use genga::studio::{Desk, Export, Exported, Language, Opened, Studio};
 
 #[path = "common/body.rs"]
 mod body;
@@ -42,8 +42,8 @@ impl Desk for Made {
         Ok(())
     }
 
-    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Vec<String>, String> {
-        Ok(vec![])
+    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Exported, String> {
+        Ok(vec![].into())
     }
 }
 

@@ -86,7 +86,7 @@ use timesheet::Timesheet;
 use viewport::Viewport;
 use words::Words;
 
-pub use desk::{Desk, Export, Opened};
+pub use desk::{Desk, Export, Exported, Opened, Pending};
 pub use document::Document;
 pub use words::Language;
 
@@ -199,7 +199,10 @@ impl Studio {
         });
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
-            None => welcome::show(ui, &look, &self.recent, words, &mut commands),
+            None => {
+                let has_names = self.desk.has_names();
+                welcome::show(ui, &look, &self.recent, has_names, words, &mut commands);
+            }
         }
         self.notices(ui, &look, words, &mut commands);
         help::show(ui, &mut self.is_help_open, words);

@@ -14,16 +14,17 @@ const TARGET: &str = "wasm32-unknown-unknown";
 const PAGE: &str = include_str!("page.html");
 /// Small rather than soon: it is done once.
 const LEVEL: u8 = 10;
-/// What the browser's program is called after it was bound.
-const BOUND: &str = "genga.wasm";
+/// Bytes of the packed program at the most: nobody should wait for it long.
+const MOST: usize = 8_000_000;
 
 /// Builds the page into a folder, and gives its place.
 pub(super) fn page(folder: &Path, is_quick: bool) -> Result<PathBuf, String> {
     let compiled = compile(is_quick)?;
     let (glue, program) = bind(&compiled)?;
-    let work = compiled.with_file_name(BOUND);
-    let program = if is_quick { program } else { smaller(&work, program)? };
     let packed = compress_to_vec_zlib(&program, LEVEL);
+    if !is_quick && packed.len() > MOST {
+        return Err(format!("the program has {} bytes packed, more than {MOST}", packed.len()));
+    }
     let text =
         PAGE.replace("/* glue */", &glue).replace("<!-- program -->", &STANDARD.encode(&packed));
     let page = folder.join("index.html");
@@ -49,6 +50,8 @@ fn compile(is_quick: bool) -> Result<PathBuf, String> {
     let mut cargo = Command::new(cargo);
     cargo.current_dir(repository).args(["build", "--locked", "--package", "genga-browser"]);
     cargo.args(["--lib", "--target", TARGET, "--profile", profile]);
+    // Several numbers at once, as every browser has it that can run the page.
+    cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-C target-feature=+simd128");
     let ended = cargo.status().map_err(|error| format!("cargo: {error}"))?;
     if !ended.success() {
         return Err(format!("the page's program was not compiled (rustup target add {TARGET})"));
@@ -62,30 +65,10 @@ fn compile(is_quick: bool) -> Result<PathBuf, String> {
 fn bind(compiled: &Path) -> Result<(String, Vec<u8>), String> {
     let wrong = |error| format!("{}: {error:#}", compiled.display());
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(compiled).typescript(false);
+    bindgen.input_path(compiled).typescript(false).remove_name_section(true);
     bindgen.no_modules(true).map_err(wrong)?;
     let mut bound = bindgen.generate_output().map_err(wrong)?;
     Ok((bound.js().to_owned(), bound.wasm_mut().emit_wasm()))
-}
-
-/// The program as Binaryen makes it, if that is here.
-fn smaller(work: &Path, program: Vec<u8>) -> Result<Vec<u8>, String> {
-    let optimized = work.with_extension("opt.wasm");
-    fs::write(work, &program).map_err(of(work))?;
-    let ended = Command::new("wasm-opt")
-        .args(["-O3", "--all-features"])
-        .arg(work)
-        .arg("-o")
-        .arg(&optimized)
-        .status();
-    match ended {
-        Err(_) => {
-            eprintln!("there is no wasm-opt here (Binaryen): the page is larger than need be");
-            Ok(program)
-        }
-        Ok(ended) if ended.success() => fs::read(&optimized).map_err(of(&optimized)),
-        Ok(_) => Err("wasm-opt could not read the program; is it of an older kind?".into()),
-    }
 }
 
 fn of(path: &Path) -> impl Fn(std::io::Error) -> String {

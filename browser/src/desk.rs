@@ -7,11 +7,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use eframe::egui::Context;
 use genga::deliver::{ClipMark, Run};
-use genga::motion::bvh::Cleaning;
-use genga::motion::file;
-use genga::studio::{Desk, Export, Opened};
+use genga::studio::{Desk, Export, Exported, Opened};
 
-use super::{export, page};
+use super::clip::Read;
+use super::{export, page, worker};
 
 /// The files of a page.
 #[derive(Clone)]
@@ -32,6 +31,16 @@ struct Files {
 }
 
 impl Files {
+    /// The bytes of a file that somebody gave.
+    fn bytes(&self, path: &Path) -> Result<&[u8], String> {
+        let why = match self.by_name.get(path) {
+            Some(Ok(bytes)) => return Ok(bytes),
+            Some(Err(error)) => error,
+            None => "choose the file or drop it here",
+        };
+        Err(format!("{}: {why}", path.display()))
+    }
+
     /// Under what the browser keeps a file. Clips of one name and another motion have nothing in common.
     fn key(&self, path: &Path) -> String {
         let name = file_name(path);
@@ -70,18 +79,10 @@ impl Table {
 impl Desk for Table {
     fn open(&self, clip: &Path) -> Result<Opened, String> {
         let mut files = self.files();
-        let of_clip = |error: &dyn std::fmt::Display| format!("{}: {error}", clip.display());
-        let bytes =
-            files.by_name.get(clip).ok_or_else(|| of_clip(&"choose the file or drop it here"))?;
-        let bytes = bytes.as_ref().map_err(|error| of_clip(error))?;
-        let read = file::Options::default().read(bytes).map_err(|error| of_clip(&error))?;
-        let mark = ClipMark::of(&file_name(clip), &read.clip);
-        let (cleaned, notes) =
-            Cleaning::default().of(read.clip).map_err(|error| of_clip(&error))?;
-        cleaned.check_size().map_err(|error| of_clip(&error))?;
-        let notes = read.warnings.iter().chain(&notes).map(ToString::to_string).collect();
+        let name = file_name(clip);
+        let Read { clip: read, mark, notes } = Read::of(&name, files.bytes(clip)?)?;
         files.marks.insert(clip.to_owned(), mark);
-        Ok(Opened { clip: cleaned, notes })
+        Ok(Opened { clip: read, notes })
     }
 
     fn read(&self, path: &Path) -> Result<Option<String>, String> {
@@ -110,17 +111,35 @@ impl Desk for Table {
         page::storage()?.remove_item(&self.files().key(path)).map_err(page::said)
     }
 
+    /// On a worker, beside the page. Where there is none, here and now.
     fn export(
         &self,
         folder: &Path,
         export: &Export<'_>,
         tell: &dyn Fn(&str),
-    ) -> Result<Vec<String>, String> {
-        let clip = self.files().marks.get(export.clip).cloned().ok_or("no clip is open")?;
-        let folder = file_name(folder);
-        let (archive, files) = export::archive(&folder, export, &clip, tell)?;
+    ) -> Result<Exported, String> {
+        let (files, folder) = (self.files(), file_name(folder));
+        let (bytes, name) = (files.bytes(export.clip)?, file_name(export.clip));
+        if let Some(pending) = worker::begin(&folder, &name, bytes, export) {
+            return Ok(Exported::Elsewhere(pending));
+        }
+        let clip = files.marks.get(export.clip).ok_or("no clip is open")?;
+        let (archive, files) = export::archive(&folder, export, clip, tell)?;
         page::give(&format!("{folder}.zip"), &archive)?;
-        Ok(files)
+        Ok(files.into())
+    }
+
+    fn noted(&self, name: &str) -> Option<String> {
+        page::storage().ok()?.get_item(&note(name)).ok()?
+    }
+
+    fn note(&self, name: &str, text: &str) {
+        // How a person likes to work is worth no word.
+        drop(page::storage().map(|storage| storage.set_item(&note(name), text)));
+    }
+
+    fn has_names(&self) -> bool {
+        false
     }
 
     fn always(&self) -> Vec<&'static str> {
@@ -132,6 +151,11 @@ impl Desk for Table {
         page::choose(move |name, bytes| table.arrive(name.into(), bytes));
         None
     }
+}
+
+/// Under what the browser keeps a note.
+fn note(name: &str) -> String {
+    format!("genga-note/{name}")
 }
 
 fn file_name(path: &Path) -> String {

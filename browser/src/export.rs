@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use genga::deliver::{ClipMark, Format, Manifest, Report, Run, Settings, zip};
+use genga::deliver::{ClipMark, FORMATS, Format, Manifest, Report, Run, Settings, zip};
 use genga::studio::Export;
 
 /// The archive of a folder, and the names of its files.
@@ -44,6 +44,12 @@ pub(crate) fn archive(
     manifest.files = files.digests();
     files.add(Run::MANIFEST, manifest.write().map_err(said)?.into_bytes());
     files.packed(folder).map_err(said)
+}
+
+/// The names of formats in a text, as the formats themselves have them.
+pub(crate) fn names(text: &str) -> Vec<&'static str> {
+    let is_meant = |name: &&str| text.split(' ').any(|word| word == *name);
+    FORMATS.iter().map(|format| format.name).filter(is_meant).collect()
 }
 
 /// Files in the order in which they were made.

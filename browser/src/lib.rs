@@ -3,7 +3,9 @@
 //! ```text
 //! shell     the page's canvas, with the studio in it
 //! desk      files as a page has them: given by hand, kept in the browser's storage, given back as downloads
+//! clip      a clip, from the bytes of a file
 //! export    the files of a run, as one archive
+//! worker    an export beside the page
 //! page      what is asked of the browser
 //! places    what is on screen, for whoever asks by name
 //! ```
@@ -12,11 +14,13 @@
 
 #![cfg(target_family = "wasm")]
 
+mod clip;
 mod desk;
 mod export;
 mod page;
 pub mod places;
 mod shell;
+pub mod worker;
 
 use eframe::{WebOptions, WebRunner};
 use wasm_bindgen::JsValue;

@@ -105,6 +105,7 @@ impl Studio {
             Command::Export(order) => self.export(order),
             Command::StopExport => self.exporting.iter().for_each(Exporting::stop),
             Command::ChooseFolder => self.choose_folder(),
+            Command::OpenFile if !self.desk.has_names() => self.choose(),
             Command::OpenFile => {
                 self.file.is_open = !self.file.is_open;
                 self.file.wants_focus = self.file.is_open;

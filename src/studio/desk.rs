@@ -45,7 +45,6 @@ pub trait Desk: Send + Sync {
     fn remove(&self, path: &Path) -> Result<(), String>;
 
     /// Writes everything that a run writes into a folder, on a thread of its own, and tells what it is about to write.
-    /// Gives the names of the files.
     ///
     /// # Errors
     /// Why it cannot be written. The folder is as it was before.
@@ -54,7 +53,7 @@ pub trait Desk: Send + Sync {
         folder: &Path,
         export: &Export<'_>,
         tell: &dyn Fn(&str),
-    ) -> Result<Vec<String>, String>;
+    ) -> Result<Exported, String>;
 
     /// Lets the person choose a clip or a recipe in a dialog of the system, on a thread of its own. None when they
     /// choose none, and where there is no such dialog, as on a desk that says nothing else.
@@ -65,6 +64,11 @@ pub trait Desk: Send + Sync {
     /// Lets the person choose a folder, as [`choose`](Self::choose) a file.
     fn choose_folder(&self) -> Option<PathBuf> {
         None
+    }
+
+    /// Whether files are found by their names, and folders hold them. Else a person gives each by hand.
+    fn has_names(&self) -> bool {
+        true
     }
 
     /// The names of the formats that every export has.
@@ -102,6 +106,25 @@ pub struct Opened {
     /// What a person should know about the file, as sentences.
     pub notes: Vec<String>,
 }
+
+/// What became of an export.
+pub enum Exported {
+    /// It is written: the names of its files.
+    Files(Vec<String>),
+    /// It is being written elsewhere, as by a desk without threads.
+    Elsewhere(Pending),
+}
+
+impl From<Vec<String>> for Exported {
+    fn from(files: Vec<String>) -> Self {
+        Self::Files(files)
+    }
+}
+
+/// A look at what is written elsewhere, once a frame. It hears whether to stop, tells what is being written, and gives in the
+/// end the names of the files, or why there are none.
+pub type Pending =
+    Box<dyn FnMut(&AtomicBool, &dyn Fn(&str)) -> Option<Result<Vec<String>, String>> + Send>;
 
 /// What is exported.
 #[derive(Debug, Clone, Copy)]

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::Ui;
 
 use super::command::Command;
-use super::desk::{Desk, Export};
+use super::desk::{Desk, Export, Exported, Pending};
 use super::document::Document;
 use super::errand::{Errand, Look};
 use super::order::Order;
@@ -31,7 +31,7 @@ impl Parcel {
         desk: &dyn Desk,
         stop: &AtomicBool,
         tell: &dyn Fn(&str),
-    ) -> Result<Vec<String>, String> {
+    ) -> Result<Exported, String> {
         let Document { recipe, edits } = &self.document;
         let breakdown = self.engine.run(recipe, edits).map_err(|error| error.to_string())?;
         let (clip, notes) = (&*self.clip, &*self.notes);
@@ -63,7 +63,18 @@ impl Exporting {
         };
         let stop: Arc<AtomicBool> = Arc::default();
         let stopped = Arc::clone(&stop);
-        let errand = Errand::begin(move || parcel.write(&*desk, &stopped, &tell));
+        let (mut parcel, mut elsewhere) = (Some(parcel), None::<Pending>);
+        let errand = Errand::in_steps(move || {
+            if let Some(look) = &mut elsewhere {
+                return look(&stopped, &tell);
+            }
+            match parcel.take()?.write(&*desk, &stopped, &tell) {
+                Ok(Exported::Elsewhere(pending)) => elsewhere = Some(pending),
+                Ok(Exported::Files(files)) => return Some(Ok(files)),
+                Err(why) => return Some(Err(why)),
+            }
+            None
+        });
         Self { folder, what, stop, errand }
     }
 

@@ -67,7 +67,7 @@ impl Studio {
         let into = self.desk.noted(INTO).filter(|into| !into.trim().is_empty());
         let folder = take.folder(into.as_deref().map(|into| Path::new(into.trim())));
         let order = Order::remembered(&self.desk.noted(EXPORT).unwrap_or_default(), folder);
-        self.order.ask(order, self.desk.always());
+        self.order.ask(order, &*self.desk);
     }
 
     pub(super) fn choose_folder(&mut self) {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::{Button, ComboBox, Grid, Key, TextEdit, Ui};
 
 use super::command::Command;
+use super::desk::Desk;
 use super::order::{CAMERAS, Order};
 use super::words::Words;
 use crate::deliver::FORMATS;
@@ -16,15 +17,18 @@ pub(super) struct OrderPanel {
     pub(super) order: Option<Order>,
     /// Formats that every export has.
     pub(super) always: Vec<&'static str>,
+    /// Whether they go into a folder, and not into an archive.
+    pub(super) has_folders: bool,
     /// The folder as it is typed.
     pub(super) folder: String,
 }
 
 impl OrderPanel {
     /// Asks for an order that begins as this one.
-    pub(super) fn ask(&mut self, order: Order, always: Vec<&'static str>) {
+    pub(super) fn ask(&mut self, order: Order, desk: &dyn Desk) {
         self.folder = order.folder.display().to_string();
-        (self.order, self.always) = (Some(order), always);
+        (self.always, self.has_folders) = (desk.always(), desk.has_names());
+        self.order = Some(order);
     }
 
     /// Takes a folder that was chosen.
@@ -43,12 +47,15 @@ impl OrderPanel {
             camera(ui, order, words);
         });
         ui.horizontal(|ui| {
-            ui.label(words.say("Folder", "フォルダー"));
+            let (what, name) = match self.has_folders {
+                true => (("Folder", "フォルダー"), ("Folder of the export", "書き出すフォルダー")),
+                false => (("Archive", "ZIPの名前"), ("Archive of the export", "書き出すZIPの名前")),
+            };
+            ui.label(words.say(what.0, what.1));
             let field = TextEdit::singleline(&mut self.folder).desired_width(480.0);
-            let name = words.say("Folder of the export", "書き出すフォルダー");
-            ui.add(field).accessible_name(name);
-            if ui.button(words.say("Choose the folder…", "フォルダーを選ぶ…")).clicked()
-            {
+            ui.add(field).accessible_name(words.say(name.0, name.1));
+            let choose = words.say("Choose the folder…", "フォルダーを選ぶ…");
+            if self.has_folders && ui.button(choose).clicked() {
                 commands.push(Command::ChooseFolder);
             }
         });

@@ -14,6 +14,7 @@ pub(super) fn show(
     ui: &mut Ui,
     look: &Look,
     recent: &[PathBuf],
+    has_names: bool,
     words: Words,
     commands: &mut Vec<Command>,
 ) {
@@ -31,7 +32,7 @@ pub(super) fn show(
                 commands.push(Command::Choose);
             }
             let name = words.say("or open one by its name", "またはファイル名で開く");
-            if ui.add(Button::new(name)).clicked() {
+            if has_names && ui.add(Button::new(name)).clicked() {
                 commands.push(Command::OpenFile);
             }
             if !recent.is_empty() {

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use genga::cli::Disk;
 use genga::edits::Edits;
-use genga::studio::{Desk, Export, Opened};
+use genga::studio::{Desk, Export, Exported, Opened};
 
 /// Reads clips from the disk, and has all other files in memory.
 #[derive(Default)]
@@ -61,12 +61,12 @@ impl Desk for Memory {
         folder: &Path,
         export: &Export<'_>,
         tell: &dyn Fn(&str),
-    ) -> Result<Vec<String>, String> {
+    ) -> Result<Exported, String> {
         drop(self.is_writing.lock().unwrap());
         if folder == crate::table::sample("kick-genga") {
             // Nothing is written beside the samples.
             self.exported.lock().unwrap().push(export.edits.clone());
-            return Ok(vec![]);
+            return Ok(vec![].into());
         }
         self.disk.export(folder, export, tell)
     }

@@ -12,7 +12,7 @@ use crate::plot::parts::Posing;
 use crate::sheet::Source;
 use crate::studio::column::Column;
 use crate::studio::command::Seen;
-use crate::studio::desk::{Desk, Export, Opened};
+use crate::studio::desk::{Desk, Export, Exported, Opened};
 use crate::studio::look::Look;
 use crate::studio::on_screen::OnScreen;
 use crate::studio::shown::Shown;
@@ -41,8 +41,8 @@ impl Desk for Samples {
         Ok(())
     }
 
-    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Vec<String>, String> {
-        Ok(vec![])
+    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Exported, String> {
+        Ok(vec![].into())
     }
 }
 

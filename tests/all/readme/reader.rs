@@ -9,12 +9,14 @@ use crate::clips::here;
 /// The test command of the README.
 pub(super) const TESTS: &str = "cargo test --release --locked";
 
-/// Commands that are not run here: they build all anew, or open a window.
-const ELSEWHERE: [&str; 5] = [
+/// Commands that are not run here: they build all anew, open a window, or show a page until they are ended.
+const ELSEWHERE: [&str; 7] = [
     TESTS,
     "cargo install --path . --locked",
     "cargo install --path . --features studio --locked",
     "cargo run --release --locked --features studio -- studio data/kick.bvh",
+    "rustup target add wasm32-unknown-unknown",
+    "tools/browser --serve",
     "env -u WAYLAND_DISPLAY genga studio data/kick.bvh",
 ];
 

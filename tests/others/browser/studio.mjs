@@ -1,19 +1,21 @@
-// A page with the studio on it, and hands for it.
+// A page with the studio on it, and hands for it. What they found is written down for hands that find nothing by name.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { basename } from "node:path";
-
-// Long, for a machine with other work.
-const PATIENCE = 120_000;
+import { basename, parse } from "node:path";
+import { middle, PATIENCE, way } from "./hand.mjs";
 
 export class Studio {
   // Opens the page, and writes down what it asks the network for and what it says.
   static async open(browser, address, options = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: "light", ...options });
+    context.setDefaultTimeout(PATIENCE);
     const page = await context.newPage();
     const studio = new Studio(page);
-    // How long each frame keeps the page busy.
+    // How long each frame keeps the page busy, and what the browser itself calls a long task: 50 ms and more.
     await page.addInitScript(() => {
+      window.long_ms = [];
+      const seen = (tasks) => window.long_ms.push(...tasks.getEntries().map((task) => task.duration));
+      new PerformanceObserver(seen).observe({ entryTypes: ["longtask"] });
       const frame = window.requestAnimationFrame.bind(window);
       window.frames_ms = [];
       window.requestAnimationFrame = (draw) => frame((now) => {
@@ -23,14 +25,19 @@ export class Studio {
       });
     });
     await page.goto(address);
-    await studio.until("the studio is there", () => page.evaluate(() => !document.getElementById("word")));
+    await studio.ready();
     return studio;
+  }
+
+  ready() {
+    return this.until("the studio is there", () => this.page.evaluate(() => !document.getElementById("word")));
   }
 
   constructor(page) {
     this.page = page;
     this.asked = [];
     this.said = [];
+    this.found = [];
     page.on("request", (request) => this.asked.push(request.url()));
     page.on("websocket", (socket) => this.asked.push(socket.url()));
     page.on("console", (message) => {
@@ -50,10 +57,16 @@ export class Studio {
     assert.fail(`${what}: not within ${PATIENCE / 1000} s; title ${await this.page.title()}`);
   }
 
+  // What is on screen, as soon as `look` finds something in it.
+  async find(what, look) {
+    const found = await this.until(`there is ${what}`, async () => look(await this.page.evaluate(() => wasm_bindgen.places())));
+    this.found.push(found);
+    return found;
+  }
+
   // The place of a part of the window, by its name.
   place(name, role) {
-    return this.until(`there is ${name}`, async () => {
-      const places = await this.page.evaluate(() => wasm_bindgen.places());
+    return this.find(name, (places) => {
       const found = places.find((place) => place[0] === name && (!role || place[1] === role));
       return found && { x: found[2], y: found[3], width: found[4], height: found[5] };
     });
@@ -61,25 +74,22 @@ export class Studio {
 
   // The first name on screen that is as expected.
   named(expected) {
-    return this.until(`there is ${expected}`, async () => {
-      const places = await this.page.evaluate(() => wasm_bindgen.places());
-      return places.map((place) => place[0]).find((name) => expected.test(name));
-    });
+    return this.find(expected, (places) => places.map((place) => place[0]).find((name) => expected.test(name)));
   }
 
   async click(name) {
-    const { x, y, width, height } = await this.place(name, "Button");
-    await this.page.mouse.click(x + width / 2, y + height / 2);
+    await this.page.mouse.click(...middle(await this.place(name, "Button")));
   }
 
   async drag(from, to) {
+    const [first, ...others] = way(from, to);
     const { mouse } = this.page;
-    await mouse.move(...from);
+    await mouse.move(...first);
     await this.rest();
     await mouse.down();
     await this.rest();
-    for (const step of [1, 2, 3, 4, 5, 6]) {
-      await mouse.move(from[0] + ((to[0] - from[0]) * step) / 6, from[1] + ((to[1] - from[1]) * step) / 6);
+    for (const place of others) {
+      await mouse.move(...place);
       await this.rest();
     }
     await mouse.up();
@@ -97,14 +107,19 @@ export class Studio {
   }
 
   async drop(file, name = basename(file)) {
+    await this.give(file, name);
+    await this.until(`${name} is on the table`, async () => (await this.page.title()).startsWith(parse(name).name));
+    await this.rest();
+  }
+
+  // Lets go of a file over the page.
+  async give(file, name = basename(file)) {
     const given = await this.page.evaluateHandle(([name, text]) => {
       const given = new DataTransfer();
-      given.items.add(new File([text], name));
+      given.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
       return given;
-    }, [name, readFileSync(file, "latin1")]);
+    }, [name, readFileSync(file, "base64")]);
     await this.page.dispatchEvent("#studio", "drop", { dataTransfer: given });
-    await this.until(`${name} is on the table`, async () => (await this.page.title()).startsWith(name.replace(/\.bvh$/, "")));
-    await this.rest();
   }
 
   // What the browser's storage has of files that end so.

@@ -16,7 +16,7 @@ use crate::cli::results::{OWN, Outcome, Results};
 use crate::cli::{files, paths};
 use crate::deliver::{ClipMark, Run};
 use crate::error::Error;
-use crate::studio::{Desk, Export, Opened};
+use crate::studio::{Desk, Export, Exported, Opened};
 
 /// Files on a disk.
 #[derive(Debug, Default)]
@@ -82,8 +82,9 @@ impl Desk for Disk {
         folder: &Path,
         export: &Export<'_>,
         tell: &dyn Fn(&str),
-    ) -> Result<Vec<String>, String> {
-        self.mark(export.clip).and_then(|mark| written(folder, export, mark, tell)).map_err(said)
+    ) -> Result<Exported, String> {
+        let written = self.mark(export.clip).and_then(|mark| written(folder, export, mark, tell));
+        written.map(Exported::from).map_err(said)
     }
 
     fn choose(&self) -> Option<PathBuf> {
