@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { setTimeout as wait } from "node:timers/promises";
 import { middle, PATIENCE, way } from "./hand.mjs";
 import { tour } from "./tour.mjs";
@@ -76,7 +76,7 @@ try {
   const ids = await window.until("the window is there with its clip", () => {
     assert.equal(studio.exitCode, null, "the window closed");
     try {
-      return execFileSync("xdotool", ["search", "--onlyvisible", "--name", "genga.*–|–.*genga"], { encoding: "utf8" });
+      return execFileSync("xdotool", ["search", "--onlyvisible", "--name", `${basename(window.beside)}.*genga`], { encoding: "utf8" });
     } catch {
       return "";
     }
