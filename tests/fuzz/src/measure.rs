@@ -48,7 +48,10 @@ pub fn measured<T>(size: usize, Bound { most, unit }: Bound, call: impl FnOnce()
     let result = call();
     let micros = start.elapsed().as_micros() as u64;
     let taken = PEAK.load(Relaxed) - before;
-    assert!(taken <= most, "{taken} bytes of memory for an input of {size}, and {most} are allowed");
+    assert!(
+        taken <= most,
+        "{taken} bytes of memory for an input of {size}, and {most} are allowed"
+    );
     if SLOWEST.fetch_max(micros, Relaxed) < micros {
         eprintln!("slowest: {micros} us for {size} bytes");
     }
