@@ -2,9 +2,9 @@
 
 use crate::deliver::sheet_json;
 use crate::error::Error;
-use crate::motion::{is_vmd, vmd_key_frames};
+use crate::motion::{Clip, is_vmd, vmd_key_frames};
 use crate::sheet::Role;
-use crate::time::{Frame, FrameRate};
+use crate::time::Frame;
 
 /// Frames a second of every VMD.
 const VMD_RATE: f64 = 30.0;
@@ -23,17 +23,17 @@ const FRAMES: [&str; 2] = ["source_frame", "frame"];
 /// `source_frame`, of which the rows with a `role` other than genga do not count; a list of frames, one
 /// a line, in which `#` begins a comment.
 ///
-/// Of a motion of MMD (.vmd) they are the frames on which a bone of the body has a key, at 30 a second; `rate` is that of
-/// the clip whose frames are meant.
+/// Of a motion of MMD (.vmd) they are the frames on which a bone of the body has a key, at 30 a second, of which the
+/// first, 0, is the first frame of the `clip`.
 ///
 /// They come sorted, each once. A fractional frame counts as the nearest.
 ///
 /// # Errors
 /// [`Error::Sheet`] with line and column where a frame is no number, where there is no such column, and
 /// where there is no key at all.
-pub fn reference_keys(bytes: &[u8], rate: FrameRate) -> Result<Vec<Frame>, Error> {
+pub fn reference_keys(bytes: &[u8], clip: &Clip) -> Result<Vec<Frame>, Error> {
     if is_vmd(bytes) {
-        return of_vmd(bytes, rate);
+        return of_vmd(bytes, clip);
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|_| {
@@ -54,7 +54,7 @@ pub fn reference_keys(bytes: &[u8], rate: FrameRate) -> Result<Vec<Frame>, Error
 }
 
 /// The keys of an animator. Where nearly every frame has one they are none: that motion was captured, or baked.
-fn of_vmd(bytes: &[u8], rate: FrameRate) -> Result<Vec<Frame>, Error> {
+fn of_vmd(bytes: &[u8], clip: &Clip) -> Result<Vec<Frame>, Error> {
     let keyed = vmd_key_frames(bytes)?;
     let span = keyed.last().zip(keyed.first()).map_or(0, |(last, first)| last - first + 1);
     if span >= SHORT && keyed.len() as f64 >= BAKED * f64::from(span) {
@@ -63,7 +63,8 @@ fn of_vmd(bytes: &[u8], rate: FrameRate) -> Result<Vec<Frame>, Error> {
             keyed.len()
         )));
     }
-    let in_clip = |frame: u32| Frame((f64::from(frame) * rate.fps() / VMD_RATE).round() as usize);
+    let since = |frame: u32| (f64::from(frame) * clip.rate().fps() / VMD_RATE).round() as usize;
+    let in_clip = |frame: u32| Frame(clip.first().0 + since(frame));
     let mut frames: Vec<Frame> = keyed.into_iter().map(in_clip).collect();
     frames.dedup();
     if frames.is_empty() {
@@ -132,17 +133,25 @@ fn no_frame(line: usize, column: usize, text: &str) -> Error {
 mod tests {
     use super::*;
     use crate::deliver::{VmdKey, VmdMotion};
+    use crate::motion::Skeleton;
+    use crate::time::FrameRate;
 
-    fn rate() -> FrameRate {
-        FrameRate::new(24.0).unwrap()
+    /// A clip of 24 frames a second.
+    fn clip(first: usize) -> Clip {
+        let rate = FrameRate::new(24.0).unwrap();
+        Clip::new(Skeleton::default(), rate, Frame(first), 60, vec![]).unwrap()
     }
 
     fn keys(text: &str) -> Vec<usize> {
-        reference_keys(text.as_bytes(), rate()).unwrap().into_iter().map(|frame| frame.0).collect()
+        reference_keys(text.as_bytes(), &clip(0))
+            .unwrap()
+            .into_iter()
+            .map(|frame| frame.0)
+            .collect()
     }
 
     fn refused(text: &str) -> String {
-        reference_keys(text.as_bytes(), rate()).unwrap_err().to_string()
+        reference_keys(text.as_bytes(), &clip(0)).unwrap_err().to_string()
     }
 
     #[test]
@@ -182,9 +191,11 @@ mod tests {
 
     #[test]
     fn keyed_frames_of_an_mmd_motion_are_keys_in_the_clips_own_frames() {
-        let found = reference_keys(&vmd([0, 10, 30, 55].into_iter()), rate()).unwrap();
-        assert_eq!(found, [0, 8, 24, 44].map(Frame));
-        let baked = reference_keys(&vmd(0..40), rate()).unwrap_err().to_string();
+        let animated = vmd([0, 10, 30, 55].into_iter());
+        let found = |first: usize| reference_keys(&animated, &clip(first)).unwrap();
+        assert_eq!(found(0), [0, 8, 24, 44].map(Frame));
+        assert_eq!(found(5), [5, 13, 29, 49].map(Frame), "it begins where the clip does");
+        let baked = reference_keys(&vmd(0..40), &clip(0)).unwrap_err().to_string();
         assert!(baked.starts_with("40 of its 40 frames have a key"), "{baked}");
     }
 
@@ -194,7 +205,10 @@ mod tests {
             assert_eq!(refused(nothing), "there is no key in it", "{nothing:?}");
         }
         assert!(
-            reference_keys(&[0xff, 0xfe, 0x31], rate()).unwrap_err().to_string().contains("UTF-8")
+            reference_keys(&[0xff, 0xfe, 0x31], &clip(0))
+                .unwrap_err()
+                .to_string()
+                .contains("UTF-8")
         );
         assert!(refused("{\"schema\": \"other\"}").contains("schema"));
     }

@@ -8,6 +8,9 @@ const TIMES: f64 = 2.0;
 /// And when it is so far, in % of body height: a jerk of a finger is none.
 const FAR: f64 = 1.0;
 
+/// Slower than this, in % of body height a koma, a body stands: so much do single floats tremble.
+const STANDS: f64 = 1e-3;
+
 /// A drawing on screen for more koma than this is a hold, as in the table of drawings.
 const HOLD: usize = 3;
 
@@ -22,7 +25,7 @@ pub struct Pop {
     /// How far the body goes there, in % of its height (root mean square over its points).
     pub step: f64,
     /// How many times as far that is as the body goes in the time of the hold at the middle one of the
-    /// speeds round it.
+    /// speeds round it; infinite, in JSON `null`, where the body stands still round it.
     pub times: f64,
 }
 
@@ -65,7 +68,7 @@ impl Pops {
                 continue;
             };
             let even = round * exposures[at] as f64;
-            let times = if even > 0.0 { step / even } else { f64::INFINITY };
+            let times = if round > STANDS { step / even } else { f64::INFINITY };
             if times >= TIMES && *step >= FAR {
                 found.pops.push(Pop { koma: ends[at], step: *step, times });
             }
@@ -73,9 +76,10 @@ impl Pops {
         found
     }
 
-    /// The pop that stands out most; none without one.
+    /// The pop that stands out most, of those out of stillness the furthest; none without one.
     pub fn worst(&self) -> Option<Pop> {
-        self.pops.iter().copied().reduce(|a, b| if b.times > a.times { b } else { a })
+        let outdoes = |b: &Pop, a: &Pop| (b.times, b.step) > (a.times, a.step);
+        self.pops.iter().copied().reduce(|a, b| if outdoes(&b, &a) { b } else { a })
     }
 }
 
@@ -99,6 +103,13 @@ mod tests {
         assert_eq!(pops.holds, 1);
         assert_eq!(pops.pops, [Pop { koma: 8, step: 12.0, times: 3.0 }]);
         assert_eq!(pops.worst().unwrap().koma, 8);
+        let stillness = Pops::of(&exposures, &[0.0, 1e-9, 12.0, 1e-12, 0.0], 24.0);
+        assert_eq!(stillness.pops, [Pop { koma: 8, step: 12.0, times: f64::INFINITY }]);
+        let dust = Pops {
+            holds: 2,
+            pops: [3.0, 9.0].map(|step| Pop { step, ..stillness.pops[0] }).into(),
+        };
+        assert_eq!(dust.worst().unwrap().step, 9.0, "the furthest of those out of stillness");
         assert!(Pops::of(&exposures, &[5.0; 5], 24.0).pops.is_empty(), "slower than all round it");
         assert!(Pops::of(&exposures, &[0.2, 0.2, 0.9, 0.2, 0.2], 24.0).pops.is_empty(), "dust");
     }

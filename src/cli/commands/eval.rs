@@ -58,9 +58,9 @@ pub(super) fn run(args: &EvalArgs, words: &Words) -> Result<(), Failure> {
     let of_sheet = files::fault_of(&args.sheet);
     let file = sheet_json::read(&files::read(&args.sheet)?).map_err(&of_sheet)?;
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
-    let rate = motion.source.rate();
-    let keys =
-        |path: &PathBuf| reference_keys(&files::read(path)?, rate).map_err(files::fault_of(path));
+    let keys = |path: &PathBuf| {
+        reference_keys(&files::read(path)?, &motion.source).map_err(files::fault_of(path))
+    };
     let reference = args.reference.as_ref().map(keys).transpose()?;
     if motion.drawn.is_some() {
         words.say("the sheet is of an exaggerated motion, and is judged beside that: it is the source here");
@@ -157,7 +157,11 @@ fn pops(found: &Evaluation) -> String {
         None => of,
         Some(pop) => {
             let koma = pop.koma + 1;
-            format!("{of}, the worst at koma {koma}, {:.1} times the speed round it", pop.times)
+            let times = match pop.times.is_finite() {
+                true => format!("{:.1} times the speed round it", pop.times),
+                false => "out of stillness".into(),
+            };
+            format!("{of}, the worst at koma {koma}, {times}")
         }
     }
 }
