@@ -102,10 +102,7 @@ impl Desk for Disk {
     fn clips_in(&self, folder: &Path) -> Vec<PathBuf> {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
         let paths = entries.map(|entry| entry.path());
-        let is_clip = |path: &PathBuf| {
-            let ending = path.extension();
-            ending.is_some_and(|ending| ending.eq_ignore_ascii_case("bvh")) && path.is_file()
-        };
+        let is_clip = |path: &PathBuf| paths::is_motion(path) && path.is_file();
         let mut clips: Vec<PathBuf> = paths.filter(is_clip).collect();
         clips.sort();
         clips
@@ -230,6 +227,19 @@ impl Recent {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_offers_the_clips_of_every_format_and_nothing_else() {
+        let place = tempfile::tempdir().unwrap();
+        let files = ["b.FBX", "a.bvh", "c.vmd", "d.glb", "e.amc", "f.asf", "g.toml", "h", "i.vrma"];
+        for file in files {
+            fs::write(place.path().join(file), "").unwrap();
+        }
+        fs::create_dir(place.path().join("folder.bvh")).unwrap();
+        let offered = Disk::default().clips_in(place.path());
+        let names: Vec<_> = offered.iter().filter_map(|clip| clip.file_name()?.to_str()).collect();
+        assert_eq!(names, ["a.bvh", "b.FBX", "c.vmd", "d.glb", "e.amc", "i.vrma"]);
+    }
 
     #[test]
     fn the_newest_comes_first_and_what_is_gone_is_not_offered() {
