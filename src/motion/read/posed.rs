@@ -24,6 +24,9 @@ const STILL: f64 = 2e-6;
 /// Bytes of a joint in a frame while a clip is made: how it stands, and its row.
 const POSE: u64 = 104;
 
+/// A frame takes the time of so many joints, however few it has: a take of days is refused.
+const LEAST_JOINTS: u64 = 5;
+
 /// How a node stands: in the world, or on its parent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stand {
@@ -238,7 +241,8 @@ fn check_size(bones: usize, frames: usize, options: &Options) -> Result<(), Erro
     if bones == 0 || frames == 0 {
         return wrong("there is no joint that moves: there is no motion".into());
     }
-    let bytes = (bones as u64).saturating_mul(frames as u64).saturating_mul(POSE);
+    let of_frame = POSE * LEAST_JOINTS.max(bones as u64);
+    let bytes = of_frame.saturating_mul(frames as u64);
     if bytes <= options.stream.bytes {
         return Ok(());
     }

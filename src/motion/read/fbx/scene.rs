@@ -40,8 +40,9 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let frames = rates::frames(end - begin, rate);
     let joints = joints(&scene, &curves);
     let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
+    let carrying = carrying(&scene, &joints);
     let stand = |frame: usize, stands: &mut [DAffine3]| {
-        place(&scene, stack, begin + frame as f64 / rate.fps(), &mut world);
+        place(&scene, stack, &carrying, begin + frame as f64 / rate.fps(), &mut world);
         stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = world[*node]);
     };
     let (clip, named) = Posed::of(bones(&scene, &joints), frames, options, stand)
@@ -176,9 +177,22 @@ fn id(node: &Node) -> usize {
     node.element.typed_id as usize
 }
 
-/// Where every node stands at an instant.
-fn place(scene: &Scene, stack: &AnimStack, time: f64, world: &mut [DAffine3]) {
-    for (at, node) in scene.nodes.into_iter().enumerate() {
+/// The joints and all that carries them, parents first: a scene may have thousands of other nodes.
+fn carrying(scene: &Scene, joints: &[(usize, Option<usize>)]) -> Vec<usize> {
+    let mut is_needed = vec![false; scene.nodes.count];
+    joints.iter().for_each(|(node, _)| is_needed[*node] = true);
+    for node in (0..is_needed.len()).rev() {
+        if let (true, Some(parent)) = (is_needed[node], scene.nodes[node].parent.as_ref()) {
+            is_needed[id(parent)] = true;
+        }
+    }
+    (0..is_needed.len()).filter(|node| is_needed[*node]).collect()
+}
+
+/// Where some nodes stand at an instant.
+fn place(scene: &Scene, stack: &AnimStack, nodes: &[usize], time: f64, world: &mut [DAffine3]) {
+    for &at in nodes {
+        let node = &scene.nodes[at];
         let own = match node.is_root {
             true => affine(&node.node_to_parent),
             false => local(&ufbx::evaluate_transform(&stack.anim, node, time)),

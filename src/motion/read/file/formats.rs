@@ -80,7 +80,16 @@ pub const FORMATS: &[Format] = &[
         has_curves: false,
         has_skeleton_file: false,
         begins: is_points,
-        read: |_, _| Err(points()),
+        read: |_, _| Err(refused(POINTS)),
+    },
+    Format {
+        name: "PMX, PMD",
+        endings: &[],
+        holds: "a model of MMD, which has no motion: it is refused, and goes with a VMD",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: |head| head.starts_with(b"PMX ") || head.starts_with(b"Pmd"),
+        read: |_, _| Err(refused(MODEL)),
     },
 ];
 
@@ -118,8 +127,14 @@ fn is_points(head: &[u8]) -> bool {
         || matches!(head, [2..=10, 0x50, _, _, ..]) && head.len() >= 512
 }
 
-fn points() -> Error {
-    let message = "these are the paths of markers and no skeleton: solve them in the program of the capture, and give what it \
-                   exports with joints (BVH, FBX, glTF, AMC)";
+/// What is said of markers.
+const POINTS: &str = "these are the paths of markers and no skeleton: solve them in the program of the capture, and give what \
+                      it exports with joints (BVH, FBX, glTF, AMC)";
+
+/// What is said of a model.
+const MODEL: &str =
+    "this is a model of MMD and no motion: give a motion for it (.vmd), and this with --skeleton";
+
+fn refused(message: &str) -> Error {
     Error::Motion { place: Place::Whole, message: message.into() }
 }

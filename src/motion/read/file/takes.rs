@@ -17,6 +17,9 @@ pub struct Take {
 /// Names at the most in a sentence.
 const MOST: usize = 12;
 
+/// What some programs put between the armature and the name of its take: `Armature|Walk`.
+const OF: char = '|';
+
 /// The take that is read: the one asked for, else the first in which a joint moves. Where there are several and none
 /// was asked for, the warning says so. `None` where the file has none.
 ///
@@ -28,7 +31,7 @@ pub(in crate::motion::read) fn choose(
 ) -> Result<Option<(usize, Option<Warning>)>, Error> {
     check(asked, takes)?;
     if let Some(name) = asked {
-        return Ok(takes.iter().position(|take| take.name == name).map(|at| (at, None)));
+        return Ok(find(name, takes).map(|at| (at, None)));
     }
     let Some(at) = takes.iter().position(|take| take.moves).or((!takes.is_empty()).then_some(0))
     else {
@@ -46,9 +49,17 @@ pub(in crate::motion::read) fn choose(
     Ok(Some((at, warning)))
 }
 
+/// The take of that name, or the only one that is called so behind its armature.
+fn find(name: &str, takes: &[Take]) -> Option<usize> {
+    let is_behind = |take: &Take| take.name.rsplit_once(OF).is_some_and(|(_, own)| own == name);
+    let mut behind = takes.iter().enumerate().filter(|(_, take)| is_behind(take));
+    let only = behind.next().filter(|_| behind.next().is_none());
+    takes.iter().position(|take| take.name == name).or(only.map(|(at, _)| at))
+}
+
 /// Refuses a take that is not there.
 pub(super) fn check(asked: Option<&str>, takes: &[Take]) -> Result<(), Error> {
-    let Some(name) = asked.filter(|name| takes.iter().all(|take| take.name != **name)) else {
+    let Some(name) = asked.filter(|name| find(name, takes).is_none()) else {
         return Ok(());
     };
     let message = match takes {

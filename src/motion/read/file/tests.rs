@@ -63,6 +63,23 @@ fn the_first_take_that_moves_is_read_and_the_others_are_told() {
 }
 
 #[test]
+fn what_is_no_motion_is_refused_with_the_way_out() {
+    let said = |bytes: &[u8]| Options::default().read(bytes).unwrap_err().to_string();
+    assert!(said(b"PMX \0\0\0\x40").contains("--skeleton"), "{}", said(b"PMX "));
+    assert!(said(b"Pmd\0\0\x80\x3f").contains("--skeleton"));
+    assert!(said(b"PathFileType\t4").starts_with("these are the paths of markers"));
+}
+
+#[test]
+fn a_take_is_found_without_its_armature_where_only_one_is_called_so() {
+    let all = [take("Rig|Walk", true), take("Rig|Run", true), take("Cape|Run", true)];
+    let found = |name| takes::choose(Some(name), &all).map(|found| found.map(|(at, _)| at));
+    assert_eq!(found("Walk").unwrap(), Some(0));
+    assert_eq!(found("Cape|Run").unwrap(), Some(2));
+    assert!(found("Run").unwrap_err().to_string().contains("there is no take \"Run\""));
+}
+
+#[test]
 fn a_neighbour_lies_in_the_folder_or_below_it() {
     let place = tempfile::tempdir().unwrap();
     let at = |name: &str| place.path().join(name);
