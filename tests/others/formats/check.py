@@ -1,6 +1,7 @@
 """python check.py FOLDER NAME…: of each clip the key tables and the whole motion, from BVH, FBX and GLB, side by side.
 
-FOLDER has NAME.FORMAT.csv, the keys, and NAME.FORMAT, the motion as BVH in parts.
+FOLDER has NAME.FORMAT.csv, the keys, and NAME.FORMAT, the motion as BVH in parts. Of MMD's 30 frames a second there are
+NAME.vmd.csv and NAME-30.bvh.csv.
 """
 
 import csv
@@ -121,5 +122,14 @@ def check(folder, name):
         assert score >= LEAST_F1, f"{name}.{ending}: F1 of its keys is {score:.3f}"
 
 
+def check_mmd(folder, name):
+    asked, own = keys(folder / f"{name}-30.bvh.csv"), keys(folder / f"{name}.bvh.csv")
+    found = keys(folder / f"{name}.vmd.csv")
+    score = f1(found, asked)
+    print(f"{name}.vmd: F1 {score:.3f} of {len(asked)} keys, {f1(found, own):.3f} beside the file's own frames")
+    assert score >= LEAST_F1, f"{name}.vmd: F1 of its keys is {score:.3f}"
+
+
 for name in sys.argv[2:]:
+    check_mmd(Path(sys.argv[1]), name)
     check(Path(sys.argv[1]), name)

@@ -1,17 +1,44 @@
-"""python make.py FOLDER CLIP.bvh…: each clip as Blender imports it and writes it again, an FBX and a GLB."""
+"""python make.py FOLDER CLIP.bvh…: each clip as Blender imports it and writes it again, an FBX and a GLB.
+
+MMD has 30 frames a second. So Blender takes each curve at these instants too, and of that take a BVH and a VMD are made,
+with Y up as in the clip.
+"""
 
 import sys
 from pathlib import Path
 
 import bpy
 
+import mmd
+
+
+def resample(scene, action):
+    """Puts the curves of an action on frames from 0 on, 30 a second."""
+    first, step = scene.frame_start, scene.render.fps / scene.render.fps_base / mmd.RATE
+    frames = range(int((scene.frame_end - first) / step + 1e-6) + 1)
+    for curve in action.fcurves:
+        values = [curve.evaluate(first + step * frame) for frame in frames]
+        curve.keyframe_points.clear()
+        curve.keyframe_points.add(len(frames))
+        curve.keyframe_points.foreach_set("co", [x for pair in zip(frames, values) for x in pair])
+        curve.update()
+    scene.render.fps, scene.render.fps_base = mmd.RATE, 1.0
+    scene.frame_start, scene.frame_end = 0, len(frames) - 1
+
+
+def opened(clip, **axes):
+    """The scene of a clip alone, its length and its armature."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_anim.bvh(filepath=str(clip), global_scale=0.01, update_scene_fps=True, **axes)
+    first, last = map(round, bpy.context.object.animation_data.action.frame_range)
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = first, last
+    return scene, bpy.context.object
+
+
 folder = Path(sys.argv[1])
 for clip in map(Path, sys.argv[2:]):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.import_anim.bvh(filepath=str(clip), global_scale=0.01, update_scene_fps=True)
-    scene = bpy.context.scene
-    first, last = bpy.context.object.animation_data.action.frame_range
-    scene.frame_start, scene.frame_end = round(first), round(last)
+    opened(clip)
     bpy.ops.export_scene.fbx(
         filepath=str(folder / f"{clip.stem}.fbx"),
         bake_anim_simplify_factor=0.0,
@@ -25,3 +52,8 @@ for clip in map(Path, sys.argv[2:]):
         # Tips of bones, which its FBX has without being asked.
         export_leaf_bone=True,
     )
+    scene, armature = opened(clip, axis_forward="Y", axis_up="Z")
+    resample(scene, armature.animation_data.action)
+    frames = {"frame_start": scene.frame_start, "frame_end": scene.frame_end}
+    bpy.ops.export_anim.bvh(filepath=str(folder / f"{clip.stem}-30.bvh"), global_scale=100.0, **frames)
+    mmd.write(folder, clip.stem, scene, armature)

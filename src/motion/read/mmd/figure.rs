@@ -117,5 +117,5 @@ fn fingers(bones: &mut Vec<RestBone>, side: &str, across: DVec3) {
 
 fn hang(bones: &mut Vec<RestBone>, name: String, parent: &str, place: DVec3) {
     let parent = bones.iter().position(|bone| bone.name == parent);
-    bones.push(RestBone { name, parent, place });
+    bones.push(RestBone { name, parent, place, tip: None });
 }

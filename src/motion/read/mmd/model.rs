@@ -29,6 +29,8 @@ pub(super) struct ModelBone {
     pub(super) depth: usize,
     /// Where it begins at rest, in MMD units; +X is left, +Y up, +Z in front, as in BVH.
     pub(super) place: DVec3,
+    /// From there to where it ends (接続先), where the model says so.
+    pub(super) tip: Option<DVec3>,
 }
 
 /// An IK, which turns the bones it links.
@@ -108,6 +110,15 @@ struct RawBone {
     parent: Option<usize>,
     parent_at: usize,
     place: DVec3,
+    tail: Tail,
+}
+
+/// Where a bone ends (接続先).
+enum Tail {
+    /// At another bone.
+    Bone(Option<usize>),
+    /// So far from where it begins.
+    Way(DVec3),
 }
 
 /// The model of what was read.
@@ -122,11 +133,21 @@ fn built(name: String, raw: Vec<RawBone>, ik: Vec<Ik>) -> Result<MmdModel, Error
     let depths = depths(&parents).map_err(|ring| {
         damaged(raw[ring].parent_at, format!("bone {} hangs on itself", raw[ring].name))
     })?;
-    let bones = raw.into_iter().zip(depths).map(|(bone, depth)| {
+    let tips: Vec<Option<DVec3>> = raw.iter().map(|bone| tip(bone, &raw)).collect();
+    let bones = raw.into_iter().zip(depths).zip(tips).map(|((bone, depth), tip)| {
         let RawBone { name, parent, place, .. } = bone;
-        ModelBone { name, parent, depth, place }
+        ModelBone { name, parent, depth, place, tip }
     });
     Ok(MmdModel { name, bones: bones.collect(), ik })
+}
+
+/// The way to the end of a bone; none where it ends at the first bone, which in a PMD stands for none, or where it begins.
+fn tip(bone: &RawBone, all: &[RawBone]) -> Option<DVec3> {
+    let way = match bone.tail {
+        Tail::Way(way) => way,
+        Tail::Bone(end) => all.get(end.filter(|end| *end > 0)?)?.place - bone.place,
+    };
+    (way.is_finite() && way != DVec3::ZERO).then_some(way)
 }
 
 /// How many bones are above each, or a bone of a ring.

@@ -17,12 +17,16 @@ const MOVES: [Channel; 3] =
 const TURNS: [Channel; 3] =
     [Channel::Rotation(Axis::Z), Channel::Rotation(Axis::X), Channel::Rotation(Axis::Y)];
 
-/// The bones of a rig as joints.
+/// The bones of a rig as joints, the spine on the pelvis as in a capture: in MMD both hang side by side on what carries
+/// the body, so that a body that turns would turn twice.
 struct Joints {
     skeleton: Skeleton,
     /// The bone of each joint, and the one of the joint before it.
     bones: Vec<(usize, Option<usize>)>,
 }
+
+/// Pelvis and spine.
+const TRUNK: [&str; 2] = ["下半身", "上半身"];
 
 /// The clip of a motion, from frame 0 to its last key.
 ///
@@ -55,16 +59,22 @@ pub(super) fn clip(motion: &Motion, rig: &Rig, rate: FrameRate, most: u64) -> Re
 
 impl Joints {
     fn of(rig: &Rig) -> Self {
+        let carriers = carriers(rig);
         let mut at = vec![None; rig.bones.len()];
         let (mut joints, mut bones, mut first_channel) = (Vec::new(), Vec::new(), 0);
-        for (index, bone) in rig.bones.iter().enumerate().filter(|(_, bone)| !bone.is_target) {
-            let parent = |bone: &usize| rig.bones[*bone].rest.parent;
-            let before = std::iter::successors(bone.rest.parent, parent)
-                .find(|parent| at[*parent].is_some());
+        for index in order(&carriers).into_iter().filter(|bone| !rig.bones[*bone].is_target) {
+            let bone = &rig.bones[index];
+            let carrier = |bone: &usize| carriers[*bone];
+            let before = std::iter::successors(carriers[index], carrier)
+                .find(|carrier| at[*carrier].is_some());
             let offset =
                 bone.rest.place - before.map_or(DVec3::ZERO, |before| rig.bones[before].rest.place);
-            let moves =
-                before.is_none() || bone.keys.iter().any(|key| key.translation != DVec3::ZERO);
+            let is_hung = carriers[index] != bone.rest.parent;
+            let pelvis = before.filter(|_| is_hung).map(|before| &rig.bones[before]);
+            let is_apart = |pelvis: &RigBone| {
+                offset != DVec3::ZERO || pelvis.rest.parent != bone.rest.parent || goes(pelvis)
+            };
+            let moves = before.is_none() || goes(bone) || pelvis.is_some_and(is_apart);
             let channels: Vec<Channel> = MOVES.into_iter().filter(|_| moves).chain(TURNS).collect();
             let tips = rig.tips.iter().filter(|(tip, _)| *tip == index);
             let tip = |(_, way): &(usize, DVec3)| EndSite {
@@ -100,6 +110,42 @@ impl Joints {
             set_local_rotation(joint, (carrier.inverse() * stage.turns[*bone]).normalize(), row);
         }
     }
+}
+
+/// Less than this, in units of MMD, is the noise of single floats and no way.
+const NOISE: f64 = 1e-3;
+
+/// Whether keys move a bone from its place.
+fn goes(bone: &RigBone) -> bool {
+    bone.keys.iter().any(|key| key.translation.length() > NOISE)
+}
+
+/// The bone that carries each: the one it hangs on, and of the spine the pelvis.
+fn carriers(rig: &Rig) -> Vec<Option<usize>> {
+    let mut carriers: Vec<Option<usize>> = rig.bones.iter().map(|bone| bone.rest.parent).collect();
+    let [pelvis, spine] = TRUNK.map(|name| rig.find(name));
+    if let (Some(pelvis), Some(spine)) = (pelvis, spine) {
+        let above = |bone: &usize| rig.bones[*bone].rest.parent;
+        if std::iter::successors(Some(pelvis), above).all(|bone| bone != spine) {
+            carriers[spine] = Some(pelvis);
+        }
+    }
+    carriers
+}
+
+/// All of them, each before what it carries and that before the next: as a tree is written.
+fn order(carriers: &[Option<usize>]) -> Vec<usize> {
+    let mut carried = vec![Vec::new(); carriers.len()];
+    let mut open = Vec::new();
+    for (bone, carrier) in carriers.iter().enumerate().rev() {
+        carrier.map_or(&mut open, |carrier| &mut carried[carrier]).push(bone);
+    }
+    let mut order = Vec::with_capacity(carriers.len());
+    while let Some(bone) = open.pop() {
+        order.push(bone);
+        open.append(&mut carried[bone]);
+    }
+    order
 }
 
 /// The bones in the world at a frame.

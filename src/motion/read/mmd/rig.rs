@@ -19,6 +19,8 @@ pub(super) struct RestBone {
     pub(super) parent: Option<usize>,
     /// In units of MMD; +X is left, +Y up, +Z in front.
     pub(super) place: DVec3,
+    /// From there to where it ends, where a model says so.
+    pub(super) tip: Option<DVec3>,
 }
 
 /// A bone with its keys.
@@ -85,7 +87,8 @@ impl Rig {
         rig
     }
 
-    fn find(&self, name: &str) -> Option<usize> {
+    /// A bone by its name.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
         self.bones.iter().position(|bone| bone.rest.name == name)
     }
 
@@ -124,29 +127,46 @@ fn of_model(model: &MmdModel) -> Vec<RestBone> {
     let rest = |bone: &usize| {
         let bone = &model.bones[*bone];
         let parent = bone.parent.map(|parent| places[parent]);
-        RestBone { name: bone.name.clone(), parent, place: bone.place }
+        RestBone { name: bone.name.clone(), parent, place: bone.place, tip: bone.tip }
     };
     order.iter().map(rest).collect()
 }
 
-/// Where hands, feet and head end: at the next bone that is no joint here, or as far as is usual.
+/// The shortest way to an end that is believed: programs leave bones that end a hair from where they begin.
+const SHORTEST: f64 = 0.1;
+
+/// Where joints end that carry none: hands and feet at the next bone, else all as the model says; without its word hands,
+/// feet and head as far as is usual.
 fn tips(rig: &Rig, all: &[RestBone]) -> Vec<(usize, DVec3)> {
     const HEAD: DVec3 = DVec3::new(0.0, 2.4, 0.0);
     const FOOT: DVec3 = DVec3::new(0.0, -1.3, 1.4);
-    let place = |name: String| all.iter().find(|bone| bone.name == name).map(|bone| bone.place);
-    let way = |from: &str, to: String| Some(place(to)? - place(from.to_owned())?);
-    let mut tips: Vec<(&str, Option<DVec3>)> = vec![("頭", Some(HEAD))];
-    for (wrist, elbow, finger) in
-        [("左手首", "左ひじ", "左中指１"), ("右手首", "右ひじ", "右中指１")]
-    {
-        let along = way(elbow, wrist.to_owned()).map(|forearm| 0.4 * forearm);
-        tips.push((wrist, way(wrist, finger.to_owned()).or(along)));
-    }
-    for (ankle, toes) in [("左足首", "左つま先"), ("右足首", "右つま先")] {
-        let toes = way(ankle, toes.to_owned()).or_else(|| way(ankle, format!("{toes}ＩＫ")));
-        tips.push((ankle, toes.or(Some(FOOT))));
-    }
-    tips.into_iter().filter_map(|(bone, way)| Some((rig.find(bone)?, way?))).collect()
+    let place = |name: &str| all.iter().find(|bone| bone.name == name).map(|bone| bone.place);
+    let way = |from: &str, to: &str| Some(place(to)? - place(from)?);
+    let usual = |bone: &RestBone| -> (Option<DVec3>, Option<DVec3>) {
+        let name = bone.name.as_str();
+        let sided = |own: &str| format!("{}{own}", name.chars().next().unwrap_or_default());
+        match name.trim_start_matches(['左', '右']) {
+            "頭" => (None, Some(HEAD)),
+            "手首" => {
+                let along = way(&sided("ひじ"), name).map(|forearm| 0.4 * forearm);
+                (way(name, &sided("中指１")), along)
+            }
+            "足首" => {
+                let toes = way(name, &sided("つま先"));
+                (toes.or_else(|| way(name, &sided("つま先ＩＫ"))), Some(FOOT))
+            }
+            _ => (None, None),
+        }
+    };
+    let mut carries = vec![false; rig.bones.len()];
+    let joints = || rig.bones.iter().enumerate().filter(|(_, bone)| !bone.is_target);
+    joints().filter_map(|(_, bone)| bone.rest.parent).for_each(|parent| carries[parent] = true);
+    let tip = |(at, bone): (usize, &RigBone)| {
+        let (next, usual) = usual(&bone.rest);
+        let said = bone.rest.tip.filter(|way| way.length() >= SHORTEST);
+        Some((at, next.or(said).or(usual)?))
+    };
+    joints().filter(|(at, _)| !carries[*at]).filter_map(tip).collect()
 }
 
 /// A name as a motion has it.

@@ -171,6 +171,84 @@ fn a_model_says_where_bones_are_and_a_stranger_is_told() {
     assert!(options.read(&bvh).unwrap_err().to_string().starts_with("skeleton: BVH has its bones"));
 }
 
+/// Joints as names with what they hang on.
+fn tree(clip: &Clip) -> Vec<(&str, Option<&str>)> {
+    let joints = &clip.skeleton().joints;
+    let parent = |at: crate::motion::JointId| joints[at.0].name.as_str();
+    joints.iter().map(|joint| (joint.name.as_str(), joint.parent.map(parent))).collect()
+}
+
+#[test]
+fn the_spine_hangs_on_the_pelvis_and_stays_where_mmd_has_it() {
+    let quarter = [0.5f32.sqrt(), 0.0, 0.0, 0.5f32.sqrt()];
+    let clip = read(&file(&[("下半身", 0, STILL, quarter, LINEAR)], &[])).unwrap().clip;
+    let hung = tree(&clip);
+    assert_eq!(hung[..2], [("センター", None), ("下半身", Some("センター"))]);
+    assert!(hung.contains(&("上半身", Some("下半身"))), "{hung:?}");
+    for pair in hung.windows(2) {
+        let mut up = std::iter::successors(Some(pair[0].0), |name| {
+            hung.iter().find(|(own, _)| own == name).and_then(|(_, parent)| *parent)
+        });
+        assert!(
+            up.any(|name| pair[1].1 == Some(name)),
+            "a tree is written branch by branch: {hung:?}"
+        );
+    }
+    let neck = place(&clip, "首", 0);
+    assert!(neck.abs_diff_eq(DVec3::new(0.0, 16.4, 0.0), 1e-9), "only the pelvis turns: {neck}");
+    assert!(place(&clip, "左ひざ", 0).z.abs() > 4.0, "and the legs with it");
+}
+
+#[test]
+fn a_spine_that_begins_elsewhere_than_the_pelvis_keeps_its_place() {
+    let bones = vec![
+        ("センター", None, [0.0, 9.0, 0.0]),
+        ("上半身", Some(0), [0.0, 13.0, 0.0]),
+        ("下半身", Some(0), [0.0, 12.0, 0.0]),
+    ];
+    let quarter = [0.0, 0.0, 0.5f32.sqrt(), 0.5f32.sqrt()];
+    let clip = on(Written { bones, ik: vec![] }.pmd(), &[("下半身", 3, STILL, quarter, LINEAR)]);
+    assert_eq!(tree(&clip)[2], ("上半身", Some("下半身")));
+    assert!(place(&clip, "上半身", 0).abs_diff_eq(DVec3::new(0.0, 13.0, 0.0), 1e-9));
+}
+
+#[test]
+fn the_last_joint_ends_where_its_model_says() {
+    let bones = vec![
+        ("センター", None, [0.0, 9.0, 0.0]),
+        ("頭", Some(0), [0.0, 18.0, 0.0]),
+        ("頭先", Some(1), [0.0, 21.0, 1.0]),
+    ];
+    let mut pmd = Written { bones, ik: vec![] }.pmd();
+    let key = [("頭", 0, STILL, NONE, LINEAR)];
+    let tip = |clip: &Clip| clip.skeleton().joints[1].end_sites[0].offset / CENTIMETRES;
+    assert_eq!(tip(&on(pmd.clone(), &key)), DVec3::new(0.0, 2.4, 0.0), "as is usual");
+    let (name, ..) = encoding_rs::SHIFT_JIS.encode("頭\0");
+    let at = pmd.windows(name.len()).position(|bytes| bytes == &name[..]).unwrap();
+    pmd[at + 22] = 2;
+    assert_eq!(tip(&on(pmd, &key)), DVec3::new(0.0, 3.0, -1.0));
+}
+
+/// A motion on a model.
+fn on(model: Vec<u8>, keys: &[Key<'_>]) -> Clip {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("doll.pmd");
+    std::fs::write(&path, model).unwrap();
+    let options = Options { skeleton: Some(path), ..Options::default() };
+    options.read(&file(keys, &[])).unwrap().clip
+}
+
+#[test]
+fn noise_of_single_floats_is_no_way() {
+    let channels = |way: f32| {
+        let keys = [("頭", 0, [way, 0.0, 0.0], NONE, LINEAR)];
+        let clip = read(&file(&keys, &[])).unwrap().clip;
+        let head = clip.skeleton().find("頭").unwrap();
+        clip.skeleton().joints[head.0].channels.len()
+    };
+    assert_eq!((channels(1e-4), channels(0.1)), (3, 6));
+}
+
 #[test]
 fn what_is_damaged_is_refused_at_its_byte() {
     let good = file(&[("頭", 5, STILL, NONE, LINEAR)], &[]);

@@ -3,7 +3,7 @@
 use encoding_rs::SHIFT_JIS;
 
 use super::bytes::Bytes;
-use super::{Ik, MmdModel, RawBone, built};
+use super::{Ik, MmdModel, RawBone, Tail, built};
 use crate::error::Error;
 
 const NAME: usize = 20;
@@ -50,10 +50,12 @@ fn bone(bytes: &mut Bytes<'_>) -> Result<RawBone, Error> {
     let name = text(bytes, "bones")?;
     let parent_at = bytes.at();
     let parent = bytes.word("bones")?;
-    // The bone it points to, its kind, the IK it belongs to.
-    bytes.skip(1, 2 + 1 + 2, "bones")?;
+    let tail = bytes.word("bones")?;
+    // Its kind, the IK it belongs to.
+    bytes.skip(1, 1 + 2, "bones")?;
     let place = bytes.place("bones")?;
-    Ok(RawBone { name, parent: (parent != NONE).then_some(parent.into()), parent_at, place })
+    let [parent, tail] = [parent, tail].map(|bone| (bone != NONE).then_some(bone.into()));
+    Ok(RawBone { name, parent, parent_at, place, tail: Tail::Bone(tail) })
 }
 
 fn ik(bytes: &mut Bytes<'_>, bones: usize) -> Result<Option<Ik>, Error> {

@@ -1,7 +1,9 @@
 //! PMX 2.0 and 2.1: texts and numbers of bones as wide as the header says.
 
+use glam::DVec3;
+
 use super::bytes::{Bytes, damaged};
-use super::{MmdModel, RawBone, built};
+use super::{MmdModel, RawBone, Tail, built};
 use crate::error::Error;
 
 /// What the header says of all that follows.
@@ -129,7 +131,10 @@ fn bone(bytes: &mut Bytes<'_>, header: &Header) -> Result<(RawBone, Option<Vec<u
     bytes.skip(1, 4, WHAT)?;
     let flags = bytes.word(WHAT)?;
     let is = |bit: u16| flags & bit != 0;
-    bytes.skip(1, if is(has::TAIL_BONE) { header.bone } else { 12 }, WHAT)?;
+    let tail = match is(has::TAIL_BONE) {
+        true => Tail::Bone(number(bytes, header)?),
+        false => Tail::Way(way(bytes, WHAT)?),
+    };
     for (bit, size) in [
         (has::GRANT, header.bone + 4),
         (has::FIXED_AXIS, 12),
@@ -139,7 +144,13 @@ fn bone(bytes: &mut Bytes<'_>, header: &Header) -> Result<(RawBone, Option<Vec<u
         bytes.skip(usize::from(is(bit)), size, WHAT)?;
     }
     let links = if is(has::IK) { Some(ik(bytes, header)?) } else { None };
-    Ok((RawBone { name, parent, parent_at, place }, links))
+    Ok((RawBone { name, parent, parent_at, place, tail }, links))
+}
+
+/// A way in axes with +Z in front; what is no number is no way.
+fn way(bytes: &mut Bytes<'_>, what: &str) -> Result<DVec3, Error> {
+    let [x, y, z] = [bytes.single(what)?, bytes.single(what)?, bytes.single(what)?];
+    Ok(DVec3::new(x.into(), y.into(), -f64::from(z)))
 }
 
 fn ik(bytes: &mut Bytes<'_>, header: &Header) -> Result<Vec<usize>, Error> {
