@@ -47,7 +47,7 @@ pub use figures::FigureSettings;
 pub use format::{FORMATS, Format};
 pub use glb::{Glb, LengthUnit, Up};
 pub use koma::sheet_csv;
-pub use limited_bvh::{keys_bvh, limited_bvh};
+pub use limited_bvh::{keys_bvh, limited, limited_bvh};
 pub use manifest::{ClipMark, Manifest};
 pub use marked::{pins_from_sheet, pins_from_table};
 pub use mp4::Mp4;

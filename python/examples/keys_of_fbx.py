@@ -1,8 +1,7 @@
 """Keys of a take as JSON, whatever reads its FBX: python keys_of_fbx.py TAKE.npz KEYS.json.
 
-Every reader gives world matrices: EvaluateGlobalTransform of the FBX SDK, GetMatrix in MotionBuilder, node_to_world of
-ufbx, pose.bones[…].matrix in Blender. numpy.savez("TAKE.npz", …) takes them: names (J), parents (J; -1 for the root,
-parents first), matrices (F, J, 4, 4; a point is a column) and rate, frames a second.
+Any reader gives world matrices: EvaluateGlobalTransform of the FBX SDK, GetMatrix in MotionBuilder, node_to_world of ufbx.
+numpy.savez takes them: names (J), parents (J; -1 for the root, parents first), matrices (F, J, 4, 4; a point is a column), rate.
 """
 
 import json

@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
-use genga::deliver::{Format, Report, Settings};
+use genga::deliver::{Format, Report, Settings, limited};
 use genga::keys::Key;
 use genga::pipeline::{Breakdown, Engine, LayerBreakdown};
 use genga::sheet::{Drawing, Layer};
@@ -283,6 +283,14 @@ impl Result {
     #[getter]
     fn filtered<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.matrix(py, |breakdown| breakdown.filtered.clone())
+    }
+
+    /// The motion stepped, as a clip of the sheet's rate: a frame a koma, so that its arrays are (K, J, …). It is what
+    /// `limited.bvh` has.
+    #[getter]
+    fn limited(&self, py: Python<'_>) -> PyResult<Clip> {
+        let motion = self.look(py, |breakdown| limited(breakdown.clip, breakdown.sheet))?;
+        Ok(Clip::new(Arc::new(motion), format!("{}_limited.bvh", self.cut), Vec::new()))
     }
 
     /// Why each drawing of the sheet is there, in words: a list in the order of `sheet.drawings`.

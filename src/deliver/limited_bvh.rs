@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::motion::{Clip, Composite, CompositeRows, bvh};
 use crate::sheet::{Exposure, Sheet};
-use crate::time::FrameRate;
+use crate::time::{Frame, FrameRate};
 
 /// The motion of a sheet as a BVH at the sheet's rate, 24 fps: one row a koma, each joint as the drawing of
 /// its layer has it. A drawing that is a source frame is written as the numbers it was read from; holds
@@ -13,13 +13,36 @@ use crate::time::FrameRate;
 /// [`Error::Sheet`] as [`Sheet::first_layer`], and where a layer has a joint that the clip has not.
 pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
     let composite = Composite::of(clip, sheet)?;
-    let on_screen = |(begin, Exposure { drawing, koma }): (usize, Exposure)| {
-        let slides = composite.slides();
+    written(&composite, sheet, on_screen(&composite))
+}
+
+/// The same motion as a clip, whose frame 0 is koma 0.
+///
+/// # Errors
+/// Those of [`limited_bvh`]; [`Error::Clip`] for a sheet without a koma.
+pub fn limited(clip: &Clip, sheet: &Sheet) -> Result<Clip, Error> {
+    let composite = Composite::of(clip, sheet)?;
+    let skeleton = clip.skeleton();
+    let (mut rows, mut row) = (CompositeRows::of(&composite), vec![0.0; skeleton.channels()]);
+    let (mut koma, mut values) = (0, Vec::new());
+    for Repeated { drawing, at, times } in on_screen(&composite) {
+        rows.write(drawing, at, &mut row);
+        (0..times).for_each(|_| values.extend_from_slice(&row));
+        koma += times;
+    }
+    let rate = FrameRate::new(sheet.clock.koma_rate)?;
+    Clip::new(skeleton.clone(), rate, Frame(0), koma, values)
+}
+
+/// What is on screen, koma after koma.
+fn on_screen(composite: &Composite<'_>) -> impl Iterator<Item = Repeated> {
+    let slides = composite.slides();
+    let shown = move |(begin, Exposure { drawing, koma }): (usize, Exposure)| {
         let rows = if slides { (begin..begin + koma).collect() } else { vec![begin] };
         let times = if slides { 1 } else { koma };
         rows.into_iter().map(move |at| Repeated { drawing, at, times })
     };
-    written(&composite, sheet, composite.layer().timed().flat_map(on_screen))
+    composite.layer().timed().flat_map(shown)
 }
 
 /// The genga and ends of a sheet as a BVH for a pose library (ポーズ集): one row a drawing, in their order;

@@ -146,6 +146,19 @@ fn the_limited_motion_looks_as_it_did() {
 }
 
 #[test]
+fn the_stepped_clip_is_what_its_file_has() {
+    let mut engine = Engine::new(wave()).unwrap();
+    for root in ["drawings", "ones"] {
+        let mut recipe = recipe();
+        recipe.set("root", root).unwrap();
+        let breakdown = engine.run(&recipe, &edits()).unwrap();
+        let stepped = limited(breakdown.clip, breakdown.sheet).unwrap();
+        assert_eq!(stepped.len(), breakdown.sheet.length());
+        assert_eq!(bvh::write(&stepped), limited_bvh(breakdown.clip, breakdown.sheet).unwrap());
+    }
+}
+
+#[test]
 fn the_key_poses_look_as_they_did() {
     insta::assert_snapshot!(made("keys.bvh"));
 }
@@ -208,6 +221,6 @@ fn an_empty_sheet_has_headers_and_no_motion() {
     assert_eq!(remap_csv(&sheet).unwrap(), "koma,source_frame,source_time_s,nearest_frame\n");
     let table = Drawings { cut: "wave".into(), rows: Rows::All }.write(&clip, &sheet).unwrap();
     assert_eq!(table.lines().count(), 1);
-    assert!(limited_bvh(&clip, &sheet).is_err());
+    assert!(limited_bvh(&clip, &sheet).is_err() && limited(&clip, &sheet).is_err());
     assert!(keys_bvh(&clip, &sheet).is_err());
 }
