@@ -147,6 +147,8 @@ def knobs_and_marks():
 
     assert fresh == engine.Recipe(), "knobs that are not touched change nothing"
     action = find(thing)
+    first = all_keys(action)
+    assert find(thing) == action and all_keys(action) == first, "the take is looked at while its sheet is shown"
     count = lambda: len(action[take.BEGINS])
     all_drawings = count()
     thing.genga.genga = 9
@@ -191,6 +193,60 @@ def knobs_and_marks():
     say("knobs, presets, marks and files")
 
 
+def feet_held(name, thing):
+    """With held feet the rig stands as genga's own motion on the sheet does, and a sole on one place while it stands."""
+    thing.genga.feet = True
+    action = find(thing)
+    result, sampled = genga.findings.of(thing).result, genga.findings.of(thing).sampled
+    stepped, free = result.limited, result.again(feet="free").limited
+    own = np.linalg.norm(stepped.positions - free.positions, axis=2)
+    size = np.ptp(stepped.positions[0], axis=0).max()
+    assert own.max() > 0.003 * size, "feet slide in this take"
+    worst = 0.0
+    for begin, exposure in zip(action[take.BEGINS], genga.findings.of(thing).sheet().layers[0].exposures):
+        bpy.context.scene.frame_set(int(begin))
+        drawn = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        stood = np.array([drawn.matrix_world @ drawn.pose.bones[bone].head for bone in sampled.clip.names])
+        worst = max(worst, np.abs(stood - stepped.positions[exposure.koma]).max() / size)
+    assert worst < 2e-5, (name, worst)
+    check_keys(action)
+    thing.genga.feet = False
+    say(f"{name}: feet held as on the sheet, off by {worst:.1e} of the body; without {own.max() / size:.3f}")
+
+
+# A thigh of each rig that IK turns, without a constraint of its own.
+LED = {"Rigify": "DEF-thigh.L", "MMD": "右足,"}
+
+
+def led_by_controls(name, thing):
+    """Feet of a rig whose legs no key of their own turns stay, and it is said."""
+    thing.genga.feet = True
+    told = " ".join(genga.findings.TOLD[thing.name])
+    assert "the feet stay with their drawings: no keys of their own turn" in told and "limited.bvh" in told, told
+    assert LED[name] in told, told
+    thing.genga.feet = False
+    assert "feet" not in " ".join(genga.findings.TOLD[thing.name])
+
+
+def ticked():
+    """A bone that is ticked in the list is not looked at, and is keyed all the same."""
+    thing = begin(rigs.of_bvh, KICK)
+    names = lambda: set(genga.findings.of(thing).sampled.clip.names)
+    curves = len(stepping.curves(find(thing)))
+    before = names()
+    bpy.ops.object.mode_set(mode="POSE")
+    rigs.select_bones(thing, {"LeftHand", "RightHand"})
+    assert bpy.ops.genga.tick(what="SELECTED") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert {bone.name for bone in thing.data.bones if bone.genga_left_out} == {"LeftHand", "RightHand"}
+    assert len(stepping.curves(find(thing))) == curves
+    assert before - names() == {"LeftHand", "RightHand"}, before - names()
+    assert bpy.ops.genga.tick(what="NONE") == {"FINISHED"}
+    find(thing)
+    assert names() == before
+    say("bones are ticked in a list, and left out")
+
+
 def told_kindly():
     """What cannot be is refused in words."""
     thing = begin(rigs.of_bvh, KICK)
@@ -219,8 +275,9 @@ def in_japanese():
     """Every label of the panel, the knobs and the presets has a Japanese word. Blender as a module has no languages."""
     said = genga.words.JAPANESE
     knobs = [own for name, own in genga.knobs.GengaKnobs.bl_rna.properties.items() if name not in ("rna_type", "name")]
-    labels = {own.name for own in knobs} | {preset[1] for preset in genga.knobs.PRESETS}
+    labels = {own.name for own in knobs if not own.is_hidden} | {preset[1] for preset in genga.knobs.PRESETS}
     labels |= {panel.bl_label for panel in genga.panel.PANELS} | {"Find Keys", "Show the Take", "Pin", "Forbid", "Only", "Clear"}
+    labels |= {"Left Out", "Leave Out Selected", "Leave Out None"}
     assert labels <= set(said), labels - set(said)
     # Nothing of what is translated is gone.
     source = "".join(path.read_text(encoding="utf-8") for path in addon.PLACE.glob("*.py") if path.name != "words.py")
@@ -283,7 +340,9 @@ def importers():
     makers = {
         "FBX": lambda: rigs.of_fbx(KICK, FOLDER),
         "glTF": lambda: rigs.of_gltf(KICK, FOLDER),
+        "VRM": lambda: rigs.of_vrm(KICK, FOLDER),
         "Rigify": lambda: rigs.of_rigify(KICK),
+        "MMD": lambda: rigs.of_mmd(KICK),
     }
     for name, make in makers.items():
         thing = begin(make)
@@ -294,6 +353,7 @@ def importers():
         keys = [marker.frame for marker in action.pose_markers]
         assert held >= 91 and len(keys) >= 8, (held, keys)
         say(f"{name}: {len(clip.names)} of {len(thing.data.bones)} bones, {len(keys)} genga, {held} koma stand still")
+        (led_by_controls if name in LED else feet_held)(name, thing)
 
 
 def main():
@@ -304,6 +364,8 @@ def main():
         the_programs_sheet("run.bvh", run)
     undone()
     knobs_and_marks()
+    feet_held("BVH", begin(rigs.of_bvh, KICK))
+    ticked()
     told_kindly()
     in_japanese()
     mixed_by_nla()

@@ -1,4 +1,4 @@
-"""python strips.py PICTURE.png: a kick on rigs of four importers, each take above its sheet, to be looked at.
+"""python strips.py PICTURE.png: a kick on five rigs, each take above its sheet, to be looked at.
 
 Black figures are drawings that begin, grey ones are held, a band is a genga with its number. Needs pillow.
 """
@@ -78,8 +78,9 @@ def main():
     makers = {
         "BVH": lambda: rigs.of_bvh(KICK, 0.01),
         "FBX": lambda: rigs.of_fbx(KICK, FOLDER),
-        "glTF, the bones of a VRM": lambda: rigs.of_gltf(KICK, FOLDER),
+        "VRM, avatar and motion by its add-on": lambda: rigs.of_vrm(KICK, FOLDER),
         "Rigify, hips, hands and feet keyed, IK": lambda: rigs.of_rigify(KICK),
+        "Bones of MMD, legs on IK": lambda: rigs.of_mmd(KICK),
     }
     strips = []
     for name, make in makers.items():

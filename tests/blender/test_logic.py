@@ -12,11 +12,12 @@ import genga
 import numpy as np
 
 PLACE = Path(__file__).resolve().parents[2] / "addons" / "blender" / "genga"
+DATA = Path(__file__).resolve().parents[2] / "data"
 package = types.ModuleType("genga_addon")
 package.__path__ = [str(PLACE)]
 sys.modules["genga_addon"] = package
-motion, pins, refused, rig, run, settings = (
-    importlib.import_module(f"genga_addon.{name}") for name in ("motion", "pins", "refused", "rig", "run", "settings")
+feet, fit, motion, pins, refused, rig, run, settings = (
+    importlib.import_module(f"genga_addon.{name}") for name in ("feet", "fit", "motion", "pins", "refused", "rig", "run", "settings")
 )
 
 
@@ -50,16 +51,38 @@ class Bones(unittest.TestCase):
         self.assertEqual(self.names(True), [("DEF-arm", -1), ("DEF-hand", 0), ("DEF-twist", 0)])
 
     def test_all_bones_hang_as_they_do_in_the_rig(self):
-        self.assertEqual([parent for _, parent in self.names(False)], [-1, 0, 1, 2, 0, 4])
+        wanted = [("root", -1), ("ORG-arm", 0), ("ORG-hand", 1), ("DEF-hand", 2), ("DEF-twist", 1)]
+        self.assertEqual(self.names(False), wanted, "DEF-arm is a copy of ORG-arm")
 
     def test_patterns_leave_bones_out_whatever_their_case(self):
         self.assertEqual(self.names(True, "*TWIST*, nothing"), [("DEF-arm", -1), ("DEF-hand", 0)])
         with self.assertRaisesRegex(refused.Refused, "no bone is left"):
             self.names(True, "*")
 
+    def test_a_bone_that_is_ticked_is_left_out_and_the_others_close_up(self):
+        ticked = [one._replace(is_left_out=one.name == "DEF-arm") for one in self.CONTROLLED]
+        chosen = rig.choose(ticked, True, "")
+        self.assertEqual([ticked[at].name for at in chosen.bones], ["DEF-hand", "DEF-twist"])
+        self.assertEqual(chosen.parents, [-1, -1])
+
+    def test_a_bone_that_lies_on_another_of_another_chain_is_its_copy(self):
+        legs = [
+            bone("centre", -1, (0, 0, 0)),
+            bone("spine", 0, (0, 0, 0)),
+            bone("leg", 0, (1, 0, 0)),
+            bone("knee", 2, (1, -1, 0)),
+            bone("legD", 0, (1, 0, 0)),
+            bone("kneeD", 4, (1, -1, 0)),
+            bone("toe", 5, (1, -2, 0)),
+        ]
+        chosen = rig.choose(legs, True, "")
+        told = [(legs[at].name, parent) for at, parent in zip(chosen.bones, chosen.parents)]
+        self.assertEqual(told, [("centre", -1), ("spine", 0), ("leg", 0), ("knee", 2), ("toe", 3)])
+
     def test_a_rig_without_bones_that_deform_keeps_all(self):
         plain = [one._replace(deforms=False) for one in self.CONTROLLED]
-        self.assertEqual(len(rig.choose(plain, True, "").bones), 6)
+        self.assertEqual(rig.choose(plain, True, ""), rig.choose(plain, False, ""))
+        self.assertEqual(len(rig.choose(plain, True, "").bones), 5)
 
 
 class Poses(unittest.TestCase):
@@ -90,7 +113,7 @@ class Poses(unittest.TestCase):
             poses[frame, 0, :3, 3] = (frame, 1, 0)
             poses[frame, 1, :3, 3] = poses[frame, 0, :3, 3] + turn @ (6, 0, 0)
         world = np.diag((3.0, 3.0, 3.0, 1.0))
-        clip = motion.clip(bones, chosen, poses, world, 24.0, "take")
+        clip = motion.clip(bones, chosen, poses, world @ np.stack([one.rest for one in bones]), 24.0, "take")
         self.assertLess(np.abs(clip.positions - poses[..., :3, 3]).max(), 1e-9)
         # As at rest is not turned: the second goes with the first.
         self.assertLess(np.abs(np.abs(clip.rotations[:, 1, 3]) - 1).max(), 1e-9)
@@ -103,6 +126,61 @@ class Poses(unittest.TestCase):
             motion.turns(flat)
         with self.assertRaisesRegex(refused.Refused, "no numbers"):
             motion.turns(flat * np.nan)
+
+
+class Feet(unittest.TestCase):
+    def test_a_turned_leg_stands_as_on_the_sheet(self):
+        """Forward kinematics of a rig whose bones have axes of their own, turned as it is said, are those of the sheet."""
+        clip = genga.read(DATA / "kick.bvh")
+        free, held = (genga.run(clip, feet=how).limited for how in ("free", "held"))
+        random = np.random.default_rng(3)
+        rest = np.tile(np.eye(4), (len(clip.names), 1, 1))
+        rest[:, :3, :3] = 2.5 * feet.matrices(unit(random.normal(size=(len(clip.names), 4))))
+        rest[5, :3, 0] *= -1.0
+        turns = feet.turns(held, free, rest)
+        self.assertEqual(set(turns), {f"{side}{name}" for side in ("Left", "Right") for name in ("UpLeg", "Leg", "Foot")})
+        axes, wanted = rest[:, :3, :3] / 2.5, world(clip.parents, feet.matrices(held.rotations))
+        drawn = world(clip.parents, feet.matrices(free.rotations))
+        self.assertGreater(np.abs(drawn - wanted).max(), 1e-2)
+        # As Blender has it: where a bone hangs at rest, and what turns it in its own axes.
+        above = [axes[parent] if parent >= 0 else np.eye(3) for parent in clip.parents]
+        hang = [np.linalg.inv(one) @ own for one, own in zip(above, axes)]
+        posed = drawn @ axes
+        for at, (name, parent) in enumerate(zip(clip.names, clip.parents)):
+            over = (drawn[:, parent] @ axes[parent] if parent >= 0 else np.eye(3)) @ hang[at]
+            own = np.linalg.inv(over) @ drawn[:, at] @ axes[at] @ turns.get(name, np.eye(3))
+            posed[:, at] = (posed[:, parent] if parent >= 0 else np.eye(3)) @ hang[at] @ own
+        self.assertLess(np.abs(posed @ np.linalg.inv(axes) - wanted).max(), 1e-12)
+
+    def test_feet_are_held_where_a_drawing_is_a_pose_of_the_take(self):
+        clip = genga.read(DATA / "kick.bvh")
+        rest = np.tile(np.eye(4), (len(clip.names), 1, 1))
+
+        def turned(**settings):
+            finding = run.Finding(SimpleNamespace(clip=clip, rest=rest, start=1))
+            finding.find(genga.Recipe(**settings), {})
+            sheet = finding.sheet()
+            return finding.turns(sheet), fit.left_out(sheet, holds=True)
+
+        turns, told = turned(feet="held")
+        self.assertEqual((len(turns), told), (6, []))
+        self.assertEqual(turned(), ({}, []))
+        for more in ({"root": "ones"}, {"layers": "limbs"}, {"exaggerate": {"ease": 0.5}}):
+            turns, told = turned(feet="held", **more)
+            self.assertEqual((turns, "holds the feet" in " ".join(told)), ({}, True), more)
+
+
+def unit(rotations):
+    return rotations / np.linalg.norm(rotations, axis=-1, keepdims=True)
+
+
+def world(parents, local):
+    """Rotations in the world, of those against their parents."""
+    made = local.copy()
+    for at, parent in enumerate(parents):
+        if parent >= 0:
+            made[:, at] = made[:, parent] @ local[:, at]
+    return made
 
 
 class Corrections(unittest.TestCase):
@@ -124,7 +202,7 @@ class Corrections(unittest.TestCase):
 class Settings(unittest.TestCase):
     KNOBS = SimpleNamespace(
         rate=24.0, on="2", snap=np.float32(0.3).item(), naka_nashi=4.0, koma_dori=np.float32(100 / 3).item(),
-        rest="", pins="", forbid="", only_pins=False, genga=0, drawings=0.0,
+        feet=False, rest="", pins="", forbid="", only_pins=False, genga=0, drawings=0.0,
     )
 
     def recipe(self, marked=(), **turned):
@@ -134,9 +212,9 @@ class Settings(unittest.TestCase):
         self.assertEqual(self.recipe(), genga.Recipe())
 
     def test_knobs_set_what_they_say(self):
-        found = self.recipe([31], on="1-3", snap=0.5, naka_nashi=12.5, rest="keys.min_price=8; filter.width=0.2s")
+        found = self.recipe([31], on="1-3", snap=0.5, naka_nashi=12.5, feet=True, rest="keys.min_price=8; filter.width=0.2s")
         wanted = genga.Recipe(spacing={"on": "1-3", "weight": 0.5}, omission={"naka_nashi": "12.5%"}, keys={"min_price": 8})
-        wanted["filter.width"] = "0.2s"
+        wanted["filter.width"], wanted["feet"] = "0.2s", "held"
         wanted.correct(pins=[30])
         self.assertEqual(found, wanted)
         with self.assertRaisesRegex(refused.Refused, "a setting is a name and a value"):

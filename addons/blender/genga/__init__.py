@@ -3,13 +3,14 @@
 import bpy
 from bpy.props import PointerProperty
 
-from . import export, find, findings, from_file, knobs, panel, turn, words
+from . import bones, export, find, findings, from_file, knobs, panel, turn, words
 
 CLASSES = (
     knobs.GengaKnobs,
     *from_file.OPERATORS,
     find.GENGA_OT_find_keys,
     *turn.CLASSES,
+    *bones.CLASSES,
     export.GENGA_OT_export,
     *panel.CLASSES,
 )
@@ -19,6 +20,7 @@ def register():
     for kind in CLASSES:
         bpy.utils.register_class(kind)
     bpy.types.Object.genga = PointerProperty(type=knobs.GengaKnobs)
+    bpy.types.Bone.genga_left_out = bones.LEFT_OUT
     bpy.types.TOPBAR_MT_file_import.append(from_file.menu)
     bpy.app.handlers.load_post.append(findings.forget)
     operator = bpy.app.translations.contexts.operator_default
@@ -30,6 +32,7 @@ def unregister():
     bpy.app.translations.unregister(__name__)
     bpy.app.handlers.load_post.remove(findings.forget)
     bpy.types.TOPBAR_MT_file_import.remove(from_file.menu)
+    del bpy.types.Bone.genga_left_out
     del bpy.types.Object.genga
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)

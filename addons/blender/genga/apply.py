@@ -5,6 +5,7 @@ import math
 import bpy
 
 from . import fit, stepping
+from .legs import Legs
 from .take import BEGINS, OWNER, PLACES, SOURCE, STEPPED, show
 
 
@@ -13,30 +14,32 @@ SAME = 0.01
 
 
 class OnSheet:
-    """The action on a sheet: which it is, and what stands where."""
+    """The action on a sheet: which it is, what stands where, and what it does not show of the sheet, in sentences."""
 
-    def __init__(self, action, exposures, frames):
+    def __init__(self, action, exposures, frames, left_out):
         self.action = action
         self.exposures, self.frames = exposures, frames
+        self.left_out = left_out
 
 
-def apply(thing, take, sampled, sheet):
-    """Puts a sheet of what was sampled onto the rig, which then plays it."""
+def apply(thing, take, sampled, sheet, turns):
+    """Puts a sheet of what was sampled onto the rig, which then plays it. `turns` are those of legs that give way."""
     action, slot = action_for(thing, take)
     target = ensure_curves(action, slot, take.channels())
+    legs = Legs(thing, take.channels(), turns)
     parts, _ = fit.by_layer(sheet.layers, sheet.joints, {curve.data_path for curve in target})
     timing = Timing(sampled, sheet.fps)
     for layer, paths in zip(sheet.layers, parts):
         exposures, frames = timing.of(layer.exposures)
         own = [curve for curve in target if curve.data_path in paths]
         channels = [(curve.data_path, curve.array_index) for curve in own]
-        stepping.write(own, source_of(thing, take, sampled, channels), exposures, frames)
+        stepping.write(own, source_of(thing, take, sampled, channels), exposures, frames, legs.drawn)
     exposures, frames = timing.of(sheet.layers[0].exposures)
     note(action, sampled.start, exposures, frames)
     action.use_frame_range = True
     action.frame_start, action.frame_end = sampled.start, timing.frame(sheet.length)
     play(thing, action, slot)
-    return OnSheet(action, exposures, frames)
+    return OnSheet(action, exposures, frames, legs.left_out())
 
 
 class Timing:

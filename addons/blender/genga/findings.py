@@ -28,12 +28,16 @@ def asked(thing, take, sampled):
 def put(scene, thing, take, finding):
     """The finding's result onto its rig; gives what is found, and what the rig does not show."""
     sheet = finding.sheet()
-    on_sheet = apply.apply(thing, take, finding.sampled, sheet)
+    turns = finding.turns(sheet)
+    on_sheet = apply.apply(thing, take, finding.sampled, sheet, turns)
     marks.remove_markers(scene, thing)
     if thing.genga.markers:
         marks.set_markers(scene, thing, apply.numbered(on_sheet.exposures, on_sheet.frames))
-    TOLD[thing.name] = finding.told()
-    return TOLD[thing.name], fit.left_out(sheet)
+    told, left_out = finding.told(), [*fit.left_out(sheet, holds=True), *on_sheet.left_out]
+    if fit.can_hold(sheet) and not turns:
+        left_out.append("no foot was seen to stand in this take, so that none is held")
+    TOLD[thing.name] = [*told, *left_out]
+    return told, left_out
 
 
 def again(scene, thing):

@@ -51,14 +51,19 @@ def doubts(sheet, bones, keyed, first_frame, step):
     return found
 
 
-def left_out(sheet):
-    """What a sheet has that the poses of an action do not show, in sentences."""
+def can_hold(sheet):
+    """Whether a rig that plays the take can hold the feet as a sheet has them: where each drawing is one pose of the take."""
+    return sheet.feet_held and len(sheet.layers) == 1 and not sheet.root_on_ones and not sheet.exaggerated
+
+
+def left_out(sheet, holds=False):
+    """What a sheet has that the poses of an action do not show, in sentences. `holds`: feet are held where they can be."""
     found = []
     if sheet.exaggerated:
         found.append("the sheet is of an exaggerated motion, the rig plays the plain one")
     if sheet.root_on_ones:
         found.append("the sheet has the root on ones, here it stays with its drawings")
-    if sheet.feet_held:
+    if sheet.feet_held and not (holds and can_hold(sheet)):
         found.append("the sheet holds the feet, here they stay with their drawings")
     return [f"{sentence}; limited.bvh has it" for sentence in found]
 

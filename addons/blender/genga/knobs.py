@@ -97,6 +97,11 @@ class GengaKnobs(PropertyGroup):
         default=100.0 / 3.0,
         update=turned,
     )
+    feet: BoolProperty(
+        name="Feet Held",
+        description="A foot stays on one place for as long as it stands in the take; hip and knee give way",
+        update=turned,
+    )
     rate: FloatProperty(
         name="Rate",
         translation_context=words.CONTEXT,
@@ -141,8 +146,9 @@ class GengaKnobs(PropertyGroup):
     leave_out: StringProperty(
         name="Leave Out",
         description="Bones that are not looked at, by patterns such as *twist*, *hair*; they are keyed all the same",
-        default="*twist*, *_end, *_end.*",
+        default="*twist*, *_end, *_end.*, ik_*, *ＩＫ*, 全ての親",
     )
+    bone: IntProperty(options={"HIDDEN"}, description="The row of the list of bones that is chosen")
     pins: StringProperty(
         name="Pins",
         description="Frames that are genga whatever is found, such as 12, 40:contact. Keys of the take that are marked as extremes are pinned too",

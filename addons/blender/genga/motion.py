@@ -5,14 +5,13 @@ import numpy as np
 from .refused import Refused, engine
 
 
-def clip(bones, chosen, poses, world, rate, name):
+def clip(bones, chosen, poses, rest, rate, name):
     """A clip of the chosen bones.
 
-    `poses` are where they stand in the world, frames × bones × 4 × 4 in the order of `chosen`; `world` is where the
-    armature stands. A bone that is as at rest is not turned, as in BVH: the body at rest is what genga compares rigs by.
+    `poses` are where they stand in the world, frames × bones × 4 × 4 in the order of `chosen`, and `rest` is where they
+    stand at rest. A bone that is as at rest is not turned, as in BVH: the body at rest is what genga compares rigs by.
     """
     parents = np.array(chosen.parents)
-    rest = world @ np.stack([bones[at].rest for at in chosen.bones])
     unturned = np.swapaxes(turns(rest[:, :3, :3]), -1, -2)
     rotations = turns(poses[..., :3, :3]) @ unturned
     still = np.broadcast_to(np.eye(3), (1, len(chosen.bones), 3, 3))

@@ -2,7 +2,7 @@
 
 from bpy.types import Menu, Panel
 
-from . import findings, knobs, turn, words
+from . import bones, findings, knobs, turn, words
 
 
 class Sidebar:
@@ -53,6 +53,7 @@ class Knobs(Sidebar):
         left_out = layout.column(align=True)
         left_out.prop(own, "naka_nashi", slider=True)
         left_out.prop(own, "koma_dori", slider=True)
+        layout.prop(own, "feet")
         layout.prop(own, "rate")
         layout.prop(own, "rest")
         layout.prop(own, "markers")
@@ -87,6 +88,7 @@ class Sampled(Sidebar):
         layout.prop(own, "frames")
         layout.prop(own, "deforming")
         layout.prop(own, "leave_out")
+        bones.draw(layout, context.active_object)
         layout.operator("genga.export", icon="EXPORT")
 
 

@@ -23,6 +23,7 @@ class Bone(NamedTuple):
     rest: np.ndarray
     length: float
     deforms: bool = True
+    is_left_out: bool = False
 
     @property
     def head(self):
@@ -41,18 +42,48 @@ class Chosen(NamedTuple):
 
 
 def choose(bones, deforming, leave_out):
-    """The bones that stay: those that deform, where it is asked for and any do, without those of some patterns."""
-    patterns = [pattern.strip().casefold() for pattern in leave_out.split(",") if pattern.strip()]
-    only_deforming = deforming and any(bone.deforms for bone in bones)
-
-    def stays(bone):
-        is_named = any(fnmatchcase(bone.name.casefold(), pattern) for pattern in patterns)
-        return not is_named and (bone.deforms or not only_deforming)
-
-    stay = [at for at, bone in enumerate(bones) if stays(bone)]
+    """The bones that stay, and how they hang on each other."""
+    stays = staying([(bone.name, bone.deforms) for bone in bones], deforming, leave_out)
+    stay = [at for at, bone in enumerate(bones) if stays[at] and not bone.is_left_out]
+    stay = singles(bones, stay)
     if not stay:
         raise Refused("no bone is left: leave out fewer, or take those that do not deform too")
     return in_order(stay, Ancestry(bones, stay).parents())
+
+
+def staying(bones, deforming, leave_out):
+    """Whether each bone stays, of names and whether they deform: those that deform, where it is asked for and any do,
+    without those of some patterns."""
+    patterns = [pattern.strip().casefold() for pattern in leave_out.split(",") if pattern.strip()]
+    only_deforming = deforming and any(deforms for _, deforms in bones)
+    is_named = lambda name: any(fnmatchcase(name.casefold(), pattern) for pattern in patterns)
+    return [(deforms or not only_deforming) and not is_named(name) for name, deforms in bones]
+
+
+def singles(bones, stay):
+    """Of bones that lie on each other the first: rigs have bones that copy others, such as the D bones of MMD's legs.
+
+    One that hangs on the other is none such: a body's first bones often begin in one place.
+    """
+    near = NEAR * max((bone.length for bone in bones), default=0.0)
+    heads = np.array([bones[at].head for at in stay]).reshape(-1, 3)
+    tails = heads + np.array([bones[at].way * bones[at].length for at in stay]).reshape(-1, 3)
+    made = []
+    for row, at in enumerate(stay):
+        same = (np.abs(heads[:row] - heads[row]).max(axis=1) <= near) & (np.abs(tails[:row] - tails[row]).max(axis=1) <= near)
+        doubled = [stay[other] for other in np.flatnonzero(same)]
+        if not any(not hangs_on(bones, at, other) and not hangs_on(bones, other, at) for other in doubled):
+            made.append(at)
+    return made
+
+
+def hangs_on(bones, at, other):
+    """Whether a bone hangs on another, however far above."""
+    while at >= 0:
+        if at == other:
+            return True
+        at = bones[at].parent
+    return False
 
 
 class Ancestry:

@@ -3,6 +3,7 @@
 import json
 import threading
 
+from . import feet, fit
 from .files import Sheet
 from .refused import Refused, engine
 
@@ -27,6 +28,13 @@ class Finding:
 
     def sheet(self):
         return Sheet(json.loads(self.result.to_json()["sheet.json"]))
+
+    def turns(self, sheet):
+        """How the legs turn so that the feet of a sheet are held: see `feet`."""
+        if not fit.can_hold(sheet):
+            return {}
+        free = self.result.again(feet="free")
+        return feet.turns(self.result.limited, free.limited, self.sampled.rest)
 
     def told(self):
         """What was found, in a sentence each."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import motion, rig
 from .refused import Refused
-from .take import Take
+from .take import Take, show
 
 
 class Sampling:
@@ -35,15 +35,22 @@ class Sampling:
         return self.end - self.start + 1
 
     def steps(self):
-        """Samples a frame each time it is asked; the scene is where it was when it ends, or is closed."""
+        """Samples a frame each time it is asked; the scene is where it was when it ends, or is closed.
+
+        The take plays meanwhile, also where its sheet is shown.
+        """
         frame, part = self.scene.frame_current, self.scene.frame_subframe
+        animation = self.thing.animation_data
+        shown = animation.action, getattr(animation, "action_slot", None)
         began = time.perf_counter()
+        show(self.thing, self.take.action, self.take.slot)
         try:
             for row in range(len(self)):
                 self.scene.frame_set(self.start + row)
                 self.take_frame(row)
                 yield row
         finally:
+            show(self.thing, *shown)
             self.scene.frame_set(frame, subframe=part)
             self.seconds = time.perf_counter() - began
 
@@ -61,14 +68,17 @@ class Sampling:
     def sampled(self):
         """What was sampled: plain data, which outlives an undo."""
         name, rate = bpy.path.clean_name(self.take.name), rate_of(self.scene)
-        clip = motion.clip(self.bones, self.chosen, self.poses, np.array(self.thing.matrix_world), rate, name)
-        return Sampled(clip, self.take.name, self.start, self.end, rate, self.channels, self.values)
+        rest = np.array(self.thing.matrix_world) @ np.stack([self.bones[at].rest for at in self.chosen.bones])
+        clip = motion.clip(self.bones, self.chosen, self.poses, rest, rate, name)
+        return Sampled(clip, rest, self.take.name, self.start, self.end, rate, self.channels, self.values)
 
 
 class Sampled(NamedTuple):
-    """A take as it was drawn. `channels` and `values`, a row a frame, are there where NLA tracks are mixed."""
+    """A take as it was drawn. `rest` is where each bone of the clip stands in the world at rest, 4 × 4. `channels` and
+    `values`, a row a frame, are there where NLA tracks are mixed."""
 
     clip: object
+    rest: np.ndarray
     take: str
     start: int
     end: int
@@ -98,6 +108,7 @@ def bones_of(thing):
     def bone_of(posed):
         bone = posed.bone
         parent = numbers[bone.parent.name] if bone.parent else -1
-        return rig.Bone(bone.name, parent, np.array(bone.matrix_local), bone.length, bone.use_deform)
+        rest = np.array(bone.matrix_local)
+        return rig.Bone(bone.name, parent, rest, bone.length, bone.use_deform, bone.genga_left_out)
 
     return [bone_of(posed) for posed in thing.pose.bones]

@@ -24,6 +24,7 @@ def recipe(knobs, marked, start):
             "spacing.weight": number(knobs.snap),
             "omission.naka_nashi": share(knobs.naka_nashi),
             "omission.koma_dori": share(knobs.koma_dori),
+            "feet": "held" if knobs.feet else "free",
         }
     )
     for name, value in rest(knobs.rest):

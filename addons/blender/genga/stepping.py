@@ -113,17 +113,30 @@ def blend(mode, before, after, share, near):
     return [a + share * (b - a) for a, b in zip(before, after)]
 
 
+def turned(mode, values, turn):
+    """What a property that turns is after a turn in its own axes."""
+    if mode == "QUATERNION":
+        return list(Quaternion(values).normalized() @ turn)
+    angles = Euler(values, mode)
+    return list((angles.to_quaternion() @ turn).to_euler(mode, angles))
+
+
 def type_of(exposure):
     """The type of key of a drawing."""
     return "MOVING_HOLD" if exposure.is_held else KEYFRAME_TYPES.get(exposure.role, "KEYFRAME")
 
 
-def write(target, source, exposures, frames):
-    """Puts the poses of the exposures onto curves, each on its frame, constant until the next."""
+def as_taken(_source, _exposure, pose):
+    """A drawing as the take has it."""
+    return pose
+
+
+def write(target, source, exposures, frames, drawn=as_taken):
+    """Puts the poses of the exposures onto curves, each on its frame, constant until the next. `drawn` says how a pose is drawn."""
     rows, near = [], None
     for exposure in exposures:
         near = source.pose(exposure, near)
-        rows.append([value for values in near for value in values])
+        rows.append([value for values in drawn(source, exposure, near) for value in values])
     channels = [channel for _, group in source.groups for channel in group]
     columns = {channel: at for at, channel in enumerate(channels)}
     types = [type_of(exposure) for exposure in exposures]
