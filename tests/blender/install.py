@@ -1,4 +1,4 @@
-"""python install.py EXTENSION.zip: Blender installs the extension, and the wheel inside it finds the keys of a take."""
+"""python install.py EXTENSION.zip [VERSION]: Blender installs the extension, and the wheel inside finds the keys of a take."""
 
 import sys
 
@@ -15,6 +15,7 @@ def main():
     assert done == {"FINISHED"}
     import genga
 
+    assert sys.argv[2:] in ([], [genga.__version__]), genga.__version__
     assert bpy.utils.user_resource("EXTENSIONS") in genga.__file__, genga.__file__
     bpy.ops.import_anim.bvh(filepath=str(DATA / "kick.bvh"))
     assert bpy.ops.genga.find_keys() == {"FINISHED"}
