@@ -4,6 +4,7 @@ mod forbidden;
 mod hold;
 mod layer;
 mod marks;
+mod speech;
 
 use std::collections::BTreeMap;
 
@@ -17,6 +18,7 @@ pub use forbidden::Forbidden;
 pub use hold::Hold;
 pub use layer::{LayerEdits, layer_of};
 pub use marks::{Move, Pin};
+pub use speech::Speech;
 
 /// What a person wants in spite of what was found.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -48,6 +50,9 @@ pub struct Edits {
     /// found.
     #[serde(skip_serializing_if = "is_default")]
     pub splits: Vec<Frame>,
+    /// What is spoken (セリフ), for the S column. It changes no drawing.
+    #[serde(skip_serializing_if = "is_default")]
+    pub speech: Vec<Speech>,
     /// Corrections of one layer alone, by its name; all others are of every layer.
     #[serde(skip_serializing_if = "layer::say_nothing")]
     pub layers: BTreeMap<String, LayerEdits>,
@@ -65,7 +70,8 @@ impl Edits {
     /// [`Error::Edits`] when a frame lies outside `first..=last` (of forbidden ones all), is pinned and
     /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
     /// not in [0, 1); when a drawing is held twice or for no koma; when pins are to be the only keys and there
-    /// are none; and when an action is to begin with the first frame, which begins one anyway, or outside.
+    /// are none; when an action is to begin with the first frame, which begins one anyway, or outside; and when a
+    /// spoken line lies outside, or has no words.
     ///
     /// ```
     /// use genga::edits::{Edits, Pin};
@@ -118,7 +124,8 @@ impl Edits {
                 "frozen frame {outside} is not in the clip, which has frames {clip}"
             ));
         }
-        self.splits.iter().try_for_each(|split| check_split(*split, clip))
+        self.splits.iter().try_for_each(|split| check_split(*split, clip))?;
+        self.speech.iter().try_for_each(|line| check_speech(line, clip))
     }
 
     fn check_pin(&self, pin: &Pin, clip: Frames) -> Result<(), Error> {
@@ -193,6 +200,19 @@ fn check_split(split: Frame, clip: Frames) -> Result<(), Error> {
     if !clip.has(split) {
         return wrong(format!(
             "frame {split}, with which an action is to begin, is not in the clip, which has frames {clip}"
+        ));
+    }
+    Ok(())
+}
+
+fn check_speech(line: &Speech, clip: Frames) -> Result<(), Error> {
+    if let Some(fault) = line.fault() {
+        return wrong(fault);
+    }
+    let Speech { from, past, .. } = *line;
+    if from > clip.last || past <= clip.first {
+        return wrong(format!(
+            "the line {from}..{past} is not in the clip, which has frames {clip}"
         ));
     }
     Ok(())

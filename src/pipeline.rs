@@ -8,7 +8,7 @@ mod tests;
 
 use std::sync::Arc;
 
-use crate::edits::{Edits, Hold};
+use crate::edits::{Edits, Hold, Speech};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
 use crate::keys::{
@@ -17,7 +17,7 @@ use crate::keys::{
 };
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
-use crate::sheet::{Feet, RootMotion, Sheet};
+use crate::sheet::{Feet, RootMotion, Sheet, SpokenLine};
 use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
 use crate::time::{Clock, Frame, Span};
 use crate::timing::{Omitted, Spaced, with_holds};
@@ -54,8 +54,8 @@ pub struct Engine {
     sheets: Stage<SheetSettings, [Sheet; 2]>,
 }
 
-/// Of which time and motion the sheet is, and what a person holds.
-type SheetSettings = ((Clock, RootMotion, Feet), Vec<Hold>);
+/// Of which time and motion the sheet is and with which frame that ends, what a person holds, and what is spoken.
+type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
@@ -203,7 +203,7 @@ impl Engine {
             layer.time(&measured, joints, recipe, &later)?;
             done(layer);
         }
-        self.sheet(recipe, &edits.holds);
+        self.sheet(recipe, edits);
         Ok(self.breakdown(recipe))
     }
 
@@ -387,18 +387,26 @@ impl Engine {
     }
 
     /// The sheet, before and after omission and what a person holds.
-    fn sheet(&mut self, recipe: &Recipe, holds: &[Hold]) {
+    fn sheet(&mut self, recipe: &Recipe, edits: &Edits) {
         let layers = &self.layers[..self.split.output().len()];
         let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
-        let Recipe { root, feet, .. } = *recipe;
-        let settings = ((self.clip.clock(recipe.rate), root, feet), holds.to_vec());
-        self.sheets.make(layers, settings, |layers, &((clock, root, feet), ref holds)| {
+        let of = (self.clip.clock(recipe.rate), recipe.root, recipe.feet, self.clip.last());
+        let settings = (of, edits.holds.clone(), edits.speech.clone());
+        self.sheets.make(layers, settings, |layers, settings| {
+            let ((clock, root, feet, last), holds, speech) = settings;
             let held = |(spaced, omitted): (Of<'_, Spaced>, Of<'_, Omitted>)| {
                 let spaced = &spaced.value().layer;
-                (spaced.clone(), with_holds(&omitted.layer, spaced, holds, clock))
+                (spaced.clone(), with_holds(&omitted.layer, spaced, holds, *clock))
             };
             let (spaced, layers) = layers.into_iter().map(held).unzip();
-            [spaced, layers].map(|layers| Sheet { clock, layers, root, feet })
+            [spaced, layers].map(|layers| {
+                let sheet = Sheet { root: *root, feet: *feet, ..Sheet::new(*clock, layers) };
+                let length = sheet.length();
+                let lines = speech.iter().filter_map(|line| line.on_sheet(*clock, *last, length));
+                let mut lines: Vec<SpokenLine> = lines.collect();
+                lines.sort_by_key(|line| line.begin);
+                Sheet { lines, ..sheet }
+            })
         });
     }
 }

@@ -2,6 +2,7 @@
 //! together with a person's corrections.
 
 mod file;
+mod footage;
 mod knobs;
 
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,7 @@ use crate::time::KOMA_RATE;
 use crate::timing::{Omission, Spacing};
 
 pub use crate::knob::{Kind, Knob, Who};
+pub use footage::Footage;
 pub use knobs::KNOBS;
 
 /// What the weight of a joint is set by, in front of its name.

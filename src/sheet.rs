@@ -28,6 +28,66 @@ pub struct Sheet {
     /// Whether a foot stays where it stands.
     #[serde(default, skip_serializing_if = "is_default")]
     pub feet: Feet,
+    /// What is spoken (セリフ), in the order in which it begins.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub lines: Vec<SpokenLine>,
+}
+
+/// A spoken line (セリフ), of the S column.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a spoken line {\"begin\", \"koma\", \"words\"}")]
+pub struct SpokenLine {
+    /// The koma on which it begins, from 0.
+    pub begin: usize,
+    /// For how many koma it is heard, at least 1.
+    pub koma: usize,
+    /// Who speaks; empty where that is not said.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub speaker: String,
+    /// What is said.
+    pub words: String,
+}
+
+/// Who says what, as it is written in the language of the words: `Ken: no`, アキ「えい！」.
+impl fmt::Display for SpokenLine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { speaker, words, .. } = self;
+        let is_latin = words.chars().all(|letter| (letter as u32) < 0x2e80);
+        match (speaker.is_empty(), is_latin) {
+            (true, true) => write!(f, "{words}"),
+            (false, true) => write!(f, "{speaker}: {words}"),
+            (_, false) => write!(f, "{speaker}「{words}」"),
+        }
+    }
+}
+
+impl SpokenLine {
+    /// The koma after its last.
+    pub fn past(&self) -> usize {
+        self.begin.saturating_add(self.koma)
+    }
+
+    /// For each of some lines the column it stands in, from 0: those that are heard at once stand side by side.
+    /// The lines are in the order in which they begin.
+    ///
+    /// ```
+    /// use genga::sheet::SpokenLine;
+    ///
+    /// let line = |begin, koma| SpokenLine { begin, koma, speaker: "".into(), words: "a".into() };
+    /// assert_eq!(SpokenLine::side_by_side(&[line(0, 9), line(4, 9), line(9, 2)]), [0, 1, 0]);
+    /// ```
+    pub fn side_by_side(lines: &[Self]) -> Vec<usize> {
+        let mut free: Vec<usize> = Vec::new();
+        let place = |line: &Self| {
+            let at = free.iter().position(|koma| *koma <= line.begin).unwrap_or(free.len());
+            match free.get_mut(at) {
+                Some(koma) => *koma = line.past(),
+                None => free.push(line.past()),
+            }
+            at
+        };
+        lines.iter().map(place).collect()
+    }
 }
 
 /// Whether a foot on the ground (接地) stays where it is in the motion that is handed over.
@@ -405,14 +465,15 @@ impl Layer {
 impl Sheet {
     /// A sheet of some layers, whose drawings carry the body.
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
-        Self { clock, layers, root: RootMotion::default(), feet: Feet::default() }
+        let (root, feet) = (RootMotion::default(), Feet::default());
+        Self { clock, layers, root, feet, lines: vec![] }
     }
 
     /// Checks that every exposure shows a drawing that its layer has, for a koma at least, that no
-    /// layer has more than a million koma, and that no joint is of two.
+    /// layer has more than a million koma, that no joint is of two, and that what is spoken is so on the sheet.
     ///
     /// # Errors
-    /// [`Error::Sheet`] naming the first layer of which that is not so.
+    /// [`Error::Sheet`] naming the first layer or line of which that is not so.
     pub fn check(&self) -> Result<(), Error> {
         self.layers.iter().try_fold(0, |before, layer| layer.check(before))?;
         let mut layer_of = HashMap::new();
@@ -426,7 +487,44 @@ impl Sheet {
                 }
             }
         }
-        Ok(())
+        self.check_lines()
+    }
+
+    fn check_lines(&self) -> Result<(), Error> {
+        let length = self.length();
+        for line in &self.lines {
+            let (words, begin) = (&line.words, line.begin);
+            if line.koma == 0 || words.trim().is_empty() {
+                return Err(Error::sheet(format!(
+                    "the line \"{words}\" on koma {begin} has no koma or no words; leave it out"
+                )));
+            }
+            if line.past() > length {
+                return Err(Error::sheet(format!(
+                    "the line \"{words}\" ends on koma {}, and the sheet has {length}; shorten it",
+                    line.past()
+                )));
+            }
+        }
+        match self.lines.windows(2).find(|pair| pair[0].begin > pair[1].begin) {
+            Some(pair) => Err(Error::sheet(format!(
+                "the line \"{}\" begins before the one in front of it; sort them by begin",
+                pair[1].words
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// The same with lines of a sheet of another length: what lies beyond this one is cut off.
+    pub(crate) fn with_lines(mut self, lines: &[SpokenLine]) -> Self {
+        let length = self.length();
+        let heard = lines.iter().filter(|line| line.begin < length);
+        let cut = |line: &SpokenLine| SpokenLine {
+            koma: line.koma.min(length - line.begin),
+            ..line.clone()
+        };
+        self.lines = heard.map(cut).collect();
+        self
     }
 
     /// The first layer, to which every joint belongs that no other names.

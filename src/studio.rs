@@ -28,6 +28,8 @@ mod errand;
 mod exporting;
 mod file_field;
 mod files;
+mod footage;
+mod footage_panel;
 mod freeze;
 mod held_key;
 mod help;
@@ -46,14 +48,20 @@ mod opening;
 mod order;
 mod order_panel;
 mod player;
+mod reel;
 mod scene;
 mod shown;
+mod speaking;
+mod speech_form;
+mod spoken;
 mod step;
 mod take;
 mod takes;
 mod timesheet;
+mod track;
 mod transport;
 mod viewport;
+mod waveform;
 mod welcome;
 mod why;
 mod words;
@@ -70,6 +78,7 @@ use curves::Curves;
 use errand::Errand;
 use exporting::Exporting;
 use file_field::FileField;
+use footage_panel::FootagePanel;
 use key_menu::KeyPanel;
 use knobs::Knobs;
 use look::Look;
@@ -79,15 +88,19 @@ use on_screen::OnScreen;
 use opening::Opening;
 use order_panel::OrderPanel;
 use player::Player;
+use reel::Reel;
 use shown::Shown;
+use speech_form::SpeechForm;
 use take::{Results, Take};
 use takes::Takes;
 use timesheet::Timesheet;
+use track::Track;
 use viewport::Viewport;
 use words::Words;
 
-pub use desk::{Desk, Export, Exported, Opened, Pending};
+pub use desk::{Desk, Export, Exported, Opened, Pending, Pictures, Playing};
 pub use document::Document;
+pub use waveform::Waveform;
 pub use words::Language;
 
 /// The studio: a clip on the table, and everything a person looks at it with.
@@ -121,6 +134,12 @@ pub struct Studio {
     knobs: Knobs,
     map: Map,
     key_panel: KeyPanel,
+    /// What is spoken, while it is written.
+    speech: SpeechForm,
+    /// The pictures that were taken beside the motion, and the sound.
+    reel: Reel,
+    track: Track,
+    footage: FootagePanel,
     /// The document when a hand took hold of what it corrects.
     held: Option<Document>,
     /// The counts when a hand took hold of anything.
@@ -153,6 +172,10 @@ impl Studio {
             knobs: Knobs::default(),
             map: Map::default(),
             key_panel: KeyPanel::default(),
+            speech: SpeechForm::default(),
+            reel: Reel::default(),
+            track: Track::default(),
+            footage: FootagePanel::default(),
             held: None,
             before: None,
         }
@@ -178,6 +201,11 @@ impl Studio {
         self.map.is_waiting()
     }
 
+    /// Whether pictures or a sound are being read.
+    pub fn is_looking(&self) -> bool {
+        self.reel.is_waiting() || self.track.is_waiting()
+    }
+
     /// What the window is called: the clip, with a star while something is not saved.
     pub fn title(&self) -> String {
         let name = |take: &Take| {
@@ -197,6 +225,7 @@ impl Studio {
             let is_exporting = self.exporting.is_some();
             bar::show(ui, self.take.as_mut(), self.before, is_exporting, words, &mut commands);
         });
+        self.renew_footage(ui);
         match self.take {
             Some(_) => self.table(ui, look, words, &mut commands),
             None => {
@@ -223,6 +252,18 @@ impl Studio {
             }
             if self.order.order.is_some() {
                 notice::one(ui, look.faint, |ui| self.order.show(ui, words, commands));
+            }
+            if let Some(take) = self.take.as_mut().filter(|_| self.speech.is_open()) {
+                let Results { breakdown, .. } = take.results();
+                notice::one(ui, look.faint, |ui| {
+                    let last = breakdown.clip.last();
+                    self.speech.show(ui, breakdown.sheet, last, words, commands);
+                });
+            }
+            if let Some(take) = self.take.as_ref().filter(|_| self.footage.is_open) {
+                let (placement, is_silent) = (&self.viewport.placement, self.track.is_silent);
+                let at = (&take.wanted.footage, placement, is_silent, self.reel.is_listing());
+                notice::one(ui, look.faint, |ui| self.footage.show(ui, at, words, commands));
             }
             if let Some(opening) = &self.opening {
                 notice::one(ui, look.playhead, |ui| opening.show(ui, words));
@@ -251,7 +292,14 @@ impl Studio {
         if let Some(wait) = self.player.advance(now, column.clock.koma_rate, column.length) {
             ui.ctx().request_repaint_after_secs(wait as f32);
         }
-        let (at, joints) = (self.player.at, &self.curves.chosen.clone());
+        let is_held = ui.input(|input| input.pointer.any_down());
+        let (at, rate) = (self.player.at, column.clock.koma_rate);
+        self.reel.want(&self.desk, wanted.footage.picture(at, rate));
+        let second = wanted.footage.second(at as f64, rate);
+        let fault = self.track.follow(&self.desk, self.player.run(), second, is_held);
+        self.message = fault.map(Message::failure).or(self.message.take());
+        let beside = footage::beside(&self.reel, &self.track, &wanted.footage, at, rate);
+        let joints = &self.curves.chosen.clone();
         let on_screen = OnScreen::of(breakdown.clip, cels);
         let shown = Shown {
             breakdown,
@@ -263,6 +311,7 @@ impl Studio {
             joints,
             at,
             counts_frames: self.counts_frames,
+            beside,
             look,
             words,
         };
@@ -275,7 +324,7 @@ impl Studio {
         Panel::left("knobs").default_size(306.0).size_range(250.0..=460.0).show(ui, |ui| {
             self.knobs.show(ui, &mut self.map, &shown, commands);
         });
-        Panel::right("sheet").default_size(236.0).size_range(170.0..=640.0).show(ui, |ui| {
+        Panel::right("sheet").default_size(266.0).size_range(200.0..=640.0).show(ui, |ui| {
             self.key_panel.show(ui, &shown, commands);
             ui.separator();
             self.timesheet.show(ui, &shown, commands);
@@ -332,6 +381,7 @@ impl Studio {
             || self.exporting.is_some()
             || self.choosing.is_some()
             || self.choosing_folder.is_some()
+            || self.is_looking()
             || self.map.is_waiting();
         if is_waiting {
             ui.ctx().request_repaint_after_secs(errand::LOOK_AGAIN);
@@ -353,6 +403,7 @@ impl Studio {
         self.viewport = Viewport::of(&take.scene);
         self.timesheet = Timesheet::default();
         self.key_panel = KeyPanel::default();
+        self.speech.close();
         self.map.forget();
         self.desk.remember(&take.path);
         self.recent = self.desk.recent();

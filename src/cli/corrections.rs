@@ -7,7 +7,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::seen::SeenArgs;
 use super::{files, paths};
-use crate::edits::{Edits, Forbidden, Hold, Move, Pin, layer_of};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
 use crate::error::Error;
 use crate::keys::{Key, Layers, Origin};
 use crate::pipeline::{Breakdown, LayerBreakdown};
@@ -53,6 +53,10 @@ pub(super) struct Corrections {
     /// 310,774
     #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
     split: Vec<Frame>,
+    /// A spoken line for the S column, over source frames without the last one: --say "120..210:アキ:えい！" (may be given
+    /// again).
+    #[arg(long, value_name = "A..B:[SPEAKER:]WORDS")]
+    say: Vec<String>,
     /// Choose every key anew around pins and forbidden frames, instead of only those beside each; =false takes back what a
     /// recipe says of it.
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
@@ -125,6 +129,12 @@ impl Corrections {
             let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
             edits.holds.retain(|other| other.frame != hold.frame);
             edits.holds.push(hold);
+        }
+        for line in &self.say {
+            let line = Speech::parse(line).map_err(|error| wrongly("say", error))?;
+            if !edits.speech.contains(&line) {
+                edits.speech.push(line);
+            }
         }
         if !self.split.is_empty() {
             edits.splits = self.split.clone();

@@ -1,10 +1,14 @@
 //! Source beside result as a video, which the system's ffmpeg packs. The settings are there in every build.
 
 #[cfg(feature = "cli")]
+mod ffmpeg;
+#[cfg(feature = "cli")]
 mod pack;
 #[cfg(feature = "cli")]
 #[cfg(test)]
 mod tests;
+#[cfg(feature = "cli")]
+mod unpack;
 
 use serde::{Deserialize, Serialize};
 

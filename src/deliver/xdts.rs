@@ -3,12 +3,13 @@
 //!
 //! A file has one column of the paper, so a sheet is two files: what the key animator writes into
 //! ACTION (keys numbered, a mark an inbetween) and what the inbetweener writes into CELL (every
-//! drawing numbered). TDTS, made of the same parts, has both in one file.
+//! drawing numbered). What is spoken (S) stands in both. TDTS, made of the same parts, has all in one file.
 
 mod file;
 mod pins;
 mod read;
 mod retimed;
+mod speech;
 mod tdts;
 #[cfg(test)]
 pub(super) mod tests;
@@ -34,6 +35,8 @@ const TDTS_SIGNATURE: &str = "toeiDigitalTimeSheet Save Data";
 
 /// The field of cels; in a TDTS file the ACTION column.
 const CELS: u32 = 0;
+/// The S column: dialogue; in a TDTS file sound.
+const SPEECH: u32 = 3;
 /// The CELL column of a TDTS file.
 const TDTS_CELL: u32 = 4;
 

@@ -33,11 +33,12 @@ pub(super) fn say_nothing(layers: &BTreeMap<String, LayerEdits>) -> bool {
 }
 
 impl Edits {
-    /// What is wanted of the keys of a layer: what is wanted of all, and what of it alone. Holds and
-    /// splits are no matter of keys and not among it.
+    /// What is wanted of the keys of a layer: what is wanted of all, and what of it alone. Holds, splits and
+    /// what is spoken are no matter of keys and not among it.
     pub fn of_layer(&self, name: &str) -> Self {
-        let mut edits =
-            Self { holds: vec![], splits: vec![], layers: BTreeMap::new(), ..self.clone() };
+        let mut edits = self.clone();
+        (edits.holds, edits.splits, edits.speech) = (vec![], vec![], vec![]);
+        edits.layers = BTreeMap::new();
         if let Some(own) = self.layers.get(name) {
             edits.pins.extend(own.pins.iter().cloned());
             edits.forbidden.extend(&own.forbidden);

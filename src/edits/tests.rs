@@ -214,11 +214,18 @@ proptest! {
         (only_pins, again) in any::<(bool, bool)>(),
         frozen in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
         splits in prop::collection::vec((0..99usize).prop_map(Frame), 0..4),
+        speech in prop::collection::vec((0..99usize, 1..9usize, "[a-z]{0,3}", "[a-z あ\"]{1,5}"), 0..4),
     ) {
         let hold = |(frame, koma)| Hold { frame: Frame(frame), koma };
         let pin = |(frame, name, weight)| Pin { frame: Frame(frame), name, weight };
         let range = |(from, length)| Forbidden { from: Frame(from), past: Frame(from + length) };
         let moved = |(from, to, name)| Move { from: Frame(from), to: Frame(to), name, weight: None };
+        let said = |(from, length, speaker, words)| Speech {
+            from: Frame(from),
+            past: Frame(from + length),
+            speaker,
+            words,
+        };
         let edits = Edits {
             pins: pins.into_iter().map(pin).collect(),
             forbidden: ranges.into_iter().map(range).collect(),
@@ -229,6 +236,7 @@ proptest! {
             frozen,
             layers: BTreeMap::new(),
             splits,
+            speech: speech.into_iter().map(said).collect(),
         };
         let own = LayerEdits {
             pins: edits.pins.clone(),

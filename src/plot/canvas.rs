@@ -247,6 +247,18 @@ impl Canvas {
         self.tag(format_args!("</g>"));
     }
 
+    /// A text that runs from top to bottom (縦書き), from the point on, its letters in the middle of it.
+    pub(super) fn text_downwards(&mut self, text: &str, (x, y): Point, look: Type) {
+        if text.is_empty() {
+            return;
+        }
+        let (x, y, size) = (tenth(x), tenth(y), tenth(look.size));
+        let (color, text) = (hex(look.color), escaped(text));
+        self.tag(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{color}\" writing-mode=\"vertical-rl\">{text}</text>"
+        ));
+    }
+
     /// A number in a circle (丸数字). Pinned ones are filled.
     pub(super) fn badge(&mut self, center: Point, number: usize, color: RGBColor, filled: bool) {
         let (fill, ink) = if filled { (color, style::PAPER) } else { (style::PAPER, color) };

@@ -10,6 +10,7 @@ mod head;
 mod layout;
 mod leaf;
 mod page;
+mod speech;
 #[cfg(test)]
 mod tests;
 

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
 
 use super::knobs::{KNOBS, unknown};
-use super::{Knob, Recipe, Who};
+use super::{Footage, Knob, Recipe, Who};
 use crate::edits::Edits;
 use crate::error::Error;
 
@@ -59,6 +59,8 @@ impl Recipe {
         let edits =
             table.remove("edits").map(|edits| Edits::deserialize(edits.into_deserializer()));
         let edits = edits.transpose().map_err(not_read)?.unwrap_or_default();
+        // It is for the studio, and what is wrong with it is said all the same.
+        take_footage(text, &mut table)?;
         let mut file = File { text, recipe: self.clone(), named: BTreeSet::new() };
         file.take("", &table)?;
         Ok((file.recipe, edits))
@@ -109,6 +111,25 @@ impl Recipe {
         }
         let lines = toml::to_string(weights).expect("names and numbers");
         format!("\n{ABOUT_WEIGHTS}[{WEIGHTS}]\n{lines}")
+    }
+}
+
+/// What a file says under `[footage]`.
+pub(super) fn footage(text: &str) -> Result<Footage, Error> {
+    let mut table = DeTable::parse(text).map_err(|error| not_read(text, error))?.into_inner();
+    take_footage(text, &mut table)
+}
+
+fn take_footage(text: &str, table: &mut DeTable<'_>) -> Result<Footage, Error> {
+    let Some((key, said)) = table.remove_entry("footage") else { return Ok(Footage::default()) };
+    let place = key.span();
+    let footage = Footage::deserialize(said.into_deserializer());
+    let footage = footage.map_err(|error| not_read(text, error))?;
+    match footage.fault() {
+        None => Ok(footage),
+        Some(message) => {
+            Err(Error::Recipe { place: Some(line_and_column(text, place)), message, source: None })
+        }
     }
 }
 
@@ -203,7 +224,7 @@ mod tests {
     use std::error::Error as _;
 
     use super::*;
-    use crate::edits::{Hold, LayerEdits, Move, Pin};
+    use crate::edits::{Hold, LayerEdits, Move, Pin, Speech};
     use crate::time::Frame;
 
     #[test]
@@ -250,6 +271,7 @@ mod tests {
             frozen: vec![Frame(12)],
             layers: [("B".to_owned(), of_arm)].into(),
             splits: vec![Frame(40), Frame(120)],
+            speech: vec![Speech::parse("12..40:アキ:\"えい\" # = 1").unwrap()],
         };
         let text = recipe.write(&edits);
         assert_eq!(Recipe::parse(&text).unwrap(), (recipe, edits), "{text}");

@@ -9,6 +9,7 @@ use super::column::Column;
 use super::command::{Command, Seen};
 use super::corrections::Correction;
 use super::exporting::Exporting;
+use super::footage;
 use super::here::Here;
 use super::opening::Opening;
 use super::take::{Results, Take};
@@ -44,6 +45,7 @@ impl Studio {
                     self.fail(text);
                 }
             }
+            _ if footage::is_beside(path) => self.put_beside(path),
             None if is_recipe => self.fail("Open a clip first: a recipe is for one.".into()),
             _ => self.open_folder_or_clip(path),
         }
@@ -77,6 +79,12 @@ impl Studio {
             | Command::NudgeFrame(_)
             | Command::Hold(_)
             | Command::Crowd(_) => self.correct_here(&command),
+            Command::AskSpeech(koma) => self.ask_speech(koma),
+            Command::EditSpeech(speech) => self.edit_speech(&speech),
+            Command::AskFootage => self.ask_footage(),
+            Command::Footage(footage) => self.set_footage(footage),
+            Command::Place(placement) => self.viewport.placement = placement,
+            Command::Silence => self.track.is_silent = !self.track.is_silent,
             Command::Freeze => self.freeze(),
             Command::FindAgain => self.find_again(),
             Command::CopyKeys => self.copy_keys(ui),
@@ -138,6 +146,8 @@ impl Studio {
                 ui.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
                 (self.message, self.is_help_open, self.file.is_open) = (None, false, false);
                 self.order.order = None;
+                self.speech.close();
+                self.footage.is_open = false;
             }
         }
         ui.ctx().request_repaint();

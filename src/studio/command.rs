@@ -1,9 +1,12 @@
 //! Commands (操作): what a hand or a key asks for, and the words it has for it.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use super::corrections::Correction;
 use super::order::Order;
+use crate::edits::Speech;
+use crate::recipe::Footage;
 
 /// What a hand asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +82,18 @@ pub(super) enum Command {
     FocusName,
     /// A correction of the column that is worked on.
     Correct(Correction),
+    /// A spoken line over some koma; without any over what is played, or from the play head on.
+    AskSpeech(Option<Range<usize>>),
+    /// A spoken line is looked at, to be changed.
+    EditSpeech(Speech),
+    /// What is shown and heard beside the motion is asked for.
+    AskFootage,
+    /// Other pictures, another sound, or the same with other offsets.
+    Footage(Footage),
+    /// Where the pictures are seen.
+    Place(Placement),
+    /// Nothing is heard while the sheet is played, or the sound.
+    Silence,
     /// A correction of the column that is named, or of all.
     CorrectOf(Option<String>, Correction),
     /// A correction in the making: what was there when the hand took hold is corrected so.
@@ -135,6 +150,18 @@ pub(super) enum Seen {
     Source,
     /// What the sheet shows.
     Result,
+}
+
+/// Where pictures are seen that were taken beside the motion.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Placement {
+    /// In a view of their own.
+    #[default]
+    Beside,
+    /// Behind the figures.
+    Behind,
+    /// Nowhere.
+    Off,
 }
 
 /// A side that everybody knows.

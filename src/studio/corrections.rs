@@ -1,10 +1,10 @@
 //! Corrections (修正) of keys and holds, as a hand makes them: each is a change of the [`Edits`].
 
-use crate::edits::{Edits, Forbidden, Hold, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, Move, Pin, Speech};
 use crate::keys::{Key, Origin};
 use crate::time::Frame;
 
-/// A correction of one key, or of how long a drawing stays.
+/// A correction of one key, of how long a drawing stays, or of what is spoken.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Correction {
     /// A key where there is none.
@@ -31,6 +31,8 @@ pub(super) enum Correction {
     Again(bool),
     /// Keys that were copied, where there is none yet.
     Paste(Vec<Pin>),
+    /// In place of a spoken line another: without the first a new one, without the second none.
+    Say(Option<Speech>, Option<Speech>),
 }
 
 impl Correction {
@@ -63,6 +65,7 @@ impl Correction {
                 *on.own_pin(&Key::set(pin.frame)) = pin.clone();
             }),
             Self::Again(again) => on.edits.again = *again,
+            Self::Say(before, line) => on.say(before.as_ref(), line.clone()),
             Self::LetGo(frame) => on.edits.holds.retain(|hold| hold.frame != *frame),
         }
         on.edits.without_empty_layers()
@@ -160,6 +163,15 @@ impl Of<'_> {
         holds.sort_by_key(|hold| hold.frame);
     }
 
+    fn say(&mut self, before: Option<&Speech>, line: Option<Speech>) {
+        let speech = &mut self.edits.speech;
+        if let Some(at) = speech.iter().position(|line| Some(line) == before) {
+            speech.remove(at);
+        }
+        speech.extend(line);
+        speech.sort_by_key(|line| (line.from, line.past));
+    }
+
     /// The move that put a key where it is.
     fn own_move(&mut self, key: &Key) -> Option<&mut Move> {
         let Origin::Moved { from } = key.origin else { return None };
@@ -254,6 +266,21 @@ mod tests {
         assert_eq!(twice.pins.len(), 1, "once is enough");
         let pinned = Correction::Pin(Frame(41)).on(&edits, None);
         assert_eq!((pinned.forbidden.len(), pinned.pins.len()), (0, 1), "the last word counts");
+    }
+
+    #[test]
+    fn a_line_is_said_changed_and_taken_out() {
+        let line = |text: &str| Speech::parse(text).unwrap();
+        let said = |before: Option<&str>, after: Option<&str>| {
+            Correction::Say(before.map(line), after.map(line))
+        };
+        let edits =
+            on(&Edits::default(), &[said(None, Some("40..60:b")), said(None, Some("5..9:a"))]);
+        assert_eq!(edits.speech, [line("5..9:a"), line("40..60:b")]);
+        let edits = said(Some("5..9:a"), Some("70..90:Aki:c")).on(&edits, Some("B"));
+        assert_eq!(edits.speech, [line("40..60:b"), line("70..90:Aki:c")]);
+        let none = on(&edits, &[said(Some("40..60:b"), None), said(Some("70..90:Aki:c"), None)]);
+        assert_eq!(none, Edits::default());
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! The curves (速度のグラフ): how fast chosen joints are, before and after the filter, with their keys and
-//! walls, and how far the body moves into each koma, under the numbers of the genga and the dots of the inbetweens.
+//! walls, how far the body moves into each koma, and how loud the sound is, under the numbers of the genga and the dots of the inbetweens.
 //! Keys are corrected here frame by frame, and inbetweens pulled towards them.
 
 mod hand;
@@ -7,6 +7,7 @@ mod joints;
 mod lane;
 mod movement;
 mod ruler;
+mod sound;
 mod time;
 
 use egui::{Id, Panel, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
@@ -94,7 +95,8 @@ impl Curves {
             painter.rect_filled(Rect::from_x_y_ranges(played, inside.y_range()), 0.0, look.chosen);
         }
         let below = inside.with_min_y(top.max.y);
-        let count = self.chosen.len() + usize::from(self.movement);
+        let is_heard = shown.beside.waveform.is_some();
+        let count = self.chosen.len() + usize::from(self.movement) + usize::from(is_heard);
         let high = below.height() / count.max(1) as f32;
         let lane = |at: usize| {
             let corner = below.min + vec2(0.0, high * at as f32);
@@ -105,6 +107,9 @@ impl Curves {
         }
         if self.movement {
             movement::draw(&painter, lane(self.chosen.len()), time, shown);
+        }
+        if is_heard {
+            sound::draw(&painter, lane(count - 1), time, shown);
         }
         painter.vline(place(shown.at), inside.y_range(), Stroke::new(2.0, look.playhead));
         ruler::draw(&painter, top, inside.max.y, time, shown);

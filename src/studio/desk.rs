@@ -2,8 +2,12 @@
 //! tried without a disk, and on a full one.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use egui::ColorImage;
+
+use super::waveform::Waveform;
 use crate::edits::Edits;
 use crate::motion::Clip;
 use crate::pipeline::Breakdown;
@@ -81,6 +85,44 @@ pub trait Desk: Send + Sync {
         vec![]
     }
 
+    /// The pictures in a folder, in their order; none for what is no folder.
+    fn pictures_in(&self, _folder: &Path) -> Vec<PathBuf> {
+        vec![]
+    }
+
+    /// The pictures that something beside a clip consists of: a folder of them, a numbered sequence by one of it, or a
+    /// video. Asked on a thread of its own; it may take long.
+    ///
+    /// # Errors
+    /// Why there are none, as on a desk that shows none.
+    fn pictures(&self, of: &Path) -> Result<Pictures, String> {
+        Err(format!("{}: pictures beside the motion cannot be shown here", of.display()))
+    }
+
+    /// A picture, made as small as it takes to be nowhere larger than `within`; on a thread of its own.
+    ///
+    /// # Errors
+    /// Why it is none.
+    fn picture(&self, file: &Path, _within: [usize; 2]) -> Result<ColorImage, String> {
+        Err(format!("{}: pictures cannot be shown here", file.display()))
+    }
+
+    /// How loud a sound is, on a thread of its own.
+    ///
+    /// # Errors
+    /// Why it is none, as on a desk that hears nothing.
+    fn sound(&self, file: &Path) -> Result<Waveform, String> {
+        Err(format!("{}: sound cannot be heard here", file.display()))
+    }
+
+    /// Plays a sound from a second on, beside everything else, until what it gives is dropped.
+    ///
+    /// # Errors
+    /// Why nothing is heard.
+    fn play(&self, file: &Path, _from: f64) -> Result<Box<dyn Playing>, String> {
+        Err(format!("{}: sound cannot be played here", file.display()))
+    }
+
     /// What was last noted under a name; none on a desk that remembers nothing.
     fn noted(&self, _name: &str) -> Option<String> {
         None
@@ -96,6 +138,23 @@ pub trait Desk: Send + Sync {
 
     /// Remembers a clip as the newest.
     fn remember(&self, _clip: &Path) {}
+}
+
+/// Pictures in their order.
+#[derive(Clone)]
+pub struct Pictures {
+    /// Their files.
+    pub files: Vec<PathBuf>,
+    /// What a person should know of them, as a sentence.
+    pub note: Option<String>,
+    /// Whatever keeps the files where they are.
+    pub kept: Option<Arc<dyn Send + Sync>>,
+}
+
+/// A sound that is being played. It ends when this is dropped.
+pub trait Playing: Send {
+    /// Why nothing is heard, once that is known.
+    fn fault(&self) -> Option<String>;
 }
 
 /// A motion that was read.

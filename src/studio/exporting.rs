@@ -32,7 +32,7 @@ impl Parcel {
         stop: &AtomicBool,
         tell: &dyn Fn(&str),
     ) -> Result<Exported, String> {
-        let Document { recipe, edits } = &self.document;
+        let Document { recipe, edits, .. } = &self.document;
         let breakdown = self.engine.run(recipe, edits).map_err(|error| error.to_string())?;
         let (clip, notes) = (&*self.clip, &*self.notes);
         let (formats, camera) = (&*self.order.formats, self.order.camera);

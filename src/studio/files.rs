@@ -14,10 +14,13 @@ const EXPORT: &str = "export";
 const INTO: &str = "export-into";
 
 impl Studio {
-    /// Opens a clip; of a folder all takes, and the first of them.
+    /// Opens a clip; of a folder all takes, and the first of them, or the pictures where it has no take.
     pub(super) fn open_folder_or_clip(&mut self, path: &Path) {
         let clips = self.desk.clips_in(path);
-        let Some(first) = clips.first().cloned() else { return self.open(path, None) };
+        let Some(first) = clips.first().cloned() else {
+            let has_pictures = !self.desk.pictures_in(path).is_empty();
+            return if has_pictures { self.put_beside(path) } else { self.open(path, None) };
+        };
         let marks = self.desk.read(&Takes::file(path)).ok().flatten().unwrap_or_default();
         self.takes = Takes::of(path, clips, &marks);
         self.open(&first, None);

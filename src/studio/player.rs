@@ -11,11 +11,22 @@ pub(super) struct Player {
     pub(super) range: Option<Range<usize>>,
     /// Since when it plays, in seconds, and from which koma.
     playing: Option<(f64, usize)>,
+    /// How often it has come to the end and begun again.
+    lap: usize,
 }
+
+/// A run without a jump: since when, from which koma, and the how manieth time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Run(f64, usize, usize);
 
 impl Player {
     pub(super) fn is_playing(&self) -> bool {
         self.playing.is_some()
+    }
+
+    /// The run that it is on, while it plays.
+    pub(super) fn run(&self) -> Option<Run> {
+        self.playing.map(|(since, from)| Run(since, from, self.lap))
     }
 
     /// Plays, or stops.
@@ -59,6 +70,7 @@ impl Player {
         let gone = ((now - since) * koma_rate).max(0.0);
         let koma = from.saturating_sub(range.start) + gone.floor() as usize;
         self.at = range.start + koma % range.len().max(1);
+        self.lap = koma / range.len().max(1);
         Some((gone.floor() + 1.0 - gone) / koma_rate)
     }
 
@@ -86,6 +98,26 @@ mod tests {
         }
         player.toggle(10.2, 4);
         assert_eq!((player.advance(11.0, 24.0, 4), player.at), (None, 1));
+    }
+
+    #[test]
+    fn a_run_ends_with_a_jump_and_with_the_last_koma() {
+        let mut player = Player::default();
+        assert_eq!(player.run(), None);
+        player.toggle(1.0, 24);
+        let at = |player: &mut Player, now: f64| {
+            player.advance(now, 24.0, 24);
+            player.run()
+        };
+        let first = at(&mut player, 1.1);
+        assert!(first.is_some());
+        assert_eq!(at(&mut player, 1.9), first);
+        let again = at(&mut player, 2.1);
+        assert_ne!(again, first, "it began again");
+        player.go(20, 24, 2.2);
+        assert_ne!(at(&mut player, 2.2), again, "it went elsewhere");
+        player.toggle(2.3, 24);
+        assert_eq!(player.run(), None);
     }
 
     #[test]

@@ -1,15 +1,29 @@
 //! What is shown (表示): everything that the panels of one frame read, and none of them changes.
 
+use egui::{TextureId, Vec2};
+
 use super::column::Column;
 use super::command::Command;
 use super::document::Document;
 use super::look::Look;
 use super::on_screen::OnScreen;
 use super::scene::Scene;
+use super::waveform::Waveform;
 use super::words::Words;
 use crate::motion::JointId;
 use crate::pipeline::Breakdown;
 use crate::time::Frame;
+
+/// What was recorded beside the motion, at a koma.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Beside<'a> {
+    /// How many pictures there are, or none while they are looked for; nothing where none are asked for.
+    pub(super) pictures: Option<usize>,
+    /// The picture of the koma by its number, from 0, and what of it is there.
+    pub(super) number: Option<usize>,
+    pub(super) picture: Option<(TextureId, Vec2)>,
+    pub(super) waveform: Option<&'a Waveform>,
+}
 
 /// A look at the results from one koma.
 pub(super) struct Shown<'a> {
@@ -28,6 +42,8 @@ pub(super) struct Shown<'a> {
     pub(super) at: usize,
     /// Whether frames of the source are counted, and not koma.
     pub(super) counts_frames: bool,
+    /// What was recorded beside the motion.
+    pub(super) beside: Beside<'a>,
     pub(super) look: Look,
     pub(super) words: Words,
 }
@@ -41,6 +57,12 @@ impl<'a> Shown<'a> {
     /// Whether another motion is drawn than was captured.
     pub(super) fn is_exaggerated(&self) -> bool {
         !self.wanted.recipe.exaggerate.is_off()
+    }
+
+    /// How loud it is from a koma to another, 0 to 1, where there is a sound.
+    pub(super) fn level(&self, from: f64, to: f64) -> Option<f32> {
+        let second = |koma| self.wanted.footage.second(koma, self.column().clock.koma_rate);
+        self.beside.waveform.map(|waveform| waveform.level(second(from), second(to)))
     }
 
     /// To a koma, if the play head is elsewhere.

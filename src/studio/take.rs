@@ -111,7 +111,7 @@ impl Take {
 
     /// Runs the chain for the first time, up to the end of a step.
     pub(super) fn run(&mut self, step: Step) -> Result<(), String> {
-        let (engine, Document { recipe, edits }) = (&mut self.engine, &self.document);
+        let (engine, Document { recipe, edits, .. }) = (&mut self.engine, &self.document);
         let ran = match step {
             Step::Read => Ok(()),
             Step::Measure => engine.find_turns(recipe).map(drop),
@@ -136,7 +136,7 @@ impl Take {
 
     /// The results, with the scene they stand in.
     pub(super) fn results(&mut self) -> Results<'_> {
-        let Document { recipe, edits } = &self.document;
+        let Document { recipe, edits, .. } = &self.document;
         let breakdown = self.engine.run(recipe, edits).expect("the chain has taken this document");
         let cels = self.cels.as_ref().expect("cels are laid once the chain has run");
         Results { breakdown, cels, scene: &self.scene, wanted: &self.wanted }
@@ -150,8 +150,13 @@ impl Take {
         if self.wanted == self.document || is_held && self.is_slow {
             return Ok(false);
         }
+        let Document { recipe, edits, footage } = &self.wanted;
+        if (recipe, edits) == (&self.document.recipe, &self.document.edits) {
+            // What is shown beside changes no drawing.
+            self.document.footage = footage.clone();
+            return Ok(true);
+        }
         let begin = Instant::now();
-        let Document { recipe, edits } = &self.wanted;
         let before = (&self.document.recipe, self.cels.as_ref());
         let laid = self.engine.run(recipe, edits);
         match laid.and_then(|breakdown| laid_again(&breakdown, recipe, before)) {
@@ -182,7 +187,7 @@ impl Take {
         if !self.wanted.edits.freeze() {
             self.freeze()?;
         }
-        let Document { recipe, edits } = &self.wanted;
+        let Document { recipe, edits, .. } = &self.wanted;
         let fresh = self.engine.run(recipe, &freeze::thawed(edits))?;
         self.wanted.edits = freeze::found_again(edits, &fresh, koma);
         Ok(())
@@ -254,6 +259,18 @@ impl Take {
         self.left = None;
         self.autosaved = self.document.clone();
         desk.remove(&beside(&self.path, AUTOSAVE))
+    }
+
+    /// Where a file is that is named beside the clip, or by its whole path; none for no name.
+    pub(super) fn place_of(&self, name: &str) -> Option<PathBuf> {
+        (!name.is_empty()).then(|| self.path.with_file_name("").join(name))
+    }
+
+    /// How a file is named: from the clip's folder where it lies below it, so that both can go elsewhere together.
+    pub(super) fn name_of(&self, path: &Path) -> String {
+        let folder = self.path.parent().filter(|folder| *folder != Path::new(""));
+        let below = folder.and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path);
+        below.to_string_lossy().into_owned()
     }
 
     /// The folder in which results are written where nothing else is asked for: in `into`, else beside the clip.

@@ -5,11 +5,13 @@
 mod cells;
 mod hand;
 mod paper;
+mod speech;
 
 use egui::{Button, Id, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use self::hand::Hand;
 use self::paper::Paper;
+use self::speech::SpeechHand;
 use super::command::Command;
 use super::key_menu;
 use super::shown::Shown;
@@ -29,6 +31,7 @@ const USUAL: f32 = 17.0;
 #[derive(Debug, Clone)]
 pub(super) struct Timesheet {
     hand: Hand,
+    speech: SpeechHand,
     /// The koma that was last brought into view.
     followed: Option<usize>,
     /// How high a koma is.
@@ -39,7 +42,13 @@ pub(super) struct Timesheet {
 
 impl Default for Timesheet {
     fn default() -> Self {
-        Self { hand: Hand::default(), followed: None, row: USUAL, scroll_to: None }
+        Self {
+            hand: Hand::default(),
+            speech: SpeechHand::default(),
+            followed: None,
+            row: USUAL,
+            scroll_to: None,
+        }
     }
 }
 
@@ -72,11 +81,14 @@ impl Timesheet {
             let rect = Rect::from_min_size(top, vec2(wide, high));
             let response = ui.interact(rect, Id::unique("timesheet"), Sense::click_and_drag());
             let paper = Paper { rect, row: self.row, columns: shown.columns.len() };
-            if let Some(koma) = self.hand.handle(&response, &paper, shown, commands) {
+            let is_spoken = self.speech.handle(&response, &paper, shown, commands);
+            let koma = (!is_spoken).then(|| self.hand.handle(&response, &paper, shown, commands));
+            if let Some(koma) = koma.flatten() {
                 self.followed = Some(koma);
                 commands.extend(shown.go(koma));
             }
-            cells::draw(ui, &paper, paper.rows(seen, shown.column().length), shown);
+            let rows = paper.rows(seen, shown.column().length);
+            cells::draw(ui, &paper, rows, &self.speech, shown);
             self.follow(ui, &paper, seen, shown);
             self.pinch(ui, &paper, seen);
             let name = shown.words.say("Timesheet", "タイムシート");
@@ -128,6 +140,11 @@ fn names(ui: &mut Ui, wide: f32, shown: &Shown<'_>, commands: &mut Vec<Command>)
     let paper = Paper { rect: place, row: NAMES, columns };
     let koma = Rect::from_min_size(place.min, vec2(36.0, NAMES));
     ui.put(koma, egui::Label::new(shown.words.say("koma", "コマ")));
+    let speech = Rect::from_x_y_ranges(paper.speech(), place.y_range().shrink(1.0));
+    let name = shown.words.say("Spoken line (S)", "セリフ (S)");
+    if ui.put(speech, Button::new("S")).on_hover_text(name).accessible_name(name).clicked() {
+        commands.push(Command::AskSpeech(None));
+    }
     for (at, column) in shown.columns.iter().enumerate() {
         let middle = pos2(paper.x(at), place.center().y);
         let rect = Rect::from_center_size(middle, vec2(paper::PITCH - 4.0, NAMES - 2.0));

@@ -4,6 +4,7 @@ mod body;
 mod floor;
 mod ghosts;
 mod orbit;
+mod picture;
 mod sides;
 mod trails;
 
@@ -13,7 +14,7 @@ use egui::{
     Align2, FontId, Id, Painter, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2,
 };
 
-use super::command::{Command, Seen};
+use super::command::{Command, Placement, Seen};
 use super::scene::Scene;
 use super::shown::Shown;
 use crate::plot::parts::{Posing, Stage};
@@ -32,6 +33,8 @@ pub(super) struct Viewport {
     pub(super) trails: bool,
     /// Whether the source is as it is drawn, over what was captured.
     pub(super) exaggerated: bool,
+    /// Where pictures are seen that were taken beside the motion.
+    pub(super) placement: Placement,
 }
 
 impl Default for Viewport {
@@ -42,6 +45,7 @@ impl Default for Viewport {
             onion: false,
             trails: true,
             exaggerated: true,
+            placement: Placement::default(),
         }
     }
 }
@@ -64,7 +68,13 @@ impl Viewport {
             let shining = (self.onion, self.trails, self.exaggerated);
             sides::show(ui, shown, (self.seen, &self.orbit), shining, commands);
         });
-        let whole = ui.available_rect_before_wrap();
+        let all = ui.available_rect_before_wrap();
+        let mut whole = all;
+        if shown.beside.pictures.is_some() && self.placement == Placement::Beside {
+            let views = if self.seen == Seen::Both { 2.0 } else { 1.0 };
+            whole.max.x -= (all.width() - views * GAP) / (views + 1.0) + GAP;
+            picture::show(ui, all.with_min_x(whole.max.x + GAP), shown);
+        }
         let anchor = self.anchor(shown);
         let half = vec2(0.5 * (whole.width() - GAP), whole.height());
         let halves: &[(Seen, Rect)] = match self.seen {
@@ -82,7 +92,7 @@ impl Viewport {
             let name = self.heading(*seen, shown);
             response.widget_info(|| egui::WidgetInfo::labeled(Role::Canvas, true, &name));
         }
-        ui.advance_cursor_after_rect(whole);
+        ui.advance_cursor_after_rect(all);
     }
 
     /// What a view that follows has in its middle: the body of the source, as it is a smooth way.
@@ -121,6 +131,9 @@ impl Viewport {
     /// Draws a half.
     fn draw(&self, painter: &Painter, rect: Rect, seen: Seen, anchor: DVec3, shown: &Shown<'_>) {
         painter.rect_filled(rect, 4.0, shown.look.ground);
+        if self.placement == Placement::Behind {
+            picture::draw(painter, rect, picture::BEHIND, shown);
+        }
         let stage = self.orbit.stage(shown.scene, rect, anchor);
         floor::draw(painter, &stage, shown);
         let marks = shown.scene.figure.marks();

@@ -233,6 +233,36 @@ fn a_held_drawing_stays_as_long_as_was_asked_and_genga_on_their_koma() {
 }
 
 #[test]
+fn a_spoken_line_is_in_every_timesheet_and_changes_no_drawing() {
+    let place = Place::new();
+    let formats = "--deliver xdts,tdts,xsheet";
+    place.done(&format!("run data/kick.bvh --out silent {formats}"));
+    place.done(&format!(
+        "run data/kick.bvh --out a --say 11..40:アキ:えい！ --say 80..92:Ha {formats}"
+    ));
+    place.done(&format!("run data/kick.bvh --out b --recipe a/recipe.toml {formats}"));
+    let (silent, a, b) = (place.files("silent"), place.files("a"), place.files("b"));
+    for (file, bytes) in &a {
+        assert!(b[file] == *bytes, "{file} is another one from the recipe");
+    }
+    for file in ["limited.bvh", "keys.csv", "drawings.csv", "remap.csv", "sheet.csv"] {
+        assert!(silent[file] == a[file], "{file} changed");
+    }
+    let lines = |file: &str| -> Vec<String> {
+        let read = genga::deliver::xdts::read(&a[file]).unwrap();
+        let line = |line: &genga::sheet::SpokenLine| format!("{}+{} {line}", line.begin, line.koma);
+        read.lines.iter().map(line).collect()
+    };
+    for file in ["kick_genga_ts.xdts", "kick_douga_ts.xdts", "kick.tdts"] {
+        assert_eq!(lines(file), ["11+29 アキ「えい！」", "80+12 Ha"], "{file}");
+    }
+    assert!(text(&a["kick_xsheet.html"]).contains(">アキ「えい！」<"));
+    // A timesheet that comes back has the lines, and the sheet is as it was.
+    place.done("deliver a/sheet.json data/kick.bvh --to json --out again");
+    assert!(place.files("again")["sheet.json"] == a["sheet.json"]);
+}
+
+#[test]
 fn a_hold_that_could_not_be_done_is_said() {
     let place = Place::new();
     let notes = |args: &str| {
@@ -474,6 +504,9 @@ fn wrong_corrections_are_refused_with_the_way_out() {
         (2, "--hold 41", "--hold: expected FRAME:KOMA, two whole numbers, found \"41\""),
         (2, "--hold 41:0", "the drawing of frame 41 is held for 0 koma: 1 at the least"),
         (2, "--hold 92:2", "held frame 92 is not in the clip, which has frames 0 to 91"),
+        (2, "--say 12:hello", "--say: expected A..B:SPEAKER:WORDS, with two frame numbers, found"),
+        (2, "--say 92..99:a", "the line 92..99 is not in the clip, which has frames 0 to 91"),
+        (2, "--say 9..9:a", "the line 9..9 has no frame in it"),
         (2, "--only-pins", "there is no pin: pin a frame"),
         (2, "--recipe r.toml", "\"9..2\" has no frame in it"),
         (2, "--recipe half.toml", "2:13: expected a frame (150) or a range (120..140)"),

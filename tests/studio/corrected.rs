@@ -72,7 +72,7 @@ fn a_key_is_dragged_on_the_sheet_in_one_step() {
     let [frame] = table.pins()[..] else { panic!("{:?}", table.pins()) };
     table.tap(Modifiers::COMMAND, Key::Z);
     let sheet = table.canvas("Timesheet");
-    let row = |koma: usize| pos2(sheet.min.x + 62.0, sheet.min.y + ROW * (koma as f32 + 0.5));
+    let row = |koma: usize| pos2(sheet.min.x + 92.0, sheet.min.y + ROW * (koma as f32 + 0.5));
     table.drag(row(frame), row(frame + 2));
     assert_eq!(table.moves(), [(frame, frame + 2)]);
     table.tap(Modifiers::COMMAND, Key::Z);
@@ -147,7 +147,7 @@ fn what_the_chain_refuses_is_said_and_undone() {
 fn a_hold_is_made_longer_and_shorter_by_its_end_in_one_step() {
     let mut table = Table::with_kick();
     let sheet = table.canvas("Timesheet");
-    let line = |koma: usize| pos2(sheet.min.x + 62.0, sheet.min.y + ROW * koma as f32);
+    let line = |koma: usize| pos2(sheet.min.x + 92.0, sheet.min.y + ROW * koma as f32);
     // The first drawing is on screen for four koma, and inbetweens follow.
     table.drag(line(4), line(7));
     let holds = |table: &Table| -> Vec<(usize, usize)> {

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, Weak};
 
 use genga::cli::Disk;
 use genga::edits::Edits;
-use genga::studio::{Desk, Export, Exported, Opened};
+use genga::studio::{Desk, Export, Exported, Opened, Pictures, Playing, Waveform};
 
 /// Reads clips from the disk, and has all other files in memory.
 #[derive(Default)]
@@ -24,7 +24,22 @@ pub(crate) struct Memory {
     pub(crate) opened: Mutex<Vec<PathBuf>>,
     /// What was noted, by its name.
     pub(crate) notes: Mutex<BTreeMap<String, String>>,
+    /// Sounds that were played: which, from which second on, and whether it is heard still.
+    pub(crate) played: Mutex<Vec<(PathBuf, f64, Weak<()>)>>,
+    /// What is said instead of playing.
+    pub(crate) is_silent: Mutex<bool>,
+    /// A picture waits for it.
+    pub(crate) is_reading: Mutex<()>,
     disk: Disk,
+}
+
+/// A sound that nobody hears.
+struct Heard(#[allow(dead_code, reason = "it is there for as long as it is played")] Arc<()>);
+
+impl Playing for Heard {
+    fn fault(&self) -> Option<String> {
+        None
+    }
 }
 
 impl Memory {
@@ -85,6 +100,32 @@ impl Desk for Memory {
 
     fn clips_in(&self, folder: &Path) -> Vec<PathBuf> {
         self.disk.clips_in(folder)
+    }
+
+    fn pictures_in(&self, folder: &Path) -> Vec<PathBuf> {
+        self.disk.pictures_in(folder)
+    }
+
+    fn pictures(&self, of: &Path) -> Result<Pictures, String> {
+        self.disk.pictures(of)
+    }
+
+    fn picture(&self, file: &Path, within: [usize; 2]) -> Result<egui::ColorImage, String> {
+        drop(self.is_reading.lock().unwrap());
+        self.disk.picture(file, within)
+    }
+
+    fn sound(&self, file: &Path) -> Result<Waveform, String> {
+        self.disk.sound(file)
+    }
+
+    fn play(&self, file: &Path, from: f64) -> Result<Box<dyn Playing>, String> {
+        if *self.is_silent.lock().unwrap() {
+            return Err("no sound is heard: there is no player".into());
+        }
+        let heard = Arc::new(());
+        self.played.lock().unwrap().push((file.to_owned(), from, Arc::downgrade(&heard)));
+        Ok(Box::new(Heard(heard)))
     }
 
     fn noted(&self, name: &str) -> Option<String> {

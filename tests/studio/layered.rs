@@ -66,7 +66,7 @@ fn a_genga_is_dragged_in_its_own_column() {
     table.harness.run();
     let sheet = table.canvas("Timesheet");
     // The middle of B is 34 points right of that of A.
-    let row = |koma: usize| sheet.min + vec2(96.0, 17.0 * (koma as f32 + 0.5));
+    let row = |koma: usize| sheet.min + vec2(126.0, 17.0 * (koma as f32 + 0.5));
     table.drag(row(frame), row(frame + 2));
     let moves = &table.edits().layers["B"].moves;
     assert_eq!((moves[0].from.0, moves[0].to.0), (frame, frame + 2));

@@ -18,7 +18,7 @@ use crate::table::{SIZE, Table, sample};
 const OFF: u8 = 3;
 
 impl Table {
-    fn picture(&mut self) -> Picture {
+    pub(crate) fn picture(&mut self) -> Picture {
         self.harness.remove_cursor();
         self.harness.run();
         let output = self.harness.output();
@@ -32,12 +32,19 @@ impl Table {
     }
 }
 
-/// Compares a picture with the one of the documentation, or makes that again.
-fn compare(name: &str, picture: &Picture) {
+/// A picture as it is written.
+pub(crate) fn pixmap(picture: &Picture) -> Pixmap {
     let bytes: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
     let (width, height) = (picture.width as u32, picture.height as u32);
     let mut made = Pixmap::new(width, height).unwrap();
     made.data_mut().copy_from_slice(&bytes);
+    made
+}
+
+/// Compares a picture with the one of the documentation, or makes that again.
+fn compare(name: &str, picture: &Picture) {
+    let made = pixmap(picture);
+    let (width, height) = (picture.width as u32, picture.height as u32);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("GENGA_PICTURES").is_some_and(|wish| wish == "write") {

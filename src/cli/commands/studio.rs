@@ -4,6 +4,10 @@
 mod dialog;
 #[cfg(feature = "studio")]
 mod disk;
+#[cfg(feature = "studio")]
+mod pictures;
+#[cfg(feature = "studio")]
+mod sound;
 
 use std::path::PathBuf;
 

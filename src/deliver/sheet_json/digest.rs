@@ -63,7 +63,7 @@ pub(in crate::deliver) fn bytes(bytes: &[u8]) -> String {
 }
 
 /// Names, joints, drawings and exposures, as they are written, a root that does not go with its drawings,
-/// feet that do not, and what the motion was exaggerated by.
+/// feet that do not, what is spoken, and what the motion was exaggerated by.
 pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     let mut digest = Digest::new();
     for layer in &sheet.layers {
@@ -75,6 +75,10 @@ pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     }
     if sheet.feet == Feet::Held {
         digest.word(2);
+    }
+    if !sheet.lines.is_empty() {
+        let text = serde_json::to_string(&sheet.lines).expect("lines are plain data");
+        text.bytes().for_each(|byte| digest.word(u64::from(byte)));
     }
     if !exaggerate.is_off() {
         let text = serde_json::to_string(exaggerate).expect("settings are plain data");

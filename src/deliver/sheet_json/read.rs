@@ -44,6 +44,8 @@ struct Written<'a> {
     #[serde(borrow)]
     feet: Option<&'a RawValue>,
     #[serde(borrow)]
+    lines: Option<&'a RawValue>,
+    #[serde(borrow)]
     layers: Vec<&'a RawValue>,
 }
 
@@ -89,6 +91,7 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let layers = layers.collect::<Result<_, _>>()?;
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
+    let lines = written.lines.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let exaggerate = match written.exaggerate {
         None => Exaggerate::default(),
         Some(raw) => exaggeration(text, raw)?,
@@ -100,7 +103,7 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
         clip,
         exaggerate,
         made_with,
-        sheet: Sheet { clock, layers, root, feet },
+        sheet: Sheet { clock, layers, root, feet, lines },
     };
     file.check()?;
     Ok(file)

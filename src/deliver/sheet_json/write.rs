@@ -9,7 +9,7 @@ use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::deliver::Cut;
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
-use crate::sheet::{Feet, RootMotion, is_default};
+use crate::sheet::{Feet, RootMotion, SpokenLine, is_default};
 
 /// The sheet of a cut as `sheet.json`.
 ///
@@ -36,6 +36,8 @@ struct Written<'a> {
     root: RootMotion,
     #[serde(skip_serializing_if = "is_default")]
     feet: Feet,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    lines: &'a [SpokenLine],
     layers: Vec<LayerLines>,
 }
 
@@ -81,6 +83,7 @@ impl SheetFile {
             exaggerate: &self.exaggerate,
             root: self.sheet.root,
             feet: self.sheet.feet,
+            lines: &self.sheet.lines,
             layers: self.sheet.layers.iter().map(LayerLines::of).collect(),
         };
         let mut bytes = Vec::new();

@@ -3,12 +3,13 @@
 use super::file::{Entry, Header, Root, TimeTable};
 use super::{
     BLANK, CELS, CIRCLED, CONTINUED, INBETWEEN, REVERSE, SIGNATURE, TDTS_CELL, TDTS_SIGNATURE,
+    speech,
 };
 use crate::deliver::json_words;
 use crate::error::Error;
-use crate::sheet::column_name;
+use crate::sheet::{SpokenLine, column_name};
 
-/// The cels of an XDTS or TDTS file: its first time table, field 0.
+/// An XDTS or TDTS file: the cels of its first time table, and what is spoken there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Exchange {
     /// The name of the time table: often the whole name of the cut.
@@ -21,6 +22,8 @@ pub struct Exchange {
     pub length: usize,
     /// The columns by track, back to front.
     pub columns: Vec<Column>,
+    /// What is spoken (S), in the order in which it begins.
+    pub lines: Vec<SpokenLine>,
 }
 
 /// A column of cels. Two may have one name: they differ by track.
@@ -138,6 +141,7 @@ fn exchange(header: Option<Header>, table: TimeTable, field_id: u32) -> Exchange
         None | Some("") => column_name(track),
         Some(name) => name.into(),
     };
+    let lines = speech::lines(&table.fields, length);
     let fields = table.fields.into_iter().filter(|field| field.field_id == field_id);
     let tracks = fields.flat_map(|field| field.tracks);
     let mut columns: Vec<_> = tracks
@@ -157,6 +161,7 @@ fn exchange(header: Option<Header>, table: TimeTable, field_id: u32) -> Exchange
         scene: number(|header| &header.scene),
         length,
         columns,
+        lines,
     }
 }
 

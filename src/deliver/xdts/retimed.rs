@@ -7,7 +7,8 @@ use crate::sheet::{Exposure, Layer, Sheet};
 
 /// A sheet with the timing of a timesheet on which every drawing has its number (CELL): drawings may be moved, held
 /// longer or shorter, shown twice or left out, and the sheet may have another length. Drawings keep their poses, roles
-/// and reasons. An unchanged timesheet gives the same sheet.
+/// and reasons. What is spoken is what the timesheet says, or what the sheet says where that has none. An unchanged
+/// timesheet gives the same sheet.
 ///
 /// Columns are found by the names of layers; of one layer and one column the names do not matter.
 ///
@@ -44,7 +45,10 @@ pub fn retimed(timesheet: &Exchange, sheet: &Sheet) -> Result<Sheet, Error> {
         let exposures = exposures(column, layer, timesheet.length)?;
         Ok(Layer { exposures, ..layer.clone() })
     });
-    Ok(Sheet { layers: layers.collect::<Result<_, Error>>()?, ..sheet.clone() })
+    let layers = layers.collect::<Result<_, Error>>()?;
+    // A program that knows no S column drops it, and nothing was unsaid by that.
+    let lines = if timesheet.lines.is_empty() { &sheet.lines } else { &timesheet.lines };
+    Ok(Sheet { layers, lines: vec![], ..sheet.clone() }.with_lines(lines))
 }
 
 /// The column of a layer.

@@ -6,4 +6,5 @@ mod marked;
 mod open_toonz;
 mod reading;
 pub(in crate::deliver) mod sheets;
+mod spoken;
 mod writing;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 
 use super::file::{Datum, Entry, Field, Header, Names, Root, TimeTable, Track};
-use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE};
+use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE, speech};
 use crate::error::Error;
 use crate::knob::{knob, knobs};
 use crate::sheet::{Layer, Sheet, column_name};
@@ -75,7 +75,7 @@ impl Xdts {
     }
 }
 
-/// A table of a sheet: a field a column of the paper, a track a layer.
+/// A table of a sheet: a field a column of the paper, a track a layer; and one of what is spoken, if anything is.
 pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) -> TimeTable {
     let names = sheet.layers.iter().enumerate().map(|(track, layer)| name(track, &layer.name));
     let names: Vec<String> = names.collect();
@@ -86,11 +86,12 @@ pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) ->
         Field { field_id, tracks: tracks.collect() }
     };
     let named = |&(field_id, _): &(u32, Column)| Names { field_id, names: names.clone() };
+    let (spoken, spoken_names) = speech::field(&sheet.lines).unzip();
     TimeTable {
         duration: sheet.length() as u64,
-        fields: columns.iter().map(field).collect(),
+        fields: columns.iter().map(field).chain(spoken).collect(),
         name: cut.into(),
-        time_table_headers: columns.iter().map(named).collect(),
+        time_table_headers: columns.iter().map(named).chain(spoken_names).collect(),
     }
 }
 

@@ -77,6 +77,11 @@ impl<'a> Page<'a> {
         self.place(half.left + NUMBERS + STRIP + BLOCK + SPEECH, at)
     }
 
+    /// The S column.
+    pub(super) fn speech(&self, half: Half) -> Place {
+        Place { left: half.left + NUMBERS + STRIP + BLOCK, width: SPEECH }
+    }
+
     fn place(&self, left: f64, at: usize) -> Place {
         let width = BLOCK / self.columns() as f64;
         Place { left: left + width * at as f64, width }

@@ -2,7 +2,7 @@
 
 use crate::plot::canvas::Canvas;
 use crate::plot::xsheet::layout::{Page, SIZE};
-use crate::plot::xsheet::{column, gauge_strip, grid, head};
+use crate::plot::xsheet::{column, gauge_strip, grid, head, speech};
 
 /// A page as SVG.
 pub(super) fn draw(page: &Page<'_>) -> String {
@@ -11,6 +11,7 @@ pub(super) fn draw(page: &Page<'_>) -> String {
     for half in page.halves() {
         grid::draw(&mut canvas, page, half);
         grid::end(&mut canvas, page, half);
+        speech::draw(&mut canvas, page, half);
         for (at, leaf) in page.leaves.iter().enumerate() {
             gauge_strip::draw(&mut canvas, page, leaf, half, at);
             column::action(&mut canvas, page, leaf, half, page.action(half, at));

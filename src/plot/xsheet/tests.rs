@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::motion::bvh;
-use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
+use crate::sheet::{Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
 
 fn clip() -> Clip {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh");
@@ -211,4 +211,35 @@ fn a_sheet_that_shows_what_it_has_not_is_refused() {
     lying.exposures[0].drawing = 7;
     let error = XSheet::default().draw("c1", &clip(), &sheet(vec![lying])).unwrap_err();
     assert!(error.to_string().contains("layer A shows drawing 7"), "{error}");
+}
+
+/// The words of the S column of a page, from top to bottom as they are written.
+fn speech(page: &str) -> Vec<&str> {
+    let downwards = page.lines().filter(|line| line.contains("writing-mode"));
+    downwards.filter_map(|line| Some(line.strip_suffix("</text>")?.rsplit_once('>')?.1)).collect()
+}
+
+#[test]
+fn what_is_spoken_stands_in_the_s_column_on_every_half_it_is_heard_in() {
+    let line = |begin, koma, speaker: &str, words: &str| SpokenLine {
+        begin,
+        koma,
+        speaker: speaker.into(),
+        words: words.into(),
+    };
+    let lines = [
+        line(10, 20, "アキ", "えい！"),
+        line(20, 40, "Ken", "No <way>"),
+        line(60, 30, "", "待って"),
+        line(143, 1, "", "a line that is far too long for one koma"),
+    ];
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let sheet = sheet(vec![layer("A", &[('e', 144)])]).with_lines(&lines);
+    let page = &settings.draw("c1", &clip(), &sheet).unwrap()[0];
+    let found = speech(page);
+    assert_eq!(found[..3], ["アキ「えい！」", "Ken: No &lt;way&gt;", "「待って」"]);
+    assert_eq!(found[3], "(「待って」)", "it goes on in the second half");
+    assert!(found[4].ends_with('…'), "{found:?}");
+    let silent = &settings.draw("c1", &clip(), &self::sheet(vec![layer("A", &CUT)])).unwrap()[0];
+    assert!(speech(silent).is_empty());
 }

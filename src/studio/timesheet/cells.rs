@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
-use super::paper::{KOMA, PITCH, Paper};
+use super::paper::{KOMA, Paper};
+use super::speech::{self, SpeechHand};
 use crate::edits::Forbidden;
 use crate::keys::Key;
 use crate::studio::column::{Column, KeyedCell};
@@ -19,7 +20,13 @@ const READABLE: f32 = 12.0;
 const THIN: usize = 6;
 
 /// Draws the koma in view.
-pub(super) fn draw(ui: &Ui, paper: &Paper, rows: Range<usize>, shown: &Shown<'_>) {
+pub(super) fn draw(
+    ui: &Ui,
+    paper: &Paper,
+    rows: Range<usize>,
+    hand: &SpeechHand,
+    shown: &Shown<'_>,
+) {
     if rows.is_empty() {
         return;
     }
@@ -27,6 +34,7 @@ pub(super) fn draw(ui: &Ui, paper: &Paper, rows: Range<usize>, shown: &Shown<'_>
     painter.rect_filled(paper.rect, 0.0, shown.look.paper);
     grid(&painter, paper, &rows, shown);
     actions(&painter, paper, &rows, shown);
+    speech::draw(&painter, paper, &rows, hand, shown);
     for (at, column) in shown.columns.iter().enumerate() {
         let strip = Strip { painter: &painter, paper, column, x: paper.x(at), shown };
         strip.draw(&rows);
@@ -64,8 +72,7 @@ fn grid(painter: &Painter, paper: &Paper, rows: &Range<usize>, shown: &Shown<'_>
             painter.text(at, Align2::RIGHT_CENTER, koma + 1, FontId::monospace(size), ink);
         }
     }
-    for at in 0..=paper.columns {
-        let x = paper.rect.min.x + KOMA + 5.0 + PITCH * at as f32;
+    for x in paper.edges() {
         painter.vline(x, paper.rect.y_range(), Stroke::new(1.0, look.grid));
     }
 }

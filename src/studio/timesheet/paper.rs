@@ -8,8 +8,12 @@ use egui::{Rangef, Rect};
 pub(super) const KOMA: f32 = 40.0;
 /// From the middle of one column to that of the next.
 pub(super) const PITCH: f32 = 34.0;
+/// Room for what is spoken.
+const SPEECH: f32 = 30.0;
+/// From the numbers, or what is spoken, to the edge of the next column.
+const GAP: f32 = 5.0;
 /// Where the middle of the first column stands.
-const MIDDLE: f32 = 62.0;
+const MIDDLE: f32 = KOMA + GAP + SPEECH + 0.5 * PITCH;
 /// From the middle of the last column to the words.
 const WORDS: f32 = 22.0;
 /// Room that the words have at the least.
@@ -33,6 +37,19 @@ impl Paper {
     /// The middle of a column.
     pub(super) fn x(&self, column: usize) -> f32 {
         self.rect.min.x + MIDDLE + PITCH * column as f32
+    }
+
+    /// The S column.
+    pub(super) fn speech(&self) -> Rangef {
+        let left = self.rect.min.x + KOMA + GAP;
+        Rangef::new(left, left + SPEECH)
+    }
+
+    /// The lines between the columns, from left to right.
+    pub(super) fn edges(&self) -> impl Iterator<Item = f32> {
+        let Rangef { min, max } = self.speech();
+        let cels = (0..=self.columns).map(move |at| max + PITCH * at as f32);
+        [min].into_iter().chain(cels)
     }
 
     /// Where the words begin.

@@ -38,6 +38,10 @@ pub(super) fn show(
         }
     }
     ui.separator();
+    if ui.button(words.say("Reference…", "参考…")).clicked() {
+        commands.push(Command::AskFootage);
+    }
+    ui.separator();
     let shining = [
         (orbit.follows, words.say("Follow", "追従"), Command::Follow),
         (onion, words.say("Onion skin", "オニオンスキン"), Command::Onion),

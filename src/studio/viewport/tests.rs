@@ -109,6 +109,7 @@ fn same_koma(clip: &str, knobs: &[(&str, &str)]) -> (usize, usize) {
         joints: &[],
         at: 0,
         counts_frames: false,
+        beside: crate::studio::shown::Beside::default(),
         look: Look::of(Theme::Light),
         words: Words { language: Default::default(), has_japanese: false },
     };

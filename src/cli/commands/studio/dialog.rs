@@ -9,14 +9,18 @@ use std::thread::{self, Thread};
 use rfd::AsyncFileDialog;
 
 use crate::motion::file::FORMATS;
+use crate::recipe::Footage;
 
 /// The file that a person chooses; none when they choose none, and where the system has no dialog. It waits for them.
 pub(super) fn choose() -> Option<PathBuf> {
     let endings = FORMATS.iter().flat_map(|format| format.endings);
     let endings: Vec<String> =
         endings.flat_map(|own| [(*own).into(), own.to_uppercase()]).collect();
-    let dialog =
-        AsyncFileDialog::new().add_filter("motion", &endings).add_filter("genga", &["toml"]);
+    let beside = [&Footage::PICTURES[..], &Footage::VIDEOS, &Footage::SOUNDS].concat();
+    let dialog = AsyncFileDialog::new()
+        .add_filter("motion", &endings)
+        .add_filter("genga", &["toml"])
+        .add_filter("pictures, sound", &beside);
     waited(dialog.pick_file()).map(|file| file.path().to_owned())
 }
 

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
-use super::dialog;
+use eframe::egui::ColorImage;
+
+use super::{dialog, pictures, sound};
 use crate::cli::clip::Part;
 use crate::cli::failure::Failure;
 use crate::cli::folder::Folder;
@@ -16,7 +18,7 @@ use crate::cli::results::{OWN, Outcome, Results};
 use crate::cli::{files, paths};
 use crate::deliver::{ClipMark, Run};
 use crate::error::Error;
-use crate::studio::{Desk, Export, Exported, Opened};
+use crate::studio::{Desk, Export, Exported, Opened, Pictures, Playing, Waveform};
 
 /// Files on a disk.
 #[derive(Debug, Default)]
@@ -106,6 +108,26 @@ impl Desk for Disk {
         let mut clips: Vec<PathBuf> = paths.filter(is_clip).collect();
         clips.sort();
         clips
+    }
+
+    fn pictures_in(&self, folder: &Path) -> Vec<PathBuf> {
+        pictures::in_folder(folder)
+    }
+
+    fn pictures(&self, of: &Path) -> Result<Pictures, String> {
+        pictures::of(of)
+    }
+
+    fn picture(&self, file: &Path, within: [usize; 2]) -> Result<ColorImage, String> {
+        pictures::read(file, within)
+    }
+
+    fn sound(&self, file: &Path) -> Result<Waveform, String> {
+        sound::look(file)
+    }
+
+    fn play(&self, file: &Path, from: f64) -> Result<Box<dyn Playing>, String> {
+        sound::play(file, from)
     }
 
     fn noted(&self, name: &str) -> Option<String> {

@@ -3,9 +3,9 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin};
+use crate::edits::{Edits, Forbidden, Hold, LayerEdits, Move, Pin, Speech};
 use crate::exaggerate::{CartoonParts, Exaggerate};
-use crate::sheet::{Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, Why};
+use crate::sheet::{Drawing, Exposure, Feet, Layer, Reason, RootMotion, Sheet, SpokenLine, Why};
 use crate::time::{Clock, Frame, FrameRate, Span};
 
 const FIRST: usize = 7;
@@ -98,9 +98,20 @@ fn made_with() -> impl Strategy<Value = MadeWith> {
             };
             let own = Some(own).filter(|own| only_pins && *own != LayerEdits::default());
             let layers = own.map(|own| ("B".to_owned(), own)).into_iter().collect();
+            let speech = vec![Speech::parse("3..9:アキ:a").unwrap()];
             let (again, frozen) = (!only_pins, splits.clone());
-            let edits =
-                Edits { pins, forbidden, moves, holds, only_pins, again, frozen, splits, layers };
+            let edits = Edits {
+                pins,
+                forbidden,
+                moves,
+                holds,
+                only_pins,
+                again,
+                frozen,
+                splits,
+                speech,
+                layers,
+            };
             MadeWith { recipe, layers: digest, edits }
         },
     )
@@ -123,6 +134,17 @@ fn exaggerate() -> impl Strategy<Value = Exaggerate> {
     prop_oneof![Just(Exaggerate::default()), some]
 }
 
+/// Lines in the order in which they begin.
+fn spoken() -> impl Strategy<Value = Vec<SpokenLine>> {
+    let line = (0_usize..30, 1_usize..20, any::<String>(), "[a-z\"あ\\n]{1,9}x");
+    let line =
+        line.prop_map(|(begin, koma, speaker, words)| SpokenLine { begin, koma, speaker, words });
+    prop::collection::vec(line, 0..4).prop_map(|mut lines| {
+        lines.sort_by_key(|line| line.begin);
+        lines
+    })
+}
+
 fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let rates = (0.01..1000.0, prop_oneof![Just(24.0), 2.0..1000.0]);
     let layers = prop::collection::vec(layer(), 0..4);
@@ -131,11 +153,11 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
     let words = prop::array::uniform2(any::<String>());
     let root = prop::sample::select(vec![RootMotion::Drawings, RootMotion::Ones]);
     let feet = prop::sample::select(vec![Feet::Free, Feet::Held]);
-    let root = (root, exaggerate());
+    let root = (root, exaggerate(), spoken());
     (rates, (layers, root, feet), joints, words, prop::option::of(made_with())).prop_map(
         |(
             (frame_rate, koma_rate),
-            (layers, (root, exaggerate), feet),
+            (layers, (root, exaggerate, lines), feet),
             joints,
             [cut, file],
             made_with,
@@ -154,7 +176,9 @@ fn sheet_file() -> impl Strategy<Value = SheetFile> {
                     layers: with_joints(layers, &joints),
                     root,
                     feet,
-                },
+                    lines: vec![],
+                }
+                .with_lines(&lines),
                 clip: MadeOf {
                     file,
                     frame_rate,

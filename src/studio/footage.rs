@@ -1,0 +1,108 @@
+//! What was recorded beside the motion (参考): files that are given, taken up and shown with each koma.
+
+use std::path::Path;
+
+use egui::Ui;
+
+use super::Studio;
+use super::notice::Message;
+use super::reel::{Reel, Told};
+use super::shown::Beside;
+use super::track::Track;
+use crate::recipe::Footage;
+
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    let own = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    own.is_some_and(|own| endings.contains(&&*own))
+}
+
+/// Whether a file is of what stands beside the motion: a picture, a video, a sound.
+pub(super) fn is_beside(path: &Path) -> bool {
+    [&Footage::PICTURES[..], &Footage::VIDEOS, &Footage::SOUNDS]
+        .iter()
+        .any(|endings| has_ending(path, endings))
+}
+
+/// What there is of it at a koma.
+pub(super) fn beside<'a>(
+    reel: &Reel,
+    track: &'a Track,
+    footage: &Footage,
+    at: usize,
+    koma_rate: f64,
+) -> Beside<'a> {
+    let number = footage.picture(at, koma_rate).filter(|number| *number < reel.count());
+    let picture = reel.shown().map(|texture| (texture.id(), texture.size_vec2()));
+    Beside {
+        pictures: (!footage.pictures.is_empty()).then(|| reel.count()),
+        number,
+        picture: picture.filter(|_| number.is_some()),
+        waveform: track.waveform.as_ref(),
+    }
+}
+
+impl Studio {
+    /// Takes up what the document names, and what has come of it.
+    pub(super) fn renew_footage(&mut self, ui: &Ui) {
+        let footage = self.take.as_ref().map(|take| (take, &take.wanted.footage));
+        let place = |name: fn(&Footage) -> &String| {
+            footage.and_then(|(take, footage)| take.place_of(name(footage)))
+        };
+        let (pictures, sound) = (place(|of| &of.pictures), place(|of| &of.sound));
+        self.reel.take_up(&self.desk, pictures.as_deref());
+        self.track.take_up(&self.desk, sound.as_deref());
+        for told in self.reel.receive(&self.desk, ui.ctx()) {
+            match told {
+                Told::Note(text) => self.say(text),
+                Told::Failure(text) => self.fail(text),
+            }
+        }
+        if let Some(text) = self.track.receive() {
+            self.message = Some(Message::failure(text));
+        }
+    }
+
+    /// Opens what was asked for: the panel, with the files as they are named.
+    pub(super) fn ask_footage(&mut self) {
+        if let Some(take) = &self.take {
+            self.footage.ask(&take.wanted.footage);
+        }
+    }
+
+    /// Puts a picture, a video, a folder of pictures or a sound beside the take.
+    pub(super) fn put_beside(&mut self, path: &Path) {
+        let Some(take) = &self.take else {
+            return self.fail("Open a clip first: pictures and sound stand beside one.".into());
+        };
+        let (name, now) = (take.name_of(path), take.wanted.footage.clone());
+        let none = Footage::default();
+        let footage = match has_ending(path, &Footage::SOUNDS) {
+            true => Footage { sound: name, sound_offset: none.sound_offset, ..now },
+            false => Footage { pictures: name, fps: none.fps, offset: none.offset, ..now },
+        };
+        self.set_footage(footage);
+        self.ask_footage();
+    }
+
+    pub(super) fn set_footage(&mut self, footage: Footage) {
+        if let Some(take) = &mut self.take {
+            take.wanted.footage = footage;
+            self.message = None;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_known_by_its_ending() {
+        for name in ["a.png", "b/c.JPG", "d.Mp4", "e.wav"] {
+            assert!(is_beside(Path::new(name)), "{name}");
+        }
+        for name in ["a.bvh", "b.toml", "png", "c.glb", ""] {
+            assert!(!is_beside(Path::new(name)), "{name}");
+        }
+    }
+}

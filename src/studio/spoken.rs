@@ -1,0 +1,30 @@
+//! What is spoken (セリフ) as it stands on the sheet: each line with the koma on which it is heard.
+
+use super::document::Document;
+use crate::edits::Speech;
+use crate::sheet::{Sheet, SpokenLine};
+use crate::time::Frame;
+
+/// A line as it is written down, and where it is heard.
+#[derive(Debug, Clone)]
+pub(super) struct Spoken<'a> {
+    pub(super) speech: &'a Speech,
+    pub(super) line: SpokenLine,
+    /// Which of the lines that are heard at once, from 0, and how many there are side by side.
+    pub(super) column: usize,
+    pub(super) columns: usize,
+}
+
+/// Every line of a document on a sheet of a clip that ends with a frame, in the order in which they begin.
+pub(super) fn all<'a>(wanted: &'a Document, sheet: &Sheet, last: Frame) -> Vec<Spoken<'a>> {
+    let (clock, length) = (sheet.clock, sheet.length());
+    let heard = wanted.edits.speech.iter();
+    let heard = heard.filter_map(|speech| Some((speech, speech.on_sheet(clock, last, length)?)));
+    let mut heard: Vec<_> = heard.collect();
+    heard.sort_by_key(|(_, line)| line.begin);
+    let lines: Vec<SpokenLine> = heard.iter().map(|(_, line)| line.clone()).collect();
+    let places = SpokenLine::side_by_side(&lines);
+    let columns = places.iter().max().map_or(0, |last| last + 1);
+    let spoken = heard.into_iter().zip(places);
+    spoken.map(|((speech, line), column)| Spoken { speech, line, column, columns }).collect()
+}
