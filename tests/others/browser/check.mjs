@@ -5,6 +5,7 @@ import { readdirSync, writeFileSync } from "node:fs";
 import { join, parse } from "node:path";
 import { pathToFileURL } from "node:url";
 import { browser } from "./browser.mjs";
+import { PATIENCE } from "./hand.mjs";
 import { Studio } from "./studio.mjs";
 import { AT, tour } from "./tour.mjs";
 
@@ -25,7 +26,7 @@ await studio.picture("empty.png");
 await studio.drop(clip);
 
 // The window then does the same.
-const [archive, left] = await Promise.all([page.waitForEvent("download"), tour(studio)]);
+const [archive, left] = await Promise.all([page.waitForEvent("download", { timeout: 10 * PATIENCE }), tour(studio)]);
 writeFileSync("found.json", JSON.stringify(studio.found));
 assert.equal(archive.suggestedFilename(), `${name}-genga.zip`);
 await archive.saveAs("exported.zip");
