@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 
 // Rows of the sheet, and where its column is.
 const ROW = 17;
-const COLUMN = 62;
+const COLUMN = 92;
 // Where the play head is.
 export const AT = /^koma +(\d+) \/ \d+/;
 
