@@ -278,6 +278,7 @@ fn chunk(bytes: &[u8]) -> Result<(&[u8], &[u8]), Error> {
             Some(parts) => Ok(parts),
             None => wrong(12, "is cut off: its document is longer than the file"),
         },
+        _ if bytes.len() < BEFORE => wrong(bytes.len() as u64, "is cut off in its head"),
         (Some(2), ..) => wrong(12, "is no glTF 2.0: its document does not come first"),
         _ => wrong(4, "is a GLB of another version than 2"),
     }
