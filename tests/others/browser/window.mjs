@@ -7,8 +7,8 @@ import { setTimeout as wait } from "node:timers/promises";
 import { middle, PATIENCE, way } from "./hand.mjs";
 import { tour } from "./tour.mjs";
 
-// Until a frame was drawn by a processor.
-const FRAME = 250;
+// Until a frame was drawn by a processor that has other work, too.
+const FRAME = 600;
 const KEYS = { ArrowDown: "Down", Enter: "Return" };
 
 class Window {
