@@ -89,7 +89,7 @@ use opening::Opening;
 use order_panel::OrderPanel;
 use player::Player;
 use reel::Reel;
-use shown::Shown;
+use shown::{Beside, Shown};
 use speech_form::SpeechForm;
 use take::{Results, Take};
 use takes::Takes;
@@ -298,7 +298,7 @@ impl Studio {
         let second = wanted.footage.second(at as f64, rate);
         let fault = self.track.follow(&self.desk, self.player.run(), second, is_held);
         self.message = fault.map(Message::failure).or(self.message.take());
-        let beside = footage::beside(&self.reel, &self.track, &wanted.footage, at, rate);
+        let beside = Beside::at(&self.reel, &self.track, &wanted.footage, at, rate);
         let joints = &self.curves.chosen.clone();
         let on_screen = OnScreen::of(breakdown.clip, cels);
         let shown = Shown {

@@ -6,9 +6,7 @@ use egui::Ui;
 
 use super::Studio;
 use super::notice::Message;
-use super::reel::{Reel, Told};
-use super::shown::Beside;
-use super::track::Track;
+use super::reel::Told;
 use crate::recipe::Footage;
 
 fn has_ending(path: &Path, endings: &[&str]) -> bool {
@@ -21,24 +19,6 @@ pub(super) fn is_beside(path: &Path) -> bool {
     [&Footage::PICTURES[..], &Footage::VIDEOS, &Footage::SOUNDS]
         .iter()
         .any(|endings| has_ending(path, endings))
-}
-
-/// What there is of it at a koma.
-pub(super) fn beside<'a>(
-    reel: &Reel,
-    track: &'a Track,
-    footage: &Footage,
-    at: usize,
-    koma_rate: f64,
-) -> Beside<'a> {
-    let number = footage.picture(at, koma_rate).filter(|number| *number < reel.count());
-    let picture = reel.shown().map(|texture| (texture.id(), texture.size_vec2()));
-    Beside {
-        pictures: (!footage.pictures.is_empty()).then(|| reel.count()),
-        number,
-        picture: picture.filter(|_| number.is_some()),
-        waveform: track.waveform.as_ref(),
-    }
 }
 
 impl Studio {

@@ -7,11 +7,14 @@ use super::command::Command;
 use super::document::Document;
 use super::look::Look;
 use super::on_screen::OnScreen;
+use super::reel::Reel;
 use super::scene::Scene;
+use super::track::Track;
 use super::waveform::Waveform;
 use super::words::Words;
 use crate::motion::JointId;
 use crate::pipeline::Breakdown;
+use crate::recipe::Footage;
 use crate::time::Frame;
 
 /// What was recorded beside the motion, at a koma.
@@ -23,6 +26,26 @@ pub(super) struct Beside<'a> {
     pub(super) number: Option<usize>,
     pub(super) picture: Option<(TextureId, Vec2)>,
     pub(super) waveform: Option<&'a Waveform>,
+}
+
+impl<'a> Beside<'a> {
+    /// What there is of it at a koma.
+    pub(super) fn at(
+        reel: &Reel,
+        track: &'a Track,
+        footage: &Footage,
+        at: usize,
+        koma_rate: f64,
+    ) -> Self {
+        let number = footage.picture(at, koma_rate).filter(|number| *number < reel.count());
+        let picture = reel.shown().map(|texture| (texture.id(), texture.size_vec2()));
+        Self {
+            pictures: (!footage.pictures.is_empty()).then(|| reel.count()),
+            number,
+            picture: picture.filter(|_| number.is_some()),
+            waveform: track.waveform.as_ref(),
+        }
+    }
 }
 
 /// A look at the results from one koma.
