@@ -1,5 +1,5 @@
-//! What a turned knob costs until the picture has changed, without a window: `cargo bench --features studio
-//! --bench studio`.
+//! What a turned knob costs until the picture has changed, without a window: `cargo bench
+//! --no-default-features --features panels --bench studio`.
 //!
 //! One round is the chain from that knob on, and the frame that shows the result with its triangles, in a window of
 //! 1440 × 900. A frame at 60 Hz has 16.7 ms.
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use divan::Bencher;
 use egui::{Context, Pos2, RawInput, Rect, vec2};
-use genga::studio::{Desk, Export, Exported, Language, Opened, Studio};
+use genga::studio::{ClipsAlone, Language, Studio};
 
 #[path = "common/body.rs"]
 mod body;
@@ -20,31 +20,6 @@ const FRAMES: [usize; 3] = [129, 5_000, 20_000];
 
 fn main() {
     divan::main();
-}
-
-/// A desk with one clip, made here.
-struct Made(usize);
-
-impl Desk for Made {
-    fn open(&self, _: &Path) -> Result<Opened, String> {
-        Ok(Opened { clip: body::swinging(self.0), notes: vec![] })
-    }
-
-    fn read(&self, _: &Path) -> Result<Option<String>, String> {
-        Ok(None)
-    }
-
-    fn write(&self, _: &Path, _: &str) -> Result<(), String> {
-        Ok(())
-    }
-
-    fn remove(&self, _: &Path) -> Result<(), String> {
-        Ok(())
-    }
-
-    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Exported, String> {
-        Ok(vec![].into())
-    }
 }
 
 /// Draws a frame, and gives the number of its triangles' corners.
@@ -60,7 +35,8 @@ fn frame(context: &Context, studio: &mut Studio) -> usize {
 /// Turns a knob to and fro.
 fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]) {
     let context = Context::default();
-    let mut studio = Studio::new(Arc::new(Made(frames)), Language::English);
+    let desk = ClipsAlone(move |_: &Path| Ok(body::swinging(frames)));
+    let mut studio = Studio::new(Arc::new(desk), Language::English);
     studio.open(Path::new("made.bvh"), None);
     while studio.document().is_none() {
         frame(&context, &mut studio);

@@ -1,6 +1,7 @@
 //! The whole chain: [`Clip`] + [`Recipe`] + [`Edits`] → [`Breakdown`].
 
 mod budget;
+mod joints;
 mod layer;
 mod stage;
 #[cfg(test)]
@@ -18,13 +19,14 @@ use crate::keys::{
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{Feet, RootMotion, Sheet, SpokenLine};
-use crate::signal::{LowPass, Signals, Spectrum, Speed, Turn, TurnFinder};
-use crate::time::{Clock, Frame, Span};
+use crate::signal::{Signals, Spectrum, Speed, Turn};
+use crate::time::{Clock, Frame};
 use crate::timing::{Omitted, Spaced, with_holds};
 
 pub use budget::Budget;
+use joints::JointStages;
 pub use layer::LayerBreakdown;
-use layer::{LayerStages, Measured};
+use layer::{LayerStages, Measured, Moving};
 use stage::{Of, Stage};
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
@@ -40,10 +42,7 @@ pub struct Engine {
     build: Stage<(), Build>,
     /// The speeds, and what filters make of them first.
     speed: Stage<(Speed, Screen), Spectrum>,
-    filtered: Stage<LowPass, Signals>,
-    /// The turns whatever the persistence, and those that it confirms.
-    turning: Stage<(TurnFinder, f64), Vec<Vec<Turn>>>,
-    turns: Stage<TurnFinder, Vec<Vec<Turn>>>,
+    joints: JointStages,
     split: Stage<Layers, Vec<LayerJoints>>,
     /// The height of the whole body, beside which its layers are judged.
     height: Stage<Clock, f64>,
@@ -52,6 +51,8 @@ pub struct Engine {
     /// The actions of the take, by the body or the first of its layers.
     actions: Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
+    /// Whether all outputs are of one run.
+    is_whole: bool,
 }
 
 /// Of which time and motion the sheet is and with which frame that ends, what a person holds, and what is spoken.
@@ -128,14 +129,13 @@ impl Engine {
             screen: Stage::default(),
             build: Stage::default(),
             speed: Stage::default(),
-            filtered: Stage::default(),
-            turning: Stage::default(),
-            turns: Stage::default(),
+            joints: JointStages::default(),
             split: Stage::default(),
             height: Stage::default(),
             layers: Vec::new(),
             actions: Stage::default(),
             sheets: Stage::default(),
+            is_whole: false,
         })
     }
 
@@ -182,7 +182,7 @@ impl Engine {
     pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
         // One layer after the other, so that what is large is there for one of them at a time.
         self.make(recipe, edits, LayerStages::forget)?;
-        self.turning.forget();
+        self.joints.forget();
         Ok(self.breakdown(recipe))
     }
 
@@ -204,7 +204,14 @@ impl Engine {
             done(layer);
         }
         self.sheet(recipe, edits);
+        self.is_whole = true;
         Ok(self.breakdown(recipe))
+    }
+
+    /// What the last run made of a recipe, without a look at what would be made now; none after a run that failed or
+    /// did not come to the sheet.
+    pub fn last(&self, recipe: &Recipe) -> Option<Breakdown<'_>> {
+        self.is_whole.then(|| self.breakdown(recipe))
     }
 
     fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
@@ -217,8 +224,8 @@ impl Engine {
             screen: self.screen.output().value(),
             clock: self.clip.clock(recipe.rate),
             speed: self.speed.output().value().unfiltered(),
-            filtered: self.filtered.output().value(),
-            turns: self.turns.output().value(),
+            filtered: self.joints.filtered.output().value(),
+            turns: self.joints.turns.output().value(),
             actions: self.actions.output().value(),
             spaced,
             sheet,
@@ -233,7 +240,8 @@ impl Engine {
     pub fn find_turns(&mut self, recipe: &Recipe) -> Result<&[Vec<Turn>], Error> {
         recipe.validate()?;
         self.measure(recipe)?;
-        Ok(self.turns.output().value())
+        self.joints.turn(self.drawn.output(), self.speed.output(), recipe);
+        Ok(self.joints.turns.output().value())
     }
 
     /// Runs the chain up to the keys of the first layer.
@@ -243,7 +251,7 @@ impl Engine {
     pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
         self.find(recipe, edits)?;
         let (body, keys, uncorrected) = self.layers[0].keys();
-        Ok(FoundKeys { turns: self.turns.output().value(), body, keys, uncorrected })
+        Ok(FoundKeys { turns: self.joints.turns.output().value(), body, keys, uncorrected })
     }
 
     /// Runs the chain up to the turns: every joint's, and those of the body, or of the first of its layers.
@@ -254,11 +262,10 @@ impl Engine {
         &mut self,
         recipe: &Recipe,
     ) -> Result<(&[Vec<Turn>], &BodyTurns), Error> {
-        self.check_and_measure(recipe, &Edits::default())?;
-        let (measured, split, layers) = self.layers();
-        layers[0].take(&measured, &split[0], &recipe.keys.weights)?;
-        layers[0].find_body_turns(&measured, recipe);
-        Ok((self.turns.output().value(), self.layers[0].body_turns()))
+        self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
+            first.find_body_turns(moving, recipe);
+        })?;
+        Ok((self.joints.turns.output().value(), self.layers[0].body_turns()))
     }
 
     /// Runs the chain as far as it takes to tell the actions of the take.
@@ -286,9 +293,10 @@ impl Engine {
 
     /// The keys of the first layer.
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
-        self.check_and_measure(recipe, edits)?;
+        self.check_and_turn(recipe, edits, |first, moving, name| {
+            first.find_alone(moving, recipe, &edits.of_layer(name));
+        })?;
         let (measured, split, layers) = self.layers();
-        layers[0].take(&measured, &split[0], &recipe.keys.weights)?;
         layers[0].find(&measured, recipe, &edits.of_layer(&split[0].name));
         Ok(())
     }
@@ -302,10 +310,17 @@ impl Engine {
         });
     }
 
-    fn check_and_measure(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
+    /// The turns of every joint and, beside that, of the first layer what does not wait for them.
+    fn check_and_turn(
+        &mut self,
+        recipe: &Recipe,
+        edits: &Edits,
+        alone: impl FnOnce(&mut LayerStages, &Moving<'_>, &str) + Send,
+    ) -> Result<(), Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
         // What is wrong with them is said before the work.
+        self.is_whole = false;
         self.split.try_make(
             (Of::given(&self.clip),),
             recipe.layers.clone(),
@@ -325,20 +340,33 @@ impl Engine {
                 Reference::of(&clip, *clock).height()
             });
         }
-        self.measure(recipe)
+        self.measure(recipe)?;
+        let split = self.split.output().value();
+        let moving = Moving {
+            clip: self.drawn.output(),
+            build: self.build.output(),
+            height: (split.len() > 1).then(|| *self.height.output()),
+            screen: *self.screen.output(),
+        };
+        let first = &mut self.layers[0];
+        first.take(&moving, &split[0], &recipe.keys.weights)?;
+        let (clip, speed) = (moving.clip, self.speed.output());
+        let joints = &mut self.joints;
+        rayon::join(|| joints.turn(clip, speed, recipe), || alone(first, &moving, &split[0].name));
+        Ok(())
     }
 
     /// What was measured of the whole body, its layers, and their stages.
     fn layers(&mut self) -> (Measured<'_>, &[LayerJoints], &mut [LayerStages]) {
         let split = self.split.output().value();
-        let measured = Measured {
+        let moving = Moving {
             clip: self.drawn.output(),
-            filtered: self.filtered.output(),
-            turns: self.turns.output(),
             build: self.build.output(),
             height: (split.len() > 1).then(|| *self.height.output()),
             screen: *self.screen.output(),
         };
+        let (filtered, turns) = (self.joints.filtered.output(), self.joints.turns.output());
+        let measured = Measured { moving, filtered, turns };
         (measured, split, &mut self.layers[..split.len()])
     }
 
@@ -356,9 +384,10 @@ impl Engine {
         )
     }
 
-    /// Speeds, smoothed, and where they turn.
+    /// How fast every joint is.
     fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
         self.budget.check(&self.clip, recipe.rate)?;
+        self.is_whole = false;
         self.exaggerate(recipe)?;
         let clip = self.drawn.output();
         self.screen.make((clip,), recipe.seen_from, |(clip,), from| Screen::of(*from, &clip));
@@ -370,19 +399,6 @@ impl Engine {
             let (speed, screen) = settings;
             speed.measure_on(&clip, screen).map(Spectrum::from)
         })?;
-        let speed = (self.speed.output(),);
-        self.filtered.make(speed, recipe.filter.clone(), |(speed,), filter| filter.apply(&speed));
-        // A candidate knows for how long it is confirmed: another persistence needs no new search.
-        let search = TurnFinder { persistence: Span::Frames(0.0), ..recipe.turns.clone() };
-        let settings = (search, recipe.filter.delay(clip.rate()));
-        let filtered = self.filtered.output();
-        self.turning.make((filtered,), settings, |(filtered,), (search, delay)| {
-            search.candidates(&filtered, *delay)
-        });
-        let inputs = (self.turning.output(), filtered);
-        self.turns.make(inputs, recipe.turns.clone(), |(candidates, filtered), finder| {
-            finder.confirmed(&candidates, &filtered)
-        });
         Ok(())
     }
 

@@ -4,8 +4,10 @@
 
 use std::collections::HashMap;
 use std::fmt;
+use std::ops::Deref;
+use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::Error;
 use crate::knob::choices;
@@ -250,13 +252,43 @@ impl Reason {
     }
 }
 
+/// Names that many drawings have in common: a copy of a sheet does not copy them.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Names(Arc<[Arc<str>]>);
+
+impl Deref for Names {
+    type Target = [Arc<str>];
+
+    fn deref(&self) -> &[Arc<str>] {
+        &self.0
+    }
+}
+
+impl<T: Into<Arc<str>>> FromIterator<T> for Names {
+    fn from_iter<I: IntoIterator<Item = T>>(names: I) -> Self {
+        Self(names.into_iter().map(Into::into).collect())
+    }
+}
+
+impl Serialize for Names {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter().map(|name| &**name))
+    }
+}
+
+impl<'de> Deserialize<'de> for Names {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Vec::<String>::deserialize(deserializer).map(Self::from_iter)
+    }
+}
+
 /// Why a drawing is on the sheet, and what was done round it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Why {
     /// Names of the joints that have a turn of their own here.
     #[serde(skip_serializing_if = "is_default")]
-    pub voters: Vec<String>,
+    pub voters: Names,
     /// Set by a person, with the name they gave it (empty when they gave none).
     #[serde(skip_serializing_if = "is_default")]
     pub pinned: Option<String>,
@@ -319,7 +351,7 @@ impl fmt::Display for Why {
             Some(Reason::Contact) => reasons.push("a foot or a hand comes down or leaves".into()),
             Some(Reason::Turn | Reason::Pin) | None => {}
         }
-        if let [first, ..] = self.voters.as_slice() {
+        if let [first, ..] = &*self.voters {
             let others = self.voters.len() - 1;
             let more =
                 if others > 0 { format!(" and {others} more turn") } else { " turns".into() };

@@ -28,6 +28,7 @@ mod errand;
 mod exporting;
 mod file_field;
 mod files;
+mod focus;
 mod footage;
 mod footage_panel;
 mod freeze;
@@ -47,6 +48,7 @@ mod on_screen;
 mod opening;
 mod order;
 mod order_panel;
+mod panels;
 mod player;
 mod reel;
 mod scene;
@@ -60,6 +62,7 @@ mod takes;
 mod timesheet;
 mod track;
 mod transport;
+mod unsaved;
 mod viewport;
 mod waveform;
 mod welcome;
@@ -71,6 +74,7 @@ use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
+use bar::Bar;
 use column::Column;
 use command::Command;
 use counts::Counts;
@@ -87,6 +91,7 @@ use notice::Message;
 use on_screen::OnScreen;
 use opening::Opening;
 use order_panel::OrderPanel;
+use panels::{Panels, Side};
 use player::Player;
 use reel::Reel;
 use shown::{Beside, Shown};
@@ -98,7 +103,7 @@ use track::Track;
 use viewport::Viewport;
 use words::Words;
 
-pub use desk::{Desk, Export, Exported, Opened, Pending, Pictures, Playing};
+pub use desk::{ClipsAlone, Desk, Export, Exported, Opened, Pending, Pictures, Playing};
 pub use document::Document;
 pub use waveform::Waveform;
 pub use words::Language;
@@ -123,6 +128,7 @@ pub struct Studio {
     message: Option<Message>,
     file: FileField,
     is_help_open: bool,
+    panels: Panels,
     player: Player,
     /// The column of the sheet that is worked on.
     chosen: usize,
@@ -163,6 +169,7 @@ impl Studio {
             message: None,
             file: FileField::default(),
             is_help_open: false,
+            panels: Panels::default(),
             player: Player::default(),
             chosen: 0,
             counts_frames: false,
@@ -222,8 +229,9 @@ impl Studio {
         let mut commands = keyboard::pressed(ui);
         let frame = Frame::side_top_panel(ui.style());
         Panel::top("bar").frame(frame).show(ui, |ui| {
-            let is_exporting = self.exporting.is_some();
-            bar::show(ui, self.take.as_mut(), self.before, is_exporting, words, &mut commands);
+            let (is_exporting, panels) = (self.exporting.is_some(), &self.panels);
+            let mut bar = Bar { words, commands: &mut commands, panels, is_exporting };
+            bar.show(ui, self.take.as_mut(), self.before);
         });
         self.renew_footage(ui);
         match self.take {
@@ -235,6 +243,7 @@ impl Studio {
         }
         self.notices(ui, &look, words, &mut commands);
         help::show(ui, &mut self.is_help_open, words);
+        focus::show(ui, &look);
         for command in commands {
             self.act(ui, command);
         }
@@ -321,20 +330,28 @@ impl Studio {
                 takes.show(ui, on_table, &look, words, commands);
             });
         }
-        Panel::left("knobs").default_size(306.0).size_range(250.0..=460.0).show(ui, |ui| {
-            self.knobs.show(ui, &mut self.map, &shown, commands);
-        });
-        Panel::right("sheet").default_size(266.0).size_range(200.0..=640.0).show(ui, |ui| {
-            self.key_panel.show(ui, &shown, commands);
-            ui.separator();
-            self.timesheet.show(ui, &shown, commands);
-        });
-        Panel::bottom("curves").default_size(236.0).size_range(120.0..=640.0).resizable(true).show(
-            ui,
-            |ui| {
+        let window = ui.ctx().content_rect().size();
+        let is_there = |side| self.panels.is_shown(side, window);
+        if is_there(Side::Knobs) {
+            let panel = Panel::left("knobs").default_size(306.0);
+            panel.size_range(Side::Knobs.range(window)).show(ui, |ui| {
+                self.knobs.show(ui, &mut self.map, &shown, commands);
+            });
+        }
+        if is_there(Side::Sheet) {
+            let panel = Panel::right("sheet").default_size(266.0);
+            panel.size_range(Side::Sheet.range(window)).show(ui, |ui| {
+                self.key_panel.show(ui, &shown, commands);
+                ui.separator();
+                self.timesheet.show(ui, &shown, commands);
+            });
+        }
+        if is_there(Side::Curves) {
+            let panel = Panel::bottom("curves").default_size(236.0).resizable(true);
+            panel.size_range(Side::Curves.range(window)).show(ui, |ui| {
                 self.curves.show(ui, &shown, &self.player, commands);
-            },
-        );
+            });
+        }
         Panel::bottom("transport").resizable(false).show_separator_line(false).show(ui, |ui| {
             transport::show(ui, &shown, &self.player, commands);
         });

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use genga::deliver::{ClipMark, FORMATS, Format, Manifest, Report, Run, Settings, zip};
+use genga::deliver::{ClipMark, FORMATS, Format, Manifest, Report, Run, zip};
 use genga::studio::Export;
 
 /// The archive of a folder, and the names of its files.
@@ -20,13 +20,13 @@ pub(crate) fn archive(
     let mut report = Report::of(breakdown, export.notes.to_vec());
     let names = Run::FORMATS.iter().chain(export.formats).copied();
     let formats = Format::find_all(names).map_err(said)?;
-    let mut settings = Settings::default();
-    settings.look_from(export.camera);
     run.with_cut(|cut| {
         for format in formats {
             tell(format.name);
-            report.notes.extend(format.notes(cut, &settings)?.iter().map(ToString::to_string));
-            format.write(cut, &settings, &mut |name, bytes| {
+            report
+                .notes
+                .extend(format.notes(cut, export.settings)?.iter().map(ToString::to_string));
+            format.write(cut, export.settings, &mut |name, bytes| {
                 files.add(name, bytes.to_vec());
                 Ok(())
             })?;

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use genga::deliver::Settings;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::studio::{Export, Pending};
@@ -55,7 +56,7 @@ pub(crate) fn begin(
         &export.recipe.write(export.edits).into(),
         &formats.join(" ").into(),
     );
-    job.push(&export.camera.word().into());
+    job.push(&export.settings.lines().into());
     let hears = Closure::new(hear);
     let end = elsewhere(&job, &hears).ok()?;
     JOB.set(Some(Job { end, _hears: hears, at: String::new(), made: None }));
@@ -117,12 +118,12 @@ pub fn archive(
     bytes: &[u8],
     recipe: &str,
     formats: &str,
-    camera: &str,
+    settings: &str,
     tell: &Function,
 ) -> Result<Array, JsValue> {
     // A format's name is worth no word where nobody hears it.
     let tell = |name: &str| drop(tell.call1(&JsValue::NULL, &name.into()));
-    let (archive, names) = archived(folder, file, bytes, [recipe, formats, camera], &tell)?;
+    let (archive, names) = archived(folder, file, bytes, [recipe, formats, settings], &tell)?;
     Ok(Array::of2(&Uint8Array::from(&*archive), &names.join(" ").into()))
 }
 
@@ -130,13 +131,12 @@ fn archived(
     folder: &str,
     file: &str,
     bytes: &[u8],
-    [recipe, formats, camera]: [&str; 3],
+    [recipe, formats, settings]: [&str; 3],
     tell: &dyn Fn(&str),
 ) -> Made {
     let said = |error: genga::Error| error.to_string();
     let Read { clip, mark, notes } = Read::of(file, bytes)?;
     let (recipe, edits) = Recipe::parse(recipe).map_err(said)?;
-    let camera = camera.parse().map_err(said)?;
     let formats: Vec<&'static str> = export::names(formats);
     let mut engine = Engine::new(clip).map_err(said)?;
     let breakdown = engine.run(&recipe, &edits).map_err(said)?;
@@ -146,7 +146,7 @@ fn archived(
         recipe: &recipe,
         edits: &edits,
         formats: &formats,
-        camera,
+        settings: &Settings::from_lines(settings),
         stop: &AtomicBool::new(false),
         notes: &notes,
     };

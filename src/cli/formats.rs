@@ -41,14 +41,6 @@ enum BvhRows {
     Keys,
 }
 
-impl FormatArgs {
-    /// Nothing but a camera.
-    #[cfg(feature = "studio")]
-    pub(super) fn seen_from(camera: Camera) -> Self {
-        Self { camera: Some(camera), ..Self::default() }
-    }
-}
-
 /// The formats, a line each.
 pub(super) fn help() -> String {
     let lines = FORMATS.iter().map(|format| {
@@ -127,6 +119,12 @@ impl Formats {
         let bones = |path| files::parsed("bones", path, BoneMap::parse);
         settings.vmd.map = args.bones.as_deref().map(bones).transpose()?;
         Ok(Self { formats, named, settings, is_forced: args.force })
+    }
+
+    /// The same with other settings.
+    #[cfg(feature = "studio")]
+    pub(super) fn set(self, settings: &Settings) -> Self {
+        Self { settings: settings.clone(), ..self }
     }
 
     /// Refuses to write where `what` is read from.

@@ -103,6 +103,27 @@ impl Settings {
         self.values().into_iter().map(|(knob, _)| knob).collect()
     }
 
+    /// Every setting with its value, in the words of [`Settings::set`].
+    pub fn settings(&self) -> Vec<(&'static Knob, String)> {
+        self.values().into_iter().map(|(knob, value)| (knob, value.text())).collect()
+    }
+
+    /// Those that are not as they usually are, a line each: `FORMAT.SETTING VALUE`.
+    pub fn lines(&self) -> String {
+        let own = self.settings().into_iter().zip(Self::default().settings());
+        let own = own.filter(|(own, usual)| own != usual);
+        own.map(|((knob, value), _)| format!("{} {value}\n", knob.name)).collect()
+    }
+
+    /// The settings of such lines. What is no setting any more, or not such a value, stays as it usually is.
+    pub fn from_lines(lines: &str) -> Self {
+        let mut settings = Self::default();
+        for (name, value) in lines.lines().filter_map(|line| line.split_once(' ')) {
+            drop(settings.set(name, value));
+        }
+        settings
+    }
+
     /// The name of every setting, as `FORMAT.SETTING`.
     pub fn names(&self) -> Vec<String> {
         self.knobs().into_iter().map(|knob| knob.name.to_owned()).collect()
@@ -125,6 +146,14 @@ mod tests {
         assert!(settings.csv.bom);
         assert_eq!(settings.csv.encode("a\n".into()), b"\xef\xbb\xbfa\n");
         assert_eq!(Settings::default().csv.encode("a\n".into()), b"a\n");
+        let mut again = Settings::default();
+        for (knob, value) in settings.settings() {
+            again.set(knob.name, &value).unwrap();
+        }
+        assert_eq!(again, settings);
+        assert_eq!(Settings::from_lines(&settings.lines()), settings);
+        assert_eq!(settings.lines(), "csv.bom true\n");
+        assert_eq!(Settings::from_lines("xls.bom 1\ncsv.bom ?\n\n"), Settings::default());
     }
 
     #[test]

@@ -71,7 +71,13 @@ pub(crate) struct BodySpeeds(Pattern);
 impl BodySpeeds {
     /// Smooths them.
     pub(crate) fn of(tracks: &Tracks, filter: &LowPass) -> Self {
-        Self(Pattern::of(tracks, filter))
+        Self::over(None, tracks, filter)
+    }
+
+    /// The same in the place of others.
+    pub(crate) fn over(last: Option<Self>, tracks: &Tracks, filter: &LowPass) -> Self {
+        let room = last.map_or_else(Vec::new, |Self(last)| last.into_speeds());
+        Self(Pattern::of(tracks, filter, room))
     }
 
     /// The turns that last for `persistence` frames to each side, `apart` frames from each other at the least.

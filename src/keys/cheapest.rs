@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::iter::successors;
 use std::ops::Range;
 
-use crate::keys::chords::Chords;
+use crate::keys::chords::{BLOCK, Chords};
 use crate::maths;
 use crate::motion::lanes::wide;
 use crate::time::Frame;
@@ -31,6 +31,12 @@ const AWAY: f64 = 0.05;
 /// Koma without an entry that a row is carried over in one piece: to pass something on to nobody is cheaper than to begin
 /// anew.
 const GAP: usize = 16;
+
+/// Koma that a chord has to be long to be looked at only where it may be on a cheapest way.
+const SHORT: usize = 32;
+
+/// What is let through beside what may be cheaper, as a share of what a way costs.
+const HAIR: f64 = 1e-9;
 
 /// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
 const CLOSE: usize = 4;
@@ -72,6 +78,15 @@ struct Row {
     entries: Vec<usize>,
     /// Of each the first behind it that does not follow closely.
     ends: Vec<usize>,
+}
+
+/// Which chords are looked at.
+#[derive(Debug, Clone, Copy)]
+enum Look<'a> {
+    /// Those of no more than [`SHORT`] koma.
+    Short,
+    /// Those on which no way need be dearer than the dearest that is known in each block of koma.
+    NoDearer(&'a [f64]),
 }
 
 /// The cheapest ways to the entries found so far. What stands before an entry is not kept, but looked up on the way
@@ -230,9 +245,13 @@ impl<'a> Cheapest<'a> {
 
     /// The cheapest set at a price.
     fn at(&self, price: f64) -> Vec<usize> {
+        // Ways of short chords are dearer, and soon found: what costs more than they do is on no cheapest way.
         let ways = wide(
             #[inline(always)]
-            || self.ways(price),
+            || {
+                let short = self.ways(price, Look::Short);
+                self.ways(price, Look::NoDearer(&self.dearest(&short)))
+            },
         );
         let last = self.entries.len() - 1;
         let before = |at: &usize| (*at > 0).then(|| self.before(*at, price, &ways));
@@ -242,9 +261,43 @@ impl<'a> Cheapest<'a> {
         kept
     }
 
+    /// The dearest way of each block of koma.
+    fn dearest(&self, ways: &Ways) -> Vec<f64> {
+        let last = self.entries.last().map_or(0, |entry| entry.koma);
+        let mut dearest = vec![0.0; last / BLOCK + 1];
+        for (entry, slot) in self.entries.iter().zip(&self.slots) {
+            let dearest: &mut f64 = &mut dearest[entry.koma / BLOCK];
+            *dearest = dearest.max(ways.costs[*slot]);
+        }
+        dearest
+    }
+
+    /// The known chords from a koma that are looked at, of a way that costs so much up to there.
+    #[inline(always)]
+    fn looked_at(&self, begin: usize, cost: f64, look: Look<'_>) -> &[f32] {
+        let known = self.chords.known(begin);
+        let past = match look {
+            Look::Short => SHORT + 1,
+            Look::NoDearer(dearest) => {
+                // A block of lengths ends in one of two blocks of koma. A hair more, lest a rounded sum be taken for dearer
+                // than it is.
+                let near = |block: usize| dearest.get(begin / BLOCK + block).copied();
+                let most = |block: usize| {
+                    let most = near(block).into_iter().chain(near(block + 1)).fold(0.0, f64::max);
+                    most - cost + HAIR * most
+                };
+                let may_be_cheap =
+                    |(block, least): &(usize, &f32)| f64::from(**least) <= most(*block);
+                let blocks = self.chords.beyond(begin).iter().enumerate();
+                blocks.rev().find(may_be_cheap).map_or(0, |(block, _)| BLOCK * (block + 1))
+            }
+        };
+        &known[..past.min(known.len())]
+    }
+
     /// The cheapest way to every entry at a price, from the first on.
     #[inline(always)]
-    fn ways(&self, price: f64) -> Ways {
+    fn ways(&self, price: f64, look: Look<'_>) -> Ways {
         let count = self.entries.len();
         let mut ways = Ways {
             costs: vec![f64::INFINITY; self.costs],
@@ -263,7 +316,7 @@ impl<'a> Cheapest<'a> {
                 stays_next = (at + 1..count).find(stays).unwrap_or(at);
                 stayed = at;
             }
-            self.go_on(at, stays_next, price, &mut ways);
+            self.go_on(at, stays_next, (price, look), &mut ways);
         }
         ways
     }
@@ -301,9 +354,15 @@ impl<'a> Cheapest<'a> {
     /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet. The next
     /// that stays is not passed over.
     #[inline(always)]
-    fn go_on(&self, from: usize, stays_next: usize, price: f64, ways: &mut Ways) {
+    fn go_on(
+        &self,
+        from: usize,
+        stays_next: usize,
+        (price, look): (f64, Look<'_>),
+        ways: &mut Ways,
+    ) {
         let (begin, cost) = (self.entries[from].koma, self.cost(from, price, ways));
-        let known = self.chords.known(begin);
+        let known = self.looked_at(begin, cost, look);
         for (rank, row) in self.rows.iter().enumerate() {
             let next = row.behind(from, ways.next[rank]);
             let stop = row.behind(stays_next, ways.stops[rank]);

@@ -29,22 +29,49 @@ pub struct JointTurns<'a> {
 }
 
 impl Choose {
+    /// Whether what may be a key hangs on the turns of single joints.
+    pub(crate) fn hears_joints(&self) -> bool {
+        self.merge != Merge::Body || self.contacts == AtContacts::Candidates
+    }
+
     /// What may be a key of the layer, and its walls.
     pub fn candidates(&self, joints: &JointTurns<'_>) -> Candidates {
-        let Candidates { mut keys, walls } = match self.merge {
-            Merge::Body => {
-                Candidates { keys: moments(joints, self.fill), walls: joints.body.walls.clone() }
-            }
+        if !self.hears_joints() {
+            return self.moments(joints.body, joints.apart);
+        }
+        let mut all = match self.merge {
+            Merge::Body => self.all_moments(joints.body, joints.apart),
             Merge::Union | Merge::Vote | Merge::Sum => self.merged(joints),
         };
         if self.contacts == AtContacts::Candidates {
-            add_contacts(&mut keys, &self.poll(joints), joints);
+            add_contacts(&mut all.keys, &self.poll(joints), joints);
         }
-        // On the first and the last koma the clip's ends are shown, and no other drawing.
-        let koma = |row: usize| row as f64 / joints.apart;
-        let last = (koma(joints.filtered.frames().saturating_sub(1)) + 1e-9).floor();
+        let filtered = joints.filtered;
+        self.admitted(all, (filtered.first, filtered.frames()), joints.apart)
+    }
+
+    /// The same where the turns of single joints have no say.
+    pub(crate) fn moments(&self, body: &BodyTurns, apart: f64) -> Candidates {
+        let all = self.all_moments(body, apart);
+        self.admitted(all, (body.first, body.evidence.len()), apart)
+    }
+
+    fn all_moments(&self, body: &BodyTurns, apart: f64) -> Candidates {
+        Candidates { keys: moments(body, apart, self.fill), walls: body.walls.clone() }
+    }
+
+    /// Those that stand within the clip and are strong enough: on the first and the last koma the clip's ends are shown,
+    /// and no other drawing.
+    fn admitted(
+        &self,
+        Candidates { mut keys, walls }: Candidates,
+        (first, frames): (Frame, usize),
+        apart: f64,
+    ) -> Candidates {
+        let koma = |row: usize| row as f64 / apart;
+        let last = (koma(frames.saturating_sub(1)) + 1e-9).floor();
         keys.retain(|key| {
-            let koma = (koma(key.frame.0 - joints.filtered.first.0) + 0.5).floor();
+            let koma = (koma(key.frame.0 - first.0) + 0.5).floor();
             0.0 < koma && koma < last && key.strength >= self.min_strength
         });
         Candidates { keys, walls }
@@ -107,10 +134,10 @@ pub(super) fn is_taken<T>(
 
 /// The turns of the body and, to fill what lies between them, every koma. What is nearer to a turn than a koma is that
 /// turn, drawn beside its peak.
-fn moments(joints: &JointTurns<'_>, fill: Fill) -> Vec<Candidate> {
-    let BodyTurns { first, turns, evidence, .. } = joints.body;
+fn moments(body: &BodyTurns, apart: f64, fill: Fill) -> Vec<Candidate> {
+    let BodyTurns { first, turns, evidence, .. } = body;
     let past = first.0 + evidence.len();
-    let koma = |at: usize| Frame(first.0 + (at as f64 * joints.apart).round() as usize);
+    let koma = |at: usize| Frame(first.0 + (at as f64 * apart).round() as usize);
     let grid = (0..).map(koma).take_while(|frame| fill == Fill::On && frame.0 < past);
     let mut frames: Vec<Frame> = grid.chain(turns.iter().copied()).collect();
     frames.sort_unstable();
@@ -118,7 +145,7 @@ fn moments(joints: &JointTurns<'_>, fill: Fill) -> Vec<Candidate> {
     let candidate = |frame: Frame| Candidate {
         frame,
         strength: evidence[frame.0 - first.0],
-        is_turn: is_taken(turns, |turn| *turn, frame, joints.apart),
+        is_turn: is_taken(turns, |turn| *turn, frame, apart),
     };
     frames.into_iter().map(candidate).collect()
 }

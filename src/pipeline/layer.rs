@@ -1,6 +1,6 @@
 //! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
 
-use std::ops::RangeInclusive;
+use std::ops::{Deref, RangeInclusive};
 use std::sync::Arc;
 
 use super::stage::{Of, Stage};
@@ -18,17 +18,31 @@ use crate::signal::{LowPass, Signals, Turn, TurnFinder};
 use crate::time::Frame;
 use crate::timing::{Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills};
 
-/// What is known of the whole body, measured once for all layers.
+/// The whole body that moves, the same for all layers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Measured<'a> {
+pub(super) struct Moving<'a> {
     pub(super) clip: Of<'a, Arc<Clip>>,
-    pub(super) filtered: Of<'a, Signals>,
-    pub(super) turns: Of<'a, Vec<Vec<Turn>>>,
     pub(super) build: Of<'a, Build>,
     /// The body's height in the file's unit, for a layer that is not all of it.
     pub(super) height: Option<f64>,
     /// From where it is seen.
     pub(super) screen: Screen,
+}
+
+/// The same, with what was measured of its joints.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured<'a> {
+    pub(super) moving: Moving<'a>,
+    pub(super) filtered: Of<'a, Signals>,
+    pub(super) turns: Of<'a, Vec<Vec<Turn>>>,
+}
+
+impl<'a> Deref for Measured<'a> {
+    type Target = Moving<'a>;
+
+    fn deref(&self) -> &Moving<'a> {
+        &self.moving
+    }
 }
 
 /// The stages of one layer, each with its last output.
@@ -81,6 +95,16 @@ struct Finding {
     apart: f64,
 }
 
+impl Finding {
+    fn of(moving: &Moving<'_>, recipe: &Recipe) -> Self {
+        Self {
+            finder: recipe.turns.clone(),
+            delay: recipe.filter.delay(moving.clip.rate()),
+            apart: apart(moving, recipe),
+        }
+    }
+}
+
 /// What was found and decided for one layer.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerBreakdown<'a> {
@@ -108,27 +132,41 @@ impl LayerStages {
     /// Takes on the joints of the layer.
     pub(super) fn take(
         &mut self,
-        measured: &Measured<'_>,
+        moving: &Moving<'_>,
         joints: &LayerJoints,
         weights: &JointWeights,
     ) -> Result<(), Error> {
         let settings = (joints.clone(), weights.clone());
-        self.motion.try_make((measured.clip,), settings, |(clip,), (joints, weights)| {
+        self.motion.try_make((moving.clip,), settings, |(clip,), (joints, weights)| {
             LayerClip::of(&clip, joints, weights)
         })
     }
 
+    /// Finds of the keys what does not wait for the turns of single joints: where those have no say, all but who turns.
+    pub(super) fn find_alone(&mut self, moving: &Moving<'_>, recipe: &Recipe, edits: &Edits) {
+        self.compare(moving, recipe);
+        self.touch(moving, recipe);
+        self.turn(moving, recipe);
+        if !recipe.keys.hears_joints() {
+            self.gather(moving, None, recipe);
+            self.correct(moving, recipe, edits, apart(moving, recipe));
+        }
+    }
+
     /// Finds the keys and walls of the layer.
     pub(super) fn find(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
-        self.compare(measured, recipe);
-        self.hear(measured, recipe);
-        self.turn(measured, recipe);
-        self.choose(measured, recipe, edits);
+        self.find_alone(measured, recipe, edits);
+        self.hear(measured);
+        if recipe.keys.hears_joints() {
+            self.gather(measured, Some(measured), recipe);
+            self.correct(measured, recipe, edits, apart(measured, recipe));
+        }
+        self.draw(measured, recipe, edits);
     }
 
     /// What the layer is judged beside.
-    fn refer(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
-        let settings = (recipe.rate, measured.height, measured.screen);
+    fn refer(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        let settings = (recipe.rate, moving.height, moving.screen);
         self.reference.make((self.motion.output(),), settings, |(motion,), settings| {
             let (rate, height, screen) = *settings;
             let LayerClip { clip, judged, .. } = motion.value();
@@ -141,9 +179,9 @@ impl LayerStages {
     }
 
     /// What is lost from any koma to another, and where nothing is.
-    fn compare(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
-        self.refer(measured, recipe);
-        let inputs = (self.motion.output(), measured.build, self.reference.output());
+    fn compare(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        self.refer(moving, recipe);
+        let inputs = (self.motion.output(), moving.build, self.reference.output());
         self.chords.make(inputs, recipe.keys.span(), |(motion, build, reference), span| {
             Chords::of_layer(&motion.clip, &build, &reference, &motion.judged, *span)
         });
@@ -151,15 +189,20 @@ impl LayerStages {
         self.rests.make(chords, recipe.keys.rest, |(chords,), rest| keys::rests(&chords, *rest));
     }
 
-    /// The turns of single joints, and the ends of contacts, which are not looked for where they do not count.
-    fn hear(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
+    /// Who of the joints has a say.
+    fn hear(&mut self, measured: &Measured<'_>) {
         let motion = self.motion.output();
         self.voices.make((measured.clip, motion, measured.turns), (), |inputs, ()| {
             let (clip, motion, turns) = inputs;
             Voices::of(&clip, &motion, &turns)
         });
+    }
+
+    /// The ends of contacts, which are not looked for where they do not count.
+    fn touch(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        let motion = self.motion.output();
         let settings = (recipe.keys.contacts, recipe.rate);
-        self.contacts.make((measured.clip, motion), settings, |(clip, motion), settings| {
+        self.contacts.make((moving.clip, motion), settings, |(clip, motion), settings| {
             match *settings {
                 (keys::AtContacts::Off, _) => Vec::new(),
                 (_, rate) => keys::contact_ends(&clip, clip.clock(rate), &motion.heard),
@@ -168,42 +211,46 @@ impl LayerStages {
     }
 
     /// The turns of the layer as a whole.
-    fn turn(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
-        let inputs = (self.motion.output(), measured.build, self.reference.output());
-        self.tracks.make(inputs, measured.screen, |(motion, build, reference), screen| {
+    fn turn(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        let inputs = (self.motion.output(), moving.build, self.reference.output());
+        self.tracks.make(inputs, moving.screen, |(motion, build, reference), screen| {
             let LayerClip { clip, judged, heard } = motion.value();
             let height = reference.height();
             let build = build.value();
             Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height })
         });
         let tracks = (self.tracks.output(),);
-        self.speeds.make(tracks, recipe.filter.clone(), |(tracks,), filter| {
-            BodySpeeds::of(&tracks, filter)
+        self.speeds.make_over(tracks, recipe.filter.clone(), |(tracks,), filter, last| {
+            BodySpeeds::over(last, &tracks, filter)
         });
-        let rate = measured.clip.rate();
-        let settings = (recipe.turns.persistence.frames(rate), apart(measured, recipe));
+        let rate = moving.clip.rate();
+        let settings = (recipe.turns.persistence.frames(rate), apart(moving, recipe));
         self.body.make((self.speeds.output(),), settings, |(speeds,), settings| {
             speeds.turns(settings.0, settings.1)
         });
     }
 
-    /// The keys among what may be one.
-    fn choose(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
-        let finding = Finding {
-            finder: recipe.turns.clone(),
-            delay: recipe.filter.delay(measured.clip.rate()),
-            apart: apart(measured, recipe),
-        };
+    /// What may be a key; `heard` are the joints where they have a say.
+    fn gather(&mut self, moving: &Moving<'_>, heard: Option<&Measured<'_>>, recipe: &Recipe) {
+        let finding = Finding::of(moving, recipe);
         // Price, rests and limit choose among candidates and do not change them.
         let merging =
             Choose { min_price: 0.0, rest: 0.0, per_second: f64::INFINITY, ..recipe.keys.clone() };
-        let Measured { filtered, turns, .. } = *measured;
-        let contacts = self.contacts.output();
-        let known = (filtered, turns, self.voices.output(), self.body.output(), contacts);
-        self.candidates.make(known, (merging, finding.clone()), |known, (choose, finding)| {
+        let (body, settings) = (self.body.output(), (merging, finding));
+        let Some(Measured { filtered, turns, .. }) = heard else {
+            return self.candidates.make((body,), settings, |(body,), (choose, finding)| {
+                choose.moments(&body, finding.apart)
+            });
+        };
+        let known = (*filtered, *turns, self.voices.output(), body, self.contacts.output());
+        self.candidates.make(known, settings, |known, (choose, finding)| {
             choose.candidates(&joints(known, finding))
         });
-        self.correct(measured, recipe, edits, finding.apart);
+    }
+
+    /// The keys among it, with who turns on each.
+    fn draw(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
+        let turns = measured.turns;
         let inputs = (
             self.chords.output(),
             self.rests.output(),
@@ -212,7 +259,7 @@ impl LayerStages {
             turns,
             self.voices.output(),
         );
-        let settings = (recipe.keys.clone(), edits.clone(), finding);
+        let settings = (recipe.keys.clone(), edits.clone(), Finding::of(measured, recipe));
         self.keys.make(inputs, settings, |inputs, (choose, edits, finding)| {
             let (chords, rests, corrected, candidates, turns, voices) = inputs;
             let heard = (voices.turns(turns.value()), &voices.weights[..]);
@@ -222,21 +269,21 @@ impl LayerStages {
     }
 
     /// The keys without corrections, and with them: chosen again in the neighbourhood of each, or all of them.
-    fn correct(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits, koma: f64) {
+    fn correct(&mut self, moving: &Moving<'_>, recipe: &Recipe, edits: &Edits, koma: f64) {
         let (pins, forbidden) = (edits.pins.clone(), edits.forbidden.clone());
         // Moves come later: what may be a key does not hang on them.
         let asked = Edits { pins, forbidden, ..Edits::default() };
         let mut free = std::mem::take(&mut self.free);
-        self.admit(&mut free, measured, recipe, Edits::default(), koma);
-        self.pick(&mut free, measured, recipe, koma);
+        self.admit(&mut free, moving, recipe, Edits::default(), koma);
+        self.pick(&mut free, moving, recipe, koma);
         self.free = free;
         // Which choice is taken hangs on the corrections alone, by which the result is kept too.
         let is_other = !asked.is_empty();
         if is_other {
             let mut around = std::mem::take(&mut self.around);
-            self.admit(&mut around, measured, recipe, asked, koma);
+            self.admit(&mut around, moving, recipe, asked, koma);
             if edits.again {
-                self.pick(&mut around, measured, recipe, koma);
+                self.pick(&mut around, moving, recipe, koma);
             }
             self.around = around;
         }
@@ -244,7 +291,7 @@ impl LayerStages {
         let last = if is_other && edits.again { &self.around } else { &self.free };
         let may_be = (self.free.eligible.output(), may_be_now.eligible.output());
         let chosen = (self.free.chosen.output(), last.chosen.output());
-        let inputs = (measured.clip, self.chords.output(), may_be.0, may_be.1, chosen.0, chosen.1);
+        let inputs = (moving.clip, self.chords.output(), may_be.0, may_be.1, chosen.0, chosen.1);
         let apart = recipe.spacing.on.stay() as f64 * koma;
         let edits = Edits { moves: Vec::new(), ..edits.clone() };
         let settings = (recipe.keys.clone(), edits, koma, apart);
@@ -270,7 +317,7 @@ impl LayerStages {
     fn admit(
         &self,
         choosing: &mut Choosing,
-        measured: &Measured<'_>,
+        moving: &Moving<'_>,
         recipe: &Recipe,
         edits: Edits,
         koma: f64,
@@ -278,7 +325,7 @@ impl LayerStages {
         let (chords, rests) = (self.chords.output(), self.rests.output());
         let (candidates, contacts) = (self.candidates.output(), self.contacts.output());
         let reference = self.reference.output();
-        let inputs = (measured.clip, chords, rests, candidates, contacts, reference);
+        let inputs = (moving.clip, chords, rests, candidates, contacts, reference);
         // How long a drawing stays and what still counts as rest is all that keys hang on of spacing.
         let Spacing { on, drift, .. } = recipe.spacing;
         let room = Spacing { on, drift, ..Spacing::default() };
@@ -295,13 +342,13 @@ impl LayerStages {
     }
 
     /// Which of them are drawn.
-    fn pick(&self, choosing: &mut Choosing, measured: &Measured<'_>, recipe: &Recipe, koma: f64) {
+    fn pick(&self, choosing: &mut Choosing, moving: &Moving<'_>, recipe: &Recipe, koma: f64) {
         let (chords, reference) = (self.chords.output(), self.reference.output());
         let judges = Judges { reference: reference.value(), chords: chords.value() };
         // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
         let apart = recipe.spacing.on.stay() as f64 * koma;
         let eligible = choosing.eligible.output();
-        let choice = recipe.keys.choice(&measured.clip, judges, &eligible, apart);
+        let choice = recipe.keys.choice(&moving.clip, judges, &eligible, apart);
         choosing.picked.make((chords,), choice, |(chords,), choice| choice.pick(&chords));
         let inputs = (choosing.eligible.output(), choosing.picked.output());
         choosing.chosen.make(inputs, (), |(keys, picked), ()| Chosen::of(keys.value(), &picked));
@@ -376,9 +423,9 @@ impl LayerStages {
     }
 
     /// Runs its stages up to its turns as a whole.
-    pub(super) fn find_body_turns(&mut self, measured: &Measured<'_>, recipe: &Recipe) {
-        self.refer(measured, recipe);
-        self.turn(measured, recipe);
+    pub(super) fn find_body_turns(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        self.refer(moving, recipe);
+        self.turn(moving, recipe);
     }
 
     /// Its turns as a whole.
@@ -394,8 +441,8 @@ impl LayerStages {
 }
 
 /// The least distance of two keys in frames: a koma.
-fn apart(measured: &Measured<'_>, recipe: &Recipe) -> f64 {
-    measured.clip.clock(recipe.rate).frames_in_koma()
+fn apart(moving: &Moving<'_>, recipe: &Recipe) -> f64 {
+    moving.clip.clock(recipe.rate).frames_in_koma()
 }
 
 /// What is known of the joints once their turns are found: smoothed speeds, turns, who has a say, turns as a

@@ -120,6 +120,21 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
         }
     }
 
+    /// The same for a stage whose output is large: its last is handed on to be written over, if nobody else has it.
+    pub(super) fn make_over<I: Inputs>(
+        &mut self,
+        inputs: I,
+        settings: Settings,
+        make: fn(I, &Settings, Option<Output>) -> Output,
+    ) {
+        let made = inputs.made();
+        if !self.is_fresh(&made, &settings) {
+            let last = self.last.take().and_then(Arc::into_inner);
+            let output = make(inputs, &settings, last.map(|last| last.output));
+            self.keep(made, settings, output);
+        }
+    }
+
     /// The same for a stage that can fail.
     pub(super) fn try_make<I: Inputs>(
         &mut self,

@@ -193,13 +193,13 @@ fn another_persistence_needs_no_new_search() {
     let mut engine = Engine::new(pitch()).unwrap();
     let mut recipe = Recipe::default();
     let few = engine.find_turns(&recipe).unwrap().concat().len();
-    let searched = (engine.turning.output(),).made();
+    let searched = (engine.joints.turning.output(),).made();
     recipe.set("turns.persistence", "1").unwrap();
     assert!(engine.find_turns(&recipe).unwrap().concat().len() > few);
-    assert!((engine.turning.output(),).made() == searched, "the same candidates");
+    assert!((engine.joints.turning.output(),).made() == searched, "the same candidates");
     recipe.set("turns.steady", "50").unwrap();
     engine.find_turns(&recipe).unwrap();
-    assert!((engine.turning.output(),).made() != searched);
+    assert!((engine.joints.turning.output(),).made() != searched);
 }
 
 #[test]

@@ -56,9 +56,9 @@ impl ShownDrawing<'_> {
             }
             Some(Reason::Turn | Reason::Pin) | None => {}
         }
-        match why.voters.as_slice() {
+        match &*why.voters {
             [] => {}
-            [one] => reasons.push(one.clone()),
+            [one] => reasons.push(one.to_string()),
             [first, others @ ..] => reasons.push(format!("{first} +{}", others.len())),
         }
         // No room for both.

@@ -193,15 +193,18 @@ impl TurnFinder {
         joints.map(turns).collect()
     }
 
-    /// Of each step of a joint, from its row to the next, whether it is steady (等速): what the dead band
-    /// takes for no acceleration. One fewer than there are frames.
-    pub fn steady_steps(&self, filtered: &Signals, joint: JointId) -> Vec<bool> {
-        if filtered.frames() < 2 {
-            return vec![];
+    /// Of each step of some joints, from its row to the next, whether it is steady (等速): what the dead band
+    /// takes for no acceleration. One fewer than there are frames, a list a joint.
+    pub fn steady_steps(&self, filtered: &Signals, joints: &[JointId]) -> Vec<Vec<bool>> {
+        if filtered.frames() < 2 || joints.is_empty() {
+            return vec![vec![]; joints.len()];
         }
         let mut scan = Scan::new(self, filtered, 0.0);
-        scan.read_signs(filtered.joint(joint));
-        scan.signs.iter().map(|sign| sign.is_eq()).collect()
+        let steps = |joint: &JointId| {
+            scan.read_signs(filtered.joint(*joint));
+            scan.signs.iter().map(|sign| sign.is_eq()).collect()
+        };
+        joints.iter().map(steps).collect()
     }
 
     /// M in whole frames; in the `event` reading no more than the clip has, as frames beyond the clip

@@ -9,6 +9,7 @@ use super::column::Column;
 use super::command::{Command, Seen};
 use super::corrections::Correction;
 use super::exporting::Exporting;
+use super::focus;
 use super::footage;
 use super::here::Here;
 use super::opening::Opening;
@@ -110,7 +111,7 @@ impl Studio {
             Command::FocusName => self.key_panel.wants_focus = true,
             Command::Save => self.save(),
             Command::AskExport => self.ask_export(),
-            Command::Export(order) => self.export(order),
+            Command::Export(order) => self.export(*order),
             Command::StopExport => self.exporting.iter().for_each(Exporting::stop),
             Command::ChooseFolder => self.choose_folder(),
             Command::OpenFile if !self.desk.has_names() => self.choose(),
@@ -141,6 +142,10 @@ impl Studio {
                     Language::Japanese => Language::English,
                 };
             }
+            Command::Panel(side) => {
+                self.panels.toggle(side, ui.ctx().content_rect().size());
+            }
+            Command::Part(by) => focus::go(ui.ctx(), by),
             Command::Help => self.is_help_open = !self.is_help_open,
             Command::Dismiss => {
                 ui.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));

@@ -4,89 +4,148 @@ use egui::{Align, Button, Layout, RichText, Ui};
 
 use super::command::Command;
 use super::counts::Counts;
+use super::focus::Part;
 use super::icon::{self, Icon};
+use super::panels::{Panels, Side};
 use super::take::Take;
 use super::words::{Language, Words};
 
-/// Shows the buttons, the counts and the switches.
-pub(super) fn show(
-    ui: &mut Ui,
-    take: Option<&mut Take>,
-    before: Option<Counts>,
-    is_exporting: bool,
-    words: Words,
-    commands: &mut Vec<Command>,
-) {
-    ui.horizontal(|ui| {
+/// From so wide a window on all of it stands in one row.
+const WIDE: f32 = 1120.0;
+
+/// What the bar says of the window, and where it says what is asked for.
+pub(super) struct Bar<'a> {
+    pub(super) words: Words,
+    pub(super) commands: &'a mut Vec<Command>,
+    pub(super) panels: &'a Panels,
+    pub(super) is_exporting: bool,
+}
+
+impl Bar<'_> {
+    /// Shows the buttons, the counts and the switches; the counts below where there is no room beside.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        mut take: Option<&mut Take>,
+        before: Option<Counts>,
+    ) {
+        let is_wide = ui.ctx().content_rect().width() >= WIDE;
+        ui.horizontal(|ui| {
+            self.files(ui, take.as_deref());
+            if let Some(take) = take.as_deref_mut().filter(|_| is_wide) {
+                ui.separator();
+                self.clip(ui, take, before);
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.switches(ui));
+        });
+        if let Some(take) = take.filter(|_| !is_wide) {
+            ui.horizontal_wrapped(|ui| self.clip(ui, take, before));
+        }
+    }
+
+    fn files(&mut self, ui: &mut Ui, take: Option<&Take>) {
+        let (words, is_open) = (self.words, take.is_some());
         let mut button = |ui: &mut Ui, is_enabled, name: &str, command: Command| {
-            if ui.add_enabled(is_enabled, Button::new(name)).clicked() {
-                commands.push(command);
+            let button = ui.add_enabled(is_enabled, Button::new(name));
+            if command == Command::OpenFile {
+                Part::Bar.begins(&button);
+            }
+            if button.clicked() {
+                self.commands.push(command);
             }
         };
-        let is_open = take.is_some();
         button(ui, true, words.say("Open", "開く"), Command::OpenFile);
         button(ui, is_open, words.say("Save", "保存"), Command::Save);
-        let can_export = is_open && !is_exporting;
+        let can_export = is_open && !self.is_exporting;
         button(ui, can_export, words.say("Export", "書き出し"), Command::AskExport);
         ui.separator();
-        let can = |can: fn(&Take) -> bool| take.as_deref().is_some_and(can);
+        let can = |can: fn(&Take) -> bool| take.is_some_and(can);
         let (can_undo, can_redo) = (
             can(|take| take.history.can_undo(&take.wanted)),
             can(|take| take.history.can_redo(&take.wanted)),
         );
         button(ui, can_undo, words.say("Undo", "元に戻す"), Command::Undo);
         button(ui, can_redo, words.say("Redo", "やり直す"), Command::Redo);
-        ui.separator();
-        if let Some(take) = take {
-            let changed = if take.is_changed() { " *" } else { "" };
-            let name = RichText::new(format!("{}{changed}", take.name())).strong();
-            let response = ui.label(name);
-            response.on_hover_text(notes(take));
-            if let Some(letter) = take.letter() {
-                let other = words.say("The other sheet (X)", "もう一つのシート (X)");
-                if ui.button(letter).on_hover_text(other).accessible_name(other).clicked() {
-                    commands.push(Command::Other);
-                }
-            }
-            if take.document().edits.freeze() {
-                let thaw = words.say("Frozen", "凍結中");
-                if ui.button(thaw).on_hover_text("W").clicked() {
-                    commands.push(Command::Freeze);
-                }
-            }
-            let counts = take.counts();
-            for (what, count) in counts.words(&before.unwrap_or(counts), words) {
-                ui.weak(what);
-                ui.label(count);
+    }
+
+    /// The clip, which of two sheets it is, and what it costs.
+    fn clip(&mut self, ui: &mut Ui, take: &mut Take, before: Option<Counts>) {
+        let words = self.words;
+        let changed = if take.is_changed() { " *" } else { "" };
+        let name = RichText::new(format!("{}{changed}", take.name())).strong();
+        let response = ui.label(name);
+        response.on_hover_text(notes(take));
+        if let Some(letter) = take.letter() {
+            let other = words.say("The other sheet (X)", "もう一つのシート (X)");
+            let name = format!("{letter}: {other}");
+            if ui.button(letter).on_hover_text(other).accessible_name(name).clicked() {
+                self.commands.push(Command::Other);
             }
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| switches(ui, words, commands));
-    });
+        if take.document().edits.freeze() {
+            let thaw = words.say("Frozen", "凍結中");
+            if ui.button(thaw).on_hover_text("W").clicked() {
+                self.commands.push(Command::Freeze);
+            }
+        }
+        let counts = take.counts();
+        for (what, count) in counts.words(&before.unwrap_or(counts), words) {
+            ui.weak(what);
+            ui.label(count);
+        }
+    }
+
+    fn switches(&mut self, ui: &mut Ui) {
+        let words = self.words;
+        let help = words.say("Keys", "キー一覧");
+        if ui.button("?").on_hover_text(help).accessible_name(help).clicked() {
+            self.commands.push(Command::Help);
+        }
+        let theme = words.say("Light or dark", "明るい・暗い画面");
+        if icon::button(ui, Icon::Theme, theme).clicked() {
+            self.commands.push(Command::Theme);
+        }
+        self.language(ui);
+        self.sides(ui);
+    }
+
+    fn language(&mut self, ui: &mut Ui) {
+        let words = self.words;
+        let (name, accessible) = match words.language {
+            Language::Japanese => ("English", "English"),
+            Language::English if words.has_japanese => ("日本語", "日本語"),
+            Language::English => ("Japanese", "Japanese"),
+        };
+        let button = ui.add_enabled(words.has_japanese, Button::new(name));
+        let button = button.on_disabled_hover_text("No font with Japanese letters is installed.");
+        if button.accessible_name(accessible).clicked() {
+            self.commands.push(Command::Language);
+        }
+    }
+
+    /// A switch for each panel, as they stand in the window; none where there is room for all and none is away.
+    fn sides(&mut self, ui: &mut Ui) {
+        let (words, window) = (self.words, ui.ctx().content_rect().size());
+        let is_away = |side: &Side| !self.panels.is_shown(*side, window);
+        if window.x >= WIDE && !Side::ALL.iter().any(is_away) {
+            return;
+        }
+        for side in Side::ALL.into_iter().rev() {
+            let name = match side {
+                Side::Knobs => words.say("Panel of the knobs (7)", "つまみのパネル (7)"),
+                Side::Curves => words.say("Panel of the curves (8)", "グラフのパネル (8)"),
+                Side::Sheet => words.say("Panel of the sheet (9)", "シートのパネル (9)"),
+            };
+            let is_on = self.panels.is_shown(side, window);
+            if icon::switch(ui, Icon::Panel(side), name, is_on).clicked() {
+                self.commands.push(Command::Panel(side));
+            }
+        }
+    }
 }
 
 /// The file, its recipe, and what the reader said.
 fn notes(take: &Take) -> String {
     let files = [take.path.display().to_string(), take.recipe.display().to_string()];
     files.into_iter().chain(take.notes.iter().cloned()).collect::<Vec<_>>().join("\n")
-}
-
-fn switches(ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
-    let help = words.say("Keys", "キー一覧");
-    if ui.button("?").on_hover_text(help).accessible_name(help).clicked() {
-        commands.push(Command::Help);
-    }
-    let theme = words.say("Light or dark", "明るい・暗い画面");
-    if icon::button(ui, Icon::Theme, theme).clicked() {
-        commands.push(Command::Theme);
-    }
-    let (name, accessible) = match words.language {
-        Language::Japanese => ("English", "English"),
-        Language::English if words.has_japanese => ("日本語", "日本語"),
-        Language::English => ("Japanese", "Japanese"),
-    };
-    let button = ui.add_enabled(words.has_japanese, Button::new(name));
-    let button = button.on_disabled_hover_text("No font with Japanese letters is installed.");
-    if button.accessible_name(accessible).clicked() {
-        commands.push(Command::Language);
-    }
 }

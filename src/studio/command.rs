@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::corrections::Correction;
 use super::order::Order;
+use super::panels::Side;
 use crate::edits::Speech;
 use crate::recipe::Footage;
 
@@ -122,7 +123,7 @@ pub(super) enum Command {
     /// Asks what is exported, and where.
     AskExport,
     /// Exports it.
-    Export(Order),
+    Export(Box<Order>),
     /// Stops writing; nothing of it stays.
     StopExport,
     /// Lets the person choose a folder for the export.
@@ -134,6 +135,10 @@ pub(super) enum Command {
     /// Light or dark.
     Theme,
     Language,
+    /// A panel is put away, or back.
+    Panel(Side),
+    /// The keyboard goes so many parts of the window on.
+    Part(isize),
     /// The list of keys.
     Help,
     /// Closes what is open.

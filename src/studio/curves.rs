@@ -15,13 +15,16 @@ use egui::{Id, Panel, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 use self::hand::Hand;
 use self::time::Window;
 use super::command::Command;
+use super::focus::{self, Part};
 use super::key_menu;
 use super::player::Player;
 use super::shown::Shown;
 use crate::motion::JointId;
 
-/// Width of the list of joints.
+/// Width of the list of joints, and its share where there is little room.
 const LIST: f32 = 170.0;
+const LEAST_LIST: f32 = 104.0;
+const SHARE: f32 = 0.3;
 /// Room for the values at the left of the curves.
 const VALUES: f32 = 40.0;
 
@@ -54,7 +57,8 @@ impl Curves {
         player: &Player,
         commands: &mut Vec<Command>,
     ) {
-        let list = Panel::left("joints").exact_size(LIST).resizable(false);
+        let wide = (SHARE * ui.available_width()).clamp(LEAST_LIST, LIST);
+        let list = Panel::left("joints").exact_size(wide).resizable(false);
         list.show(ui, |ui| {
             let name = shown.words.say("Movement (SSD)", "動きの大きさ (SSD)");
             ui.checkbox(&mut self.movement, name);
@@ -62,10 +66,12 @@ impl Curves {
         });
         let rect = ui.available_rect_before_wrap();
         let response = ui.interact(rect, Id::unique("curves"), Sense::click_and_drag());
+        Part::Curves.begins(&response);
         let clip = shown.breakdown.clip;
         self.window.fit((clip.first().0 as f64, clip.last().0 as f64));
         let inside = rect.with_min_x(rect.min.x + VALUES).shrink2(vec2(12.0, 0.0));
         self.window.handle(ui, &response, inside);
+        self.window.walk(focus::take_arrows(&response).0, shown.frame_of_koma(shown.at));
         let time = self.window.scale(inside);
         let top = Rect::from_min_size(inside.min, vec2(inside.width(), ruler::HEIGHT));
         self.hand.handle(&response, top, &time, shown, commands);
@@ -102,8 +108,11 @@ impl Curves {
             let corner = below.min + vec2(0.0, high * at as f32);
             Rect::from_min_size(corner, vec2(below.width(), high)).shrink2(vec2(0.0, 3.0))
         };
-        for (at, joint) in self.chosen.iter().enumerate() {
-            lane::draw(&painter, lane(at), *joint, time, shown);
+        // Of all at once: how large the speeds of the whole body are has its part in it.
+        let (turns, filtered) = (&shown.wanted.recipe.turns, shown.breakdown.filtered);
+        let steady = turns.steady_steps(filtered, &self.chosen);
+        for (at, (joint, steps)) in self.chosen.iter().zip(&steady).enumerate() {
+            lane::draw(&painter, lane(at), (*joint, steps), time, shown);
         }
         if self.movement {
             movement::draw(&painter, lane(self.chosen.len()), time, shown);

@@ -8,10 +8,10 @@ use std::sync::atomic::AtomicBool;
 use egui::ColorImage;
 
 use super::waveform::Waveform;
+use crate::deliver::Settings;
 use crate::edits::Edits;
 use crate::motion::Clip;
 use crate::pipeline::Breakdown;
-use crate::plot::Camera;
 use crate::recipe::Recipe;
 
 /// Files, as a program has them. Whatever fails is said in one plain sentence.
@@ -198,10 +198,56 @@ pub struct Export<'a> {
     pub edits: &'a Edits,
     /// Formats beside those that every export has.
     pub formats: &'a [&'static str],
-    /// From where figures are seen.
-    pub camera: Camera,
+    /// The settings of the formats: paper, pictures, tables, and from where figures are seen.
+    pub settings: &'a Settings,
     /// Set once the person wants no more of it: what is yet to be written is not.
     pub stop: &'a AtomicBool,
     /// What the reader said of the file.
     pub notes: &'a [String],
+}
+
+/// A desk with clips and nothing else: what is written on it is gone, and so is what is exported.
+///
+/// ```
+/// use std::path::Path;
+/// use genga::motion::bvh;
+/// use genga::studio::{ClipsAlone, Desk};
+///
+/// let desk = ClipsAlone(|path: &Path| match bvh::open(path) {
+///     Ok(read) => Ok(read.clip),
+///     Err(error) => Err(error.to_string()),
+/// });
+/// assert_eq!(desk.open("data/kick.bvh".as_ref())?.clip.len(), 92);
+/// assert_eq!(desk.read("data/kick.genga.toml".as_ref())?, None);
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct ClipsAlone<F>(
+    /// Gives the clip of a name, or says why there is none.
+    pub F,
+);
+
+impl<F> Desk for ClipsAlone<F>
+where
+    F: Fn(&Path) -> Result<Clip, String> + Send + Sync,
+{
+    fn open(&self, clip: &Path) -> Result<Opened, String> {
+        Ok(Opened { clip: (self.0)(clip)?, notes: vec![] })
+    }
+
+    fn read(&self, _: &Path) -> Result<Option<String>, String> {
+        Ok(None)
+    }
+
+    fn write(&self, _: &Path, _: &str) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn remove(&self, _: &Path) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Exported, String> {
+        Ok(vec![].into())
+    }
 }

@@ -10,6 +10,7 @@ use super::command::Command;
 use super::desk::{Desk, Export, Exported, Pending};
 use super::document::Document;
 use super::errand::{Errand, Look};
+use super::focus::Part;
 use super::order::Order;
 use super::words::Words;
 use crate::pipeline::Engine;
@@ -35,9 +36,9 @@ impl Parcel {
         let Document { recipe, edits, .. } = &self.document;
         let breakdown = self.engine.run(recipe, edits).map_err(|error| error.to_string())?;
         let (clip, notes) = (&*self.clip, &*self.notes);
-        let (formats, camera) = (&*self.order.formats, self.order.camera);
+        let (formats, settings) = (&*self.order.formats, &self.order.settings());
         let export =
-            Export { clip, breakdown: &breakdown, recipe, edits, formats, camera, stop, notes };
+            Export { clip, breakdown: &breakdown, recipe, edits, formats, settings, stop, notes };
         desk.export(&self.order.folder, &export, tell)
     }
 }
@@ -100,7 +101,9 @@ impl Exporting {
             let exporting = words.say("exporting to", "書き出し中");
             let what = self.what.lock().unwrap_or_else(PoisonError::into_inner);
             ui.label(format!("{exporting} {}: {what}", self.folder.display()));
-            if ui.button(words.say("Stop writing", "書き出しを中止")).clicked() {
+            let stop = ui.button(words.say("Stop writing", "書き出しを中止"));
+            Part::Notices.begins(&stop);
+            if stop.clicked() {
                 commands.push(Command::StopExport);
             }
         });

@@ -6,6 +6,7 @@ use egui::text::{CCursor, CCursorRange};
 use egui::{Button, Key, Response, TextEdit, Ui};
 
 use super::command::Command;
+use super::focus::Part;
 use super::words::Words;
 
 /// What is typed.
@@ -26,7 +27,7 @@ impl FileField {
         words: Words,
         commands: &mut Vec<Command>,
     ) {
-        ui.horizontal(|ui| self.row(ui, can_save, words, commands));
+        ui.horizontal_wrapped(|ui| self.row(ui, can_save, words, commands));
         if !recent.is_empty() {
             ui.horizontal_wrapped(|ui| {
                 ui.weak(words.say("recent", "最近のファイル"));
@@ -37,8 +38,11 @@ impl FileField {
 
     fn row(&mut self, ui: &mut Ui, can_save: bool, words: Words, commands: &mut Vec<Command>) {
         let hint = words.say("clip.bvh or recipe.toml", "clip.bvh または recipe.toml");
-        let field = TextEdit::singleline(&mut self.text).desired_width(460.0).hint_text(hint);
+        let field = TextEdit::singleline(&mut self.text)
+            .desired_width(ui.available_width().min(460.0))
+            .hint_text(hint);
         let field = ui.add(field).accessible_name(words.say("File", "ファイル"));
+        Part::Notices.begins(&field);
         if std::mem::take(&mut self.wants_focus) {
             field.request_focus();
             choose_all(ui, &field, &self.text);

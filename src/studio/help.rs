@@ -1,35 +1,75 @@
 //! The list of keys (キー一覧).
 
-use egui::{Grid, Ui, Window};
+use egui::{Align2, Grid, Id, Key, ScrollArea, Ui, Vec2, Window, vec2};
 
-use super::keyboard::BINDINGS;
+use super::keyboard::{BINDINGS, Binding};
 use super::words::Words;
 
-/// Shows the list while it is open.
+/// A column of the list is so wide, and a row so high.
+const COLUMN: f32 = 380.0;
+const ROW: f32 = 21.0;
+/// Room for the title, and at the sides.
+const ROOM: Vec2 = vec2(60.0, 90.0);
+
+/// Shows the list while it is open, as many columns as there is room for; what does not fit is scrolled.
 pub(super) fn show(ui: &Ui, is_open: &mut bool, words: Words) {
     let title = words.say("Keys", "キー一覧");
-    let window = Window::new(title).id(egui::Id::unique("help")).open(is_open).collapsible(false);
-    window.resizable(false).default_pos([360.0, 80.0]).show(ui.ctx(), |ui| {
-        ui.horizontal_top(|ui| {
-            for (column, bindings) in BINDINGS.chunks(BINDINGS.len().div_ceil(2)).enumerate() {
-                Grid::new(("keys", column)).num_columns(2).spacing([14.0, 3.0]).show(ui, |ui| {
-                    for binding in bindings {
-                        ui.monospace(binding.keys(ui));
-                        ui.label(binding.what(words));
-                        ui.end_row();
-                    }
-                });
-                ui.add_space(18.0);
-            }
+    let room = ui.ctx().content_rect().size() - ROOM;
+    let most = ((room.x / COLUMN) as usize).clamp(1, 3);
+    let fitting = (BINDINGS.len() as f32 * ROW / room.y).ceil() as usize;
+    let columns = fitting.clamp(2.min(most), most);
+    let window = Window::new(title).id(Id::unique("help")).open(is_open).collapsible(false);
+    let window = window.anchor(Align2::CENTER_CENTER, Vec2::ZERO).resizable(false);
+    window.show(ui.ctx(), |ui| {
+        ScrollArea::vertical().max_height(room.y).show(ui, |ui| {
+            ui.set_max_width(COLUMN * columns as f32);
+            ui.horizontal_top(|ui| {
+                for (at, bindings) in BINDINGS.chunks(BINDINGS.len().div_ceil(columns)).enumerate()
+                {
+                    list(ui, at, bindings, words);
+                }
+            });
+            ui.separator();
+            mouse(ui, words);
+            leaf(ui, room.y);
         });
-        ui.separator();
-        ui.label(words.say(
-            "Mouse: drag a view to turn it, with Shift or the right button to move it, the wheel zooms. \
-             Drag a number on the timesheet or over the curves to move a genga, the end of a hold on the timesheet to \
-             lengthen it, the dot of an inbetween over the curves to pull it; the right button has more.",
-            "マウス: 画面をドラッグで回転、Shift か右ボタンで移動、ホイールで拡大。\
-             シートやグラフの番号をドラッグで原画を移動、シートの止めの端で長さを、\
-             グラフの中割りの点で詰めを変える。右クリックでメニュー。",
-        ));
     });
+}
+
+fn list(ui: &mut Ui, column: usize, bindings: &[Binding], words: Words) {
+    Grid::new(("keys", column)).num_columns(2).spacing([14.0, 3.0]).show(ui, |ui| {
+        for binding in bindings {
+            ui.monospace(binding.keys(ui));
+            ui.label(binding.what(words));
+            ui.end_row();
+        }
+    });
+    ui.add_space(18.0);
+}
+
+/// A page down and up by the keyboard: nothing in the list can have it.
+fn leaf(ui: &Ui, page: f32) {
+    let pressed = |key| ui.input(|input| input.key_pressed(key));
+    for (key, way) in [(Key::PageDown, -1.0), (Key::PageUp, 1.0)] {
+        if pressed(key) {
+            ui.scroll_with_delta(vec2(0.0, way * 0.8 * page));
+        }
+    }
+}
+
+fn mouse(ui: &mut Ui, words: Words) {
+    ui.label(words.say(
+        "The keyboard goes on by Tab, and by F6 from part to part. In a view that has it arrows turn, with Shift they \
+         move; over the curves they move and zoom, on the map they turn both knobs.",
+        "Tab で次の項目、F6 で次の部分へ。画面では矢印で回転、Shift と矢印で移動。グラフでは移動と拡大、\
+         地図では両方のつまみを変える。",
+    ));
+    ui.label(words.say(
+        "Mouse: drag a view to turn it, with Shift or the right button to move it, the wheel zooms. \
+         Drag a number on the timesheet or over the curves to move a genga, the end of a hold on the timesheet to \
+         lengthen it, the dot of an inbetween over the curves to pull it; the right button has more.",
+        "マウス: 画面をドラッグで回転、Shift か右ボタンで移動、ホイールで拡大。\
+         シートやグラフの番号をドラッグで原画を移動、シートの止めの端で長さを、\
+         グラフの中割りの点で詰めを変える。右クリックでメニュー。",
+    ));
 }

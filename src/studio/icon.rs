@@ -1,6 +1,10 @@
 //! Signs on buttons, drawn and not written: no font has to have them.
 
-use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
+use egui::{
+    Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui, vec2,
+};
+
+use super::panels::Side;
 
 /// A sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,13 +25,30 @@ pub(super) enum Icon {
     Back,
     /// A disc, half of it dark.
     Theme,
+    /// A window with a panel at a side.
+    Panel(Side),
 }
 
 /// The side of a button.
 const SIDE: f32 = 22.0;
 
+/// A button with a sign that is on or off.
+pub(super) fn switch(ui: &mut Ui, icon: Icon, name: &str, is_on: bool) -> Response {
+    let ink = ui.visuals().weak_text_color();
+    let response = plain(ui, icon, (!is_on).then_some(ink));
+    response.widget_info(|| egui::WidgetInfo::selected(Role::Button, true, is_on, name));
+    response.on_hover_text(name)
+}
+
 /// A button with a sign, and its name for the mouse and the screen reader.
 pub(super) fn button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
+    let response = plain(ui, icon, None);
+    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, true, name));
+    response.on_hover_text(name)
+}
+
+/// A button without a name, its sign in a colour of its own or in that of all.
+fn plain(ui: &mut Ui, icon: Icon, ink: Option<Color32>) -> Response {
     let side = if matches!(icon, Icon::Cross | Icon::Back) { 16.0 } else { SIDE };
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let visuals = ui.style().interact(&response);
@@ -39,9 +60,8 @@ pub(super) fn button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
         visuals.bg_stroke,
         StrokeKind::Inside,
     );
-    draw(painter, icon, rect.shrink(0.26 * side), visuals.fg_stroke.color);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
-    response.on_hover_text(name)
+    draw(painter, icon, rect.shrink(0.26 * side), ink.unwrap_or(visuals.fg_stroke.color));
+    response
 }
 
 fn draw(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
@@ -80,6 +100,16 @@ fn draw(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
             let tip = turn(0);
             let head = [vec2(-2.8, -1.4), vec2(2.8, -1.4), vec2(0.0, 2.6)].map(|way| tip + way);
             painter.add(Shape::convex_polygon(head.to_vec(), ink, Stroke::NONE));
+        }
+        Icon::Panel(side) => {
+            let thin = Stroke::new(1.2, ink);
+            painter.rect_stroke(rect, 1.5, thin, StrokeKind::Middle);
+            let panel = match side {
+                Side::Knobs => [at(0.0, 0.0), at(0.36, 1.0)],
+                Side::Curves => [at(0.0, 0.62), at(1.0, 1.0)],
+                Side::Sheet => [at(0.64, 0.0), at(1.0, 1.0)],
+            };
+            painter.rect_filled(Rect::from_min_max(panel[0], panel[1]), 1.0, ink);
         }
         Icon::Theme => {
             let (middle, radius) = (rect.center(), 0.5 * rect.width());

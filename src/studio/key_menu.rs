@@ -6,6 +6,7 @@ use super::command::Command;
 use super::corrections::Correction;
 use super::here::MOST_WEIGHT;
 use super::icon::{self, Icon};
+use super::knobs::is_other;
 use super::shown::Shown;
 use super::why;
 use super::words::Words;
@@ -147,10 +148,11 @@ fn weight(ui: &mut Ui, key: &Key, shown: &Shown<'_>, commands: &mut Vec<Command>
             let weight = is_own.then_some(shown.wanted.recipe.spacing.weight);
             commands.push(Command::Correct(Correction::Weight(key.clone(), weight)));
         }
-        if let Some(mut weight) = key.weight {
+        if let Some(own) = key.weight {
+            let mut weight = own;
             let value = DragValue::new(&mut weight).range(0.0..=MOST_WEIGHT).speed(0.01);
             let value = ui.add(value.fixed_decimals(2)).accessible_name(label);
-            if value.changed() {
+            if value.changed() && is_other(weight, own) {
                 commands.push(Command::Correct(Correction::Weight(key.clone(), Some(weight))));
             }
         }

@@ -3,6 +3,8 @@
 use egui::{Event, Key, KeyboardShortcut, Modifiers, Popup, TextEdit, Ui};
 
 use super::command::{Command, Seen, Standard};
+use super::focus::{self, Arrows};
+use super::panels::Side;
 use super::words::Words;
 
 /// A key and what it does.
@@ -135,14 +137,19 @@ pub(super) const BINDINGS: &[Binding] = &[
     key(NONE, Key::N, Command::FocusName, "name the genga here", "原画に名前"),
     key(NONE, Key::D, Command::Theme, "light, dark", "明るい・暗い画面"),
     key(NONE, Key::J, Command::Language, "Japanese labels", "英語表示"),
+    key(NONE, Key::Num7, Command::Panel(Side::Knobs), "knobs, or none", "つまみの表示"),
+    key(NONE, Key::Num8, Command::Panel(Side::Curves), "curves, or none", "グラフの表示"),
+    key(NONE, Key::Num9, Command::Panel(Side::Sheet), "sheet, or none", "シートの表示"),
+    key(SHIFT, Key::F6, Command::Part(-1), "part of the window before", "画面の前の部分へ"),
+    key(NONE, Key::F6, Command::Part(1), "next part of the window", "画面の次の部分へ"),
     key(NONE, Key::Questionmark, Command::Help, "this list", "この一覧"),
     key(NONE, Key::F1, Command::Help, "this list", "この一覧"),
     key(NONE, Key::Escape, Command::Dismiss, "close what is open", "閉じる"),
 ];
 
 /// Keys that a widget with the focus has a use for itself.
-const OF_WIDGETS: [Key; 6] =
-    [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::Space, Key::Enter];
+const ARROWS: [Key; 4] = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+const PRESSES: [Key; 2] = [Key::Space, Key::Enter];
 
 /// The commands of the keys that were pressed, once for each press and in their order: a slow frame may have
 /// several. What is typed into a field is left to it.
@@ -151,15 +158,26 @@ pub(super) fn pressed(ui: &Ui) -> Vec<Command> {
     let is_typing = focused.is_some_and(|id| TextEdit::load_state(ui.ctx(), id).is_some());
     // An open menu or list closes itself by Escape.
     let is_menu_open = Popup::is_any_open(ui.ctx());
+    let arrows = focused.and_then(|id| focus::arrows(ui.ctx(), id));
+    let is_of_widget = |Binding { modifiers, key, .. }: &Binding| {
+        let (is_alone, is_arrow) = (modifiers.is_none(), ARROWS.contains(key));
+        match arrows {
+            Some(Arrows::PlayHead) => false,
+            Some(Arrows::Own) => is_arrow && (is_alone || modifiers.shift_only()),
+            None => is_alone && (is_arrow || PRESSES.contains(key)),
+        }
+    };
     let is_free = |binding: &Binding| {
         if is_menu_open && binding.key == Key::Escape {
             return false;
         }
-        let is_of_widget = binding.modifiers.is_none() && OF_WIDGETS.contains(&binding.key);
         match focused {
             None => true,
-            Some(_) if is_typing => binding.modifiers.command || binding.key == Key::Escape,
-            Some(_) => !is_of_widget,
+            Some(_) if is_typing => {
+                let is_for_all = matches!(binding.key, Key::Escape | Key::F1 | Key::F6);
+                binding.modifiers.command || is_for_all
+            }
+            Some(_) => !is_of_widget(binding),
         }
     };
     let mut commands = Vec::new();

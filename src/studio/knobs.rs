@@ -5,11 +5,15 @@ mod choices;
 mod measured;
 pub(super) mod presets;
 
-use egui::{Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, SliderClamping, Ui};
+use egui::{
+    Button, CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, SliderClamping, TextEdit, Ui,
+};
 
+pub(super) use self::measured::is_other;
 use self::measured::written;
 use self::presets::PRESETS;
 use super::command::Command;
+use super::focus::{self, Part};
 use super::icon::{self, Icon};
 use super::map::Map;
 use super::shown::Shown;
@@ -90,19 +94,24 @@ impl Knobs {
                 }
             }
             super::corrected::show(ui, shown, commands);
+            focus::bring_into_view(ui);
         });
     }
 
     fn presets(&self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
         ui.horizontal_wrapped(|ui| {
-            for preset in PRESETS {
+            for (at, preset) in PRESETS.iter().enumerate() {
                 let name = words.say(preset.english, preset.japanese);
                 let value = |name: &str| {
                     let at = KNOBS.iter().position(|knob| knob.name == name);
                     at.map_or("", |at| &self.values[at])
                 };
                 let is_so = preset.settings.iter().all(|(knob, wanted)| value(knob) == *wanted);
-                if ui.add(Button::selectable(is_so, name)).clicked() {
+                let button = ui.add(Button::selectable(is_so, name));
+                if at == 0 {
+                    Part::Knobs.begins(&button);
+                }
+                if button.clicked() {
                     commands.push(Command::Preset(preset.settings));
                 }
             }
@@ -152,7 +161,7 @@ impl Knobs {
 }
 
 /// What a knob does, where the mouse rests on its name.
-fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
+pub(super) fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
     response.on_hover_ui(|ui| {
         ui.set_max_width(320.0);
         ui.strong(knob.name);
@@ -167,12 +176,14 @@ fn help(response: egui::Response, knob: &Knob, default: &str, words: Words) {
         if !words.is_japanese() || matches!(knob.kind, Kind::Choice(_)) {
             ui.weak(knob.takes());
         }
-        ui.weak(format!("{} {default}", words.say("default", "初期値")));
+        if !default.is_empty() {
+            ui.weak(format!("{} {default}", words.say("default", "初期値")));
+        }
     });
 }
 
 /// The control that a kind of knob has. It gives the text that [`Recipe::set`] takes.
-fn control(
+pub(super) fn control(
     ui: &mut Ui,
     knob: &'static Knob,
     value: &str,
@@ -187,6 +198,7 @@ fn control(
         Kind::On => choice(ui, (knob, words), value, &ON, set),
         Kind::SeenFrom => choice(ui, (knob, words), value, &SEEN_FROM, set),
         Kind::Choice(choices) => choice(ui, (knob, words), value, choices, set),
+        Kind::Text if knob.name != "layers" => words_of(ui, knob, value, set),
         Kind::Text => choice(ui, (knob, words), value, &LAYERS, set),
         Kind::Flag => {
             let mut is_on = value == "true";
@@ -195,6 +207,18 @@ fn control(
             }
         }
     }
+}
+
+/// Any words; the blank behind one is yet to be followed by the next.
+fn words_of(ui: &mut Ui, knob: &Knob, value: &str, set: &mut impl FnMut(String)) {
+    let id = ui.make_persistent_id(knob.name);
+    let typed = ui.data(|data| data.get_temp::<String>(id)).filter(|typed| typed.trim() == value);
+    let mut text = typed.unwrap_or_else(|| value.to_owned());
+    let field = ui.add(TextEdit::singleline(&mut text).desired_width(128.0));
+    if field.accessible_name(knob.name).changed() {
+        set(text.clone());
+    }
+    ui.data_mut(|data| data.insert_temp(id, text));
 }
 
 fn number(
@@ -212,10 +236,12 @@ fn number(
         return;
     }
     // A limit that is none is shown as it is, at the end of the slider.
-    let mut number = value.parse().unwrap_or(min);
+    let own = value.parse().unwrap_or(min);
+    let mut number = own;
     let slider = Slider::new(&mut number, min..=max).clamping(SliderClamping::Never);
     let slider = if whole { slider.integer() } else { slider.max_decimals(2) };
-    if ui.add(slider).accessible_name(knob.name).changed() {
+    let slider = ui.add(slider).accessible_name(knob.name);
+    if slider.changed() && is_other(number, own) {
         set(written(number));
     }
 }
@@ -301,7 +327,7 @@ fn short(knob: &Knob, words: Words) -> String {
 }
 
 /// What a knob is called.
-fn label(knob: &Knob, words: Words) -> String {
+pub(super) fn label(knob: &Knob, words: Words) -> String {
     if words.is_japanese() {
         return knob.japanese.into();
     }

@@ -145,13 +145,27 @@ mod tests {
         matrix.map(|row| row.iter().zip(color).map(|(a, b)| a * b).sum())
     }
 
-    /// A colour as an eye sees it, in CIE L*a*b*.
-    fn seen(color: Color32, eye: [[f64; 3]; 3]) -> [f64; 3] {
-        let linear = |channel: u8| {
+    /// The light of a colour: red, green, blue.
+    fn light(color: Color32) -> [f64; 3] {
+        [color.r(), color.g(), color.b()].map(|channel| {
             let value = f64::from(channel) / 255.0;
             if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+        })
+    }
+
+    /// By how much one colour is brighter than another (WCAG 2).
+    fn contrast(a: Color32, b: Color32, eye: [[f64; 3]; 3]) -> f64 {
+        let bright = |color| {
+            let [red, green, blue] = times(eye, light(color)).map(|light| light.clamp(0.0, 1.0));
+            0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.05
         };
-        let light = times(eye, [color.r(), color.g(), color.b()].map(linear));
+        let (a, b): (f64, f64) = (bright(a), bright(b));
+        a.max(b) / a.min(b)
+    }
+
+    /// A colour as an eye sees it, in CIE L*a*b*.
+    fn seen(color: Color32, eye: [[f64; 3]; 3]) -> [f64; 3] {
+        let light = times(eye, light(color));
         let xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
         let [x, y, z] = times(xyz, light.map(|value| value.clamp(0.0, 1.0)));
         let root = |t: f64| if t > 0.008856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
@@ -171,11 +185,38 @@ mod tests {
                 (look.action, look.playhead),
                 (look.left, look.right),
                 (look.before, look.after),
+                (look.raw, look.filtered),
+                (look.genga, look.filtered),
+                (look.wall, look.filtered),
+                (look.playhead, look.chosen),
             ] {
                 for eye in EYES {
                     let (a, b) = (seen(a, eye), seen(b, eye));
                     let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
                     assert!(apart.sqrt() > 20.0, "{a:?} {b:?}: {:.0}", apart.sqrt());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn words_and_numbers_can_be_read_by_every_eye() {
+        for look in [Look::day(), Look::night()] {
+            for (words, ground, least) in [
+                (look.ink, look.paper, 7.0),
+                (look.ink, look.ground, 7.0),
+                (look.faint, look.paper, 4.5),
+                (look.faint, look.ground, 4.0),
+                (look.genga, look.paper, 4.0),
+                (look.playhead, look.paper, 4.0),
+                (look.playhead, look.chosen, 3.0),
+                (look.genga, look.chosen, 2.9),
+                (look.faint, look.chosen, 3.0),
+                (look.inbetween, look.paper, 3.0),
+            ] {
+                for eye in EYES {
+                    let contrast = contrast(words, ground, eye);
+                    assert!(contrast >= least, "{words:?} on {ground:?}: {contrast:.1}");
                 }
             }
         }

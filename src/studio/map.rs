@@ -5,12 +5,13 @@ mod survey;
 
 use egui::{
     Align2, CollapsingHeader, Color32, ComboBox, FontId, Painter, Pos2, Rect, Response, RichText,
-    Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use self::survey::{PERSISTENCE, WIDTH};
 use super::command::Command;
 use super::errand::{Errand, Look};
+use super::focus;
 use super::shown::Shown;
 use super::take::Take;
 use super::words::Words;
@@ -156,7 +157,7 @@ impl Cells<'_> {
         self.inside.min + share * self.inside.size()
     }
 
-    fn size(&self) -> egui::Vec2 {
+    fn size(&self) -> Vec2 {
         self.inside.size() / vec2(self.x.len() as f32, self.y.len() as f32)
     }
 
@@ -194,14 +195,19 @@ impl Cells<'_> {
         painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(10.5), look.faint);
     }
 
-    /// Where the recipe stands.
-    fn dot(&self, painter: &Painter, shown: &Shown<'_>) {
+    /// Where the recipe stands; nowhere where a setting is none of the axis.
+    fn place(&self, shown: &Shown<'_>) -> Option<Pos2> {
         let recipe = &shown.wanted.recipe;
         let place = |axis: &Axis| survey::place(axis, &recipe.get(axis.name()).ok()?);
-        if let Some((x, y)) = place(self.x).zip(place(self.y)) {
-            // A ring, so that the number in it can be read.
-            painter.circle_stroke(self.middle(x, y), 8.5, Stroke::new(4.0, Color32::WHITE));
-            painter.circle_stroke(self.middle(x, y), 8.5, Stroke::new(2.2, shown.look.genga));
+        let (x, y) = place(self.x).zip(place(self.y))?;
+        Some(self.middle(x, y))
+    }
+
+    /// Marks where the recipe stands, by a ring, so that the number in it can be read.
+    fn dot(&self, painter: &Painter, shown: &Shown<'_>) {
+        if let Some(place) = self.place(shown) {
+            painter.circle_stroke(place, 8.5, Stroke::new(4.0, Color32::WHITE));
+            painter.circle_stroke(place, 8.5, Stroke::new(2.2, shown.look.genga));
         }
     }
 
@@ -213,10 +219,14 @@ impl Cells<'_> {
         (index(share.x, self.x.len()), index(1.0 - share.y, self.y.len()))
     }
 
-    /// Turns both knobs where a hand comes down.
+    /// Turns both knobs where a hand comes down, or a cell further by a key.
     fn turn(&self, response: &Response, shown: &Shown<'_>, commands: &mut Vec<Command>) {
         let at = response.interact_pointer_pos();
-        let Some(at) = at.filter(|_| response.is_pointer_button_down_on()) else { return };
+        let under_hand = at.filter(|_| response.is_pointer_button_down_on());
+        let (keys, _) = focus::take_arrows(response);
+        let by_keys =
+            || (keys != Vec2::ZERO).then(|| Some(self.place(shown)? + keys * self.size()))?;
+        let Some(at) = under_hand.or_else(by_keys) else { return };
         let (x, y) = self.under(at);
         for (knob, value) in [(WIDTH, &self.x.values()[x]), (PERSISTENCE, &self.y.values()[y])] {
             if shown.wanted.recipe.get(knob).is_ok_and(|own| own != *value) {

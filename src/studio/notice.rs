@@ -3,6 +3,7 @@
 use egui::{Align2, Area, Color32, Frame, Id, Label, Order, Stroke, Ui, vec2};
 
 use super::command::Command;
+use super::focus::Part;
 use super::icon::{self, Icon};
 use super::look::Look;
 use super::words::Words;
@@ -56,7 +57,9 @@ pub(super) fn message(
     one(ui, color, |ui| {
         ui.horizontal_top(|ui| {
             let close = words.say("Close the message", "閉じる");
-            if icon::button(ui, Icon::Cross, close).clicked() {
+            let close = icon::button(ui, Icon::Cross, close);
+            Part::Notices.begins(&close);
+            if close.clicked() {
                 commands.push(Command::Dismiss);
             }
             let japanese = message.japanese.as_deref().unwrap_or(&message.text);
@@ -68,12 +71,14 @@ pub(super) fn message(
 /// Offers what an earlier session left.
 pub(super) fn recovery(ui: &mut Ui, look: &Look, words: Words, commands: &mut Vec<Command>) {
     one(ui, look.genga, |ui| {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.label(words.say(
                 "An earlier session left corrections that were not saved.",
                 "前回保存されなかった修正があります。",
             ));
-            if ui.button(words.say("Recover", "復元する")).clicked() {
+            let recover = ui.button(words.say("Recover", "復元する"));
+            Part::Notices.begins(&recover);
+            if recover.clicked() {
                 commands.push(Command::Recover);
             }
             if ui.button(words.say("Discard", "捨てる")).clicked() {

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use crate::deliver::FORMATS;
+use crate::deliver::{FORMATS, Settings};
 use crate::plot::Camera;
 
 /// Cameras that are offered, with the words of each.
@@ -20,15 +20,24 @@ pub(super) struct Order {
     /// Names of formats, in the order of [`FORMATS`].
     pub(super) formats: Vec<&'static str>,
     pub(super) camera: Camera,
+    /// What is asked of the formats beside it.
+    pub(super) asked: Settings,
     pub(super) folder: PathBuf,
 }
 
 impl Order {
+    /// All that is asked of the formats.
+    pub(super) fn settings(&self) -> Settings {
+        let mut settings = self.asked.clone();
+        settings.look_from(self.camera);
+        settings
+    }
+
     /// What is remembered of it, as a text.
     pub(super) fn text(&self) -> String {
         let camera = CAMERAS.iter().find(|(camera, ..)| *camera == self.camera);
         let camera = camera.map_or("", |(_, word, _)| *word);
-        format!("{}\n{camera}\n", self.formats.join(" "))
+        format!("{}\n{camera}\n{}", self.formats.join(" "), self.asked.lines())
     }
 
     /// What was remembered, with the folder of a clip. What is not known any more is left out.
@@ -37,8 +46,10 @@ impl Order {
         let words: Vec<&str> = lines.next().unwrap_or_default().split(' ').collect();
         let camera = lines.next().unwrap_or_default();
         let camera = CAMERAS.iter().find(|(_, word, _)| *word == camera);
+        let asked = Settings::from_lines(text);
         let formats = FORMATS.iter().map(|format| format.name);
         Self {
+            asked,
             formats: formats.filter(|name| words.contains(name)).collect(),
             camera: camera.map_or(Camera::Auto, |(camera, ..)| *camera),
             folder,
@@ -60,8 +71,9 @@ mod tests {
 
     #[test]
     fn an_order_is_remembered_without_its_folder() {
-        let mut order =
-            Order { formats: vec![], camera: Camera::Side, folder: PathBuf::from("/out/kick") };
+        let mut order = Order::remembered("\nside\n", PathBuf::from("/out/kick"));
+        order.asked.set("xsheet.title", "空 の旅").unwrap();
+        order.asked.set("figures.png", "true").unwrap();
         order.toggle("xsheet", true);
         order.toggle("xdts", true);
         order.toggle("strip", true);
@@ -69,7 +81,9 @@ mod tests {
         assert_eq!(order.formats.len(), 2);
         let again = Order::remembered(&order.text(), PathBuf::from("/out/kick"));
         assert_eq!(again, order);
-        let none = Order::remembered("no_such_format\nfrom below\n", PathBuf::new());
+        let none =
+            Order::remembered("no_such_format\nfrom below\nxls.bom 1\ncsv.bom ?\n", PathBuf::new());
         assert_eq!((none.formats.len(), none.camera), (0, Camera::Auto));
+        assert_eq!(none.asked, Settings::default());
     }
 }

@@ -2,14 +2,30 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, ComboBox, Grid, Key, TextEdit, Ui};
+use egui::{Button, CollapsingHeader, ComboBox, Grid, Key, ScrollArea, TextEdit, Ui};
 
 use super::command::Command;
 use super::desk::Desk;
+use super::focus::{self, Part};
+use super::knobs;
 use super::order::{CAMERAS, Order};
 use super::words::Words;
 use crate::deliver::FORMATS;
 use crate::plot::Camera;
+
+/// The sections of the settings for paper, and of those for all figures.
+const PAPER: &str = "xsheet";
+const FIGURES: &str = "figures";
+
+/// Room for what stands over and under the formats, and what they have at the least.
+const ROOM: f32 = 210.0;
+const LEAST_ROOM: f32 = 120.0;
+/// From so wide a panel on settings stand two in a row.
+const WIDE: f32 = 600.0;
+/// Room for the box of a format.
+const COLUMN: f32 = 270.0;
+/// Room for the button beside the folder.
+const CHOOSE: f32 = 190.0;
 
 /// The panel in which it is given.
 #[derive(Debug, Clone, Default)]
@@ -21,6 +37,8 @@ pub(super) struct OrderPanel {
     pub(super) has_folders: bool,
     /// The folder as it is typed.
     pub(super) folder: String,
+    /// Whether the keyboard is to go to it.
+    wants_focus: bool,
 }
 
 impl OrderPanel {
@@ -28,7 +46,7 @@ impl OrderPanel {
     pub(super) fn ask(&mut self, order: Order, desk: &dyn Desk) {
         self.folder = order.folder.display().to_string();
         (self.always, self.has_folders) = (desk.always(), desk.has_names());
-        self.order = Some(order);
+        (self.order, self.wants_focus) = (Some(order), true);
     }
 
     /// Takes a folder that was chosen.
@@ -40,44 +58,127 @@ impl OrderPanel {
     pub(super) fn show(&mut self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
         let Some(order) = &mut self.order else { return };
         ui.strong(words.say("Export", "書き出し"));
-        formats(ui, order, &self.always, words);
+        let room = (ui.ctx().content_rect().height() - ROOM).max(LEAST_ROOM);
+        let scroll = ScrollArea::vertical().id_salt("order").max_height(room);
+        scroll.show(ui, |ui| {
+            formats(ui, order, &self.always, words);
+            ui.separator();
+            ui.horizontal(|ui| {
+                ui.label(words.say("Figures seen from", "図の向き"));
+                camera(ui, order, words);
+            });
+            settings(ui, order, &self.always, words);
+            focus::bring_into_view(ui);
+        });
         ui.separator();
-        ui.horizontal(|ui| {
-            ui.label(words.say("Figures seen from", "図の向き"));
-            camera(ui, order, words);
-        });
-        ui.horizontal(|ui| {
-            let (what, name) = match self.has_folders {
-                true => (("Folder", "フォルダー"), ("Folder of the export", "書き出すフォルダー")),
-                false => (("Archive", "ZIPの名前"), ("Archive of the export", "書き出すZIPの名前")),
-            };
-            ui.label(words.say(what.0, what.1));
-            let field = TextEdit::singleline(&mut self.folder).desired_width(480.0);
-            ui.add(field).accessible_name(words.say(name.0, name.1));
-            let choose = words.say("Choose the folder…", "フォルダーを選ぶ…");
-            if self.has_folders && ui.button(choose).clicked() {
-                commands.push(Command::ChooseFolder);
-            }
-        });
+        ui.horizontal_wrapped(|ui| self.place(ui, words, commands));
+        ui.horizontal(|ui| self.decide(ui, words, commands));
+    }
+
+    /// Where it goes.
+    fn place(&mut self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
+        let (what, name) = match self.has_folders {
+            true => (("Folder", "フォルダー"), ("Folder of the export", "書き出すフォルダー")),
+            false => (("Archive", "ZIPの名前"), ("Archive of the export", "書き出すZIPの名前")),
+        };
+        ui.label(words.say(what.0, what.1));
+        let wide = (ui.available_width() - CHOOSE).clamp(160.0, 480.0);
+        let field = TextEdit::singleline(&mut self.folder).desired_width(wide);
+        let field = ui.add(field).accessible_name(words.say(name.0, name.1));
+        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let choose = words.say("Choose the folder…", "フォルダーを選ぶ…");
+        if self.has_folders && ui.button(choose).clicked() {
+            commands.push(Command::ChooseFolder);
+        }
+        let Some(order) = &mut self.order else { return };
         order.folder = PathBuf::from(self.folder.trim());
+        if is_entered && order.folder != Path::new("") {
+            commands.push(Command::Export(Box::new(order.clone())));
+        }
+    }
+
+    /// Whether it goes there. The keyboard begins here: as it was last is how it mostly is.
+    fn decide(&mut self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
+        let Some(order) = &self.order else { return };
         let is_named = order.folder != Path::new("");
-        ui.horizontal(|ui| {
-            let write = Button::new(words.say("Write the files", "書き出す"));
-            let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
-            let is_asked = ui.add_enabled(is_named, write).clicked() || is_entered;
-            if is_asked && is_named {
-                commands.push(Command::Export(order.clone()));
-            }
-            if ui.button(words.say("Not now", "やめる")).clicked() {
-                commands.push(Command::Dismiss);
-            }
-        });
+        let write = Button::new(words.say("Write the files", "書き出す"));
+        let write = ui.add_enabled(is_named, write);
+        Part::Notices.begins(&write);
+        if std::mem::take(&mut self.wants_focus) {
+            write.request_focus();
+        }
+        if write.clicked() {
+            commands.push(Command::Export(Box::new(order.clone())));
+        }
+        if ui.button(words.say("Not now", "やめる")).clicked() {
+            commands.push(Command::Dismiss);
+        }
     }
 }
 
-/// A box for each format, three in a row; those that always come are on and stay so.
+/// What can be asked of the formats that are wanted: of paper, of tables, of pictures.
+fn settings(ui: &mut Ui, order: &mut Order, always: &[&'static str], words: Words) {
+    let is_wanted = |section: &str| {
+        order.formats.iter().chain(always).any(|format| *format == section) || section == FIGURES
+    };
+    let mut sections: Vec<&str> = Vec::new();
+    let values = order.asked.settings();
+    for (knob, _) in &values {
+        if let Some(section) = knob.path().0
+            && is_wanted(section)
+            && sections.last() != Some(&section)
+        {
+            sections.push(section);
+        }
+    }
+    let mut asked = Vec::new();
+    for section in sections {
+        let header = CollapsingHeader::new(named(section, words)).id_salt(("asked", section));
+        header.default_open(section == PAPER).show_unindented(ui, |ui| {
+            let columns = if ui.available_width() > WIDE { 2 } else { 1 };
+            Grid::new(section).num_columns(2 * columns).spacing([14.0, 4.0]).show(ui, |ui| {
+                let own = values.iter().filter(|(knob, _)| {
+                    // From where figures are seen is asked once for all of them.
+                    knob.path().0 == Some(section) && knob.path().1 != "camera"
+                });
+                for (at, (knob, value)) in own.enumerate() {
+                    knobs::help(ui.label(knobs::label(knob, words)), knob, "", words);
+                    ui.horizontal(|ui| {
+                        let mut set = |text| asked.push((knob.name, text));
+                        ui.name_inputs(knob.name, |ui| {
+                            knobs::control(ui, knob, value, words, &mut set);
+                        });
+                    });
+                    if at % columns == columns - 1 {
+                        ui.end_row();
+                    }
+                }
+            });
+        });
+    }
+    for (name, value) in asked {
+        // What is not taken is not what its control shows: it stays as it was.
+        drop(order.asked.set(name, &value));
+    }
+}
+
+/// What the settings of a format are called.
+fn named(section: &str, words: Words) -> String {
+    let format = FORMATS.iter().find(|format| format.name == section);
+    match (section, format) {
+        (FIGURES, _) => words.say("Figures", "図の人物").into(),
+        (PAPER, _) => words.say("Paper (xsheet)", "用紙 (xsheet)").into(),
+        (_, Some(format)) if words.is_japanese() => format!("{}の設定", format.japanese),
+        _ => format!("settings of {section}"),
+    }
+}
+
+/// A box for each format, as many in a row as there is room for; those that always come are on and stay so.
 fn formats(ui: &mut Ui, order: &mut Order, always: &[&'static str], words: Words) {
-    Grid::new("formats").num_columns(3).spacing([18.0, 4.0]).show(ui, |ui| {
+    // In English a box has its name alone.
+    let column = if words.is_japanese() { COLUMN } else { 0.5 * COLUMN };
+    let columns = ((ui.available_width() / column) as usize).clamp(1, 3);
+    Grid::new("formats").num_columns(columns).spacing([18.0, 4.0]).show(ui, |ui| {
         for (at, format) in FORMATS.iter().enumerate() {
             let is_always = always.contains(&format.name);
             let mut is_on = is_always || order.formats.contains(&format.name);
@@ -89,7 +190,7 @@ fn formats(ui: &mut Ui, order: &mut Order, always: &[&'static str], words: Words
             if shown.on_hover_text(&help).on_disabled_hover_text(&help).changed() {
                 order.toggle(format.name, is_on);
             }
-            if at % 3 == 2 {
+            if at % columns == columns - 1 {
                 ui.end_row();
             }
         }

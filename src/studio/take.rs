@@ -1,6 +1,5 @@
 //! A take (テイク) on the table: a clip, the document, and the last results that could be made of them.
 
-use std::ffi::OsString;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,6 +15,7 @@ use super::history::History;
 use super::order::Order;
 use super::scene::Scene;
 use super::step::Step;
+use super::unsaved::{Unsaved, beside, read};
 use crate::error::Error;
 use crate::motion::Clip;
 use crate::pipeline::{Breakdown, Engine};
@@ -62,7 +62,7 @@ pub(super) struct Take {
     /// What a hand asks for. Of a slow clip it is run when the hand lets go.
     pub(super) wanted: Document,
     /// What an earlier session left that was not saved.
-    pub(super) left: Option<Document>,
+    pub(super) left: Option<Unsaved>,
     /// The other sheet, and whether the one that is worked on is the second.
     other: Option<Document>,
     is_second: bool,
@@ -72,8 +72,11 @@ pub(super) struct Take {
     /// All columns of its sheet on one another, as the files have them; none before the chain has run.
     cels: Option<Cels>,
     saved: Document,
-    autosaved: Document,
+    /// What was kept last in case of a crash.
+    kept: Unsaved,
     is_slow: bool,
+    /// Whether the chain ran last for something else than the document.
+    is_elsewhere: bool,
 }
 
 impl Take {
@@ -87,7 +90,7 @@ impl Take {
         let opened = desk.open(path)?;
         let recipe = recipe.map_or_else(|| beside(path, ".genga.toml"), Path::to_owned);
         let saved = read(desk, &recipe)?.unwrap_or_default();
-        let left = read(desk, &beside(path, AUTOSAVE)).ok().flatten();
+        let left = Unsaved::read(desk, path, &saved);
         let engine = Engine::new(opened.clip).map_err(|error| error.to_string())?;
         let scene = Scene::of(engine.clip());
         Ok(Self {
@@ -97,15 +100,16 @@ impl Take {
             scene,
             history: History::of(&saved),
             wanted: saved.clone(),
-            left: left.filter(|left| *left != saved),
+            left,
             other: None,
             is_second: false,
             engine,
             document: saved.clone(),
             cels: None,
-            autosaved: saved.clone(),
+            kept: Unsaved::nothing(&saved),
             saved,
             is_slow: false,
+            is_elsewhere: false,
         })
     }
 
@@ -137,7 +141,11 @@ impl Take {
     /// The results, with the scene they stand in.
     pub(super) fn results(&mut self) -> Results<'_> {
         let Document { recipe, edits, .. } = &self.document;
-        let breakdown = self.engine.run(recipe, edits).expect("the chain has taken this document");
+        if self.is_elsewhere {
+            self.engine.run(recipe, edits).expect("the chain has taken this document");
+            self.is_elsewhere = false;
+        }
+        let breakdown = self.engine.last(recipe).expect("the chain has run");
         let cels = self.cels.as_ref().expect("cels are laid once the chain has run");
         Results { breakdown, cels, scene: &self.scene, wanted: &self.wanted }
     }
@@ -158,9 +166,13 @@ impl Take {
         }
         let begin = Instant::now();
         let before = (&self.document.recipe, self.cels.as_ref());
+        self.is_elsewhere = true;
         let laid = self.engine.run(recipe, edits);
         match laid.and_then(|breakdown| laid_again(&breakdown, recipe, before)) {
-            Ok(cels) => (self.cels, self.document) = (Some(cels), self.wanted.clone()),
+            Ok(cels) => {
+                (self.cels, self.document) = (Some(cels), self.wanted.clone());
+                self.is_elsewhere = false;
+            }
             Err(error) => {
                 self.wanted = self.document.clone();
                 return Err(error);
@@ -188,6 +200,7 @@ impl Take {
             self.freeze()?;
         }
         let Document { recipe, edits, .. } = &self.wanted;
+        self.is_elsewhere = true;
         let fresh = self.engine.run(recipe, &freeze::thawed(edits))?;
         self.wanted.edits = freeze::found_again(edits, &fresh, koma);
         Ok(())
@@ -214,11 +227,10 @@ impl Take {
         self.document != self.saved
     }
 
-    /// Saves the recipe, and takes away what was kept in case of a crash.
+    /// Saves the recipe. What was kept of it in case of a crash goes; the other sheet is still kept.
     pub(super) fn save(&mut self, desk: &dyn Desk) -> Result<(), String> {
         desk.write(&self.recipe, &self.document.text())?;
         self.saved = self.document.clone();
-        self.left = None;
         self.forget(desk)
     }
 
@@ -235,30 +247,32 @@ impl Take {
 
     /// Keeps what is not saved beside the clip, so that a crash takes nothing with it.
     pub(super) fn autosave(&mut self, desk: &dyn Desk) -> Result<(), String> {
-        if self.document == self.autosaved || self.left.is_some() {
+        if self.left.is_some() || self.kept.is(&self.document, self.other.as_ref(), self.is_second)
+        {
             return Ok(());
         }
+        self.keep(desk)
+    }
+
+    /// Keeps what is not saved, or takes away what was kept of what is.
+    fn keep(&mut self, desk: &dyn Desk) -> Result<(), String> {
+        let (document, other) = (self.document.clone(), self.other.clone());
         // Tried once for each document: a full disk is said once and not with every frame.
-        self.autosaved = self.document.clone();
-        if self.is_changed() {
-            desk.keep(&beside(&self.path, AUTOSAVE), &self.document.text())
-        } else {
-            desk.remove(&beside(&self.path, AUTOSAVE))
-        }
+        self.kept = Unsaved { document, other, is_second: self.is_second };
+        self.kept.keep(desk, &self.path, &self.saved)
     }
 
     /// Takes what an earlier session left.
     pub(super) fn recover(&mut self) {
         if let Some(left) = self.left.take() {
-            self.wanted = left;
+            (self.wanted, self.other, self.is_second) = (left.document, left.other, left.is_second);
         }
     }
 
     /// Throws away what an earlier session left.
     pub(super) fn forget(&mut self, desk: &dyn Desk) -> Result<(), String> {
         self.left = None;
-        self.autosaved = self.document.clone();
-        desk.remove(&beside(&self.path, AUTOSAVE))
+        self.keep(desk)
     }
 
     /// Where a file is that is named beside the clip, or by its whole path; none for no name.
@@ -307,20 +321,4 @@ fn laid_again(
         Some(cels) => cels.again(breakdown.clip, breakdown.sheet),
         None => Cels::of(breakdown.clip, breakdown.sheet),
     }
-}
-
-/// What the file beside a clip is called that keeps what is not saved.
-const AUTOSAVE: &str = ".genga-autosave.toml";
-
-/// A file beside a clip, of its name.
-fn beside(clip: &Path, ending: &str) -> PathBuf {
-    let mut name = clip.file_stem().map_or_else(OsString::new, OsString::from);
-    name.push(ending);
-    clip.with_file_name(name)
-}
-
-fn read(desk: &dyn Desk, path: &Path) -> Result<Option<Document>, String> {
-    let text = desk.read(path)?;
-    let document = text.map(|text| Document::parse(&text)).transpose();
-    document.map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::{Button, RichText, ScrollArea, Ui};
 
 use super::command::Command;
+use super::focus::{self, Part};
 use super::look::Look;
 use super::words::Words;
 
@@ -116,7 +117,11 @@ impl Takes {
                 ("Done", "済", Command::Mark(true)),
                 ("Flag", "要確認", Command::Mark(false)),
             ] {
-                if ui.button(words.say(english, japanese)).clicked() {
+                let button = ui.button(words.say(english, japanese));
+                if command == Command::Take(-1) {
+                    Part::Takes.begins(&button);
+                }
+                if button.clicked() {
                     commands.push(command);
                 }
             }
@@ -140,6 +145,7 @@ impl Takes {
                     commands.push(Command::Open(clip.clone()));
                 }
             }
+            focus::bring_into_view(ui);
         });
     }
 }

@@ -13,6 +13,7 @@ use self::hand::Hand;
 use self::paper::Paper;
 use self::speech::SpeechHand;
 use super::command::Command;
+use super::focus::{self, Part};
 use super::key_menu;
 use super::shown::Shown;
 
@@ -80,6 +81,8 @@ impl Timesheet {
             let top = ui.min_rect().min + vec2(0.0, PAD);
             let rect = Rect::from_min_size(top, vec2(wide, high));
             let response = ui.interact(rect, Id::unique("timesheet"), Sense::click_and_drag());
+            Part::Sheet.begins(&response);
+            focus::leave_arrows(&response);
             let paper = Paper { rect, row: self.row, columns: shown.columns.len() };
             let is_spoken = self.speech.handle(&response, &paper, shown, commands);
             let koma = (!is_spoken).then(|| self.hand.handle(&response, &paper, shown, commands));

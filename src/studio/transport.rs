@@ -3,6 +3,7 @@
 use egui::{Align2, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::command::Command;
+use super::focus::{self, Part};
 use super::icon::{self, Icon};
 use super::player::Player;
 use super::shown::Shown;
@@ -10,7 +11,7 @@ use super::shown::Shown;
 /// Shows the buttons and the scrub bar.
 pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
     ui.add_space(2.0);
-    ui.horizontal(|ui| steps(ui, shown, player, commands));
+    ui.horizontal_wrapped(|ui| steps(ui, shown, player, commands));
     scrub(ui, shown, player, commands);
 }
 
@@ -61,6 +62,8 @@ const CLOSEST: f32 = 1.0;
 fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Command>) {
     let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
     let response = ui.interact(rect, Id::unique("scrub"), Sense::click_and_drag());
+    Part::PlayHead.begins(&response);
+    focus::leave_arrows(&response);
     let column = shown.column();
     let inside = rect.shrink2(vec2(6.0, 3.0));
     let wide = inside.width() / column.length.max(1) as f32;
@@ -100,9 +103,6 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
     let now = x(shown.at);
     let head = Rect::from_min_max(pos2(now, rect.min.y), pos2(now + wide.max(3.0), rect.max.y));
     painter.rect_stroke(head, 2.0, Stroke::new(2.0, look.playhead), egui::StrokeKind::Outside);
-    if response.has_focus() {
-        painter.rect_stroke(inside, 3.0, Stroke::new(1.0, look.playhead), egui::StrokeKind::Inside);
-    }
     let name = shown.words.say("Play head", "再生位置");
     let (at, length) = (shown.at + 1, column.length);
     response.widget_info(|| WidgetInfo {

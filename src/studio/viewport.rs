@@ -11,10 +11,11 @@ mod trails;
 use glam::DVec3;
 
 use egui::{
-    Align2, FontId, Id, Painter, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2,
+    FontId, Frame, Id, Margin, Painter, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2,
 };
 
 use super::command::{Command, Placement, Seen};
+use super::focus::{self, Part};
 use super::scene::Scene;
 use super::shown::Shown;
 use crate::plot::parts::{Posing, Stage};
@@ -50,6 +51,8 @@ impl Default for Viewport {
     }
 }
 
+/// How far a hand would have to go that turns or moves a view as far as a key does.
+const A_PRESS: f32 = 20.0;
 /// Room between the two halves.
 const GAP: f32 = 6.0;
 
@@ -63,10 +66,12 @@ impl Viewport {
 
     /// Draws both halves and takes what the hand does to them.
     pub(super) fn show(&mut self, ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
-        ui.horizontal(|ui| {
-            ui.add_space(6.0);
-            let shining = (self.onion, self.trails, self.exaggerated);
-            sides::show(ui, shown, (self.seen, &self.orbit), shining, commands);
+        let margin = Margin { left: 6, ..Margin::ZERO };
+        Frame::NONE.inner_margin(margin).show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                let shining = (self.onion, self.trails, self.exaggerated);
+                sides::show(ui, shown, (self.seen, &self.orbit), shining, commands);
+            });
         });
         let all = ui.available_rect_before_wrap();
         let mut whole = all;
@@ -87,6 +92,9 @@ impl Viewport {
         for (seen, rect) in halves {
             let id = Id::unique(("viewport", *seen == Seen::Source));
             let response = ui.interact(*rect, id, Sense::click_and_drag());
+            if halves[0].0 == *seen {
+                Part::Views.begins(&response);
+            }
             self.handle(ui, &response, shown, commands);
             self.draw(&ui.painter_at(*rect), *rect, *seen, anchor, shown);
             let name = self.heading(*seen, shown);
@@ -121,6 +129,9 @@ impl Viewport {
         if response.double_clicked() {
             commands.push(Command::Fit);
         }
+        let (turned, moved) = focus::take_arrows(response);
+        self.orbit.turn(turned * A_PRESS);
+        self.orbit.pan(moved * A_PRESS, shown.scene, response.rect);
         if response.contains_pointer() {
             let (scroll, pinch) =
                 ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
@@ -179,10 +190,13 @@ impl Viewport {
     fn words(&self, painter: &Painter, rect: Rect, seen: Seen, shown: &Shown<'_>) {
         let (at, look) = (rect.min + vec2(10.0, 8.0), &shown.look);
         let heading = self.heading(seen, shown);
-        painter.text(at, Align2::LEFT_TOP, heading, FontId::proportional(14.0), look.ink);
-        let at = pos2(rect.min.x + 10.0, rect.max.y - 8.0);
+        let wide = rect.width() - 20.0;
+        let galley = painter.layout(heading, FontId::proportional(14.0), look.ink, wide);
+        painter.galley(at, galley, look.ink);
         let standing = standing(seen, shown);
-        painter.text(at, Align2::LEFT_BOTTOM, standing, FontId::proportional(12.0), look.faint);
+        let galley = painter.layout(standing, FontId::proportional(12.0), look.faint, wide);
+        let at = pos2(at.x, rect.max.y - 8.0 - galley.size().y);
+        painter.galley(at, galley, look.faint);
     }
 
     fn heading(&self, seen: Seen, shown: &Shown<'_>) -> String {

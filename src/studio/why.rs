@@ -34,7 +34,7 @@ pub(super) fn in_short(cell: &KeyedCell<'_>, words: Words) -> String {
         reasons.push(format!("{} {}", words.say("left out", "抜いた中割"), why.omitted_before));
     }
     if reasons.is_empty() {
-        reasons.extend(why.voters.first().cloned());
+        reasons.extend(why.voters.first().map(ToString::to_string));
     }
     reasons.join(" · ")
 }
@@ -61,7 +61,7 @@ fn japanese(why: &Why) -> String {
         Some(Reason::Contact) => reasons.push("足か手が着く、または離れる".into()),
         Some(Reason::Turn | Reason::Pin) | None => {}
     }
-    match why.voters.as_slice() {
+    match &*why.voters {
         [] => {}
         [one] => reasons.push(format!("{one}の変わり目")),
         [first, others @ ..] => reasons.push(format!("{first}ほか{}か所の変わり目", others.len())),
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn japanese_has_as_many_reasons_as_english() {
         let all = Why {
-            voters: vec!["Hips".into(), "Head".into()],
+            voters: ["Hips", "Head"].into_iter().collect(),
             pinned: Some("hit".into()),
             moved_from: Some(12),
             reason: Some(Reason::Rest),

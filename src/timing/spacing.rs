@@ -6,6 +6,7 @@ mod rests;
 mod station;
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -195,8 +196,10 @@ impl Spacing {
         let least = |from: usize, to: usize| self.least(from, to, pace);
         let stations = stations(&layer.keys, clock, koma, least);
         let mut row = Row::default();
+        let names: Vec<Arc<str>> =
+            skeleton.joints.iter().map(|joint| joint.name.as_str().into()).collect();
         for (at, station) in stations.iter().enumerate() {
-            row.put(station.koma, station.drawing(skeleton));
+            row.put(station.koma, station.drawing(&names));
             let Some(next) = stations.get(at + 1) else { continue };
             let interval = Interval::new(self, station, next, &layer.walls, clock);
             let on = self.on.within(station.koma, next.koma, pace, self.step);

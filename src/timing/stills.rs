@@ -3,11 +3,15 @@
 use std::array;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Clip, Screen};
 use crate::sheet::Layer;
+
+/// Drawings that are posed one after the other.
+const PIECE: usize = 32 * LANES;
 
 /// Coordinates side by side, so that a distance is computed several at a time.
 type Row = [Lanes; 2];
@@ -42,24 +46,31 @@ impl Stills {
     /// # Panics
     /// When there is a drawing but the clip has no frame.
     pub fn on(clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
-        let mut stills = Self::new(clip.skeleton().len());
-        stills.coordinates.reserve_exact(stills.width() * layer.drawings.len());
-        let mut poser = LanePoser::of(clip);
-        for drawings in layer.drawings.chunks(LANES) {
-            let last = drawings.len() - 1;
-            let sources = array::from_fn(|lane| drawings[lane.min(last)].source);
-            wide(
-                #[inline(always)]
-                || {
-                    poser.drawings(sources);
-                    poser.stand();
-                },
-            );
-            for lane in 0..drawings.len() {
-                let places = poser.pose().translations.iter().map(|place| place.lane(lane));
-                stills.add(places.map(|place| screen.see(place)));
-            }
-        }
+        let drawings = layer.drawings.len();
+        let mut stills = Self { drawings, ..Self::new(clip.skeleton().len()) };
+        let width = stills.width();
+        stills.coordinates = vec![Row::default(); width * drawings];
+        // Each piece has a poser of its own; who poses it makes no difference.
+        let pieces = stills.coordinates.par_chunks_mut((width * PIECE).max(1));
+        pieces.zip(layer.drawings.par_chunks(PIECE)).for_each(|(rows, drawings)| {
+            let mut poser = LanePoser::of(clip);
+            let rows = rows.chunks_mut(width * LANES);
+            rows.zip(drawings.chunks(LANES)).for_each(|(rows, drawings)| {
+                let last = drawings.len() - 1;
+                let sources = array::from_fn(|lane| drawings[lane.min(last)].source);
+                wide(
+                    #[inline(always)]
+                    || {
+                        poser.drawings(sources);
+                        poser.stand();
+                    },
+                );
+                for (lane, row) in rows.chunks_mut(width).enumerate() {
+                    let places = poser.pose().translations.iter().map(|place| place.lane(lane));
+                    write(row, places.map(|place| screen.see(place)));
+                }
+            });
+        });
         stills
     }
 
@@ -75,9 +86,7 @@ impl Stills {
     fn add(&mut self, positions: impl Iterator<Item = DVec3>) {
         let begin = self.coordinates.len();
         self.coordinates.resize(begin + self.width(), Row::default());
-        let values = self.coordinates[begin..].iter_mut().flatten().flat_map(|lanes| &mut lanes.0);
-        let coordinates = positions.flat_map(|position| position.to_array());
-        values.zip(coordinates).for_each(|(value, coordinate)| *value = coordinate);
+        write(&mut self.coordinates[begin..], positions);
         self.drawings += 1;
     }
 
@@ -125,6 +134,13 @@ impl Stills {
         let width = self.width();
         &self.coordinates[drawing * width..(drawing + 1) * width]
     }
+}
+
+/// Writes where the joints are into the row of a drawing.
+fn write(row: &mut [Row], positions: impl Iterator<Item = DVec3>) {
+    let values = row.iter_mut().flatten().flat_map(|lanes| &mut lanes.0);
+    let coordinates = positions.flat_map(|position| position.to_array());
+    values.zip(coordinates).for_each(|(value, coordinate)| *value = coordinate);
 }
 
 #[cfg(test)]

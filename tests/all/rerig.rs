@@ -1,5 +1,7 @@
 //! The same motion in another rig gives the same keys and the same sheet.
 
+use std::sync::Arc;
+
 use genga::edits::Edits;
 use genga::motion::{
     Axis, Body, Channel, Clip, EndSite, Joint, Poser, Skeleton, bvh, local_rotation,
@@ -162,7 +164,7 @@ struct Seen {
 
 fn seen(clip: &Clip, sheet: &Sheet) -> Vec<Seen> {
     let layer = &sheet.layers[0];
-    let joint = |name: &String| clip.skeleton().find(name).unwrap().0;
+    let joint = |name: &Arc<str>| clip.skeleton().find(name).unwrap().0;
     let seen = |exposure: &genga::sheet::Exposure| {
         let drawing = &layer.drawings[exposure.drawing];
         let why = &drawing.why;

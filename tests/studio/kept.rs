@@ -92,6 +92,35 @@ fn what_was_not_saved_is_kept_and_offered_again() {
 }
 
 #[test]
+fn of_two_sheets_both_are_kept_and_offered_again() {
+    let other = sample("kick.genga-autosave-other.toml");
+    let mut table = Table::with_kick();
+    table.tap(Modifiers::NONE, Key::X);
+    table.harness.get_by_label("On threes").click();
+    table.harness.run();
+    table.tap(Modifiers::NONE, Key::X);
+    save(&mut table);
+    assert!(table.desk.text(&other).unwrap().contains("on = 3"), "B is in no recipe");
+    let desk = Arc::clone(&table.desk);
+    drop(table);
+    let open =
+        || Table::with(&sample("kick.bvh"), Arc::clone(&desk), Language::English, Theme::Light);
+    let mut again = open();
+    again.harness.get_by_label("Recover").click();
+    again.harness.run();
+    let on = |table: &Table| table.recipe().get("spacing.on").unwrap();
+    assert_eq!(on(&again), "2", "A is worked on, as before");
+    again.tap(Modifiers::NONE, Key::X);
+    assert_eq!(on(&again), "3");
+    again.harness.get_by_label("B: The other sheet (X)");
+    drop(again);
+    let mut again = open();
+    again.harness.get_by_label("Discard").click();
+    again.harness.run();
+    assert_eq!(desk.text(&other), None);
+}
+
+#[test]
 fn what_was_left_can_be_thrown_away() {
     let autosave = sample("kick.genga-autosave.toml");
     let desk: Arc<Memory> = Arc::default();
@@ -155,10 +184,13 @@ fn an_export_is_what_a_run_writes() {
     let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
     table.harness.get_by_label("Export").click();
     table.harness.run();
+    let hold = Arc::clone(&table.desk);
+    let writing = hold.is_writing.lock().unwrap();
     table.harness.get_by_label("Write the files").click();
     table.harness.step();
     table.harness.step();
     assert!(table.harness.state().is_exporting(), "it does not wait for the disk");
+    drop(writing);
     table.rest();
     let folder = place.path().join("kick-genga");
     for file in ["sheet.json", "keys.csv", "limited.bvh", "recipe.toml", "report.json", "speed.svg"]

@@ -119,7 +119,7 @@ fn one_key_goes_from_one_sheet_to_the_other() {
     assert_eq!(table.recipe().get("spacing.on").unwrap(), "2");
     table.tap(Modifiers::NONE, Key::X);
     assert_eq!(table.recipe().get("spacing.on").unwrap(), "3");
-    table.harness.get_by_label("The other sheet (X)");
+    table.harness.get_by_label("B: The other sheet (X)");
 }
 
 #[test]

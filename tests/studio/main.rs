@@ -10,9 +10,11 @@ mod corrected; // keys by hand: on the keyboard, on the sheet, over the curves
 mod day; // a minute of motion from loading to reopening, in ten pictures
 mod desk; // files in memory, and a disk that is full
 mod kept; // saved, opened, recovered, exported
+mod keyboard; // every act without a mouse
 mod layered; // several columns, each with its own pins
 mod local; // frozen genga, a part found again, genga copied, two sheets
 mod pictures; // what it looks like
+mod scaled; // small windows, and screens with many pixels a point
 mod seen; // play, step, loop, flip, look from a side
 mod soft; // a renderer without a graphics card
 mod spoken; // lines of the S column

@@ -12,7 +12,7 @@ use resvg::tiny_skia::Pixmap;
 use resvg::usvg::fontdb;
 
 use crate::soft::Picture;
-use crate::table::{SIZE, Table, sample};
+use crate::table::{Table, sample};
 
 /// How far a channel may be off: another processor may round a circle otherwise.
 const OFF: u8 = 3;
@@ -22,8 +22,11 @@ impl Table {
         self.harness.remove_cursor();
         self.harness.run();
         let output = self.harness.output();
-        let drawn = self.harness.ctx.tessellate(output.shapes.clone(), output.pixels_per_point);
-        Picture::of(SIZE, &drawn, &self.soft.0.borrow())
+        let scale = output.pixels_per_point;
+        let drawn = self.harness.ctx.tessellate(output.shapes.clone(), scale);
+        let size = self.harness.ctx.content_rect().size();
+        let size = (size.x.round() as usize, size.y.round() as usize);
+        Picture::of((size, scale), &drawn, &self.soft.0.borrow())
     }
 
     fn press_all(&mut self, keys: &[Key]) {
@@ -44,7 +47,7 @@ pub(crate) fn pixmap(picture: &Picture) -> Pixmap {
 /// Compares a picture with the one of the documentation, or makes that again.
 fn compare(name: &str, picture: &Picture) {
     let made = pixmap(picture);
-    let (width, height) = (picture.width as u32, picture.height as u32);
+    let (width, height) = (made.width(), made.height());
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("GENGA_PICTURES").is_some_and(|wish| wish == "write") {

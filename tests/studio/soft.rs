@@ -45,7 +45,7 @@ fn put(image: &ColorImage, [left, top]: [usize; 2], whole: &mut ColorImage) {
     }
 }
 
-/// A picture of a window, at one pixel a point.
+/// A picture of a window.
 pub(crate) struct Picture {
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -55,23 +55,26 @@ pub(crate) struct Picture {
 impl Picture {
     /// Draws what was tessellated.
     pub(crate) fn of(
-        size: (usize, usize),
+        (size, scale): ((usize, usize), f32),
         drawn: &[ClippedPrimitive],
         textures: &Textures,
     ) -> Self {
-        let (width, height) = size;
+        let [width, height] = [size.0, size.1].map(|side| (side as f32 * scale).round() as usize);
         let mut picture = Self { width, height, pixels: vec![Color32::BLACK; width * height] };
         for ClippedPrimitive { clip_rect, primitive } in drawn {
             if let Primitive::Mesh(mesh) = primitive {
-                picture.mesh(mesh, *clip_rect, &textures.0[&mesh.texture_id]);
+                picture.mesh(mesh, *clip_rect * scale, scale, &textures.0[&mesh.texture_id]);
             }
         }
         picture
     }
 
-    fn mesh(&mut self, mesh: &Mesh, clip: Rect, texture: &ColorImage) {
+    fn mesh(&mut self, mesh: &Mesh, clip: Rect, scale: f32, texture: &ColorImage) {
         for corners in mesh.indices.chunks_exact(3) {
-            let corner = |at: usize| mesh.vertices[corners[at] as usize];
+            let corner = |at: usize| {
+                let own = mesh.vertices[corners[at] as usize];
+                Vertex { pos: scale * own.pos, ..own }
+            };
             self.triangle([corner(0), corner(1), corner(2)], clip, texture);
         }
     }

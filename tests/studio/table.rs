@@ -50,17 +50,27 @@ impl Table {
     /// With a clip on it.
     pub(crate) fn with(clip: &Path, desk: Arc<Memory>, language: Language, theme: Theme) -> Self {
         let mut table = Self::empty(desk, language, theme);
-        table.harness.state_mut().open(clip, None);
-        table.wait();
+        table.open(clip);
         table
     }
 
     /// With nothing on it.
     pub(crate) fn empty(desk: Arc<Memory>, language: Language, theme: Theme) -> Self {
+        Self::in_window((SIZE, 1.0), desk, language, theme)
+    }
+
+    /// With nothing on it, in a window of so many points at so many pixels a point.
+    pub(crate) fn in_window(
+        (size, scale): ((usize, usize), f32),
+        desk: Arc<Memory>,
+        language: Language,
+        theme: Theme,
+    ) -> Self {
         let outside: Arc<dyn Desk> = Arc::clone(&desk) as _;
         let studio = Studio::new(outside, language);
         let soft = Soft::default();
-        let builder = Harness::builder().with_size([SIZE.0 as f32, SIZE.1 as f32]);
+        let builder = Harness::builder().with_size([size.0 as f32, size.1 as f32]);
+        let builder = builder.with_pixels_per_point(scale);
         let builder = builder.with_theme(theme).with_max_steps(12).renderer(soft.clone());
         let builder = match language {
             Language::Japanese => builder.with_context_setup(crate::pictures::with_japanese),
@@ -81,6 +91,12 @@ impl Table {
             thread::sleep(Duration::from_millis(5));
         }
         panic!("the clip was not read");
+    }
+
+    /// Opens a clip.
+    pub(crate) fn open(&mut self, clip: &Path) {
+        self.harness.state_mut().open(clip, None);
+        self.wait();
     }
 
     /// Until nothing is done in the background.

@@ -83,7 +83,7 @@ mod shell {
     const WINDOW: &str = "window";
     /// The size that it has at first, and the least.
     const USUAL: Vec2 = Vec2::new(1440.0, 900.0);
-    const LEAST: Vec2 = Vec2::new(900.0, 600.0);
+    const LEAST: Vec2 = Vec2::new(640.0, 420.0);
 
     fn written(size: Vec2) -> String {
         format!("{} {}\n", size.x.round(), size.y.round())
@@ -167,7 +167,7 @@ mod shell {
         fn the_size_of_the_window_is_read_back_and_never_too_small() {
             let size = Vec2::new(1280.0, 1024.0);
             assert_eq!(size_of(&written(size)), size);
-            assert_eq!(size_of("10 2000"), Vec2::new(900.0, 2000.0));
+            assert_eq!(size_of("10 2000"), Vec2::new(640.0, 2000.0));
             for text in ["", "wide", "1200", "NaN 800"] {
                 assert_eq!(size_of(text), USUAL, "{text}");
             }

@@ -25,10 +25,12 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    /// The speed of each track at each frame, its steps smoothed.
-    pub(super) fn of(Tracks { steps, weights }: &Tracks, filter: &LowPass) -> Self {
+    /// The speed of each track at each frame, its steps smoothed; they are written over what was in `room`.
+    pub(super) fn of(Tracks { steps, weights }: &Tracks, filter: &LowPass, room: Vec<f64>) -> Self {
         let (count, all) = (steps.frames(), weights.iter().sum::<f64>());
-        let mut speeds = Vec::with_capacity((count + 1) * weights.len());
+        let mut speeds = room;
+        speeds.clear();
+        speeds.reserve_exact((count + 1) * weights.len());
         filter.each::<3>(steps, |track| {
             wide(
                 #[inline(always)]
@@ -37,6 +39,11 @@ impl Pattern {
         });
         let weights = weights.iter().map(|own| own / all).collect();
         Self { first: steps.unfiltered().first, frames: count + 1, speeds, weights }
+    }
+
+    /// The speeds alone.
+    pub(super) fn into_speeds(self) -> Vec<f64> {
+        self.speeds
     }
 
     /// Speeds as they are, one track after the other.

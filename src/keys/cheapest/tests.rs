@@ -85,6 +85,28 @@ proptest! {
 }
 
 #[test]
+fn ways_are_as_cheap_as_if_every_chord_were_looked_at() {
+    let rests = |at: i32| if at % 97 < 30 { 0.0 } else { f64::from(at) };
+    let clip = swing(&(0..700).map(|at| 40.0 * (rests(at) * 0.21).sin()).collect::<Vec<_>>());
+    let (chords, entries) = (tests::chords(&clip, f64::INFINITY), entries(700, &[250, 251, 600]));
+    let cheapest = Cheapest::among(&entries, &chords, 2.0);
+    for price in [1e-3, 1.0, 27.0, 1e3, 1e5] {
+        let all = cheapest.ways(price, Look::NoDearer(&[f64::INFINITY; 99]));
+        let short = cheapest.ways(price, Look::Short);
+        let dearest = cheapest.dearest(&short);
+        let looked_at = (0..650).map(|koma| {
+            cheapest
+                .looked_at(koma, short.costs[cheapest.slots[koma]], Look::NoDearer(&dearest))
+                .len()
+        });
+        assert!(price > 100.0 || looked_at.sum::<usize>() < 650 * 200, "most are passed over");
+        let found = cheapest.ways(price, Look::NoDearer(&dearest));
+        assert_eq!(found.costs, all.costs, "{price}");
+        assert_eq!(found.far, all.far, "{price}");
+    }
+}
+
+#[test]
 fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
     let clip = swing(&(0..3000).map(|at: i32| f64::from((at - 2900).max(0))).collect::<Vec<_>>());
     let chords = tests::chords(&clip, f64::INFINITY);

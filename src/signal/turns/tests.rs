@@ -234,7 +234,7 @@ fn a_joint_that_does_not_change_has_no_turns() {
 fn a_step_is_steady_where_its_acceleration_lies_in_the_band() {
     let steady = |band, speeds: &[f64]| {
         let speeds = signals(10.0, Quantity::Length, &[vec![0.0; speeds.len()], speeds.to_vec()]);
-        finder(Reading::Event, band, 1.0).steady_steps(&speeds, JointId(1))
+        finder(Reading::Event, band, 1.0).steady_steps(&speeds, &[JointId(1)]).remove(0)
     };
     let speeds = [0.0, 2.0, 3.0, 3.0, 2.0, 0.0];
     assert_eq!(steady(10.0, &speeds), [false, true, true, true, false]);

@@ -3,6 +3,7 @@
 use egui::{ScrollArea, TextEdit, Ui};
 
 use crate::motion::JointId;
+use crate::studio::focus;
 use crate::studio::shown::Shown;
 
 /// More curves than this cannot be read.
@@ -38,5 +39,6 @@ pub(super) fn show(
                 None => chosen.push(*joint),
             }
         }
+        focus::bring_into_view(ui);
     });
 }

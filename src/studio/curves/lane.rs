@@ -25,8 +25,14 @@ const CLOSEST: f32 = 2.0;
 /// Points across that a band has at the least.
 const THIN: f32 = 2.0;
 
-/// Draws a lane.
-pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, shown: &Shown<'_>) {
+/// Draws a lane; `steps` are the steady steps of its joint.
+pub(super) fn draw(
+    painter: &Painter,
+    rect: Rect,
+    (joint, steps): (JointId, &[bool]),
+    time: &Scale,
+    shown: &Shown<'_>,
+) {
     let look = &shown.look;
     let breakdown = &shown.breakdown;
     let (raw, filtered) = (breakdown.speed.joint(joint), breakdown.filtered.joint(joint));
@@ -35,7 +41,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, 
         let share = (value - low) / (high - low);
         rect.max.y - (share as f32 * rect.height()).clamp(0.0, rect.height())
     };
-    steady(painter, rect, joint, time, shown);
+    steady(painter, rect, steps, time, shown);
     painter.hline(rect.x_range(), y(0.0), Stroke::new(1.0, look.grid));
     let clipped = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     let first = breakdown.speed.first.0;
@@ -66,6 +72,9 @@ fn cut_off(
     look: &Look,
 ) {
     let is_beyond = |value: f64| value > high || value < low;
+    if !values.iter().any(|value| is_beyond(*value)) {
+        return;
+    }
     let mut from = 0;
     for run in values.chunk_by(|a, b| is_beyond(*a) == is_beyond(*b)) {
         let begin = from;
@@ -81,11 +90,10 @@ fn cut_off(
 }
 
 /// Shades where the joint neither speeds up nor slows down (等速): only what is not shaded can turn.
-fn steady(painter: &Painter, rect: Rect, joint: JointId, time: &Scale, shown: &Shown<'_>) {
+fn steady(painter: &Painter, rect: Rect, steps: &[bool], time: &Scale, shown: &Shown<'_>) {
     let filtered = shown.breakdown.filtered;
-    let steps = shown.wanted.recipe.turns.steady_steps(filtered, joint);
     let x = |row: usize| time.x((filtered.first.0 + row) as f64);
-    for run in runs(&steps) {
+    for run in runs(steps) {
         let (left, right) = (x(run.start).max(rect.min.x), x(run.end).min(rect.max.x));
         // What is thinner would be a grey haze over a long clip.
         if right - left >= THIN {
@@ -113,7 +121,8 @@ fn range(raw: &[f64], filtered: &[f64]) -> (f64, f64) {
         values.iter().fold((0.0, 0.0), wider)
     };
     let (whole, most) = (bounds(filtered), bounds(raw));
-    let whole = (whole.0.max(-usual(filtered)), whole.1.min(usual(filtered)));
+    let usual = usual(filtered);
+    let whole = (whole.0.max(-usual), whole.1.min(usual));
     let low = most.0.max(OVER * whole.0).min(whole.0);
     let high = most.1.min(OVER * whole.1).max(whole.1);
     if high > low { (low, high) } else { (0.0, 1.0) }

@@ -54,10 +54,12 @@ fn read(value: &str, kind: Kind) -> (f64, Scale) {
 
 /// A slider, and a button that takes the other unit.
 pub(super) fn show(ui: &mut Ui, knob: &Knob, value: &str, set: &mut impl FnMut(String)) {
-    let (mut number, scale) = read(value, knob.kind);
+    let (own, scale) = read(value, knob.kind);
+    let mut number = own;
     let slider = Slider::new(&mut number, 0.0..=scale.most).clamping(SliderClamping::Never);
     let slider = if scale.is_whole { slider.integer() } else { slider.max_decimals(2) };
-    if ui.add(slider).accessible_name(knob.name).changed() {
+    let slider = ui.add(slider).accessible_name(knob.name);
+    if slider.changed() && is_other(number, own) {
         set(format!("{}{}", written(number), scale.suffix));
     }
     let unit = ui.add(Button::new(symbol(scale, knob.kind)).small());
@@ -76,6 +78,12 @@ pub(super) fn show(ui: &mut Ui, knob: &Knob, value: &str, set: &mut impl FnMut(S
 /// A number as a person would write it: a slider stands on no more than thousandths.
 pub(super) fn written(number: f64) -> String {
     ((number * 1000.0).round() / 1000.0).to_string()
+}
+
+/// Whether a number is shown as another than one before. Whoever only passes by its field on the keyboard gives back what
+/// is shown, which may be rounded.
+pub(in crate::studio) fn is_other(number: f64, before: f64) -> bool {
+    (number - before).abs() >= 0.005
 }
 
 #[cfg(test)]

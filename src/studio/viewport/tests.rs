@@ -12,7 +12,7 @@ use crate::plot::parts::Posing;
 use crate::sheet::Source;
 use crate::studio::column::Column;
 use crate::studio::command::Seen;
-use crate::studio::desk::{Desk, Export, Exported, Opened};
+use crate::studio::desk::ClipsAlone;
 use crate::studio::look::Look;
 use crate::studio::on_screen::OnScreen;
 use crate::studio::shown::Shown;
@@ -20,36 +20,12 @@ use crate::studio::step::Step;
 use crate::studio::take::{Results, Take};
 use crate::studio::words::Words;
 
-/// The samples, and nothing else.
-struct Samples;
-
-impl Desk for Samples {
-    fn open(&self, clip: &Path) -> Result<Opened, String> {
-        let read = bvh::open(clip).map_err(|error| error.to_string())?;
-        Ok(Opened { clip: read.clip, notes: vec![] })
-    }
-
-    fn read(&self, _: &Path) -> Result<Option<String>, String> {
-        Ok(None)
-    }
-
-    fn write(&self, _: &Path, _: &str) -> Result<(), String> {
-        Ok(())
-    }
-
-    fn remove(&self, _: &Path) -> Result<(), String> {
-        Ok(())
-    }
-
-    fn export(&self, _: &Path, _: &Export<'_>, _: &dyn Fn(&str)) -> Result<Exported, String> {
-        Ok(vec![].into())
-    }
-}
-
 /// A take with some knobs turned.
 fn take(clip: &str, knobs: &[(&str, &str)]) -> Take {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(clip);
-    let mut take = Take::read(&Samples, &path, None).unwrap();
+    let samples =
+        ClipsAlone(|path: &Path| Ok(bvh::open(path).map_err(|error| error.to_string())?.clip));
+    let mut take = Take::read(&samples, &path, None).unwrap();
     Step::ALL.iter().for_each(|step| take.run(*step).unwrap());
     knobs.iter().for_each(|(knob, value)| take.wanted.recipe.set(knob, value).unwrap());
     take.renew(false).unwrap();

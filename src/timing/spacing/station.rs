@@ -1,9 +1,10 @@
 //! Stations: drawings that stand at a koma of their own, the keys and both ends of the sheet.
 
 use std::cmp::Reverse;
+use std::sync::Arc;
 
 use crate::keys::{Key, Origin};
-use crate::motion::{JointId, Skeleton};
+use crate::motion::JointId;
 use crate::sheet::{Drawing, Role, Source, Why};
 use crate::time::Clock;
 
@@ -128,10 +129,11 @@ impl Station<'_> {
         self.key.map_or(0.0, of)
     }
 
-    pub(super) fn drawing(&self, skeleton: &Skeleton) -> Drawing {
+    /// The drawing; `names` are those of all joints.
+    pub(super) fn drawing(&self, names: &[Arc<str>]) -> Drawing {
         let mut why = Why::default();
         if let Some(key) = self.key {
-            let name = |joint: &JointId| skeleton.joints[joint.0].name.clone();
+            let name = |joint: &JointId| Arc::clone(&names[joint.0]);
             why.voters = key.voters.iter().map(name).collect();
             why.strength = Some(key.strength);
             if key.origin.is_set() {

@@ -160,8 +160,8 @@ fn written(
     tell: &dyn Fn(&str),
 ) -> Result<Vec<String>, Failure> {
     let names: Vec<String> = export.formats.iter().map(|name| (*name).to_owned()).collect();
-    let args = FormatArgs::seen_from(export.camera);
-    let mut formats = Formats::new("deliver", &names, &Run::FORMATS, &args)?;
+    let formats = Formats::new("deliver", &names, &Run::FORMATS, &FormatArgs::default())?;
+    let mut formats = formats.set(export.settings);
     let tell = |name: &str| {
         tell(name);
         match export.stop.load(Ordering::Relaxed) {

@@ -34,7 +34,7 @@ fn why() -> impl Strategy<Value = Why> {
     let moved = prop::option::of(0..999usize);
     (words, pinned, moved, said, value(), value(), counts).prop_map(
         |(voters, pinned, moved_from, (reason, hold_set), strength, price, counts)| Why {
-            voters,
+            voters: voters.into_iter().collect(),
             pinned,
             moved_from,
             reason,

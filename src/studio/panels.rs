@@ -1,0 +1,94 @@
+//! The panels (パネル) round the views: which of them are there, and how much room they may take.
+
+use std::ops::RangeInclusive;
+
+use egui::Vec2;
+
+/// A panel that can be put away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Knobs,
+    Curves,
+    Sheet,
+}
+
+impl Side {
+    pub(super) const ALL: [Self; 3] = [Self::Knobs, Self::Curves, Self::Sheet];
+
+    /// Whether there is room for it unasked: in a small window the views come first.
+    fn has_room(self, window: Vec2) -> bool {
+        match self {
+            Self::Knobs => window.x >= 1000.0,
+            Self::Curves => window.y >= 420.0,
+            Self::Sheet => window.x >= 640.0,
+        }
+    }
+
+    /// How wide, or high, it may be: as much as leaves room for the views.
+    pub(super) fn range(self, window: Vec2) -> RangeInclusive<f32> {
+        let (least, most, views) = match self {
+            Self::Knobs => (280.0, 460.0, window.x - 560.0),
+            Self::Curves => (120.0, 640.0, window.y - 400.0),
+            Self::Sheet => (236.0, 640.0, window.x - 480.0),
+        };
+        least..=f32::clamp(views, least, most)
+    }
+}
+
+/// What a person wants of each panel; it is there or not as there is room where they want nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Panels([Option<bool>; 3]);
+
+impl Panels {
+    pub(super) fn is_shown(&self, side: Side, window: Vec2) -> bool {
+        self.0[side as usize].unwrap_or_else(|| side.has_room(window))
+    }
+
+    /// Puts a panel away, or back. Where there is no room for two beside the views the other goes.
+    pub(super) fn toggle(&mut self, side: Side, window: Vec2) {
+        let is_wanted = !self.is_shown(side, window);
+        self.0[side as usize] = Some(is_wanted);
+        let other = match side {
+            Side::Knobs => Side::Sheet,
+            Side::Sheet => Side::Knobs,
+            Side::Curves => return,
+        };
+        if is_wanted && !Side::Knobs.has_room(window) {
+            self.0[other as usize] = Some(false);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::vec2;
+
+    #[test]
+    fn a_panel_is_there_as_there_is_room_until_a_person_says_otherwise() {
+        let (large, small) = (vec2(1440.0, 900.0), vec2(720.0, 450.0));
+        let mut panels = Panels::default();
+        let shown = |panels: &Panels, window| Side::ALL.map(|side| panels.is_shown(side, window));
+        assert_eq!(shown(&panels, large), [true, true, true]);
+        assert_eq!(shown(&panels, small), [false, true, true]);
+        panels.toggle(Side::Knobs, small);
+        panels.toggle(Side::Curves, small);
+        assert_eq!(shown(&panels, small), [true, false, false], "one of the two");
+        panels.toggle(Side::Sheet, small);
+        assert_eq!(shown(&panels, small), [false, false, true]);
+        panels.toggle(Side::Knobs, large);
+        assert_eq!(shown(&panels, large), [true, false, true]);
+    }
+
+    #[test]
+    fn views_have_room_beside_the_widest_panels() {
+        for window in [vec2(720.0, 450.0), vec2(1024.0, 700.0), vec2(1440.0, 900.0)] {
+            let most = |side: Side| *side.range(window).end();
+            assert!(window.y - most(Side::Curves) >= 320.0, "{window}");
+            assert!(window.x - most(Side::Sheet) >= 480.0, "{window}");
+            for side in Side::ALL {
+                assert!(!side.range(window).is_empty(), "{side:?} {window}");
+            }
+        }
+    }
+}
