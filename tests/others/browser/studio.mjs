@@ -79,6 +79,7 @@ export class Studio {
 
   async click(name) {
     await this.page.mouse.click(...middle(await this.place(name, "Button")));
+    await this.rest();
   }
 
   async drag(from, to) {
@@ -102,6 +103,7 @@ export class Studio {
   }
 
   async press(keys) {
+    await this.rest();
     await this.page.keyboard.press(keys);
     await this.rest();
   }

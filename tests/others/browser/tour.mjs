@@ -32,6 +32,7 @@ export async function tour(hands) {
 
   // What is exported is asked first; Enter takes it as it was last.
   await hands.click("Export");
+  await hands.place("Write the files", "Button");
   await hands.press("Enter");
   return left;
 }
