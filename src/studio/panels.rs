@@ -27,6 +27,8 @@ impl Side {
     /// How wide, or high, it may be: as much as leaves room for the views.
     pub(super) fn range(self, window: Vec2) -> RangeInclusive<f32> {
         let (least, most, views) = match self {
+            // Alone beside the views it has room for the longest names.
+            Self::Knobs if !self.has_room(window) => (364.0, 460.0, window.x - 360.0),
             Self::Knobs => (280.0, 460.0, window.x - 560.0),
             Self::Curves => (120.0, 640.0, window.y - 400.0),
             Self::Sheet => (236.0, 640.0, window.x - 480.0),

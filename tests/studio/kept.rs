@@ -182,13 +182,11 @@ fn an_export_is_what_a_run_writes() {
     let clip = place.path().join("kick.bvh");
     std::fs::copy(sample("kick.bvh"), &clip).unwrap();
     let mut table = Table::with(&clip, Arc::default(), Language::English, Theme::Light);
-    table.harness.get_by_label("Export").click();
-    table.harness.run();
+    table.tap(Modifiers::COMMAND, Key::E);
     let hold = Arc::clone(&table.desk);
     let writing = hold.is_writing.lock().unwrap();
     table.harness.get_by_label("Write the files").click();
-    table.harness.step();
-    table.harness.step();
+    (0..3).for_each(|_| table.harness.step());
     assert!(table.harness.state().is_exporting(), "it does not wait for the disk");
     drop(writing);
     table.rest();

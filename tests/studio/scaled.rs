@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use egui::accesskit::Role;
+use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers, Rect, Theme, pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use genga::studio::Language;
@@ -101,7 +101,7 @@ fn with_any_panel_nothing_is_cut_and_views_are_left() {
             let is_on = |table: &Table| {
                 // Where there is room for all and none is away there is no switch.
                 let button = table.harness.query_by_label_contains(name);
-                button.is_none_or(|button| button.accesskit_node().is_selected() == Some(true))
+                button.is_none_or(|button| button.accesskit_node().toggled() == Some(Toggled::True))
             };
             if !is_on(table) {
                 table.tap(Modifiers::NONE, key);
