@@ -133,8 +133,11 @@ fn a_file_that_is_no_gltf_is_refused() {
     refused(b"HIERARCHY", "1:1: is no glTF 2.0: expected value");
     refused(b"", "is no glTF 2.0");
     refused(&whole[..whole.len() - 8], "is cut off");
-    refused(&whole[..15], "does not come first");
-    refused(&whole[..6], "another version than 2");
+    refused(&whole[..15], "is cut off in its head");
+    refused(&whole[..6], "is cut off in its head");
+    let mut other = whole.clone();
+    other[16..20].copy_from_slice(b"BIN\0");
+    refused(&other, "does not come first");
     let mut old = whole.clone();
     old[4] = 1;
     refused(&old, "another version than 2");

@@ -114,7 +114,9 @@ impl Written {
             let (has_all, is_ik) = (at % 2 == 1, ik.is_some());
             let flags = if has_all { 0x2f01u16 } else { 0 } | if is_ik { 0x20 } else { 0 };
             file.extend(flags.to_le_bytes());
-            file.extend(vec![5; if has_all { width + (width + 4) + 12 + 24 + 4 } else { 12 }]);
+            // It ends where a PMD made here does: nowhere, as a bone and as a way.
+            file.extend(if has_all { number(None) } else { vec![0; 12] });
+            file.extend(vec![5; if has_all { (width + 4) + 12 + 24 + 4 } else { 0 }]);
             let Some((_, links)) = ik else { continue };
             file.extend(vec![5; width + 8]);
             file.extend((links.len() as u32).to_le_bytes());
