@@ -4,42 +4,21 @@
 //! that follows on it. The set is found as a whole, by dynamic programming over the chords between
 //! instants, so that a little noise or another rig of the same body changes little.
 
+mod price;
+
 use std::collections::BTreeMap;
 use std::iter::successors;
 use std::ops::Range;
 
-use crate::keys::chords::{BLOCK, Chords};
-use crate::maths;
+use crate::keys::chords::Chords;
 use crate::motion::lanes::wide;
 use crate::time::Frame;
 
-/// The highest price that is tried for a limit, %² of body height times koma: more than anything loses.
-const HIGHEST: f64 = 1e12;
-
-/// The lowest, where the first is 0.
-const LOWEST: f64 = 1e-6;
-
-/// By how much the price goes up until too few are worth it.
-const STEP: f64 = 4.0;
-
-/// Prices that are tried between two in the search for one: more would not tell two sets apart.
-const TRIES: usize = 40;
-
-/// How far a price that is tried stays from both ends of the span, as a share of it.
-const AWAY: f64 = 0.05;
+use price::LOWEST;
 
 /// Koma without an entry that a row is carried over in one piece: to pass something on to nobody is cheaper than to begin
 /// anew.
 const GAP: usize = 16;
-
-/// Koma that a chord has to be long to be looked at only where it may be on a cheapest way.
-const SHORT: usize = 32;
-
-/// What is let through beside what may be cheaper, as a share of what a way costs.
-const HAIR: f64 = 1e-9;
-
-/// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
-const CLOSE: usize = 4;
 
 /// What may be a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,8 +39,8 @@ pub(super) struct Cheapest<'a> {
     chords: &'a Chords,
     /// By frame.
     entries: &'a [Entry],
-    /// Frames from one key to the next at least, unless both stay.
-    apart: f64,
+    /// Whole frames from one key to the next at least, unless both stay.
+    apart: usize,
     /// The entries that are the first on their koma, those that are the second, and so on.
     rows: Vec<Row>,
     /// Where the cost of each entry stands.
@@ -78,15 +57,6 @@ struct Row {
     entries: Vec<usize>,
     /// Of each the first behind it that does not follow closely.
     ends: Vec<usize>,
-}
-
-/// Which chords are looked at.
-#[derive(Debug, Clone, Copy)]
-enum Look<'a> {
-    /// Those of no more than [`SHORT`] koma.
-    Short,
-    /// Those on which no way need be dearer than the dearest that is known in each block of koma.
-    NoDearer(&'a [f64]),
 }
 
 /// The cheapest ways to the entries found so far. What stands before an entry is not kept, but looked up on the way
@@ -108,8 +78,8 @@ impl Ways {
     #[inline(always)]
     fn pass_on(&mut self, cost: f64, others: Range<usize>, losses: &[f32]) {
         for (least, loss) in self.costs[others].iter_mut().zip(losses) {
-            let cost = cost + f64::from(*loss);
-            *least = if cost < *least { cost } else { *least };
+            // A plain minimum is stored whole: a masked store would be waited for by the next entry.
+            *least = least.min(cost + f64::from(*loss));
         }
     }
 }
@@ -169,7 +139,7 @@ impl<'a> Cheapest<'a> {
             row
         };
         let rows = ranks.into_iter().map(row).collect();
-        Self { chords, entries, apart, rows, slots, costs: slot }
+        Self { chords, entries, apart: apart.ceil() as usize, rows, slots, costs: slot }
     }
 
     /// The cheapest set in which no more than `most` entries are there of their own, at the least price
@@ -223,7 +193,7 @@ impl<'a> Cheapest<'a> {
 
     fn are_apart(&self, from: usize, to: usize) -> bool {
         let [from, to] = [from, to].map(|entry| &self.entries[entry]);
-        (from.stays && to.stays) || (to.frame.0 - from.frame.0) as f64 >= self.apart
+        (from.stays && to.stays) || to.frame.0 - from.frame.0 >= self.apart
     }
 
     /// As many as fit, from the first on.
@@ -245,13 +215,9 @@ impl<'a> Cheapest<'a> {
 
     /// The cheapest set at a price.
     fn at(&self, price: f64) -> Vec<usize> {
-        // Ways of short chords are dearer, and soon found: what costs more than they do is on no cheapest way.
         let ways = wide(
             #[inline(always)]
-            || {
-                let short = self.ways(price, Look::Short);
-                self.ways(price, Look::NoDearer(&self.dearest(&short)))
-            },
+            || self.ways(price),
         );
         let last = self.entries.len() - 1;
         let before = |at: &usize| (*at > 0).then(|| self.before(*at, price, &ways));
@@ -261,43 +227,9 @@ impl<'a> Cheapest<'a> {
         kept
     }
 
-    /// The dearest way of each block of koma.
-    fn dearest(&self, ways: &Ways) -> Vec<f64> {
-        let last = self.entries.last().map_or(0, |entry| entry.koma);
-        let mut dearest = vec![0.0; last / BLOCK + 1];
-        for (entry, slot) in self.entries.iter().zip(&self.slots) {
-            let dearest: &mut f64 = &mut dearest[entry.koma / BLOCK];
-            *dearest = dearest.max(ways.costs[*slot]);
-        }
-        dearest
-    }
-
-    /// The known chords from a koma that are looked at, of a way that costs so much up to there.
-    #[inline(always)]
-    fn looked_at(&self, begin: usize, cost: f64, look: Look<'_>) -> &[f32] {
-        let known = self.chords.known(begin);
-        let past = match look {
-            Look::Short => SHORT + 1,
-            Look::NoDearer(dearest) => {
-                // A block of lengths ends in one of two blocks of koma. A hair more, lest a rounded sum be taken for dearer
-                // than it is.
-                let near = |block: usize| dearest.get(begin / BLOCK + block).copied();
-                let most = |block: usize| {
-                    let most = near(block).into_iter().chain(near(block + 1)).fold(0.0, f64::max);
-                    most - cost + HAIR * most
-                };
-                let may_be_cheap =
-                    |(block, least): &(usize, &f32)| f64::from(**least) <= most(*block);
-                let blocks = self.chords.beyond(begin).iter().enumerate();
-                blocks.rev().find(may_be_cheap).map_or(0, |(block, _)| BLOCK * (block + 1))
-            }
-        };
-        &known[..past.min(known.len())]
-    }
-
     /// The cheapest way to every entry at a price, from the first on.
     #[inline(always)]
-    fn ways(&self, price: f64, look: Look<'_>) -> Ways {
+    fn ways(&self, price: f64) -> Ways {
         let count = self.entries.len();
         let mut ways = Ways {
             costs: vec![f64::INFINITY; self.costs],
@@ -316,7 +248,7 @@ impl<'a> Cheapest<'a> {
                 stays_next = (at + 1..count).find(stays).unwrap_or(at);
                 stayed = at;
             }
-            self.go_on(at, stays_next, (price, look), &mut ways);
+            self.go_on(at, stays_next, price, &mut ways);
         }
         ways
     }
@@ -354,15 +286,9 @@ impl<'a> Cheapest<'a> {
     /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet. The next
     /// that stays is not passed over.
     #[inline(always)]
-    fn go_on(
-        &self,
-        from: usize,
-        stays_next: usize,
-        (price, look): (f64, Look<'_>),
-        ways: &mut Ways,
-    ) {
+    fn go_on(&self, from: usize, stays_next: usize, price: f64, ways: &mut Ways) {
         let (begin, cost) = (self.entries[from].koma, self.cost(from, price, ways));
-        let known = self.looked_at(begin, cost, look);
+        let known = self.chords.known(begin);
         for (rank, row) in self.rows.iter().enumerate() {
             let next = row.behind(from, ways.next[rank]);
             let stop = row.behind(stays_next, ways.stops[rank]);
@@ -390,49 +316,6 @@ impl<'a> Cheapest<'a> {
             ways.costs[self.slots[to]] = self.cost(from, price, ways) + self.loss(from, to);
             ways.far.insert(to, from);
         }
-    }
-
-    /// The cheapest set at the least price, `low` or more, at which so few are worth it; `many` is that at `low`.
-    fn limited(&self, mut low: f64, mut many: Vec<usize>, most: usize) -> Vec<usize> {
-        if self.found(&many) <= most {
-            return many;
-        }
-        let (mut high, mut few) = (STEP * low, self.at(STEP * low));
-        while self.found(&few) > most && high < HIGHEST {
-            (low, many) = (high, few);
-            (high, few) = (STEP * low, self.at(STEP * low));
-        }
-        for _ in 0..TRIES {
-            let counts = [&many, &few].map(|set| self.found(set));
-            if counts[1] >= most {
-                break;
-            }
-            let is_close = counts[0] <= counts[1] + CLOSE;
-            let price = if is_close {
-                self.crossing(&many, &few).clamp(low, high)
-            } else {
-                between([low, high], counts, most)
-            };
-            let set = self.at(price);
-            match self.found(&set) {
-                // Where both cost the same no other is cheaper: no number between them is at any price.
-                found if is_close && counts.contains(&found) => break,
-                found if found > most => (low, many) = (price, set),
-                _ => (high, few) = (price, set),
-            }
-        }
-        few
-    }
-
-    /// The price at which a set of many and one of fewer cost the same.
-    fn crossing(&self, many: &[usize], few: &[usize]) -> f64 {
-        let loss =
-            |set: &[usize]| set.windows(2).map(|ends| self.loss(ends[0], ends[1])).sum::<f64>();
-        let cost = |set: &[usize]| {
-            let found = set.iter().map(|at| self.entries[*at]).filter(|entry| !entry.stays);
-            found.map(|entry| entry.cost).sum::<f64>()
-        };
-        (loss(few) - loss(many)) / (cost(many) - cost(few)).max(1e-9)
     }
 
     /// Takes the cheapest away until there are few enough: no chord is long enough for so few.
@@ -478,15 +361,6 @@ impl<'a> Cheapest<'a> {
         let gains = (from + 1..to).filter(fits).map(gain).filter(is_worth_it);
         gains.reduce(|best, other| if other.1 > best.1 { other } else { best })
     }
-}
-
-/// The price between two at which so many would be left if their number were a power of it; not near either of them, lest
-/// one end of the span stay for ever.
-fn between(prices: [f64; 2], counts: [usize; 2], most: usize) -> f64 {
-    let [low, high] = prices.map(maths::ln);
-    let [many, few, most] = [counts[0], counts[1], most].map(|count| maths::ln(count as f64 + 0.5));
-    let share = ((many - most) / (many - few)).clamp(AWAY, 1.0 - AWAY);
-    maths::exp(low + share * (high - low))
 }
 
 /// Where least is saved, of equals the first; none in a set of which all stay.

@@ -18,9 +18,6 @@ pub(super) const INSTANTS: usize = 2;
 /// Koma that are looked at of a chord that is not known, at the most: a longer one is not slower.
 const LOOKS: usize = 512;
 
-/// Lengths of chords that are passed over together.
-pub(super) const BLOCK: usize = 16;
-
 /// Scalar products that are formed side by side.
 const TOGETHER: usize = 4;
 
@@ -43,8 +40,6 @@ pub struct Chords {
     /// Koma × (reach + 1): the loss from each koma to itself and to the first, second … after it. Seven digits of a
     /// sum of squares are more than any motion has, and half the memory.
     losses: Vec<f32>,
-    /// For each koma, and each [`BLOCK`] of lengths, the least loss from it of a chord that is so long or longer.
-    beyond: Vec<f32>,
 }
 
 impl Chords {
@@ -71,12 +66,11 @@ impl Chords {
         let [least, most] = [LEAST_REACH, seconds].map(|s| (s * koma_rate).ceil() as usize);
         let reach = (PAIRS / koma.max(1)).min(most).max(least).min(koma.saturating_sub(1));
         let losses = vec![0.0; koma * (reach + 1)];
-        let mut chords = Self { postures, clock, koma, reach, losses, beyond: Vec::new() };
+        let mut chords = Self { postures, clock, koma, reach, losses };
         wide(
             #[inline(always)]
             || chords.sum_up(),
         );
-        chords.beyond = (0..koma).flat_map(|from| chords.least_beyond(from)).collect();
         chords
     }
 
@@ -122,26 +116,6 @@ impl Chords {
     pub(super) fn known(&self, from: usize) -> &[f32] {
         let row = self.reach + 1;
         &self.losses[from * row..(from + 1) * row]
-    }
-
-    /// Of each [`BLOCK`] of lengths the least loss of a chord from a koma that is as long or longer.
-    #[inline]
-    pub(super) fn beyond(&self, from: usize) -> &[f32] {
-        let blocks = (self.reach + 1).div_ceil(BLOCK);
-        &self.beyond[from * blocks..(from + 1) * blocks]
-    }
-
-    /// The same, of the losses of all chords.
-    fn least_beyond(&self, from: usize) -> Vec<f32> {
-        let blocks = (self.reach + 1).div_ceil(BLOCK);
-        let inside = (self.koma - from).min(self.reach + 1);
-        let mut least = vec![f32::INFINITY; blocks];
-        let mut beyond = f32::INFINITY;
-        for (at, losses) in self.known(from)[..inside].chunks(BLOCK).enumerate().rev() {
-            beyond = losses.iter().copied().fold(beyond, f32::min);
-            least[at] = beyond;
-        }
-        least
     }
 
     /// What is lost from one koma to a later one, however far.

@@ -49,6 +49,9 @@ impl On {
     /// For an interval from one koma to another: the most koma for which the body goes no further than
     /// `step`, in % of its height, from drawing to drawing in the mean.
     pub(super) fn within(self, from: usize, to: usize, pace: &Pace<'_>, step: f64) -> usize {
+        if self.is_fixed() {
+            return self.least;
+        }
         let koma = step / pace.mean(from, to);
         // Of a body that does not move this is infinite, which the bound below takes.
         (koma.floor() as usize).clamp(self.least, self.most)

@@ -84,19 +84,28 @@ proptest! {
     }
 }
 
-#[test]
-fn ways_are_as_cheap_as_if_every_chord_were_looked_at() {
-    let rests = |at: i32| if at % 97 < 30 { 0.0 } else { f64::from(at) };
-    let clip = swing(&(0..700).map(|at| 40.0 * (rests(at) * 0.21).sin()).collect::<Vec<_>>());
-    let (chords, entries) = (tests::chords(&clip, f64::INFINITY), entries(700, &[250, 251, 600]));
-    let cheapest = Cheapest::among(&entries, &chords, 2.0);
-    for price in [1e-3, 1.0, 27.0, 1e3, 1e5] {
-        let all = cheapest.ways(price, Look::NoDearer(&[f64::INFINITY; 99]));
-        let short = cheapest.ways(price, Look::Short);
-        let dearest = cheapest.dearest(&short);
-        let found = cheapest.ways(price, Look::NoDearer(&dearest));
-        assert_eq!(found.costs, all.costs, "{price}");
-        assert_eq!(found.far, all.far, "{price}");
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn the_price_of_a_limit_is_that_of_slow_halving(
+        count in 12usize..160,
+        most in 0usize..40,
+        low in prop_oneof![Just(price::LOWEST), 0.01..60.0],
+        a_koma in 1usize..3,
+    ) {
+        let (chords, entries) = (chords(count), several(count, &[7, 10], a_koma));
+        let cheapest = Cheapest::among(&entries, &chords, 2.0);
+        let many = cheapest.at(low);
+        prop_assume!(cheapest.found(&many) > most);
+        let (mut under, mut over) = (low, 1e12);
+        for _ in 0..200 {
+            let middle = (under * over).sqrt();
+            let is_few = cheapest.found(&cheapest.at(middle)) <= most;
+            *if is_few { &mut over } else { &mut under } = middle;
+        }
+        let (slow, quick) = (cheapest.at(over), cheapest.limited(low, many, most));
+        prop_assert_eq!(cheapest.found(&quick), cheapest.found(&slow));
     }
 }
 
