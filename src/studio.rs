@@ -51,6 +51,7 @@ mod order_panel;
 mod panels;
 mod player;
 mod reel;
+mod room;
 mod scene;
 mod shown;
 mod speaking;

@@ -122,5 +122,18 @@ impl Curves {
         }
         painter.vline(place(shown.at), inside.y_range(), Stroke::new(2.0, look.playhead));
         ruler::draw(&painter, top, inside.max.y, time, shown);
+        let names = self.names(shown);
+        let titles: Vec<_> = names.enumerate().map(|(at, name)| (lane(at), name)).collect();
+        lane::titles(&painter, &titles, look);
+    }
+
+    /// What the lanes show, from the first to the last.
+    fn names<'a>(&self, shown: &Shown<'a>) -> impl Iterator<Item = &'a str> {
+        let (joints, words) = (&shown.breakdown.clip.skeleton().joints, shown.words);
+        let own = self.chosen.iter().map(|joint| joints[joint.0].name.as_str());
+        let movement = words.say("Movement √SSD", "動きの大きさ √SSD");
+        let is_heard = shown.beside.waveform.is_some();
+        own.chain(self.movement.then_some(movement))
+            .chain(is_heard.then(|| words.say("Sound", "音")))
     }
 }

@@ -47,9 +47,9 @@ fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
 /// How long a drawing may be asked to stay: two seconds, as a sheet is turned by then.
 const LONGEST: usize = 48;
 /// The panel is as high with all there may be in it as with little, so that the sheet below stays where it is.
-const HEIGHT: f32 = 152.0;
-/// Lines that a reason has.
-const REASON: f32 = 28.0;
+const HEIGHT: f32 = 160.0;
+/// Room for the lines of a reason: three.
+const REASON: f32 = 42.0;
 
 /// The panel of the key at the play head.
 #[derive(Debug, Clone, Default)]
@@ -128,7 +128,7 @@ impl KeyPanel {
     }
 }
 
-/// Why the drawing is there, on two lines; all of it where the mouse rests.
+/// Why the drawing is there, on three lines; all of it where the mouse rests.
 fn reason(ui: &mut Ui, text: &str) {
     let (_, place) = ui.allocate_space(vec2(ui.available_width(), REASON));
     let label = Label::new(RichText::new(text).size(11.0).weak()).wrap();

@@ -1,11 +1,12 @@
 //! The transport (再生): play, step, scrub, loop.
 
-use egui::{Align2, FontId, Id, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{FontId, Id, Painter, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::command::Command;
 use super::focus::{self, Part};
 use super::icon::{self, Icon};
 use super::player::Player;
+use super::room::{Room, step};
 use super::shown::Shown;
 
 /// Shows the buttons and the scrub bar.
@@ -53,8 +54,9 @@ fn steps(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
 
 /// Height of the scrub bar.
 const HEIGHT: f32 = 22.0;
-/// Room for the number of a koma.
+/// Room for the number of a koma, and from one to the next.
 const LABEL: f32 = 30.0;
+const GAP: f32 = 6.0;
 /// Lines nearer than this cannot be told apart.
 const CLOSEST: f32 = 1.0;
 
@@ -81,14 +83,12 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         let played = Rect::from_x_y_ranges(x(played.start)..=x(played.end), inside.y_range());
         painter.rect_filled(played, 3.0, look.chosen);
     }
-    let mut last = [f32::NEG_INFINITY; 2];
+    let mut rooms = [Room::with_gap(0.0); 2];
     for cell in &column.cells {
-        let last = &mut last[usize::from(cell.drawing.role.is_kept())];
         // What falls on one point of the window is one line.
-        if x(cell.koma) - *last < CLOSEST {
+        if !rooms[usize::from(cell.drawing.role.is_kept())].take(x(cell.koma), CLOSEST) {
             continue;
         }
-        *last = x(cell.koma);
         let color = look.of_role(cell.drawing.role);
         let (high, stroke) = match cell.drawing.role.is_kept() {
             true => (1.0, Stroke::new(1.5, color)),
@@ -110,19 +110,28 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         current_text_value: Some(format!("{at} / {length}")),
         ..WidgetInfo::labeled(Role::Slider, true, name)
     });
+    numbers(&painter, inside, wide, shown);
+}
+
+/// The numbers of koma, or the frames that they show, a second apart or as many as leave room.
+fn numbers(painter: &Painter, inside: Rect, wide: f32, shown: &Shown<'_>) {
+    let (column, look) = (shown.column(), &shown.look);
     let second = column.clock.koma_rate.round().max(1.0) as usize;
-    let mut free = f32::NEG_INFINITY;
-    for koma in (second..=column.length).step_by(second) {
-        // The number of a koma, or the frame that it shows.
+    let every = second * step(wide * second as f32, LABEL + GAP);
+    let mut room = Room::with_gap(GAP);
+    for koma in (every..=column.length).step_by(every) {
         let number = match shown.counts_frames {
             true => shown.frame_of_koma(koma - 1).0,
             false => koma,
         };
-        let at = pos2(x(koma - 1) + 2.0, inside.min.y);
-        if at.x >= free && at.x + LABEL < inside.max.x {
-            let font = FontId::proportional(9.0);
-            painter.text(at, Align2::LEFT_TOP, number, font, look.faint);
-            free = at.x + LABEL;
+        let galley =
+            painter.layout_no_wrap(number.to_string(), FontId::proportional(9.0), look.faint);
+        let at = pos2(inside.min.x + wide * (koma - 1) as f32 + 2.0, inside.min.y);
+        let rect = Rect::from_min_size(at, galley.size());
+        if rect.max.x < inside.max.x && room.take(rect.min.x, rect.width()) {
+            // The lines of a long take would strike the number out.
+            painter.rect_filled(rect.expand2(vec2(1.0, 0.0)), 2.0, look.ground);
+            painter.galley(at, galley, look.faint);
         }
     }
 }

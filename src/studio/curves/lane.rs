@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-use super::time::Scale;
+use super::time::{Scale, across};
 use crate::motion::JointId;
 use crate::signal::{Turn, TurnKind};
 use crate::studio::look::Look;
+use crate::studio::room::Room;
 use crate::studio::shown::Shown;
 
 /// How far a raw peak may stand out over the filtered curve.
@@ -21,6 +22,15 @@ const LOOKS: usize = 4000;
 
 /// Marks of turns nearer than this cover each other.
 const CLOSEST: f32 = 2.0;
+/// Where marks mostly stand nearer than this they are smaller, down to this share.
+const ROOMY: f32 = 9.0;
+const SMALLEST: f32 = 0.45;
+
+/// Lanes lower than this have room for their highest value alone, without its unit.
+const LOW: f32 = 22.0;
+
+/// Height of a name.
+const NAME: f32 = 15.0;
 
 /// Points across that a band has at the least.
 const THIN: f32 = 2.0;
@@ -50,16 +60,17 @@ pub(super) fn draw(
         clipped.add(Shape::line(line, Stroke::new(width, color)));
     }
     cut_off(&clipped, rect, (filtered, first), (low, high), time, look);
-    let mut last = f32::NEG_INFINITY;
-    for turn in &breakdown.turns[joint.0] {
-        let place = turn.frame.0 as f64;
-        if place >= time.from && place <= time.to && time.x(place) - last >= CLOSEST {
-            last = time.x(place);
-            let at = pos2(time.x(place), y(filtered[turn.frame.0 - first]));
-            mark(&clipped, at, turn, look.genga, look.wall, look.paper);
-        }
+    let x = |turn: &Turn| time.x(turn.frame.0 as f64);
+    let turns = breakdown.turns[joint.0].iter();
+    let is_seen = |turn: &&Turn| (time.from..=time.to).contains(&(turn.frame.0 as f64));
+    let turns: Vec<&Turn> = turns.filter(is_seen).collect();
+    let size = (across(turns.iter().map(|turn| x(turn))) / ROOMY).clamp(SMALLEST, 1.0);
+    let mut room = Room::with_gap(0.0);
+    for turn in turns.into_iter().filter(|turn| room.take(x(turn), CLOSEST)) {
+        let at = pos2(x(turn), y(filtered[turn.frame.0 - first]));
+        mark(&clipped, at, size, turn, look);
     }
-    values(painter, rect, (low, high), joint, shown);
+    values(painter, rect, high, shown);
 }
 
 /// An arrow and the value where the curve goes beyond the lane.
@@ -170,30 +181,42 @@ fn points(
     seen.chunks(bunch).enumerate().flat_map(extremes).collect()
 }
 
-fn mark(painter: &Painter, at: Pos2, turn: &Turn, key: Color32, wall: Color32, paper: Color32) {
+fn mark(painter: &Painter, at: Pos2, size: f32, turn: &Turn, look: &Look) {
+    let edge = Stroke::new(size, look.paper);
     match turn.kind {
-        TurnKind::Key => drop(painter.circle(at, 3.6, key, Stroke::new(1.0, paper))),
+        TurnKind::Key => drop(painter.circle(at, size * 3.6, look.genga, edge)),
         TurnKind::Wall => {
             let corners = [vec2(0.0, -4.6), vec2(4.2, 3.2), vec2(-4.2, 3.2)];
-            let corners = corners.map(|way| at + way).to_vec();
-            painter.add(Shape::convex_polygon(corners, wall, Stroke::new(1.0, paper)));
+            let corners = corners.map(|way| at + size * way).to_vec();
+            painter.add(Shape::convex_polygon(corners, look.wall, edge));
         }
     }
 }
 
-/// The joint's name and the highest value.
-fn values(painter: &Painter, rect: Rect, (_, high): (f64, f64), joint: JointId, shown: &Shown<'_>) {
+/// The highest value, and its unit where there is room.
+fn values(painter: &Painter, rect: Rect, high: f64, shown: &Shown<'_>) {
     let (look, unit) = (&shown.look, shown.breakdown.filtered.unit);
-    title(painter, rect, &shown.breakdown.clip.skeleton().joints[joint.0].name, look);
     let number = (high * unit.for_people()).round();
     let font = FontId::proportional(10.0);
     let left = rect.min.x - 4.0;
     painter.text(pos2(left, rect.min.y), Align2::RIGHT_TOP, number, font.clone(), look.faint);
-    painter.text(pos2(left, rect.min.y + 11.0), Align2::RIGHT_TOP, unit.symbol(), font, look.faint);
+    if rect.height() >= LOW {
+        let at = pos2(left, rect.min.y + 11.0);
+        painter.text(at, Align2::RIGHT_TOP, unit.symbol(), font, look.faint);
+    }
 }
 
-/// What a lane shows, in its upper left corner.
-pub(super) fn title(painter: &Painter, rect: Rect, name: &str, look: &Look) {
+/// What each lane shows, in its upper left corner. A name that would touch the one over it is left out.
+pub(super) fn titles(painter: &Painter, titles: &[(Rect, &str)], look: &Look) {
+    let mut room = Room::with_gap(0.0);
+    for (rect, name) in titles {
+        if room.take(rect.min.y, NAME) {
+            title(painter, *rect, name, look);
+        }
+    }
+}
+
+fn title(painter: &Painter, rect: Rect, name: &str, look: &Look) {
     let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(12.0), look.ink);
     let at = rect.min + vec2(4.0, 2.0);
     let paper = Rect::from_min_size(at, galley.size()).expand(2.0);

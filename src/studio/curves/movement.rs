@@ -3,7 +3,6 @@
 
 use egui::{Align2, FontId, Painter, Rect, Stroke, pos2, vec2};
 
-use super::lane;
 use super::time::Scale;
 use crate::plot::parts::Moves;
 use crate::studio::column::KeyedCell;
@@ -59,7 +58,6 @@ pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_
         clipped.rect_filled(bar(first.koma, ssd, SHARE), 0.0, color);
     }
     painter.hline(rect.x_range(), rect.max.y, Stroke::new(1.0, look.grid));
-    lane::title(painter, rect, shown.words.say("Movement √SSD", "動きの大きさ √SSD"), look);
     let number = if most < 10.0 { (most * 10.0).round() / 10.0 } else { most.round() };
     let at = rect.min - vec2(4.0, 0.0);
     painter.text(at, Align2::RIGHT_TOP, number, FontId::proportional(10.0), look.faint);

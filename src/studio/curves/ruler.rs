@@ -1,10 +1,12 @@
 //! The ruler over the curves: koma or frames, the numbers of the genga with their lines, and the inbetweens between them: how
-//! they crowd is their spacing (詰め).
+//! they crowd is their spacing (詰め). Where they would lie over one another, some have ticks instead of numbers.
 
 use egui::{Align2, FontId, Painter, Rect, Stroke, pos2};
 
-use super::time::Scale;
+use super::time::{Scale, across};
 use crate::sheet::Source;
+use crate::studio::column::KeyedCell;
+use crate::studio::room::{Room, step};
 use crate::studio::shown::Shown;
 use crate::studio::timesheet::badge;
 
@@ -12,9 +14,13 @@ use crate::studio::timesheet::badge;
 pub(super) const HEIGHT: f32 = 36.0;
 /// Two numbers nearer than this would cover each other.
 const APART: f32 = 17.0;
-
+/// Genga that mostly stand nearer than this have numbers in round steps, with so much room for each.
+const CROWDED: f32 = 7.0;
+const CALM: f32 = 36.0;
 /// Dots nearer than this cannot be told apart.
 const CLOSEST: f32 = 1.5;
+/// Inbetweens that mostly stand nearer than this would be one grey band.
+const DOTS: f32 = 3.0;
 
 /// Draws koma or frames, numbers and the lines down to `bottom`.
 pub(super) fn draw(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, shown: &Shown<'_>) {
@@ -29,25 +35,39 @@ pub(super) fn draw(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, sho
     }
     actions(painter, rect, bottom, time, shown);
     inbetweens(painter, rect, time, shown);
-    let mut last = f32::NEG_INFINITY;
-    for cell in &shown.column().cells {
-        let (Some(number), Source::At(place)) = (cell.genga, cell.drawing.source) else { continue };
-        let x = time.x(place);
-        if x < rect.min.x - 9.0 || x > rect.max.x + 9.0 {
-            continue;
-        }
-        let middle = pos2(x, rect.max.y - 11.0);
+    genga(painter, rect, bottom, time, shown);
+}
+
+/// The number of each genga and its line; where they crowd, of some, and ticks of the others.
+fn genga(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, shown: &Shown<'_>) {
+    let look = &shown.look;
+    let seen = |cell: &&KeyedCell<'_>| {
+        let x = time.x(cell.drawing.source.place());
+        cell.genga.is_some() && x >= rect.min.x - 9.0 && x <= rect.max.x + 9.0
+    };
+    let cells: Vec<_> = shown.column().cells.iter().filter(seen).collect();
+    let x = |cell: &KeyedCell<'_>| time.x(cell.drawing.source.place());
+    let apart = across(cells.iter().map(|cell| x(cell)));
+    let every = if apart < CROWDED { step(apart, CALM) } else { 1 };
+    let (mut badges, mut ticks) = (Room::with_gap(0.0), Room::with_gap(0.0));
+    for cell in cells {
+        let (Some(number), Source::At(_)) = (cell.genga, cell.drawing.source) else { continue };
+        let (x, y) = (x(cell), rect.max.y - 11.0);
         let color = look.of_role(cell.drawing.role);
-        if (x - last).abs() < CLOSEST && last > f32::NEG_INFINITY {
-            continue;
+        let is_numbered = every == 1 || number == 1 || number % every == 0;
+        if is_numbered && badges.take(x, APART) {
+            ticks.take(x, CLOSEST);
+            painter.vline(x, y + 8.0..=bottom, Stroke::new(1.0, look.genga_line));
+            badge(painter, pos2(x, y), number, color, cell.key, look.paper);
+        } else if ticks.take(x, CLOSEST) {
+            if every == 1 {
+                painter.vline(x, y + 8.0..=bottom, Stroke::new(1.0, look.genga_line));
+                painter.circle_filled(pos2(x, y), 2.5, color);
+            } else {
+                // Under the circles, that a number stays free.
+                painter.vline(x, y + 9.0..=y + 11.0, Stroke::new(1.0, color));
+            }
         }
-        painter.vline(x, middle.y + 8.0..=bottom, Stroke::new(1.0, look.genga_line));
-        if x - last < APART {
-            painter.circle_filled(middle, 2.5, color);
-            continue;
-        }
-        badge(painter, middle, number, color, cell.key, look.paper);
-        last = x;
     }
 }
 
@@ -61,14 +81,16 @@ fn actions(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, shown: &Sho
     }
 }
 
-/// A dot where each inbetween is taken from. Of those that would cover each other the first.
+/// A dot where each inbetween is taken from, if there is room for dots at all.
 fn inbetweens(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
-    let mut last = f32::NEG_INFINITY;
-    for cell in shown.column().cells.iter().filter(|cell| cell.genga.is_none()) {
-        let at = pos2(time.x(cell.drawing.source.place()), rect.max.y - 11.0);
-        if rect.x_range().contains(at.x) && at.x - last >= CLOSEST {
-            last = at.x;
-            painter.circle_filled(at, 2.6, shown.look.inbetween);
-        }
+    let inbetweens = shown.column().cells.iter().filter(|cell| cell.genga.is_none());
+    let places = inbetweens.map(|cell| time.x(cell.drawing.source.place()));
+    let places: Vec<f32> = places.filter(|x| rect.x_range().contains(*x)).collect();
+    if across(places.iter().copied()) < DOTS {
+        return;
+    }
+    let mut room = Room::with_gap(0.0);
+    for x in places.into_iter().filter(|x| room.take(*x, CLOSEST)) {
+        painter.circle_filled(pos2(x, rect.max.y - 11.0), 2.6, shown.look.inbetween);
     }
 }

@@ -2,7 +2,6 @@
 
 use egui::{Painter, Rect, Stroke};
 
-use super::lane;
 use super::time::Scale;
 use crate::studio::shown::Shown;
 
@@ -20,5 +19,4 @@ pub(super) fn draw(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_
         }
     }
     painter.hline(rect.x_range(), middle, Stroke::new(1.0, look.grid));
-    lane::title(painter, rect, shown.words.say("Sound", "音"), look);
 }

@@ -80,6 +80,14 @@ impl Window {
     }
 }
 
+/// How far apart points of the window stand on the average, from the first to the last.
+pub(super) fn across(points: impl ExactSizeIterator<Item = f32>) -> f32 {
+    let steps = points.len().saturating_sub(1);
+    let bounds = points
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)));
+    if steps == 0 { f32::INFINITY } else { (bounds.1 - bounds.0) / steps as f32 }
+}
+
 /// Places and where they come in the window.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
@@ -146,6 +154,12 @@ mod tests {
         assert_eq!((window.from, window.to), (60.0, 110.0));
         window.zoom(110.0, 1e-9);
         assert_eq!((window.from, window.to), (10.0, 110.0));
+    }
+
+    #[test]
+    fn points_are_so_far_apart_as_the_clip_goes() {
+        assert_eq!(across([10.0, 11.0, 30.0].into_iter()), 10.0);
+        assert_eq!(across([10.0].into_iter()), f32::INFINITY);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::speech::{self, SpeechHand};
 use crate::edits::Forbidden;
 use crate::keys::Key;
 use crate::studio::column::{Column, KeyedCell};
+use crate::studio::room::Room;
 use crate::studio::shown::Shown;
 use crate::studio::why;
 
@@ -151,14 +152,13 @@ impl Strip<'_> {
     fn words(&self, rows: &Range<usize>) {
         let (column, look) = (self.column, &self.shown.look);
         let last = rows.end.min(column.length).saturating_sub(1);
-        let mut free = f32::NEG_INFINITY;
+        let mut room = Room::with_gap(0.0);
         for cell in &column.cells[column.at(rows.start)..=column.at(last)] {
             let words = why::in_short(cell, self.shown.words);
             let at = pos2(self.paper.words(), self.middle(cell.koma).y);
-            if words.is_empty() || at.y < free {
+            if words.is_empty() || !room.take(at.y, READABLE) {
                 continue;
             }
-            free = at.y + READABLE;
             let is_set =
                 cell.key.is_some_and(|key| key.origin.is_set()) || cell.drawing.why.hold_set;
             let ink = if is_set { look.genga } else { look.faint };
