@@ -238,7 +238,6 @@ impl Engine {
     /// # Errors
     /// Those of [`Engine::run`].
     pub fn find_turns(&mut self, recipe: &Recipe) -> Result<&[Vec<Turn>], Error> {
-        recipe.validate()?;
         self.measure(recipe)?;
         self.joints.turn(self.drawn.output(), self.speed.output(), recipe);
         Ok(self.joints.turns.output().value())
@@ -385,7 +384,8 @@ impl Engine {
     }
 
     /// How fast every joint is.
-    fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
+    pub(crate) fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
+        recipe.validate()?;
         self.budget.check(&self.clip, recipe.rate)?;
         self.is_whole = false;
         self.exaggerate(recipe)?;

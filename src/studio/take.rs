@@ -118,9 +118,13 @@ impl Take {
         let (engine, Document { recipe, edits, .. }) = (&mut self.engine, &self.document);
         let ran = match step {
             Step::Read => Ok(()),
-            Step::Measure => engine.find_turns(recipe).map(drop),
+            Step::Measure => engine.measure(recipe),
+            Step::Turn => engine.find_turns(recipe).map(drop),
+            Step::TurnBody => engine.find_body_turns(recipe).map(drop),
             Step::Choose => engine.find_keys(recipe, edits).map(drop),
-            Step::Time => engine.run(recipe, edits).and_then(|breakdown| {
+            Step::Split => engine.find_actions(recipe, edits).map(drop),
+            Step::Time => engine.run(recipe, edits).map(drop),
+            Step::Lay => engine.run(recipe, edits).and_then(|breakdown| {
                 self.cels = Some(Cels::of(breakdown.clip, breakdown.sheet)?);
                 Ok(())
             }),
