@@ -198,8 +198,40 @@ fn what_is_damaged_is_refused_with_a_place_and_never_more() {
     let long = text.replace(&SECOND.to_string(), &(SECOND * 100_000_000).to_string());
     let error = read(&long).unwrap_err().to_string();
     assert!(error.starts_with("take Walk: 3 joints in "), "{error}");
-    let little = Options { stream: StreamLimit { bytes: 2000 }, ..Options::default() };
-    assert!(little.read(whole).is_err(), "ufbx may not take more than is allowed");
+}
+
+/// A record of a binary file that begins at a byte: name, properties, and children with the empty record behind them.
+fn record(
+    at: usize,
+    name: &str,
+    properties: &[&[u8]],
+    inner: impl Fn(usize) -> Vec<u8>,
+) -> Vec<u8> {
+    let own = properties.concat();
+    let begin = at + 13 + name.len() + own.len();
+    let mut inner = inner(begin);
+    if !inner.is_empty() {
+        inner.extend([0; 13]);
+    }
+    let numbers = [begin + inner.len(), properties.len(), own.len()];
+    let head = numbers.iter().flat_map(|number| (*number as u32).to_le_bytes());
+    head.chain([name.len() as u8]).chain(name.bytes()).chain(own).chain(inner).collect()
+}
+
+#[test]
+fn an_array_that_claims_more_than_is_allowed_is_not_begun() {
+    // 2²⁶ numbers, packed into nothing.
+    let numbers: Vec<u8> = [1 << 26, 1, 0].into_iter().flat_map(u32::to_le_bytes).collect();
+    let values = |at| record(at, "KeyValueFloat", &[&[b"f", &numbers[..]].concat()], |_| vec![]);
+    let identity: &[u8] = &[b'L', 9, 0, 0, 0, 0, 0, 0, 0];
+    let no_word: &[u8] = &[b'S', 0, 0, 0, 0];
+    let curve = |at| record(at, "AnimationCurve", &[identity, no_word, no_word], values);
+    let mut binary = b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0".to_vec();
+    binary.extend(record(binary.len(), "Objects", &[], curve));
+    binary.extend([0; 13]);
+    let little = Options { stream: StreamLimit { bytes: 1 << 20 }, ..Options::default() };
+    let error = little.read(&binary).unwrap_err().to_string();
+    assert!(error.contains("memory limit exceeded"), "{error}");
 }
 
 #[test]
