@@ -2,7 +2,16 @@
 
 use glam::DVec3;
 
-use super::rig::RestBone;
+/// A bone as it rests.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RestBone {
+    pub(super) name: String,
+    pub(super) parent: Option<usize>,
+    /// In units of MMD; +X is left, +Y up, +Z in front.
+    pub(super) place: DVec3,
+    /// From there to where it ends, where a model says so.
+    pub(super) tip: Option<DVec3>,
+}
 
 /// Name, what it hangs on, and where it is, in units of MMD: +X is left, +Y up, +Z in front.
 type Middle = (&'static str, &'static str, [f64; 3]);

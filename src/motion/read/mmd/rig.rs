@@ -5,23 +5,12 @@ use std::collections::HashSet;
 use encoding_rs::SHIFT_JIS;
 use glam::DVec3;
 
-use super::figure;
+use super::figure::{self, RestBone};
 use super::model::MmdModel;
 use super::record::{Key, Motion};
 
 /// Bytes of a bone's name in a motion: a longer one is cut.
 const NAME: usize = 15;
-
-/// A bone as it rests.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct RestBone {
-    pub(super) name: String,
-    pub(super) parent: Option<usize>,
-    /// In units of MMD; +X is left, +Y up, +Z in front.
-    pub(super) place: DVec3,
-    /// From there to where it ends, where a model says so.
-    pub(super) tip: Option<DVec3>,
-}
 
 /// A bone with its keys.
 #[derive(Debug, Clone, PartialEq)]
