@@ -1,7 +1,7 @@
 //! The price (値段) at which no more keys are worth it than a limit lets in.
 //!
-//! A dearer key leaves fewer of them. Between two prices their number is guessed; where that tells nothing new, the price
-//! is tried at which both sets cost the same: either a set of a number between them is cheaper there, or none is anywhere.
+//! A dearer key leaves fewer of them. Between two prices their number is guessed. Where a guess tells nothing new, the
+//! price is tried at which both sets cost the same. Either another set is cheaper there, or no number lies between them.
 
 use crate::keys::cheapest::Cheapest;
 use crate::maths;
@@ -30,13 +30,14 @@ impl Cheapest<'_> {
         if self.found(&many) <= most {
             return many;
         }
-        let mut high = dearer(low, self.found(&many), most);
-        let mut few = self.at(high);
-        while self.found(&few) > most && high < HIGHEST {
+        let (mut high, mut few) = loop {
+            let high = dearer(low, self.found(&many), most);
+            let few = self.at(high);
+            if self.found(&few) <= most || high >= HIGHEST {
+                break (high, few);
+            }
             (low, many) = (high, few);
-            high = dearer(low, self.found(&many), most);
-            few = self.at(high);
-        }
+        };
         let mut is_close = false;
         for _ in 0..TRIES {
             let counts = [&many, &few].map(|set| self.found(set));
