@@ -38,26 +38,22 @@ impl Cheapest<'_> {
             }
             (low, many) = (high, few);
         };
-        let mut is_close = false;
+        let mut aims = false;
         for _ in 0..TRIES {
             let counts = [&many, &few].map(|set| self.found(set));
-            if counts[1] >= most {
-                break;
-            }
-            is_close |= counts[0] <= counts[1] + CLOSE;
-            let price = if is_close {
+            aims |= counts[0] <= counts[1] + CLOSE || counts[1] == most;
+            let price = if aims {
                 self.crossing(&many, &few).clamp(low, high)
             } else {
                 between([low, high], counts, most)
             };
             let set = self.at(price);
-            let found = self.found(&set);
-            let is_no_other = counts.contains(&found);
-            // Where both cost the same no other is cheaper: no number between them is at any price.
-            if is_close && is_no_other {
+            // Where both cost the same and no other is cheaper, no other is the cheapest at any price between.
+            if aims && (set == many || set == few) {
                 break;
             }
-            is_close |= is_no_other;
+            let found = self.found(&set);
+            aims |= counts.contains(&found);
             if found > most {
                 (low, many) = (price, set);
             } else {
