@@ -260,8 +260,9 @@ impl Studio {
                     self.file.show(ui, self.take.is_some(), &self.recent, words, commands);
                 });
             }
-            if self.order.order.is_some() {
-                notice::one(ui, look.faint, |ui| self.order.show(ui, words, commands));
+            if let Some(take) = self.take.as_ref().filter(|_| self.order.order.is_some()) {
+                let layers = take.wanted.recipe.get("layers").expect("a recipe has layers");
+                notice::one(ui, look.faint, |ui| self.order.show(ui, &layers, words, commands));
             }
             if let Some(take) = self.take.as_mut().filter(|_| self.speech.is_open()) {
                 let Results { breakdown, .. } = take.results();

@@ -12,6 +12,7 @@ use super::order::{CAMERAS, Order};
 use super::words::Words;
 use crate::deliver::FORMATS;
 use crate::plot::Camera;
+use crate::recipe::Knob;
 
 /// The sections of the settings for paper, and of those for all figures.
 const PAPER: &str = "xsheet";
@@ -54,12 +55,20 @@ impl OrderPanel {
         self.folder = folder.display().to_string();
     }
 
-    /// Shows it while it is asked for.
-    pub(super) fn show(&mut self, ui: &mut Ui, words: Words, commands: &mut Vec<Command>) {
+    /// Shows it while it is asked for; `layers` are those of the recipe, which an export has all of.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        layers: &str,
+        words: Words,
+        commands: &mut Vec<Command>,
+    ) {
         let Some(order) = &mut self.order else { return };
         ui.strong(words.say("Export", "書き出し"));
         let room = (ui.ctx().content_rect().height() - ROOM).max(LEAST_ROOM);
-        let scroll = ScrollArea::vertical().id_salt("order").max_height(room);
+        // All of its room at once: a notice has as much as it had a frame ago, and would grow from frame to frame.
+        let scroll =
+            ScrollArea::vertical().id_salt("order").max_height(room).min_scrolled_height(room);
         scroll.show(ui, |ui| {
             formats(ui, order, &self.always, words);
             ui.separator();
@@ -67,6 +76,7 @@ impl OrderPanel {
                 ui.label(words.say("Figures seen from", "図の向き"));
                 camera(ui, order, words);
             });
+            split(ui, layers, words, commands);
             settings(ui, order, &self.always, words);
             focus::bring_into_view(ui);
         });
@@ -194,6 +204,16 @@ fn formats(ui: &mut Ui, order: &mut Order, always: &[&'static str], words: Words
                 ui.end_row();
             }
         }
+    });
+}
+
+/// Into which layers the sheet is split: the same knob as beside the table.
+fn split(ui: &mut Ui, layers: &str, words: Words, commands: &mut Vec<Command>) {
+    let knob = Knob::find("layers").expect("a recipe has layers");
+    let mut set = |text| commands.push(Command::Set(knob.name, text));
+    ui.horizontal(|ui| {
+        knobs::help(ui.label(knobs::label(knob, words)), knob, "", words);
+        knobs::control(ui, knob, layers, words, &mut set);
     });
 }
 

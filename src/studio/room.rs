@@ -1,24 +1,23 @@
 //! Room (余白) for marks and words along a line: the next one is drawn only where it does not touch the last.
 
-/// How far along a line marks stand by now.
+/// How far along a line marks stand by now; an empty line at first.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Room {
     free: f32,
-    /// What is left between two of them at the least.
-    gap: f32,
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Self { free: f32::NEG_INFINITY }
+    }
 }
 
 impl Room {
-    /// An empty line, on which two marks stand `gap` points apart.
-    pub(super) fn with_gap(gap: f32) -> Self {
-        Self { free: f32::NEG_INFINITY, gap }
-    }
-
     /// Whether a mark of this length has room from here on; it then has taken it.
     pub(super) fn take(&mut self, from: f32, length: f32) -> bool {
         let has_room = from >= self.free;
         if has_room {
-            self.free = from + length + self.gap;
+            self.free = from + length;
         }
         has_room
     }
@@ -40,12 +39,10 @@ mod tests {
 
     #[test]
     fn what_would_touch_the_last_that_was_drawn_is_left_out() {
-        let mut room = Room::with_gap(2.0);
-        let drawn: Vec<f32> = [0.0, 5.0, 11.9, 12.0, 13.0, 30.0]
-            .into_iter()
-            .filter(|x| room.take(*x, 10.0))
-            .collect();
-        assert_eq!(drawn, [0.0, 12.0, 30.0]);
+        let mut room = Room::default();
+        let drawn: Vec<f32> =
+            [0.0, 5.0, 9.9, 10.0, 13.0, 30.0].into_iter().filter(|x| room.take(*x, 10.0)).collect();
+        assert_eq!(drawn, [0.0, 10.0, 30.0]);
     }
 
     #[test]

@@ -124,10 +124,10 @@ impl Take {
             Step::Choose => engine.find_keys(recipe, edits).map(drop),
             Step::Split => engine.find_actions(recipe, edits).map(drop),
             Step::Time => engine.run(recipe, edits).map(drop),
-            Step::Lay => engine.run(recipe, edits).and_then(|breakdown| {
-                self.cels = Some(Cels::of(breakdown.clip, breakdown.sheet)?);
-                Ok(())
-            }),
+            Step::Lay => {
+                let breakdown = engine.last(recipe).expect("it was timed in the step before");
+                Cels::of(breakdown.clip, breakdown.sheet).map(|cels| self.cels = Some(cels))
+            }
         };
         ran.map_err(|error| format!("{}: {error}", self.recipe.display()))
     }

@@ -83,7 +83,7 @@ fn scrub(ui: &mut Ui, shown: &Shown<'_>, player: &Player, commands: &mut Vec<Com
         let played = Rect::from_x_y_ranges(x(played.start)..=x(played.end), inside.y_range());
         painter.rect_filled(played, 3.0, look.chosen);
     }
-    let mut rooms = [Room::with_gap(0.0); 2];
+    let mut rooms = [Room::default(); 2];
     for cell in &column.cells {
         // What falls on one point of the window is one line.
         if !rooms[usize::from(cell.drawing.role.is_kept())].take(x(cell.koma), CLOSEST) {
@@ -118,7 +118,7 @@ fn numbers(painter: &Painter, inside: Rect, wide: f32, shown: &Shown<'_>) {
     let (column, look) = (shown.column(), &shown.look);
     let second = column.clock.koma_rate.round().max(1.0) as usize;
     let every = second * step(wide * second as f32, LABEL + GAP);
-    let mut room = Room::with_gap(GAP);
+    let mut room = Room::default();
     for koma in (every..=column.length).step_by(every) {
         let number = match shown.counts_frames {
             true => shown.frame_of_koma(koma - 1).0,
@@ -128,7 +128,7 @@ fn numbers(painter: &Painter, inside: Rect, wide: f32, shown: &Shown<'_>) {
             painter.layout_no_wrap(number.to_string(), FontId::proportional(9.0), look.faint);
         let at = pos2(inside.min.x + wide * (koma - 1) as f32 + 2.0, inside.min.y);
         let rect = Rect::from_min_size(at, galley.size());
-        if rect.max.x < inside.max.x && room.take(rect.min.x, rect.width()) {
+        if rect.max.x < inside.max.x && room.take(rect.min.x, rect.width() + GAP) {
             // The lines of a long take would strike the number out.
             painter.rect_filled(rect.expand2(vec2(1.0, 0.0)), 2.0, look.ground);
             painter.galley(at, galley, look.faint);

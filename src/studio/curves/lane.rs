@@ -65,7 +65,7 @@ pub(super) fn draw(
     let is_seen = |turn: &&Turn| (time.from..=time.to).contains(&(turn.frame.0 as f64));
     let turns: Vec<&Turn> = turns.filter(is_seen).collect();
     let size = (across(turns.iter().map(|turn| x(turn))) / ROOMY).clamp(SMALLEST, 1.0);
-    let mut room = Room::with_gap(0.0);
+    let mut room = Room::default();
     for turn in turns.into_iter().filter(|turn| room.take(x(turn), CLOSEST)) {
         let at = pos2(x(turn), y(filtered[turn.frame.0 - first]));
         mark(&clipped, at, size, turn, look);
@@ -208,7 +208,7 @@ fn values(painter: &Painter, rect: Rect, high: f64, shown: &Shown<'_>) {
 
 /// What each lane shows, in its upper left corner. A name that would touch the one over it is left out.
 pub(super) fn titles(painter: &Painter, titles: &[(Rect, &str)], look: &Look) {
-    let mut room = Room::with_gap(0.0);
+    let mut room = Room::default();
     for (rect, name) in titles {
         if room.take(rect.min.y, NAME) {
             title(painter, *rect, name, look);

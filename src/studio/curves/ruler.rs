@@ -49,7 +49,7 @@ fn genga(painter: &Painter, rect: Rect, bottom: f32, time: &Scale, shown: &Shown
     let x = |cell: &KeyedCell<'_>| time.x(cell.drawing.source.place());
     let apart = across(cells.iter().map(|cell| x(cell)));
     let every = if apart < CROWDED { step(apart, CALM) } else { 1 };
-    let (mut badges, mut ticks) = (Room::with_gap(0.0), Room::with_gap(0.0));
+    let (mut badges, mut ticks) = (Room::default(), Room::default());
     for cell in cells {
         let (Some(number), Source::At(_)) = (cell.genga, cell.drawing.source) else { continue };
         let (x, y) = (x(cell), rect.max.y - 11.0);
@@ -89,7 +89,7 @@ fn inbetweens(painter: &Painter, rect: Rect, time: &Scale, shown: &Shown<'_>) {
     if across(places.iter().copied()) < DOTS {
         return;
     }
-    let mut room = Room::with_gap(0.0);
+    let mut room = Room::default();
     for x in places.into_iter().filter(|x| room.take(*x, CLOSEST)) {
         painter.circle_filled(pos2(x, rect.max.y - 11.0), 2.6, shown.look.inbetween);
     }

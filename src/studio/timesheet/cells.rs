@@ -152,7 +152,7 @@ impl Strip<'_> {
     fn words(&self, rows: &Range<usize>) {
         let (column, look) = (self.column, &self.shown.look);
         let last = rows.end.min(column.length).saturating_sub(1);
-        let mut room = Room::with_gap(0.0);
+        let mut room = Room::default();
         for cell in &column.cells[column.at(rows.start)..=column.at(last)] {
             let words = why::in_short(cell, self.shown.words);
             let at = pos2(self.paper.words(), self.middle(cell.koma).y);
