@@ -267,6 +267,21 @@ impl Engine {
         Ok((self.joints.turns.output().value(), self.layers[0].body_turns()))
     }
 
+    /// Runs the chain up to how the body, or the first of its layers, moves: what its turns are found in.
+    pub(crate) fn follow(&mut self, recipe: &Recipe) -> Result<(), Error> {
+        self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
+            first.follow(moving, recipe);
+        })
+    }
+
+    /// Runs the chain up to the turns of the body and what is lost from any koma to another, by which genga are chosen.
+    pub(crate) fn compare(&mut self, recipe: &Recipe) -> Result<(), Error> {
+        self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
+            first.find_body_turns(moving, recipe);
+            first.compare(moving, recipe);
+        })
+    }
+
     /// Runs the chain as far as it takes to tell the actions of the take.
     ///
     /// # Errors

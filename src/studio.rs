@@ -92,7 +92,7 @@ use notice::Message;
 use on_screen::OnScreen;
 use opening::Opening;
 use order_panel::OrderPanel;
-use panels::{Panels, Side};
+use panels::{Arrival, Panels, Side};
 use player::Player;
 use reel::Reel;
 use shown::{Beside, Shown};
@@ -130,6 +130,7 @@ pub struct Studio {
     file: FileField,
     is_help_open: bool,
     panels: Panels,
+    arrival: Arrival,
     player: Player,
     /// The column of the sheet that is worked on.
     chosen: usize,
@@ -171,6 +172,7 @@ impl Studio {
             file: FileField::default(),
             is_help_open: false,
             panels: Panels::default(),
+            arrival: Arrival::default(),
             player: Player::default(),
             chosen: 0,
             counts_frames: false,
@@ -334,33 +336,37 @@ impl Studio {
         }
         let window = ui.ctx().content_rect().size();
         let is_there = |side| self.panels.is_shown(side, window);
+        let mut turns = self.arrival.turns(ui.ctx());
         if is_there(Side::Knobs) {
             let panel = Panel::left("knobs").default_size(306.0);
             panel.size_range(Side::Knobs.range(window)).show(ui, |ui| {
-                self.knobs.show(ui, &mut self.map, &shown, commands);
+                turns.fill(ui, |ui| self.knobs.show(ui, &mut self.map, &shown, commands));
             });
         }
         if is_there(Side::Sheet) {
             let panel = Panel::right("sheet").default_size(266.0);
             panel.size_range(Side::Sheet.range(window)).show(ui, |ui| {
-                self.key_panel.show(ui, &shown, commands);
-                ui.separator();
-                self.timesheet.show(ui, &shown, commands);
+                turns.fill(ui, |ui| {
+                    self.key_panel.show(ui, &shown, commands);
+                    ui.separator();
+                    self.timesheet.show(ui, &shown, commands);
+                });
             });
         }
         if is_there(Side::Curves) {
             let panel = Panel::bottom("curves").default_size(236.0).resizable(true);
             panel.size_range(Side::Curves.range(window)).show(ui, |ui| {
-                self.curves.show(ui, &shown, &self.player, commands);
+                turns.fill(ui, |ui| self.curves.show(ui, &shown, &self.player, commands));
             });
         }
-        Panel::bottom("transport").resizable(false).show_separator_line(false).show(ui, |ui| {
-            transport::show(ui, &shown, &self.player, commands);
-        });
+        if turns.take() {
+            let panel = Panel::bottom("transport").resizable(false).show_separator_line(false);
+            panel.show(ui, |ui| transport::show(ui, &shown, &self.player, commands));
+        }
         let frame = Frame::central_panel(ui.style()).inner_margin(0);
-        CentralPanel::default()
-            .frame(frame)
-            .show(ui, |ui| self.viewport.show(ui, &shown, commands));
+        CentralPanel::default().frame(frame).show(ui, |ui| {
+            turns.fill(ui, |ui| self.viewport.show(ui, &shown, commands));
+        });
     }
 
     /// What comes from outside: a clip that was read, results that were written, files that were chosen or dropped.

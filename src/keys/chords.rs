@@ -67,10 +67,7 @@ impl Chords {
         let reach = (PAIRS / koma.max(1)).min(most).max(least).min(koma.saturating_sub(1));
         let losses = vec![0.0; koma * (reach + 1)];
         let mut chords = Self { postures, clock, koma, reach, losses };
-        wide(
-            #[inline(always)]
-            || chords.sum_up(),
-        );
+        chords.sum_up();
         chords
     }
 
@@ -145,7 +142,6 @@ impl Chords {
     /// Finds every loss within reach. Seen from its begin a chord needs the sums of a·p and of those
     /// times the distance from a over the postures p inside, and the same seen from its end: the
     /// former grow with each end, the latter with each begin.
-    #[inline(always)]
     fn sum_up(&mut self) {
         let (len, reach) = (self.koma, self.reach);
         let rows = self.packed();
@@ -155,20 +151,15 @@ impl Chords {
         let mut sums = Sums::of(&squares, reach);
         let mut products = vec![0.0; reach];
         for from in (0..len).rev() {
-            let own = row(from);
             let products = &mut products[..reach.min(len - 1 - from)];
-            let mut blocks = products.chunks_exact_mut(TOGETHER);
-            let mut to = from + 1;
-            for block in &mut blocks {
-                block.copy_from_slice(&dots::<TOGETHER>(array::from_fn(|at| row(to + at)), own));
-                to += TOGETHER;
-            }
-            for product in blocks.into_remainder() {
-                [*product] = dots([row(to)], own);
-                to += 1;
-            }
             let losses = &mut self.losses[from * (reach + 1)..][1..=products.len()];
-            sums.close(from, &squares, products, losses);
+            wide(
+                #[inline(always)]
+                || {
+                    multiply(row(from), |ahead| row(from + 1 + ahead), products);
+                    sums.close(from, &squares, products, losses);
+                },
+            );
         }
     }
 
@@ -243,6 +234,21 @@ impl Sums {
             end[at] += products[at];
             end_far[at] += (at + 1) as f64 * products[at];
         }
+    }
+}
+
+/// The scalar products of a row and those ahead of it.
+#[inline(always)]
+fn multiply<'a>(own: &[f64], ahead: impl Fn(usize) -> &'a [f64], products: &mut [f64]) {
+    let mut blocks = products.chunks_exact_mut(TOGETHER);
+    let mut at = 0;
+    for block in &mut blocks {
+        block.copy_from_slice(&dots::<TOGETHER>(array::from_fn(|lane| ahead(at + lane)), own));
+        at += TOGETHER;
+    }
+    for product in blocks.into_remainder() {
+        [*product] = dots([ahead(at)], own);
+        at += 1;
     }
 }
 

@@ -45,16 +45,16 @@ impl Reference {
         let mut poser = LanePoser::of(clip);
         let mut sides = Vec::with_capacity(koma + LANES);
         let blocks = positions.chunks_exact_mut(points.len().max(1)).enumerate();
-        wide(
-            #[inline(always)]
-            || {
-                for (block, row) in blocks {
+        for (block, row) in blocks {
+            wide(
+                #[inline(always)]
+                || {
                     poser.koma(clock, block, koma);
                     points.place(poser.stand(), row);
                     sides.extend(longest_sides(row).0);
-                }
-            },
-        );
+                },
+            );
+        }
         sides.truncate(koma);
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);

@@ -179,7 +179,7 @@ impl LayerStages {
     }
 
     /// What is lost from any koma to another, and where nothing is.
-    fn compare(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+    pub(super) fn compare(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.refer(moving, recipe);
         let inputs = (self.motion.output(), moving.build, self.reference.output());
         self.chords.make(inputs, recipe.keys.span(), |(motion, build, reference), span| {
@@ -210,8 +210,9 @@ impl LayerStages {
         });
     }
 
-    /// The turns of the layer as a whole.
-    fn turn(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+    /// How all that moves in the layer moves.
+    pub(super) fn follow(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        self.refer(moving, recipe);
         let inputs = (self.motion.output(), moving.build, self.reference.output());
         self.tracks.make(inputs, moving.screen, |(motion, build, reference), screen| {
             let LayerClip { clip, judged, heard } = motion.value();
@@ -219,6 +220,11 @@ impl LayerStages {
             let build = build.value();
             Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height })
         });
+    }
+
+    /// The turns of the layer as a whole.
+    fn turn(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        self.follow(moving, recipe);
         let tracks = (self.tracks.output(),);
         self.speeds.make_over(tracks, recipe.filter.clone(), |(tracks,), filter, last| {
             BodySpeeds::over(last, &tracks, filter)
@@ -424,7 +430,6 @@ impl LayerStages {
 
     /// Runs its stages up to its turns as a whole.
     pub(super) fn find_body_turns(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
-        self.refer(moving, recipe);
         self.turn(moving, recipe);
     }
 

@@ -127,16 +127,8 @@ fn still(clip: &Clip) -> DMatrix<f64> {
     DMatrix::from_vec(frames, joints, vec![0.0; frames * joints])
 }
 
-fn rotation(clip: &Clip) -> DMatrix<f64> {
-    wide(
-        #[inline(always)]
-        || angular(clip),
-    )
-}
-
 /// Several frames at once, joint by joint: the quaternions live no longer than their step.
-#[inline(always)]
-fn angular(clip: &Clip) -> DMatrix<f64> {
+fn rotation(clip: &Clip) -> DMatrix<f64> {
     let mut values = still(clip);
     let (rig, frames) = (Rig::of(clip.skeleton()), clip.len());
     let rows: Vec<&[f64]> = clip.rows().collect();
@@ -147,13 +139,18 @@ fn angular(clip: &Clip) -> DMatrix<f64> {
     for begin in (0..frames).step_by(BLOCK) {
         let block = block(&rows[begin..]);
         let columns = values.as_mut_slice().chunks_exact_mut(frames);
-        for (joint, column) in joints.iter_mut().zip(columns) {
-            joint.steps(&block, &mut steps);
-            let speeds = &mut column[begin..frames.min(begin + BLOCK)];
-            for (speeds, step) in speeds.chunks_mut(LANES).zip(steps) {
-                speeds.copy_from_slice(&(step * per_second).0[..speeds.len()]);
-            }
-        }
+        wide(
+            #[inline(always)]
+            || {
+                for (joint, column) in joints.iter_mut().zip(columns) {
+                    joint.steps(&block, &mut steps);
+                    let speeds = &mut column[begin..frames.min(begin + BLOCK)];
+                    for (speeds, step) in speeds.chunks_mut(LANES).zip(steps) {
+                        speeds.copy_from_slice(&(step * per_second).0[..speeds.len()]);
+                    }
+                }
+            },
+        );
     }
     values
 }

@@ -1,12 +1,13 @@
 //! A clip on its way to the table (読み込み).
 
+use std::mem::take;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use egui::{ProgressBar, Ui};
 
-use super::desk::Desk;
+use super::desk::{Desk, Opened};
 use super::errand::{Errand, Look};
 use super::step::Step;
 use super::take::Take;
@@ -14,6 +15,15 @@ use super::words::Words;
 
 /// Points that the bar is long.
 const WIDTH: f32 = 120.0;
+
+/// How far a clip has come.
+#[derive(Default)]
+enum Come {
+    #[default]
+    Nowhere,
+    Read(Opened),
+    Taken(Box<Take>),
+}
 
 /// A clip on its way.
 pub(super) struct Opening {
@@ -29,16 +39,19 @@ impl Opening {
         let (desk, clip) = (Arc::clone(desk), path.to_owned());
         let recipe = recipe.map(Path::to_owned);
         let step = Arc::new(AtomicUsize::new(0));
-        let (told, mut begun) = (Arc::clone(&step), None::<Take>);
+        let (told, mut come) = (Arc::clone(&step), Come::Nowhere);
         let errand = Errand::in_steps(move || {
             let at = told.load(Ordering::Relaxed);
-            let taken = match begun.take() {
-                None => Take::read(&*desk, &clip, recipe.as_deref()),
-                Some(mut take) => take.run(Step::ALL[at]).map(|()| take),
+            let further = match take(&mut come) {
+                Come::Nowhere => desk.open(&clip).map(Come::Read),
+                Come::Read(opened) => Take::of(opened, &*desk, &clip, recipe.as_deref())
+                    .map(|take| Come::Taken(Box::new(take))),
+                Come::Taken(mut take) => take.run(Step::ALL[at]).map(|()| Come::Taken(take)),
             };
-            match taken {
-                Ok(take) if at + 1 < Step::ALL.len() => begun = Some(take),
-                last => return Some(last),
+            match further {
+                Ok(Come::Taken(take)) if at + 1 == Step::ALL.len() => return Some(Ok(*take)),
+                Ok(further) => come = further,
+                Err(why) => return Some(Err(why)),
             }
             told.store(at + 1, Ordering::Relaxed);
             None

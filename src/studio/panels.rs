@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use egui::Vec2;
+use egui::{Context, Ui, Vec2};
 
 /// A panel that can be put away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,10 +61,62 @@ impl Panels {
     }
 }
 
+/// How many panels have been filled since the first clip came (登場): one more each frame. In a browser code is slow until
+/// it has run, and the first picture of all of them at once would hold the page.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Arrival(usize);
+
+/// The turns of panels in one frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turns(usize);
+
+impl Arrival {
+    /// Panels that take turns: those at the sides, the transport, and the views.
+    const PANELS: usize = Side::ALL.len() + 2;
+
+    /// The turns of this frame; asks for another one where not all panels have one in it.
+    pub(super) fn turns(&mut self, context: &Context) -> Turns {
+        let turns = Turns(self.0);
+        if self.0 < Self::PANELS {
+            self.0 += 1;
+            context.request_repaint();
+        }
+        turns
+    }
+}
+
+impl Turns {
+    /// Whether there is one more.
+    pub(super) fn take(&mut self) -> bool {
+        let is_there = self.0 > 0;
+        self.0 -= usize::from(is_there);
+        is_there
+    }
+
+    /// Fills a panel whose turn has come. One that waits keeps its room.
+    pub(super) fn fill(&mut self, ui: &mut Ui, fill: impl FnOnce(&mut Ui)) {
+        match self.take() {
+            true => fill(ui),
+            false => ui.take_available_space(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use egui::vec2;
+
+    #[test]
+    fn panels_are_filled_one_more_each_frame() {
+        let (mut arrival, context) = (Arrival::default(), Context::default());
+        let filled = |arrival: &mut Arrival| {
+            let mut turns = arrival.turns(&context);
+            (0..10).filter(|_| turns.take()).count()
+        };
+        let frames: [usize; 7] = std::array::from_fn(|_| filled(&mut arrival));
+        assert_eq!(frames, [0, 1, 2, 3, 4, 5, 5]);
+    }
 
     #[test]
     fn a_panel_is_there_as_there_is_room_until_a_person_says_otherwise() {

@@ -7,12 +7,18 @@ use super::words::Words;
 pub(super) enum Step {
     /// The file is read.
     Read,
+    /// The figure, the floor and the views of it are made.
+    Look,
     /// Speeds are measured.
     Measure,
     /// They are smoothed and searched for turns.
     Turn,
+    /// All that moves in the body is followed.
+    Follow,
     /// The turns of the body as a whole are found.
     TurnBody,
+    /// What is lost between poses is summed up.
+    Compare,
     /// Genga are chosen.
     Choose,
     /// The take is split into its actions.
@@ -25,11 +31,14 @@ pub(super) enum Step {
 
 impl Step {
     /// In the order in which they are taken.
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 11] = [
         Self::Read,
+        Self::Look,
         Self::Measure,
         Self::Turn,
+        Self::Follow,
         Self::TurnBody,
+        Self::Compare,
         Self::Choose,
         Self::Split,
         Self::Time,
@@ -40,9 +49,12 @@ impl Step {
     pub(super) fn words(self, words: Words) -> &'static str {
         match self {
             Self::Read => words.say("reading", "読み込み中"),
+            Self::Look => words.say("making the figure", "人物を組み立て中"),
             Self::Measure => words.say("measuring", "速さを測定中"),
             Self::Turn => words.say("finding turns", "部位の変わり目を検出中"),
+            Self::Follow => words.say("following the body", "全身の動きを追跡中"),
             Self::TurnBody => words.say("finding turns of the body", "全身の変わり目を検出中"),
+            Self::Compare => words.say("comparing poses", "ポーズを比較中"),
             Self::Choose => words.say("choosing genga", "原画を選択中"),
             Self::Split => words.say("splitting into actions", "動作に分割中"),
             Self::Time => words.say("timing", "タイミング調整中"),

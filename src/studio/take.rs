@@ -7,7 +7,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::counts::Counts;
-use super::desk::Desk;
+use super::desk::{Desk, Opened};
 use super::document::Document;
 use super::exporting::Parcel;
 use super::freeze;
@@ -80,14 +80,14 @@ pub(super) struct Take {
 }
 
 impl Take {
-    /// Opens a clip with its recipe: the one that is named, or the one saved beside it. The chain has yet to run,
-    /// [step](Self::run) by step.
-    pub(super) fn read(
+    /// A clip that was opened, with its recipe: the one that is named, or the one saved beside it. The chain has yet to
+    /// run, [step](Self::run) by step.
+    pub(super) fn of(
+        opened: Opened,
         desk: &dyn Desk,
         path: &Path,
         recipe: Option<&Path>,
     ) -> Result<Self, String> {
-        let opened = desk.open(path)?;
         let recipe = recipe.map_or_else(|| beside(path, ".genga.toml"), Path::to_owned);
         let saved = read(desk, &recipe)?.unwrap_or_default();
         let left = Unsaved::read(desk, path, &saved);
@@ -117,10 +117,13 @@ impl Take {
     pub(super) fn run(&mut self, step: Step) -> Result<(), String> {
         let (engine, Document { recipe, edits, .. }) = (&mut self.engine, &self.document);
         let ran = match step {
-            Step::Read => Ok(()),
+            // They are over where there is a take.
+            Step::Read | Step::Look => Ok(()),
             Step::Measure => engine.measure(recipe),
             Step::Turn => engine.find_turns(recipe).map(drop),
+            Step::Follow => engine.follow(recipe),
             Step::TurnBody => engine.find_body_turns(recipe).map(drop),
+            Step::Compare => engine.compare(recipe),
             Step::Choose => engine.find_keys(recipe, edits).map(drop),
             Step::Split => engine.find_actions(recipe, edits).map(drop),
             Step::Time => engine.run(recipe, edits).map(drop),

@@ -88,10 +88,7 @@ impl Tracks {
         let (steps, columns) = (clip.len() - 1, 3 * weights.len());
         let mut values = vec![0.0; steps * columns];
         if clip.len() > 1 {
-            wide(
-                #[inline(always)]
-                || measure(motion, &turning, &travelling, &mut values),
-            );
+            measure(motion, &turning, &travelling, &mut values);
         }
         let values = DMatrix::from_vec(steps, columns, values);
         let signals =
@@ -162,7 +159,6 @@ fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
 }
 
 /// Writes the step of each track from each frame to the next, [`LANES`] frames side by side.
-#[inline(always)]
 fn measure(
     motion: &LayerMotion<'_>,
     turning: &[Turning],
@@ -190,25 +186,30 @@ fn measure(
                 }
             }
         };
-        let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
-        for (track, before) in turning.iter().zip(&mut turned) {
-            let now = pose.rotations[track.joint];
-            if begin == 0 {
-                *before = now.lane(0);
-            }
-            let speed = Lanes::splat(track.reach * clip.rate().fps());
-            write(now.shifted(*before).way_to(now) * speed);
-            *before = now.lane(LANES - 1);
-        }
-        let pose = poser.stand();
-        for (track, before) in travelling.iter().zip(&mut stood) {
-            let now = sight.see(track.what, pose);
-            if begin == 0 {
-                *before = now.lane(0);
-            }
-            write(now - now.shifted(*before));
-            *before = now.lane(LANES - 1);
-        }
+        wide(
+            #[inline(always)]
+            || {
+                let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
+                for (track, before) in turning.iter().zip(&mut turned) {
+                    let now = pose.rotations[track.joint];
+                    if begin == 0 {
+                        *before = now.lane(0);
+                    }
+                    let speed = Lanes::splat(track.reach * clip.rate().fps());
+                    write(now.shifted(*before).way_to(now) * speed);
+                    *before = now.lane(LANES - 1);
+                }
+                let pose = poser.stand();
+                for (track, before) in travelling.iter().zip(&mut stood) {
+                    let now = sight.see(track.what, pose);
+                    if begin == 0 {
+                        *before = now.lane(0);
+                    }
+                    write(now - now.shifted(*before));
+                    *before = now.lane(LANES - 1);
+                }
+            },
+        );
     }
 }
 

@@ -105,7 +105,10 @@ proptest! {
             *if is_few { &mut over } else { &mut under } = middle;
         }
         let (slow, quick) = (cheapest.at(over), cheapest.limited(low, many, most));
-        prop_assert_eq!(quick, slow);
+        prop_assert_eq!(cheapest.found(&quick), cheapest.found(&slow));
+        // Of sets that cost the same either may be taken.
+        let costs = [&quick, &slow].map(|set| cost(&cheapest, set, over));
+        prop_assert!(costs[0] <= costs[1] * (1.0 + 1e-9), "{:?} cost {:?}", [quick, slow], costs);
     }
 }
 

@@ -21,8 +21,11 @@ pub(crate) fn wide<T>(work: impl FnOnce() -> T) -> T {
 }
 
 /// Elsewhere the registers that every processor has are the widest.
+///
+/// A browser makes a function quick only from one call to the next. So that a long loop becomes quick on its way, each
+/// turn of it does its work here, in a call of its own.
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-#[inline]
+#[inline(never)]
 pub(crate) fn wide<T>(work: impl FnOnce() -> T) -> T {
     work()
 }

@@ -13,6 +13,7 @@ use crate::sheet::Source;
 use crate::studio::column::Column;
 use crate::studio::command::Seen;
 use crate::studio::desk::ClipsAlone;
+use crate::studio::desk::Desk;
 use crate::studio::look::Look;
 use crate::studio::on_screen::OnScreen;
 use crate::studio::shown::Shown;
@@ -25,7 +26,7 @@ fn take(clip: &str, knobs: &[(&str, &str)]) -> Take {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(clip);
     let samples =
         ClipsAlone(|path: &Path| Ok(bvh::open(path).map_err(|error| error.to_string())?.clip));
-    let mut take = Take::read(&samples, &path, None).unwrap();
+    let mut take = Take::of(samples.open(&path).unwrap(), &samples, &path, None).unwrap();
     Step::ALL.iter().for_each(|step| take.run(*step).unwrap());
     knobs.iter().for_each(|(knob, value)| take.wanted.recipe.set(knob, value).unwrap());
     take.renew(false).unwrap();
