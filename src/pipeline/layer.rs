@@ -3,7 +3,7 @@
 use std::ops::{Deref, RangeInclusive};
 use std::sync::Arc;
 
-use super::stage::{Of, Stage};
+use super::stage::{Before, Of, Stage};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
@@ -226,8 +226,8 @@ impl LayerStages {
     fn turn(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.follow(moving, recipe);
         let tracks = (self.tracks.output(),);
-        self.speeds.make_over(tracks, recipe.filter.clone(), |(tracks,), filter, last| {
-            BodySpeeds::over(last, &tracks, filter)
+        self.speeds.make_over(tracks, recipe.filter.clone(), |(tracks,), filter, before| {
+            BodySpeeds::over(before.map(|before| before.output), &tracks, filter)
         });
         let rate = moving.clip.rate();
         let settings = (recipe.turns.persistence.frames(rate), apart(moving, recipe));
@@ -376,9 +376,15 @@ impl LayerStages {
             named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), joints, skeleton)
         });
         let spaced = self.spaced.output();
-        let inputs = (measured.clip, spaced, self.reference.output());
-        self.stills.make(inputs, (), |(clip, spaced, reference), ()| {
-            Stills::on(&clip, &spaced.layer, reference.screen())
+        let inputs = (measured.clip, self.reference.output(), spaced);
+        self.stills.make_over(inputs, (), |(clip, reference, spaced), (), before| {
+            let (layer, screen) = (&spaced.layer, reference.screen());
+            match before {
+                Some(Before { output, same }) if same[..2] == [true; 2] => {
+                    output.again(&clip, layer, screen)
+                }
+                _ => Stills::on(&clip, layer, screen),
+            }
         });
         let settings = (recipe.omission, recipe.spacing.on.most, later.to_vec());
         self.omitted.try_make((spaced, self.stills.output()), settings, |inputs, settings| {

@@ -86,6 +86,13 @@ pub(super) struct Stage<Settings, Output> {
     made: Made,
 }
 
+/// What a stage made last, to be used for what it makes now.
+pub(super) struct Before<Output> {
+    pub(super) output: Output,
+    /// Of each input whether it is the one that made it.
+    pub(super) same: Vec<bool>,
+}
+
 #[derive(Debug)]
 struct Last<Settings, Output> {
     inputs: Vec<Made>,
@@ -120,17 +127,22 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
         }
     }
 
-    /// The same for a stage whose output is large: its last is handed on to be written over, if nobody else has it.
+    /// The same for a stage whose output is large: its last is handed on to be written over or used, if nobody else has
+    /// it.
     pub(super) fn make_over<I: Inputs>(
         &mut self,
         inputs: I,
         settings: Settings,
-        make: fn(I, &Settings, Option<Output>) -> Output,
+        make: fn(I, &Settings, Option<Before<Output>>) -> Output,
     ) {
         let made = inputs.made();
         if !self.is_fresh(&made, &settings) {
             let last = self.last.take().and_then(Arc::into_inner);
-            let output = make(inputs, &settings, last.map(|last| last.output));
+            let before = last.map(|Last { inputs, output, .. }| {
+                let same = inputs.iter().zip(&made).map(|(before, now)| before == now);
+                Before { output, same: same.collect() }
+            });
+            let output = make(inputs, &settings, before);
             self.keep(made, settings, output);
         }
     }

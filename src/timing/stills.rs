@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Clip, Screen};
-use crate::sheet::Layer;
+use crate::sheet::{Layer, Source};
 
 /// Drawings that are posed one after the other.
 const PIECE: usize = 32 * LANES;
@@ -22,6 +22,8 @@ type Row = [Lanes; 2];
 pub struct Stills {
     joints: usize,
     drawings: usize,
+    /// Of what each drawing is a still; of none that was [pushed](Self::push).
+    sources: Vec<Source>,
     /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows.
     coordinates: Vec<Row>,
 }
@@ -29,7 +31,7 @@ pub struct Stills {
 impl Stills {
     /// Stills of drawings of `joints` joints each, yet without a drawing.
     pub fn new(joints: usize) -> Self {
-        Self { joints, drawings: 0, coordinates: Vec::new() }
+        Self { joints, drawings: 0, sources: Vec::new(), coordinates: Vec::new() }
     }
 
     /// [`Stills::on`] no screen, but in the world.
@@ -46,18 +48,44 @@ impl Stills {
     /// # Panics
     /// When there is a drawing but the clip has no frame.
     pub fn on(clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
-        let drawings = layer.drawings.len();
-        let mut stills = Self { drawings, ..Self::new(clip.skeleton().len()) };
+        Self::posed(clip, sources(layer), screen)
+    }
+
+    /// The same where those of another layer are there already, of the same clip on the same screen: what is drawn in
+    /// both is not posed again.
+    pub(crate) fn again(self, clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
+        let (sources, mut at) = (sources(layer), 0);
+        let known = |source: &Source| {
+            at += self.sources[at..].iter().take_while(|own| own.place() < source.place()).count();
+            (self.sources.get(at) == Some(source)).then_some(at)
+        };
+        let known: Vec<Option<usize>> = sources.iter().map(known).collect();
+        let others = sources.iter().zip(&known).filter(|(_, known)| known.is_none());
+        let posed = Self::posed(clip, others.map(|(source, _)| *source).collect(), screen);
+        let mut coordinates = Vec::with_capacity(self.width() * sources.len());
+        let mut others = 0..posed.len();
+        for known in known {
+            let row = match known {
+                Some(at) => self.row(at),
+                None => posed.row(others.next().expect("what is not known was posed")),
+            };
+            coordinates.extend_from_slice(row);
+        }
+        Self { joints: self.joints, drawings: sources.len(), sources, coordinates }
+    }
+
+    fn posed(clip: &Clip, sources: Vec<Source>, screen: &Screen) -> Self {
+        let mut stills = Self { drawings: sources.len(), ..Self::new(clip.skeleton().len()) };
         let width = stills.width();
-        stills.coordinates = vec![Row::default(); width * drawings];
+        stills.coordinates = vec![Row::default(); width * sources.len()];
         // Each piece has a poser of its own; who poses it makes no difference.
         let pieces = stills.coordinates.par_chunks_mut((width * PIECE).max(1));
-        pieces.zip(layer.drawings.par_chunks(PIECE)).for_each(|(rows, drawings)| {
+        pieces.zip(sources.par_chunks(PIECE)).for_each(|(rows, sources)| {
             let mut poser = LanePoser::of(clip);
             let rows = rows.chunks_mut(width * LANES);
-            rows.zip(drawings.chunks(LANES)).for_each(|(rows, drawings)| {
-                let last = drawings.len() - 1;
-                let sources = array::from_fn(|lane| drawings[lane.min(last)].source);
+            rows.zip(sources.chunks(LANES)).for_each(|(rows, sources)| {
+                let last = sources.len() - 1;
+                let sources = array::from_fn(|lane| sources[lane.min(last)]);
                 wide(
                     #[inline(always)]
                     || {
@@ -71,7 +99,7 @@ impl Stills {
                 }
             });
         });
-        stills
+        Self { sources, ..stills }
     }
 
     /// Adds a drawing.
@@ -136,6 +164,11 @@ impl Stills {
     }
 }
 
+/// Of what the drawings of a layer are stills, in its order.
+fn sources(layer: &Layer) -> Vec<Source> {
+    layer.drawings.iter().map(|drawing| drawing.source).collect()
+}
+
 /// Writes where the joints are into the row of a drawing.
 fn write(row: &mut [Row], positions: impl Iterator<Item = DVec3>) {
     let values = row.iter_mut().flatten().flat_map(|lanes| &mut lanes.0);
@@ -147,7 +180,7 @@ fn write(row: &mut [Row], positions: impl Iterator<Item = DVec3>) {
 mod tests {
     use super::*;
     use crate::motion::{Axis, Channel, Joint, JointId, Skeleton};
-    use crate::sheet::{Drawing, Role, Source, Why};
+    use crate::sheet::{Drawing, Role, Why};
     use crate::time::{Frame, FrameRate};
 
     /// A root that walks along x and an arm of length 1 that turns about z.
@@ -205,6 +238,24 @@ mod tests {
         near(stills.ssd(0, 2), 0.5 + (0.5 - half).powi(2) + (1.0 - half).powi(2));
         near(stills.ssd(0, 3), 2.0 + (1.0 - half).powi(2) + (1.0 - half).powi(2));
         near(stills.ssd(2, 4), 0.0);
+    }
+
+    #[test]
+    fn stills_that_are_there_already_are_those_that_would_be_made() {
+        let clip = arm(&[[0.0, 0.0], [1.0, 90.0], [2.0, 90.0], [5.0, 20.0]]);
+        let key = |from, to, share| Source::Between { from, to, share };
+        let layers = [
+            layer(&[5.0, 5.5, 6.0, 7.0].map(Source::At)),
+            layer(&[Source::At(5.0), key(5.0, 6.0, 0.5), Source::At(6.5), Source::At(7.0)]),
+            layer(&[Source::At(7.0), Source::At(5.0), Source::At(8.0)]),
+            layer(&[]),
+        ];
+        for [one, other] in
+            layers.each_ref().map(|one| layers.each_ref().map(|other| [one, other])).concat()
+        {
+            let again = Stills::of(&clip, one).again(&clip, other, &Screen::WORLD);
+            assert_eq!(again, Stills::of(&clip, other));
+        }
     }
 
     #[test]

