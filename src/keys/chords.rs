@@ -5,7 +5,7 @@ use std::iter::once;
 
 use crate::keys::Reference;
 use crate::keys::postures::Postures;
-use crate::motion::lanes::{LANES, Lanes, wide};
+use crate::motion::lanes::{LANES, Lanes, pieces, wide};
 use crate::motion::{Build, Clip};
 use crate::time::{Clock, Frame};
 
@@ -150,14 +150,16 @@ impl Chords {
         let squares: Vec<f64> = (0..len).map(|koma| dots([row(koma)], row(koma))[0]).collect();
         let mut sums = Sums::of(&squares, reach);
         let mut products = vec![0.0; reach];
-        for from in (0..len).rev() {
-            let products = &mut products[..reach.min(len - 1 - from)];
-            let losses = &mut self.losses[from * (reach + 1)..][1..=products.len()];
+        for piece in pieces(len).rev() {
             wide(
                 #[inline(always)]
                 || {
-                    multiply(row(from), |ahead| row(from + 1 + ahead), products);
-                    sums.close(from, &squares, products, losses);
+                    for from in piece.rev() {
+                        let products = &mut products[..reach.min(len - 1 - from)];
+                        let losses = &mut self.losses[from * (reach + 1)..][1..=products.len()];
+                        multiply(row(from), |ahead| row(from + 1 + ahead), products);
+                        sums.close(from, &squares, products, losses);
+                    }
                 },
             );
         }

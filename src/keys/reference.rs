@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::keys::points::Points;
 use crate::motion::clip::lane_poser::LanePoser;
-use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
+use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
 use crate::motion::{Clip, Screen};
 use crate::time::{Clock, Frame};
 
@@ -44,14 +44,16 @@ impl Reference {
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let mut poser = LanePoser::of(clip);
         let mut sides = Vec::with_capacity(koma + LANES);
-        let blocks = positions.chunks_exact_mut(points.len().max(1)).enumerate();
-        for (block, row) in blocks {
+        let mut rows = positions.chunks_exact_mut(points.len().max(1));
+        for piece in pieces(rows.len()) {
             wide(
                 #[inline(always)]
                 || {
-                    poser.koma(clock, block, koma);
-                    points.place(poser.stand(), row);
-                    sides.extend(longest_sides(row).0);
+                    for (block, row) in piece.zip(&mut rows) {
+                        poser.koma(clock, block, koma);
+                        points.place(poser.stand(), row);
+                        sides.extend(longest_sides(row).0);
+                    }
                 },
             );
         }

@@ -15,7 +15,7 @@ pub(crate) use euler::ThreeAxes;
 pub(crate) use quat::{Arc, LaneQuat, LaneVec};
 #[cfg(test)]
 pub(crate) use wide::narrow::narrow;
-pub(crate) use wide::wide;
+pub(crate) use wide::{pieces, wide};
 
 /// Numbers side by side: one register of most processors, two of the oldest.
 pub(crate) const LANES: usize = 4;

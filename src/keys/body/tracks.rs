@@ -1,6 +1,7 @@
 //! Tracks (軌跡): the velocities of all that turns and travels in a layer, vectors in % of body height a second.
 
 use std::array;
+use std::ops::Range;
 
 use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
@@ -8,7 +9,7 @@ use nalgebra::DMatrix;
 use crate::keys::weights;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::clip::lane_poser::{LanePose, LanePoser};
-use crate::motion::lanes::{LANES, LaneVec, Lanes, wide};
+use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
 use crate::motion::{Build, Clip, Joint, JointId, Point, Screen};
 use crate::signal::{Quantity, Signals, Spectrum};
 
@@ -88,7 +89,13 @@ impl Tracks {
         let (steps, columns) = (clip.len() - 1, 3 * weights.len());
         let mut values = vec![0.0; steps * columns];
         if clip.len() > 1 {
-            measure(motion, &turning, &travelling, &mut values);
+            let mut following = Following::of(motion, &turning, &travelling);
+            for piece in pieces(clip.len().div_ceil(LANES)) {
+                wide(
+                    #[inline(always)]
+                    || following.write(piece, &mut values),
+                );
+            }
         }
         let values = DMatrix::from_vec(steps, columns, values);
         let signals =
@@ -158,58 +165,80 @@ fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     tips.into_iter().map(track).collect()
 }
 
-/// Writes the step of each track from each frame to the next, [`LANES`] frames side by side.
-fn measure(
-    motion: &LayerMotion<'_>,
-    turning: &[Turning],
-    travelling: &[Travelling],
-    values: &mut [f64],
-) {
-    let (clip, frames) = (motion.clip, motion.clip.len());
-    let steps = frames - 1;
-    let mut poser = LanePoser::of(clip);
-    let rows: Vec<&[f64]> = clip.rows().collect();
-    let sight = Sight::of(motion);
-    let mut turned = vec![DQuat::IDENTITY; turning.len()];
-    let mut stood = vec![DVec3::ZERO; travelling.len()];
-    for begin in (0..frames).step_by(LANES) {
-        let mut columns = values.chunks_exact_mut(3 * steps);
-        // No step leads into the first frame.
-        let skipped = usize::from(begin == 0);
-        let own = begin + skipped - 1..steps.min(begin + LANES - 1);
-        let mut write = |step: LaneVec| {
-            let Some(columns) = columns.next() else { return };
-            for (column, step) in columns.chunks_exact_mut(steps).zip([step.x, step.y, step.z]) {
-                match column[own.clone()].as_mut_array::<LANES>() {
-                    Some(whole) => *whole = step.0,
-                    None => column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()]),
+/// What is known of the body in the frame before those at hand.
+struct Following<'a> {
+    motion: &'a LayerMotion<'a>,
+    turning: &'a [Turning],
+    travelling: &'a [Travelling],
+    rows: Vec<&'a [f64]>,
+    sight: Sight<'a>,
+    poser: LanePoser<'a>,
+    turned: Vec<DQuat>,
+    stood: Vec<DVec3>,
+}
+
+impl<'a> Following<'a> {
+    fn of(
+        motion: &'a LayerMotion<'a>,
+        turning: &'a [Turning],
+        travelling: &'a [Travelling],
+    ) -> Self {
+        Self {
+            motion,
+            turning,
+            travelling,
+            rows: motion.clip.rows().collect(),
+            sight: Sight::of(motion),
+            poser: LanePoser::of(motion.clip),
+            turned: vec![DQuat::IDENTITY; turning.len()],
+            stood: vec![DVec3::ZERO; travelling.len()],
+        }
+    }
+
+    /// Writes the step of each track into the frames of some blocks and from each of them to the next, [`LANES`] frames
+    /// side by side; `values` are those of all frames.
+    #[inline(always)]
+    fn write(&mut self, blocks: Range<usize>, values: &mut [f64]) {
+        let Self { motion, turning, travelling, rows, sight, poser, turned, stood } = self;
+        let frames = rows.len();
+        let steps = frames - 1;
+        for begin in blocks.map(|block| LANES * block) {
+            let mut columns = values.chunks_exact_mut(3 * steps);
+            // No step leads into the first frame.
+            let skipped = usize::from(begin == 0);
+            let own = begin + skipped - 1..steps.min(begin + LANES - 1);
+            let mut write = |step: LaneVec| {
+                let Some(columns) = columns.next() else { return };
+                for (column, step) in columns.chunks_exact_mut(steps).zip([step.x, step.y, step.z])
+                {
+                    match column[own.clone()].as_mut_array::<LANES>() {
+                        Some(whole) => *whole = step.0,
+                        None => {
+                            column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()])
+                        }
+                    }
                 }
+            };
+            let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
+            for (track, before) in turning.iter().zip(&mut *turned) {
+                let now = pose.rotations[track.joint];
+                if begin == 0 {
+                    *before = now.lane(0);
+                }
+                let speed = Lanes::splat(track.reach * motion.clip.rate().fps());
+                write(now.shifted(*before).way_to(now) * speed);
+                *before = now.lane(LANES - 1);
             }
-        };
-        wide(
-            #[inline(always)]
-            || {
-                let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
-                for (track, before) in turning.iter().zip(&mut turned) {
-                    let now = pose.rotations[track.joint];
-                    if begin == 0 {
-                        *before = now.lane(0);
-                    }
-                    let speed = Lanes::splat(track.reach * clip.rate().fps());
-                    write(now.shifted(*before).way_to(now) * speed);
-                    *before = now.lane(LANES - 1);
+            let pose = poser.stand();
+            for (track, before) in travelling.iter().zip(&mut *stood) {
+                let now = sight.see(track.what, pose);
+                if begin == 0 {
+                    *before = now.lane(0);
                 }
-                let pose = poser.stand();
-                for (track, before) in travelling.iter().zip(&mut stood) {
-                    let now = sight.see(track.what, pose);
-                    if begin == 0 {
-                        *before = now.lane(0);
-                    }
-                    write(now - now.shifted(*before));
-                    *before = now.lane(LANES - 1);
-                }
-            },
-        );
+                write(now - now.shifted(*before));
+                *before = now.lane(LANES - 1);
+            }
+        }
     }
 }
 

@@ -1,5 +1,16 @@
 //! The one place that asks which processor this is.
 
+use std::ops::Range;
+
+/// Turns of a long loop that are one call of [`wide`].
+const PIECE: usize = 32;
+
+/// A long loop in pieces, each for one call of [`wide`]: a browser makes a function quick only from one call to the next,
+/// and one call for all of it would be slow to its end.
+pub(crate) fn pieces(turns: usize) -> impl DoubleEndedIterator<Item = Range<usize>> {
+    (0..turns.div_ceil(PIECE)).map(move |piece| PIECE * piece..turns.min(PIECE * (piece + 1)))
+}
+
 /// Does some work on lanes with registers of four numbers, where the processor has them.
 ///
 /// The work is compiled twice, and what is to be wide must be inlined into it: `#[inline(always)]`
@@ -20,10 +31,7 @@ pub(crate) fn wide<T>(work: impl FnOnce() -> T) -> T {
     }
 }
 
-/// Elsewhere the registers that every processor has are the widest.
-///
-/// A browser makes a function quick only from one call to the next. So that a long loop becomes quick on its way, each
-/// turn of it does its work here, in a call of its own.
+/// Elsewhere the registers that every processor has are the widest. Never inlined: see [`pieces`].
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
 #[inline(never)]
 pub(crate) fn wide<T>(work: impl FnOnce() -> T) -> T {

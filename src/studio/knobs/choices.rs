@@ -1,5 +1,7 @@
 //! The words of choices, as a person reads them.
 
+use crate::keys::Layers;
+use crate::knob::Setting;
 use crate::recipe::{Kind, Knob};
 use crate::studio::words::Words;
 
@@ -49,8 +51,14 @@ const JAPANESE: &[(&str, &str, &str)] = &[
     ("omission.order", "koma_dori_first", "コマ撮りが先"),
 ];
 
-/// A value of a choice in the language of the labels.
+/// A value of a choice in the language of the labels; of a list of layers the names.
 pub(super) fn said(knob: &Knob, value: &str, words: Words) -> String {
+    if knob.name == "layers"
+        && let Some(Layers::Named(layers)) = Layers::of_word(value)
+    {
+        let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
+        return names.join(" · ");
+    }
     let japanese = words.is_japanese().then(|| japanese(knob, value)).flatten();
     japanese.unwrap_or_else(|| value.replace('_', " "))
 }
@@ -67,6 +75,7 @@ fn japanese(knob: &Knob, value: &str) -> Option<String> {
 mod tests {
     use super::*;
     use crate::recipe::KNOBS;
+    use crate::studio::words::Language;
 
     #[test]
     fn every_word_of_every_choice_has_a_japanese_one() {
@@ -79,5 +88,14 @@ mod tests {
         let said = |name, value| japanese(Knob::find(name).unwrap(), value);
         assert_eq!(said("spacing.on", "1-3").as_deref(), Some("1〜3コマ打ち"));
         assert_eq!(said("seen_from", "0 100 200"), None, "a place is one in any language");
+    }
+
+    #[test]
+    fn layers_of_a_person_go_by_their_names() {
+        let knob = Knob::find("layers").unwrap();
+        let list = r#"[{ joints = ["Hips"], name = "A" }, { joints = ["*Arm*"], name = "B" }]"#;
+        let words = Words { language: Language::English, has_japanese: false };
+        assert_eq!(said(knob, list, words), "A · B");
+        assert_eq!(said(knob, "limbs", words), "limbs");
     }
 }
