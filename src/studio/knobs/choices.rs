@@ -1,8 +1,7 @@
 //! The words of choices, as a person reads them.
 
 use crate::keys::Layers;
-use crate::knob::Setting;
-use crate::recipe::{Kind, Knob};
+use crate::recipe::{Kind, Knob, Recipe};
 use crate::studio::words::Words;
 
 /// What a word of the recipe means, in Japanese: that of a knob, else that of all.
@@ -53,14 +52,23 @@ const JAPANESE: &[(&str, &str, &str)] = &[
 
 /// A value of a choice in the language of the labels; of a list of layers the names.
 pub(super) fn said(knob: &Knob, value: &str, words: Words) -> String {
-    if knob.name == "layers"
-        && let Some(Layers::Named(layers)) = Layers::of_word(value)
-    {
-        let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
-        return names.join(" · ");
+    if let Some(names) = names_of_layers(knob, value) {
+        return names;
     }
     let japanese = words.is_japanese().then(|| japanese(knob, value)).flatten();
     japanese.unwrap_or_else(|| value.replace('_', " "))
+}
+
+/// The names of layers that a person lists; none of other values.
+fn names_of_layers(knob: &Knob, value: &str) -> Option<String> {
+    if knob.name != "layers" || !value.starts_with('[') {
+        return None;
+    }
+    let mut recipe = Recipe::default();
+    recipe.set(knob.name, value).ok()?;
+    let Layers::Named(layers) = recipe.layers else { return None };
+    let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
+    Some(names.join(" · "))
 }
 
 fn japanese(knob: &Knob, value: &str) -> Option<String> {
