@@ -15,14 +15,27 @@ pub(crate) struct Read {
 }
 
 impl Read {
-    /// Reads a file by its bytes. Errors begin with its name.
+    /// Reads a file by its bytes, as it is. Errors begin with its name.
     pub(crate) fn of(name: &str, bytes: &[u8]) -> Result<Self, String> {
-        let of_file = |error: &dyn Display| format!("{name}: {error}");
-        let read = file::Options::default().read(bytes).map_err(|error| of_file(&error))?;
+        let read = file::Options::default().read(bytes).map_err(of_file(name))?;
         let mark = ClipMark::of(name, &read.clip);
-        let (clip, cleaned) = Cleaning::default().of(read.clip).map_err(|error| of_file(&error))?;
-        clip.check_size().map_err(|error| of_file(&error))?;
-        let notes = read.warnings.iter().chain(&cleaned).map(ToString::to_string).collect();
-        Ok(Self { clip, mark, notes })
+        let notes = read.warnings.iter().map(ToString::to_string).collect();
+        Ok(Self { clip: read.clip, mark, notes })
     }
+}
+
+/// A clip without what no body did, and what is said of it beside the notes of its reader.
+pub(crate) fn cleaned(
+    name: &str,
+    clip: Clip,
+    mut notes: Vec<String>,
+) -> Result<(Clip, Vec<String>), String> {
+    let (clip, cleaned) = Cleaning::default().of(clip).map_err(of_file(name))?;
+    clip.check_size().map_err(of_file(name))?;
+    notes.extend(cleaned.iter().map(ToString::to_string));
+    Ok((clip, notes))
+}
+
+fn of_file<E: Display>(name: &str) -> impl Fn(E) -> String {
+    move |error| format!("{name}: {error}")
 }

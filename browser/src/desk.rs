@@ -10,7 +10,7 @@ use genga::deliver::{ClipMark, Run};
 use genga::studio::{Desk, Export, Exported, Opened};
 
 use super::clip::Read;
-use super::{export, page, worker};
+use super::{clip, export, page, worker};
 
 /// The files of a page.
 #[derive(Clone)]
@@ -83,6 +83,11 @@ impl Desk for Table {
         let Read { clip: read, mark, notes } = Read::of(&name, files.bytes(clip)?)?;
         files.marks.insert(clip.to_owned(), mark);
         Ok(Opened { clip: read, notes })
+    }
+
+    fn clean(&self, clip: &Path, opened: Opened) -> Result<Opened, String> {
+        let (clip, notes) = clip::cleaned(&file_name(clip), opened.clip, opened.notes)?;
+        Ok(Opened { clip, notes })
     }
 
     fn read(&self, path: &Path) -> Result<Option<String>, String> {

@@ -14,7 +14,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
 use super::clip::Read;
-use super::{export, page};
+use super::{clip, export, page};
 
 #[wasm_bindgen]
 extern "C" {
@@ -136,6 +136,7 @@ fn archived(
 ) -> Made {
     let said = |error: genga::Error| error.to_string();
     let Read { clip, mark, notes } = Read::of(file, bytes)?;
+    let (clip, notes) = clip::cleaned(file, clip, notes)?;
     let (recipe, edits) = Recipe::parse(recipe).map_err(said)?;
     let formats: Vec<&'static str> = export::names(formats);
     let mut engine = Engine::new(clip).map_err(said)?;

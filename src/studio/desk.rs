@@ -22,6 +22,15 @@ pub trait Desk: Send + Sync {
     /// Why it is none, with the place in the file.
     fn open(&self, clip: &Path) -> Result<Opened, String>;
 
+    /// Takes out of a motion what no body did, where [`Desk::open`] leaves that to a step of its own: a page stands still
+    /// for as long as one takes. Default: nothing is left to do.
+    ///
+    /// # Errors
+    /// Why nothing is left of it.
+    fn clean(&self, _: &Path, opened: Opened) -> Result<Opened, String> {
+        Ok(opened)
+    }
+
     /// The text of a file; none where there is no such file.
     ///
     /// # Errors

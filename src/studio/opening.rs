@@ -42,11 +42,12 @@ impl Opening {
         let (told, mut come) = (Arc::clone(&step), Come::Nowhere);
         let errand = Errand::in_steps(move || {
             let at = told.load(Ordering::Relaxed);
-            let further = match take(&mut come) {
-                Come::Nowhere => desk.open(&clip).map(Come::Read),
-                Come::Read(opened) => Take::of(opened, &*desk, &clip, recipe.as_deref())
+            let further = match (Step::ALL[at], take(&mut come)) {
+                (_, Come::Nowhere) => desk.open(&clip).map(Come::Read),
+                (Step::Clean, Come::Read(opened)) => desk.clean(&clip, opened).map(Come::Read),
+                (_, Come::Read(opened)) => Take::of(opened, &*desk, &clip, recipe.as_deref())
                     .map(|take| Come::Taken(Box::new(take))),
-                Come::Taken(mut take) => take.run(Step::ALL[at]).map(|()| Come::Taken(take)),
+                (step, Come::Taken(mut take)) => take.run(step).map(|()| Come::Taken(take)),
             };
             match further {
                 Ok(Come::Taken(take)) if at + 1 == Step::ALL.len() => return Some(Ok(*take)),

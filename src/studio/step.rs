@@ -7,6 +7,8 @@ use super::words::Words;
 pub(super) enum Step {
     /// The file is read.
     Read,
+    /// What no body did is taken out of it.
+    Clean,
     /// The figure, the floor and the views of it are made.
     Look,
     /// Speeds are measured.
@@ -31,8 +33,9 @@ pub(super) enum Step {
 
 impl Step {
     /// In the order in which they are taken.
-    pub(super) const ALL: [Self; 11] = [
+    pub(super) const ALL: [Self; 12] = [
         Self::Read,
+        Self::Clean,
         Self::Look,
         Self::Measure,
         Self::Turn,
@@ -49,6 +52,7 @@ impl Step {
     pub(super) fn words(self, words: Words) -> &'static str {
         match self {
             Self::Read => words.say("reading", "読み込み中"),
+            Self::Clean => words.say("cleaning", "計測ミスを除去中"),
             Self::Look => words.say("making the figure", "人物を組み立て中"),
             Self::Measure => words.say("measuring", "速さを測定中"),
             Self::Turn => words.say("finding turns", "部位の変わり目を検出中"),

@@ -118,7 +118,7 @@ impl Take {
         let (engine, Document { recipe, edits, .. }) = (&mut self.engine, &self.document);
         let ran = match step {
             // They are over where there is a take.
-            Step::Read | Step::Look => Ok(()),
+            Step::Read | Step::Clean | Step::Look => Ok(()),
             Step::Measure => engine.measure(recipe),
             Step::Turn => engine.find_turns(recipe).map(drop),
             Step::Follow => engine.follow(recipe),

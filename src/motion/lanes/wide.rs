@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// Turns of a long loop that are one call of [`wide`].
-const PIECE: usize = 32;
+const PIECE: usize = 8;
 
 /// A long loop in pieces, each for one call of [`wide`]: a browser makes a function quick only from one call to the next,
 /// and one call for all of it would be slow to its end.
