@@ -268,6 +268,7 @@ impl Engine {
     }
 
     /// Runs the chain up to how the body, or the first of its layers, moves: what its turns are found in.
+    #[cfg(feature = "panels")]
     pub(crate) fn follow(&mut self, recipe: &Recipe) -> Result<(), Error> {
         self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
             first.follow(moving, recipe);
@@ -275,6 +276,7 @@ impl Engine {
     }
 
     /// Runs the chain up to the turns of the body and what is lost from any koma to another, by which genga are chosen.
+    #[cfg(feature = "panels")]
     pub(crate) fn compare(&mut self, recipe: &Recipe) -> Result<(), Error> {
         self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
             first.find_body_turns(moving, recipe);
