@@ -165,7 +165,7 @@ fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     tips.into_iter().map(track).collect()
 }
 
-/// What is known of the body in the frame before those at hand.
+/// Follows the body from block to block; keeps how it stood in the frame before.
 struct Following<'a> {
     motion: &'a LayerMotion<'a>,
     turning: &'a [Turning],

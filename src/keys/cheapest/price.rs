@@ -42,7 +42,7 @@ impl Cheapest<'_> {
         let mut aims = false;
         for _ in 0..TRIES {
             let counts = [&many, &few].map(|set| self.found(set));
-            if counts[1] == most {
+            if counts[1] >= most {
                 break;
             }
             aims |= counts[0] <= counts[1] + CLOSE;
