@@ -3,20 +3,20 @@
 mod budget;
 mod joints;
 mod layer;
+mod moving;
 mod stage;
 #[cfg(test)]
 mod tests;
+mod voices;
 
 use std::sync::Arc;
 
 use crate::edits::{Edits, Hold, Speech};
 use crate::error::Error;
-use crate::exaggerate::Exaggerate;
 use crate::keys::{
     ActionFinder, Actions, BodyTurns, Key, LayerJoints, LayerKeys, Layers, Reconstruction,
-    Reference,
 };
-use crate::motion::{Build, Clip, Screen, SeenFrom};
+use crate::motion::{Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::sheet::{Feet, RootMotion, Sheet, SpokenLine};
 use crate::signal::{Signals, Spectrum, Speed, Turn};
@@ -26,7 +26,8 @@ use crate::timing::{Omitted, Spaced, with_holds};
 pub use budget::Budget;
 use joints::JointStages;
 pub use layer::LayerBreakdown;
-use layer::{LayerStages, Measured, Moving};
+use layer::{LayerStages, Measured};
+use moving::{Moving, MovingStages};
 use stage::{Of, Stage};
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
@@ -35,17 +36,11 @@ use stage::{Of, Stage};
 pub struct Engine {
     clip: Arc<Clip>,
     budget: Budget,
-    /// The motion that is drawn, and how it was exaggerated; the clip itself where it was not.
-    drawn: Stage<Option<Exaggerate>, Arc<Clip>>,
-    /// From where movement is seen.
-    screen: Stage<SeenFrom, Screen>,
-    build: Stage<(), Build>,
+    moving: MovingStages,
     /// The speeds, and what filters make of them first.
     speed: Stage<(Speed, Screen), Spectrum>,
     joints: JointStages,
     split: Stage<Layers, Vec<LayerJoints>>,
-    /// The height of the whole body, beside which its layers are judged.
-    height: Stage<Clock, f64>,
     /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
     layers: Vec<LayerStages>,
     /// The actions of the take, by the body or the first of its layers.
@@ -125,13 +120,10 @@ impl Engine {
         Ok(Self {
             clip,
             budget: Budget::default(),
-            drawn: Stage::default(),
-            screen: Stage::default(),
-            build: Stage::default(),
+            moving: MovingStages::default(),
             speed: Stage::default(),
             joints: JointStages::default(),
             split: Stage::default(),
-            height: Stage::default(),
             layers: Vec::new(),
             actions: Stage::default(),
             sheets: Stage::default(),
@@ -219,9 +211,9 @@ impl Engine {
         let layers = &self.layers[..sheet.layers.len()];
         Breakdown {
             source: &self.clip,
-            clip: self.drawn.output().value(),
+            clip: self.moving.drawn().value(),
             seen_from: recipe.seen_from,
-            screen: self.screen.output().value(),
+            screen: self.moving.screen().value(),
             clock: self.clip.clock(recipe.rate),
             speed: self.speed.output().value().unfiltered(),
             filtered: self.joints.filtered.output().value(),
@@ -239,7 +231,7 @@ impl Engine {
     /// Those of [`Engine::run`].
     pub fn find_turns(&mut self, recipe: &Recipe) -> Result<&[Vec<Turn>], Error> {
         self.measure(recipe)?;
-        self.joints.turn(self.drawn.output(), self.speed.output(), recipe);
+        self.joints.turn(self.moving.drawn(), self.speed.output(), recipe);
         Ok(self.joints.turns.output().value())
     }
 
@@ -320,7 +312,7 @@ impl Engine {
     /// The take split into its actions, by what is lost between the instants of the first layer.
     fn split(&mut self, recipe: &Recipe, edits: &Edits) {
         let settings = (recipe.actions.clone(), recipe.keys.rest, edits.splits.clone());
-        let inputs = (self.drawn.output(), self.layers[0].chords());
+        let inputs = (self.moving.drawn(), self.layers[0].chords());
         self.actions.make(inputs, settings, |(clip, chords), (finder, rest, splits)| {
             finder.find(&clip, &chords, *rest, splits)
         });
@@ -350,20 +342,13 @@ impl Engine {
         recipe.keys.weights.of(self.clip.skeleton())?;
         let count = split.len();
         self.layers.resize_with(count.max(self.layers.len()), LayerStages::default);
-        self.exaggerate(recipe)?;
+        self.moving.exaggerate(&self.clip, recipe)?;
         if count > 1 {
-            self.height.make((self.drawn.output(),), clock, |(clip,), clock| {
-                Reference::of(&clip, *clock).height()
-            });
+            self.moving.stand(clock);
         }
         self.measure(recipe)?;
         let split = self.split.output().value();
-        let moving = Moving {
-            clip: self.drawn.output(),
-            build: self.build.output(),
-            height: (split.len() > 1).then(|| *self.height.output()),
-            screen: *self.screen.output(),
-        };
+        let moving = self.moving.moving(split.len() > 1);
         let first = &mut self.layers[0];
         first.take(&moving, &split[0], &recipe.keys.weights)?;
         let (clip, speed) = (moving.clip, self.speed.output());
@@ -375,29 +360,10 @@ impl Engine {
     /// What was measured of the whole body, its layers, and their stages.
     fn layers(&mut self) -> (Measured<'_>, &[LayerJoints], &mut [LayerStages]) {
         let split = self.split.output().value();
-        let moving = Moving {
-            clip: self.drawn.output(),
-            build: self.build.output(),
-            height: (split.len() > 1).then(|| *self.height.output()),
-            screen: *self.screen.output(),
-        };
+        let moving = self.moving.moving(split.len() > 1);
         let (filtered, turns) = (self.joints.filtered.output(), self.joints.turns.output());
         let measured = Measured { moving, filtered, turns };
         (measured, split, &mut self.layers[..split.len()])
-    }
-
-    /// The motion that is drawn.
-    fn exaggerate(&mut self, recipe: &Recipe) -> Result<(), Error> {
-        // What is off is off whatever its other settings.
-        let settings = (!recipe.exaggerate.is_off()).then(|| recipe.exaggerate.clone());
-        self.drawn.try_make(
-            (Of::given(&self.clip),),
-            settings,
-            |(clip,), settings| match settings {
-                None => Ok(Arc::clone(&clip)),
-                Some(exaggerate) => exaggerate.apply(&clip).map(Arc::new),
-            },
-        )
     }
 
     /// How fast every joint is.
@@ -405,13 +371,12 @@ impl Engine {
         recipe.validate()?;
         self.budget.check(&self.clip, recipe.rate)?;
         self.is_whole = false;
-        self.exaggerate(recipe)?;
-        let clip = self.drawn.output();
-        self.screen.make((clip,), recipe.seen_from, |(clip,), from| Screen::of(*from, &clip));
-        self.build.make((clip,), (), |(clip,), ()| Build::of(&clip));
+        self.moving.exaggerate(&self.clip, recipe)?;
+        self.moving.see(recipe.seen_from);
         // A rotation is the same from everywhere.
         let is_seen = recipe.speed.measure.is_seen();
-        let screen = if is_seen { *self.screen.output() } else { Screen::WORLD };
+        let screen = if is_seen { *self.moving.screen() } else { Screen::WORLD };
+        let clip = self.moving.drawn();
         self.speed.try_make((clip,), (recipe.speed.clone(), screen), |(clip,), settings| {
             let (speed, screen) = settings;
             speed.measure_on(&clip, screen).map(Spectrum::from)

@@ -1,35 +1,25 @@
 //! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
 
 use std::ops::{Deref, RangeInclusive};
-use std::sync::Arc;
 
+use super::moving::Moving;
 use super::stage::{Before, Of, Stage};
+use super::voices::{Finding, Voices, joints};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, Chosen, JointTurns,
-    JointWeights, Judges, Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked,
-    Reconstruction, Reference, Tracks, Word,
+    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, Chosen, JointWeights, Judges,
+    Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked, Reconstruction, Reference, Tracks,
+    Word,
 };
-use crate::motion::{Build, Clip, Screen, Skeleton};
+use crate::motion::{Screen, Skeleton};
 use crate::recipe::Recipe;
 use crate::sheet::Layer;
-use crate::signal::{LowPass, Signals, Turn, TurnFinder};
+use crate::signal::{LowPass, Signals, Turn};
 use crate::time::Frame;
 use crate::timing::{Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills};
 
-/// The whole body that moves, the same for all layers.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Moving<'a> {
-    pub(super) clip: Of<'a, Arc<Clip>>,
-    pub(super) build: Of<'a, Build>,
-    /// The body's height in the file's unit, for a layer that is not all of it.
-    pub(super) height: Option<f64>,
-    /// From where it is seen.
-    pub(super) screen: Screen,
-}
-
-/// The same, with what was measured of its joints.
+/// The whole body that moves, with what was measured of its joints.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured<'a> {
     pub(super) moving: Moving<'a>,
@@ -85,14 +75,6 @@ struct Choosing {
     /// What was picked: not made again where all that changed is how strong its keys are.
     picked: Stage<Choice, Picked>,
     chosen: Stage<(), Chosen>,
-}
-
-/// What finds turns, the delay of the filter and the least distance of two keys, both in frames.
-#[derive(Debug, Clone, PartialEq)]
-struct Finding {
-    finder: TurnFinder,
-    delay: f64,
-    apart: f64,
 }
 
 impl Finding {
@@ -456,31 +438,6 @@ fn apart(moving: &Moving<'_>, recipe: &Recipe) -> f64 {
     moving.clip.clock(recipe.rate).frames_in_koma()
 }
 
-/// What is known of the joints once their turns are found: smoothed speeds, turns, who has a say, turns as a
-/// whole, and contacts.
-type Known<'a> = (
-    Of<'a, Signals>,
-    Of<'a, Vec<Vec<Turn>>>,
-    Of<'a, Voices>,
-    Of<'a, BodyTurns>,
-    Of<'a, Vec<Frame>>,
-);
-
-fn joints<'a>(known: Known<'a>, finding: &'a Finding) -> JointTurns<'a> {
-    let (filtered, turns, voices, body, contacts) = known;
-    let Finding { finder, delay, apart } = finding;
-    JointTurns {
-        filtered: filtered.value(),
-        turns: voices.value().turns(turns.value()),
-        finder,
-        delay: *delay,
-        weights: &voices.value().weights,
-        apart: *apart,
-        contacts: contacts.value(),
-        body: body.value(),
-    }
-}
-
 /// A column under the name of its layer. A layer that is the whole body need not name its joints.
 fn named(mut spaced: Spaced, joints: &LayerJoints, skeleton: &Skeleton) -> Spaced {
     spaced.layer.name.clone_from(&joints.name);
@@ -489,31 +446,4 @@ fn named(mut spaced: Spaced, joints: &LayerJoints, skeleton: &Skeleton) -> Space
         spaced.layer.joints = joints.joints.iter().map(name).collect();
     }
     spaced
-}
-
-/// How much each joint counts when keys are chosen.
-#[derive(Debug)]
-struct Voices {
-    /// What a person says of each joint times what hangs on it: the weight of its vote.
-    weights: Vec<f64>,
-    /// The turns without those of joints that have no say; none where all have.
-    turns: Option<Vec<Vec<Turn>>>,
-}
-
-impl Voices {
-    fn of(clip: &Clip, motion: &LayerClip, turns: &[Vec<Turn>]) -> Self {
-        let (weights, own) = (keys::weights(clip), &motion.heard);
-        let weights = weights.iter().zip(own).map(|(by_bones, own)| by_bones * own).collect();
-        let heard = |(turns, own): (&Vec<Turn>, &f64)| {
-            if *own > 0.0 { turns.clone() } else { Vec::new() }
-        };
-        let some_are_mute = own.contains(&0.0);
-        let turns = some_are_mute.then(|| turns.iter().zip(own).map(heard).collect());
-        Self { weights, turns }
-    }
-
-    /// The turns of those that have a say, of all turns.
-    fn turns<'a>(&'a self, all: &'a [Vec<Turn>]) -> &'a [Vec<Turn>] {
-        self.turns.as_deref().unwrap_or(all)
-    }
 }

@@ -2,6 +2,7 @@
 
 use std::array;
 use std::ops::Range;
+use std::slice::ChunksExactMut;
 
 use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
@@ -199,45 +200,58 @@ impl<'a> Following<'a> {
     /// side by side; `values` are those of all frames.
     #[inline(always)]
     fn write(&mut self, blocks: Range<usize>, values: &mut [f64]) {
-        let Self { motion, turning, travelling, rows, sight, poser, turned, stood } = self;
-        let frames = rows.len();
-        let steps = frames - 1;
+        let steps = self.rows.len() - 1;
         for begin in blocks.map(|block| LANES * block) {
-            let mut columns = values.chunks_exact_mut(3 * steps);
-            // No step leads into the first frame.
-            let skipped = usize::from(begin == 0);
-            let own = begin + skipped - 1..steps.min(begin + LANES - 1);
-            let mut write = |step: LaneVec| {
-                let Some(columns) = columns.next() else { return };
-                for (column, step) in columns.chunks_exact_mut(steps).zip([step.x, step.y, step.z])
-                {
-                    match column[own.clone()].as_mut_array::<LANES>() {
-                        Some(whole) => *whole = step.0,
-                        None => {
-                            column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()])
-                        }
-                    }
-                }
-            };
-            let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(frames - 1)]));
-            for (track, before) in turning.iter().zip(&mut *turned) {
-                let now = pose.rotations[track.joint];
-                if begin == 0 {
-                    *before = now.lane(0);
-                }
-                let speed = Lanes::splat(track.reach * motion.clip.rate().fps());
-                write(now.shifted(*before).way_to(now) * speed);
-                *before = now.lane(LANES - 1);
+            let mut tracks = values.chunks_exact_mut(3 * steps);
+            self.turn(begin, &mut tracks);
+            self.travel(begin, &mut tracks);
+        }
+    }
+
+    /// Poses a block and writes how it turns.
+    #[inline(always)]
+    fn turn(&mut self, begin: usize, tracks: &mut ChunksExactMut<'_, f64>) {
+        let Self { motion, turning, rows, poser, turned, .. } = self;
+        let (fps, last) = (motion.clip.rate().fps(), rows.len() - 1);
+        let pose = poser.rows(&array::from_fn(|lane| rows[(begin + lane).min(last)]));
+        for ((track, before), columns) in turning.iter().zip(turned).zip(tracks) {
+            let now = pose.rotations[track.joint];
+            if begin == 0 {
+                *before = now.lane(0);
             }
-            let pose = poser.stand();
-            for (track, before) in travelling.iter().zip(&mut *stood) {
-                let now = sight.see(track.what, pose);
-                if begin == 0 {
-                    *before = now.lane(0);
-                }
-                write(now - now.shifted(*before));
-                *before = now.lane(LANES - 1);
+            let way = now.shifted(*before).way_to(now);
+            put(columns, begin, way * Lanes::splat(track.reach * fps));
+            *before = now.lane(LANES - 1);
+        }
+    }
+
+    /// Writes how the block that was posed travels.
+    #[inline(always)]
+    fn travel(&mut self, begin: usize, tracks: &mut ChunksExactMut<'_, f64>) {
+        let Self { travelling, sight, poser, stood, .. } = self;
+        let pose = poser.stand();
+        for ((track, before), columns) in travelling.iter().zip(stood).zip(tracks) {
+            let now = sight.see(track.what, pose);
+            if begin == 0 {
+                *before = now.lane(0);
             }
+            put(columns, begin, now - now.shifted(*before));
+            *before = now.lane(LANES - 1);
+        }
+    }
+}
+
+/// Writes the steps into the frames of a block into the three columns of a track.
+#[inline(always)]
+fn put(columns: &mut [f64], begin: usize, step: LaneVec) {
+    let steps = columns.len() / 3;
+    // No step leads into the first frame.
+    let skipped = usize::from(begin == 0);
+    let own = begin + skipped - 1..steps.min(begin + LANES - 1);
+    for (column, step) in columns.chunks_exact_mut(steps).zip([step.x, step.y, step.z]) {
+        match column[own.clone()].as_mut_array::<LANES>() {
+            Some(whole) => *whole = step.0,
+            None => column[own.clone()].copy_from_slice(&step.0[skipped..][..own.len()]),
         }
     }
 }

@@ -18,10 +18,11 @@ pub struct Stature {
 }
 
 impl Stature {
-    /// Looks at a clip's first frame, and at the rest pose where the first frame leaves a doubt.
+    /// Looks at a clip's first frame and at its rest pose.
     ///
-    /// Up is Y as BVH has it by custom. It is Z where the first frame is clearly taller along Z than
-    /// along Y, unless the rest pose stands along Y: somebody who begins on hands and knees.
+    /// Up is the axis along which the body is clearly taller in the first frame. Where none is, arms are out or it
+    /// is bent: then the rest pose says it, and else custom, which is Y. Z is not up where the rest pose stands
+    /// along Y: that is somebody who begins on hands and knees.
     pub fn of(clip: &Clip) -> Self {
         let mut body = Body::new(clip.skeleton());
         let rest = extent(&body);
@@ -29,9 +30,21 @@ impl Stature {
             body.place(Poser::of(clip).frame(clip.first()));
         }
         let first = extent(&body);
-        let is_clearly_z = first.z > CLEARLY * first.y && rest.y <= CLEARLY * rest.z;
-        let up = if is_clearly_z { Axis::Z } else { Axis::Y };
+        let up = match (taller(first), taller(rest)) {
+            (Some(Axis::Z), Some(Axis::Y)) | (None, None) => Axis::Y,
+            (Some(up), _) | (None, Some(up)) => up,
+        };
         Self { size: if clip.is_empty() { 0.0 } else { first.max_element() }, up }
+    }
+}
+
+/// Along which of Y and Z a body is clearly taller, if along any.
+fn taller(extent: DVec3) -> Option<Axis> {
+    let is_clearly = |tall: f64, other: f64| tall > CLEARLY * other;
+    match extent {
+        DVec3 { y, z, .. } if is_clearly(z, y) => Some(Axis::Z),
+        DVec3 { y, z, .. } if is_clearly(y, z) => Some(Axis::Y),
+        _ => None,
     }
 }
 
@@ -122,6 +135,8 @@ mod tests {
         assert_eq!(up(DVec3::Z, 0.0), Axis::Z, "as Blender writes it");
         assert_eq!(up(DVec3::Y, 90.0), Axis::Y, "it begins lying down");
         assert_eq!(up(DVec3::Z, 90.0), Axis::Y, "a rig whose bones point forward at rest");
+        assert_eq!(up(DVec3::Z, 45.0), Axis::Z, "it begins bent: the rest pose stands");
+        assert_eq!(up(DVec3::Y, 45.0), Axis::Y, "the same");
         assert_eq!(up(DVec3::X, 0.0), Axis::Y, "flat: nobody knows");
     }
 
