@@ -13,7 +13,9 @@ import rigs
 
 TABS = Path(sys.argv[-1])
 # The genga that is shown, and how much of the height the dope sheet has.
-SHOWN, SHEET = 7, 0.25
+SHOWN, SHEET = 7, 0.2
+# Where genga's tab stands below the top of a sidebar, beside the tabs of Blender itself, and from its right side.
+TAB_BELOW, TAB_BESIDE = {"VIEW_3D": 241, "DOPESHEET_EDITOR": 174}, 14
 
 
 def areas():
@@ -88,11 +90,15 @@ def look():
 
 
 def tell():
+    high = bpy.context.window_manager.windows[0].height
     places = []
     for area in areas():
         side = next(region for region in area.regions if region.type == "UI")
-        places.append(f"{side.x},{side.y},{side.width},{side.height}")
-    TABS.write_text(" ".join(places))
+        x, y = side.x + side.width - TAB_BESIDE, high - side.y - side.height + TAB_BELOW[area.type]
+        places.append(f"{x},{y}\n")
+    whole = TABS.with_suffix(".part")
+    whole.write_text("".join(places))
+    whole.rename(TABS)
 
 
 STEPS = [close_others, split, play, look, tell]
@@ -108,4 +114,5 @@ def step():
     return 1.0 if STEPS else None
 
 
+bpy.context.preferences.view.show_splash = False
 bpy.app.timers.register(step, first_interval=2.0)

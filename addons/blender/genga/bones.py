@@ -14,6 +14,8 @@ class GENGA_UL_bones(UIList):
 
     def draw_item(self, context, layout, _data, bone, _icon, _active, _name, _index=0, _flag=0):
         row = layout.row(align=True)
+        # A box stands before its bone.
+        row.use_property_split = False
         row.active = bone.name in self.staying(context.active_object)
         row.prop(bone, "genga_left_out", text="")
         row.label(text=bone.name, translate=False)
@@ -57,9 +59,9 @@ def is_selected(context, bone):
 def draw(layout, thing):
     """The list, and what ticks many at once."""
     layout.template_list("GENGA_UL_bones", "", thing.data, "bones", thing.genga, "bone", rows=4)
-    row = layout.row(align=True)
+    ticks = layout.column(align=True)
     for what, text in (("SELECTED", "Leave Out Selected"), ("NONE", "Leave Out None")):
-        row.operator("genga.tick", text=text, text_ctxt=words.CONTEXT).what = what
+        ticks.operator("genga.tick", text=text, text_ctxt=words.CONTEXT).what = what
 
 
 CLASSES = (GENGA_UL_bones, GENGA_OT_tick)

@@ -86,7 +86,10 @@ class Sampled(Sidebar):
         layout, own = self.layout, context.active_object.genga
         layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(own, "frames")
-        layout.prop(own, "deforming")
+        # Its name needs the whole width.
+        whole = layout.column()
+        whole.use_property_split = False
+        whole.prop(own, "deforming")
         layout.prop(own, "leave_out")
         bones.draw(layout, context.active_object)
         layout.operator("genga.export", icon="EXPORT")
