@@ -2,16 +2,19 @@
 //!
 //! Plain data: everything that is handed over is a function of (clip, sheet).
 
-use std::collections::HashMap;
-use std::fmt;
-use std::ops::Deref;
-use std::sync::Arc;
+mod spoken;
+mod why;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::HashMap;
+
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::choices;
 use crate::time::Clock;
+
+pub use spoken::SpokenLine;
+pub use why::{Names, Reason, Why};
 
 /// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and
 /// would fill the memory.
@@ -33,63 +36,6 @@ pub struct Sheet {
     /// What is spoken (セリフ), in the order in which it begins.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lines: Vec<SpokenLine>,
-}
-
-/// A spoken line (セリフ), of the S column.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a spoken line {\"begin\", \"koma\", \"words\"}")]
-pub struct SpokenLine {
-    /// The koma on which it begins, from 0.
-    pub begin: usize,
-    /// For how many koma it is heard, at least 1.
-    pub koma: usize,
-    /// Who speaks; empty where that is not said.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub speaker: String,
-    /// What is said.
-    pub words: String,
-}
-
-/// Who says what, as it is written in the language of the words: `Ken: no`, アキ「えい！」.
-impl fmt::Display for SpokenLine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { speaker, words, .. } = self;
-        let is_latin = words.chars().all(|letter| (letter as u32) < 0x2e80);
-        match (speaker.is_empty(), is_latin) {
-            (true, true) => write!(f, "{words}"),
-            (false, true) => write!(f, "{speaker}: {words}"),
-            (_, false) => write!(f, "{speaker}「{words}」"),
-        }
-    }
-}
-
-impl SpokenLine {
-    /// The koma after its last.
-    pub fn past(&self) -> usize {
-        self.begin.saturating_add(self.koma)
-    }
-
-    /// For each of some lines the column it stands in, from 0: those that are heard at once stand side by side.
-    /// The lines are in the order in which they begin.
-    ///
-    /// ```
-    /// use genga::sheet::SpokenLine;
-    ///
-    /// let line = |begin, koma| SpokenLine { begin, koma, speaker: "".into(), words: "a".into() };
-    /// assert_eq!(SpokenLine::side_by_side(&[line(0, 9), line(4, 9), line(9, 2)]), [0, 1, 0]);
-    /// ```
-    pub fn side_by_side(lines: &[Self]) -> Vec<usize> {
-        let mut free: Vec<usize> = Vec::new();
-        let place = |line: &Self| {
-            let at = free.iter().position(|koma| *koma <= line.begin).unwrap_or(free.len());
-            match free.get_mut(at) {
-                Some(koma) => *koma = line.past(),
-                None => free.push(line.past()),
-            }
-            at
-        };
-        lines.iter().map(place).collect()
-    }
 }
 
 /// Whether a foot on the ground (接地) stays where it is in the motion that is handed over.
@@ -209,117 +155,6 @@ impl Role {
     }
 }
 
-/// What makes a drawing a genga.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Reason {
-    /// The body turns (変わり目).
-    Turn,
-    /// It does not turn, but would go astray without a drawing (補い).
-    Fill,
-    /// A rest (止め) begins or ends.
-    Rest,
-    /// A contact (接地) begins or ends.
-    Contact,
-    /// A person wants it (固定).
-    Pin,
-}
-
-impl Reason {
-    /// Every reason.
-    pub const ALL: [Self; 5] = [Self::Turn, Self::Fill, Self::Rest, Self::Contact, Self::Pin];
-
-    /// Its word in files.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Turn => "turn",
-            Self::Fill => "fill",
-            Self::Rest => "rest",
-            Self::Contact => "contact",
-            Self::Pin => "pin",
-        }
-    }
-
-    /// Its Japanese word.
-    pub fn japanese(self) -> &'static str {
-        match self {
-            Self::Turn => "変わり目",
-            Self::Fill => "補い",
-            Self::Rest => "止め",
-            Self::Contact => "接地",
-            Self::Pin => "固定",
-        }
-    }
-}
-
-/// Names that many drawings have in common: a copy of a sheet does not copy them.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Names(Arc<[Arc<str>]>);
-
-impl Deref for Names {
-    type Target = [Arc<str>];
-
-    fn deref(&self) -> &[Arc<str>] {
-        &self.0
-    }
-}
-
-impl<T: Into<Arc<str>>> FromIterator<T> for Names {
-    fn from_iter<I: IntoIterator<Item = T>>(names: I) -> Self {
-        Self(names.into_iter().map(Into::into).collect())
-    }
-}
-
-impl Serialize for Names {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter().map(|name| &**name))
-    }
-}
-
-impl<'de> Deserialize<'de> for Names {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Vec::<String>::deserialize(deserializer).map(Self::from_iter)
-    }
-}
-
-/// Why a drawing is on the sheet, and what was done round it.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Why {
-    /// Names of the joints that have a turn of their own here.
-    #[serde(skip_serializing_if = "is_default")]
-    pub voters: Names,
-    /// Set by a person, with the name they gave it (empty when they gave none).
-    #[serde(skip_serializing_if = "is_default")]
-    pub pinned: Option<String>,
-    /// The source frame near which the key was found that a person put here.
-    #[serde(skip_serializing_if = "is_default")]
-    pub moved_from: Option<usize>,
-    /// What makes it a genga; none for other drawings.
-    #[serde(skip_serializing_if = "is_default")]
-    pub reason: Option<Reason>,
-    /// How much of a turn the genga is, 0 to 1 (what joints say together where `keys.merge` is not `body`);
-    /// none for inbetweens.
-    #[serde(skip_serializing_if = "is_default")]
-    pub strength: Option<f64>,
-    /// What the key saves, in % of body height: how far the body would be off without it; none for
-    /// inbetweens.
-    #[serde(skip_serializing_if = "is_default")]
-    pub price: Option<f64>,
-    /// Koma that naka-nashi gave to it.
-    #[serde(skip_serializing_if = "is_default")]
-    pub lengthened: usize,
-    /// Drawings just before it that naka-nashi left out.
-    #[serde(skip_serializing_if = "is_default")]
-    pub omitted_before: usize,
-    /// Drawings after it that koma-dori, or a person's hold, replaced by it.
-    #[serde(skip_serializing_if = "is_default")]
-    pub held_for: usize,
-    /// Whether a person set how long it stays.
-    #[serde(skip_serializing_if = "is_default")]
-    pub hold_set: bool,
-}
-
 /// The usual name of a column: A to Z, then AA, AB ….
 pub(crate) fn column_name(column: usize) -> String {
     let letter = char::from(b'A' + (column % 26) as u8);
@@ -331,50 +166,6 @@ pub(crate) fn column_name(column: usize) -> String {
 /// What says nothing is not written.
 pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
-}
-
-/// In words, for the reason columns.
-impl fmt::Display for Why {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut reasons = Vec::new();
-        match self.pinned.as_deref() {
-            None => {}
-            Some("") => reasons.push("pinned".into()),
-            Some(name) => reasons.push(format!("pinned: {name}")),
-        }
-        if let Some(from) = self.moved_from {
-            reasons.push(format!("moved from frame {from}"));
-        }
-        match self.reason {
-            Some(Reason::Fill) => reasons.push("keeps the body on its way".into()),
-            Some(Reason::Rest) => reasons.push("a rest begins or ends".into()),
-            Some(Reason::Contact) => reasons.push("a foot or a hand comes down or leaves".into()),
-            Some(Reason::Turn | Reason::Pin) | None => {}
-        }
-        if let [first, ..] = &*self.voters {
-            let others = self.voters.len() - 1;
-            let more =
-                if others > 0 { format!(" and {others} more turn") } else { " turns".into() };
-            reasons.push(format!("{first}{more}"));
-        }
-        if let Some(price) = self.price {
-            reasons.push(format!("saves {price:.1} % of body height"));
-        }
-        let mut count = |count: usize, what: &str, words: &str| {
-            if count > 0 {
-                let plural = if count > 1 && what == "drawing" { "s" } else { "" };
-                reasons.push(format!("{count} {what}{plural} {words}"));
-            }
-        };
-        count(self.omitted_before, "drawing", "left out before it (naka-nashi)");
-        count(self.lengthened, "koma", "given to it (naka-nashi)");
-        let by = if self.hold_set { "held over" } else { "held over (koma-dori)" };
-        count(self.held_for, "drawing", by);
-        if self.hold_set {
-            reasons.push("stays as long as was set by hand".into());
-        }
-        f.write_str(&reasons.join("; "))
-    }
 }
 
 impl Exposure {
@@ -520,43 +311,6 @@ impl Sheet {
             }
         }
         self.check_lines()
-    }
-
-    fn check_lines(&self) -> Result<(), Error> {
-        let length = self.length();
-        for line in &self.lines {
-            let (words, begin) = (&line.words, line.begin);
-            if line.koma == 0 || words.trim().is_empty() {
-                return Err(Error::sheet(format!(
-                    "the line \"{words}\" on koma {begin} has no koma or no words; leave it out"
-                )));
-            }
-            if line.past() > length {
-                return Err(Error::sheet(format!(
-                    "the line \"{words}\" ends on koma {}, and the sheet has {length}; shorten it",
-                    line.past()
-                )));
-            }
-        }
-        match self.lines.windows(2).find(|pair| pair[0].begin > pair[1].begin) {
-            Some(pair) => Err(Error::sheet(format!(
-                "the line \"{}\" begins before the one in front of it; sort them by begin",
-                pair[1].words
-            ))),
-            None => Ok(()),
-        }
-    }
-
-    /// The same with lines of a sheet of another length: what lies beyond this one is cut off.
-    pub(crate) fn with_lines(mut self, lines: &[SpokenLine]) -> Self {
-        let length = self.length();
-        let heard = lines.iter().filter(|line| line.begin < length);
-        let cut = |line: &SpokenLine| SpokenLine {
-            koma: line.koma.min(length - line.begin),
-            ..line.clone()
-        };
-        self.lines = heard.map(cut).collect();
-        self
     }
 
     /// The first layer, to which every joint belongs that no other names.

@@ -9,6 +9,7 @@ mod gltf_camera;
 pub(crate) mod mmd;
 mod posed;
 mod rates;
+mod reading;
 mod stream;
 
 pub use gltf_camera::GltfCamera;

@@ -13,7 +13,7 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
-use super::file::{Found, Given, Options, Read};
+use super::reading::{Found, Given, Options, Read};
 use crate::error::{Error, Place};
 use crate::time::FrameRate;
 use amc::Amc;

@@ -31,9 +31,9 @@ pub(super) fn begins(head: &[u8]) -> bool {
 /// What is said where ufbx was left out.
 #[cfg(not(feature = "fbx"))]
 pub(super) fn read(
-    _: &super::file::Given<'_>,
-    _: &super::file::Options,
-) -> Result<super::file::Read, crate::error::Error> {
+    _: &super::reading::Given<'_>,
+    _: &super::reading::Options,
+) -> Result<super::reading::Read, crate::error::Error> {
     let message =
         "is FBX, and this genga was built without the feature fbx; export the motion as BVH or GLB";
     let place = crate::error::Place::Whole;

@@ -8,85 +8,24 @@
 //! whole, up to the limit of [`Options::stream`].
 
 mod formats;
-mod given;
-mod takes;
 #[cfg(test)]
 pub(super) mod tests;
 
 use std::fs::File;
 use std::io::{Read as _, Seek};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::error::{Error, Place, Warning};
-use crate::motion::{Clip, StreamLimit, bytes_in_words};
-use crate::time::FrameRate;
+use crate::motion::{StreamLimit, bytes_in_words};
 
+pub use super::reading::{Found, Given, Options, Read, TAKES, Take};
 pub use formats::{FORMATS, Format};
-pub use given::Given;
-pub use takes::Take;
 
 /// What a person should know of a file that is no BVH: as what it was read.
 pub const FORMAT: &str = "W_FORMAT";
-/// The file has several takes, and none was asked for.
-pub const TAKES: &str = "W_TAKES";
 
 /// Bytes by which a format is known.
 const HEAD: usize = 4096;
-
-/// How a motion file is read.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Options {
-    /// Makes the first warning of the reader an error. Default: false.
-    pub strict: bool,
-    /// Holds the value before one that is no number: of a BVH. Default: false, an error.
-    pub repair: bool,
-    /// The rate, whatever the file says: the frames stay, they are shown slower or faster. Default: none, the file's.
-    pub fps: Option<FrameRate>,
-    /// The root of the one tree of joints to read. Default: none, all trees.
-    pub root: Option<String>,
-    /// The take to read, of a file that has several. Default: none, the first in which a joint moves.
-    pub take: Option<String>,
-    /// Frames a second at which curves are sampled. Default: none, the file's own rate. Lowered, what is between
-    /// the samples is lost.
-    pub sample_rate: Option<FrameRate>,
-    /// The file that has the bones, of a format whose motions have none: a model of MMD (`.pmx`, `.pmd`) for a VMD, an
-    /// `.asf` for an AMC. Default: none, a figure of usual proportions, and the `.asf` that lies beside it.
-    pub skeleton: Option<PathBuf>,
-    /// How much is read of what is no regular file, and of a file that is read whole. What is sampled of curves, or
-    /// unpacked, may take as much again.
-    pub stream: StreamLimit,
-}
-
-/// What a reader gives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Read {
-    /// The motion.
-    pub clip: Clip,
-    /// What a person should know about the file.
-    pub warnings: Vec<Warning>,
-    /// Seconds a frame as the file writes them, where it does.
-    pub written_frame_time: Option<f64>,
-    /// What the file is, and what was made of it: unit, axes, rate. Empty for a BVH, whose values stay as written.
-    pub found: Vec<Found>,
-    /// Its takes, where the format has them.
-    pub takes: Vec<Take>,
-}
-
-/// Something that a reader found.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Found {
-    /// A word: `format`, `unit`, `up`.
-    pub what: &'static str,
-    /// What it is, in words.
-    pub is: String,
-}
-
-impl Found {
-    /// Something that was found.
-    pub fn new(what: &'static str, is: impl Into<String>) -> Self {
-        Self { what, is: is.into() }
-    }
-}
 
 /// Opens (開く) a motion file as [`Options::open`] does by default.
 ///
@@ -139,17 +78,6 @@ impl Options {
         self.given(bytes, None)
     }
 
-    /// As [`takes::choose`] has it.
-    pub(super) fn choose(&self, takes: &[Take]) -> Result<Option<(usize, Option<Warning>)>, Error> {
-        takes::choose(self.take.as_deref(), takes)
-    }
-
-    /// What BVH knows of these.
-    pub(super) fn for_bvh(&self) -> super::bvh::Options {
-        let Self { strict, repair, fps, ref root, stream, .. } = *self;
-        super::bvh::Options { strict, repair, fps, root: root.clone(), stream }
-    }
-
     fn given(&self, bytes: &[u8], path: Option<&Path>) -> Result<Read, Error> {
         let format = Format::of(&bytes[..bytes.len().min(HEAD)], path);
         self.check(format)?;
@@ -175,7 +103,7 @@ impl Options {
 
     fn read_as(&self, format: &Format, given: &Given<'_>) -> Result<Read, Error> {
         let mut read = (format.read)(given, self)?;
-        takes::check(self.take.as_deref(), &read.takes)?;
+        self.check_take(&read.takes)?;
         if format.is_native() {
             return Ok(read);
         }
@@ -189,14 +117,6 @@ impl Options {
         let words: Vec<&str> = read.found.iter().map(|found| found.is.as_str()).collect();
         read.warnings.push(Warning::new(FORMAT, format!("read as {}", words.join("; "))));
         Ok(read)
-    }
-}
-
-impl From<super::bvh::Read> for Read {
-    fn from(read: super::bvh::Read) -> Self {
-        let super::bvh::Read { clip, warnings, written_frame_time } = read;
-        let written_frame_time = Some(written_frame_time);
-        Self { clip, warnings, written_frame_time, found: Vec::new(), takes: Vec::new() }
     }
 }
 

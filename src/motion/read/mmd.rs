@@ -16,7 +16,7 @@ mod tests;
 
 use std::path::Path;
 
-use super::file::{Found, Given, Options, Read};
+use super::reading::{Found, Given, Options, Read};
 use crate::error::{Error, Place, Warning};
 use crate::time::FrameRate;
 pub use model::MmdModel;

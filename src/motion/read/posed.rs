@@ -12,7 +12,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::bvh::renamed;
 use super::bvh::warnings::{NAME_MISSING, NAME_TWICE, ROOTS};
-use super::file::Options;
+use super::reading::Options;
 use crate::error::{Error, Place, Warning};
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton, set_local_rotation};
 use crate::time::{Frame, FrameRate};

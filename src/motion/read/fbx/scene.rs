@@ -10,9 +10,9 @@ use ufbx::{
 
 use super::takes::{Curves, listed};
 use crate::error::{Error, Place, Warning};
-use crate::motion::read::file::{Found, Given, Options, Read};
 use crate::motion::read::posed::{Bone, Posed, Stand, join};
 use crate::motion::read::rates;
+use crate::motion::read::reading::{Found, Given, Options, Read};
 use crate::time::FrameRate;
 
 /// Keys lie closer together than the frames of the scene.

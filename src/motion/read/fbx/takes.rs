@@ -2,7 +2,7 @@
 
 use ufbx::{AnimCurve, AnimStack, ElementType, Scene};
 
-use crate::motion::read::file::Take;
+use crate::motion::read::reading::Take;
 
 /// Keys that are looked at of each curve: more tell nothing new.
 const MOST_KEYS: usize = 2000;

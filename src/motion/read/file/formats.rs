@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::{Given, Options, Read};
 use crate::error::{Error, Place};
+use crate::motion::read::reading::{Given, Options, Read};
 use crate::motion::read::{acclaim, fbx, gltf, mmd};
 
 /// A format that motion comes in (形式).

@@ -9,7 +9,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use super::document::Document;
 use super::wrong;
 use crate::error::{Error, Place};
-use crate::motion::read::file::{Given, Options};
+use crate::motion::read::reading::{Given, Options};
 
 /// Base64 with its signs of equality or without.
 const BASE64: GeneralPurpose = GeneralPurpose::new(

@@ -10,9 +10,9 @@ use super::curve::Curve;
 use super::document::{Animation, Document, placed};
 use super::wrong;
 use crate::error::{Error, Place, Warning};
-use crate::motion::read::file::{Found, Given, Options, Read, Take};
 use crate::motion::read::posed::{Bone, Posed, Stand};
 use crate::motion::read::rates;
+use crate::motion::read::reading::{Found, Given, Options, Read, Take};
 use crate::time::FrameRate;
 
 /// The rate of keys that mean none.

@@ -1,7 +1,9 @@
 //! The takes of a file, and which of them is read.
 
-use super::TAKES;
 use crate::error::{Error, Warning, nearest};
+
+/// The file has several takes, and none was asked for.
+pub const TAKES: &str = "W_TAKES";
 
 /// A take (テイク): one motion of several that a file holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +27,7 @@ const OF: char = '|';
 ///
 /// # Errors
 /// [`Error::Setting`] with the names that there are.
-pub(in crate::motion::read) fn choose(
+pub(super) fn choose(
     asked: Option<&str>,
     takes: &[Take],
 ) -> Result<Option<(usize, Option<Warning>)>, Error> {

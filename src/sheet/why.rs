@@ -1,0 +1,164 @@
+//! Why a drawing is on the sheet (理由): what makes it a genga, who turns there, what was done round it.
+
+use std::fmt;
+use std::ops::Deref;
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::is_default;
+
+/// What makes a drawing a genga.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// The body turns (変わり目).
+    Turn,
+    /// It does not turn, but would go astray without a drawing (補い).
+    Fill,
+    /// A rest (止め) begins or ends.
+    Rest,
+    /// A contact (接地) begins or ends.
+    Contact,
+    /// A person wants it (固定).
+    Pin,
+}
+
+impl Reason {
+    /// Every reason.
+    pub const ALL: [Self; 5] = [Self::Turn, Self::Fill, Self::Rest, Self::Contact, Self::Pin];
+
+    /// Its word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Turn => "turn",
+            Self::Fill => "fill",
+            Self::Rest => "rest",
+            Self::Contact => "contact",
+            Self::Pin => "pin",
+        }
+    }
+
+    /// Its Japanese word.
+    pub fn japanese(self) -> &'static str {
+        match self {
+            Self::Turn => "変わり目",
+            Self::Fill => "補い",
+            Self::Rest => "止め",
+            Self::Contact => "接地",
+            Self::Pin => "固定",
+        }
+    }
+}
+
+/// Names that many drawings have in common: a copy of a sheet does not copy them.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Names(Arc<[Arc<str>]>);
+
+impl Deref for Names {
+    type Target = [Arc<str>];
+
+    fn deref(&self) -> &[Arc<str>] {
+        &self.0
+    }
+}
+
+impl<T: Into<Arc<str>>> FromIterator<T> for Names {
+    fn from_iter<I: IntoIterator<Item = T>>(names: I) -> Self {
+        Self(names.into_iter().map(Into::into).collect())
+    }
+}
+
+impl Serialize for Names {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter().map(|name| &**name))
+    }
+}
+
+impl<'de> Deserialize<'de> for Names {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Vec::<String>::deserialize(deserializer).map(Self::from_iter)
+    }
+}
+
+/// Why a drawing is on the sheet, and what was done round it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Why {
+    /// Names of the joints that have a turn of their own here.
+    #[serde(skip_serializing_if = "is_default")]
+    pub voters: Names,
+    /// Set by a person, with the name they gave it (empty when they gave none).
+    #[serde(skip_serializing_if = "is_default")]
+    pub pinned: Option<String>,
+    /// The source frame near which the key was found that a person put here.
+    #[serde(skip_serializing_if = "is_default")]
+    pub moved_from: Option<usize>,
+    /// What makes it a genga; none for other drawings.
+    #[serde(skip_serializing_if = "is_default")]
+    pub reason: Option<Reason>,
+    /// How much of a turn the genga is, 0 to 1 (what joints say together where `keys.merge` is not `body`);
+    /// none for inbetweens.
+    #[serde(skip_serializing_if = "is_default")]
+    pub strength: Option<f64>,
+    /// What the key saves, in % of body height: how far the body would be off without it; none for
+    /// inbetweens.
+    #[serde(skip_serializing_if = "is_default")]
+    pub price: Option<f64>,
+    /// Koma that naka-nashi gave to it.
+    #[serde(skip_serializing_if = "is_default")]
+    pub lengthened: usize,
+    /// Drawings just before it that naka-nashi left out.
+    #[serde(skip_serializing_if = "is_default")]
+    pub omitted_before: usize,
+    /// Drawings after it that koma-dori, or a person's hold, replaced by it.
+    #[serde(skip_serializing_if = "is_default")]
+    pub held_for: usize,
+    /// Whether a person set how long it stays.
+    #[serde(skip_serializing_if = "is_default")]
+    pub hold_set: bool,
+}
+
+/// In words, for the reason columns.
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut reasons = Vec::new();
+        match self.pinned.as_deref() {
+            None => {}
+            Some("") => reasons.push("pinned".into()),
+            Some(name) => reasons.push(format!("pinned: {name}")),
+        }
+        if let Some(from) = self.moved_from {
+            reasons.push(format!("moved from frame {from}"));
+        }
+        match self.reason {
+            Some(Reason::Fill) => reasons.push("keeps the body on its way".into()),
+            Some(Reason::Rest) => reasons.push("a rest begins or ends".into()),
+            Some(Reason::Contact) => reasons.push("a foot or a hand comes down or leaves".into()),
+            Some(Reason::Turn | Reason::Pin) | None => {}
+        }
+        if let [first, ..] = &*self.voters {
+            let others = self.voters.len() - 1;
+            let more =
+                if others > 0 { format!(" and {others} more turn") } else { " turns".into() };
+            reasons.push(format!("{first}{more}"));
+        }
+        if let Some(price) = self.price {
+            reasons.push(format!("saves {price:.1} % of body height"));
+        }
+        let mut count = |count: usize, what: &str, words: &str| {
+            if count > 0 {
+                let plural = if count > 1 && what == "drawing" { "s" } else { "" };
+                reasons.push(format!("{count} {what}{plural} {words}"));
+            }
+        };
+        count(self.omitted_before, "drawing", "left out before it (naka-nashi)");
+        count(self.lengthened, "koma", "given to it (naka-nashi)");
+        let by = if self.hold_set { "held over" } else { "held over (koma-dori)" };
+        count(self.held_for, "drawing", by);
+        if self.hold_set {
+            reasons.push("stays as long as was set by hand".into());
+        }
+        f.write_str(&reasons.join("; "))
+    }
+}
