@@ -36,30 +36,9 @@ fn what_a_bvh_cannot_have_is_refused() {
     let said = |options: Options| options.read(&bytes).unwrap_err().to_string();
     let take = said(Options { take: Some("Walk".into()), ..Options::default() });
     assert_eq!(take, "take: there is no take \"Walk\": the file has one motion, without a name");
-    let rate = FrameRate::new(60.0).ok();
+    let rate = crate::time::FrameRate::new(60.0).ok();
     let rate = said(Options { sample_rate: rate, ..Options::default() });
     assert!(rate.starts_with("sample-rate: BVH has a row a frame"), "{rate}");
-}
-
-fn take(name: &str, moves: bool) -> Take {
-    Take { name: name.into(), seconds: 1.0, moves }
-}
-
-#[test]
-fn the_first_take_that_moves_is_read_and_the_others_are_told() {
-    let all = [take("Bind", false), take("Walk", true), take("Run", true)];
-    let (at, warning) = takes::choose(None, &all).unwrap().unwrap();
-    let warning = warning.unwrap().to_string();
-    assert_eq!(at, 1);
-    assert_eq!(
-        warning,
-        "the file has 3 takes, Bind, Walk, Run; Walk is read, --take NAME reads another [W_TAKES]"
-    );
-    assert_eq!(takes::choose(Some("Run"), &all).unwrap(), Some((2, None)));
-    assert_eq!(takes::choose(None, &all[..1]).unwrap(), Some((0, None)));
-    assert_eq!(takes::choose(None, &[]).unwrap(), None);
-    let error = takes::choose(Some("Rum"), &all).unwrap_err().to_string();
-    assert!(error.ends_with("there is Bind, Walk, Run; did you mean Run?"), "{error}");
 }
 
 #[test]
@@ -68,38 +47,6 @@ fn what_is_no_motion_is_refused_with_the_way_out() {
     assert!(said(b"PMX \0\0\0\x40").contains("--skeleton"), "{}", said(b"PMX "));
     assert!(said(b"Pmd\0\0\x80\x3f").contains("--skeleton"));
     assert!(said(b"PathFileType\t4").starts_with("these are the paths of markers"));
-}
-
-#[test]
-fn a_take_is_found_without_its_armature_where_only_one_is_called_so() {
-    let all = [take("Rig|Walk", true), take("Rig|Run", true), take("Cape|Run", true)];
-    let found = |name| takes::choose(Some(name), &all).map(|found| found.map(|(at, _)| at));
-    assert_eq!(found("Walk").unwrap(), Some(0));
-    assert_eq!(found("Cape|Run").unwrap(), Some(2));
-    assert!(found("Run").unwrap_err().to_string().contains("there is no take \"Run\""));
-}
-
-#[test]
-fn a_neighbour_lies_in_the_folder_or_below_it() {
-    let place = tempfile::tempdir().unwrap();
-    let at = |name: &str| place.path().join(name);
-    fs::create_dir(at("a")).unwrap();
-    for name in ["secret", "a/walk.amc", "a/b.asf", "a/a.ASF", "a/data.bin"] {
-        fs::write(at(name), name).unwrap();
-    }
-    let path = at("a/walk.amc");
-    let given = Given { bytes: b"", path: Some(&path) };
-    let beside = |name: &str| given.beside(name, Place::Byte(7), &Options::default());
-    assert_eq!(beside("data.bin").unwrap(), b"a/data.bin");
-    assert_eq!(beside("./data.bin").unwrap(), b"a/data.bin");
-    for outside in ["../secret", "/etc/hostname", "", "x/../../secret", "none"] {
-        assert!(beside(outside).unwrap_err().to_string().starts_with("byte 7: "), "{outside}");
-    }
-    assert_eq!(given.neighbours("asf"), [at("a/a.ASF"), at("a/b.asf")]);
-    let nowhere = Given { bytes: b"", path: None };
-    assert!(nowhere.neighbours("asf").is_empty());
-    let limit = Options { stream: StreamLimit { bytes: 3 }, ..Options::default() };
-    assert!(given.beside("data.bin", Place::Whole, &limit).is_err(), "more than may be read");
 }
 
 /// Reads files that were changed in up to five places: bytes turned, cut out, doubled, numbers replaced by odd ones. None

@@ -52,3 +52,34 @@ impl Given<'_> {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::motion::StreamLimit;
+
+    #[test]
+    fn a_neighbour_lies_in_the_folder_or_below_it() {
+        let place = tempfile::tempdir().unwrap();
+        let at = |name: &str| place.path().join(name);
+        fs::create_dir(at("a")).unwrap();
+        for name in ["secret", "a/walk.amc", "a/b.asf", "a/a.ASF", "a/data.bin"] {
+            fs::write(at(name), name).unwrap();
+        }
+        let path = at("a/walk.amc");
+        let given = Given { bytes: b"", path: Some(&path) };
+        let beside = |name: &str| given.beside(name, Place::Byte(7), &Options::default());
+        assert_eq!(beside("data.bin").unwrap(), b"a/data.bin");
+        assert_eq!(beside("./data.bin").unwrap(), b"a/data.bin");
+        for outside in ["../secret", "/etc/hostname", "", "x/../../secret", "none"] {
+            assert!(beside(outside).unwrap_err().to_string().starts_with("byte 7: "), "{outside}");
+        }
+        assert_eq!(given.neighbours("asf"), [at("a/a.ASF"), at("a/b.asf")]);
+        let nowhere = Given { bytes: b"", path: None };
+        assert!(nowhere.neighbours("asf").is_empty());
+        let limit = Options { stream: StreamLimit { bytes: 3 }, ..Options::default() };
+        assert!(given.beside("data.bin", Place::Whole, &limit).is_err(), "more than may be read");
+    }
+}

@@ -83,3 +83,38 @@ fn listed(takes: &[Take]) -> String {
     }
     names.join(", ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn take(name: &str, moves: bool) -> Take {
+        Take { name: name.into(), seconds: 1.0, moves }
+    }
+
+    #[test]
+    fn the_first_take_that_moves_is_read_and_the_others_are_told() {
+        let all = [take("Bind", false), take("Walk", true), take("Run", true)];
+        let (at, warning) = choose(None, &all).unwrap().unwrap();
+        let warning = warning.unwrap().to_string();
+        assert_eq!(at, 1);
+        assert_eq!(
+            warning,
+            "the file has 3 takes, Bind, Walk, Run; Walk is read, --take NAME reads another [W_TAKES]"
+        );
+        assert_eq!(choose(Some("Run"), &all).unwrap(), Some((2, None)));
+        assert_eq!(choose(None, &all[..1]).unwrap(), Some((0, None)));
+        assert_eq!(choose(None, &[]).unwrap(), None);
+        let error = choose(Some("Rum"), &all).unwrap_err().to_string();
+        assert!(error.ends_with("there is Bind, Walk, Run; did you mean Run?"), "{error}");
+    }
+
+    #[test]
+    fn a_take_is_found_without_its_armature_where_only_one_is_called_so() {
+        let all = [take("Rig|Walk", true), take("Rig|Run", true), take("Cape|Run", true)];
+        let found = |name| choose(Some(name), &all).map(|found| found.map(|(at, _)| at));
+        assert_eq!(found("Walk").unwrap(), Some(0));
+        assert_eq!(found("Cape|Run").unwrap(), Some(2));
+        assert!(found("Run").unwrap_err().to_string().contains("there is no take \"Run\""));
+    }
+}
