@@ -348,7 +348,7 @@ impl Engine {
         }
         self.measure(recipe)?;
         let split = self.split.output().value();
-        let moving = self.moving.moving(split.len() > 1);
+        let moving = self.moving.outputs(split.len() > 1);
         let first = &mut self.layers[0];
         first.take(&moving, &split[0], &recipe.keys.weights)?;
         let (clip, speed) = (moving.clip, self.speed.output());
@@ -360,7 +360,7 @@ impl Engine {
     /// What was measured of the whole body, its layers, and their stages.
     fn layers(&mut self) -> (Measured<'_>, &[LayerJoints], &mut [LayerStages]) {
         let split = self.split.output().value();
-        let moving = self.moving.moving(split.len() > 1);
+        let moving = self.moving.outputs(split.len() > 1);
         let (filtered, turns) = (self.joints.filtered.output(), self.joints.turns.output());
         let measured = Measured { moving, filtered, turns };
         (measured, split, &mut self.layers[..split.len()])

@@ -77,16 +77,6 @@ struct Choosing {
     chosen: Stage<(), Chosen>,
 }
 
-impl Finding {
-    fn of(moving: &Moving<'_>, recipe: &Recipe) -> Self {
-        Self {
-            finder: recipe.turns.clone(),
-            delay: recipe.filter.delay(moving.clip.rate()),
-            apart: apart(moving, recipe),
-        }
-    }
-}
-
 /// What was found and decided for one layer.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerBreakdown<'a> {
@@ -131,7 +121,7 @@ impl LayerStages {
         self.turn(moving, recipe);
         if !recipe.keys.hears_joints() {
             self.gather(moving, None, recipe);
-            self.correct(moving, recipe, edits, apart(moving, recipe));
+            self.correct(moving, recipe, edits, moving.apart(recipe));
         }
     }
 
@@ -141,7 +131,7 @@ impl LayerStages {
         self.hear(measured);
         if recipe.keys.hears_joints() {
             self.gather(measured, Some(measured), recipe);
-            self.correct(measured, recipe, edits, apart(measured, recipe));
+            self.correct(measured, recipe, edits, measured.apart(recipe));
         }
         self.draw(measured, recipe, edits);
     }
@@ -212,7 +202,7 @@ impl LayerStages {
             BodySpeeds::over(before.map(|before| before.output), &tracks, filter)
         });
         let rate = moving.clip.rate();
-        let settings = (recipe.turns.persistence.frames(rate), apart(moving, recipe));
+        let settings = (recipe.turns.persistence.frames(rate), moving.apart(recipe));
         self.body.make((self.speeds.output(),), settings, |(speeds,), settings| {
             speeds.turns(settings.0, settings.1)
         });
@@ -431,11 +421,6 @@ impl LayerStages {
         let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
         Reconstruction::of(&self.motion.output().clip, &self.reference.output(), &keys)
     }
-}
-
-/// The least distance of two keys in frames: a koma.
-fn apart(moving: &Moving<'_>, recipe: &Recipe) -> f64 {
-    moving.clip.clock(recipe.rate).frames_in_koma()
 }
 
 /// A column under the name of its layer. A layer that is the whole body need not name its joints.

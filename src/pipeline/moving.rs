@@ -33,6 +33,13 @@ pub(super) struct Moving<'a> {
     pub(super) screen: Screen,
 }
 
+impl Moving<'_> {
+    /// The least distance of two keys in frames: a koma.
+    pub(super) fn apart(&self, recipe: &Recipe) -> f64 {
+        self.clip.clock(recipe.rate).frames_in_koma()
+    }
+}
+
 impl MovingStages {
     /// Exaggerates the motion where the recipe asks for it.
     pub(super) fn exaggerate(&mut self, clip: &Arc<Clip>, recipe: &Recipe) -> Result<(), Error> {
@@ -69,7 +76,7 @@ impl MovingStages {
     }
 
     /// What a layer is made of; `is_split` where it is one of several.
-    pub(super) fn moving(&self, is_split: bool) -> Moving<'_> {
+    pub(super) fn outputs(&self, is_split: bool) -> Moving<'_> {
         Moving {
             clip: self.drawn.output(),
             build: self.build.output(),

@@ -1,8 +1,10 @@
 //! Who of the joints has a say in a layer's keys, and how much it counts.
 
+use super::moving::Moving;
 use super::stage::Of;
 use crate::keys::{self, BodyTurns, JointTurns, LayerClip};
 use crate::motion::Clip;
+use crate::recipe::Recipe;
 use crate::signal::{Signals, Turn, TurnFinder};
 use crate::time::Frame;
 
@@ -39,6 +41,16 @@ pub(super) struct Finding {
     pub(super) finder: TurnFinder,
     pub(super) delay: f64,
     pub(super) apart: f64,
+}
+
+impl Finding {
+    pub(super) fn of(moving: &Moving<'_>, recipe: &Recipe) -> Self {
+        Self {
+            finder: recipe.turns.clone(),
+            delay: recipe.filter.delay(moving.clip.rate()),
+            apart: moving.apart(recipe),
+        }
+    }
 }
 
 /// What is known of the joints once their turns are found: smoothed speeds, turns, who has a say, turns as a

@@ -18,34 +18,38 @@ SHOWN, SHEET = 7, 0.2
 TAB_BELOW, TAB_BESIDE = {"VIEW_3D": 241, "DOPESHEET_EDITOR": 174}, 14
 
 
-def areas():
-    of = {area.type: area for area in bpy.context.window_manager.windows[0].screen.areas}
-    return of["VIEW_3D"], of["DOPESHEET_EDITOR"]
+def window():
+    return bpy.context.window_manager.windows[0]
 
 
-def inside(area, kind="WINDOW"):
-    window = bpy.context.window_manager.windows[0]
-    region = next(region for region in area.regions if region.type == kind)
-    return bpy.context.temp_override(window=window, screen=window.screen, area=area, region=region)
+def areas(kind):
+    return [area for area in window().screen.areas if area.type == kind]
+
+
+def area(kind):
+    return areas(kind)[0]
+
+
+def region(of, kind="WINDOW"):
+    return next(region for region in of.regions if region.type == kind)
+
+
+def inside(of):
+    return bpy.context.temp_override(window=window(), screen=window().screen, area=of, region=region(of))
 
 
 def close_others():
     """The 3-D view alone."""
-    window = bpy.context.window_manager.windows[0]
     for kind in ("OUTLINER", "PROPERTIES", "DOPESHEET_EDITOR"):
-        area = next(area for area in window.screen.areas if area.type == kind)
-        with bpy.context.temp_override(window=window, screen=window.screen, area=area):
+        with inside(area(kind)):
             bpy.ops.screen.area_close()
 
 
 def split():
     """The dope sheet below it."""
-    window = bpy.context.window_manager.windows[0]
-    view = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    with inside(view):
+    with inside(area("VIEW_3D")):
         bpy.ops.screen.area_split(direction="HORIZONTAL", factor=SHEET)
-    lowest = min((area for area in window.screen.areas if area.type == "VIEW_3D"), key=lambda area: area.y)
-    lowest.ui_type = "DOPESHEET"
+    min(areas("VIEW_3D"), key=lambda one: one.y).ui_type = "DOPESHEET"
 
 
 def mend():
@@ -65,11 +69,10 @@ def play():
     thing = rigs.active(rigs.armature())
     genga = addon.load()
     # All of the panel is to be seen.
-    genga.panel.Sampled.bl_options = set()
     for panel in genga.panel.PANELS:
         panel.bl_options = set()
     genga.register()
-    with inside(areas()[0]):
+    with inside(area("VIEW_3D")):
         bpy.ops.object.mode_set(mode="POSE")
         bpy.ops.pose.select_all(action="SELECT")
         bpy.ops.genga.find_keys()
@@ -78,10 +81,10 @@ def play():
 
 
 def look():
-    view, sheet = areas()
+    view, sheet = map(area, TAB_BELOW)
     sheet.spaces.active.mode = "ACTION"
-    for area in (view, sheet):
-        area.spaces.active.show_region_ui = True
+    for one in (view, sheet):
+        one.spaces.active.show_region_ui = True
     with inside(view):
         bpy.ops.view3d.view_axis(type="RIGHT")
         bpy.ops.view3d.view_selected()
@@ -90,11 +93,10 @@ def look():
 
 
 def tell():
-    high = bpy.context.window_manager.windows[0].height
     places = []
-    for area in areas():
-        side = next(region for region in area.regions if region.type == "UI")
-        x, y = side.x + side.width - TAB_BESIDE, high - side.y - side.height + TAB_BELOW[area.type]
+    for kind, below in TAB_BELOW.items():
+        side = region(area(kind), "UI")
+        x, y = side.x + side.width - TAB_BESIDE, window().height - side.y - side.height + below
         places.append(f"{x},{y}\n")
     whole = TABS.with_suffix(".part")
     whole.write_text("".join(places))
