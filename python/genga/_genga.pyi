@@ -193,7 +193,6 @@ def read(
     fps: Optional[float] = None,
     root: Optional[str] = None,
     take: Optional[str] = None,
-    sample_rate: Optional[float] = None,
     repair: bool = False,
     strict: bool = False,
     keep_lead_in: bool = False,

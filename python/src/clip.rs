@@ -231,9 +231,9 @@ pub enum Given<'py> {
 /// Reads a motion file of any format, from a path or from its bytes, as the program does. A T-pose put in front of the motion or behind it
 /// is left out unless `keep_lead_in`. Single frames that fly off are replaced, and ends at which the tracker comes from
 /// the origin are left out, unless `keep_glitches`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`,
-/// `root`, `take`, `sample_rate`, `repair` and `strict` are those of the program.
+/// `root`, `take`, `repair` and `strict` are those of the program.
 #[pyfunction]
-#[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, sample_rate=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
+#[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn read(
     py: Python<'_>,
@@ -242,7 +242,6 @@ pub fn read(
     fps: Option<f64>,
     root: Option<String>,
     take: Option<String>,
-    sample_rate: Option<f64>,
     repair: bool,
     strict: bool,
     keep_lead_in: bool,
@@ -251,9 +250,7 @@ pub fn read(
 ) -> PyResult<Clip> {
     let rate = |rate: Option<f64>| rate.map(FrameRate::new).transpose();
     let fps = rate(fps).map_err(|error| raised(py, error))?;
-    let sample_rate = rate(sample_rate).map_err(|error| raised(py, error))?;
-    let options =
-        file::Options { strict, repair, fps, root, take, sample_rate, ..file::Options::default() };
+    let options = file::Options { strict, repair, fps, root, take, ..file::Options::default() };
     let (path, bytes) = match source {
         Given::Path(path) => (Some(path), Vec::new()),
         // They are copied: the work goes on without the lock that keeps them in their place.

@@ -21,7 +21,7 @@ use crate::time::FrameRate;
 /// The clip, and which part of it.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ClipArgs {
-    /// The motion: BVH, FBX, glTF, GLB or VRM, known by its content; - is stdin.
+    /// The motion: BVH, FBX, glTF (GLB, VRM, VRMA), VMD or ASF/AMC, known by its content; - is stdin.
     #[arg(id = "clip", value_name = "CLIP")]
     pub(super) path: PathBuf,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub(super) struct Part {
 /// How a clip is read.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct Reading {
-    /// The frame rate, whatever the file says.
+    /// Frames a second, whatever the file says: rows are played at it, curves (FBX, glTF) sampled.
     #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
     fps: Option<FrameRate>,
     /// Of several trees of joints only the one whose root has this name.
@@ -53,9 +53,6 @@ pub(super) struct Reading {
     /// Of several takes in one file this one; inspect lists them.
     #[arg(long, value_name = "NAME")]
     take: Option<String>,
-    /// Frames a second at which curves are sampled, in place of the file's own: of formats that have curves.
-    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
-    sample_rate: Option<FrameRate>,
     /// The bones of a motion that has none: a model (.pmx, .pmd) of a VMD, the .asf of an AMC that does not lie beside it.
     #[arg(long, value_name = "FILE")]
     skeleton: Option<PathBuf>,
@@ -177,11 +174,9 @@ impl Reading {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, take, sample_rate, skeleton, repair, strict, memory, .. } =
-            self.clone();
+        let Self { fps, root, take, skeleton, repair, strict, memory, .. } = self.clone();
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
-        let options =
-            file::Options { strict, repair, fps, root, take, sample_rate, skeleton, stream };
+        let options = file::Options { strict, repair, fps, root, take, skeleton, stream };
         let read = if paths::is_stream(path) {
             options.read(&files::read_up_to(stream, path)?)
         } else {

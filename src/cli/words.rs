@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::deliver::STILL_LIMB;
 use crate::error::Warning;
 use crate::motion::bvh::warnings::FRAMES_MISMATCH;
+use crate::motion::file::KEY_FAR;
 use crate::plain::shown_lines;
 
 /// The program's voice.
@@ -90,10 +91,10 @@ impl Words {
     }
 }
 
-/// Whether something is missing: of a clip, whose file ends early, in the middle of a row or before its last; or of what
-/// is written, an arm or a leg.
+/// Whether something is missing: of a clip, whose file ends early, in the middle of a row or before its last, or has keys
+/// far behind the others; or of what is written, an arm or a leg.
 pub(super) fn is_loss(warning: &Warning) -> bool {
-    [FRAMES_MISMATCH, STILL_LIMB].contains(&warning.code)
+    [FRAMES_MISMATCH, KEY_FAR, STILL_LIMB].contains(&warning.code)
 }
 
 /// What is being done, or how much of it is; several threads may count.

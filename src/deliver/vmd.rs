@@ -432,7 +432,7 @@ fn notes(report: &VmdReport, found: &Found) -> Vec<Warning> {
         } else {
             let bones = found.by_shape.join(", ");
             format!(
-                "vmd: no joint is known by name to be {bones}: the shape of the body says which is"
+                "vmd: the shape of the body says which joints are {bones}: names do not, or do not fit it"
             )
         };
         notes.push(Warning::new("W_BY_SHAPE", message));

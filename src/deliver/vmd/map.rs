@@ -40,7 +40,7 @@ pub(super) struct Found {
     pub(super) dialect: String,
     /// Of each bone of the model its joints, from the body outward; none when it is not driven.
     pub(super) joints: Vec<Vec<JointId>>,
-    /// Bones whose joints no name says: the shape of the body does.
+    /// Bones whose joints no name says, or a wrong one: the shape of the body does.
     pub(super) by_shape: Vec<String>,
     /// Names in a person's own rows that no joint has.
     pub(super) missing: Vec<String>,
@@ -72,6 +72,12 @@ impl BoneMap {
     /// The names of the dialects, in the order in which they are asked.
     pub fn dialects(&self) -> impl Iterator<Item = &str> {
         self.dialects.iter().map(|dialect| &dialect.name[..])
+    }
+
+    /// What a dialect calls a bone, or the first of the joints that make it there.
+    pub(super) fn first_name(&self, dialect: &str, bone: &str) -> Option<&str> {
+        let dialect = self.dialects.iter().find(|own| own.name == dialect)?;
+        dialect.rows.get(bone)?.first().map(String::as_str)
     }
 
     fn take(&mut self, text: &str) -> Result<(), Error> {
@@ -106,14 +112,16 @@ impl BoneMap {
     }
 
     /// What a clip has of the dialect that names most of its bones, and of those most joints; where that leaves a
-    /// limb, the shape of the body says whose joints they are.
+    /// limb, or does not fit it, the shape of the body says whose joints they are.
     ///
     /// # Errors
     /// [`Error::Clip`] when no joint is known: the message names them and the way out.
     pub(super) fn of(&self, clip: &Clip) -> Result<Found, Error> {
         let mut found = self.find(clip.skeleton());
         let is_unknown = score(&found.joints) == (0, 0);
-        found.by_shape = structure::fill(&self.model, &mut found.joints, clip);
+        found.by_shape = structure::settle(&self.model, &mut found.joints, clip, |bone| {
+            self.own.contains_key(bone)
+        });
         if is_unknown && found.by_shape.is_empty() {
             return Err(unknown(clip.skeleton()));
         }

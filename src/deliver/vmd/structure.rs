@@ -1,7 +1,8 @@
 //! Which joints drive which bone by the shape of the body (体の構造): a thigh is a thigh whatever its name.
 //!
-//! The shape says where limbs, head and pelvis are. It does not say where a chest begins or which finger is which:
-//! there the names of a dialect decide, and what nobody named is shared out along the spine.
+//! The shape says where limbs, head and pelvis are. Names that fit it stand. Where they do not, or say a limb in part, the
+//! shape decides the limb. It does not say where a chest begins or which finger is which: there names decide, and what
+//! nobody named is shared out along the spine.
 
 use std::collections::HashSet;
 
@@ -15,63 +16,148 @@ type Row = (String, Vec<JointId>);
 pub(super) const LIMBS: [(&str, [&str; 3]); 2] =
     [("arm", ["腕", "ひじ", "手首"]), ("leg", ["足", "ひざ", "足首"])];
 
-/// Gives bones that no name drives the joints that the shape of the body has there. A joint drives one bone only, but for
-/// the root, which the centre shares with the pelvis.
+/// The collar bone of an arm.
+const COLLAR: &str = "肩";
+
+/// The two bones of the spine.
+const SPINE: [&str; 2] = ["上半身", "上半身2"];
+
+/// Brings the joints that names gave to bones together with the shape of the body. Rows that a person gave stand whatever
+/// they say. A joint drives one bone only, but for the root, which the centre shares with the pelvis.
 ///
-/// Of a limb that names know from the trunk to its middle nothing is taken: what else hangs there is a matter of
-/// the rig. Gives the bones that have joints now.
-pub(super) fn fill(model: &Model, joints: &mut [Vec<JointId>], clip: &Clip) -> Vec<String> {
-    let open: Vec<String> = wanted(model, joints);
-    if open.is_empty() {
-        return Vec::new();
-    }
+/// Gives the bones of which the shape says the joints.
+pub(super) fn settle(
+    model: &Model,
+    joints: &mut [Vec<JointId>],
+    clip: &Clip,
+    is_given: impl Fn(&str) -> bool,
+) -> Vec<String> {
     let Some(figure) = LayFigure::of(clip) else { return Vec::new() };
+    let skeleton = clip.skeleton();
+    let mut rows = rows(skeleton, &figure);
+    let named = joints.to_vec();
+    let open = open(model, &named, skeleton, &rows, is_given);
+    rows.retain(|(bone, _)| open.contains(bone));
+    let at = |bone: &str| model.find(bone);
+    open.iter().filter_map(|bone| at(bone)).for_each(|bone| joints[bone].clear());
     let mut taken: HashSet<usize> = joints.iter().flatten().map(|joint| joint.0).collect();
     taken.remove(&figure.root);
-    let mut filled = Vec::new();
-    for (bone, own) in rows(clip.skeleton(), &figure) {
-        let Some(at) = model.find(&bone).filter(|_| open.contains(&bone)) else { continue };
-        let free: Vec<JointId> = own.into_iter().filter(|own| !taken.contains(&own.0)).collect();
-        taken.extend(free.iter().map(|joint| joint.0).filter(|joint| *joint != figure.root));
-        filled.extend((!free.is_empty()).then_some(bone));
-        joints[at] = free;
+    take_limbs(joints, &rows, &at, &mut taken);
+    let mut by_shape = Vec::new();
+    for (bone, own) in rows {
+        let Some(at) = at(&bone) else { continue };
+        if !is_of_limb(&bone) {
+            let is_free = |joint: &JointId| !taken.contains(&joint.0);
+            joints[at] = own.into_iter().filter(is_free).collect();
+            let own = joints[at].iter().map(|joint| joint.0);
+            taken.extend(own.filter(|joint| *joint != figure.root));
+        }
+        let is_news = !joints[at].is_empty() && joints[at].first() != named[at].first();
+        by_shape.extend(is_news.then_some(bone));
     }
-    filled
+    by_shape
 }
 
-/// The limbs of which no bone is driven, in words: left arm.
+/// Gives limbs their joints before all else, and takes these from whatever names gave them to.
+fn take_limbs(
+    joints: &mut [Vec<JointId>],
+    rows: &[Row],
+    at: impl Fn(&str) -> Option<usize>,
+    taken: &mut HashSet<usize>,
+) {
+    let limbs = || rows.iter().filter(|(bone, _)| is_of_limb(bone));
+    let own: HashSet<usize> = limbs().flat_map(|(_, own)| own).map(|joint| joint.0).collect();
+    joints.iter_mut().for_each(|joints| joints.retain(|joint| !own.contains(&joint.0)));
+    for (bone, own) in limbs() {
+        at(bone).into_iter().for_each(|bone| joints[bone].clone_from(own));
+    }
+    taken.extend(own);
+}
+
+fn is_of_limb(bone: &str) -> bool {
+    let stem = bone.trim_start_matches(['左', '右']);
+    LIMBS.iter().any(|(_, bones)| bones.contains(&stem))
+}
+
+/// The limbs whose bone at the trunk is not driven, in words: left arm.
 pub(super) fn still_limbs(drives: impl Fn(&str) -> bool) -> Vec<String> {
     let limbs = LIMBS
         .iter()
         .flat_map(|(limb, bones)| Side::BOTH.map(|side| (side, *limb, bones)).into_iter());
-    let is_still = |side: Side, bones: &[&str; 3]| {
-        // A limb of one bone that turns is a limb that moves.
-        bones.iter().all(|bone| !drives(&side.named(bone)))
-    };
-    let still = limbs.filter(|(side, _, bones)| is_still(*side, bones));
+    // A limb of one bone that turns is a limb that moves; one of which only the end turns is not.
+    let still = limbs.filter(|(side, _, bones)| !drives(&side.named(bones[0])));
     still.map(|(side, limb, _)| format!("{} {limb}", side.english())).collect()
 }
 
-/// Bones that are to be filled: those without a joint, but for a limb whose upper and middle bone have theirs.
-fn wanted(model: &Model, joints: &[Vec<JointId>]) -> Vec<String> {
-    let is_driven = |bone: &str| model.find(bone).is_some_and(|bone| !joints[bone].is_empty());
-    let mut wanted = Vec::new();
-    let known = |side: Side, [upper, middle, _]: [&str; 3]| {
-        is_driven(&side.named(upper)) && is_driven(&side.named(middle))
-    };
+/// The bones of which the shape is to say the joints: those that names leave, and of limbs that they say in part or
+/// against the shape all.
+fn open(
+    model: &Model,
+    named: &[Vec<JointId>],
+    skeleton: &Skeleton,
+    rows: &[Row],
+    is_given: impl Fn(&str) -> bool,
+) -> Vec<String> {
+    let by_name = |bone: &str| named[model.find(bone)?].first().copied();
+    let by_shape = |bone: &str| rows.iter().find(|(own, _)| own == bone)?.1.first().copied();
+    let mut open = Vec::new();
     for side in Side::BOTH {
-        for (limb, bones) in LIMBS.iter().filter(|(_, bones)| !known(side, *bones)) {
-            wanted.extend(bones.map(|bone| side.named(bone)));
-            wanted.extend((*limb == "arm").then(|| side.named("肩")));
+        for (limb, bones) in LIMBS {
+            let bones = bones.map(|bone| side.named(bone));
+            let names = bones.each_ref().map(|bone| by_name(bone));
+            let shape = bones.each_ref().map(|bone| by_shape(bone));
+            if bones.iter().any(|bone| is_given(bone)) || fits(skeleton, names, shape) {
+                continue;
+            }
+            let collar = side.named(COLLAR);
+            let is_above =
+                |joint: JointId| shape[0].is_some_and(|arm| carries(skeleton, joint, arm));
+            let is_known = is_given(&collar) || by_name(&collar).is_some_and(is_above);
+            open.extend((limb == "arm" && !is_known).then_some(collar));
+            open.extend(bones);
         }
     }
-    let spine = ["上半身", "上半身2"];
-    if !spine.iter().any(|bone| is_driven(bone)) {
-        wanted.extend(spine.map(str::to_owned));
+    // Where a chest begins only names say. A chest without a spine below it is the whole spine, and is shared out.
+    let has_spine = by_name(SPINE[0]).is_some() || SPINE.iter().any(|bone| is_given(bone));
+    open.extend(SPINE.iter().filter(|_| !has_spine).map(|bone| (*bone).to_owned()));
+    let unnamed = |bone: &String| by_name(bone).is_none() && !is_given(bone);
+    open.extend(["センター", "下半身", "首", "頭"].map(str::to_owned).into_iter().filter(unnamed));
+    open
+}
+
+/// Whether joints can be a limb: they hang on one another, and they end where the shape has an end. Where a hand is so
+/// large that the shape finds another end, those joints are believed whose two bones are more alike in length.
+fn fits(skeleton: &Skeleton, names: [Option<JointId>; 3], shape: [Option<JointId>; 3]) -> bool {
+    let [Some(upper), Some(middle), lower] = names else { return false };
+    match lower {
+        None => carries(skeleton, upper, middle),
+        Some(_) => match (evenness(skeleton, names), evenness(skeleton, shape)) {
+            (None, _) => false,
+            (Some(_), None) => true,
+            (Some(named), Some(shaped)) => lower == shape[2] || named >= shaped,
+        },
     }
-    wanted.extend(["センター", "下半身", "首", "頭"].map(str::to_owned));
-    wanted.retain(|bone| !is_driven(bone));
-    wanted
+}
+
+/// How alike the two bones of a limb are, up to 1; none where its joints do not hang on one another.
+fn evenness(skeleton: &Skeleton, limb: [Option<JointId>; 3]) -> Option<f64> {
+    let [Some(upper), Some(middle), Some(lower)] = limb else { return None };
+    let (first, second) = (way(skeleton, upper, middle)?, way(skeleton, middle, lower)?);
+    Some(first.min(second) / first.max(second).max(f64::MIN_POSITIVE))
+}
+
+fn carries(skeleton: &Skeleton, upper: JointId, lower: JointId) -> bool {
+    way(skeleton, upper, lower).is_some()
+}
+
+/// How far it is along the bones from a joint to one that hangs on it, whether or not directly.
+fn way(skeleton: &Skeleton, from: JointId, to: JointId) -> Option<f64> {
+    let (mut at, mut long) = (to, 0.0);
+    while at != from {
+        long += skeleton.joints[at.0].offset.length();
+        at = skeleton.joints[at.0].parent?;
+    }
+    (from != to).then_some(long)
 }
 
 /// The joints of each bone as the shape has them.
@@ -93,13 +179,13 @@ fn rows(skeleton: &Skeleton, figure: &LayFigure) -> Vec<Row> {
     let mut rows = vec![
         of("センター", vec![JointId(root)]),
         of("下半身", vec![JointId(root)]),
-        of("上半身", spine),
-        of("上半身2", upper),
+        of(SPINE[0], spine),
+        of(SPINE[1], upper),
         of("首", between(chest, head)),
         of("頭", vec![JointId(head)]),
     ];
     for (at, side) in Side::BOTH.into_iter().enumerate() {
-        rows.push((side.named("肩"), between(chest, figure.arms[at][0])));
+        rows.push((side.named(COLLAR), between(chest, figure.arms[at][0])));
         for ((_, bones), limb) in LIMBS.iter().zip([figure.arms[at], figure.legs[at]]) {
             let mut joints = limb[..3].to_vec();
             // A limb without a middle ends there twice.

@@ -83,7 +83,7 @@ pub(in crate::deliver) fn notes(clip: &Clip, map: Option<&BoneMap>) -> Result<Ve
         (bones, false) => {
             let bones: Vec<&str> = bones.iter().filter_map(|bone| vrm_name(bone)).collect();
             format!(
-                "vrma: the shape of the body says which joints are {}: no name does",
+                "vrma: the shape of the body says which joints are {}: names do not, or do not fit it",
                 bones.join(", ")
             )
         }

@@ -57,6 +57,7 @@ pub(super) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
             "this is a skeleton (.asf) without a motion: give the .amc of a take; it finds the .asf beside it",
         ));
     }
+    Amc::check(&text(given.bytes))?;
     let (name, skeleton) = match &options.skeleton {
         Some(path) => (path.display().to_string(), opened(path, options)?),
         None => {

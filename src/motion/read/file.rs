@@ -18,6 +18,7 @@ use std::path::Path;
 use crate::error::{Error, Place, Warning};
 use crate::motion::{StreamLimit, bytes_in_words};
 
+pub(crate) use super::rates::KEY_FAR;
 pub use super::reading::{Found, Given, Options, Read, TAKES, Take};
 pub use formats::{FORMATS, Format};
 
@@ -58,7 +59,9 @@ impl Options {
         let format = Format::of(&bytes, Some(path));
         self.check(format)?;
         if format.is_native() {
-            return Ok(self.for_bvh().open(path)?.into());
+            let read = self.for_bvh().open(path)?.into();
+            self.check_take(&[])?;
+            return Ok(read);
         }
         if about.len() > self.stream.bytes {
             return Err(too_large(format, about.len(), self.stream));
@@ -86,13 +89,6 @@ impl Options {
 
     /// Refuses what a format cannot have.
     fn check(&self, format: &Format) -> Result<(), Error> {
-        if self.sample_rate.is_some() && !format.has_curves {
-            let message = format!(
-                "{} has a row a frame, and no curves to sample; --fps gives its frames another rate",
-                format.name
-            );
-            return Err(Error::setting("sample-rate", message));
-        }
         if self.skeleton.is_some() && !format.has_skeleton_file {
             let message =
                 format!("{} has its bones itself, and takes none of another file", format.name);
@@ -102,6 +98,10 @@ impl Options {
     }
 
     fn read_as(&self, format: &Format, given: &Given<'_>) -> Result<Read, Error> {
+        if given.bytes.is_empty() && !format.is_native() {
+            let message = format!("the file is empty; expected {}", format.name);
+            return Err(Error::Motion { place: Place::Whole, message });
+        }
         let mut read = (format.read)(given, self)?;
         self.check_take(&read.takes)?;
         if format.is_native() {
@@ -111,7 +111,7 @@ impl Options {
             let message = format!("{message} [{code}]");
             return Err(Error::Motion { place: Place::Whole, message });
         }
-        if let Some(fps) = self.fps {
+        if let Some(fps) = self.fps.filter(|_| !format.has_curves) {
             read.clip = read.clip.with_rate(fps);
         }
         let words: Vec<&str> = read.found.iter().map(|found| found.is.as_str()).collect();

@@ -48,12 +48,13 @@ pub(crate) fn is_motion(head: &[u8]) -> bool {
 /// Reads a motion, on the bones of the model that [`Options::skeleton`] names.
 ///
 /// # Errors
-/// [`Error::Motion`] with the byte, where it is no motion, ends early or has no bones; [`Error::Model`] where the model is
-/// none.
+/// [`Error::Motion`] with the byte, where it is no motion, ends early or has no bones, and where the skeleton has none of
+/// those it has; with the model's path and the byte, where the model is none.
 pub(super) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> {
     let motion = Motion::read(given.bytes)?;
     let model = options.skeleton.as_deref().map(|path| opened(path, options)).transpose()?;
     let rig = Rig::of(&motion, model.as_ref());
+    check(&motion, &rig, model.as_ref())?;
     let rate = FrameRate::new(RATE)?;
     let clip = played::clip(&motion, &rig, rate, options.stream.bytes)?;
     let mut found = vec![
@@ -67,7 +68,8 @@ pub(super) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
     found.extend(
         motion.left_out.iter().map(|what| Found::new("without", format!("without {what}"))),
     );
-    Ok(Read { clip, warnings: strangers(&rig), written_frame_time: None, found, takes: Vec::new() })
+    let warnings = motion.far.into_iter().chain(strangers(&rig)).collect();
+    Ok(Read { clip, warnings, written_frame_time: None, found, takes: Vec::new() })
 }
 
 /// The frames on which a bone of the body has a key, each once and in order: what an animator set.
@@ -87,7 +89,14 @@ pub(crate) fn key_frames(bytes: &[u8]) -> Result<Vec<u32>, Error> {
 fn opened(path: &Path, options: &Options) -> Result<MmdModel, Error> {
     let failed = |source| Error::Io { path: path.to_owned(), source };
     let file = std::fs::File::open(path).map_err(failed)?;
-    MmdModel::read(&options.stream.read(file).map_err(failed)?)
+    let read = MmdModel::read(&options.stream.read(file).map_err(failed)?);
+    read.map_err(|error| match error {
+        Error::Model { byte, message } => {
+            let place = Place::Part(format!("{}:byte {byte}", path.display()));
+            Error::Motion { place, message }
+        }
+        other => other,
+    })
 }
 
 fn skeleton(model: Option<&MmdModel>) -> String {
@@ -99,16 +108,39 @@ fn skeleton(model: Option<&MmdModel>) -> String {
     }
 }
 
+/// Refuses a motion of which the skeleton has no bone: it would be a figure that stands still.
+fn check(motion: &Motion, rig: &Rig, model: Option<&MmdModel>) -> Result<(), Error> {
+    if rig.bones.iter().any(|bone| !bone.keys.is_empty()) {
+        return Ok(());
+    }
+    let names = listed(&rig.strangers);
+    let message = match model {
+        Some(model) => format!(
+            "the model {} has none of the bones that are keyed ({names}): is it another model's motion, for {}?",
+            model.name, motion.model
+        ),
+        None => format!(
+            "none of the keyed bones is one of MMD's standard ones ({names}): give the model that the motion is for, \
+             with --skeleton MODEL.pmx"
+        ),
+    };
+    Err(Error::Motion { place: Place::Whole, message })
+}
+
 /// Which keyed bones are not there.
-fn strangers(rig: &Rig) -> Vec<Warning> {
+fn strangers(rig: &Rig) -> Option<Warning> {
     let names = &rig.strangers;
-    let more = if names.len() > MOST { ", …" } else { "" };
-    let shown = names[..names.len().min(MOST)].join(", ");
     let message = format!(
-        "{} keyed bones are none that the skeleton has, and are left out: {shown}{more}",
-        names.len()
+        "{} keyed bones are none that the skeleton has, and are left out: {}",
+        names.len(),
+        listed(names)
     );
-    (!names.is_empty()).then(|| Warning::new(BONES, message)).into_iter().collect()
+    (!names.is_empty()).then(|| Warning::new(BONES, message))
+}
+
+fn listed(names: &[String]) -> String {
+    let more = if names.len() > MOST { ", …" } else { "" };
+    format!("{}{more}", names[..names.len().min(MOST)].join(", "))
 }
 
 fn damaged(byte: usize, message: impl Into<String>) -> Error {

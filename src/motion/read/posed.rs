@@ -70,8 +70,8 @@ impl Posed {
     /// `options.root`.
     ///
     /// # Errors
-    /// [`Error::Motion`] when there is no bone, or more poses than memory is allowed for; [`Error::Setting`] when no
-    /// tree has that root.
+    /// [`Error::Motion`] when there is no bone, or more poses than memory is allowed for, and where a bone stands nowhere;
+    /// [`Error::Setting`] when no tree has that root.
     pub(super) fn of(
         mut bones: Vec<Bone>,
         frames: usize,
@@ -89,6 +89,9 @@ impl Posed {
         for frame in 0..frames {
             stand(frame, &mut world);
             for (at, bone) in bones.iter().enumerate() {
+                if !world[at].is_finite() {
+                    return Err(nowhere(&bone.name, frame));
+                }
                 let Stand { place, turn } = Stand::of(&world[at]);
                 turned[at] = Stand { place, turn: turn * bone.rest.turn.conjugate() };
                 if kept[at] {
@@ -236,6 +239,11 @@ pub(super) fn join(
     }
 }
 
+fn nowhere(name: &str, frame: usize) -> Error {
+    let place = Place::Part(format!("joint {name}, frame {frame}"));
+    Error::Motion { place, message: "a curve that moves it has a value that is no number".into() }
+}
+
 fn check_size(bones: usize, frames: usize, options: &Options) -> Result<(), Error> {
     let wrong = |message: String| Err(Error::Motion { place: Place::Whole, message });
     if bones == 0 || frames == 0 {
@@ -247,7 +255,7 @@ fn check_size(bones: usize, frames: usize, options: &Options) -> Result<(), Erro
         return Ok(());
     }
     wrong(format!(
-        "{bones} joints in {frames} frames are more than is taken into memory; --sample-rate takes fewer frames, \
+        "{bones} joints in {frames} frames are more than is taken into memory; a lower --fps takes fewer, \
          --memory GIB allows more"
     ))
 }

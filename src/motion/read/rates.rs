@@ -1,12 +1,26 @@
-//! The rate that keys of curves mean, whose format has seconds alone.
+//! The rate that keys of curves mean, whose format has seconds alone, and how far they belong together.
 
+use crate::error::{Error, Place, Warning};
 use crate::time::{FrameRate, USUAL_RATES};
+
+/// Keys lie closer together than the frames that are read.
+pub(super) const KEYS_FINER: &str = "W_KEYS_FINER";
+
+/// A key stands so far behind the others that no motion has it.
+pub(crate) const KEY_FAR: &str = "W_KEY_FAR";
 
 /// How far from a whole frame a key may stand, in frames: some programs write milliseconds.
 const NEAR: f64 = 0.02;
 
 /// Keys that are looked at: more tell nothing new.
 const MOST: usize = 100_000;
+
+/// The lowest rate of keys that mean none.
+const OTHERWISE: f64 = 60.0;
+
+/// Seconds in which no motion is without a key: a key behind so long a gap is a mistake, and every frame before it would
+/// cost time and memory.
+pub(super) const GAP: f64 = 1200.0;
 
 /// The lowest usual rate that has a frame at every key, counted from the first. Whole rates come first: a short take
 /// at 24 also fits 23.976. `None` where no usual rate does.
@@ -22,6 +36,55 @@ pub(super) fn of_keys(times: &[f64]) -> Option<FrameRate> {
         USUAL_RATES.iter().partition(|rate| rate.fract() == 0.0);
     let rate = whole.into_iter().chain(broken).find(|rate| fits(*rate))?;
     FrameRate::new(rate).ok()
+}
+
+/// The rate of keys that mean none: the lowest usual one at which hardly a key is passed over, of 60 at least. Instants
+/// are sorted, each once.
+pub(super) fn otherwise(times: &[f64]) -> Result<FrameRate, Error> {
+    let dense = density(times).unwrap_or(OTHERWISE);
+    let enough = |rate: &f64| *rate >= OTHERWISE && *rate >= (1.0 - NEAR) * dense;
+    let highest = USUAL_RATES[USUAL_RATES.len() - 1];
+    FrameRate::new(USUAL_RATES.into_iter().find(enough).unwrap_or(highest))
+}
+
+/// Says that keys lie closer together than the frames of a rate: half of them stand nearer to one another.
+pub(super) fn finer(times: &[f64], rate: FrameRate) -> Option<Warning> {
+    let dense = density(times).filter(|dense| (1.0 - NEAR) * dense > rate.fps())?;
+    let message = format!(
+        "{rate} frames a second are read and most keys lie {dense:.0} a second; --fps {dense:.0} reads them all"
+    );
+    Some(Warning::new(KEYS_FINER, message))
+}
+
+/// How many keys a second there are where most of them stand.
+fn density(times: &[f64]) -> Option<f64> {
+    let mut gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    gaps.sort_by(f64::total_cmp);
+    gaps.get(gaps.len() / 2).map(|gap| 1.0 / gap).filter(|dense| dense.is_finite())
+}
+
+/// How many of some instants belong to one motion: those before a gap that none has. Instants are sorted.
+pub(super) fn together(times: &[f64]) -> usize {
+    let gap = times.windows(2).position(|pair| pair[1] - pair[0] > GAP);
+    gap.map_or(times.len(), |before| before + 1)
+}
+
+/// Says that what stands `at` an instant is behind such a gap, and that the motion is read up to the instant `end`.
+///
+/// # Errors
+/// [`Error::Motion`] at `place` where nothing else is left than one instant.
+pub(super) fn far(left: usize, at: &str, end: &str, place: Place) -> Result<Warning, Error> {
+    let minutes = GAP / 60.0;
+    if left < 2 {
+        let message = format!(
+            "there is no key between {end} and {at}: no motion goes on for {minutes} minutes without one"
+        );
+        return Err(Error::Motion { place, message });
+    }
+    let message = format!(
+        "a key stands at {at}, more than {minutes} minutes behind the one before it: the motion is read up to {end}"
+    );
+    Ok(Warning::new(KEY_FAR, message))
 }
 
 /// How many frames of a rate there are from one instant to another, both among them.
@@ -51,6 +114,31 @@ mod tests {
         assert_eq!(rate(&[0.0, 0.0333, 0.0667, 0.1]), Some(30.0), "written as milliseconds");
         assert_eq!(rate(&[0.0, 0.013, 0.029]), None);
         assert_eq!(rate(&[]), None);
+    }
+
+    #[test]
+    fn keys_that_mean_no_rate_are_sampled_as_close_as_they_lie() {
+        let rate = |times: &[f64]| otherwise(times).unwrap().fps();
+        let (coarse, fine, finest) = (keys(17.3, 1, 99), keys(144.0, 1, 99), keys(1000.0, 1, 99));
+        assert_eq!([rate(&coarse), rate(&fine), rate(&finest)], [60.0, 240.0, 240.0]);
+        assert_eq!(rate(&keys(75.0, 1, 99)), 90.0);
+        assert_eq!([rate(&[]), rate(&[1.0])], [60.0; 2]);
+        let told = |times: &[f64], rate: f64| finer(times, FrameRate::new(rate).unwrap());
+        assert_eq!(told(&fine, 240.0), None);
+        assert_eq!(told(&keys(60.0, 1, 99), 60.0), None);
+        let told = told(&finest, 240.0).unwrap().to_string();
+        assert!(told.contains("most keys lie 1000 a second; --fps 1000"), "{told}");
+    }
+
+    #[test]
+    fn a_key_behind_a_gap_that_no_motion_has_is_not_of_it() {
+        assert_eq!(together(&[0.0, 1.0, 1201.0, 1202.0]), 4);
+        assert_eq!(together(&[0.0, 1.0, 1202.0, 1203.0]), 2);
+        assert_eq!(together(&[5000.0]), 1);
+        assert_eq!(together(&[]), 0);
+        let told = |left| far(left, "2 s", "1 s", Place::Whole);
+        assert_eq!(told(2).unwrap().code, KEY_FAR);
+        assert!(told(1).is_err(), "a pose and no motion");
     }
 
     #[test]

@@ -20,15 +20,13 @@ pub struct Options {
     pub strict: bool,
     /// Holds the value before one that is no number: of a BVH. Default: false, an error.
     pub repair: bool,
-    /// The rate, whatever the file says: the frames stay, they are shown slower or faster. Default: none, the file's.
+    /// Frames a second, whatever the file says. Rows stay and are shown slower or faster; curves are sampled at it, and
+    /// what is between the samples is lost. Default: none, the file's.
     pub fps: Option<FrameRate>,
     /// The root of the one tree of joints to read. Default: none, all trees.
     pub root: Option<String>,
     /// The take to read, of a file that has several. Default: none, the first in which a joint moves.
     pub take: Option<String>,
-    /// Frames a second at which curves are sampled. Default: none, the file's own rate. Lowered, what is between
-    /// the samples is lost.
-    pub sample_rate: Option<FrameRate>,
     /// The file that has the bones, of a format whose motions have none: a model of MMD (`.pmx`, `.pmd`) for a VMD, an
     /// `.asf` for an AMC. Default: none, a figure of usual proportions, and the `.asf` that lies beside it.
     pub skeleton: Option<PathBuf>,

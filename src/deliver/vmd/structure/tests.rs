@@ -82,6 +82,94 @@ fn of_a_limb_that_one_name_is_missing_of_the_shape_gives_it() {
     assert_eq!(driven(&odd), driven(&clip));
 }
 
+/// The clip of a body with its arms out and its legs by usual names, under other ones.
+fn called(names: &[(&str, &str)]) -> (Clip, Clip) {
+    let (_, bytes) = real_clips().into_iter().find(|(name, _)| name.starts_with("cmu-05")).unwrap();
+    let clip = bvh::read(&bytes).unwrap().clip;
+    let other = renamed(&clip, |_, joint| {
+        let own = names.iter().find(|(name, _)| *name == joint.name);
+        own.map_or(joint.name.clone(), |(_, name)| (*name).into())
+    });
+    (clip, other)
+}
+
+#[test]
+fn names_that_do_not_fit_the_body_give_way_to_its_shape() {
+    // Each a joint too far in, as where a hip joint is called the thigh; ankles called as toes are elsewhere.
+    let (clip, inward) = called(&[
+        ("LHipJoint", "x"),
+        ("LeftUpLeg", "LeftLeg"),
+        ("LeftLeg", "LeftFoot"),
+        ("LeftFoot", "LeftToeBase"),
+        ("LeftToeBase", "y"),
+    ]);
+    assert_eq!(driven(&inward), driven(&clip));
+    let by_shape = BoneMap::default().of(&inward).unwrap().by_shape;
+    assert_eq!(by_shape, ["左足", "左ひざ", "左足首"]);
+    let (_, outward) = called(&[
+        ("RightUpLeg", "z"),
+        ("RightLeg", "RightUpLeg"),
+        ("RightFoot", "RightLeg"),
+        ("RightToeBase", "RightFoot"),
+    ]);
+    assert_eq!(driven(&outward), driven(&clip));
+    // Thigh and shin in each other's place do not hang on one another.
+    let (_, swapped) = called(&[("LeftArm", "LeftForeArm"), ("LeftForeArm", "LeftArm")]);
+    assert_eq!(driven(&swapped), driven(&clip));
+    let own = BoneMap::parse("[bones]\n\"左足\" = \"LeftLeg\"\n").unwrap();
+    let found = own.of(&inward).unwrap();
+    let knee = own.model.find("左足").unwrap();
+    assert_eq!(
+        found.joints[knee],
+        [inward.skeleton().find("LeftLeg").unwrap()],
+        "a person's row stands"
+    );
+}
+
+#[test]
+fn the_ankle_of_smpl_is_no_foot_and_its_first_spine_no_chest() {
+    let (clip, smpl) = called(&[
+        ("Hips", "Pelvis"),
+        ("LeftUpLeg", "L_Hip"),
+        ("LeftLeg", "L_Knee"),
+        ("LeftFoot", "L_Ankle"),
+        ("LeftToeBase", "L_Foot"),
+        ("LowerBack", "Spine1"),
+        ("Spine", "Spine2"),
+        ("Spine1", "Spine3"),
+    ]);
+    let joint = |bone: &str| {
+        let bones = driven(&smpl).into_iter().find(|(name, _)| name == bone).unwrap().1;
+        bones.iter().map(|joint| smpl.skeleton().joints[joint.0].name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(joint("左足首"), ["L_Ankle"]);
+    assert_eq!([joint("上半身"), joint("上半身2")].concat(), ["Spine1", "Spine2", "Spine3"]);
+    assert!(!joint("上半身").is_empty() && !joint("上半身2").is_empty());
+    let sheet = Sheet::on_ones(clip.clock(24.0), 3);
+    assert!(crate::deliver::vmd::vrma::write(&smpl, &sheet, None).is_ok());
+}
+
+#[test]
+fn a_vrm_keeps_its_fingers() {
+    let names = ["Hips", "LeftHand", "LeftHandIndex1", "LThumb"];
+    let vrm = ["hips", "leftHand", "leftIndexProximal", "leftThumbMetacarpal"];
+    let mut others: Vec<(&str, &str)> = names.into_iter().zip(vrm).collect();
+    others.extend([("LeftArm", "leftUpperArm"), ("LeftForeArm", "leftLowerArm")]);
+    others.extend([
+        ("LeftUpLeg", "leftUpperLeg"),
+        ("LeftLeg", "leftLowerLeg"),
+        ("LeftFoot", "leftFoot"),
+    ]);
+    others.extend([("RightArm", "rightUpperArm"), ("RightForeArm", "rightLowerArm")]);
+    let (_, clip) = called(&others);
+    let found = BoneMap::default().of(&clip).unwrap();
+    assert_eq!(found.dialect, "vrm");
+    let bones = driven(&clip);
+    for bone in ["左人指１", "左親指０", "左手首"] {
+        assert!(bones.iter().any(|(name, joints)| name == bone && joints.len() == 1), "{bone}");
+    }
+}
+
 /// mocopi's 27 joints. No file of it is at hand: its names stand on a clip of another system, whose trunk and neck are given as
 /// many joints as mocopi has. What this shows is the table, not mocopi's own way to turn joints.
 #[test]
@@ -130,7 +218,9 @@ fn mocopi_has_arms_and_legs() {
 }
 
 #[test]
-fn a_body_without_arms_is_told_as_a_loss() {
+fn a_limb_whose_upper_bone_is_not_known_is_told_as_a_loss() {
     let still = still_limbs(|bone| bone.starts_with("左足"));
     assert_eq!(still, ["left arm", "right arm", "right leg"]);
+    let still = still_limbs(|bone| ["腕", "足首"].iter().any(|end| bone.ends_with(end)));
+    assert_eq!(still, ["left leg", "right leg"], "a foot alone is no leg");
 }

@@ -45,6 +45,18 @@ struct Reader<'a> {
 }
 
 impl Amc {
+    /// Refuses a text that does not begin as a motion, before anybody looks for its skeleton.
+    ///
+    /// # Errors
+    /// [`Error::Motion`] with line and column.
+    pub(super) fn check(text: &str) -> Result<(), Error> {
+        let first = lines(text).next().ok_or_else(no_frame)?.first();
+        if first.text.starts_with(':') || is_frame(&first) {
+            return Ok(());
+        }
+        Err(first.instead_of(":FULLY-SPECIFIED or the number of the first frame"))
+    }
+
     /// Reads the text of a motion of that skeleton.
     ///
     /// # Errors
@@ -79,14 +91,22 @@ impl Amc {
     }
 }
 
+/// Whether a word is the number of a frame.
+fn is_frame(word: &Word<'_>) -> bool {
+    word.text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+fn no_frame() -> Error {
+    Word { text: "", line: 1, column: 1 }.wrong("there is no frame in this motion")
+}
+
 impl<'a> Reader<'a> {
     fn line(&mut self, line: &Line<'a>) -> Result<(), Error> {
         let first = line.first();
         if first.text.starts_with(':') {
             return self.says(line);
         }
-        let mut words = line.words();
-        if first.text.bytes().all(|byte| byte.is_ascii_digit()) && words.nth(1).is_none() {
+        if is_frame(&first) && line.words().nth(1).is_none() {
             return self.begin(first);
         }
         self.bone(line)
@@ -174,9 +194,7 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self) -> Result<Amc, Error> {
         let Some(begin) = self.begin else {
-            return Err(
-                Word { text: "", line: 1, column: 1 }.wrong("there is no frame in this motion")
-            );
+            return Err(no_frame());
         };
         if self.seen < self.free {
             // A file that ends early: what is whole is good.

@@ -263,6 +263,23 @@ fn markers_are_refused_in_a_sentence() {
     assert!(trc.starts_with("these are the paths of markers and no skeleton") && trc == c3d);
 }
 
+#[test]
+fn what_is_no_motion_is_said_before_a_skeleton_is_asked_for() {
+    let said = |bytes: &[u8]| {
+        let path = Path::new("somewhere/walk.amc");
+        let given = Given { bytes, path: Some(path) };
+        read(&given, &Options::default()).unwrap_err().to_string()
+    };
+    assert_eq!(said(b"# nothing\n"), "1:1: there is no frame in this motion");
+    let text = said(b"# a letter\n\n Dear all,\n");
+    assert_eq!(
+        text,
+        "3:2: expected :FULLY-SPECIFIED or the number of the first frame, found \"Dear\""
+    );
+    assert!(said(b":DEGREES\n1\n").starts_with("this motion needs its skeleton"));
+    assert!(said(b"1\nroot 0 0 0\n").starts_with("this motion needs its skeleton"));
+}
+
 /// CMU's own take 05_11 beside the same as BVH: `GENGA_CMU` is a folder with `pirouette.amc` and `pirouette.asf`.
 #[test]
 #[ignore = "needs files of CMU that are not ours to give"]

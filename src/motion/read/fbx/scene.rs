@@ -15,9 +15,6 @@ use crate::motion::read::rates;
 use crate::motion::read::reading::{Found, Given, Options, Read};
 use crate::time::FrameRate;
 
-/// Keys lie closer together than the frames of the scene.
-const KEYS_FINER: &str = "W_KEYS_FINER";
-
 /// Bytes after which ufbx says how far it has read.
 const STEP: u64 = 4096;
 
@@ -35,8 +32,8 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let stack = &scene.anim_stacks[at];
     let curves = Curves::of(&scene, stack);
     let own = own_rate(&scene, stack)?;
-    let rate = options.sample_rate.unwrap_or(own);
-    let (begin, end) = curves.range(stack);
+    let rate = options.fps.unwrap_or(own);
+    let ((begin, end), far) = curves.whole(stack).map_err(|error| of_take(error, stack))?;
     let frames = rates::frames(end - begin, rate);
     let joints = joints(&scene, &curves);
     let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
@@ -48,9 +45,10 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let (clip, named) = Posed::of(bones(&scene, &joints), frames, options, stand)
         .and_then(|posed| posed.clip(rate))
         .map_err(|error| of_take(error, stack))?;
-    let mut warnings: Vec<Warning> = told.into_iter().chain(named).collect();
-    warnings.extend(finer(&curves, rate).filter(|_| options.sample_rate.is_none()));
-    let found = found(&scene, stack, rate);
+    let mut warnings: Vec<Warning> = told.into_iter().chain(named).chain(far).collect();
+    warnings.extend(finer(&curves, rate).filter(|_| options.fps.is_none()));
+    let mut found = found(&scene, stack, rate);
+    found.extend(left_out(&scene));
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })
 }
 
@@ -104,7 +102,7 @@ fn of_take(error: Error, stack: &AnimStack) -> Error {
 fn own_rate(scene: &Scene, stack: &AnimStack) -> Result<FrameRate, Error> {
     let fps = scene.settings.frames_per_second;
     FrameRate::from_frame_time(1.0 / fps).map_err(|_| {
-        let message = format!("{fps} frames a second are no rate; --sample-rate gives one");
+        let message = format!("{fps} frames a second are no rate; --fps N gives one");
         of_take(Error::Motion { place: Place::Whole, message }, stack)
     })
 }
@@ -231,9 +229,9 @@ fn finer(curves: &Curves<'_>, rate: FrameRate) -> Option<Warning> {
     // Keys on half a frame of a lower rate also fit a rate that nothing has.
     (keys.fps() > 1.001 * rate.fps() && rate.fps() > 1.0).then(|| {
         let message = format!(
-            "the scene has {rate} frames a second and its keys lie {keys} a second; --sample-rate {keys} reads them all"
+            "the scene has {rate} frames a second and its keys lie {keys} a second; --fps {keys} reads them all"
         );
-        Warning::new(KEYS_FINER, message)
+        Warning::new(rates::KEYS_FINER, message)
     })
 }
 
@@ -271,6 +269,21 @@ fn found(scene: &Scene, stack: &AnimStack, rate: FrameRate) -> Vec<Found> {
         Found::new("unit", unit),
         Found::new("read", format!("take {name}, sampled {rate} a second")),
     ]
+}
+
+/// What of the scene is no motion of a body, and is left out; constraints count as they were baked.
+fn left_out(scene: &Scene) -> Option<Found> {
+    let kinds = [
+        (scene.meshes.count, "shapes"),
+        (scene.blend_channels.count, "blend shapes"),
+        (scene.cameras.count, "cameras"),
+        (scene.lights.count, "lights"),
+        (scene.constraints.count, "constraints beyond what is baked"),
+    ];
+    let there = kinds.into_iter().filter(|(count, _)| *count > 0);
+    let counted: Vec<String> = there.map(|(count, what)| format!("{what} ({count})")).collect();
+    let message = format!("left out: {}", counted.join(", "));
+    (!counted.is_empty()).then(|| Found::new("left out", message))
 }
 
 /// As people write it.

@@ -2,6 +2,8 @@
 
 use ufbx::{AnimCurve, AnimStack, ElementType, Scene};
 
+use crate::error::{Error, Place, Warning};
+use crate::motion::read::rates;
 use crate::motion::read::reading::Take;
 
 /// Keys that are looked at of each curve: more tell nothing new.
@@ -37,7 +39,7 @@ impl<'a> Curves<'a> {
         self.curves.iter().any(|curve| curve.max_value > curve.min_value)
     }
 
-    /// When keys stand.
+    /// When keys stand, of each curve the first ones.
     pub(super) fn times(&self) -> Vec<f64> {
         let keys = self.curves.iter().flat_map(|curve| curve.keyframes.iter().take(MOST_KEYS));
         keys.map(|key| key.time).collect()
@@ -58,6 +60,29 @@ impl<'a> Curves<'a> {
             Some(span) if said.1 <= said.0 => span,
             _ => said,
         }
+    }
+
+    /// The range of a take, cut where a gap begins in which no motion is without a key, and what is said of that.
+    ///
+    /// # Errors
+    /// As [`rates::far`].
+    pub(super) fn whole(&self, stack: &AnimStack) -> Result<((f64, f64), Option<Warning>), Error> {
+        let (begin, end) = self.range(stack);
+        if end - begin <= rates::GAP {
+            return Ok(((begin, end), None));
+        }
+        let keys = self.curves.iter().flat_map(|curve| curve.keyframes.iter());
+        let inside = keys.map(|key| key.time).filter(|time| (begin..end).contains(time));
+        let mut times: Vec<f64> = inside.chain([begin, end]).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let (near, far) = times.split_at(rates::together(&times));
+        let (Some(last), Some(far)) = (near.last(), far.first()) else {
+            return Ok(((begin, end), None));
+        };
+        let [at, until] = [far, last].map(|time| format!("{time} s"));
+        let told = rates::far(near.len(), &at, &until, Place::Whole)?;
+        Ok(((begin, *last), Some(told)))
     }
 }
 

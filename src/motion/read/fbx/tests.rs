@@ -1,6 +1,6 @@
 //! Small scenes as text: takes, axes, units, and what is damaged.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::error::{Error, Place};
 use crate::motion::file::{Options, Read};
@@ -125,13 +125,13 @@ fn curves_and_pre_rotations_are_sampled_at_the_rate_of_the_scene() {
     let codes: Vec<&str> = read.warnings.iter().map(|warning| warning.code).collect();
     assert_eq!(codes, ["W_FORMAT"]);
     let rate = FrameRate::new(60.0).ok();
-    let finer = Options { sample_rate: rate, ..Options::default() };
+    let finer = Options { fps: rate, ..Options::default() };
     let finer = finer.read(scene(1, 1.0, &[walk()]).as_bytes()).unwrap().clip;
     assert_eq!(finer.len(), 61);
     assert!((foot(&finer, 30) - foot(clip, 15)).length() < 1e-9);
-    let slower = Options { fps: FrameRate::new(15.0).ok(), ..Options::default() };
-    let slower = slower.read(scene(1, 1.0, &[walk()]).as_bytes()).unwrap().clip;
-    assert_eq!((slower.len(), slower.rate().fps()), (31, 15.0), "the frames stay");
+    let fewer = Options { fps: FrameRate::new(15.0).ok(), ..Options::default() };
+    let fewer = fewer.read(scene(1, 1.0, &[walk()]).as_bytes()).unwrap().clip;
+    assert_eq!((fewer.len(), fewer.rate().fps()), (16, 15.0), "as long, in fewer frames");
 }
 
 #[test]
@@ -147,6 +147,94 @@ fn a_scene_in_metres_with_z_up_is_turned_and_measured_in_centimetres() {
     assert!((found - expected).length() < 1e-9, "{found}, not {expected}");
     assert!((lying.clip.skeleton().joints[1].offset - 200.0 * DVec3::Y).length() < 1e-9);
     assert!((upright.clip.skeleton().joints[1].offset - 2.0 * DVec3::Y).length() < 1e-9);
+}
+
+/// The scene with other properties of the knee, whose take has numbers of Y and Z too.
+fn knee(properties: &str, [y, z]: [f64; 2]) -> Clip {
+    let pre = r#"P: "PreRotation", "Vector3D", "Vector", "",30,0,0"#;
+    let first = r#"P: "d|X", "Number", "", "A",0"#;
+    let others = format!(
+        r#"P: "d|Y", "Number", "", "A",{y}
+        P: "d|Z", "Number", "", "A",{z}"#
+    );
+    let text = scene(1, 1.0, &[take(10, "Walk", [20.0, 80.0])]);
+    let text = text.replace(pre, &format!("{pre}\n{properties}"));
+    read(&text.replace(first, &format!("{first}\n{others}"))).unwrap().clip
+}
+
+#[test]
+fn all_orders_of_rotation_are_read_between_what_turns_before_and_behind_them() {
+    let about = |axis: DVec3, degrees: f64| DQuat::from_axis_angle(axis, degrees.to_radians());
+    // What comes first in the name turns first.
+    let orders = ["XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"];
+    for (order, name) in orders.into_iter().enumerate() {
+        let properties = format!(
+            r#"
+        P: "RotationOrder", "enum", "", "",{order}
+        P: "PostRotation", "Vector3D", "Vector", "",0,0,25"#
+        );
+        let clip = knee(&properties, [30.0, 40.0]);
+        for (frame, x) in [(0, 20.0), (30, 80.0)] {
+            let turn = name.chars().fold(DQuat::IDENTITY, |turn, axis| match axis {
+                'X' => about(DVec3::X, x) * turn,
+                'Y' => about(DVec3::Y, 30.0) * turn,
+                _ => about(DVec3::Z, 40.0) * turn,
+            });
+            let whole = about(DVec3::X, 30.0) * turn * about(DVec3::Z, -25.0);
+            let expected = DVec3::new(0.0, 4.0, 0.0) + whole * (2.0 * DVec3::Y);
+            let found = foot(&clip, frame);
+            assert!((found - expected).length() < 1e-6, "{name}, {frame}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn scales_are_inherited_in_each_of_the_three_ways() {
+    // Before the turn of a quarter, behind it, or not at all.
+    for (way, along) in [(1, 6.0), (0, 4.0), (2, 2.0)] {
+        let text = scene(1, 1.0, &[take(10, "Walk", [0.0, 0.1])]);
+        let hip = r#""Model::Hip", "LimbNode" { Properties70: {"#;
+        let knee = r#""Model::Knee", "LimbNode" { Properties70: {"#;
+        assert!(text.contains(hip) && text.contains(knee));
+        let text = text
+            .replace(
+                hip,
+                &format!(
+                    r#"{hip} P: "Lcl Scaling", "Lcl Scaling", "", "A",3,2,1
+                "#
+                ),
+            )
+            .replace(
+                knee,
+                &format!(
+                    r#"{knee} P: "InheritType", "enum", "", "",{way}
+                "#
+                ),
+            )
+            .replace(r#"Vector", "",30,0,0"#, r#"Vector", "",0,0,90"#);
+        let clip = read(&text).unwrap().clip;
+        // The knee is 2 above the hip, by the hip's scale 4.
+        let expected = DVec3::new(-along, 6.0, 0.0);
+        let found = foot(&clip, 0);
+        assert!((found - expected).length() < 1e-6, "{way}: {found}, not {expected}");
+    }
+}
+
+#[test]
+fn what_is_no_motion_is_counted_and_a_value_that_is_no_number_has_its_joint() {
+    let text = scene(1, 1.0, &[walk()]);
+    let lamp = r#"
+    NodeAttribute: 70, "NodeAttribute::Lamp", "Light" { }
+    Model: 71, "Model::Lamp", "Light" { }
+}
+Connections:  {
+    C: "OO",71,0
+    C: "OO",70,71"#;
+    let with = read(&text.replace("\n}\nConnections:  {", lamp)).unwrap();
+    let last = &with.found[with.found.len() - 1];
+    assert_eq!((last.what, &last.is[..]), ("left out", "left out: lights (1)"));
+    let broken = read(&text.replace("a: 0,90 }", "a: 0,nan }")).unwrap_err().to_string();
+    assert!(broken.starts_with("joint Knee, frame "), "{broken}");
 }
 
 #[test]
@@ -197,7 +285,7 @@ fn what_is_damaged_is_refused_with_a_place_and_never_more() {
     // A take of a century: its frames are not even counted out.
     let long = text.replace(&SECOND.to_string(), &(SECOND * 100_000_000).to_string());
     let error = read(&long).unwrap_err().to_string();
-    assert!(error.starts_with("take Walk: 3 joints in "), "{error}");
+    assert!(error.starts_with("take Walk: there is no key between 0 s and "), "{error}");
 }
 
 /// A record of a binary file that begins at a byte: name, properties, and children with the empty record behind them.

@@ -15,7 +15,7 @@ pub struct Format {
     pub endings: &'static [&'static str],
     /// What it can hold, in words.
     pub holds: &'static str,
-    /// Whether its motion is curves, which can be asked for at any instant.
+    /// Whether its motion is curves, which are sampled at any rate.
     pub(super) has_curves: bool,
     /// Whether its bones are in a file of their own, which can be named.
     pub(super) has_skeleton_file: bool,

@@ -5,6 +5,9 @@ use super::document::{Accessor, Document};
 use super::wrong;
 use crate::error::Error;
 
+/// How the extensions are called that pack the numbers of a view.
+const PACKED: &str = "meshopt_compression";
+
 /// Numbers in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Numbers {
@@ -125,6 +128,12 @@ impl Rows {
         let Some(view) = document.views.get(self.view) else {
             return Err(wrong(part, format!("there is no bufferView {}", self.view)));
         };
+        if let Some(packed) = view.extensions.keys().find(|name| name.ends_with(PACKED)) {
+            let message = format!(
+                "its numbers are packed by {packed}, which genga does not unpack; export the file without compression"
+            );
+            return Err(wrong(format!("bufferViews[{}]", self.view), message));
+        }
         let Some(size) = self.component.bytes() else {
             return Err(wrong(part, format!("there is no componentType {}", self.component.code)));
         };

@@ -143,6 +143,7 @@ pub(super) struct View {
     pub(super) length: usize,
     #[serde(rename = "byteStride")]
     pub(super) stride: Option<usize>,
+    pub(super) extensions: serde_json::Map<String, Value>,
 }
 
 /// Bytes in the file itself or beside it.
@@ -159,9 +160,13 @@ impl Document {
     /// The document of a `.glb`, which has it in its first chunk, or of a `.gltf`, which is it; and the bytes of the
     /// second chunk, where there is one.
     pub(in crate::motion::read) fn read(bytes: &[u8]) -> Result<(Self, Option<&[u8]>), Error> {
+        if !super::begins(bytes) {
+            let message = "is no glTF: it begins neither with glTF, as a GLB does, nor with {";
+            return Err(Error::Motion { place: Place::Byte(0), message: message.into() });
+        }
         if !bytes.starts_with(b"glTF") {
             let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-            let place = |line, column| Place::Line(line, column);
+            let place = |line, column: usize| Place::Line(line, column.max(1));
             return Ok((parsed(json, place)?, None));
         }
         let (json, rest) = chunk(bytes)?;

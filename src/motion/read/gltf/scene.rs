@@ -15,9 +15,6 @@ use crate::motion::read::rates;
 use crate::motion::read::reading::{Found, Given, Options, Read, Take};
 use crate::time::FrameRate;
 
-/// The rate of keys that mean none.
-const OTHERWISE: f64 = 60.0;
-
 /// What moves a node.
 #[derive(Debug, Default)]
 struct Moved {
@@ -52,14 +49,17 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     };
     let motion = Motion::read(&document, &mut buffers, at, options)?;
     let times = motion.times();
-    let of_keys = rates::of_keys(&times);
-    let rate = match options.sample_rate.or(of_keys) {
-        Some(rate) => rate,
-        None => FrameRate::new(OTHERWISE)?,
-    };
-    let (begin, end) = (times.first().copied(), times.last().copied());
-    let begin = begin.unwrap_or_default();
-    let frames = rates::frames(end.unwrap_or_default() - begin, rate);
+    let (times, far) = times.split_at(rates::together(&times));
+    let of_keys = options.fps.or(rates::of_keys(times));
+    let rate = of_keys.map_or_else(|| rates::otherwise(times), Ok)?;
+    let [begin, end] = [times.first(), times.last()].map(|time| time.copied().unwrap_or_default());
+    let frames = rates::frames(end - begin, rate);
+    let name = &takes[at].name;
+    let far = far.first().map(|far| {
+        let [far, end] = [far, &end].map(|time| format!("{time} s"));
+        rates::far(times.len(), &far, &end, Place::Whole)
+    });
+    let far = far.transpose().map_err(|error| of_take(error, at, name))?;
     let called = humanoid::names(&document);
     let moved: Vec<bool> = motion.nodes.iter().map(Moved::is_moved).collect();
     let joints = joints::of(&document, &parents, &moved, &called);
@@ -77,28 +77,24 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
         place(&order, &parents, &mut now, |node| motion.local(&document, node, time, rate));
         stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = now[*node]);
     };
-    let name = &takes[at].name;
     let (clip, named) = Posed::of(bones, frames, options, stand)
         .and_then(|posed| posed.clip(rate))
         .map_err(|error| of_take(error, at, name))?;
-    let warnings: Vec<Warning> = told.into_iter().chain(named).collect();
+    let finer = rates::finer(times, rate).filter(|_| options.fps.is_none());
+    let warnings: Vec<Warning> = told.into_iter().chain(named).chain(far).chain(finer).collect();
     let mut found = vec![
         Found::new("format", format(&document, given.bytes)),
         Found::new("up", "Y up"),
         Found::new("unit", "metres"),
     ];
-    let why = if options.sample_rate.or(of_keys).is_some() {
-        ""
-    } else {
-        ", its keys mean no usual rate"
-    };
+    let why = if of_keys.is_some() { "" } else { ", its keys mean no usual rate" };
     found.push(Found::new("read", format!("animation {name}, sampled {rate} a second{why}")));
     if !called.is_empty() {
         let message = format!("{} joints are called by their names of VRM", called.len());
         found.push(Found::new("names", message));
     }
     if motion.left_out > 0 {
-        let message = format!("left out: curves of shapes or other things, {}", motion.left_out);
+        let message = format!("left out: curves of shapes or other things ({})", motion.left_out);
         found.push(Found::new("left out", message));
     }
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })

@@ -114,10 +114,10 @@ fn a_bare_tree_is_what_moves_and_what_hangs_on_it() {
             "Y up",
             "metres",
             "animation walk, sampled 24 a second",
-            "left out: curves of shapes or other things, 1"
+            "left out: curves of shapes or other things (1)"
         ]
     );
-    let finer = Options { sample_rate: FrameRate::new(48.0).ok(), ..Options::default() };
+    let finer = Options { fps: FrameRate::new(48.0).ok(), ..Options::default() };
     let finer = finer.read(document("LINEAR").to_string().as_bytes()).unwrap().clip;
     assert_eq!(finer.len(), 49);
 }
@@ -135,14 +135,18 @@ fn bones_of_a_skin_and_of_vrm_are_joints() {
     let bones = [
         json!({ "VRMC_vrm_animation": { "humanoid": { "humanBones": { "hips": { "node": 1 }, "leftLowerLeg": { "node": 2 } } } } }),
         json!({ "VRM": { "humanoid": { "humanBones": [{ "bone": "hips", "node": 1 }, { "bone": "leftLowerLeg", "node": 2 }, { "bone": "jaw", "node": 99 }] } } }),
+        json!({ "VRM": { "humanoid": { "humanBones": [{ "bone": "leftThumbProximal", "node": 1 }, { "bone": "leftThumbIntermediate", "node": 2 }] } } }),
     ];
-    for extensions in bones {
+    let names = [["hips", "leftLowerLeg"]; 2].into_iter();
+    // VRM 0 calls a thumb's joints otherwise.
+    let names = names.chain([["leftThumbMetacarpal", "leftThumbProximal"]]);
+    for (extensions, expected) in bones.into_iter().zip(names) {
         let mut called = document("LINEAR");
         called["extensions"] = extensions;
         let read = read(&called).unwrap();
         let joints = &read.clip.skeleton().joints;
         let names: Vec<&str> = joints.iter().map(|joint| &joint.name[..]).collect();
-        assert_eq!(names, ["hips", "leftLowerLeg"]);
+        assert_eq!(names, expected);
         assert!(read.found[0].is.starts_with("VRM"), "{:?}", read.found);
     }
 }
@@ -286,6 +290,45 @@ fn what_lies_is_refused_with_its_path() {
     let little = Options { stream: StreamLimit { bytes: 60 }, ..Options::default() };
     let error = little.read(document("LINEAR").to_string().as_bytes()).unwrap_err().to_string();
     assert!(error.contains("--memory"), "{error}");
+}
+
+#[test]
+fn what_is_packed_or_no_gltf_is_called_so() {
+    let mut packed = document("LINEAR");
+    packed["extensionsRequired"] = json!(["EXT_meshopt_compression"]);
+    packed["bufferViews"][2]["extensions"] = json!({ "EXT_meshopt_compression": { "buffer": 0 } });
+    let error = read(&packed).unwrap_err().to_string();
+    assert!(error.starts_with("bufferViews[2]: its numbers are packed by EXT_meshopt"), "{error}");
+    let place = tempfile::tempdir().unwrap();
+    let said = |name: &str, bytes: &[u8]| {
+        let path = place.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        crate::motion::file::open(&path).unwrap_err().to_string()
+    };
+    assert_eq!(said("walk.glb", b""), "the file is empty; expected glTF");
+    assert!(said("walk.glb", b"nothing").starts_with("byte 0: is no glTF: it begins neither"));
+    assert!(said("walk.gltf", b"{").starts_with("1:1: is no glTF 2.0: EOF"));
+}
+
+#[test]
+fn keys_of_no_rate_are_sampled_as_close_as_they_lie_and_far_ones_are_left_out() {
+    // Of both curves keys at 0, 7 and 14 thousandths, then a second and an hour.
+    let timed = |times: [f32; 3]| {
+        let mut document = document("LINEAR");
+        let bytes: Vec<u8> = times.into_iter().flat_map(f32::to_le_bytes).collect();
+        document["buffers"].as_array_mut().unwrap().push(json!({ "uri": data(&bytes) }));
+        document["bufferViews"][0] = json!({ "buffer": 1, "byteLength": 12 });
+        read(&document)
+    };
+    let fine = timed([0.0, 0.007, 0.014]).unwrap();
+    assert_eq!(fine.clip.rate().fps(), 240.0);
+    assert!(fine.warnings.iter().all(|warning| warning.code != "W_KEYS_FINER"));
+    let finest = timed([0.0, 0.0013, 0.0026]).unwrap();
+    assert!(finest.warnings[0].message.ends_with("--fps 769 reads them all"));
+    let far = timed([0.0, 1.0, 40_000.0]).unwrap();
+    assert_eq!((far.clip.len(), far.warnings[0].code), (25, "W_KEY_FAR"));
+    let alone = timed([0.0, 39_999.0, 40_000.0]).unwrap_err().to_string();
+    assert!(alone.contains("there is no key between 0 s and 39999 s"), "{alone}");
 }
 
 #[test]

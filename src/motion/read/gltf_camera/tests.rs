@@ -130,8 +130,9 @@ fn a_file_that_is_no_gltf_is_refused() {
         let message = GltfCamera::read(bytes, None).unwrap_err().to_string();
         assert!(message.contains(why), "{message}");
     };
-    refused(b"HIERARCHY", "1:1: is no glTF 2.0: expected value");
-    refused(b"", "is no glTF 2.0");
+    refused(b"HIERARCHY", "byte 0: is no glTF: it begins neither with glTF");
+    refused(b"", "is no glTF");
+    refused(b"{ \"asset\": true", "1:15: is no glTF 2.0: invalid type");
     refused(&whole[..whole.len() - 8], "is cut off");
     refused(&whole[..15], "is cut off in its head");
     refused(&whole[..6], "is cut off in its head");

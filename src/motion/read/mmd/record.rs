@@ -6,8 +6,9 @@ use encoding_rs::SHIFT_JIS;
 use glam::{DQuat, DVec3};
 
 use super::curve::Curve;
-use super::{SIGNATURE, damaged};
-use crate::error::Error;
+use super::{RATE, SIGNATURE, damaged};
+use crate::error::{Error, Place, Warning};
+use crate::motion::read::rates;
 
 /// Bytes of a bone's key, of its name, of a morph's key, and so on.
 const KEY: usize = 111;
@@ -43,6 +44,8 @@ pub(super) struct Motion {
     pub(super) last: (u32, usize),
     /// What else the file has, in words.
     pub(super) left_out: Vec<String>,
+    /// That keys stand too far behind the others to be of this motion, and are left out.
+    pub(super) far: Option<Warning>,
 }
 
 /// The bytes that are left, and where they begin.
@@ -104,6 +107,7 @@ impl Motion {
             switches: HashMap::new(),
             last: (0, bytes.at),
             left_out: Vec::new(),
+            far: None,
         };
         motion.read_keys(&mut bytes)?;
         for (size, what) in [
@@ -120,6 +124,7 @@ impl Motion {
             let other = if other.is_empty() { String::new() } else { format!(", but {other}") };
             return Err(damaged(all.len(), format!("this VMD has no key of a bone{other}")));
         }
+        motion.leave_out_far_keys()?;
         Ok(motion)
     }
 
@@ -145,6 +150,24 @@ impl Motion {
             keys.sort_by_key(|key| key.frame);
             keys.dedup_by_key(|key| key.frame);
         }
+        Ok(())
+    }
+
+    /// Leaves out what stands behind a gap that no motion has: MMD would play every frame of it.
+    fn leave_out_far_keys(&mut self) -> Result<(), Error> {
+        let keys = self.bones.values().flatten().map(|key| key.frame);
+        let mut frames: Vec<u32> = keys.chain([0]).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        let times: Vec<f64> = frames.iter().map(|frame| f64::from(*frame) / RATE).collect();
+        let near = rates::together(&times);
+        let Some(far) = frames.get(near) else { return Ok(()) };
+        let end = frames[near - 1];
+        let [at, until] = [*far, end].map(|frame| format!("frame {frame}"));
+        self.far = Some(rates::far(near, &at, &until, Place::Byte(self.last.1 as u64))?);
+        self.last.0 = end;
+        self.bones.values_mut().for_each(|keys| keys.retain(|key| key.frame <= end));
+        self.bones.retain(|_, keys| !keys.is_empty());
         Ok(())
     }
 

@@ -261,7 +261,15 @@ fn what_is_damaged_is_refused_at_its_byte() {
     let mut late = good.clone();
     late[54 + 15..54 + 19].copy_from_slice(&u32::MAX.to_le_bytes());
     let late = read(&late).unwrap_err().to_string();
-    assert!(late.starts_with("byte 54: frame 4294967295 is the last: so long"), "{late}");
+    assert!(
+        late.starts_with("byte 54: there is no key between frame 0 and frame 4294967295"),
+        "{late}"
+    );
+    let long: Vec<Key<'_>> = (0..60).map(|at| ("頭", 36_000 * at, STILL, NONE, LINEAR)).collect();
+    let options =
+        Options { stream: crate::motion::StreamLimit { bytes: 1 << 20 }, ..Options::default() };
+    let long = options.read(&file(&long, &[])).unwrap_err().to_string();
+    assert!(long.contains("frame 2124000 is the last: so long a motion takes"), "{long}");
     let none = file(&[], &[]);
     assert!(said(&none).ends_with("this VMD has no key of a bone"), "{}", said(&none));
     let mut camera = none[..54].to_vec();
@@ -276,6 +284,38 @@ fn what_is_damaged_is_refused_at_its_byte() {
     assert!(Motion::read(&old).is_ok(), "old files end after the bones");
     old.extend([9, 0, 0, 0]);
     assert!(said(&old).starts_with("byte 165: 9 keys of the face"));
+}
+
+#[test]
+fn a_key_that_stands_hours_behind_the_others_is_left_out_and_told() {
+    let keys = |last: u32| {
+        let (rest, last) = ([9.0, 0.0, 0.0], ("頭", last, STILL, NONE, LINEAR));
+        file(&[("頭", 0, STILL, NONE, LINEAR), ("センター", 40, rest, NONE, LINEAR), last], &[])
+    };
+    let Read { clip, warnings, .. } = read(&keys(1_000_000)).unwrap();
+    assert_eq!(clip.len(), 41);
+    assert_eq!(warnings[0].code, "W_KEY_FAR");
+    assert!(warnings[0].message.starts_with("a key stands at frame 1000000"), "{}", warnings[0]);
+    assert_eq!(key_frames(&keys(1_000_000)).unwrap(), [0, 40]);
+    let Read { clip, warnings, .. } = read(&keys(36_000)).unwrap();
+    assert_eq!((clip.len(), warnings[0].code), (36_001, "W_FORMAT"));
+}
+
+#[test]
+fn a_motion_of_which_the_skeleton_has_no_bone_is_refused() {
+    let keys = file(&[("しっぽ", 0, STILL, NONE, LINEAR), ("耳", 9, STILL, NONE, LINEAR)], &[]);
+    let without = read(&keys).unwrap_err().to_string();
+    assert!(without.contains("しっぽ, 耳") && without.contains("--skeleton"), "{without}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("doll.pmd");
+    let bones = vec![("頭", None, [0.0, 18.0, 0.0])];
+    std::fs::write(&path, Written { bones, ik: vec![] }.pmd()).unwrap();
+    let options = Options { skeleton: Some(path.clone()), ..Options::default() };
+    let with = options.read(&keys).unwrap_err().to_string();
+    assert!(with.contains("is it another model's motion, for 人形?"), "{with}");
+    std::fs::write(&path, b"Pmd\0\0").unwrap();
+    let broken = options.read(&keys).unwrap_err().to_string();
+    assert!(broken.starts_with(&format!("{}:byte 3: ", path.display())), "{broken}");
 }
 
 #[test]

@@ -106,6 +106,6 @@ fn an_end_becomes_a_tip_and_two_trees_are_told() {
     let error = Posed::of(bones(), 2, &none, stand).err().unwrap().to_string();
     assert_eq!(error, "root: no tree is called \"Sword\"; the file has Hips, Hips.2");
     let error = Posed::of(bones(), usize::MAX, &options, stand).err().unwrap().to_string();
-    assert!(error.contains("--sample-rate"), "{error}");
+    assert!(error.contains("--fps"), "{error}");
     assert!(Posed::of(vec![], 2, &options, stand).is_err());
 }

@@ -16,11 +16,7 @@ pub(super) fn names(document: &Document) -> BTreeMap<usize, String> {
             bones.iter().map(|(name, bone)| (node(bone), name.as_str())).collect()
         }
         // VRM 0 has a list.
-        Some(Value::Array(bones)) => {
-            let name = |bone: &'_ Value| bone.get("bone").and_then(Value::as_str).map(str::len);
-            let named = bones.iter().filter(|bone| name(bone).is_some());
-            named.map(|bone| (node(bone), bone["bone"].as_str().unwrap_or_default())).collect()
-        }
+        Some(Value::Array(bones)) => bones.iter().filter_map(of_list).collect(),
         _ => Vec::new(),
     };
     let there_is = |node: &usize| *node < document.nodes.len();
@@ -28,6 +24,24 @@ pub(super) fn names(document: &Document) -> BTreeMap<usize, String> {
         .into_iter()
         .filter_map(|(node, name)| Some((node.filter(there_is)?, name.to_owned())));
     named.collect()
+}
+
+/// The node of a bone in the list of VRM 0, and its name.
+fn of_list(bone: &Value) -> Option<(Option<usize>, &str)> {
+    Some((node(bone), of_now(bone.get("bone")?.as_str()?)))
+}
+
+/// Bones of a thumb as VRM 0 calls them, a joint further out than VRM 1.0 does, and as VRM 1.0 does.
+const THUMBS: [(&str, &str); 4] = [
+    ("leftThumbProximal", "leftThumbMetacarpal"),
+    ("leftThumbIntermediate", "leftThumbProximal"),
+    ("rightThumbProximal", "rightThumbMetacarpal"),
+    ("rightThumbIntermediate", "rightThumbProximal"),
+];
+
+/// A name of VRM 0 as VRM 1.0 has it.
+fn of_now(name: &str) -> &str {
+    THUMBS.iter().find(|(old, _)| *old == name).map_or(name, |(_, new)| new)
 }
 
 fn node(bone: &Value) -> Option<usize> {
