@@ -11,7 +11,7 @@ use crate::cli::words::Words;
 use crate::cli::{files, paths};
 use crate::error::Warning;
 use crate::motion::file::Take;
-use crate::motion::{Axis, Channel, Clip, Joint, Stature, Unit};
+use crate::motion::{Axis, Channel, Joint, Stature, Unit};
 use crate::plot::SkeletonPlot;
 use crate::time::{FrameRate, KOMA_RATE};
 
@@ -72,7 +72,7 @@ fn page(name: &str, source: &Source) -> String {
     line("rate", rate(clip.rate(), source.written_frame_time));
     line("length", format!("{:.2} s, {koma} koma at 24 a second", clip.seconds()));
     line("joints", format!("{}, {} channels", skeleton.len(), skeleton.channels()));
-    line("size", size(clip));
+    line("size", size(source));
     page.push('\n');
     let mut depths = Vec::with_capacity(skeleton.len());
     for (_, joint) in skeleton.iter() {
@@ -127,12 +127,18 @@ fn described(joint: &Joint) -> String {
     words
 }
 
-/// The size of the body in its first frame, and the unit that makes it a person's.
-fn size(clip: &Clip) -> String {
+/// The size of the body in its first frame, and the unit that makes it a person's where the file does not say its own.
+fn size(source: &Source) -> String {
+    let clip = &source.clip;
     if clip.is_empty() {
         return "unknown, there is no frame".into();
     }
     let size = Stature::of(clip).size;
+    if source.found.iter().any(|found| found.what == "unit") {
+        let is_odd = Unit::of_size(size).is_none();
+        let odd = if is_odd { ": no person's size, so the unit is likely another" } else { "" };
+        return format!("{size:.2} in its first frame{odd}");
+    }
     let unit = match Unit::of_size(size) {
         Some(Unit::Metre) => "metres, by the size",
         Some(Unit::Cmu) => "the CMU unit of 5.64 cm, by the size",

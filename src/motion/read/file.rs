@@ -18,7 +18,7 @@ use std::path::Path;
 use crate::error::{Error, Place, Warning};
 use crate::motion::{StreamLimit, bytes_in_words};
 
-pub(crate) use super::rates::KEY_FAR;
+pub use super::rates::KEY_FAR;
 pub use super::reading::{Found, Given, Options, Read, TAKES, Take};
 pub use formats::{FORMATS, Format};
 

@@ -7,7 +7,7 @@ use crate::time::{FrameRate, USUAL_RATES};
 pub(super) const KEYS_FINER: &str = "W_KEYS_FINER";
 
 /// A key stands so far behind the others that no motion has it.
-pub(crate) const KEY_FAR: &str = "W_KEY_FAR";
+pub const KEY_FAR: &str = "W_KEY_FAR";
 
 /// How far from a whole frame a key may stand, in frames: some programs write milliseconds.
 const NEAR: f64 = 0.02;

@@ -1,4 +1,4 @@
-"""python3 tests/fuzz/seeds/make.py: the seeds of `fbx` and `gltf`, small scenes of three bones, written by the rules alone.
+"""python3 tests/fuzz/seeds/make.py: the seeds of `fbx`, `gltf` and `model`, three bones each, written by the rules alone.
 
 FBX is a tree of nodes, each a name, properties and children: the same tree as text, as binary, and as binary with packed
 arrays and the longer words of 7.5.
@@ -27,7 +27,7 @@ def properties(*rows):
     return ("Properties70", [], [("P", list(row), []) for row in rows])
 
 
-def model(at, name, *rows):
+def limb(at, name, *rows):
     place = ("Lcl Translation", "Lcl Translation", "", "A", 0.0, 2.0, 0.0)
     attribute = ("NodeAttribute", [at + 90, f"NodeAttribute::{name}", "LimbNode"], [("TypeFlags", ["Skeleton"], [])])
     return [attribute, ("Model", [at, f"Model::{name}", "LimbNode"], [properties(place, *rows)])]
@@ -56,7 +56,7 @@ def take(at, name, degrees):
 def scene():
     turned = [("RotationActive", "bool", "", "", 1), ("PreRotation", "Vector3D", "Vector", "", 30.0, 0.0, 0.0)]
     inherits = ("InheritType", "enum", "", "", 2)
-    objects = model(3, "Hip") + model(4, "Knee", *turned, inherits) + model(5, "Foot")
+    objects = limb(3, "Hip") + limb(4, "Knee", *turned, inherits) + limb(5, "Foot")
     wires = [("OO", 3, 0), ("OO", 4, 3), ("OO", 5, 4), ("OO", 93, 3), ("OO", 94, 4), ("OO", 95, 5)]
     for at, name, degrees in [(10, "Walk", 90.0), (20, "Run", -90.0)]:
         more, of_take = take(at, name, degrees)
@@ -179,5 +179,56 @@ def gltf():
     (HERE / "gltf/glb").write_bytes(b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks)
 
 
+# A thigh, a shin, a foot and the IK that brings them there: name, parent, place.
+BONES = [("足", -1, (1, 10, 0)), ("ひざ", 0, (1, 6, 0.5)), ("足首", 1, (1, 1, 0.5)), ("足ＩＫ", -1, (1, 1, 0.5))]
+IK, LINKS = 3, (1, 0)
+
+
+def pmd():
+    """A vertex, a face and a material, then bones, which end at one another, and the IK."""
+
+    def name(text):
+        return text.encode("cp932").ljust(20, b"\0")
+
+    made = b"Pmd" + struct.pack("<f", 1) + name("doll") + bytes(256)
+    made += b"".join(struct.pack("<I", count) + bytes(count * size) for count, size in [(1, 38), (3, 2), (1, 70)])
+    made += struct.pack("<H", len(BONES))
+    for at, (bone, parent, place) in enumerate(BONES):
+        made += name(bone) + struct.pack("<hHBH3f", parent, at + 1, 0, 0, *place)
+    links = struct.pack(f"<{len(LINKS)}H", *LINKS)
+    return made + struct.pack("<HHHBHf", 1, IK, 2, len(LINKS), 40, 0.5) + links
+
+
+def pmx(width, is_utf8):
+    """Nothing but bones, with numbers of so many bytes; a bone ends at another or so far from where it begins."""
+
+    def text(words):
+        data = words.encode("utf-8" if is_utf8 else "utf-16-le")
+        return struct.pack("<I", len(data)) + data
+
+    def number(bone):
+        return struct.pack({1: "<b", 2: "<h", 4: "<i"}[width], bone)
+
+    made = b"PMX " + struct.pack("<fB", 2.0, 8)
+    made += bytes([is_utf8, 0, width, 1, 1, width, 1, 1]) + b"".join(map(text, ["doll", "", "", ""]))
+    made += struct.pack("<4I", 0, 0, 0, 0) + struct.pack("<I", len(BONES))
+    for at, (bone, parent, place) in enumerate(BONES):
+        is_ik, ends_at_bone = at == IK, at == 0
+        made += text(bone) + text("") + struct.pack("<3f", *place) + number(parent)
+        made += struct.pack("<iH", 0, 0x20 * is_ik + ends_at_bone)
+        made += number(at + 1) if ends_at_bone else struct.pack("<3f", 0, 0, 1)
+        if is_ik:
+            made += number(2) + struct.pack("<ifI", 40, 0.5, len(LINKS))
+            made += b"".join(number(link) + b"\0" for link in LINKS)
+    return made
+
+
+def model():
+    (HERE / "model/pmd").write_bytes(pmd())
+    for name, width, is_utf8 in [("pmx", 1, 0), ("pmx-wide", 4, 1)]:
+        (HERE / "model" / name).write_bytes(pmx(width, is_utf8))
+
+
 fbx()
 gltf()
+model()
