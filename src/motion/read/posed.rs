@@ -150,6 +150,9 @@ impl Posed {
         let Bone { name, parent, .. } = &self.bones[bone];
         let called = ["end", "leaf", "nub", "tip", "site"];
         let name = name.to_lowercase();
+        // assimp's End Sites have the name of their parent behind.
+        let is_called =
+            called.iter().any(|end| name.ends_with(end)) || name.starts_with("endsite_");
         let turns = || {
             let mut stands = self.local.iter().skip(bone).step_by(self.bones.len());
             let first = stands.next().map_or(DQuat::IDENTITY, |stand| stand.turn);
@@ -157,7 +160,7 @@ impl Posed {
         };
         parent.is_some()
             && !moves[bone]
-            && called.iter().any(|end| name.ends_with(end))
+            && is_called
             && self.bones.iter().all(|other| other.parent != Some(bone))
             && !turns()
     }

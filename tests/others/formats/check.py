@@ -1,5 +1,7 @@
 """python check.py FOLDER NAME…: of each clip the key tables and the whole motion, from BVH, FBX and GLB, side by side.
 
+FBX and GLB come from Blender and from assimp.
+
 FOLDER has NAME.FORMAT.csv, the keys, and NAME.FORMAT, the motion as BVH in parts. Of MMD's 30 frames a second there are
 NAME.vmd.csv and NAME-30.bvh.csv.
 """
@@ -13,7 +15,8 @@ from pathlib import Path
 FAR = 1e-4
 # Keys within a koma of one another are one.
 LEAST_F1 = 0.95
-SCALES = {"fbx": 1.0, "glb": 0.01}
+# Blender's GLB has metres; assimp keeps the numbers of the BVH.
+SCALES = {"fbx": 1.0, "glb": 0.01, "assimp.fbx": 1.0, "assimp.glb": 1.0}
 # Frames that are looked at, evenly over the clip.
 LOOKS = 20
 

@@ -1,5 +1,7 @@
 """python make.py FOLDER CLIP.bvh…: each clip as Blender imports it and writes it again, an FBX and a GLB.
 
+For assimp there is the clip under a root that stands still.
+
 MMD has 30 frames a second. So Blender takes each curve at these instants too, and of that take a BVH and a VMD are made,
 with Y up as in the clip.
 """
@@ -36,8 +38,16 @@ def opened(clip, **axes):
     return scene, bpy.context.object
 
 
+def carried(clip):
+    """The text of a clip under a root that stands still: assimp takes the root for its scene, which FBX leaves out."""
+    head, motion = clip.read_text(encoding="utf-8").split("MOTION", 1)
+    still = "ROOT carrier\n{\nOFFSET 0 0 0\nCHANNELS 0\nJOINT"
+    return head.replace("ROOT", still, 1) + "}\nMOTION" + motion
+
+
 folder = Path(sys.argv[1])
 for clip in map(Path, sys.argv[2:]):
+    (folder / f"{clip.stem}-carried.bvh").write_text(carried(clip), encoding="utf-8")
     opened(clip)
     bpy.ops.export_scene.fbx(
         filepath=str(folder / f"{clip.stem}.fbx"),

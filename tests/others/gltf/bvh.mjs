@@ -30,8 +30,12 @@ export function readBvh(text) {
   return { joints, rows };
 }
 
+export function positions(bvh, row) {
+  return stands(bvh, row).map(({ position }) => position);
+}
+
 // Positions replace the offset, rotations multiply as listed.
-export function positions({ joints }, row) {
+export function stands({ joints }, row) {
   const placed = [];
   for (const { parent, offset, channels } of joints) {
     const position = offset.clone();
@@ -53,5 +57,5 @@ export function positions({ joints }, row) {
     }
     placed.push({ position, turn });
   }
-  return placed.map(({ position }) => position);
+  return placed;
 }

@@ -39,7 +39,8 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
     let carrying = carrying(&scene, &joints);
     let stand = |frame: usize, stands: &mut [DAffine3]| {
-        place(&scene, stack, &carrying, begin + frame as f64 / rate.fps(), &mut world);
+        let time = curves.key_at(begin + frame as f64 / rate.fps(), rate);
+        place(&scene, stack, &carrying, time, &mut world);
         stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = world[*node]);
     };
     let (clip, named) = Posed::of(bones(&scene, &joints), frames, options, stand)
@@ -122,13 +123,12 @@ fn joints(scene: &Scene, curves: &Curves<'_>) -> Vec<(usize, Option<usize>)> {
         }
     }
     // Some programs write what carries all bones, and travels, as no bone.
-    let order: Vec<usize> = (0..chosen.len()).collect();
-    let parents: Vec<Option<usize>> = order.iter().map(|node| parent(*node)).collect();
+    let order = order(scene);
+    let parents: Vec<Option<usize>> = (0..chosen.len()).map(parent).collect();
     join(&order, &parents, &mut chosen, |top| curves.nodes[top]);
     let mut places = vec![None; chosen.len()];
     let mut joints = Vec::new();
-    // ufbx lists parents first.
-    for node in 0..chosen.len() {
+    for node in order {
         let carrier = parent(node).and_then(|parent| places[parent]);
         let is_helper = scene.nodes[node].is_scale_helper;
         places[node] = carrier;
@@ -138,6 +138,17 @@ fn joints(scene: &Scene, curves: &Curves<'_>) -> Vec<(usize, Option<usize>)> {
         }
     }
     joints
+}
+
+/// All nodes, parents first, limb by limb: ufbx lists them by their depth.
+fn order(scene: &Scene) -> Vec<usize> {
+    let mut open = vec![id(&scene.root_node)];
+    let mut order = Vec::with_capacity(scene.nodes.count);
+    while let Some(node) = open.pop() {
+        order.push(node);
+        open.extend(scene.nodes[node].children.iter().rev().map(|node| id(node)));
+    }
+    order
 }
 
 /// Whether a node is a bone. Where scales are inherited oddly, ufbx gives the node a helper, which takes the bone over.

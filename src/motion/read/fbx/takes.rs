@@ -5,9 +5,13 @@ use ufbx::{AnimCurve, AnimStack, ElementType, Scene};
 use crate::error::{Error, Place, Warning};
 use crate::motion::read::rates;
 use crate::motion::read::reading::Take;
+use crate::time::FrameRate;
 
 /// Keys that are looked at of each curve: more tell nothing new.
 const MOST_KEYS: usize = 2000;
+
+/// How far from an instant, as a share of a frame, a key is at it: some programs write a frame time that is rounded.
+const ON: f64 = 1e-3;
 
 /// What of a take moves nodes.
 pub(super) struct Curves<'a> {
@@ -43,6 +47,20 @@ impl<'a> Curves<'a> {
     pub(super) fn times(&self) -> Vec<f64> {
         let keys = self.curves.iter().flat_map(|curve| curve.keyframes.iter().take(MOST_KEYS));
         keys.map(|key| key.time).collect()
+    }
+
+    /// The key at an instant, or the instant where there is none. A hair beside a key an angle may be on its way to a whole
+    /// turn more. The curve with most keys has those of all where poses were baked.
+    pub(super) fn key_at(&self, instant: f64, rate: FrameRate) -> f64 {
+        let Some(curve) = self.curves.iter().max_by_key(|curve| curve.keyframes.count) else {
+            return instant;
+        };
+        let keys = curve.keyframes.as_ref();
+        let after = keys.partition_point(|key| key.time < instant);
+        let near = keys[after.saturating_sub(1)..].iter().take(2).map(|key| key.time);
+        let off = |time: &f64| (time - instant).abs() * rate.fps();
+        let nearest = near.min_by(|one, other| off(one).total_cmp(&off(other)));
+        nearest.filter(|time| off(time) < ON).unwrap_or(instant)
     }
 
     /// From the first key to the last.

@@ -135,6 +135,32 @@ fn curves_and_pre_rotations_are_sampled_at_the_rate_of_the_scene() {
 }
 
 #[test]
+fn a_key_a_hair_beside_its_frame_is_on_it() {
+    // Behind the key the angle goes whole turns further.
+    let [objects, connections] = walk();
+    let key = SECOND / 2 - 10_000;
+    let turning = objects
+        .replace(&format!("*2 {{ a: 0,{SECOND} }}"), &format!("*3 {{ a: 0,{key},{SECOND} }}"))
+        .replace("*2 { a: 0,90 }", "*3 { a: 0,90,1e7 }")
+        .replace("*1 { a: 2 }", "*1 { a: 3 }");
+    let clip = read(&scene(1, 1.0, &[[turning, connections]])).unwrap().clip;
+    let angle = f64::to_radians(120.0);
+    let expected = DVec3::new(0.0, 4.0 + 2.0 * angle.cos(), 2.0 * angle.sin());
+    let found = foot(&clip, 15);
+    assert!((found - expected).length() < 1e-9, "{found}, not {expected}");
+}
+
+#[test]
+fn joints_stand_limb_by_limb() {
+    let text = scene(1, 1.0, &[walk()])
+        .replace("Objects:  {", "Objects:  {\n    Model: 6, \"Model::Arm\", \"LimbNode\" { }\n    NodeAttribute: 96, \"NodeAttribute::Arm\", \"LimbNode\" { TypeFlags: \"Skeleton\" }")
+        .replace("C: \"OO\",95,5", "C: \"OO\",95,5\n    C: \"OO\",6,3\n    C: \"OO\",96,6");
+    let clip = read(&text).unwrap().clip;
+    let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(names, ["Hip", "Knee", "Foot", "Arm"]);
+}
+
+#[test]
 fn a_scene_in_metres_with_z_up_is_turned_and_measured_in_centimetres() {
     let upright = read(&scene(1, 1.0, &[walk()])).unwrap();
     let lying = read(&scene(2, 100.0, &[walk()])).unwrap();

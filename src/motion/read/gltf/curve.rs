@@ -66,12 +66,9 @@ impl Curve {
                 format!("{keys} keys need {} rows, found {have}", keys * rows),
             ));
         }
-        if let Some(key) = times.windows(2).position(|pair| pair[0] >= pair[1] || pair[1].is_nan())
-        {
-            return Err(wrong(
-                part,
-                format!("key {} is not later than the one before it", key + 1),
-            ));
+        // Of two keys at one instant the second counts: Sketchfab writes such.
+        if let Some(key) = times.windows(2).position(|pair| pair[0] > pair[1] || pair[1].is_nan()) {
+            return Err(wrong(part, format!("key {} is earlier than the one before it", key + 1)));
         }
         if !times[0].is_finite() || !times[times.len() - 1].is_finite() {
             return Err(wrong(part, "the time of a key is no number"));

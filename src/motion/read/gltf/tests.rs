@@ -310,16 +310,27 @@ fn what_is_packed_or_no_gltf_is_called_so() {
     assert!(said("walk.gltf", b"{").starts_with("1:1: is no glTF 2.0: EOF"));
 }
 
+/// The document with keys of both curves at other seconds.
+fn timed(times: [f32; 3]) -> Result<Read, Error> {
+    let mut document = document("LINEAR");
+    let bytes: Vec<u8> = times.into_iter().flat_map(f32::to_le_bytes).collect();
+    document["buffers"].as_array_mut().unwrap().push(json!({ "uri": data(&bytes) }));
+    document["bufferViews"][0] = json!({ "buffer": 1, "byteLength": 12 });
+    read(&document)
+}
+
+#[test]
+fn of_two_keys_at_one_instant_the_second_counts() {
+    let clip = timed([0.0, 0.5, 0.5]).unwrap().clip;
+    assert_eq!((clip.len(), clip.rate().fps()), (13, 24.0));
+    assert!((places(&clip, 11)[0].x - 11.0 / 12.0).abs() < 1e-6);
+    assert!((places(&clip, 12)[0].x - 3.0).abs() < 1e-6);
+    let back = timed([0.0, 0.5, 0.4]).unwrap_err().to_string();
+    assert!(back.ends_with("key 2 is earlier than the one before it"), "{back}");
+}
+
 #[test]
 fn keys_of_no_rate_are_sampled_as_close_as_they_lie_and_far_ones_are_left_out() {
-    // Of both curves keys at 0, 7 and 14 thousandths, then a second and an hour.
-    let timed = |times: [f32; 3]| {
-        let mut document = document("LINEAR");
-        let bytes: Vec<u8> = times.into_iter().flat_map(f32::to_le_bytes).collect();
-        document["buffers"].as_array_mut().unwrap().push(json!({ "uri": data(&bytes) }));
-        document["bufferViews"][0] = json!({ "buffer": 1, "byteLength": 12 });
-        read(&document)
-    };
     let fine = timed([0.0, 0.007, 0.014]).unwrap();
     assert_eq!(fine.clip.rate().fps(), 240.0);
     assert!(fine.warnings.iter().all(|warning| warning.code != "W_KEYS_FINER"));

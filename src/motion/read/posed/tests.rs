@@ -83,16 +83,21 @@ fn at_rest_nothing_is_turned_and_a_bone_that_keeps_its_place_has_no_position() {
 fn an_end_becomes_a_tip_and_two_trees_are_told() {
     let at = |x: f64, y: f64| DAffine3::from_translation(DVec3::new(x, y, 0.0));
     let rests = [at(0.0, 1.0), at(0.0, 2.0), at(5.0, 0.0)];
-    let bones = || {
+    let called = |end: &str| {
         vec![
             bone("Hips", None, rests[0]),
-            bone("Hips_end", Some(0), rests[1]),
+            bone(end, Some(0), rests[1]),
             bone("Hips", None, rests[2]),
         ]
     };
+    let bones = || called("Hips_end");
     let stand = |_: usize, world: &mut [DAffine3]| world.copy_from_slice(&rests);
     let rate = FrameRate::new(24.0).unwrap();
     let options = Options::default();
+    for (end, joints) in [("EndSite_Hips", 2), ("Endless", 3)] {
+        let (clip, _) = Posed::of(called(end), 2, &options, stand).unwrap().clip(rate).unwrap();
+        assert_eq!(clip.skeleton().len(), joints, "{end}");
+    }
     let (clip, warnings) = Posed::of(bones(), 2, &options, stand).unwrap().clip(rate).unwrap();
     let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| &joint.name[..]).collect();
     assert_eq!(names, ["Hips", "Hips.2"]);
