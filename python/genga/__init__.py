@@ -6,8 +6,8 @@
 >>> result.keys["frame"]
 
 Shapes are told by F frames, J joints and K koma (コマ). Angles are in degrees in settings and in radians a second
-in `Result.speeds`; lengths are in the unit of the file. Frames carry their number in the file, from 0; koma count
-from 0.
+in `Result.speeds`; lengths are in the unit of the file. Frames carry their number in the file, from 0; rows of
+arrays begin at the clip's first frame, so that row r is frame `clip.first + r`. Koma count from 0.
 """
 
 from collections.abc import MutableMapping as _MutableMapping

@@ -1,14 +1,15 @@
 //! Errors of the library as exceptions.
 
+use std::ffi::CString;
 use std::path::Path;
 
 use pyo3::create_exception;
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
 create_exception!(
     genga,
-    GengaError,
+    Error,
     PyValueError,
     "What is wrong, where, and the way out. `file`, `line` and `column` (from 1) are None where there is no such place."
 );
@@ -41,7 +42,7 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     let file = file.map(|file| file.display().to_string());
     let between = if place.is_some() { ":" } else { ": " };
     let message = file.as_ref().map_or(error.to_string(), |file| format!("{file}{between}{error}"));
-    let exception = GengaError::new_err(message);
+    let exception = Error::new_err(message);
     let value = exception.value(py);
     let set = value
         .setattr("file", file)
@@ -51,6 +52,12 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
         Ok(()) => exception,
         Err(other) => other,
     }
+}
+
+/// Tells a person of something as Python warns, under the caller's line.
+pub fn warned(py: Python<'_>, message: impl ToString) -> PyResult<()> {
+    let message = CString::new(message.to_string().replace('\0', " "))?;
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)
 }
 
 /// An error of what was asked for, in the words of Python.

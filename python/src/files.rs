@@ -3,6 +3,7 @@
 use genga::deliver::sheet_json::MadeWith;
 use genga::deliver::{Cut, FORMATS, Format, Settings};
 use genga::edits::Edits;
+use genga::error::Warning;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
 use pyo3::prelude::*;
@@ -20,13 +21,14 @@ pub struct Handed<'a> {
 }
 
 impl Handed<'_> {
-    /// The files of some formats, as the program writes them. Between two files `go_on` is asked, whose error ends it.
+    /// The files of some formats, as the program writes them, and what a person should know of them. Between two files
+    /// `go_on` is asked, whose error ends it.
     pub fn files(
         &self,
         breakdown: &Breakdown<'_>,
         (formats, settings): (&[&Format], &Settings),
         mut go_on: impl FnMut() -> Result<(), genga::Error>,
-    ) -> Result<Files, genga::Error> {
+    ) -> Result<(Files, Vec<Warning>), genga::Error> {
         let exaggerate = &self.recipe.exaggerate;
         let cut = Cut {
             name: self.cut,
@@ -38,14 +40,15 @@ impl Handed<'_> {
             splits: &breakdown.actions.koma(breakdown.clock),
             made_with: Some(&MadeWith::of(self.recipe, self.edits, breakdown.sheet)),
         };
-        let mut files = Files::new();
+        let (mut files, mut notes) = (Files::new(), Vec::new());
         for format in formats {
+            notes.extend(format.notes(&cut, settings)?);
             format.write(&cut, settings, &mut |name, bytes| {
                 files.push((name.to_owned(), bytes.to_vec()));
                 go_on()
             })?;
         }
-        Ok(files)
+        Ok((files, notes))
     }
 }
 

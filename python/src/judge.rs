@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::clip::Clip;
-use crate::error::{asked_wrongly, raised};
+use crate::error::{asked_wrongly, raised, warned};
 use crate::recipe::Recipe;
 use crate::table::{Column, plain, table};
 use crate::words::word;
@@ -37,7 +37,7 @@ pub fn study<'py>(
     let is_table_1 = x.is_none() && y.is_none();
     let own = if is_table_1 { table_1_recipe() } else { Recipe::default().recipe };
     let own = Recipe { recipe: own, ..Recipe::default() };
-    let recipe = recipe.unwrap_or(own).with(py, settings)?.recipe;
+    let recipe = settings_alone(py, recipe.unwrap_or(own).with(py, settings)?)?;
     let parse =
         |(name, values): (&str, &str)| Axis::new(name, values).map_err(|error| raised(py, error));
     let (x, y) = match (x, y) {
@@ -62,6 +62,17 @@ pub fn study<'py>(
         Some(grid) => columns(py, &grid),
         None => Err(PyKeyboardInterrupt::new_err(())),
     }
+}
+
+/// The settings of a recipe; that its corrections do not count here is told.
+fn settings_alone(py: Python<'_>, recipe: Recipe) -> PyResult<genga::recipe::Recipe> {
+    if recipe.edits != genga::edits::Edits::default() {
+        warned(
+            py,
+            "the recipe's corrections (pins, moves, holds, …) do not count here: its settings alone are compared",
+        )?;
+    }
+    Ok(recipe.recipe)
 }
 
 /// An axis: values as the program takes them, or a list.
@@ -115,11 +126,13 @@ pub fn evaluate<'py>(
     let motion = clip.motion.clone();
     let made = work::done(py, move |_| {
         let file = sheet_json::read(&text)?;
-        let (source, _) = file.fit((*motion).clone())?;
+        let (source, notes) = file.fit((*motion).clone())?;
         let drawn = file.drawn(&source)?.unwrap_or(source);
-        Evaluation::of(&drawn, &file.sheet, reference.as_deref(), tolerance)
+        Ok((Evaluation::of(&drawn, &file.sheet, reference.as_deref(), tolerance)?, notes))
     })?;
-    plain(py, &made.map_err(|error| raised(py, error))?)
+    let (evaluation, notes) = made.map_err(|error| raised(py, error))?;
+    notes.iter().try_for_each(|note| warned(py, note))?;
+    plain(py, &evaluation)
 }
 
 /// Chooses as many keys by several methods, and judges each. `keys` are how many, both ends apart; `noise` in degrees is
@@ -135,7 +148,7 @@ pub fn compare<'py>(
     noise: f64,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let recipe = recipe.unwrap_or_default().with(py, settings)?.recipe;
+    let recipe = settings_alone(py, recipe.unwrap_or_default().with(py, settings)?)?;
     let noise = Noise { degrees: noise, ..Noise::default() };
     let asked = Compare { recipe, counts: keys, noise, ..Compare::default() };
     let motion = clip.motion.clone();

@@ -22,7 +22,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _genga(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("Error", module.py().get_type::<error::GengaError>())?;
+    module.add("Error", module.py().get_type::<error::Error>())?;
     module.add_class::<clip::Clip>()?;
     module.add_class::<recipe::Recipe>()?;
     module.add_class::<result::Result>()?;

@@ -17,7 +17,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::clip::Clip;
 use crate::corrections::Corrections;
-use crate::error::raised;
+use crate::error::{raised, warned};
 use crate::files::{Files, Handed};
 use crate::recipe::Recipe;
 use crate::table::{Column, plain, table};
@@ -151,7 +151,9 @@ impl Result {
             })
         };
         let files = self.look(py, |breakdown| handed.files(breakdown, (&formats, &own), go_on));
-        interrupt.map_or(files, Err)
+        let (files, notes) = interrupt.map_or(files, Err)?;
+        notes.iter().try_for_each(|note| warned(py, note))?;
+        Ok(files)
     }
 
     fn dict<'py>(

@@ -4,6 +4,7 @@ import contextlib
 import json
 import math
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -415,3 +416,24 @@ def test_the_examples_run(words, says, tmp_path):
     command = [sys.executable, str(ROOT / "python" / "examples" / script), *rest]
     out = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
     assert says in out.stdout
+
+
+def test_an_error_goes_through_a_pool_of_processes_with_its_place(tmp_path):
+    broken = tmp_path / "broken.bvh"
+    broken.write_text("HIERARCHY\nJOIN Hips\n")
+    with pytest.raises(genga.Error) as raised:
+        genga.read(str(broken))
+    again = pickle.loads(pickle.dumps(raised.value))
+    assert type(again) is genga.Error and str(again) == str(raised.value)
+    assert (again.file, again.line, again.column) == (str(broken), 2, 1)
+
+
+def test_what_is_lost_or_does_not_count_is_told_as_a_warning(clip):
+    with pytest.warns(UserWarning, match="W_VMD_LEFT_OUT"):
+        genga.run(clip).to_vmd()
+    corrected = genga.Recipe()
+    corrected.correct(pins=[30])
+    with pytest.warns(UserWarning, match="corrections"):
+        genga.study(clip, corrected, x=("filter.width", [10, 20]))
+    with pytest.warns(UserWarning, match="corrections"):
+        genga.compare(clip, corrected)

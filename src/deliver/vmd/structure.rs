@@ -42,7 +42,7 @@ pub(super) fn settle(
     open.iter().filter_map(|bone| at(bone)).for_each(|bone| joints[bone].clear());
     let mut taken: HashSet<usize> = joints.iter().flatten().map(|joint| joint.0).collect();
     taken.remove(&figure.root);
-    take_limbs(joints, &rows, &at, &mut taken);
+    take_limbs(joints, &rows, at, &mut taken);
     let mut by_shape = Vec::new();
     for (bone, own) in rows {
         let Some(at) = at(&bone) else { continue };

@@ -8,7 +8,7 @@ use ufbx::{
     ProgressCb, ProgressResult, Scene, SceneRoot, SpaceConversion, Transform,
 };
 
-use super::takes::{Curves, listed};
+use super::takes::{Curves, key_at, listed};
 use crate::error::{Error, Place, Warning};
 use crate::motion::read::posed::{Bone, Posed, Stand, join};
 use crate::motion::read::rates;
@@ -38,8 +38,9 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let joints = joints(&scene, &curves);
     let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
     let carrying = carrying(&scene, &joints);
+    let keys = curves.most_keys();
     let stand = |frame: usize, stands: &mut [DAffine3]| {
-        let time = curves.key_at(begin + frame as f64 / rate.fps(), rate);
+        let time = key_at(keys, begin + frame as f64 / rate.fps(), rate);
         place(&scene, stack, &carrying, time, &mut world);
         stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = world[*node]);
     };

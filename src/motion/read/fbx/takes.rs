@@ -1,6 +1,6 @@
 //! The takes of a scene: FBX calls them animation stacks.
 
-use ufbx::{AnimCurve, AnimStack, ElementType, Scene};
+use ufbx::{AnimCurve, AnimStack, ElementType, Keyframe, Scene};
 
 use crate::error::{Error, Place, Warning};
 use crate::motion::read::rates;
@@ -49,18 +49,10 @@ impl<'a> Curves<'a> {
         keys.map(|key| key.time).collect()
     }
 
-    /// The key at an instant, or the instant where there is none. A hair beside a key an angle may be on its way to a whole
-    /// turn more. The curve with most keys has those of all where poses were baked.
-    pub(super) fn key_at(&self, instant: f64, rate: FrameRate) -> f64 {
-        let Some(curve) = self.curves.iter().max_by_key(|curve| curve.keyframes.count) else {
-            return instant;
-        };
-        let keys = curve.keyframes.as_ref();
-        let after = keys.partition_point(|key| key.time < instant);
-        let near = keys[after.saturating_sub(1)..].iter().take(2).map(|key| key.time);
-        let off = |time: &f64| (time - instant).abs() * rate.fps();
-        let nearest = near.min_by(|one, other| off(one).total_cmp(&off(other)));
-        nearest.filter(|time| off(time) < ON).unwrap_or(instant)
+    /// The keys of the curve that has most: where poses were baked, those of all.
+    pub(super) fn most_keys(&self) -> &[Keyframe] {
+        let most = self.curves.iter().max_by_key(|curve| curve.keyframes.count);
+        most.map_or(&[], |curve| curve.keyframes.as_ref())
     }
 
     /// From the first key to the last.
@@ -102,6 +94,16 @@ impl<'a> Curves<'a> {
         let told = rates::far(near.len(), &at, &until, Place::Whole)?;
         Ok(((begin, *last), Some(told)))
     }
+}
+
+/// The key at an instant, or the instant where there is none: a hair beside a key an angle may be on its way to a whole turn
+/// more.
+pub(super) fn key_at(keys: &[Keyframe], instant: f64, rate: FrameRate) -> f64 {
+    let after = keys.partition_point(|key| key.time < instant);
+    let near = keys[after.saturating_sub(1)..].iter().take(2).map(|key| key.time);
+    let off = |time: &f64| (time - instant).abs() * rate.fps();
+    let nearest = near.min_by(|one, other| off(one).total_cmp(&off(other)));
+    nearest.filter(|time| off(time) < ON).unwrap_or(instant)
 }
 
 /// The takes as a person sees them.
