@@ -153,7 +153,7 @@ fn a_key_a_hair_beside_its_frame_is_on_it() {
 #[test]
 fn joints_stand_limb_by_limb() {
     let text = scene(1, 1.0, &[walk()])
-        .replace("Objects:  {", "Objects:  {\n    Model: 6, \"Model::Arm\", \"LimbNode\" { }\n    NodeAttribute: 96, \"NodeAttribute::Arm\", \"LimbNode\" { TypeFlags: \"Skeleton\" }")
+        .replace("\n}\nConnections:", "\n    Model: 6, \"Model::Arm\", \"LimbNode\" { }\n    NodeAttribute: 96, \"NodeAttribute::Arm\", \"LimbNode\" { TypeFlags: \"Skeleton\" }\n}\nConnections:")
         .replace("C: \"OO\",95,5", "C: \"OO\",95,5\n    C: \"OO\",6,3\n    C: \"OO\",96,6");
     let clip = read(&text).unwrap().clip;
     let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
