@@ -4,10 +4,13 @@
 //! shape decides the limb. It does not say where a chest begins or which finger is which: there names decide, and what
 //! nobody named is shared out along the spine.
 
+mod fit;
+
 use std::collections::HashSet;
 
 use super::bones::{Model, Side};
 use crate::motion::{Clip, JointId, LayFigure, Skeleton};
+use fit::{carries, fits};
 
 /// What one bone is made of, from the body outward.
 type Row = (String, Vec<JointId>);
@@ -36,21 +39,20 @@ pub(super) fn settle(
     let skeleton = clip.skeleton();
     let mut rows = rows(skeleton, &figure);
     let named = joints.to_vec();
-    let open = open(model, &named, skeleton, &rows, is_given);
+    let open = open(model, &named, skeleton, &rows, &is_given);
     rows.retain(|(bone, _)| open.contains(bone));
     let at = |bone: &str| model.find(bone);
     open.iter().filter_map(|bone| at(bone)).for_each(|bone| joints[bone].clear());
-    let mut taken: HashSet<usize> = joints.iter().flatten().map(|joint| joint.0).collect();
-    taken.remove(&figure.root);
-    take_limbs(joints, &rows, at, &mut taken);
+    take_limbs(joints, &rows, at, |bone| !is_given(&model.bones[bone].name));
+    let root = JointId(figure.root);
+    let mut taken: HashSet<JointId> = joints.iter().flatten().copied().collect();
     let mut by_shape = Vec::new();
     for (bone, own) in rows {
         let Some(at) = at(&bone) else { continue };
         if !is_of_limb(&bone) {
-            let is_free = |joint: &JointId| !taken.contains(&joint.0);
+            let is_free = |joint: &JointId| *joint == root || !taken.contains(joint);
             joints[at] = own.into_iter().filter(is_free).collect();
-            let own = joints[at].iter().map(|joint| joint.0);
-            taken.extend(own.filter(|joint| *joint != figure.root));
+            taken.extend(&joints[at]);
         }
         let is_news = !joints[at].is_empty() && joints[at].first() != named[at].first();
         by_shape.extend(is_news.then_some(bone));
@@ -58,20 +60,20 @@ pub(super) fn settle(
     by_shape
 }
 
-/// Gives limbs their joints before all else, and takes these from whatever names gave them to.
+/// Gives limbs their joints before all else, and takes these from the rows that may change.
 fn take_limbs(
     joints: &mut [Vec<JointId>],
     rows: &[Row],
     at: impl Fn(&str) -> Option<usize>,
-    taken: &mut HashSet<usize>,
+    may_change: impl Fn(usize) -> bool,
 ) {
     let limbs = || rows.iter().filter(|(bone, _)| is_of_limb(bone));
-    let own: HashSet<usize> = limbs().flat_map(|(_, own)| own).map(|joint| joint.0).collect();
-    joints.iter_mut().for_each(|joints| joints.retain(|joint| !own.contains(&joint.0)));
+    let own: HashSet<JointId> = limbs().flat_map(|(_, own)| own).copied().collect();
+    let others = joints.iter_mut().enumerate().filter(|(bone, _)| may_change(*bone));
+    others.for_each(|(_, joints)| joints.retain(|joint| !own.contains(joint)));
     for (bone, own) in limbs() {
         at(bone).into_iter().for_each(|bone| joints[bone].clone_from(own));
     }
-    taken.extend(own);
 }
 
 fn is_of_limb(bone: &str) -> bool {
@@ -123,41 +125,6 @@ fn open(
     let unnamed = |bone: &String| by_name(bone).is_none() && !is_given(bone);
     open.extend(["センター", "下半身", "首", "頭"].map(str::to_owned).into_iter().filter(unnamed));
     open
-}
-
-/// Whether joints can be a limb: they hang on one another, and they end where the shape has an end. Where a hand is so
-/// large that the shape finds another end, those joints are believed whose two bones are more alike in length.
-fn fits(skeleton: &Skeleton, names: [Option<JointId>; 3], shape: [Option<JointId>; 3]) -> bool {
-    let [Some(upper), Some(middle), lower] = names else { return false };
-    match lower {
-        None => carries(skeleton, upper, middle),
-        Some(_) => match (evenness(skeleton, names), evenness(skeleton, shape)) {
-            (None, _) => false,
-            (Some(_), None) => true,
-            (Some(named), Some(shaped)) => lower == shape[2] || named >= shaped,
-        },
-    }
-}
-
-/// How alike the two bones of a limb are, up to 1; none where its joints do not hang on one another.
-fn evenness(skeleton: &Skeleton, limb: [Option<JointId>; 3]) -> Option<f64> {
-    let [Some(upper), Some(middle), Some(lower)] = limb else { return None };
-    let (first, second) = (way(skeleton, upper, middle)?, way(skeleton, middle, lower)?);
-    Some(first.min(second) / first.max(second).max(f64::MIN_POSITIVE))
-}
-
-fn carries(skeleton: &Skeleton, upper: JointId, lower: JointId) -> bool {
-    way(skeleton, upper, lower).is_some()
-}
-
-/// How far it is along the bones from a joint to one that hangs on it, whether or not directly.
-fn way(skeleton: &Skeleton, from: JointId, to: JointId) -> Option<f64> {
-    let (mut at, mut long) = (to, 0.0);
-    while at != from {
-        long += skeleton.joints[at.0].offset.length();
-        at = skeleton.joints[at.0].parent?;
-    }
-    (from != to).then_some(long)
 }
 
 /// The joints of each bone as the shape has them.

@@ -124,6 +124,10 @@ fn names_that_do_not_fit_the_body_give_way_to_its_shape() {
         [inward.skeleton().find("LeftLeg").unwrap()],
         "a person's row stands"
     );
+    let beside = "[extra.\"左つま先\"]\nparent = \"左足首\"\njoints = \"LeftFoot\"\n";
+    let own = BoneMap::parse(beside).unwrap();
+    let toes = own.model.find("左つま先").unwrap();
+    assert_eq!(own.of(&inward).unwrap().joints[toes].len(), 1, "though it is a joint of the leg");
 }
 
 #[test]

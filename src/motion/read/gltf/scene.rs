@@ -90,7 +90,7 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let why = if of_keys.is_some() { "" } else { ", its keys mean no usual rate" };
     found.push(Found::new("read", format!("animation {name}, sampled {rate} a second{why}")));
     if !called.is_empty() {
-        let message = format!("{} joints are called by their names of VRM", called.len());
+        let message = format!("joints called by their names of VRM: {}", called.len());
         found.push(Found::new("names", message));
     }
     if motion.left_out > 0 {
