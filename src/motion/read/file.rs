@@ -107,6 +107,7 @@ impl Options {
         if format.is_native() {
             return Ok(read);
         }
+        self.check_root(&read)?;
         if let (true, Some(Warning { code, message, .. })) = (self.strict, read.warnings.first()) {
             let message = format!("{message} [{code}]");
             return Err(Error::Motion { place: Place::Whole, message });
@@ -117,6 +118,23 @@ impl Options {
         let words: Vec<&str> = read.found.iter().map(|found| found.is.as_str()).collect();
         read.warnings.push(Warning::new(FORMAT, format!("read as {}", words.join("; "))));
         Ok(read)
+    }
+}
+
+impl Options {
+    /// Refuses a root that is asked for and not there.
+    fn check_root(&self, read: &Read) -> Result<(), Error> {
+        let joints = &read.clip.skeleton().joints;
+        let roots = joints.iter().filter(|joint| joint.parent.is_none());
+        let names: Vec<&str> = roots.map(|joint| joint.name.as_str()).collect();
+        match self.root.as_deref().filter(|root| !names.contains(root)) {
+            None => Ok(()),
+            Some(root) => {
+                let message =
+                    format!("no tree is called {root:?}; the file has {}", names.join(", "));
+                Err(Error::setting("root", message))
+            }
+        }
     }
 }
 

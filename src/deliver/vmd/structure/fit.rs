@@ -10,8 +10,13 @@ pub(super) fn fits(
     shape: [Option<JointId>; 3],
 ) -> bool {
     let [Some(upper), Some(middle), lower] = names else { return false };
+    // Names of another limb.
+    if shape[2].is_some_and(|end| !carries(skeleton, upper, end)) {
+        return false;
+    }
     match lower {
-        None => carries(skeleton, upper, middle),
+        // A hand or a foot without a known name is the shape's; a limb that has none is as names say.
+        None => names[..2] != shape[..2] && carries(skeleton, upper, middle),
         Some(_) => match (evenness(skeleton, names), evenness(skeleton, shape)) {
             (None, _) => false,
             (Some(_), None) => true,

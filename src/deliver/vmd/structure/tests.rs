@@ -116,6 +116,14 @@ fn names_that_do_not_fit_the_body_give_way_to_its_shape() {
     // Thigh and shin in each other's place do not hang on one another.
     let (_, swapped) = called(&[("LeftArm", "LeftForeArm"), ("LeftForeArm", "LeftArm")]);
     assert_eq!(driven(&swapped), driven(&clip));
+    for end in ["LeftHand", "RightFoot"] {
+        let (_, nameless) = called(&[(end, "x")]);
+        assert_eq!(driven(&nameless), driven(&clip), "{end} without a name");
+    }
+    let limbs = [("LeftArm", "LeftUpLeg"), ("LeftForeArm", "LeftLeg"), ("LeftHand", "LeftFoot")];
+    let exchanged: Vec<_> =
+        limbs.into_iter().flat_map(|(arm, leg)| [(arm, leg), (leg, arm)]).collect();
+    assert_eq!(driven(&called(&exchanged).1), driven(&clip), "an arm is no leg");
     let own = BoneMap::parse("[bones]\n\"左足\" = \"LeftLeg\"\n").unwrap();
     let found = own.of(&inward).unwrap();
     let knee = own.model.find("左足").unwrap();

@@ -287,6 +287,18 @@ fn what_is_damaged_is_refused_at_its_byte() {
 }
 
 #[test]
+fn a_root_that_is_not_there_is_refused_with_those_there_are() {
+    let bytes = file(&[("センター", 0, STILL, NONE, LINEAR)], &[]);
+    let of = |root: &str| Options { root: Some(root.into()), ..Options::default() }.read(&bytes);
+    let error = of("Hips").unwrap_err().to_string();
+    assert!(
+        error.starts_with("root: no tree is called \"Hips\"; the file has センター"),
+        "{error}"
+    );
+    assert!(of("センター").is_ok());
+}
+
+#[test]
 fn a_key_that_stands_hours_behind_the_others_is_left_out_and_told() {
     let keys = |last: u32| {
         let (rest, last) = ([9.0, 0.0, 0.0], ("頭", last, STILL, NONE, LINEAR));
