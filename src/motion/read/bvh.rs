@@ -42,6 +42,7 @@ pub use lead_in::LeadIn;
 pub(super) use names::renamed;
 pub use ramps::Ramps;
 pub use read::{Options, open, read};
+pub(super) use trees::no_tree;
 pub use write::{Writer, write};
 
 /// What a reader gives.

@@ -15,6 +15,7 @@ use std::fs::File;
 use std::io::{Read as _, Seek};
 use std::path::Path;
 
+use super::bvh::no_tree;
 use crate::error::{Error, Place, Warning};
 use crate::motion::{StreamLimit, bytes_in_words};
 
@@ -119,21 +120,15 @@ impl Options {
         read.warnings.push(Warning::new(FORMAT, format!("read as {}", words.join("; "))));
         Ok(read)
     }
-}
 
-impl Options {
-    /// Refuses a root that is asked for and not there.
+    /// Refuses a root that is asked for and not there: some formats have one tree, and choose none.
     fn check_root(&self, read: &Read) -> Result<(), Error> {
         let joints = &read.clip.skeleton().joints;
         let roots = joints.iter().filter(|joint| joint.parent.is_none());
         let names: Vec<&str> = roots.map(|joint| joint.name.as_str()).collect();
         match self.root.as_deref().filter(|root| !names.contains(root)) {
             None => Ok(()),
-            Some(root) => {
-                let message =
-                    format!("no tree is called {root:?}; the file has {}", names.join(", "));
-                Err(Error::setting("root", message))
-            }
+            Some(root) => Err(no_tree(root, &names.join(", "))),
         }
     }
 }

@@ -10,8 +10,8 @@ mod tests;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use super::bvh::renamed;
 use super::bvh::warnings::{NAME_MISSING, NAME_TWICE, ROOTS};
+use super::bvh::{no_tree, renamed};
 use super::reading::Options;
 use crate::error::{Error, Place, Warning};
 use crate::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton, set_local_rotation};
@@ -319,13 +319,8 @@ fn tree(
         return Ok(vec![true; bones.len()]);
     };
     let asked = bones.iter().position(|bone| bone.parent.is_none() && bone.name == root);
-    match asked {
-        Some(asked) => Ok(trees.iter().map(|tree| *tree == asked).collect()),
-        None => {
-            let message = format!("no tree is called {root:?}; the file has {listed}");
-            Err(Error::setting("root", message))
-        }
-    }
+    let asked = asked.ok_or_else(|| no_tree(root, &listed))?;
+    Ok(trees.iter().map(|tree| *tree == asked).collect())
 }
 
 /// The bones that are kept, with their parents among them.

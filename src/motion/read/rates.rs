@@ -64,16 +64,32 @@ fn density(times: &[f64]) -> Option<f64> {
 }
 
 /// How many of some instants belong to one motion: those before a gap that none has. Instants are sorted.
-pub(super) fn together(times: &[f64]) -> usize {
+fn together(times: &[f64]) -> usize {
     let gap = times.windows(2).position(|pair| pair[1] - pair[0] > GAP);
     gap.map_or(times.len(), |before| before + 1)
+}
+
+/// How many of some sorted instants belong to one motion, and what is said of those that do not; `called` is an instant in
+/// words.
+///
+/// # Errors
+/// As [`far`].
+pub(super) fn cut(
+    times: &[f64],
+    place: Place,
+    called: impl Fn(usize) -> String,
+) -> Result<(usize, Option<Warning>), Error> {
+    let near = together(times);
+    let is_cut = near < times.len();
+    let told = is_cut.then(|| far(near, &called(near), &called(near - 1), place));
+    Ok((near, told.transpose()?))
 }
 
 /// Says that what stands `at` an instant is behind such a gap, and that the motion is read up to the instant `end`.
 ///
 /// # Errors
 /// [`Error::Motion`] at `place` where nothing else is left than one instant.
-pub(super) fn far(left: usize, at: &str, end: &str, place: Place) -> Result<Warning, Error> {
+fn far(left: usize, at: &str, end: &str, place: Place) -> Result<Warning, Error> {
     let minutes = GAP / 60.0;
     if left < 2 {
         let message = format!(

@@ -36,14 +36,16 @@ pub(super) fn choose(
             Some(tree) => select(tree.joints.clone(), head),
             None => {
                 let listed = listed(&trees, &head.skeleton.joints);
-                return Err(Error::setting(
-                    "root",
-                    format!("no tree is called {name:?}; the file has {listed}"),
-                ));
+                return Err(no_tree(name, &listed));
             }
         },
     }
     Ok(())
+}
+
+/// That no tree has the root that is asked for, and which there are.
+pub(in crate::motion::read) fn no_tree(root: &str, listed: &str) -> Error {
+    Error::setting("root", format!("no tree is called {root:?}; the file has {listed}"))
 }
 
 /// A root and all joints below it, which follow it directly.

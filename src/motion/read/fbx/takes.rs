@@ -75,7 +75,7 @@ impl<'a> Curves<'a> {
     /// The range of a take, cut where a gap begins in which no motion is without a key, and what is said of that.
     ///
     /// # Errors
-    /// As [`rates::far`].
+    /// As [`rates::cut`].
     pub(super) fn whole(&self, stack: &AnimStack) -> Result<((f64, f64), Option<Warning>), Error> {
         let (begin, end) = self.range(stack);
         if end - begin <= rates::GAP {
@@ -86,13 +86,8 @@ impl<'a> Curves<'a> {
         let mut times: Vec<f64> = inside.chain([begin, end]).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
-        let (near, far) = times.split_at(rates::together(&times));
-        let (Some(last), Some(far)) = (near.last(), far.first()) else {
-            return Ok(((begin, end), None));
-        };
-        let [at, until] = [far, last].map(|time| format!("{time} s"));
-        let told = rates::far(near.len(), &at, &until, Place::Whole)?;
-        Ok(((begin, *last), Some(told)))
+        let (near, far) = rates::cut(&times, Place::Whole, |at| format!("{} s", times[at]))?;
+        Ok(((begin, times[near - 1]), far))
     }
 }
 

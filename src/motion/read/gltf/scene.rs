@@ -49,17 +49,14 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     };
     let motion = Motion::read(&document, &mut buffers, at, options)?;
     let times = motion.times();
-    let (times, far) = times.split_at(rates::together(&times));
+    let name = &takes[at].name;
+    let (near, far) = rates::cut(&times, Place::Whole, |at| format!("{} s", times[at]))
+        .map_err(|error| of_take(error, at, name))?;
+    let times = &times[..near];
     let of_keys = options.fps.or(rates::of_keys(times));
     let rate = of_keys.map_or_else(|| rates::otherwise(times), Ok)?;
     let [begin, end] = [times.first(), times.last()].map(|time| time.copied().unwrap_or_default());
     let frames = rates::frames(end - begin, rate);
-    let name = &takes[at].name;
-    let far = far.first().map(|far| {
-        let [far, end] = [far, &end].map(|time| format!("{time} s"));
-        rates::far(times.len(), &far, &end, Place::Whole)
-    });
-    let far = far.transpose().map_err(|error| of_take(error, at, name))?;
     let called = humanoid::names(&document);
     let moved: Vec<bool> = motion.nodes.iter().map(Moved::is_moved).collect();
     let joints = joints::of(&document, &parents, &moved, &called);

@@ -160,12 +160,13 @@ impl Motion {
         frames.sort_unstable();
         frames.dedup();
         let times: Vec<f64> = frames.iter().map(|frame| f64::from(*frame) / RATE).collect();
-        let near = rates::together(&times);
-        let Some(far) = frames.get(near) else { return Ok(()) };
+        let place = Place::Byte(self.last.1 as u64);
+        let (near, far) = rates::cut(&times, place, |at| format!("frame {}", frames[at]))?;
+        if far.is_none() {
+            return Ok(());
+        }
         let end = frames[near - 1];
-        let [at, until] = [*far, end].map(|frame| format!("frame {frame}"));
-        self.far = Some(rates::far(near, &at, &until, Place::Byte(self.last.1 as u64))?);
-        self.last.0 = end;
+        (self.far, self.last.0) = (far, end);
         self.bones.values_mut().for_each(|keys| keys.retain(|key| key.frame <= end));
         self.bones.retain(|_, keys| !keys.is_empty());
         Ok(())
