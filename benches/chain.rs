@@ -1,4 +1,4 @@
-//! The chain, stage by stage and as a whole, on a synthetic body: `cargo bench --bench chain`.
+//! The chain, stage by stage and as a whole, on a synthetic body: `cargo bench -p genga-benches --bench chain`.
 //!
 //! A table in Markdown: CPU time in ns per frame·joint, median of the rounds. `-- 5000` is of as many frames alone.
 

@@ -15,8 +15,8 @@ trap 'rm -rf "$work"' EXIT
 tests/needs time
 
 # A long take: the rows of a clip again and again, about 100 MB.
-clip=../shared/data/bvh/cmu-01_06-playground-long.bvh
-[ -e "$clip" ] || clip=data/kick.bvh
+clip=$(tests/clips cmu-01_06-playground-long)
+clip=${clip:-data/kick.bvh}
 long=$work/long.bvh
 sed '1,/^Frame Time/d' "$clip" >"$work/rows"
 times=$((100000000 / $(wc -c <"$work/rows")))
@@ -25,20 +25,20 @@ sed -n '1,/^Frame Time/p' "$clip" | sed -E "s/^Frames:.*/Frames: $frames/" >"$lo
 for _ in $(seq "$times"); do cat "$work/rows"; done >>"$long"
 
 printf '## Reading\n\n'
-cargo bench --locked --quiet --bench peers
+cargo bench --locked --quiet --package genga-benches --bench peers
 
 printf '\n## Several cores\n\n'
-cargo bench --locked --quiet --bench cores -- "$long"
+cargo bench --locked --quiet --package genga-benches --bench cores -- "$long"
 
 printf '\n## The chain\n\n'
-cargo bench --locked --quiet --bench chain
+cargo bench --locked --quiet --package genga-benches --bench chain
 
 printf '\n## A study\n\n```text\n'
-cargo bench --locked --quiet --bench study
+cargo bench --locked --quiet --package genga-benches --bench study
 printf '```\n'
 
 printf '\n## Optimal keys\n\n```text\n'
-cargo bench --locked --quiet --bench optimal
+cargo bench --locked --quiet --package genga-benches --bench optimal
 printf '```\n'
 
 printf '\n## A long take\n\n'

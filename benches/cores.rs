@@ -1,4 +1,4 @@
-//! One large file, opened by one core and by all of them: `cargo bench --bench cores -- FILE.bvh`.
+//! One large file, opened by one core and by all of them: `cargo bench -p genga-benches --bench cores -- FILE.bvh`.
 //!
 //! A process of its own each time, held to one core or free, turn about: a ratio is taken within a
 //! round. Wall time, which is what more cores are to save.
@@ -23,7 +23,7 @@ fn main() {
     match &arguments[..] {
         [path] => table(Path::new(path)),
         [word, path] if word == "one" => println!("{}", best(Path::new(path))),
-        _ => println!("cargo bench --bench cores -- FILE.bvh"),
+        _ => println!("cargo bench -p genga-benches --bench cores -- FILE.bvh"),
     }
 }
 

@@ -1,6 +1,6 @@
 //! A hundred figures as one SVG, with volume and as sticks.
 //!
-//! `cargo bench --bench figures`
+//! `cargo bench -p genga-benches --bench figures`
 #![allow(missing_docs)]
 
 use divan::Bencher;
@@ -15,7 +15,7 @@ fn main() {
 }
 
 fn kick() -> Clip {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/kick.bvh");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/kick.bvh");
     bvh::open(path.as_ref()).expect("the sample is there").clip
 }
 

@@ -1,5 +1,5 @@
 //! What is run again when one knob was turned, as items (frames × joints) a second:
-//! `cargo bench --bench knobs`.
+//! `cargo bench -p genga-benches --bench knobs`.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

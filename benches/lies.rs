@@ -1,5 +1,5 @@
 //! Time and memory that a reader spends on files that lie, and memory that a run does on small files that ask for much:
-//! `cargo bench --bench lies`, or `-- memory` for the second table alone.
+//! `cargo bench -p genga-benches --bench lies`, or `-- memory` for the second table alone.
 //!
 //! Every file is read in a process of its own, whose peak of memory is taken from /proc. Two sizes show
 //! whether both grow with the size and no faster.

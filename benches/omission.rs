@@ -1,6 +1,6 @@
 //! The omission stages, against a version that computes every distance anew in every round.
 //!
-//! `cargo bench --bench omission`
+//! `cargo bench -p genga-benches --bench omission`
 #![allow(missing_docs)]
 
 use std::f64::consts::TAU;

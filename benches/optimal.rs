@@ -1,4 +1,4 @@
-//! The optimal keys of every count, from the clip: `cargo bench --bench optimal`.
+//! The optimal keys of every count, from the clip: `cargo bench -p genga-benches --bench optimal`.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ fn every_count(bencher: Bencher<'_, '_>, clip: Clip, per_second: f64) {
 /// each of its frames.
 #[divan::bench(args = [24.0, 100.0], sample_count = 7)]
 fn kuroda_pitch(bencher: Bencher<'_, '_>, per_second: f64) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kuroda-pitch.bvh");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/kuroda-pitch.bvh");
     let bytes = std::fs::read(path).expect("the sample is part of the repository");
     every_count(bencher, bvh::read(&bytes).expect("a clip").clip, per_second);
 }

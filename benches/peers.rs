@@ -215,13 +215,14 @@ const RATIOS: [(&str, usize, usize); 4] = [
 
 fn main() {
     let rounds = env::var("ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(ROUNDS);
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/bvh");
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/bvh");
+    let folder = env::var_os("GENGA_CLIPS").map_or(beside, PathBuf::from);
     let paths = FILES.map(|name| folder.join(name).with_extension("bvh"));
     let mut inputs: Vec<Input> =
         paths.into_iter().filter(|path| path.exists()).map(input).collect();
     if inputs.is_empty() {
         println!("No real clips at {}: the samples of data/ instead.\n", folder.display());
-        let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+        let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data");
         inputs
             .extend(["pitch", "kick"].map(|name| input(samples.join(name).with_extension("bvh"))));
     }

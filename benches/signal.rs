@@ -1,6 +1,6 @@
 //! Speeds, filters and turns on clips of three sizes.
 //!
-//! `cargo bench --bench signal`; one item is one joint at one frame.
+//! `cargo bench -p genga-benches --bench signal`; one item is one joint at one frame.
 #![allow(missing_docs)]
 
 use divan::counter::ItemsCount;

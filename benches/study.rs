@@ -1,4 +1,4 @@
-//! A study of 50 filter widths and 20 persistences, as cells a second: `cargo bench --bench study`.
+//! A study of 50 filter widths and 20 persistences, as cells a second: `cargo bench -p genga-benches --bench study`.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

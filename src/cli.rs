@@ -45,7 +45,7 @@ use std::process::ExitCode;
 use failure::Failure;
 use words::Words;
 
-#[cfg(feature = "studio")]
+#[cfg(feature = "studio-files")]
 pub use commands::Disk;
 
 /// Runs the program with the arguments of this process.

@@ -100,6 +100,13 @@ pub mod time;
 pub mod timing;
 pub mod trial;
 
+#[cfg(test)]
+#[path = "../tests/cases/mod.rs"]
+mod cases;
+#[cfg(test)]
+#[path = "../tests/real/mod.rs"]
+mod real;
+
 pub use error::{Error, Warning};
 /// The vectors and rotations of skeletons and poses.
 pub use glam;

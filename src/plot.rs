@@ -47,7 +47,7 @@ mod tests;
 pub use crate::motion::Camera;
 pub(crate) use canvas::escaped;
 pub use contact_sheet::ContactSheet;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pdf")]
 pub use convert::pdf_from_svg;
 #[cfg(feature = "pictures")]
 pub use convert::png_from_svg;

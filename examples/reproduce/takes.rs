@@ -10,7 +10,7 @@ use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::{Role, Sheet};
 
-use crate::{Outcome, root};
+use crate::{Outcome, real};
 
 /// All merges, the default among them.
 pub(crate) const MERGES: [&str; 4] = ["vote", "sum", "union", "body"];
@@ -49,19 +49,12 @@ pub(crate) struct Shown {
     pub(crate) role: Role,
 }
 
-/// Every clip of `../shared/data/bvh`, by name; none where the folder is not.
+/// The real clips, by name; none where one of them is missing, for tables are of all.
 pub(crate) fn all() -> Outcome<Vec<Take>> {
-    let folder = root().join("../shared/data/bvh");
-    if !folder.is_dir() {
+    let folder = real::folder();
+    let paths = real::NAMES.map(|name| folder.join(name).with_extension("bvh"));
+    if !paths.iter().all(|path| path.is_file()) {
         return Ok(Vec::new());
-    }
-    let entries =
-        fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<Outcome<Vec<_>>>()?;
-    paths.retain(|path| path.extension().is_some_and(|ending| ending == "bvh"));
-    paths.sort();
-    if paths.is_empty() {
-        return Err(format!("{}: there is no clip", folder.display()).into());
     }
     let take = |path: &std::path::PathBuf| {
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
@@ -75,7 +68,7 @@ pub(crate) fn all() -> Outcome<Vec<Take>> {
 /// The clip of that name.
 pub(crate) fn named<'a>(takes: &'a [Take], name: &str) -> Outcome<&'a Take> {
     let found = takes.iter().find(|take| take.name == name);
-    found.ok_or_else(|| format!("../shared/data/bvh has no {name}.bvh").into())
+    found.ok_or_else(|| format!("{name} is not in the list of clips").into())
 }
 
 impl Take {

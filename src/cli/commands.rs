@@ -20,7 +20,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use super::failure::Failure;
 use super::words::Words;
 
-#[cfg(feature = "studio")]
+#[cfg(feature = "studio-files")]
 pub use studio::Disk;
 
 /// Motion capture to Japanese limited animation.

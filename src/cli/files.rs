@@ -90,6 +90,7 @@ fn json(name: &impl Display, data: &impl Serialize) -> Result<String, Failure> {
 pub(super) fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
     match paths::ending(path).as_deref() {
         Some("png") => write(path, &plot::png_from_svg(svg, 2.0)?),
+        #[cfg(feature = "pdf")]
         Some("pdf") => write(path, &plot::pdf_from_svg(svg)?),
         _ => write(path, svg.as_bytes()),
     }

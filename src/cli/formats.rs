@@ -122,7 +122,7 @@ impl Formats {
     }
 
     /// The same with other settings.
-    #[cfg(feature = "studio")]
+    #[cfg(feature = "studio-files")]
     pub(super) fn set(self, settings: &Settings) -> Self {
         Self { settings: settings.clone(), ..self }
     }

@@ -98,6 +98,10 @@ pub(super) fn check_folder(
 /// Refuses a picture that could not be written, before any work.
 pub(super) fn check_picture(option: &str, path: Option<&PathBuf>) -> Result<(), Failure> {
     match path.and_then(|path| ending(path)).as_deref() {
+        Some("pdf") if !cfg!(feature = "pdf") => Err(Failure::AskedWrongly(format!(
+            "--{option}: this genga was built without PDF; name an .svg or .png, or build it with \
+             cargo install --path . --features pdf --locked"
+        ))),
         Some("pdf" | "png" | "svg") | None => Ok(()),
         Some(other) => Err(Failure::AskedWrongly(format!(
             "--{option}: a picture is .svg, .pdf or .png, not .{other}"

@@ -241,9 +241,12 @@ mod tests {
         for (count, begin) in [(1, 0), (70_000, 0), (3, 5_000_000_000)] {
             let file = archive(count, begin);
             let last = format!("clips/é {}.json", count - 1);
-            if let Some(said) = by_python(file.path()) {
-                let last = last.replace('é', "\\xe9");
-                assert_eq!(said, format!("{count} '{last}' {} (1980, 1, 1)", "a".repeat(24)));
+            match by_python(file.path()) {
+                Some(said) => {
+                    let last = last.replace('é', "\\xe9");
+                    assert_eq!(said, format!("{count} '{last}' {} (1980, 1, 1)", "a".repeat(24)));
+                }
+                None => crate::real::without("python3"),
             }
             let mut entries = BufReader::new(File::open(file.path()).unwrap());
             entries.seek(SeekFrom::Start(begin)).unwrap();

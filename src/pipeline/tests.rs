@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 use super::stage::Inputs;
 use super::*;
+use crate::cases::{cases, is_full};
 use crate::edits::{Forbidden, Move, Pin};
 use crate::keys::{self, Candidates, Origin};
 use crate::motion::bvh;
@@ -121,7 +122,8 @@ fn corrections(step: usize) -> Edits {
 fn one_knob_changed_on_a_used_engine_gives_what_a_fresh_one_gives() {
     let clip = pitch();
     let mut engine = Engine::new(clip.clone()).unwrap();
-    for (knob, value) in changes(1) {
+    let apart = if is_full() { 1 } else { 3 };
+    for (knob, value) in changes(1).into_iter().step_by(apart) {
         let mut recipe = Recipe::default();
         recipe.set(knob.name, &value).unwrap();
         let edits = Edits::default();
@@ -135,7 +137,9 @@ fn knobs_that_stay_changed_and_corrections_that_come_and_go_give_what_a_fresh_en
     let clip = pitch();
     let mut engine = Engine::new(clip.clone()).unwrap();
     let mut recipe = Recipe::default();
-    for (step, (knob, value)) in changes(2).into_iter().enumerate() {
+    // Settings that stay changed make a run slow.
+    let steps = if is_full() { usize::MAX } else { 40 };
+    for (step, (knob, value)) in changes(2).into_iter().enumerate().take(steps) {
         recipe.set(knob.name, &value).unwrap();
         let edits = corrections(step);
         let used = run(&mut engine, &recipe, &edits);
@@ -391,8 +395,8 @@ fn layers_that_come_and_go_give_what_a_fresh_engine_gives() {
     let arms = r#"[{ name = "A", joints = ["Hips"] }, { name = "arms", joints = ["*Arm*"] }]"#;
     let back = r#"[{ name = "arms", joints = ["*Arm*"] }, { name = "A", joints = ["Hips"] }]"#;
     for layers in ["limbs", "body", arms, "joints", back, "limbs"] {
-        for (knob, value) in [("root", "ones"), ("keys.weights.LeftArm", "3"), ("spacing.on", "3")]
-        {
+        let turned = [("root", "ones"), ("keys.weights.LeftArm", "3"), ("spacing.on", "3")];
+        for (knob, value) in turned.into_iter().take(if is_full() { 3 } else { 2 }) {
             let recipe = recipe(&[("layers", layers), (knob, value)]);
             engine.find_keys(&recipe, &none).unwrap();
             let used = run(&mut engine, &recipe, &none);
@@ -492,7 +496,7 @@ fn any_recipe() -> impl Strategy<Value = Recipe> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(cases(5, 60))]
 
     #[test]
     fn registers_of_any_width_give_the_same_bits(recipe in any_recipe()) {

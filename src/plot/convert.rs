@@ -1,7 +1,7 @@
 //! PNG and PDF from SVG, with the fonts of the system.
 
 mod fonts;
-#[cfg(feature = "cli")]
+#[cfg(feature = "pdf")]
 mod pdf;
 
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -9,7 +9,7 @@ use resvg::usvg::{Options, Tree};
 
 use crate::error::Error;
 use crate::plot::style::{cannot, failed};
-#[cfg(feature = "cli")]
+#[cfg(feature = "pdf")]
 pub use pdf::pdf_from_svg;
 
 /// Px on a side at most: a larger picture would take gigabytes.

@@ -585,7 +585,7 @@ fn a_png_has_the_size_of_its_svg_times_the_scale() {
     assert!(png_from_svg("no svg", 1.0).is_err());
 }
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "pdf")]
 #[test]
 fn a_pdf_is_one_page_of_the_size_of_its_svg_and_knows_no_date() {
     let svg = SheetPlot::default().draw(&sheet(), None, None).unwrap();

@@ -6,6 +6,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
+use crate::cases::cases;
 use crate::edits::Edits;
 use crate::keys::Origin;
 use crate::motion::{Axis as Direction, Channel, Clip, EndSite, Joint, JointId, Skeleton};
@@ -190,7 +191,7 @@ fn the_literal_reading_has_the_same_cells_too() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(cases(6, 40))]
 
     #[test]
     fn a_longer_persistence_never_adds_a_key(width in 1.0..40.0f64, noise in 0.0..1.0f64, literal: bool) {

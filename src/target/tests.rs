@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::cases::cases;
 use crate::edits::Pin;
 use crate::keys::Choose;
 use crate::motion::{Clip, bvh};
@@ -273,7 +274,7 @@ fn beyond(most: f64, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> usi
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(cases(1, 24))]
 
     #[test]
     fn a_largest_error_takes_the_highest_price_that_will_do(
@@ -307,7 +308,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(cases(20, 150))]
 
     #[test]
     fn drawings_come_within_one_or_it_is_said_why(

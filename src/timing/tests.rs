@@ -4,6 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
+use crate::cases::cases;
 use crate::edits::Hold;
 use crate::keys::{Key, LayerKeys, Origin, Wall};
 use crate::motion::Skeleton;
@@ -107,7 +108,7 @@ fn twitches(layer: &Layer, may: impl Fn(usize, usize) -> bool) -> Vec<(usize, Ro
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(cases(400, 2000))]
 
     #[test]
     fn nothing_stays_for_one_koma_where_drawings_are_not_on_ones(

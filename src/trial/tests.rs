@@ -7,6 +7,7 @@ mod read;
 
 use proptest::prelude::*;
 
+use crate::cases::cases;
 use crate::trial::{Answer, Bootstrap, BradleyTerry, Crowd, Interval, Question, Tally, Verdict};
 use made::{NAMES, file};
 
@@ -122,7 +123,7 @@ fn scores(answers: impl IntoIterator<Item = (usize, usize)>) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases(16, 64))]
 
     #[test]
     fn scores_turn_round_with_the_answers(answers in answers()) {

@@ -65,11 +65,15 @@ fn seconds(clip: &Clip) -> Vec<f64> {
 /// What is found on each of the real clips, by their names.
 fn on_real_clips(find: impl Fn(&Clip) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
     let of = |path: std::path::PathBuf| (clips::name(&path), find(&clips::read(&path)));
-    clips::real().into_iter().map(of).collect()
+    clips::all().into_iter().map(of).collect()
 }
 
 /// How far the splits of all real clips agree within a koma with those that are found otherwise (F1).
 fn agree_on_real_clips(least: f64, otherwise: impl Fn(&Clip) -> Vec<f64>) {
+    clips::with_all(|_| agree(least, otherwise));
+}
+
+fn agree(least: f64, otherwise: impl Fn(&Clip) -> Vec<f64>) {
     let fine = |seconds: &Vec<f64>| -> Vec<Frame> {
         seconds.iter().map(|at| Frame((2400.0 * at).round() as usize)).collect()
     };
@@ -82,8 +86,9 @@ fn agree_on_real_clips(least: f64, otherwise: impl Fn(&Clip) -> Vec<f64>) {
         }
         all += count;
     }
-    let share = kept / all.max(1) as f64;
-    assert!(all == 0 || share >= least, "{share:.3}: {plain:?} {other:?}");
+    assert!(all > 0, "no take is split: {plain:?} {other:?}");
+    let share = kept / all as f64;
+    assert!(share >= least, "{share:.3}: {plain:?} {other:?}");
 }
 
 #[test]
@@ -103,13 +108,12 @@ fn long_takes_are_split_and_single_movements_are_not() {
 #[test]
 fn the_karateka_s_kicks_part_in_the_stance_between_them() {
     // Where an eye sees rests and the begins of kicks: docs/evidence/events.csv.
-    for (name, found) in on_real_clips(seconds) {
-        if name == "cmu-135_04-front-kick" {
-            let frames: Vec<f64> = found.iter().map(|at| 5.0 + 120.0 * at).collect();
-            assert!(frames.iter().any(|frame| (450.0..510.0).contains(frame)), "{frames:?}");
-            assert!(frames.iter().any(|frame| (680.0..745.0).contains(frame)), "{frames:?}");
-        }
-    }
+    clips::with(["cmu-135_04-front-kick"], |[kicks]| {
+        let found = seconds(&clips::read(&kicks));
+        let frames: Vec<f64> = found.iter().map(|at| 5.0 + 120.0 * at).collect();
+        assert!(frames.iter().any(|frame| (450.0..510.0).contains(frame)), "{frames:?}");
+        assert!(frames.iter().any(|frame| (680.0..745.0).contains(frame)), "{frames:?}");
+    });
 }
 
 #[test]
@@ -144,10 +148,13 @@ fn backwards_a_take_parts_at_the_same_places() {
 
 #[test]
 fn a_walk_and_a_dance_that_are_joined_part_within_a_second_of_where_they_meet() {
-    let find = |name: &str| clips::real().into_iter().find(|path| clips::name(path) == name);
-    let names = ["cmu-07_01-walk", "cmu-05_11-dance-pirouette"];
-    let [Some(walk), Some(dance)] = names.map(find) else { return };
-    let (walk, dance) = (clips::read(&walk), clips::read(&dance));
+    clips::with(["cmu-07_01-walk", "cmu-05_11-dance-pirouette"], |paths| {
+        let [walk, dance] = paths.map(|path| clips::read(&path));
+        parts_where_they_meet(&walk, &dance);
+    });
+}
+
+fn parts_where_they_meet(walk: &Clip, dance: &Clip) {
     // The dance begins where the walk ends, and the body takes 0.4 s to get into it: a step in one frame
     // would be faster than all else.
     let (end, begin) = (walk.row(walk.last()), dance.row(dance.first()));
@@ -155,7 +162,7 @@ fn a_walk_and_a_dance_that_are_joined_part_within_a_second_of_where_they_meet() 
         0..3 => 0.0,
         _ => (begin[column] - end[column] + 180.0).rem_euclid(360.0) - 180.0,
     };
-    let mut values = rows(&walk).concat();
+    let mut values = rows(walk).concat();
     for step in 1..48 {
         let share = f64::from(step) / 48.0;
         values.extend((0..end.len()).map(|column| end[column] + share * way(column)));

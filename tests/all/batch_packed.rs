@@ -23,8 +23,7 @@ fn an_archive_has_the_files_that_folders_have() {
         .current_dir(place.path("out"))
         .output();
     let Ok(output) = unpacked else {
-        assert!(std::env::var_os("CI").is_none(), "python3 is missing");
-        return;
+        return crate::clips::without("python3");
     };
     assert!(output.status.success(), "{}", text(&output.stderr));
     let mut unpacked = results(&place, "out");

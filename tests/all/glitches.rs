@@ -12,6 +12,7 @@ use genga::recipe::Recipe;
 use genga::time::{Frame, FrameRate};
 use proptest::prelude::*;
 
+use crate::cases::cases;
 use crate::program::{Place, column, text};
 
 fn kick() -> Clip {
@@ -144,7 +145,7 @@ fn still(fps: f64, tremble: f64) -> Clip {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases(8, 64))]
 
     /// Any joint thrown out of a sound clip for a frame is found, in that frame alone, and what is sound stays as it is.
     /// Around it the joint turns less than a sixth of the way out.

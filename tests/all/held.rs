@@ -45,7 +45,7 @@ fn on_twos_and_threes_nothing_stays_for_one_koma_on_any_clip() {
     ];
     let samples = ["kick", "kuroda-pitch", "pitch", "swing", "tennis"];
     let samples = samples.map(|name| clips::here(&format!("data/{name}.bvh")));
-    for path in clips::real().into_iter().chain(samples) {
+    for path in clips::all().into_iter().chain(samples) {
         let clip = clips::read(&path);
         let mut engine = Engine::new(clip.clone()).unwrap();
         for settings in settings {

@@ -25,7 +25,7 @@ fn found_again(clip: &Clip, keys: &[Frame]) -> f64 {
 
 #[test]
 fn keys_that_a_clip_was_made_from_are_found_again() {
-    let mut paths = clips::real();
+    let mut paths = clips::all();
     paths.push(clips::here("data/kick.bvh"));
     let mut shares = Vec::new();
     for path in paths {

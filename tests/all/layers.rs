@@ -29,7 +29,7 @@ fn shown(clip: &Clip, sheet: &Sheet) -> Clip {
 
 #[test]
 fn on_real_clips_every_joint_is_in_one_layer_and_has_its_drawing_s_numbers() {
-    for path in clips::real() {
+    for path in clips::all() {
         let (name, clip) = (clips::name(&path), clips::read(&path));
         let sheet = sheet(&clip, &[("layers", "limbs")]);
         assert_eq!(sheet.layers.len(), 5, "{name}");
@@ -56,7 +56,7 @@ fn on_real_clips_every_joint_is_in_one_layer_and_has_its_drawing_s_numbers() {
 
 #[test]
 fn on_real_clips_a_root_on_ones_is_where_the_source_is_on_each_koma() {
-    for path in clips::real() {
+    for path in clips::all() {
         let (name, clip) = (clips::name(&path), clips::read(&path));
         let ones = sheet(&clip, &[("root", "ones")]);
         assert_eq!(ones.root, RootMotion::Ones);

@@ -43,7 +43,7 @@ fn starts() -> Vec<(String, Clip)> {
         let end = Frame(clip.len().min(400));
         (clips::name(&path), clip.trimmed(Frame(0), end).unwrap())
     };
-    clips::real().into_iter().map(start).collect()
+    clips::all().into_iter().map(start).collect()
 }
 
 /// Every n-th frame, at the rate that this makes.

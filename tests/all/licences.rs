@@ -1,7 +1,7 @@
 //! Every package that genga is built of, on any system and with any feature, has a licence that goes with ours and
 //! comes from a registry of crates alone.
 //!
-//! Cargo fetches what other systems need before it can answer, so this one is left to `.ci/check`.
+//! Cargo fetches what other systems need before it can answer, so this one is left to `.ci/full`.
 
 use std::process::Command;
 

@@ -1,5 +1,5 @@
 //! Files that say what is not so end in an error or in the motion that is there, and neither takes long
-//! nor much memory: how long and how much is measured by `cargo bench --bench lies`.
+//! nor much memory: how long and how much is measured by `cargo bench -p genga-benches --bench lies`.
 
 use genga::motion::bvh;
 

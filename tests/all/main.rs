@@ -11,6 +11,8 @@ mod batch; // many clips at once
 mod batch_in_trouble; // lists of other systems, full disks, clips that are lost, two at once
 #[cfg(feature = "cli")]
 mod batch_packed; // one archive in place of folders
+#[path = "../cases/mod.rs"]
+mod cases; // how many cases a heavy property test takes
 mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod defaults; // the method states every default as it is
@@ -18,7 +20,7 @@ mod documented; // every format and setting is in the docs
 mod examples; // the examples print what they printed
 #[cfg(feature = "cli")]
 mod folders; // a results folder is one run
-mod found; // what fuzzing found
+mod fuzzed; // what fuzzing checks and what it found
 mod glitches; // single frames that fly off
 mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]

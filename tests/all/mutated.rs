@@ -8,13 +8,14 @@ use genga::motion::bvh;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
+use crate::cases::cases;
 use crate::clips;
 
 /// The hierarchy and the first rows of every clip at hand, with the number of frames put right.
 static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let samples = ["kick", "pitch", "swing", "tennis"];
     let samples = samples.map(|name| clips::here(&format!("data/{name}.bvh")));
-    samples.into_iter().chain(clips::real()).map(|path| cut(&fs::read(path).unwrap())).collect()
+    samples.into_iter().chain(clips::all()).map(|path| cut(&fs::read(path).unwrap())).collect()
 });
 
 const ROWS: usize = 4;
@@ -166,7 +167,7 @@ fn apply(bytes: &mut Vec<u8>, change: &Change) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(cases(400, 4000))]
 
     #[test]
     fn a_real_file_with_anything_changed_is_refused_at_a_place_or_comes_back_when_written(

@@ -1,5 +1,7 @@
 //! One motion, one set of keys: they follow the motion and not the rig, the rate or the noise.
 
+use std::path::PathBuf;
+
 use genga::edits::Edits;
 use genga::keys::Matching;
 use genga::motion::{Clip, EndSite, Joint, JointId, Landmarks, Skeleton};
@@ -34,29 +36,33 @@ fn agreement(clip: &Clip, other: &Clip) -> f64 {
 /// How far the keys of the real clips agree with those of what is made of them, in the mean; the names of those
 /// that agree least are in the message where it is too little.
 fn agree_on_real_clips(least: f64, other: impl Fn(&Clip) -> Clip) {
-    let mut found = Vec::new();
-    for path in clips::real() {
-        let clip = clips::read(&path);
-        found.push((agreement(&clip, &other(&clip)), clips::name(&path)));
-    }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mean = found.iter().map(|(share, _)| share).sum::<f64>() / found.len().max(1) as f64;
-    assert!(found.is_empty() || mean >= least, "{mean:.3}: {:?}", &found[..4.min(found.len())]);
+    clips::with_all(|paths| {
+        let found = |path: &PathBuf| {
+            let clip = clips::read(path);
+            (agreement(&clip, &other(&clip)), clips::name(path))
+        };
+        let mut found: Vec<_> = paths.iter().map(found).collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mean = found.iter().map(|(share, _)| share).sum::<f64>() / found.len() as f64;
+        assert!(mean >= least, "{mean:.3}: {:?}", &found[..4.min(found.len())]);
+    });
 }
 
 #[test]
 fn the_same_take_in_two_rigs_has_the_same_keys() {
-    let takes = ["cmu-05_11-dance-pirouette", "threejs-pirouette"];
-    let paths = clips::real();
-    let find =
-        |name| paths.iter().find(|path| clips::name(path) == name).map(|path| clips::read(path));
-    let [Some(one), Some(other)] = takes.map(find) else { return };
+    clips::with(["cmu-05_11-dance-pirouette", "threejs-pirouette"], |paths| {
+        let [one, other] = paths.map(|path| clips::read(&path));
+        two_rigs_have_the_same_keys(&one, &other);
+    });
+}
+
+fn two_rigs_have_the_same_keys(one: &Clip, other: &Clip) {
     // Both were cut from one take and number its frames alike.
     let later = FINE * (other.first().0 - one.first().0) as f64 * 24.0 / one.rate().fps();
     let agreement = |price: f64| {
         let shift = |frame: &Frame| Frame(frame.0 + later.round() as usize);
-        let of_other: Vec<Frame> = keys(&other, price).iter().map(shift).collect();
-        Matching::between(&keys(&one, price), &of_other, FINE + 1.0).kept()
+        let of_other: Vec<Frame> = keys(other, price).iter().map(shift).collect();
+        Matching::between(&keys(one, price), &of_other, FINE + 1.0).kept()
     };
     let prices = [6.0, 6.5, 7.0, 7.5, 8.0, 8.5, 9.0];
     let all = prices.map(agreement);

@@ -13,7 +13,7 @@ use crate::clips;
 fn all() -> Vec<(String, Clip)> {
     let samples = ["kick.bvh", "tennis.bvh", "pitch.bvh", "swing.bvh"]
         .map(|name| clips::here("data").join(name));
-    let paths = samples.into_iter().chain(clips::real());
+    let paths = samples.into_iter().chain(clips::all());
     paths.map(|path| (clips::name(&path), clips::read(&path))).collect()
 }
 
@@ -61,9 +61,14 @@ fn union_by_width(clip: Clip) -> Vec<f64> {
 
 #[test]
 fn a_wider_filter_finds_less_at_odd_widths_and_at_even_ones() {
-    let counts: Vec<_> =
-        clips::real().iter().map(|path| union_by_width(clips::read(path))).collect();
-    let Some(widths) = counts.first().map(Vec::len) else { return };
+    clips::with_all(|paths| {
+        let counts = paths.iter().map(|path| union_by_width(clips::read(path)));
+        wider_finds_less(&counts.collect::<Vec<_>>());
+    });
+}
+
+fn wider_finds_less(counts: &[Vec<f64>]) {
+    let widths = counts[0].len();
     let sums: Vec<f64> = (0..widths).map(|at| counts.iter().map(|count| count[at]).sum()).collect();
     assert!(sums.is_sorted_by(|narrow, wide| narrow > wide), "{sums:?}");
     // How far a width is off the mean of its neighbours: of a box with parity it is a fifth of the count.

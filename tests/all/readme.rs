@@ -31,6 +31,9 @@ use reader::{TESTS, UNINSTALLED, place, said};
 const PAGES: [[&str; 2]; 2] =
     [["README.md", "README.ja.md"], ["docs/guide.md", "docs/guide.ja.md"]];
 
+/// What the program says to a command.
+type Say<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
+
 /// Whether a line is as shown, where each `…` may be any number.
 fn is_as_shown(line: &str, shown: &str) -> bool {
     let mut pieces = shown.split('…');
@@ -46,7 +49,7 @@ fn is_as_shown(line: &str, shown: &str) -> bool {
 }
 
 /// A block of commands with what they say now. A shown line stays while it is as said.
-fn answered(block: &Block, place: &Path) -> Result<String, String> {
+fn answered(block: &Block, say: Say<'_>) -> Result<String, String> {
     let mut text = String::new();
     let mut lines = block.lines.iter().peekable();
     while let Some(line) = lines.next() {
@@ -58,7 +61,7 @@ fn answered(block: &Block, place: &Path) -> Result<String, String> {
             shown.push(*line);
         }
         writeln!(text, "{line}").unwrap();
-        for (at, line) in said(&bare(command), place)?.lines().enumerate() {
+        for (at, line) in say(&bare(command))?.lines().enumerate() {
             let shown = shown.get(at).filter(|shown| is_as_shown(line, shown));
             writeln!(text, "{}", shown.unwrap_or(&line)).unwrap();
         }
@@ -68,10 +71,28 @@ fn answered(block: &Block, place: &Path) -> Result<String, String> {
 
 /// The page with everything as the program says it now.
 fn made(page: &str) -> Result<String, String> {
-    made_in(place().path(), page)
+    let place = place();
+    made_in(place.path(), page, &mut |command| said(command, place.path()))
 }
 
-fn made_in(place: &Path, page: &str) -> Result<String, String> {
+/// A page and its translation. Both have the same commands in one order, so each is run once.
+fn made_both([page, translation]: [&str; 2]) -> Result<[String; 2], String> {
+    let place = place();
+    let mut answers = Vec::new();
+    let made = made_in(place.path(), page, &mut |command| {
+        let answer = said(command, place.path())?;
+        answers.push((command.to_owned(), answer.clone()));
+        Ok(answer)
+    })?;
+    let mut answers = answers.into_iter();
+    let translated = made_in(place.path(), translation, &mut |command| {
+        let answer = answers.next().filter(|(meant, _)| meant == command);
+        answer.map(|(_, answer)| answer).ok_or_else(|| format!("{command}: another stands here"))
+    })?;
+    Ok([made, translated])
+}
+
+fn made_in(place: &Path, page: &str, say: Say<'_>) -> Result<String, String> {
     let mut text = String::new();
     for piece in pieces(page) {
         let block = match piece {
@@ -84,10 +105,10 @@ fn made_in(place: &Path, page: &str) -> Result<String, String> {
         let mut body = block.lines.iter().map(|line| format!("{line}\n")).collect::<String>();
         match (block.file, block.language) {
             (Some(name), _) => fs::write(place.join(name), &body).unwrap(),
-            (None, "console") => body = answered(&block, place)?,
+            (None, "console") => body = answered(&block, say)?,
             (None, "sh") => {
                 for line in &block.lines {
-                    said(&bare(line), place)?;
+                    say(&bare(line))?;
                 }
             }
             (None, "rust") => are_of_the_test(&block)?,
@@ -118,13 +139,16 @@ fn difference(name: &str, shown: &str, made: &str) -> String {
 #[test]
 fn commands_of_the_pages_say_what_the_pages_show() {
     let mut off = String::new();
-    for name in PAGES.as_flattened() {
-        let shown = page(name);
-        let made = made(&shown).unwrap_or_else(|error| panic!("{name}: {error}"));
-        if std::env::var_os("GENGA_PAGES").is_some_and(|wish| wish == "write") {
-            fs::write(here(name), made).unwrap();
-        } else {
-            off += &difference(name, &shown, &made);
+    for names in PAGES {
+        let shown = names.map(page);
+        let made = made_both(shown.each_ref().map(|page| &page[..]));
+        let made = made.unwrap_or_else(|error| panic!("{names:?}: {error}"));
+        for ((name, shown), made) in names.into_iter().zip(shown).zip(made) {
+            if std::env::var_os("GENGA_PAGES").is_some_and(|wish| wish == "write") {
+                fs::write(here(name), made).unwrap();
+            } else {
+                off += &difference(name, &shown, &made);
+            }
         }
     }
     assert!(off.is_empty(), "\n{off}GENGA_PAGES=write cargo test --test all readme\n");
@@ -180,7 +204,7 @@ fn what_the_readme_writes_is_no_part_of_the_repository() {
     let endings: Vec<_> = ignored.lines().filter_map(|line| line.strip_prefix('*')).collect();
     for name in PAGES[0] {
         let place = place();
-        made_in(place.path(), &page(name)).unwrap();
+        made_in(place.path(), &page(name), &mut |command| said(command, place.path())).unwrap();
         let entries = fs::read_dir(place.path()).unwrap().map(|entry| entry.unwrap());
         for entry in entries.filter(|entry| entry.file_name() != "data") {
             let mut written = entry.file_name().to_string_lossy().into_owned();

@@ -1,5 +1,7 @@
 //! One take in another format: the same keys.
 
+use std::path::PathBuf;
+
 use genga::deliver::{Vmd, VmdBones, limited_bvh};
 use genga::edits::Edits;
 use genga::motion::{Clip, file};
@@ -11,16 +13,16 @@ use crate::clips;
 
 /// Takes of half a minute at most, of every dialect at hand but that whose spine lies elsewhere.
 const TAKES: [&str; 10] = [
-    "cmu-02_04",
-    "cmu-05_11",
-    "cmu-06_15",
-    "cmu-07_01",
-    "cmu-09_01",
-    "cmu-10_03",
-    "cmu-11_01",
-    "cmu-131_03",
-    "cmu-135_04",
-    "threejs",
+    "cmu-02_04-jump-balance",
+    "cmu-05_11-dance-pirouette",
+    "cmu-06_15-dribble-shoot",
+    "cmu-07_01-walk",
+    "cmu-09_01-run",
+    "cmu-10_03-soccer-kick",
+    "cmu-11_01-soccer-kick",
+    "cmu-131_03-start-hop-stop",
+    "cmu-135_04-front-kick",
+    "threejs-pirouette",
 ];
 
 /// Koma of each genga, counted from the beginning.
@@ -70,15 +72,15 @@ fn through_bvh(clip: &Clip) -> Clip {
 /// MMD has 30 frames a second. That alone moves a key of a take at 120 here and there, so the VMD is held against the BVH
 /// of the same frames; what both together cost is printed too.
 #[test]
-#[allow(clippy::print_stderr, reason = "the figures that the documentation states")]
 fn a_take_as_vmd_has_the_keys_of_its_bvh() {
+    clips::with(TAKES, |paths| have_the_keys_of_their_bvh(&paths));
+}
+
+#[allow(clippy::print_stderr, reason = "the figures that the documentation states")]
+fn have_the_keys_of_their_bvh(paths: &[PathBuf]) {
     let mut found = Vec::new();
-    for path in clips::real() {
-        let name = clips::name(&path);
-        if !TAKES.iter().any(|take| name.starts_with(take)) {
-            continue;
-        }
-        let clip = clips::read(&path);
+    for path in paths {
+        let (name, clip) = (clips::name(path), clips::read(path));
         let (own, bvh) = (keys(clip.clone()), keys(through_bvh(&clip)));
         let vmd = keys(through_vmd(&clip));
         let (same, both) = (f1(&bvh, &vmd), f1(&own, &vmd));
@@ -86,6 +88,6 @@ fn a_take_as_vmd_has_the_keys_of_its_bvh() {
         assert!(same > 0.85, "{name}: {bvh:?}\n{vmd:?}");
         found.push(same);
     }
-    let mean = found.iter().sum::<f64>() / found.len().max(1) as f64;
-    assert!(found.is_empty() || (found.len() == TAKES.len() && mean >= 0.95), "{mean}");
+    let mean = found.iter().sum::<f64>() / found.len() as f64;
+    assert!(mean >= 0.95, "{mean}");
 }

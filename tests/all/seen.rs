@@ -169,7 +169,7 @@ fn an_engine_that_looks_from_here_and_there_gives_what_a_fresh_one_gives() {
 
 #[test]
 fn real_clips_have_a_whole_sheet_from_every_side() {
-    for path in clips::real() {
+    for path in clips::all() {
         let (name, clip) = (clips::name(&path), clips::read(&path));
         let mut engine = Engine::new(clip).unwrap();
         let mut sheets = Vec::new();

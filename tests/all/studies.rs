@@ -22,13 +22,25 @@ fn table_1_has_a_row_a_cell_and_persistence_runs_fastest() {
         assert!(total.iter().zip(&union).all(|(total, union)| total >= union));
         assert!(union.chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
     }
-    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.pdf -q");
-    for (picture, begin) in [("s.png", "\u{89}PNG"), ("h.pdf", "%PDF")] {
+    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.svg -q");
+    for (picture, begin) in [("s.png", "\u{89}PNG"), ("h.svg", "<svg")] {
         let begin: Vec<u8> = begin.chars().map(|letter| letter as u8).collect();
         assert!(fs::read(place.path(picture)).unwrap().starts_with(&begin), "{picture}");
     }
     let written = fs::read_to_string(place.path("s.csv")).unwrap();
     assert_eq!(written, place.done("study data/kick.bvh"));
+}
+
+#[test]
+fn a_pdf_is_made_or_it_is_said_how_to_get_it() {
+    let place = Place::new();
+    let study = "study data/kick.bvh --plot s.pdf --quiet";
+    if cfg!(feature = "pdf") {
+        place.done(study);
+        assert!(fs::read(place.path("s.pdf")).unwrap().starts_with(b"%PDF"));
+    } else {
+        assert!(place.refused(2, study).contains("--features pdf"));
+    }
 }
 
 #[test]
@@ -102,7 +114,7 @@ fn genga_are_counted_one_way_with_the_first_and_the_last_drawing() {
 fn a_caption_has_the_command_and_a_recipe_that_gives_the_same_table() {
     let place = Place::new();
     let study = "--x turns.persistence=0.05s,0.1s --set filter.width=0.2s --per-second";
-    let args = format!("study data/kick.bvh data/pitch.bvh {study} --plot p.pdf --caption c.md");
+    let args = format!("study data/kick.bvh data/pitch.bvh {study} --plot p.svg --caption c.md");
     let table = place.done(&args);
     let caption = fs::read_to_string(place.path("c.md")).unwrap();
     let begin =

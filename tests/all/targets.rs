@@ -12,7 +12,7 @@ use crate::clips;
 
 /// Every real clip, and those of `data/` where there are no others.
 fn each(look: impl Fn(&str, &mut Engine)) {
-    let mut paths = clips::real();
+    let mut paths = clips::all();
     paths.extend(["kick", "pitch"].map(|name| clips::here(&format!("data/{name}.bvh"))));
     for path in paths {
         look(&clips::name(&path), &mut Engine::new(clips::read(&path)).unwrap());

@@ -1,5 +1,6 @@
 //! The smallest clips with any recipe: a clear error or a sensible sheet, never a panic.
 
+use crate::cases::cases;
 use genga::deliver::{self, Drawings, Report, Rows};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
@@ -131,7 +132,7 @@ fn hand_over(breakdown: &Breakdown) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(cases(150, 1500))]
 
     #[test]
     fn any_tiny_clip_with_any_recipe_gives_a_sheet_or_an_error(

@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 
 PLACE = Path(__file__).resolve().parents[2] / "addons" / "blender" / "genga"
-CLIPS = Path(__file__).resolve().parents[3] / "shared" / "data" / "bvh"
+CLIPS = Path(os.environ.get("GENGA_CLIPS", Path(__file__).resolve().parents[3] / "shared" / "data" / "bvh"))
 DATA = Path(__file__).resolve().parents[2] / "data"
 
 

@@ -362,6 +362,8 @@ def main():
     run = addon.CLIPS / "cmu-09_01-run.bvh"
     if run.exists():
         the_programs_sheet("run.bvh", run)
+    else:
+        say(f"LEFT OUT: Find Keys does not look at {run.stem}")
     undone()
     knobs_and_marks()
     feet_held("BVH", begin(rigs.of_bvh, KICK))

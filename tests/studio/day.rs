@@ -16,6 +16,7 @@ use resvg::usvg;
 
 use crate::beside::beats;
 use crate::pictures::pixmap;
+use crate::real;
 use crate::table::{Table, sample};
 
 const SECONDS: usize = 60;
@@ -24,13 +25,9 @@ const FPS: usize = 12;
 
 /// The clips that are joined: captured ones where they are, else a sample again and again.
 fn clips() -> Vec<PathBuf> {
-    let real = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/bvh");
-    let real =
-        ["cmu-01_06-playground-long.bvh", "cmu-02_07-swordplay.bvh"].map(|name| real.join(name));
-    match real.iter().all(|clip| clip.exists()) {
-        true => real.to_vec(),
-        false => vec![sample("pitch.bvh"); 60],
-    }
+    let mut clips = vec![sample("pitch.bvh"); 60];
+    real::with(["cmu-01_06-playground-long", "cmu-02_07-swordplay"], |real| clips = real.to_vec());
+    clips
 }
 
 /// A BVH in its parts: all before the motion, the rate, and the rows.

@@ -14,6 +14,8 @@ mod keyboard; // every act without a mouse
 mod layered; // several columns, each with its own pins
 mod local; // frozen genga, a part found again, genga copied, two sheets
 mod pictures; // what it looks like
+#[path = "../real/mod.rs"]
+mod real; // clips that are not in the repository
 mod scaled; // small windows, and screens with many pixels a point
 mod seen; // play, step, loop, flip, look from a side
 mod soft; // a renderer without a graphics card

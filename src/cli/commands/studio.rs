@@ -2,11 +2,11 @@
 
 #[cfg(feature = "studio")]
 mod dialog;
-#[cfg(feature = "studio")]
+#[cfg(feature = "studio-files")]
 mod disk;
-#[cfg(feature = "studio")]
+#[cfg(feature = "studio-files")]
 mod pictures;
-#[cfg(feature = "studio")]
+#[cfg(feature = "studio-files")]
 mod sound;
 
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use clap::Args;
 use crate::cli::clip::Part;
 use crate::cli::failure::Failure;
 
-#[cfg(feature = "studio")]
+#[cfg(feature = "studio-files")]
 pub use disk::Disk;
 
 #[derive(Debug, Args)]

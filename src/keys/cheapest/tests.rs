@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::cases::cases;
 use crate::keys::tests::{self, swing};
 
 /// An arm that swings to and fro ever faster.
@@ -45,7 +46,7 @@ fn every_set(cheapest: &Cheapest<'_>) -> Vec<Vec<usize>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(cases(8, 48))]
 
     #[test]
     fn no_set_at_all_is_cheaper(
@@ -85,7 +86,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(cases(8, 48))]
 
     #[test]
     fn a_limit_lets_in_as_many_as_slow_halving_finds(

@@ -146,6 +146,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::cases::cases;
     use crate::motion::bvh;
     use crate::motion::composite::{Composite, CompositePoser, CompositeRows};
     use crate::sheet::{Feet, RootMotion, Sheet, Source};
@@ -226,7 +227,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(24))]
+        #![proptest_config(cases(6, 24))]
 
         #[test]
         fn a_held_foot_stands_on_its_place_and_nothing_else_gives_way_but_its_leg(

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::cases::cases;
 use crate::motion::{Poser, RowWriter, bvh, local_rotation, local_translation};
 use crate::sheet::{Role, Why};
 
@@ -104,7 +105,7 @@ fn the_joint_that_travels_is_the_first_whose_place_changes() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(cases(6, 24))]
 
     #[test]
     fn each_joint_is_as_the_drawing_of_its_layer_has_it(

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::{any_recipe, not, pitch};
+use crate::cases::cases;
 use crate::edits::{Edits, Forbidden, Move, Pin};
 use crate::motion::{Clip, bvh};
 use crate::pipeline::Engine;
@@ -150,7 +151,7 @@ fn frozen_keys_stay_whatever_the_settings_say_and_corrections_change_them() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(cases(5, 60))]
 
     #[test]
     fn keys_outside_the_neighbourhood_of_a_correction_stay(

@@ -1,10 +1,13 @@
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
 use super::*;
-use crate::motion::bvh::{self, sample};
+use crate::cases::cases;
+use crate::motion::bvh;
+use crate::real;
 use crate::signal::{FilterKind, LowPass, Quantity, Spectrum, Speed};
 use crate::time::FrameRate;
 
@@ -486,44 +489,47 @@ fn one_column_of_sums_is_a_signal_like_any_other() {
 
 #[test]
 fn on_real_clips_both_readings_equal_their_words() {
-    let two = ["cmu-09_01-run", "cmu-10_03-soccer-kick"];
-    let clips = sample::real_clips().into_iter().filter(|(name, _)| two.contains(&name.as_str()));
-    for (name, bytes) in clips {
-        let (clip, _) = bvh::lead_in::strip(bvh::read(&bytes).unwrap().clip);
-        let speeds = Speed::default().measure(&clip).unwrap();
-        let filter = LowPass::default();
-        let (filtered, delay) = (filter.apply(&Spectrum::of(&speeds)), filter.delay(speeds.rate));
-        let floor = DUST * filtered.values.amax();
-        let steady = Steady::Acceleration(100.0);
-        for (reading, side, persistence) in [
-            (Reading::Event, Side::After, 12),
-            (Reading::Event, Side::After, 1),
-            (Reading::Literal, Side::After, 5),
-            (Reading::Literal, Side::Both, 10),
-            (Reading::Literal, Side::Rising, 5),
-        ] {
-            let span = Span::Frames(persistence as f64);
-            let finder = TurnFinder { reading, steady, persistence: span, side };
-            // The words of the oracle know no units: its band is in radians.
-            let band = Steady::Acceleration(100f64.to_radians());
-            let in_radians = TurnFinder { steady: band, ..finder.clone() };
-            let fps = clip.rate().fps();
-            let mut turns = 0;
-            for (joint, found) in finder.find(&filtered, delay).into_iter().enumerate() {
-                let x = filtered.joint(JointId(joint));
-                let slow = Slow { finder: &in_radians, fps, delay, floor, x };
-                let expected = match reading {
-                    Reading::Event => slow.event(persistence),
-                    Reading::Literal => slow.literal(persistence),
-                };
-                let first = clip.first().0;
-                let found: Vec<_> =
-                    found.iter().map(|turn| (turn.frame.0 - first, turn.kind)).collect();
-                turns += found.len();
-                assert_eq!(found, expected, "{name}, joint {joint}, {finder:?}");
-            }
-            assert!(turns > 20, "{name}: only {turns} turns, {finder:?}");
+    real::with(["cmu-09_01-run", "cmu-10_03-soccer-kick"], |paths| {
+        paths.iter().for_each(|path| reads_as_the_words_say(path));
+    });
+}
+
+fn reads_as_the_words_say(path: &Path) {
+    let name = real::name(path);
+    let (clip, _) = bvh::lead_in::strip(bvh::read(&real::bytes(path)).unwrap().clip);
+    let speeds = Speed::default().measure(&clip).unwrap();
+    let filter = LowPass::default();
+    let (filtered, delay) = (filter.apply(&Spectrum::of(&speeds)), filter.delay(speeds.rate));
+    let floor = DUST * filtered.values.amax();
+    let steady = Steady::Acceleration(100.0);
+    for (reading, side, persistence) in [
+        (Reading::Event, Side::After, 12),
+        (Reading::Event, Side::After, 1),
+        (Reading::Literal, Side::After, 5),
+        (Reading::Literal, Side::Both, 10),
+        (Reading::Literal, Side::Rising, 5),
+    ] {
+        let span = Span::Frames(persistence as f64);
+        let finder = TurnFinder { reading, steady, persistence: span, side };
+        // The words of the oracle know no units: its band is in radians.
+        let band = Steady::Acceleration(100f64.to_radians());
+        let in_radians = TurnFinder { steady: band, ..finder.clone() };
+        let fps = clip.rate().fps();
+        let mut turns = 0;
+        for (joint, found) in finder.find(&filtered, delay).into_iter().enumerate() {
+            let x = filtered.joint(JointId(joint));
+            let slow = Slow { finder: &in_radians, fps, delay, floor, x };
+            let expected = match reading {
+                Reading::Event => slow.event(persistence),
+                Reading::Literal => slow.literal(persistence),
+            };
+            let first = clip.first().0;
+            let found: Vec<_> =
+                found.iter().map(|turn| (turn.frame.0 - first, turn.kind)).collect();
+            turns += found.len();
+            assert_eq!(found, expected, "{name}, joint {joint}, {finder:?}");
         }
+        assert!(turns > 20, "{name}: only {turns} turns, {finder:?}");
     }
 }
 
@@ -566,7 +572,7 @@ fn any_steady() -> impl Strategy<Value = Steady> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(cases(100, 400))]
 
     #[test]
     fn both_readings_equal_their_words(

@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use self::oracle::{Outcome, Row, Rules};
 use super::*;
+use crate::cases::cases;
 use crate::sheet::{Drawing, Exposure, Role, Source, Why};
 use crate::timing::Shortfall;
 
@@ -325,7 +326,7 @@ fn keyed() -> impl Strategy<Value = (Vec<Plan>, usize)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(cases(200, 1500))]
 
     #[test]
     fn on_ones_without_genga_it_is_algorithms_1_and_2_koma_for_koma(

@@ -7,12 +7,13 @@ use std::process::{Command, Stdio};
 use crate::clips::here;
 
 /// The test command of the README.
-pub(super) const TESTS: &str = "cargo test --release --locked";
+pub(super) const TESTS: &str = "cargo test --locked";
 
 /// Commands that are not run here: they build all anew, open a window, or show a page until they are ended.
-const ELSEWHERE: [&str; 7] = [
+const ELSEWHERE: [&str; 8] = [
     TESTS,
     "cargo install --path . --locked",
+    "cargo install --path . --features pdf --locked",
     "cargo install --path . --features studio --locked",
     "cargo run --release --locked --features studio -- studio data/kick.bvh",
     "rustup target add wasm32-unknown-unknown",

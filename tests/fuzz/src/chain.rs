@@ -1,55 +1,9 @@
-//! Any motion that the reader takes: the chain refuses it, or gives a sheet of its length and keeps within its budget.
+//! What `targets/chain.rs` checks, on what libFuzzer makes up.
 
 #![no_main]
 
 mod measure;
+#[path = "../targets/chain.rs"]
+mod target;
 
-use genga::deliver;
-use genga::edits::Edits;
-use genga::motion::bvh;
-use genga::pipeline::{Breakdown, Budget, Engine};
-use genga::recipe::Recipe;
-use libfuzzer_sys::fuzz_target;
-use measure::Bound;
-
-/// Bytes of memory that a run is allowed. Thousands of joints or of koma fit.
-const BUDGET: usize = 24 << 20;
-
-/// The limited motion is written and read again where it has no more numbers than these.
-const MOST_WRITTEN: usize = 40_000;
-
-fuzz_target!(|bytes: &[u8]| {
-    let Ok(read) = bvh::read(bytes) else { return };
-    let (clip, _) = bvh::Cleaning::default().of(read.clip).expect("all frames are asked for");
-    let recipe = Recipe::default();
-    let budget = Budget { bytes: Some(BUDGET as f64) };
-    let Ok(engine) = Engine::new(clip) else { return };
-    let mut engine = engine.with_budget(budget);
-    measure::measured(bytes.len(), Bound { most: BUDGET, unit: BUDGET }, || {
-        if let Ok(breakdown) = engine.run(&recipe, &Edits::default()) {
-            check(&breakdown, &recipe);
-        }
-    });
-    if let Ok(breakdown) = engine.run(&recipe, &Edits::default()) {
-        check_limited(&breakdown);
-    }
-});
-
-fn check(breakdown: &Breakdown, recipe: &Recipe) {
-    let clip = breakdown.clip;
-    let koma = clip.rate().koma_from_frames(clip.len(), recipe.rate);
-    assert_eq!(breakdown.spaced.length(), koma, "the spaced sheet");
-    if recipe.omission.keep_length {
-        assert_eq!(breakdown.sheet.length(), koma, "the sheet");
-    }
-}
-
-fn check_limited(breakdown: &Breakdown) {
-    let koma = breakdown.sheet.length();
-    if koma * (1 + breakdown.clip.skeleton().channels()) > MOST_WRITTEN {
-        return;
-    }
-    let text = deliver::limited_bvh(breakdown.clip, breakdown.sheet).expect("the limited motion");
-    let limited = bvh::read(text.as_bytes()).expect("the limited motion reads").clip;
-    assert_eq!(limited.len(), koma, "rows of the limited motion");
-}
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| target::check(bytes));

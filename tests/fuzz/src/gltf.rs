@@ -1,42 +1,9 @@
-//! Any bytes as a GLB, or as the rest of a document in JSON: the reader refuses them with a place, or gives a clip that can
-//! be worked on.
+//! What `targets/gltf.rs` checks, on what libFuzzer makes up.
 
 #![no_main]
 
 mod measure;
+#[path = "../targets/gltf.rs"]
+mod target;
 
-use genga::error::{Error, Place};
-use genga::motion::{StreamLimit, file};
-use libfuzzer_sys::fuzz_target;
-use measure::Bound;
-
-/// What may be read of numbers, and sampled of curves, in bytes.
-const ALLOWED: usize = 4 << 20;
-
-/// Bytes of memory that a call may take for each byte of its input.
-const MULTIPLE: usize = 64;
-
-fuzz_target!(|bytes: &[u8]| {
-    // What is no GLB and no document is put into one.
-    let is_whole = bytes.starts_with(b"glTF") || bytes.starts_with(b"{");
-    let head: &[u8] = if is_whole { b"" } else { br#"{"asset":{"version":"2.0"},"# };
-    let gltf = [head, bytes].concat();
-    let options =
-        file::Options { stream: StreamLimit { bytes: ALLOWED as u64 }, ..file::Options::default() };
-    let most = MULTIPLE * gltf.len() + 4 * ALLOWED + (1 << 20);
-    match measure::measured(gltf.len(), Bound { most, unit: gltf.len() }, || options.read(&gltf)) {
-        Ok(read) => assert!(!read.clip.is_empty(), "a clip without a frame"),
-        Err(Error::Motion { place, message }) => {
-            match place {
-                Place::Byte(byte) => assert!(byte <= gltf.len() as u64, "byte {byte}: {message}"),
-                Place::Line(line, column) => {
-                    assert!((1..=gltf.len() + 1).contains(&line), "line {line}: {message}");
-                    assert!(column <= gltf.len() + 1, "column {column}: {message}");
-                }
-                Place::Part(_) | Place::Whole => {}
-            }
-            assert!(message.len() < 2000, "an error of {} bytes", message.len());
-        }
-        Err(other) => panic!("an error without a place: {other}"),
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| target::check(bytes));

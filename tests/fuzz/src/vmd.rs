@@ -1,36 +1,9 @@
-//! Any bytes after the signature of a VMD: the reader refuses them at a byte that is there, or gives a clip that can be
-//! worked on. What it takes is bounded by what it may take, whatever the file says about itself.
+//! What `targets/vmd.rs` checks, on what libFuzzer makes up.
 
 #![no_main]
 
 mod measure;
+#[path = "../targets/vmd.rs"]
+mod target;
 
-use genga::error::{Error, Place};
-use genga::motion::{StreamLimit, file};
-use libfuzzer_sys::fuzz_target;
-use measure::Bound;
-
-/// What may be sampled of curves, in bytes: a few bytes say a frame that is far away.
-const SAMPLED: usize = 4 << 20;
-
-/// Bytes of memory that a call may take for each byte of its input, and for what is sampled.
-const MULTIPLE: usize = 64;
-
-fuzz_target!(|bytes: &[u8]| {
-    let mut vmd = b"Vocaloid Motion Data".to_vec();
-    vmd.extend(bytes);
-    let options =
-        file::Options { stream: StreamLimit { bytes: SAMPLED as u64 }, ..file::Options::default() };
-    let most = MULTIPLE * vmd.len() + 2 * SAMPLED + (1 << 20);
-    match measure::measured(vmd.len(), Bound { most, unit: vmd.len() }, || options.read(&vmd)) {
-        Ok(read) => assert!(!read.clip.is_empty(), "a clip without a frame"),
-        Err(Error::Motion { place: Place::Byte(byte), message }) => {
-            assert!(byte <= vmd.len() as u64, "byte {byte}: {message}");
-            assert!(message.len() < 2000, "an error of {} bytes", message.len());
-        }
-        // That no bone is known is a matter of all of them.
-        Err(Error::Motion { place: Place::Whole, message }) => assert!(message.contains("keyed")),
-        Err(Error::Clip { .. }) => {}
-        Err(other) => panic!("an error without a place: {other}"),
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| target::check(bytes));

@@ -1,4 +1,4 @@
-"""Sheets against their schema: check.py SCHEMA.json SHEET.json …"""
+"""Sheets against their schemas: check.py SHEET_SCHEMA.json XDTS_SCHEMA.json SHEET.json|TIMESHEET.xdts …"""
 
 import copy
 import json
@@ -34,26 +34,58 @@ def spoilt(sheet):
     yield but("two sources", lambda s: layer(s)["drawings"][0].update(between=[0, 1], share=0.5))
     yield but("half a blend", lambda s: layer(s)["drawings"][0].update(share=0.5))
     yield but("a reason nobody knows", lambda s: layer(s)["drawings"][0].update(why={"because": 1}))
+    if "exaggerate" in sheet:
+        yield but("more ease than all", lambda s: s["exaggerate"].update(ease=1.5))
 
 
-def main(schema_path, *sheet_paths):
-    with open(schema_path, encoding="utf-8") as file:
-        schema = json.load(file)
-    jsonschema.Draft202012Validator.check_schema(schema)
-    validator = jsonschema.Draft202012Validator(schema)
-    blends = 0
-    for path in sheet_paths:
-        with open(path, encoding="utf-8") as file:
-            sheet = json.load(file)
-        for error in validator.iter_errors(sheet):
+def spoilt_timesheets(timesheet):
+    """Copies of an XDTS, each with one thing wrong, by what is wrong."""
+    for what, spoil in [
+        ("another version", lambda s: s.update(version=4)),
+        ("no table", lambda s: s.update(timeTables=[])),
+        ("no duration", lambda s: s["timeTables"][0].pop("duration")),
+        ("a field nobody knows", lambda s: s["timeTables"][0]["fields"][0].update(fieldId=7)),
+    ]:
+        copied = copy.deepcopy(timesheet)
+        spoil(copied)
+        yield what, copied
+
+
+SIGNATURE = "exchangeDigitalTimeSheet Save Data\n"
+
+
+def read(path):
+    """What a file holds, and whether it is an XDTS."""
+    with open(path, encoding="utf-8", newline="") as file:
+        text = file.read()
+    return json.loads(text.removeprefix(SIGNATURE)), text.startswith(SIGNATURE)
+
+
+def validator_of(kind, path):
+    schema, _ = read(path)
+    kind.check_schema(schema)
+    return kind(schema)
+
+
+def main(sheet_schema, xdts_schema, *paths):
+    sheets = validator_of(jsonschema.Draft202012Validator, sheet_schema)
+    timesheets = validator_of(jsonschema.Draft7Validator, xdts_schema)
+    blends = exaggerated = count = 0
+    for path in paths:
+        held, is_xdts = read(path)
+        validator, wrongs = (timesheets, spoilt_timesheets) if is_xdts else (sheets, spoilt)
+        for error in validator.iter_errors(held):
             sys.exit(f"{path}: {error.json_path}: {error.message}")
-        blends += sum("between" in d for layer in sheet["layers"] for d in layer["drawings"])
-        for what, wrong in spoilt(sheet):
+        for what, wrong in wrongs(held):
             if validator.is_valid(wrong):
                 sys.exit(f"{path}: the schema takes {what}")
-    if not blends:
-        sys.exit("no sheet has a blend: the check looks at too little")
-    print(f"{len(sheet_paths)} sheets satisfy the schema, {blends} blends among their drawings")
+        count += is_xdts
+        if not is_xdts:
+            blends += sum("between" in d for layer in held["layers"] for d in layer["drawings"])
+            exaggerated += "exaggerate" in held
+    if not (blends and exaggerated and count):
+        sys.exit("no sheet has a blend, none is exaggerated, or there is no XDTS: the check looks at too little")
+    print(f"{len(paths) - count} sheets and {count} XDTS satisfy their schemas, {blends} blends among the drawings")
 
 
 main(*sys.argv[1:])

@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
-use eframe::egui::ColorImage;
+use egui::ColorImage;
 
-use super::{dialog, pictures, sound};
+#[cfg(feature = "studio")]
+use super::dialog;
+use super::{pictures, sound};
 use crate::cli::clip::Part;
 use crate::cli::failure::Failure;
 use crate::cli::folder::Folder;
@@ -32,6 +34,7 @@ pub struct Disk {
 
 impl Disk {
     /// A disk with a clip of which a part is meant, and the list of what was opened last.
+    #[cfg(feature = "studio")]
     pub(super) fn with(clip: Option<PathBuf>, part: Part) -> Self {
         let named = clip.map(|clip| (clip, part));
         Self { named, opened: Mutex::default(), recent: Recent::of_person() }
@@ -89,10 +92,12 @@ impl Desk for Disk {
         written.map(Exported::from).map_err(said)
     }
 
+    #[cfg(feature = "studio")]
     fn choose(&self) -> Option<PathBuf> {
         dialog::choose()
     }
 
+    #[cfg(feature = "studio")]
     fn choose_folder(&self) -> Option<PathBuf> {
         dialog::choose_folder()
     }

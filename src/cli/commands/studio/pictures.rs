@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui::{Color32, ColorImage};
+use egui::{Color32, ColorImage};
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 
 use crate::deliver::Mp4;

@@ -54,12 +54,7 @@ fn a_sheet_of_an_exaggerated_motion_knows_its_source_and_makes_that_motion_again
     assert_eq!((&source, notes), (made.source, vec![]));
     assert_eq!(again.drawn(&source).unwrap().as_ref(), Some(made.clip));
     assert_eq!(file().drawn(&source).unwrap(), None, "another sheet is of the clip itself");
-    let schema = include_str!("../../../../docs/schema/sheet-1.json");
-    let schema = serde_json::from_str(schema).unwrap();
-    let validator = jsonschema::validator_for(&schema).unwrap();
-    assert!(validator.is_valid(&serde_json::from_str(&written).unwrap()), "{written}");
     let wrong = written.replacen("\"ease\": 0.5", "\"ease\": 1.5", 1);
-    assert!(!validator.is_valid(&serde_json::from_str(&wrong).unwrap()));
     let error = read(wrong.as_bytes()).unwrap_err();
     assert!(error.position().is_some(), "{error}");
     assert!(

@@ -2,8 +2,9 @@ use super::*;
 use crate::deliver::Vmd;
 use crate::deliver::vmd::map::{BoneMap, SHAPE};
 use crate::motion::bvh::sample::real_clips;
-use crate::motion::{Joint, bvh};
+use crate::motion::{Axis, Channel, Joint, bvh};
 use crate::sheet::Sheet;
+use crate::time::{Frame, FrameRate};
 
 /// A clip whose joints have other names.
 fn renamed(clip: &Clip, name: impl Fn(usize, &Joint) -> String) -> Clip {
@@ -13,6 +14,86 @@ fn renamed(clip: &Clip, name: impl Fn(usize, &Joint) -> String) -> Clip {
     }
     let values = clip.rows().flatten().copied().collect();
     Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), values).unwrap()
+}
+
+/// Arms out and legs down, with the names, the hip joints and the finger bases of CMU's clips: a joint, its parent, and
+/// where it stands from there.
+const BODY: [(&str, &str, [f64; 3]); 31] = [
+    ("Hips", "", [0.0, 0.0, 0.0]),
+    ("LHipJoint", "Hips", [0.0, 0.0, 0.0]),
+    ("LeftUpLeg", "LHipJoint", [9.0, -9.0, 4.0]),
+    ("LeftLeg", "LeftUpLeg", [13.0, -36.0, 0.0]),
+    ("LeftFoot", "LeftLeg", [14.0, -39.0, 0.0]),
+    ("LeftToeBase", "LeftFoot", [1.0, -2.5, 10.0]),
+    ("RHipJoint", "Hips", [0.0, 0.0, 0.0]),
+    ("RightUpLeg", "RHipJoint", [-9.0, -9.0, 4.0]),
+    ("RightLeg", "RightUpLeg", [-13.0, -36.0, 0.0]),
+    ("RightFoot", "RightLeg", [-14.0, -39.0, 0.0]),
+    ("RightToeBase", "RightFoot", [-1.0, -2.5, 10.0]),
+    ("LowerBack", "Hips", [0.0, 0.0, 0.0]),
+    ("Spine", "LowerBack", [0.0, 12.0, -0.6]),
+    ("Spine1", "Spine", [0.0, 12.0, -0.4]),
+    ("Neck", "Spine1", [0.0, 0.0, 0.0]),
+    ("Neck1", "Neck", [0.0, 10.0, 0.0]),
+    ("Head", "Neck1", [0.0, 9.0, -3.5]),
+    ("LeftShoulder", "Spine1", [0.0, 0.0, 0.0]),
+    ("LeftArm", "LeftShoulder", [19.0, 3.0, 1.5]),
+    ("LeftForeArm", "LeftArm", [31.0, 0.0, 0.0]),
+    ("LeftHand", "LeftForeArm", [14.0, 0.0, 0.0]),
+    ("LeftFingerBase", "LeftHand", [0.0, 0.0, 0.0]),
+    ("LeftHandIndex1", "LeftFingerBase", [4.5, 0.0, 0.0]),
+    ("LThumb", "LeftHand", [0.0, 0.0, 0.0]),
+    ("RightShoulder", "Spine1", [0.0, 0.0, 0.0]),
+    ("RightArm", "RightShoulder", [-19.0, 3.0, 1.5]),
+    ("RightForeArm", "RightArm", [-31.0, 0.0, 0.0]),
+    ("RightHand", "RightForeArm", [-14.0, 0.0, 0.0]),
+    ("RightFingerBase", "RightHand", [0.0, 0.0, 0.0]),
+    ("RightHandIndex1", "RightFingerBase", [-4.5, 0.0, 0.0]),
+    ("RThumb", "RightHand", [0.0, 0.0, 0.0]),
+];
+
+/// Where its ends are from the joints that have some, on the left.
+const ENDS: [(&str, [f64; 3]); 4] = [
+    ("ToeBase", [0.0, 0.0, 5.0]),
+    ("Head", [0.0, 9.5, -1.0]),
+    ("HandIndex1", [3.5, 0.0, 0.0]),
+    ("Thumb", [3.5, 0.0, 3.5]),
+];
+
+/// That body for a second, every joint turned a little and otherwise than the others.
+fn body() -> Clip {
+    const FRAMES: usize = 24;
+    let rotations = [Axis::Z, Axis::Y, Axis::X].map(Channel::Rotation);
+    let positions = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
+    let mut skeleton = crate::motion::Skeleton::default();
+    for (name, parent, offset) in BODY {
+        let parent = skeleton.find(parent);
+        let first_channel = skeleton.channels();
+        let own: &[Channel] = if parent.is_none() { &positions } else { &[] };
+        let end = ENDS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, offset)| {
+            let side = if name.starts_with('R') { -1.0 } else { 1.0 };
+            let offset = [side * offset[0], offset[1], offset[2]].into();
+            crate::motion::EndSite { name: "Site".into(), offset }
+        });
+        skeleton.joints.push(Joint {
+            name: name.into(),
+            parent,
+            offset: offset.into(),
+            channels: [own, &rotations].concat(),
+            first_channel,
+            end_sites: end.into_iter().collect(),
+        });
+    }
+    let value = |frame: usize, column: usize| match column {
+        0 => frame as f64,
+        1 => 95.0,
+        2 => 0.0,
+        _ => 12.0 * (0.25 * frame as f64 + column as f64).sin(),
+    };
+    let columns = skeleton.channels();
+    let values = (0..FRAMES).flat_map(|frame| (0..columns).map(move |column| value(frame, column)));
+    let (rate, values) = (FrameRate::new(24.0).unwrap(), values.collect());
+    Clip::new(skeleton, rate, Frame(0), FRAMES, values).unwrap()
 }
 
 fn nonsense(clip: &Clip) -> Clip {
@@ -48,8 +129,7 @@ fn without_its_names_every_real_clip_has_the_same_arms_legs_and_head() {
 
 #[test]
 fn the_vmd_of_nonsense_moves_as_that_of_names() {
-    let (_, bytes) = real_clips().into_iter().find(|(name, _)| name.starts_with("cmu-05")).unwrap();
-    let clip = bvh::read(&bytes).unwrap().clip;
+    let clip = body();
     let sheet = Sheet::on_ones(clip.clock(24.0), 3);
     let made = |clip: &Clip| Vmd::default().make(clip, &sheet).unwrap();
     let (named, shaped) = (made(&clip), made(&nonsense(&clip)));
@@ -73,8 +153,7 @@ fn the_vmd_of_nonsense_moves_as_that_of_names() {
 
 #[test]
 fn of_a_limb_that_one_name_is_missing_of_the_shape_gives_it() {
-    let (_, bytes) = real_clips().into_iter().find(|(name, _)| name.starts_with("cmu-05")).unwrap();
-    let clip = bvh::read(&bytes).unwrap().clip;
+    let clip = body();
     let odd = renamed(&clip, |at, joint| match &joint.name[..] {
         "LeftForeArm" | "RightUpLeg" => format!("q{at}"),
         name => name.into(),
@@ -84,8 +163,7 @@ fn of_a_limb_that_one_name_is_missing_of_the_shape_gives_it() {
 
 /// The clip of a body with its arms out and its legs by usual names, under other ones.
 fn called(names: &[(&str, &str)]) -> (Clip, Clip) {
-    let (_, bytes) = real_clips().into_iter().find(|(name, _)| name.starts_with("cmu-05")).unwrap();
-    let clip = bvh::read(&bytes).unwrap().clip;
+    let clip = body();
     let other = renamed(&clip, |_, joint| {
         let own = names.iter().find(|(name, _)| *name == joint.name);
         own.map_or(joint.name.clone(), |(_, name)| (*name).into())
@@ -186,8 +264,7 @@ fn a_vrm_keeps_its_fingers() {
 /// many joints as mocopi has. What this shows is the table, not mocopi's own way to turn joints.
 #[test]
 fn mocopi_has_arms_and_legs() {
-    let (_, bytes) = real_clips().into_iter().find(|(name, _)| name.starts_with("cmu-05")).unwrap();
-    let clip = bvh::read(&bytes).unwrap().clip;
+    let clip = body();
     let names = [
         ("Hips", "root"),
         ("LowerBack", "torso_1"),

@@ -1,9 +1,11 @@
+use std::path::Path;
+
 use glam::{DQuat, DVec3};
 use serde_json::Value;
 
 use super::*;
-use crate::motion::bvh::sample::real_clips;
 use crate::motion::{Body, Pose, RowWriter, bvh, local_rotation, local_translation};
+use crate::real;
 
 /// A file taken apart: what its JSON says, and the floats behind an accessor.
 struct File {
@@ -98,42 +100,37 @@ const SPANS: [[&str; 4]; 6] = [
 
 #[test]
 fn limbs_point_on_every_koma_where_the_captures_do_to_its_end() {
-    let mut clips = vec![(
-        "kick".to_owned(),
-        std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/data/kick.bvh")).unwrap(),
-    )];
-    clips.extend(
-        real_clips()
-            .into_iter()
-            .filter(|(name, _)| name.starts_with("cmu-07") || name.starts_with("cmu-09")),
-    );
-    for (name, bytes) in clips {
-        let clip = bvh::read(&bytes).unwrap().clip;
-        let mut sheet =
-            Sheet::on_ones(clip.clock(24.0), clip.rate().koma_from_frames(clip.len(), 24.0));
-        sheet.layers[0].exposures.iter_mut().step_by(3).for_each(|exposure| exposure.koma = 3);
-        let file = File::of(&write(&clip, &sheet, None).unwrap());
-        let (mut writer, mut row) = (RowWriter::new(&clip), vec![0.0; clip.skeleton().channels()]);
-        let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
-        for (begin, exposure) in sheet.layers[0].timed() {
-            writer.write(sheet.layers[0].drawings[exposure.drawing].source, &mut row);
-            for (index, joint) in clip.skeleton().joints.iter().enumerate() {
-                pose.rotations[index] = local_rotation(joint, &row);
-                pose.translations[index] = local_translation(joint, &row);
-            }
-            body.place(&pose);
-            let own = |name: &str| body.positions()[clip.skeleton().find(name).unwrap().0];
-            for koma in [0.05, exposure.koma as f64 - 0.05] {
-                let placed = file.at((begin as f64 + koma) / 24.0);
-                for [from, to, own_from, own_to] in SPANS {
-                    let (found, should) =
-                        (place(&placed, to) - place(&placed, from), own(own_to) - own(own_from));
-                    let off = found.angle_between(should).to_degrees();
-                    assert!(
-                        off < 0.1,
-                        "{name}, koma {begin} {koma}: {from} to {to} is off by {off}°"
-                    );
-                }
+    let kick = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh");
+    limbs_point_where_the_capture_s_do(&kick);
+    real::with(["cmu-07_01-walk", "cmu-09_01-run"], |paths| {
+        paths.iter().for_each(|path| limbs_point_where_the_capture_s_do(path));
+    });
+}
+
+fn limbs_point_where_the_capture_s_do(path: &Path) {
+    let name = real::name(path);
+    let clip = bvh::read(&real::bytes(path)).unwrap().clip;
+    let mut sheet =
+        Sheet::on_ones(clip.clock(24.0), clip.rate().koma_from_frames(clip.len(), 24.0));
+    sheet.layers[0].exposures.iter_mut().step_by(3).for_each(|exposure| exposure.koma = 3);
+    let file = File::of(&write(&clip, &sheet, None).unwrap());
+    let (mut writer, mut row) = (RowWriter::new(&clip), vec![0.0; clip.skeleton().channels()]);
+    let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
+    for (begin, exposure) in sheet.layers[0].timed() {
+        writer.write(sheet.layers[0].drawings[exposure.drawing].source, &mut row);
+        for (index, joint) in clip.skeleton().joints.iter().enumerate() {
+            pose.rotations[index] = local_rotation(joint, &row);
+            pose.translations[index] = local_translation(joint, &row);
+        }
+        body.place(&pose);
+        let own = |name: &str| body.positions()[clip.skeleton().find(name).unwrap().0];
+        for koma in [0.05, exposure.koma as f64 - 0.05] {
+            let placed = file.at((begin as f64 + koma) / 24.0);
+            for [from, to, own_from, own_to] in SPANS {
+                let (found, should) =
+                    (place(&placed, to) - place(&placed, from), own(own_to) - own(own_from));
+                let off = found.angle_between(should).to_degrees();
+                assert!(off < 0.1, "{name}, koma {begin} {koma}: {from} to {to} is off by {off}°");
             }
         }
     }

@@ -1,3 +1,5 @@
+use std::sync::LazyLock;
+
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -15,6 +17,9 @@ fn sheet(layers: &str) -> Sheet {
     recipe.set("layers", layers).unwrap();
     engine.run(&recipe, &Edits::default()).unwrap().sheet.clone()
 }
+
+/// That of the whole body, for tests of many cases.
+static BODY: LazyLock<Sheet> = LazyLock::new(|| sheet("body"));
 
 fn douga(sheet: &Sheet) -> String {
     Xdts::default().write(sheet, "kick").unwrap().douga
@@ -121,7 +126,7 @@ proptest! {
     /// Whatever numbers a person writes onto koma, these stand there.
     #[test]
     fn any_timing_of_drawings_comes_back(numbers in prop::collection::vec(1_usize..=27, 1..200)) {
-        let mut sheet = sheet("body");
+        let mut sheet = BODY.clone();
         let exposures = numbers.iter().map(|number| Exposure { drawing: number - 1, koma: 1 });
         let original = std::mem::replace(&mut sheet.layers[0].exposures, exposures.collect());
         let text = douga(&sheet);

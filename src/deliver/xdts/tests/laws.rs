@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::sheets::sheet;
 use super::writing::holds;
+use crate::cases::cases;
 use crate::deliver::xdts::read;
 use crate::sheet::{Drawing, Exposure, Layer, Role, Sheet, Source, Why};
 
@@ -60,7 +61,7 @@ pub(super) fn any_sheet() -> impl Strategy<Value = Sheet> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(cases(40, 200))]
 
     #[test]
     fn any_sheet_is_the_same_in_both_files(sheet in any_sheet(), cut in "[a-z0-9_カ ]{0,12}") {

@@ -1,6 +1,7 @@
 //! What is left out is counted in each action by itself.
 
 use super::*;
+use crate::cases::cases;
 
 /// So many koma on ones that get faster and slower again.
 fn long(koma: i32) -> (Layer, Stills) {
@@ -41,7 +42,7 @@ fn action() -> impl Strategy<Value = Vec<Plan>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(cases(200, 1000))]
 
     #[test]
     fn actions_that_part_at_genga_are_left_out_of_as_if_each_were_alone(

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::motion::{Clip, bvh};
+use crate::real;
 use crate::sheet::Sheet;
 use crate::time::{Frame, KOMA_RATE};
 
@@ -39,23 +40,20 @@ fn peak(clip: &Clip, layer: &Layer) -> f64 {
     (1..stills.len()).map(|at| stills.ssd(at - 1, at)).fold(0.0, f64::max)
 }
 
-/// The windows with the paper's settings; none when the real clips are not there.
-fn windows() -> Vec<(&'static str, Clip, Omission)> {
-    let clips = bvh::sample::real_clips();
-    let there = WINDOWS.iter().filter(|_| !clips.is_empty());
-    let window = |&(name, koma, naka_nashi, koma_dori): &(&'static str, _, _, _)| {
-        let (_, bytes) = clips.iter().find(|(clip, _)| clip == name).unwrap();
-        let clip = bvh::read(bytes).unwrap().clip;
-        (name, window(clip, koma), counts(naka_nashi, koma_dori))
-    };
-    there.map(window).collect()
+/// Looks at each window, its koma, and the paper's counts.
+fn each_window(look: impl Fn(&str, Clip, usize, [usize; 2])) {
+    for (name, koma, naka_nashi, koma_dori) in WINDOWS {
+        real::with([name], |[path]| {
+            let clip = bvh::read(&real::bytes(&path)).unwrap().clip;
+            look(name, window(clip, koma), koma, [naka_nashi, koma_dori]);
+        });
+    }
 }
 
 #[test]
 fn real_movements_lose_and_hold_what_the_paper_asks_for() {
-    for ((name, clip, settings), (_, koma, naka_nashi, koma_dori)) in
-        windows().into_iter().zip(WINDOWS)
-    {
+    each_window(|name, clip, koma, [naka_nashi, koma_dori]| {
+        let settings = counts(naka_nashi, koma_dori);
         let (layer, stills) = ones(&clip);
         assert_eq!(layer.length(), koma, "{name}");
         let Omitted { layer: after, report } = settings.apply(&layer, &stills, 1).unwrap();
@@ -72,12 +70,12 @@ fn real_movements_lose_and_hold_what_the_paper_asks_for() {
         let jumping = fewer.apply(&layer, &stills, 1).unwrap().layer;
         let (was, now) = (peak(&clip, &layer), peak(&clip, &jumping));
         assert!(now > 1.5 * was, "{name}: the largest step went from {was} to {now}");
-    }
+    });
 }
 
 #[test]
 fn on_real_movements_it_is_algorithms_1_and_2_koma_for_koma() {
-    for (name, clip, paper) in windows() {
+    each_window(|name, clip, _, [naka_nashi, koma_dori]| {
         let (mut layer, stills) = ones(&clip);
         // The oracle calls a drawing by its number, which the helpers read from its place.
         for (number, drawing) in layer.drawings.iter_mut().enumerate() {
@@ -85,7 +83,7 @@ fn on_real_movements_it_is_algorithms_1_and_2_koma_for_koma() {
         }
         for order in [Order::NakaNashiFirst, Order::KomaDoriFirst] {
             for (all_at_once, keep_length) in [(false, true), (true, true), (false, false)] {
-                for more in [counts(12, 60), paper] {
+                for more in [counts(12, 60), counts(naka_nashi, koma_dori)] {
                     let settings = Omission { order, all_at_once, keep_length, ..more };
                     let omitted = settings.apply(&layer, &stills, 1).unwrap();
                     let expected = Rules::of(&settings, &stills, 1).by_koma(&rows(&layer));
@@ -93,5 +91,5 @@ fn on_real_movements_it_is_algorithms_1_and_2_koma_for_koma() {
                 }
             }
         }
-    }
+    });
 }
