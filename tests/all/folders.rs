@@ -97,22 +97,23 @@ fn what_a_link_leads_to_is_not_removed() {
 #[test]
 fn nothing_that_a_person_changed_is_written_over_unless_forced() {
     let place = Place::new();
-    place.done("run data/kick.bvh --deliver images --out a");
+    let images = "--deliver images --with images.width=160 --with images.height=90";
+    place.done(&format!("run data/kick.bvh {images} --out a"));
     for name in ["keys.csv", "sheet.json", "images/A_0003.png"] {
         let file = format!("a/{name}");
         let written = fs::read(place.path(&file)).unwrap();
         let changed = change(&place, &file);
         let before = all(&place.path("a"));
         for args in [
-            "run data/kick.bvh --deliver images --keys 8 --out a",
-            "run data/kick.bvh --deliver images --out a",
+            format!("run data/kick.bvh {images} --keys 8 --out a"),
+            format!("run data/kick.bvh {images} --out a"),
         ] {
-            let said = place.refused(2, args);
+            let said = place.refused(2, &args);
             assert!(said.contains(&file) && said.contains("as a run wrote it"), "{said}");
             assert!(said.contains("--out") && said.contains("--force"), "{said}");
             assert_eq!(all(&place.path("a")), before, "{args}");
         }
-        place.done("run data/kick.bvh --deliver images --out a --force");
+        place.done(&format!("run data/kick.bvh {images} --out a --force"));
         assert_ne!(fs::read(place.path(&file)).unwrap(), changed);
         assert_eq!(fs::read(place.path(&file)).unwrap(), written);
     }
@@ -228,17 +229,17 @@ fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
 
     let place = Place::new();
     place.done("run data/kick.bvh --out old");
-    place.done("run data/kick.bvh --deliver images,strip --keys 8 --out new");
+    let run = "run data/kick.bvh --deliver images,strip --with images.width=640 --with images.height=360 --keys 8 --out";
+    place.done(&format!("{run} new"));
     let (old, new) = (all(&place.path("old")), all(&place.path("new")));
-    let run = "run data/kick.bvh --deliver images,strip --keys 8 --out";
-    for (at, signal) in ["INT", "TERM", "KILL"].into_iter().cycle().take(9).enumerate() {
+    for (at, signal) in ["INT", "TERM", "KILL"].into_iter().cycle().take(6).enumerate() {
         let folder = if at % 2 == 0 { "a" } else { "fresh" };
         fs::remove_dir_all(place.path(folder)).ok();
         if folder == "a" {
             place.done("run data/kick.bvh --out a");
         }
         let mut child = place.begun(&format!("{run} {folder}"));
-        std::thread::sleep(Duration::from_millis(at as u64 * 80));
+        std::thread::sleep(Duration::from_millis(at as u64 * 120));
         let pid = child.id().to_string();
         Command::new("kill").args(["-s", signal, &pid]).status().unwrap();
         child.wait().unwrap();
