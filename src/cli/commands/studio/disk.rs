@@ -1,6 +1,5 @@
 //! The studio's desk on a disk: it reads, writes and exports as the other commands do.
 
-use std::env;
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -212,8 +211,9 @@ struct Recent(Option<PathBuf>);
 
 impl Recent {
     /// The list of whoever runs the program.
+    #[cfg(feature = "studio")]
     fn of_person() -> Self {
-        let folder = |name| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let folder = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let state = match cfg!(windows) {
             true => folder("LOCALAPPDATA"),
             false => folder("XDG_STATE_HOME")
