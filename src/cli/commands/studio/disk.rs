@@ -213,7 +213,8 @@ impl Recent {
     /// The list of whoever runs the program.
     #[cfg(feature = "studio")]
     fn of_person() -> Self {
-        let folder = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let folder =
+            |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let state = match cfg!(windows) {
             true => folder("LOCALAPPDATA"),
             false => folder("XDG_STATE_HOME")
