@@ -73,7 +73,7 @@ fn fault(package: &Value) -> Option<String> {
     let of = |field: &str| package[field].as_str().unwrap_or("none").to_owned();
     let name = format!("{} {}", of("name"), of("version"));
     let is_ours = package["source"].is_null()
-        && ["genga", "genga-browser", "genga-python"].iter().any(|own| package["name"] == *own);
+        && package["name"].as_str().is_some_and(|name| name.starts_with("genga"));
     if !is_ours && !of("source").starts_with(REGISTRY) {
         return Some(format!("{name}: its source is {}", of("source")));
     }
