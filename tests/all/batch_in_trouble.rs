@@ -3,6 +3,7 @@
 use std::fs;
 
 use crate::batch::{code, library, results};
+use crate::cases::is_full;
 use crate::clips::here;
 use crate::program::{Place, text};
 
@@ -130,7 +131,8 @@ fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {
     library(&place);
     for more in ["", " --deliver json,xdts,bars", " --deliver glb", " --pack"] {
         code(&place, &format!("batch lib --out whole{more}"));
-        for blocks in [0, 8, 32] {
+        let blocks: &[usize] = if is_full() { &[0, 1, 8, 16, 32] } else { &[0, 8, 32] };
+        for blocks in blocks {
             let command = format!(
                 "trap '' XFSZ; ulimit -f {blocks}; exec '{}' batch lib --out full{more} --jobs 2",
                 env!("CARGO_BIN_EXE_genga")

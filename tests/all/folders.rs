@@ -6,6 +6,7 @@ use std::path::Path;
 
 use genga::deliver::Manifest;
 
+use crate::cases::is_full;
 use crate::clips::here;
 use crate::program::{Place, column, text};
 
@@ -99,7 +100,8 @@ fn nothing_that_a_person_changed_is_written_over_unless_forced() {
     let place = Place::new();
     let images = "--deliver images --with images.width=160 --with images.height=90";
     place.done(&format!("run data/kick.bvh {images} --out a"));
-    for name in ["keys.csv", "sheet.json", "images/A_0003.png"] {
+    let names = ["keys.csv", "sheet.json", "images/A_0003.png", "recipe.toml", "sheet.csv"];
+    for name in names.into_iter().take(if is_full() { 5 } else { 3 }) {
         let file = format!("a/{name}");
         let written = fs::read(place.path(&file)).unwrap();
         let changed = change(&place, &file);
@@ -231,15 +233,16 @@ fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
     place.done("run data/kick.bvh --out old");
     let run = "run data/kick.bvh --deliver images,strip --with images.width=640 --with images.height=360 --keys 8 --out";
     place.done(&format!("{run} new"));
+    let (times, wait) = if is_full() { (18, 40) } else { (6, 120) };
     let (old, new) = (all(&place.path("old")), all(&place.path("new")));
-    for (at, signal) in ["INT", "TERM", "KILL"].into_iter().cycle().take(6).enumerate() {
+    for (at, signal) in ["INT", "TERM", "KILL"].into_iter().cycle().take(times).enumerate() {
         let folder = if at % 2 == 0 { "a" } else { "fresh" };
         fs::remove_dir_all(place.path(folder)).ok();
         if folder == "a" {
             place.done("run data/kick.bvh --out a");
         }
         let mut child = place.begun(&format!("{run} {folder}"));
-        std::thread::sleep(Duration::from_millis(at as u64 * 120));
+        std::thread::sleep(Duration::from_millis(at as u64 * wait));
         let pid = child.id().to_string();
         Command::new("kill").args(["-s", signal, &pid]).status().unwrap();
         child.wait().unwrap();

@@ -5,6 +5,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use genga::motion::bvh;
+
 use crate::clips::here;
 
 #[path = "../fuzz/targets/amc.rs"]
@@ -66,7 +68,22 @@ fn seeds(target: &str) -> Vec<PathBuf> {
 }
 
 fn found() -> Vec<PathBuf> {
-    files(&here("tests/bvh/found"))
+    let found = files(&here("tests/bvh/found"));
+    assert!(found.len() >= 5, "{found:?}");
+    found
+}
+
+/// Of files that have CR in them too, which the fuzzer does not compare.
+#[test]
+fn lines_may_end_in_cr_as_well_as_in_lf() {
+    let told = |bytes: &[u8]| {
+        bvh::read(bytes).map(|read| (read.clip, read.warnings)).map_err(|e| e.to_string())
+    };
+    for path in found() {
+        let bytes = fs::read(&path).unwrap();
+        let cr = bytes.iter().map(|&byte| if byte == b'\n' { b'\r' } else { byte });
+        assert_eq!(told(&cr.collect::<Vec<u8>>()), told(&bytes), "{}", path.display());
+    }
 }
 
 #[test]

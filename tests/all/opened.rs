@@ -6,6 +6,7 @@ use genga::error::Error;
 use genga::motion::bvh;
 use tempfile::NamedTempFile;
 
+use crate::cases::is_full;
 use crate::clips;
 
 /// What came out, to the bit: NaN is not equal to itself.
@@ -30,7 +31,7 @@ fn agree(bytes: &[u8]) -> bool {
     fs::write(file.path(), bytes).unwrap();
     let plain = bvh::Options::default();
     // A large file is read one way: it is long, and what the others do to a row does not depend on how many there are.
-    if bytes.len() > 1 << 20 {
+    if bytes.len() > 1 << 20 && !is_full() {
         return told(plain.open(file.path())) == told(plain.read(bytes));
     }
     let strict = bvh::Options { strict: true, ..plain.clone() };
