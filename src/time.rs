@@ -27,6 +27,11 @@ pub(crate) const USUAL_RATES: [f64; 15] = [
 /// 29.97 and 30 differ by 0.1 %.
 const SNAP: f64 = 0.0005;
 
+/// The usual rate that frames a second mean, within 0.05 %.
+pub(crate) fn usual_rate(fps: f64) -> Option<f64> {
+    USUAL_RATES.into_iter().find(|usual| (fps - usual).abs() < SNAP * usual)
+}
+
 /// Frames a second that a rate can be; beyond them a file lies.
 const RATES: RangeInclusive<f64> = 1e-3..=1e6;
 
@@ -56,8 +61,7 @@ impl FrameRate {
     /// [`Error::Setting`] where that is no [`FrameRate`].
     pub fn from_frame_time(seconds: f64) -> Result<Self, Error> {
         let fps = Self::new(1.0 / seconds)?;
-        let near = |usual: &f64| (fps.0 - usual).abs() < SNAP * usual;
-        Ok(USUAL_RATES.into_iter().find(near).map_or(fps, Self))
+        Ok(usual_rate(fps.0).map_or(fps, Self))
     }
 
     /// Frames a second.

@@ -15,6 +15,7 @@ mod cleaning;
 mod columns;
 mod ends;
 mod file;
+mod frame_time;
 pub mod glitches;
 mod hierarchy;
 pub mod lead_in;

@@ -144,8 +144,7 @@ pub fn mend(clip: Clip) -> (Clip, Option<Warning>) {
         let mended = between(&clip, Frame(clip.first().0 + row));
         values[row * width..(row + 1) * width].copy_from_slice(&mended);
     }
-    let mended = Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), values);
-    (mended.expect("as many values as before"), Some(warning))
+    (clip.with_values(values), Some(warning))
 }
 
 fn warning(first: Frame, count: usize) -> Warning {

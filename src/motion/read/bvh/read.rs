@@ -11,8 +11,8 @@ use super::columns::Columns;
 use super::file::{self, Blocks};
 use super::hierarchy::{self, Head};
 use super::scanner::Scanner;
-use super::warnings::{CHANNEL_COUNT, FRAMES_MISMATCH, Notices, VALUE_HELD};
-use super::{Read, names, repair, table, text, threads, trees};
+use super::warnings::{CHANNEL_COUNT, FRAMES_MISMATCH, Notices, POSES, VALUE_HELD};
+use super::{Read, frame_time, names, repair, table, text, threads, trees};
 use crate::error::Error;
 use crate::motion::{Clip, Skeleton, StreamLimit};
 use crate::time::{Frame, FrameRate};
@@ -183,7 +183,11 @@ impl Options {
         let Some(fps) = self.fps else {
             let at = scanner.peek().at;
             let seconds = scanner.number()?;
-            return Ok((rate_from_frame_time(scanner, at, seconds)?, seconds));
+            let rate = frame_time::rate(seconds).map_err(|message| scanner.error(at, message))?;
+            if let Some(message) = frame_time::poses(seconds) {
+                scanner.notices.add(POSES, at, || message);
+            }
+            return Ok((rate, seconds));
         };
         Ok((fps, scanner.value()?.unwrap_or(f64::NAN)))
     }
@@ -208,22 +212,6 @@ fn frames(scanner: &mut Scanner) -> Result<(usize, usize), Error> {
         0 => Err(scanner.error(at, "the file says it has 0 frames: there is no motion")),
         frames => Ok((at, frames)),
     }
-}
-
-fn rate_from_frame_time(scanner: &Scanner, at: usize, seconds: f64) -> Result<FrameRate, Error> {
-    if seconds >= 1.0 {
-        let message = if (10.0..1000.0).contains(&seconds) {
-            format!("{seconds} seconds a frame looks like a rate; --fps {seconds} reads it as one")
-        } else {
-            format!("expected a frame time below 1 second, found {seconds}; --fps gives the rate")
-        };
-        return Err(scanner.error(at, message));
-    }
-    FrameRate::from_frame_time(seconds).map_err(|_| {
-        let message =
-            format!("expected a frame time of at least a millionth of a second, found {seconds}; --fps gives the rate");
-        scanner.error(at, message)
-    })
 }
 
 /// Where CHANNELS says another number than there are names, the names count if the first row of the

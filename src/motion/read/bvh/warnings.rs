@@ -27,6 +27,8 @@ pub const AXIS_TWICE: &str = "W_AXIS_TWICE";
 pub const TRAILING_BYTES: &str = "W_TRAILING_BYTES";
 /// A blank stands before the colon of `Frames:` or `Frame Time:`.
 pub const LABEL_SPACING: &str = "W_LABEL_SPACING";
+/// A frame lasts a second or more, as in a list of poses.
+pub const POSES: &str = "W_POSES";
 /// The file has several trees of joints, and none was asked for.
 pub const ROOTS: &str = "W_ROOTS";
 /// Repaired: a value was no finite number.
@@ -35,7 +37,7 @@ pub const VALUE_HELD: &str = "W_VALUE_HELD";
 pub const ROW_CUT: &str = "W_ROW_CUT";
 
 /// Every code of this reader. [`LeadIn`](super::LeadIn) adds `W_LEAD_IN`.
-pub const ALL: [&str; 15] = [
+pub const ALL: [&str; 16] = [
     FRAMES_MISMATCH,
     NAME_MISSING,
     NAME_TWICE,
@@ -48,6 +50,7 @@ pub const ALL: [&str; 15] = [
     AXIS_TWICE,
     TRAILING_BYTES,
     LABEL_SPACING,
+    POSES,
     ROOTS,
     VALUE_HELD,
     ROW_CUT,

@@ -7,7 +7,7 @@ mod text; // bytes, lines and names
 use super::{clip, sample};
 use crate::error::Warning;
 use crate::motion::Clip;
-use crate::motion::bvh::warnings::{self, AXIS_TWICE, ROOTS};
+use crate::motion::bvh::warnings::{self, AXIS_TWICE, POSES, ROOTS};
 use crate::motion::bvh::{Options, Read, open, read, write};
 
 /// A file and what must come of it.
@@ -99,7 +99,7 @@ fn every_case_is_opened_as_it_is_read() {
 }
 
 #[test]
-fn there_are_64_cases_and_the_documentation_tells_of_each() {
+fn there_are_66_cases_and_the_documentation_tells_of_each() {
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/formats.md");
     let page = std::fs::read_to_string(page).unwrap();
     let mut numbers: Vec<usize> = Vec::new();
@@ -119,7 +119,7 @@ fn there_are_64_cases_and_the_documentation_tells_of_each() {
     }
     numbers.sort_unstable();
     numbers.dedup();
-    assert_eq!(numbers, (1..=64).collect::<Vec<_>>());
+    assert_eq!(numbers, (1..=66).collect::<Vec<_>>());
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn strict_makes_an_error_of_every_warning_at_its_place() {
 #[test]
 fn what_was_accepted_is_written_plainly_and_comes_back() {
     // What is part of the clip is said again.
-    let lasting = [AXIS_TWICE, ROOTS];
+    let lasting = [AXIS_TWICE, POSES, ROOTS];
     for Case { number, bytes, .. } in cases() {
         let Ok(Read { clip, .. }) = read(&bytes) else { continue };
         let again = read(write(&clip).as_bytes()).unwrap();

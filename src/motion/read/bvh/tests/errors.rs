@@ -178,7 +178,7 @@ fn a_motion_that_is_none_is_an_error_at_its_place() {
             with("0.0083333", "5000"),
             18,
             13,
-            "expected a frame time below 1 second, found 5000; --fps gives the rate".into(),
+            "expected a frame time in seconds, found 5000; --fps gives the rate".into(),
         ),
         (
             text("0.01", &["", ""]),

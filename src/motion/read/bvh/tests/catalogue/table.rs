@@ -3,7 +3,7 @@
 use super::{Case, accepted, refused, same, warned};
 use crate::motion::bvh::sample::{HIERARCHY, ROW, text};
 use crate::motion::bvh::tests::{OTHER_ROW, sample, with};
-use crate::motion::bvh::warnings::{DECIMAL_COMMA, FRAMES_MISMATCH, GLUED_MINUS};
+use crate::motion::bvh::warnings::{DECIMAL_COMMA, FRAMES_MISMATCH, GLUED_MINUS, POSES};
 use crate::time::Frame;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -53,6 +53,20 @@ fn labels() -> Vec<Case> {
             time("30"),
             (18, 13),
             "30 seconds a frame looks like a rate; --fps 30 reads it as one",
+        ),
+        refused(
+            65,
+            time("41.6667"),
+            (18, 13),
+            "41.6667 seconds a frame looks like milliseconds; --fps 24 reads it so",
+        ),
+        warned(
+            66,
+            time("1.0"),
+            (18, 13),
+            POSES,
+            "a frame lasts 1 second, as in a list of poses; --fps N plays N of them a second",
+            |clip| assert_eq!(clip.rate().fps(), 1.0),
         ),
     ]
 }
