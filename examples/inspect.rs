@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  {} hangs on {parent}", joint.name);
     }
 
-    let Stature { size, up } = Stature::of(&clip);
+    let Stature { size, up, .. } = Stature::of(&clip);
     println!("{size:.0} units high along {up:?}; a unit is probably a {:?}", Unit::nearest(size));
     Ok(())
 }

@@ -154,11 +154,6 @@ impl Exaggerate {
         for (row, place) in values.chunks_exact_mut(channels).zip(places) {
             writer.write(Source::At(clip.first().0 as f64 + place), row);
         }
-        Some(with_values(clip, values))
+        Some(clip.with_values(values))
     }
-}
-
-/// A clip of the same joints, rate and frames.
-fn with_values(clip: &Clip, values: Vec<f64>) -> Clip {
-    Clip::of_finite(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), values)
 }

@@ -22,8 +22,8 @@ pub use body::landmarks;
 pub(crate) use body::{BodySide, Build, LayFigure, below, is_t_pose, plain_name};
 pub use body::{Contact, ContactFinder, Foot, Landmarks, Limb, Point, Stature, Unit};
 pub use clip::{
-    Body, Channel, Clip, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, local_rotation,
-    local_translation, set_local_rotation,
+    Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, Word,
+    local_rotation, local_translation, set_local_rotation,
 };
 pub(crate) use clip::{rotation_axes, turn_columns};
 #[cfg(feature = "panels")]

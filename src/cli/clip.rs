@@ -14,7 +14,7 @@ use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
 use crate::motion::bvh::{Cleaning, glitches};
 use crate::motion::file::{self, Found, Take};
-use crate::motion::{Clip, StreamLimit};
+use crate::motion::{Axis, Clip, StreamLimit};
 use crate::pipeline::Budget;
 use crate::time::FrameRate;
 
@@ -53,6 +53,9 @@ pub(super) struct Reading {
     /// Of several takes in one file this one; inspect lists them.
     #[arg(long, value_name = "NAME")]
     take: Option<String>,
+    /// The axis that points up, y or z, whatever the file says and however the body stands.
+    #[arg(long, value_name = "AXIS", value_parser = up)]
+    up: Option<Axis>,
     /// The bones of a motion that has none: a model (.pmx, .pmd) of a VMD, the .asf of an AMC that does not lie beside it.
     #[arg(long, value_name = "FILE")]
     skeleton: Option<PathBuf>,
@@ -88,6 +91,14 @@ fn frames(text: &str) -> Result<Frames, String> {
 fn gib(text: &str) -> Result<f64, String> {
     let gib = text.parse().ok().filter(|gib: &f64| *gib > 0.0 && gib.is_finite());
     gib.ok_or_else(|| "expected GiB above 0, as in 8 or 0.5".into())
+}
+
+fn up(text: &str) -> Result<Axis, String> {
+    match text {
+        "y" | "Y" => Ok(Axis::Y),
+        "z" | "Z" => Ok(Axis::Z),
+        _ => Err("expected y or z".into()),
+    }
 }
 
 fn rate(text: &str) -> Result<FrameRate, String> {
@@ -174,9 +185,9 @@ impl Reading {
         if path.is_dir() {
             return Err(Failure::AskedWrongly(folder(path)));
         }
-        let Self { fps, root, take, skeleton, repair, strict, memory, .. } = self.clone();
+        let Self { fps, root, take, up, skeleton, repair, strict, memory, .. } = self.clone();
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
-        let options = file::Options { strict, repair, fps, root, take, skeleton, stream };
+        let options = file::Options { strict, repair, fps, root, take, skeleton, up, stream };
         let read = if paths::is_stream(path) {
             options.read(&files::read_up_to(stream, path)?)
         } else {

@@ -57,11 +57,13 @@ choices!(Step { Single: "single", Doubled: "doubled" });
 /// A unit of length (単位), or that nobody knows it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LengthUnit {
-    /// The unit that makes a person of the body in its first frame.
+    /// The one that the file declares, else the one that makes a person of the body in its first frame.
     #[default]
     Auto,
     /// Metres.
     M,
+    /// Decimetres.
+    Dm,
     /// Centimetres.
     Cm,
     /// Millimetres.
@@ -72,27 +74,36 @@ pub enum LengthUnit {
     Cmu,
 }
 
-choices!(LengthUnit { Auto: "auto", M: "m", Cm: "cm", Mm: "mm", Inch: "inch", Cmu: "cmu" });
+choices!(LengthUnit {
+    Auto: "auto",
+    M: "m",
+    Dm: "dm",
+    Cm: "cm",
+    Mm: "mm",
+    Inch: "inch",
+    Cmu: "cmu"
+});
 
 impl LengthUnit {
-    /// Metres in one of it, for a body of that size.
-    fn metres(self, size: f64) -> f64 {
+    /// Metres in one of it, where it is known.
+    fn metres(self) -> Option<f64> {
         let unit = match self {
-            Self::Auto => Unit::nearest(size),
+            Self::Auto => return None,
             Self::M => Unit::Metre,
+            Self::Dm => Unit::Decimetre,
             Self::Cm => Unit::Centimetre,
             Self::Mm => Unit::Millimetre,
             Self::Inch => Unit::Inch,
             Self::Cmu => Unit::Cmu,
         };
-        unit.metres()
+        Some(unit.metres())
     }
 }
 
 /// The axis that points up.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Up {
-    /// The one along which the body stands.
+    /// The one that a person or the file declares, else the one along which the body stands.
     #[default]
     Auto,
     /// As in most motion files.
@@ -161,7 +172,7 @@ impl Glb {
     /// From the clip's space into that of glTF.
     fn space(&self, clip: &Clip) -> Space {
         let stature = Stature::of(clip);
-        let scale = self.scale * self.unit.metres(stature.size);
+        let scale = self.scale * self.unit.metres().unwrap_or(stature.metres);
         let is_z_up = match self.up {
             Up::Auto => stature.up == Axis::Z,
             up => up == Up::Z,

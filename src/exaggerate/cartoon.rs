@@ -7,7 +7,6 @@
 use glam::{DQuat, DVec3};
 
 use super::smooth::Smooth;
-use super::with_values;
 use crate::maths;
 use crate::motion::{Axis, Channel, Clip, Joint, local_rotation, rotation_axes, turn_columns};
 
@@ -39,7 +38,7 @@ impl Filter {
             let moved = clip.skeleton().joints.iter().zip(joints).filter(|(_, moves)| **moves);
             moved.for_each(|(joint, _)| self.joint(clip, joint, &mut values, &mut buffers));
         }
-        with_values(clip, values)
+        clip.with_values(values)
     }
 
     fn joint(self, clip: &Clip, joint: &Joint, values: &mut [f64], buffers: &mut Buffers) {

@@ -1,6 +1,7 @@
 //! A motion clip: a skeleton and one flat table of channel values, frame after frame.
 
 mod channels;
+mod declared;
 mod kinematics;
 pub(crate) mod lane_poser;
 mod poser;
@@ -9,6 +10,7 @@ mod skeleton;
 
 pub use channels::{RowWriter, set_local_rotation};
 pub(crate) use channels::{rotation_axes, turn_columns};
+pub use declared::{Declared, Word};
 pub use kinematics::{Body, Pose, local_rotation, local_translation};
 pub use poser::Poser;
 pub use skeleton::{Channel, EndSite, Joint, JointId, Skeleton};
@@ -21,13 +23,25 @@ const LARGEST: f64 = 1e12;
 
 /// A motion clip (モーション): the values as written, never turned into anything else, so that a
 /// drawing which is a source frame can be written back as the same numbers.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Two clips are equal when their values are, whatever is [declared](Declared) of them.
+#[derive(Debug, Clone)]
 pub struct Clip {
     skeleton: Skeleton,
     rate: FrameRate,
     first: Frame,
     frames: usize,
     values: Vec<f64>,
+    declared: Declared,
+}
+
+impl PartialEq for Clip {
+    fn eq(&self, other: &Self) -> bool {
+        let shape = |clip: &Self| (clip.rate, clip.first, clip.frames);
+        shape(self) == shape(other)
+            && self.skeleton == other.skeleton
+            && self.values == other.values
+    }
 }
 
 impl Clip {
@@ -56,7 +70,7 @@ impl Clip {
             let frame = first.0 + at / channels;
             return Err(Error::clip(format!("frame {frame} holds a value that is not a number")));
         }
-        Ok(Self { skeleton, rate, first, frames, values })
+        Ok(Self { skeleton, rate, first, frames, values, declared: Declared::default() })
     }
 
     /// A clip from a table known to have that shape and to hold finite values only: a reader that looked
@@ -70,7 +84,7 @@ impl Clip {
     ) -> Self {
         debug_assert_eq!(values.len(), frames * skeleton.channels());
         debug_assert!(values.iter().all(|value| value.is_finite()));
-        Self { skeleton, rate, first, frames, values }
+        Self { skeleton, rate, first, frames, values, declared: Declared::default() }
     }
 
     /// Checks that no value is so large that work on it would overflow: none may be beyond 10¹².
@@ -226,6 +240,28 @@ impl Clip {
         self.frames = end.0 - begin.0;
         self.first = begin;
         Ok(self)
+    }
+
+    /// The same joints and frames with other values, a row of them as wide as before.
+    ///
+    /// # Panics
+    /// When there are more or fewer values.
+    pub(crate) fn with_values(&self, values: Vec<f64>) -> Self {
+        assert_eq!(values.len(), self.values.len(), "as many values as before");
+        let Self { skeleton, rate, first, frames, declared, .. } = self;
+        let (skeleton, rate, first) = (skeleton.clone(), *rate, *first);
+        Self { skeleton, rate, first, frames: *frames, values, declared: *declared }
+    }
+
+    /// What is said of it besides its values.
+    pub fn declared(&self) -> Declared {
+        self.declared
+    }
+
+    /// The same clip, of which that is said.
+    pub fn with_declared(mut self, declared: Declared) -> Self {
+        self.declared = declared;
+        self
     }
 
     /// The same clip at another rate; the frames stay.

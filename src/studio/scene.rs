@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::motion::{Clip, JointId, Skeleton, Stature, Unit};
+use crate::motion::{Clip, JointId, Skeleton, Stature};
 use crate::plot::Camera;
 use crate::plot::parts::{Figure, FigureBody, Posing, View, bones, seen_by};
 use crate::sheet::Source;
@@ -49,7 +49,7 @@ impl Scene {
         let view = |camera: Camera| seen_by(camera, clip, &poses);
         let up = stature.up.unit();
         let floor = poses.iter().flatten().map(|point| point.dot(up)).fold(f64::INFINITY, f64::min);
-        let cell = CELL / Unit::nearest(stature.size).metres();
+        let cell = CELL / stature.metres;
         Self {
             figure,
             up,

@@ -71,7 +71,7 @@ impl Noise {
                 values.push(value + noise);
             }
         }
-        Clip::of_finite(skeleton.clone(), clip.rate(), clip.first(), clip.len(), values)
+        clip.with_values(values)
     }
 }
 

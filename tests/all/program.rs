@@ -421,6 +421,20 @@ fn a_tree_is_chosen_by_its_root() {
 }
 
 #[test]
+fn the_axis_that_points_up_is_a_persons_word() {
+    let place = Place::new();
+    let up = |option: &str| {
+        place.done(&format!("run data/kick.bvh --out out --deliver glb{option}"));
+        fs::read(place.path("out/kick_limited.glb")).unwrap()
+    };
+    let stands = up("");
+    assert!(up(" --up y") == stands);
+    assert!(up(" --up z") != stands, "laid on its back");
+    let said = place.refused(2, "inspect data/kick.bvh --up x");
+    assert!(said.contains("expected y or z"), "{said}");
+}
+
+#[test]
 fn a_dash_is_stdin_and_stdout() {
     let place = Place::new();
     let bytes = fs::read(here("data/kick.bvh")).unwrap();

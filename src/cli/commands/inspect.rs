@@ -141,6 +141,7 @@ fn size(source: &Source) -> String {
     }
     let unit = match Unit::of_size(size) {
         Some(Unit::Metre) => "metres, by the size",
+        Some(Unit::Decimetre) => "decimetres, by the size",
         Some(Unit::Cmu) => "the CMU unit of 5.64 cm, by the size",
         Some(Unit::Inch) => "inches, by the size",
         Some(Unit::Centimetre) => "centimetres, by the size",

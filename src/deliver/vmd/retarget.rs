@@ -8,8 +8,7 @@ use super::bones::{Model, Part};
 use super::capture::Capture;
 use super::stance::Stance;
 use crate::motion::{
-    Body, Clip, Composite, CompositeRows, JointId, Pose, Stature, Unit, local_rotation,
-    local_translation,
+    Body, Clip, Composite, CompositeRows, JointId, Pose, Stature, local_rotation, local_translation,
 };
 
 /// MMD units in a metre by custom, for a clip without legs to measure.
@@ -141,9 +140,9 @@ impl<'a> Retarget<'a> {
     }
 }
 
-/// MMD units in the unit that makes a body most nearly a person's.
+/// MMD units in the clip's unit.
 fn without_legs(clip: &Clip) -> f64 {
-    UNITS_IN_METRE * Unit::nearest(Stature::of(clip).size).metres()
+    UNITS_IN_METRE * Stature::of(clip).metres
 }
 
 /// Where the waist is when the body stands straight on the ground, over the origin.

@@ -26,7 +26,7 @@ use crate::deliver::glb::binary::{Binary, Use};
 use crate::deliver::glb::bones::floats;
 use crate::deliver::glb::{GENERATOR, Step};
 use crate::error::{Error, Warning};
-use crate::motion::{Clip, Composite, JointId, Stature, Unit};
+use crate::motion::{Clip, Composite, JointId, Stature};
 use crate::sheet::{Exposure, Sheet};
 use names::{HIPS, SPINE, needed, vrm_name};
 
@@ -136,7 +136,7 @@ struct Rest {
 impl Rest {
     fn of(clip: &Clip, cast: &Cast, capture: &Capture<'_>, stance: &Stance) -> Result<Self, Error> {
         let stature = Stature::of(clip);
-        let metres = Unit::nearest(stature.size).metres();
+        let metres = stature.metres;
         let none = || Error::clip("vrma: no joint is known to be the hips");
         let hips = capture.begin(HIPS).ok_or_else(none)?;
         let leg = capture.leg();

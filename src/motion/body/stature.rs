@@ -1,11 +1,16 @@
 //! How big a body is (身長), in which unit its file must be, and which way is up.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 
-use crate::motion::{Axis, Body, Clip, Poser};
+use crate::motion::{Axis, Body, Clip, Declared, Poser};
 
 /// How much taller than along one axis a body has to be along the other to stand along it.
 const CLEARLY: f64 = 1.25;
+
+/// Metres of whoever is animated, from a doll to a giant.
+const SOMEBODY: RangeInclusive<f64> = 0.1..=30.0;
 
 /// How a body stands in its file.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,12 +20,15 @@ pub struct Stature {
     pub size: f64,
     /// The axis that points up, Y or Z.
     pub up: Axis,
+    /// Metres in a unit of the file: as it declares, unless that makes nobody of the body, else by the unit that makes a
+    /// person of it.
+    pub metres: f64,
 }
 
 impl Stature {
     /// Looks at a clip's first frame and at its rest pose.
     ///
-    /// Up is the axis along which the body is clearly taller in the first frame. Where none is, arms are out or it
+    /// Up is what is [declared](Clip::declared), else the axis along which the body is clearly taller in the first frame. Where none is, arms are out or it
     /// is bent: then the rest pose says it, and else custom, which is Y. Z is not up where the rest pose stands
     /// along Y: that is somebody who begins on hands and knees.
     pub fn of(clip: &Clip) -> Self {
@@ -30,11 +38,15 @@ impl Stature {
             body.place(Poser::of(clip).frame(clip.first()));
         }
         let first = extent(&body);
-        let up = match (taller(first), taller(rest)) {
+        let seen = match (taller(first), taller(rest)) {
             (Some(Axis::Z), Some(Axis::Y)) | (None, None) => Axis::Y,
             (Some(up), _) | (None, Some(up)) => up,
         };
-        Self { size: if clip.is_empty() { 0.0 } else { first.max_element() }, up }
+        let Declared { up, metres } = clip.declared();
+        let size = if clip.is_empty() { 0.0 } else { first.max_element() };
+        let declared = metres.filter(|metres| SOMEBODY.contains(&(size * metres)));
+        let metres = declared.unwrap_or_else(|| Unit::nearest(size).metres());
+        Self { size, up: up.map_or(seen, |(up, _)| up), metres }
     }
 }
 
@@ -60,6 +72,8 @@ fn extent(body: &Body) -> DVec3 {
 pub enum Unit {
     /// 1 m.
     Metre,
+    /// 10 cm, as MakeHuman has it.
+    Decimetre,
     /// What CMU's motion is in: an inch divided by 0.45, 5.64 cm.
     Cmu,
     /// 2.54 cm.
@@ -71,9 +85,10 @@ pub enum Unit {
 }
 
 /// Sizes of a person in each unit, from small to large.
-const PERSONS: [(Unit, f64, f64); 5] = [
+const PERSONS: [(Unit, f64, f64); 6] = [
     (Unit::Metre, 1.0, 3.0),
-    (Unit::Cmu, 10.0, 40.0),
+    (Unit::Decimetre, 10.0, 18.0),
+    (Unit::Cmu, 18.0, 40.0),
     (Unit::Inch, 50.0, 90.0),
     (Unit::Centimetre, 100.0, 250.0),
     (Unit::Millimetre, 1000.0, 2500.0),
@@ -98,6 +113,7 @@ impl Unit {
     pub fn metres(self) -> f64 {
         match self {
             Self::Metre => 1.0,
+            Self::Decimetre => 0.1,
             Self::Cmu => 0.0254 / 0.45,
             Self::Inch => 0.0254,
             Self::Centimetre => 0.01,
@@ -141,6 +157,16 @@ mod tests {
     }
 
     #[test]
+    fn what_is_declared_goes_before_what_is_seen() {
+        let lying = body(170.0 * DVec3::Z, 0.0);
+        let by_eye = Stature::of(&lying);
+        assert_eq!((by_eye.up, by_eye.metres), (Axis::Z, 0.01));
+        let declared = |metres| Stature::of(&lying.clone().with_declared(Declared::y_up(metres)));
+        assert_eq!((declared(0.02).up, declared(0.02).metres), (Axis::Y, 0.02), "a giant");
+        assert_eq!(declared(1.0).metres, 0.01, "nobody is 170 m tall");
+    }
+
+    #[test]
     fn the_size_is_that_of_the_first_frame() {
         assert_eq!(Stature::of(&body(170.0 * DVec3::Y, 0.0)).size, 170.0);
         let none = Skeleton { joints: vec![] };
@@ -152,6 +178,7 @@ mod tests {
     fn a_unit_makes_a_person_of_a_body() {
         for (size, unit) in [
             (1.7, Unit::Metre),
+            (17.0, Unit::Decimetre),
             (30.0, Unit::Cmu),
             (67.0, Unit::Inch),
             (170.0, Unit::Centimetre),
@@ -170,6 +197,7 @@ mod tests {
             (170.0, Unit::Centimetre),
             (0.4, Unit::Metre),
             (4.5, Unit::Metre),
+            (7.0, Unit::Decimetre),
             (300.0, Unit::Centimetre),
             (9e9, Unit::Millimetre),
             (0.0, Unit::Centimetre),

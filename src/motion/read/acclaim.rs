@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 use super::reading::{Found, Given, Options, Read};
 use crate::error::{Error, Place};
+use crate::motion::Declared;
 use crate::time::FrameRate;
 use amc::Amc;
 use asf::Asf;
@@ -93,7 +94,8 @@ fn joined(asf: &Asf, mut amc: Amc, name: &str) -> Result<Read, Error> {
     ];
     let warnings = std::mem::take(&mut amc.warnings);
     let written_frame_time = amc.rate.map(|rate| 1.0 / rate);
-    let clip = clip::clip(asf, amc, rate)?;
+    let declared = Declared { metres: Some(metres), ..Declared::default() };
+    let clip = clip::clip(asf, amc, rate)?.with_declared(declared);
     Ok(Read { clip, warnings, written_frame_time, found, takes: Vec::new() })
 }
 

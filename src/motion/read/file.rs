@@ -17,7 +17,7 @@ use std::path::Path;
 
 use super::bvh::no_tree;
 use crate::error::{Error, Place, Warning};
-use crate::motion::{StreamLimit, bytes_in_words};
+use crate::motion::{Declared, StreamLimit, Word, bytes_in_words};
 
 pub use super::rates::KEY_FAR;
 pub use super::reading::{Found, Given, Options, Read, TAKES, Take};
@@ -62,7 +62,7 @@ impl Options {
         if format.is_native() {
             let read = self.for_bvh().open(path)?.into();
             self.check_take(&[])?;
-            return Ok(read);
+            return Ok(self.declare(read));
         }
         if about.len() > self.stream.bytes {
             return Err(too_large(format, about.len(), self.stream));
@@ -106,7 +106,7 @@ impl Options {
         let mut read = (format.read)(given, self)?;
         self.check_take(&read.takes)?;
         if format.is_native() {
-            return Ok(read);
+            return Ok(self.declare(read));
         }
         self.check_root(&read)?;
         if let (true, Some(Warning { code, message, .. })) = (self.strict, read.warnings.first()) {
@@ -118,7 +118,14 @@ impl Options {
         }
         let words: Vec<&str> = read.found.iter().map(|found| found.is.as_str()).collect();
         read.warnings.push(Warning::new(FORMAT, format!("read as {}", words.join("; "))));
-        Ok(read)
+        Ok(self.declare(read))
+    }
+
+    /// Puts a person's word before the file's.
+    fn declare(&self, read: Read) -> Read {
+        let Some(up) = self.up else { return read };
+        let declared = Declared { up: Some((up, Word::Person)), ..read.clip.declared() };
+        Read { clip: read.clip.with_declared(declared), ..read }
     }
 
     /// Refuses a root that is asked for and not there: some formats have one tree, and choose none.

@@ -10,7 +10,7 @@ use super::gltf::Document;
 use crate::error::Error;
 use crate::maths;
 use crate::motion::seen::looks;
-use crate::motion::{Axis, Clip, Eye, Stature, Unit};
+use crate::motion::{Axis, Clip, Eye, Stature};
 use carried::Cameras;
 
 /// How much further off than it is a camera without perspective is put, where none is left to be seen.
@@ -75,12 +75,11 @@ impl GltfCamera {
     /// [`Error::Camera`] when the body is behind it.
     pub fn eye(&self, clip: &Clip) -> Result<Eye, Error> {
         let stature = Stature::of(clip);
-        let metres = Unit::nearest(stature.size).metres();
         let own = |way: DVec3| match stature.up {
             Axis::Z => DVec3::new(way.x, -way.z, way.y),
             Axis::X | Axis::Y => way,
         };
-        let (at, towards) = (own(self.at) / metres, own(self.towards));
+        let (at, towards) = (own(self.at) / stature.metres, own(self.towards));
         let distance = (middle(clip) - at).dot(towards);
         if distance <= 0.0 || !distance.is_finite() {
             let message = format!(

@@ -8,6 +8,7 @@ mod curve;
 mod figure;
 mod legs;
 pub(crate) mod model;
+mod names;
 mod played;
 mod record;
 mod rig;
@@ -16,8 +17,9 @@ mod tests;
 
 use std::path::Path;
 
-use super::reading::{Found, Given, Options, Read};
+use super::reading::{Found, Given, Options, Read, join_names};
 use crate::error::{Error, Place, Warning};
+use crate::motion::Declared;
 use crate::time::FrameRate;
 pub use model::MmdModel;
 #[cfg(test)]
@@ -37,9 +39,6 @@ pub(crate) const BONES: &str = "W_VMD_BONES";
 /// How a motion begins.
 const SIGNATURE: &[u8] = b"Vocaloid Motion Data";
 
-/// Names at the most in a sentence.
-const MOST: usize = 12;
-
 /// Whether a file begins as a motion of MMD.
 pub(crate) fn is_motion(head: &[u8]) -> bool {
     head.starts_with(SIGNATURE)
@@ -57,6 +56,7 @@ pub(super) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
     check(&motion, &rig, model.as_ref())?;
     let rate = FrameRate::new(RATE)?;
     let clip = played::clip(&motion, &rig, rate, options.stream.bytes)?;
+    let clip = clip.with_declared(Declared::y_up(0.01));
     let mut found = vec![
         Found::new("format", format!("VMD for {}", motion.model)),
         Found::new("unit", "centimetres, 8 to a unit of MMD"),
@@ -65,9 +65,10 @@ pub(super) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
         Found::new("skeleton", skeleton(model.as_ref())),
         Found::new("legs", rig.legs_in_words()),
     ];
-    found.extend(
-        motion.left_out.iter().map(|what| Found::new("without", format!("without {what}"))),
-    );
+    let foreign = motion.names.foreign().map(|encoding| format!("names in {encoding}"));
+    found.extend(foreign.map(|names| Found::new("names", names)));
+    let left_out = motion.left_out.iter().map(|(count, what)| (*count, *what));
+    found.extend(Found::left_out(&left_out.collect::<Vec<_>>()));
     let warnings = motion.far.into_iter().chain(strangers(&rig)).collect();
     Ok(Read { clip, warnings, written_frame_time: None, found, takes: Vec::new() })
 }
@@ -113,7 +114,7 @@ fn check(motion: &Motion, rig: &Rig, model: Option<&MmdModel>) -> Result<(), Err
     if rig.bones.iter().any(|bone| !bone.keys.is_empty()) {
         return Ok(());
     }
-    let names = listed(&rig.strangers);
+    let names = join_names(&rig.strangers);
     let message = match model {
         Some(model) => format!(
             "the model {} has none of the bones that are keyed ({names}): is it another model's motion, for {}?",
@@ -133,14 +134,9 @@ fn strangers(rig: &Rig) -> Option<Warning> {
     let message = format!(
         "{} keyed bones are none that the skeleton has, and are left out: {}",
         names.len(),
-        listed(names)
+        join_names(names)
     );
     (!names.is_empty()).then(|| Warning::new(BONES, message))
-}
-
-fn listed(names: &[String]) -> String {
-    let more = if names.len() > MOST { ", …" } else { "" };
-    format!("{}{more}", names[..names.len().min(MOST)].join(", "))
 }
 
 fn damaged(byte: usize, message: impl Into<String>) -> Error {

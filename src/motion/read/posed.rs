@@ -217,6 +217,66 @@ fn on_parent(stand: Stand, parent: Option<Stand>) -> Stand {
     Stand { place: back * (stand.place - parent.place), turn: (back * stand.turn).normalize() }
 }
 
+/// What of a scene's nodes may be a joint beside the bones that the file names.
+pub(super) struct Nodes<'a> {
+    /// All of them, parents first.
+    pub(super) order: &'a [usize],
+    pub(super) parents: &'a [Option<usize>],
+    pub(super) moves: &'a [bool],
+    /// Whether a node shows something: it is a camera, a lamp, a shape or a control.
+    pub(super) is_seen: &'a [bool],
+}
+
+impl Nodes<'_> {
+    /// Chooses what moves in the tree of a bone, and what hangs on it: skins do not name every joint of a body. Gives what
+    /// moves and is none: things that are seen and carry nothing that moves, and other trees.
+    pub(super) fn choose_moving(&self, chosen: &mut [bool]) -> Vec<usize> {
+        let Self { order, parents, moves, is_seen } = self;
+        let mut trees = vec![0; chosen.len()];
+        let mut has_bones = vec![false; chosen.len()];
+        for &node in *order {
+            trees[node] = parents[node].map_or(node, |parent| trees[parent]);
+            has_bones[trees[node]] |= chosen[node];
+        }
+        let carries_moving = below(order, parents, moves);
+        let may = |node: usize| {
+            has_bones[trees[node]]
+                && (!is_seen[node] || carries_moving[node] > usize::from(moves[node]))
+        };
+        let mut wanted: Vec<bool> =
+            (0..chosen.len()).map(|node| chosen[node] || moves[node] && may(node)).collect();
+        let below = below(order, parents, &wanted);
+        let mut total = wanted.iter().filter(|wanted| **wanted).count();
+        // What carries all moves the root, wherever that is.
+        for &node in order.iter().filter(|node| !chosen[**node]) {
+            if wanted[node] && below[node] == total {
+                wanted[node] = false;
+                total -= 1;
+            }
+        }
+        let mut added = vec![false; chosen.len()];
+        for &node in order.iter().filter(|node| !chosen[**node]) {
+            let hangs = parents[node].is_some_and(|parent| added[parent]);
+            added[node] = wanted[node] || hangs && may(node);
+        }
+        let is_left_out = |node: &&usize| moves[**node] && !chosen[**node] && !may(**node);
+        let left_out = order.iter().filter(is_left_out).copied().collect();
+        chosen.iter_mut().zip(added).for_each(|(chosen, added)| *chosen |= added);
+        left_out
+    }
+}
+
+/// How many of some nodes each carries, itself among them. `order` has parents first.
+fn below(order: &[usize], parents: &[Option<usize>], some: &[bool]) -> Vec<usize> {
+    let mut below: Vec<usize> = some.iter().map(|node| usize::from(*node)).collect();
+    for &node in order.iter().rev() {
+        if let Some(parent) = parents[node] {
+            below[parent] += below[node];
+        }
+    }
+    below
+}
+
 /// Chooses the lowest node that carries all trees, where there is one that may be a joint, and what is between. `order`
 /// has parents first.
 pub(super) fn join(
@@ -226,12 +286,7 @@ pub(super) fn join(
     may: impl Fn(usize) -> bool,
 ) {
     let total = chosen.iter().filter(|chosen| **chosen).count();
-    let mut below: Vec<usize> = chosen.iter().map(|chosen| usize::from(*chosen)).collect();
-    for &node in order.iter().rev() {
-        if let Some(parent) = parents[node] {
-            below[parent] += below[node];
-        }
-    }
+    let below = below(order, parents, chosen);
     // The last in the order that carries all.
     let carries = |node: &&usize| below[**node] == total && total > 0;
     let Some(&top) = order.iter().rev().find(carries).filter(|top| may(**top)) else { return };

@@ -26,16 +26,18 @@ pub(super) const GAP: f64 = 1200.0;
 /// at 24 also fits 23.976. `None` where no usual rate does.
 pub(super) fn of_keys(times: &[f64]) -> Option<FrameRate> {
     let first = times.iter().copied().reduce(f64::min)?;
-    let fits = |rate: f64| {
-        times.iter().take(MOST).all(|time| {
-            let frame = (time - first) * rate;
-            (frame - frame.round()).abs() < NEAR
-        })
-    };
     let (whole, broken): (Vec<f64>, Vec<f64>) =
         USUAL_RATES.iter().partition(|rate| rate.fract() == 0.0);
-    let rate = whole.into_iter().chain(broken).find(|rate| fits(*rate))?;
+    let rate = whole.into_iter().chain(broken).find(|rate| are_frames(times, first, *rate))?;
     FrameRate::new(rate).ok()
+}
+
+/// Whether every key stands at a frame of a rate, counted from `begin`.
+fn are_frames(times: &[f64], begin: f64, rate: f64) -> bool {
+    times.iter().take(MOST).all(|time| {
+        let frame = (time - begin) * rate;
+        (frame - frame.round()).abs() < NEAR
+    })
 }
 
 /// The rate of keys that mean none: the lowest usual one at which hardly a key is passed over, of 60 at least. Instants
@@ -47,13 +49,21 @@ pub(super) fn otherwise(times: &[f64]) -> Result<FrameRate, Error> {
     FrameRate::new(USUAL_RATES.into_iter().find(enough).unwrap_or(highest))
 }
 
-/// Says that keys lie closer together than the frames of a rate: half of them stand nearer to one another.
-pub(super) fn finer(times: &[f64], rate: FrameRate) -> Option<Warning> {
-    let dense = density(times).filter(|dense| (1.0 - NEAR) * dense > rate.fps())?;
-    let message = format!(
-        "{rate} frames a second are read and most keys lie {dense:.0} a second; --fps {dense:.0} reads them all"
-    );
-    Some(Warning::new(KEYS_FINER, message))
+/// Says that keys lie closer together than the frames of a rate, counted from `begin`: they mean a higher rate, or half of
+/// them stand nearer to one another. Instants are sorted.
+pub(super) fn finer(times: &[f64], begin: f64, rate: FrameRate) -> Option<Warning> {
+    if are_frames(times, begin, rate.fps()) {
+        return None;
+    }
+    let meant = of_keys(times).map(|keys| (keys.fps(), keys.to_string()));
+    let (dense, keys) =
+        meant.or_else(|| density(times).map(|keys| (keys, format!("{keys:.0}"))))?;
+    ((1.0 - NEAR) * dense > rate.fps()).then(|| {
+        let message = format!(
+            "{rate} frames a second are read and the keys lie {keys} a second; --fps {keys} reads them all"
+        );
+        Warning::new(KEYS_FINER, message)
+    })
 }
 
 /// How many keys a second there are where most of them stand.
@@ -139,11 +149,28 @@ mod tests {
         assert_eq!([rate(&coarse), rate(&fine), rate(&finest)], [60.0, 240.0, 240.0]);
         assert_eq!(rate(&keys(75.0, 1, 99)), 90.0);
         assert_eq!([rate(&[]), rate(&[1.0])], [60.0; 2]);
-        let told = |times: &[f64], rate: f64| finer(times, FrameRate::new(rate).unwrap());
         assert_eq!(told(&fine, 240.0), None);
-        assert_eq!(told(&keys(60.0, 1, 99), 60.0), None);
-        let told = told(&finest, 240.0).unwrap().to_string();
-        assert!(told.contains("most keys lie 1000 a second; --fps 1000"), "{told}");
+        let told = told(&finest, 240.0).unwrap();
+        assert!(told.contains("the keys lie 1000 a second; --fps 1000"), "{told}");
+    }
+
+    fn told(times: &[f64], rate: f64) -> Option<String> {
+        finer(times, times[0], FrameRate::new(rate).unwrap()).map(|told| told.to_string())
+    }
+
+    #[test]
+    fn keys_on_the_frames_of_their_own_rate_are_not_finer() {
+        for rate in [1.0, 8.0, 10.0, 12.0, 12.5, 15.0, 20.0, 24.0, 29.97, 30.0, 60.0, 240.0] {
+            for step in 1..4 {
+                assert_eq!(told(&keys(rate, step, 99), rate), None, "{rate} a second, by {step}");
+            }
+        }
+        for (keys_at, rate) in
+            [(24.0, 12.0), (30.0, 24.0), (60.0, 30.0), (29.97, 24.0), (30.0, 1.0)]
+        {
+            let told = told(&keys(keys_at, 1, 3000), rate).unwrap();
+            assert!(told.contains(&format!("--fps {keys_at}")), "{told}");
+        }
     }
 
     #[test]

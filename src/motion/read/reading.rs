@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use crate::error::{Error, Warning};
 use crate::motion::read::bvh;
-use crate::motion::{Clip, StreamLimit};
+use crate::motion::{Axis, Clip, StreamLimit};
 use crate::time::FrameRate;
 
 pub use given::Given;
@@ -30,6 +30,8 @@ pub struct Options {
     /// The file that has the bones, of a format whose motions have none: a model of MMD (`.pmx`, `.pmd`) for a VMD, an
     /// `.asf` for an AMC. Default: none, a figure of usual proportions, and the `.asf` that lies beside it.
     pub skeleton: Option<PathBuf>,
+    /// The axis that points up, whatever the file says. Default: none, as the file declares or as the body stands.
+    pub up: Option<Axis>,
     /// How much is read of what is no regular file, and of a file that is read whole. What is sampled of curves, or
     /// unpacked, may take as much again.
     pub stream: StreamLimit,
@@ -64,6 +66,23 @@ impl Found {
     pub fn new(what: &'static str, is: impl Into<String>) -> Self {
         Self { what, is: is.into() }
     }
+
+    /// What a reader leaves out of a file: of each kind how many, where there are any.
+    pub(super) fn left_out(kinds: &[(usize, &str)]) -> Option<Self> {
+        let there = kinds.iter().filter(|(count, _)| *count > 0);
+        let counted: Vec<String> = there.map(|(count, what)| format!("{what} ({count})")).collect();
+        let message = format!("left out: {}", counted.join(", "));
+        (!counted.is_empty()).then(|| Self::new("left out", message))
+    }
+}
+
+/// Names at the most in a sentence.
+const MOST: usize = 12;
+
+/// Names in a sentence, not too many.
+pub(super) fn join_names(names: &[impl std::borrow::Borrow<str>]) -> String {
+    let more = if names.len() > MOST { ", …" } else { "" };
+    format!("{}{more}", names[..names.len().min(MOST)].join(", "))
 }
 
 impl Options {

@@ -4,15 +4,16 @@ use std::cell::Cell;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use ufbx::{
-    AnimStack, CoordinateAxes, CoordinateAxis, InheritModeHandling, LoadOpts, Matrix, Node,
-    ProgressCb, ProgressResult, Scene, SceneRoot, SpaceConversion, Transform,
+    AnimStack, CoordinateAxes, CoordinateAxis, ElementType, InheritModeHandling, LoadOpts, Matrix,
+    Node, ProgressCb, ProgressResult, Scene, SceneRoot, SpaceConversion, Transform,
 };
 
 use super::takes::{Curves, key_at, listed};
 use crate::error::{Error, Place, Warning};
-use crate::motion::read::posed::{Bone, Posed, Stand, join};
+use crate::motion::Declared;
+use crate::motion::read::posed::{Bone, Nodes, Posed, Stand, join};
 use crate::motion::read::rates;
-use crate::motion::read::reading::{Found, Given, Options, Read};
+use crate::motion::read::reading::{Found, Given, Options, Read, join_names};
 use crate::time::FrameRate;
 
 /// Bytes after which ufbx says how far it has read.
@@ -35,7 +36,7 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let rate = options.fps.unwrap_or(own);
     let ((begin, end), far) = curves.whole(stack).map_err(|error| of_take(error, stack))?;
     let frames = rates::frames(end - begin, rate);
-    let joints = joints(&scene, &curves);
+    let Joints { joints, left_out: beside } = joints(&scene, &curves);
     let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
     let carrying = carrying(&scene, &joints);
     let keys = curves.most_keys();
@@ -48,9 +49,11 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
         .and_then(|posed| posed.clip(rate))
         .map_err(|error| of_take(error, stack))?;
     let mut warnings: Vec<Warning> = told.into_iter().chain(named).chain(far).collect();
-    warnings.extend(finer(&curves, rate).filter(|_| options.fps.is_none()));
+    let finer = rates::finer(&curves.times(), begin, rate).filter(|_| options.fps.is_none());
+    warnings.extend(finer);
+    let clip = clip.with_declared(Declared::y_up(CENTIMETRE));
     let mut found = found(&scene, stack, rate);
-    found.extend(left_out(&scene));
+    found.extend(left_out(&scene, &beside));
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })
 }
 
@@ -109,23 +112,37 @@ fn own_rate(scene: &Scene, stack: &AnimStack) -> Result<FrameRate, Error> {
     })
 }
 
-/// The nodes that become joints, parents first, each with the place of its parent among them.
-fn joints(scene: &Scene, curves: &Curves<'_>) -> Vec<(usize, Option<usize>)> {
+/// The nodes that become joints, parents first, each with the place of its parent among them; and those that move and
+/// become none.
+struct Joints {
+    joints: Vec<(usize, Option<usize>)>,
+    left_out: Vec<usize>,
+}
+
+/// Joints are the bones, and what moves in their trees; without bones, what moves and what hangs on it.
+fn joints(scene: &Scene, curves: &Curves<'_>) -> Joints {
     let parent = |node: usize| scene.nodes[node].parent.as_ref().map(|node| id(node));
-    let has_bones = scene.bones.count > 0;
     let mut chosen: Vec<bool> = scene.nodes.into_iter().map(is_bone).collect();
-    if !has_bones {
+    let is_seen: Vec<bool> = scene.nodes.into_iter().map(is_seen).collect();
+    let parents: Vec<Option<usize>> = (0..chosen.len()).map(parent).collect();
+    let order = order(scene);
+    let mut left_out = Vec::new();
+    if scene.bones.count > 0 {
+        // The scene's own root carries what has nothing to do with one another.
+        let is_root = |node: &usize| scene.nodes[*node].is_root;
+        let parents: Vec<_> =
+            parents.iter().map(|node| node.filter(|node| !is_root(node))).collect();
+        let nodes =
+            Nodes { order: &order, parents: &parents, moves: &curves.moves, is_seen: &is_seen };
+        left_out = nodes.choose_moving(&mut chosen);
+    } else {
         chosen.clone_from(&curves.nodes);
         // What moves carries what hangs on it.
         for node in 0..chosen.len() {
-            let about = &scene.nodes[node];
-            let is_seen = about.camera.is_some() || about.light.is_some() || about.mesh.is_some();
-            chosen[node] |= !is_seen && parent(node).is_some_and(|parent| chosen[parent]);
+            chosen[node] |= !is_seen[node] && parents[node].is_some_and(|parent| chosen[parent]);
         }
     }
     // Some programs write what carries all bones, and travels, as no bone.
-    let order = order(scene);
-    let parents: Vec<Option<usize>> = (0..chosen.len()).map(parent).collect();
     join(&order, &parents, &mut chosen, |top| curves.nodes[top]);
     let mut places = vec![None; chosen.len()];
     let mut joints = Vec::new();
@@ -138,7 +155,13 @@ fn joints(scene: &Scene, curves: &Curves<'_>) -> Vec<(usize, Option<usize>)> {
             joints.push((node, carrier));
         }
     }
-    joints
+    Joints { joints, left_out }
+}
+
+/// Whether a node shows something of its own: a camera, a lamp, a shape, or a control of a rig, which is a curve. Empties
+/// show nothing.
+fn is_seen(node: &Node) -> bool {
+    !matches!(node.attrib_type, ElementType::Unknown | ElementType::Empty | ElementType::Bone)
 }
 
 /// All nodes, parents first, limb by limb: ufbx lists them by their depth.
@@ -235,18 +258,6 @@ fn affine(m: &Matrix) -> DAffine3 {
     }
 }
 
-/// Says where keys lie closer together than frames do.
-fn finer(curves: &Curves<'_>, rate: FrameRate) -> Option<Warning> {
-    let keys = rates::of_keys(&curves.times())?;
-    // Keys on half a frame of a lower rate also fit a rate that nothing has.
-    (keys.fps() > 1.001 * rate.fps() && rate.fps() > 1.0).then(|| {
-        let message = format!(
-            "the scene has {rate} frames a second and its keys lie {keys} a second; --fps {keys} reads them all"
-        );
-        Warning::new(rates::KEYS_FINER, message)
-    })
-}
-
 /// What the file is, in words.
 fn found(scene: &Scene, stack: &AnimStack, rate: FrameRate) -> Vec<Found> {
     let about = &scene.metadata;
@@ -284,18 +295,17 @@ fn found(scene: &Scene, stack: &AnimStack, rate: FrameRate) -> Vec<Found> {
 }
 
 /// What of the scene is no motion of a body, and is left out; constraints count as they were baked.
-fn left_out(scene: &Scene) -> Option<Found> {
-    let kinds = [
+fn left_out(scene: &Scene, nodes: &[usize]) -> Option<Found> {
+    let called: Vec<String> =
+        nodes.iter().map(|node| scene.nodes[*node].element.name.to_string()).collect();
+    Found::left_out(&[
         (scene.meshes.count, "shapes"),
         (scene.blend_channels.count, "blend shapes"),
         (scene.cameras.count, "cameras"),
         (scene.lights.count, "lights"),
         (scene.constraints.count, "constraints beyond what is baked"),
-    ];
-    let there = kinds.into_iter().filter(|(count, _)| *count > 0);
-    let counted: Vec<String> = there.map(|(count, what)| format!("{what} ({count})")).collect();
-    let message = format!("left out: {}", counted.join(", "));
-    (!counted.is_empty()).then(|| Found::new("left out", message))
+        (nodes.len(), &format!("nodes that move beside the body: {}", join_names(&called))),
+    ])
 }
 
 /// As people write it.

@@ -17,12 +17,15 @@ const ON: f64 = 1e-3;
 pub(super) struct Curves<'a> {
     /// Nodes with curves, by their place in the scene.
     pub(super) nodes: Vec<bool>,
+    /// Of those, the ones whose curves are not the same all the time.
+    pub(super) moves: Vec<bool>,
     curves: Vec<&'a AnimCurve>,
 }
 
 impl<'a> Curves<'a> {
     pub(super) fn of(scene: &Scene, stack: &'a AnimStack) -> Self {
-        let mut found = Self { nodes: vec![false; scene.nodes.count], curves: Vec::new() };
+        let none = vec![false; scene.nodes.count];
+        let mut found = Self { nodes: none.clone(), moves: none, curves: Vec::new() };
         for prop in stack.layers.into_iter().flat_map(|layer| &layer.anim_props) {
             let element = prop.element.as_ref();
             let moves = ["Lcl Translation", "Lcl Rotation", "Lcl Scaling"];
@@ -31,22 +34,26 @@ impl<'a> Curves<'a> {
             }
             let before = found.curves.len();
             found.curves.extend(prop.anim_value.curves.iter().flatten().map(AsRef::as_ref));
-            if let Some(node) = found.nodes.get_mut(element.typed_id as usize) {
-                *node |= found.curves.len() > before;
-            }
+            let node = element.typed_id as usize;
+            let own = &found.curves[before..];
+            found.nodes[node] |= !own.is_empty();
+            found.moves[node] |= own.iter().any(|curve| varies(curve));
         }
         found
     }
 
     /// Whether anything is not the same all the time.
     pub(super) fn move_something(&self) -> bool {
-        self.curves.iter().any(|curve| curve.max_value > curve.min_value)
+        self.curves.iter().any(|curve| varies(curve))
     }
 
-    /// When keys stand, of each curve the first ones.
+    /// When keys stand, of each curve the first ones: sorted, each instant once.
     pub(super) fn times(&self) -> Vec<f64> {
         let keys = self.curves.iter().flat_map(|curve| curve.keyframes.iter().take(MOST_KEYS));
-        keys.map(|key| key.time).collect()
+        let mut times: Vec<f64> = keys.map(|key| key.time).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
     }
 
     /// The keys of the curve that has most: where poses were baked, those of all.
@@ -89,6 +96,11 @@ impl<'a> Curves<'a> {
         let (near, far) = rates::cut(&times, Place::Whole, |at| format!("{} s", times[at]))?;
         Ok(((begin, times[near - 1]), far))
     }
+}
+
+/// Whether a curve is not the same all the time.
+fn varies(curve: &AnimCurve) -> bool {
+    curve.max_value > curve.min_value
 }
 
 /// The key at an instant, or the instant where there is none: a hair beside a key an angle may be on its way to a whole turn

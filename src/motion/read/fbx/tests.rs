@@ -352,3 +352,38 @@ fn an_array_that_claims_more_than_is_allowed_is_not_begun() {
 fn a_scene_that_was_changed_is_read_or_refused() {
     read_changed(scene(1, 1.0, &[walk()]).as_bytes(), 500);
 }
+
+#[test]
+fn what_moves_in_the_tree_of_a_bone_is_read_and_other_things_are_counted() {
+    let text = scene(1, 1.0, &[walk()]);
+    // The knee is an empty, which moves; without its foot nothing below it is a bone.
+    let empty = text
+        .replace(
+            r#"NodeAttribute: 94, "NodeAttribute::Knee", "LimbNode" { TypeFlags: "Skeleton" }"#,
+            "",
+        )
+        .replace(
+            r#"NodeAttribute: 95, "NodeAttribute::Foot", "LimbNode" { TypeFlags: "Skeleton" }"#,
+            "",
+        )
+        .replace("    C: \"OO\",94,4\n    C: \"OO\",95,5", "")
+        .replace(r#"Model::Knee", "LimbNode""#, r#"Model::Knee", "Null""#)
+        .replace(r#"Model::Foot", "LimbNode""#, r#"Model::Foot", "Null""#);
+    let clip = read(&empty).unwrap().clip;
+    let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| &joint.name[..]).collect();
+    assert_eq!(names, ["Hip", "Knee", "Foot"]);
+    assert!((foot(&clip, 15) - foot(&read(&text).unwrap().clip, 15)).length() < 1e-9);
+    // A control of the rig is a curve, and the bones move by it.
+    let control = empty.replace(r#"Model::Knee", "Null""#, r#"Model::Knee", "NurbsCurve""#);
+    let curve = r#"Objects:  {
+    Geometry: 94, "Geometry::Knee", "NurbsCurve" {
+        Order: 4
+        Form: "Open"
+    }"#;
+    let control = control
+        .replace("Objects:  {", curve)
+        .replace("    C: \"OO\",93,3", "    C: \"OO\",93,3\n    C: \"OO\",94,4");
+    let read = read(&control).unwrap();
+    let left_out = read.found.iter().find(|found| found.what == "left out").unwrap();
+    assert_eq!(left_out.is, "left out: nodes that move beside the body: Knee (1)");
+}

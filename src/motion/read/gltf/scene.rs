@@ -4,15 +4,17 @@ mod humanoid;
 mod joints;
 
 use glam::DAffine3;
+use joints::Joints;
 
 use super::buffers::Buffers;
 use super::curve::Curve;
 use super::document::{Animation, Document, placed};
 use super::wrong;
 use crate::error::{Error, Place, Warning};
+use crate::motion::Declared;
 use crate::motion::read::posed::{Bone, Posed, Stand};
 use crate::motion::read::rates;
-use crate::motion::read::reading::{Found, Given, Options, Read, Take};
+use crate::motion::read::reading::{Found, Given, Options, Read, Take, join_names};
 use crate::time::FrameRate;
 
 /// What moves a node.
@@ -58,8 +60,7 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let [begin, end] = [times.first(), times.last()].map(|time| time.copied().unwrap_or_default());
     let frames = rates::frames(end - begin, rate);
     let called = humanoid::names(&document);
-    let moved: Vec<bool> = motion.nodes.iter().map(Moved::is_moved).collect();
-    let joints = joints::of(&document, &parents, &moved, &called);
+    let Joints { joints, left_out } = joints::of(&document, &parents, &motion, &called);
     let order = joints::order(&document, &parents);
     let mut world = vec![DAffine3::IDENTITY; parents.len()];
     place(&order, &parents, &mut world, |node| document.nodes[node].local());
@@ -77,7 +78,8 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let (clip, named) = Posed::of(bones, frames, options, stand)
         .and_then(|posed| posed.clip(rate))
         .map_err(|error| of_take(error, at, name))?;
-    let finer = rates::finer(times, rate).filter(|_| options.fps.is_none());
+    let clip = clip.with_declared(Declared::y_up(1.0));
+    let finer = rates::finer(times, begin, rate).filter(|_| options.fps.is_none());
     let warnings: Vec<Warning> = told.into_iter().chain(named).chain(far).chain(finer).collect();
     let mut found = vec![
         Found::new("format", format(&document, given.bytes)),
@@ -90,10 +92,15 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
         let message = format!("joints called by their names of VRM: {}", called.len());
         found.push(Found::new("names", message));
     }
-    if motion.left_out > 0 {
-        let message = format!("left out: curves of shapes or other things ({})", motion.left_out);
-        found.push(Found::new("left out", message));
-    }
+    let cameras = document.nodes.iter().filter(|node| node.camera.is_some()).count();
+    let called = |node: &usize| document.nodes[*node].name.as_deref().unwrap_or("without a name");
+    let beside: Vec<&str> = left_out.iter().map(called).collect();
+    let beside = join_names(&beside);
+    found.extend(Found::left_out(&[
+        (motion.left_out, "curves of shapes or other things"),
+        (cameras, "cameras"),
+        (left_out.len(), &format!("nodes that move beside the body: {beside}")),
+    ]));
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })
 }
 
@@ -227,5 +234,10 @@ impl Moved {
 
     fn is_moved(&self) -> bool {
         self.curves().next().is_some()
+    }
+
+    /// Whether it is moved and does not stay where it is.
+    fn moves(&self) -> bool {
+        self.curves().any(Curve::moves)
     }
 }

@@ -348,3 +348,32 @@ fn a_document_that_was_changed_is_read_or_refused() {
         read_changed(document(between).to_string().as_bytes(), 1000);
     }
 }
+
+#[test]
+fn what_moves_in_the_tree_of_a_skin_is_read_and_other_things_are_counted() {
+    let mut partly = document("LINEAR");
+    // The skin has the hip alone. A sword on it, a ball on another tree and a camera move too.
+    partly["skins"] = json!([{ "joints": [1] }]);
+    partly["nodes"][1]["children"] = json!([2, 5]);
+    partly["nodes"].as_array_mut().unwrap().extend([
+        json!({ "name": "sword", "mesh": 0 }),
+        json!({ "name": "ball", "mesh": 0 }),
+        json!({ "name": "eye", "camera": 0 }),
+        json!({ "name": "empty" }),
+    ]);
+    partly["animations"][0]["channels"].as_array_mut().unwrap().extend(
+        (5..9).map(|node| json!({ "sampler": 1, "target": { "node": node, "path": "rotation" } })),
+    );
+    let read = read(&partly).unwrap();
+    let names: Vec<&str> =
+        read.clip.skeleton().joints.iter().map(|joint| &joint.name[..]).collect();
+    assert_eq!(names, ["hip", "knee", "foot"]);
+    let bare = super::tests::read(&document("LINEAR")).unwrap();
+    assert_eq!(read.clip, bare.clip, "as where no skin is");
+    let left_out = read.found.iter().find(|found| found.what == "left out").unwrap();
+    assert_eq!(
+        left_out.is,
+        "left out: curves of shapes or other things (1), cameras (1), \
+         nodes that move beside the body: sword, ball, eye, empty (4)"
+    );
+}

@@ -2,17 +2,17 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use encoding_rs::SHIFT_JIS;
 use glam::{DQuat, DVec3};
 
 use super::curve::Curve;
+use super::names::{self, Names};
 use super::{RATE, SIGNATURE, damaged};
 use crate::error::{Error, Place, Warning};
 use crate::motion::read::rates;
 
 /// Bytes of a bone's key, of its name, of a morph's key, and so on.
 const KEY: usize = 111;
-const NAME: usize = 15;
+const NAME: usize = names::WIDTH;
 const MORPH: usize = 23;
 const CAMERA: usize = 61;
 const LIGHT: usize = 28;
@@ -36,14 +36,16 @@ pub(super) struct Key {
 pub(super) struct Motion {
     /// The model's name.
     pub(super) model: String,
+    /// How names are written.
+    pub(super) names: Names,
     /// Keys by bone, each bone's by frame.
     pub(super) bones: BTreeMap<String, Vec<Key>>,
     /// From which frame an IK is on or off, by its bone and in order.
     pub(super) switches: HashMap<String, Vec<(u32, bool)>>,
     /// The last frame of all, and the byte of a key there.
     pub(super) last: (u32, usize),
-    /// What else the file has, in words.
-    pub(super) left_out: Vec<String>,
+    /// What else the file has: of each kind how many, and what.
+    pub(super) left_out: Vec<(usize, &'static str)>,
     /// That keys stand too far behind the others to be of this motion, and are left out.
     pub(super) far: Option<Warning>,
 }
@@ -80,6 +82,12 @@ impl<'a> Bytes<'a> {
         Ok(count)
     }
 
+    /// The records of bones' keys, as many as the file says.
+    fn records(&mut self, what: &str) -> Result<&'a [[u8; KEY]], Error> {
+        let count = self.count(KEY, what)?;
+        Ok(self.take(count * KEY, what)?.as_chunks().0)
+    }
+
     /// Whether nothing follows: files of older versions end early, between two kinds of records.
     fn is_done(&self) -> bool {
         self.at >= self.all.len()
@@ -100,16 +108,20 @@ impl Motion {
         }
         // The first version, "Vocaloid Motion Data file", has a shorter name.
         let is_first = signature[SIGNATURE.len()..].starts_with(b" file");
-        let model = text(bytes.take(if is_first { 10 } else { 20 }, "model's name")?);
+        let model = bytes.take(if is_first { 10 } else { 20 }, "model's name")?;
+        let begin = bytes.at;
+        let keys = bytes.records("keys of bones")?;
+        let names = Names::of(&keys.iter().map(|record| &record[..NAME]).collect());
         let mut motion = Self {
-            model,
+            model: names.read(model),
+            names,
             bones: BTreeMap::new(),
             switches: HashMap::new(),
-            last: (0, bytes.at),
+            last: (0, begin),
             left_out: Vec::new(),
             far: None,
         };
-        motion.read_keys(&mut bytes)?;
+        motion.read_keys(keys, begin + 4)?;
         for (size, what) in [
             (MORPH, "keys of the face"),
             (CAMERA, "keys of the camera"),
@@ -120,22 +132,23 @@ impl Motion {
         }
         motion.read_switches(&mut bytes)?;
         if motion.bones.is_empty() {
-            let other = motion.left_out.join(", ");
-            let other = if other.is_empty() { String::new() } else { format!(", but {other}") };
-            return Err(damaged(all.len(), format!("this VMD has no key of a bone{other}")));
+            let other = motion.left_out.iter().map(|(count, what)| format!("{count} {what}"));
+            let other: Vec<String> = other.collect();
+            let but = if other.is_empty() { "" } else { ", but " };
+            let message = format!("this VMD has no key of a bone{but}{}", other.join(", "));
+            return Err(damaged(all.len(), message));
         }
         motion.leave_out_far_keys()?;
         Ok(motion)
     }
 
-    fn read_keys(&mut self, bytes: &mut Bytes<'_>) -> Result<(), Error> {
-        let count = bytes.count(KEY, "keys of bones")?;
+    /// Reads the keys of bones, the first of which begins at the byte `begin`.
+    fn read_keys(&mut self, records: &[[u8; KEY]], begin: usize) -> Result<(), Error> {
         let mut names: HashMap<&[u8], String> = HashMap::new();
-        for _ in 0..count {
-            let at = bytes.at;
-            let record = bytes.take(KEY, "keys of bones")?;
-            let name = names.entry(&record[..NAME]).or_insert_with(|| text(&record[..NAME]));
-            let key = Key::of(record, at)?;
+        for (record, at) in records.iter().zip((begin..).step_by(KEY)) {
+            let field = &record[..NAME];
+            let name = names.entry(field).or_insert_with(|| self.names.read(field));
+            let key = Key::of(record, at, name)?;
             if key.frame >= self.last.0 {
                 self.last = (key.frame, at);
             }
@@ -172,14 +185,19 @@ impl Motion {
         Ok(())
     }
 
-    fn skip(&mut self, bytes: &mut Bytes<'_>, size: usize, what: &str) -> Result<(), Error> {
+    fn skip(
+        &mut self,
+        bytes: &mut Bytes<'_>,
+        size: usize,
+        what: &'static str,
+    ) -> Result<(), Error> {
         if bytes.is_done() {
             return Ok(());
         }
         let count = bytes.count(size, what)?;
         bytes.take(count * size, what)?;
         if count > 0 {
-            self.left_out.push(format!("{count} {what}"));
+            self.left_out.push((count, what));
         }
         Ok(())
     }
@@ -193,7 +211,8 @@ impl Motion {
             bytes.take(1, "switches of IK")?;
             for _ in 0..bytes.count(SWITCH, "switches of IK")? {
                 let switch = bytes.take(SWITCH, "switches of IK")?;
-                let of = self.switches.entry(text(&switch[..SWITCH - 1])).or_default();
+                let ik = self.names.read(&switch[..SWITCH - 1]);
+                let of = self.switches.entry(ik).or_default();
                 of.push((frame, switch[SWITCH - 1] != 0));
             }
         }
@@ -211,7 +230,8 @@ impl Motion {
 }
 
 impl Key {
-    fn of(record: &[u8], at: usize) -> Result<Self, Error> {
+    /// The key of the bone `name` whose record begins at the byte `at`.
+    fn of(record: &[u8; KEY], at: usize, name: &str) -> Result<Self, Error> {
         let long =
             |from: usize| [record[from], record[from + 1], record[from + 2], record[from + 3]];
         let single = |from: usize| -> Result<f64, Error> {
@@ -219,10 +239,7 @@ impl Key {
             if number.is_finite() {
                 Ok(number)
             } else {
-                Err(damaged(
-                    at + from,
-                    format!("a key of {} has a value that is no number", text(&record[..NAME])),
-                ))
+                Err(damaged(at + from, format!("a key of {name} has a value that is no number")))
             }
         };
         let [x, y, z] = [single(19)?, single(23)?, single(27)?];
@@ -247,9 +264,3 @@ const INTERPOLATION: usize = 47;
 /// The four bytes of the curves of X, Y, Z and the rotation. Newer versions of MMD keep something else in the third and
 /// the fourth byte: those two are read where they stand again, in the second row.
 const CURVES: [[usize; 4]; 4] = [[0, 4, 8, 12], [1, 5, 9, 13], [17, 6, 10, 14], [18, 7, 11, 15]];
-
-/// A name in CP932 up to its first zero.
-fn text(field: &[u8]) -> String {
-    let name = field.split(|byte| *byte == 0).next().unwrap_or_default();
-    SHIFT_JIS.decode_without_bom_handling(name).0.into_owned()
-}

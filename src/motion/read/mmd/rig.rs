@@ -2,15 +2,11 @@
 
 use std::collections::HashSet;
 
-use encoding_rs::SHIFT_JIS;
 use glam::DVec3;
 
 use super::figure::{self, RestBone};
 use super::model::MmdModel;
 use super::record::{Key, Motion};
-
-/// Bytes of a bone's name in a motion: a longer one is cut.
-const NAME: usize = 15;
 
 /// A bone with its keys.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +47,7 @@ impl Rig {
     /// The bones of a model, or of the usual figure, that a motion moves or a body has.
     pub(super) fn of(motion: &Motion, model: Option<&MmdModel>) -> Self {
         let all = model.map_or_else(figure::bones, of_model);
-        let keys = |name: &str| motion.bones.get(&cut(name));
+        let keys = |name: &str| motion.bones.get(&motion.names.of_bone(name));
         let is_kept = |bone: &RestBone| keys(&bone.name).is_some() || figure::is_core(&bone.name);
         let mut places: Vec<Option<usize>> = Vec::with_capacity(all.len());
         let mut bones: Vec<RigBone> = Vec::new();
@@ -67,7 +63,8 @@ impl Rig {
                 bones.push(RigBone { rest, keys, is_target });
             }
         }
-        let known: HashSet<String> = all.iter().map(|bone| cut(&bone.name)).collect();
+        let known: HashSet<String> =
+            all.iter().map(|bone| motion.names.of_bone(&bone.name)).collect();
         let strangers =
             motion.bones.keys().filter(|name| !known.contains(*name)).cloned().collect();
         let mut rig = Self { bones, legs: Vec::new(), strangers, tips: Vec::new() };
@@ -156,10 +153,4 @@ fn tips(rig: &Rig, all: &[RestBone]) -> Vec<(usize, DVec3)> {
         Some((at, next.or(said).or(usual)?))
     };
     joints().filter(|(at, _)| !carries[*at]).filter_map(tip).collect()
-}
-
-/// A name as a motion has it.
-fn cut(name: &str) -> String {
-    let (bytes, ..) = SHIFT_JIS.encode(name);
-    SHIFT_JIS.decode_without_bom_handling(&bytes[..bytes.len().min(NAME)]).0.into_owned()
 }

@@ -16,8 +16,13 @@ const LINEAR: [u8; 4] = [20, 20, 107, 107];
 
 /// A file of keys, and of IK that is switched off at frame 0.
 pub(super) fn file(keys: &[Key<'_>], off: &[&str]) -> Vec<u8> {
+    file_in(encoding_rs::SHIFT_JIS, keys, off)
+}
+
+/// The same with names in another encoding.
+fn file_in(encoding: &'static encoding_rs::Encoding, keys: &[Key<'_>], off: &[&str]) -> Vec<u8> {
     let field = |text: &str, width: usize| {
-        let mut field = encoding_rs::SHIFT_JIS.encode(text).0.into_owned();
+        let mut field = encoding.encode(text).0.into_owned();
         field.resize(width, 0);
         field
     };
@@ -340,4 +345,30 @@ fn frames_with_a_key_of_the_body_are_an_animators_keys() {
         ("右足ＩＫ", 20, STILL, NONE, LINEAR),
     ];
     assert_eq!(key_frames(&file(&keys, &[])).unwrap(), [0, 9, 20], "a finger is none");
+}
+
+#[test]
+fn names_are_read_in_the_encoding_in_which_they_are_bones() {
+    let turned = [0.0, 0.0, 0.6, 0.8];
+    let keys = [
+        ("センター", 0, STILL, NONE, LINEAR),
+        ("左足ＩＫ", 0, STILL, NONE, LINEAR),
+        ("左足ＩＫ", 9, [0.0, 2.0, 1.0], NONE, LINEAR),
+        // UTF-8 has room for four and a half letters of it.
+        ("左つま先ＩＫ", 0, STILL, NONE, LINEAR),
+        ("左つま先ＩＫ", 9, [0.0, 1.0, 0.0], NONE, LINEAR),
+        ("右ひじ", 5, STILL, turned, LINEAR),
+        ("髪の毛", 5, STILL, turned, LINEAR),
+    ];
+    let own = read(&file(&keys, &["右足ＩＫ"])).unwrap();
+    assert!(own.found.iter().all(|found| found.what != "names"));
+    for encoding in [encoding_rs::UTF_8, encoding_rs::GBK] {
+        let bytes = file_in(encoding, &keys, &["右足ＩＫ"]);
+        let other = read(&bytes).unwrap();
+        assert_eq!(other.clip, own.clip, "{}", encoding.name());
+        assert_eq!(other.warnings[0], own.warnings[0], "the hair is none of the figure's");
+        let named = other.found.iter().find(|found| found.what == "names").unwrap();
+        assert_eq!(named.is, format!("names in {}", encoding.name()));
+        assert_eq!(key_frames(&bytes).unwrap(), [0, 5, 9]);
+    }
 }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::super::document::{Document, Node};
-use crate::motion::read::posed::join;
+use super::{Motion, Moved};
+use crate::motion::read::posed::{Nodes, join};
 
 /// All nodes, parents first, the children of each in their order.
 pub(super) fn order(document: &Document, parents: &[Option<usize>]) -> Vec<usize> {
@@ -17,27 +18,39 @@ pub(super) fn order(document: &Document, parents: &[Option<usize>]) -> Vec<usize
     order
 }
 
-/// The nodes that become joints, parents first, each with the place of its parent among them: bones of VRM and those
-/// of skins; without such, what the animation moves and what hangs on it. Trees that hang on one node are one tree.
+/// The nodes that become joints, parents first, each with the place of its parent among them; and those that move and
+/// become none.
+pub(super) struct Joints {
+    pub(super) joints: Vec<(usize, Option<usize>)>,
+    pub(super) left_out: Vec<usize>,
+}
+
+/// Joints are the bones of VRM and those of skins, and what moves in their trees; without such bones, what the animation
+/// moves and what hangs on it. Trees that hang on one node are one tree.
 pub(super) fn of(
     document: &Document,
     parents: &[Option<usize>],
-    moved: &[bool],
+    motion: &Motion,
     called: &BTreeMap<usize, String>,
-) -> Vec<(usize, Option<usize>)> {
+) -> Joints {
     let order = order(document, parents);
+    let is_seen = |Node { camera, mesh, .. }: &Node| camera.is_some() || mesh.is_some();
+    let is_seen: Vec<bool> = document.nodes.iter().map(is_seen).collect();
+    let mut left_out = Vec::new();
     let mut chosen = vec![false; parents.len()];
     let bones = document.skins.iter().flat_map(|skin| skin.joints.iter().copied());
     for node in called.keys().copied().chain(bones) {
         chosen.get_mut(node).into_iter().for_each(|chosen| *chosen = true);
     }
-    if !chosen.contains(&true) {
-        chosen.copy_from_slice(moved);
+    if chosen.contains(&true) {
+        let moves: Vec<bool> = motion.nodes.iter().map(Moved::moves).collect();
+        let nodes = Nodes { order: &order, parents, moves: &moves, is_seen: &is_seen };
+        left_out = nodes.choose_moving(&mut chosen);
+    } else {
         // What moves carries what hangs on it.
         for &node in &order {
-            let Node { camera, mesh, .. } = &document.nodes[node];
-            let is_seen = camera.is_some() || mesh.is_some();
-            chosen[node] |= !is_seen && parents[node].is_some_and(|parent| chosen[parent]);
+            let hangs = !is_seen[node] && parents[node].is_some_and(|parent| chosen[parent]);
+            chosen[node] = motion.nodes[node].is_moved() || hangs;
         }
     }
     join(&order, parents, &mut chosen, |_| true);
@@ -51,5 +64,5 @@ pub(super) fn of(
             joints.push((node, carrier));
         }
     }
-    joints
+    Joints { joints, left_out }
 }
