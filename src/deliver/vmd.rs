@@ -1,13 +1,10 @@
 //! The limited motion for MikuMikuDance (MMD): a VMD file for a model with the standard bones, or for a given one.
 
-mod bones;
 mod capture;
 mod cast;
-mod map;
 mod record;
 mod retarget;
 mod stance;
-mod structure;
 #[cfg(test)]
 mod tests;
 pub(super) mod vrma;
@@ -22,13 +19,13 @@ use crate::deliver::csv_table;
 use crate::error::{Error, Warning};
 use crate::knob::{Knobs, choices, knob, knobs};
 pub use crate::motion::MmdModel;
+pub use crate::motion::body::names::BoneMap;
+use crate::motion::body::names::bones::{Model, cp932};
+use crate::motion::body::names::{Found, SHAPE};
 use crate::motion::{Clip, Composite, JointId, Skeleton};
 use crate::sheet::{Exposure, Sheet};
-use bones::Model;
 use capture::Capture;
 use cast::Cast;
-pub use map::BoneMap;
-use map::{Found, SHAPE};
 pub use record::{VmdKey, VmdMotion};
 use retarget::{Local, Retarget};
 use stance::Stance;
@@ -383,7 +380,7 @@ impl Retarget<'_> {
 /// The model's name, cut where a VMD would cut it, but never within a letter.
 fn cut(name: &str) -> Result<(String, Option<Warning>), Error> {
     let mut short = name.to_owned();
-    while record::name(&short, usize::MAX)?.len() > LONGEST_MODEL {
+    while cp932(&short, usize::MAX)?.len() > LONGEST_MODEL {
         short.pop();
     }
     let note = (short != name).then(|| {

@@ -6,8 +6,10 @@ pub mod landmarks;
 pub(crate) mod lay_figure;
 pub(crate) mod leg;
 pub(crate) mod mannequin;
+pub(crate) mod names;
 mod side;
 mod stature;
+pub(crate) mod structure;
 mod t_pose;
 
 pub(crate) use build::Build;

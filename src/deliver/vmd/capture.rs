@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::bones::{Model, Side};
-use super::map::Found;
+use crate::motion::body::names::Found;
+use crate::motion::body::names::bones::{Model, Side};
 use crate::motion::{Body, Clip, JointId, Poser, Stature, local_translation};
 use crate::time::Frame;
 

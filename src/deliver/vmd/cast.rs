@@ -1,10 +1,10 @@
 //! The cast (配役): which bones the model that plays the motion has, and what of the capture each of them takes over.
 
-use super::bones::{Bone, Model, Part, Side};
-use super::map::{BoneMap, Found};
 use super::{STILL_LIMB, VmdBones};
-use super::{record, structure};
 use crate::error::{Error, Warning};
+use crate::motion::body::names::bones::{Bone, Model, Part, Side, cp932};
+use crate::motion::body::names::{BoneMap, Found};
+use crate::motion::body::structure;
 use crate::motion::{JointId, MmdModel};
 
 /// The longest name of an IK in a VMD, in bytes of CP932.
@@ -153,7 +153,7 @@ fn ik_off(model: &Model, found: &Found, body: Option<&MmdModel>) -> (Vec<String>
         let ik = names.iter().flat_map(|name| sides.iter().map(move |side| side.named(name)));
         return (ik.collect(), vec![]);
     };
-    let fits = |name: &String| record::name(name, LONGEST_IK).is_ok();
+    let fits = |name: &String| cp932(name, LONGEST_IK).is_ok();
     let (fitting, others): (Vec<_>, Vec<_>) = body.ik_of(drives).into_iter().partition(fits);
     let message = format!(
         "vmd: no VMD can switch {} off: its name does not fit. Switch it off in MMD",

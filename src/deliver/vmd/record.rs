@@ -1,10 +1,9 @@
 //! The bytes of a VMD file: what a motion for MMD holds, and how it is laid out.
 
-use encoding_rs::SHIFT_JIS;
 use serde::Serialize;
 
-use super::bones::LONGEST_NAME;
 use crate::error::Error;
+use crate::motion::body::names::bones::{LONGEST_NAME, cp932};
 
 /// The longest name of a model and of an IK bone, in bytes of CP932.
 const LONGEST_MODEL: usize = 20;
@@ -63,10 +62,10 @@ impl VmdMotion {
     pub fn bytes(&self) -> Result<Vec<u8>, Error> {
         let mut bytes = Vec::with_capacity(100 + 111 * self.keys.len());
         bytes.extend(padded::<30>(b"Vocaloid Motion Data 0002"));
-        bytes.extend(padded::<LONGEST_MODEL>(&name(&self.model, LONGEST_MODEL)?));
+        bytes.extend(padded::<LONGEST_MODEL>(&cp932(&self.model, LONGEST_MODEL)?));
         bytes.extend(count(self.keys.len())?);
         for key in &self.keys {
-            bytes.extend(padded::<LONGEST_NAME>(&name(&key.bone, LONGEST_NAME)?));
+            bytes.extend(padded::<LONGEST_NAME>(&cp932(&key.bone, LONGEST_NAME)?));
             bytes.extend(key.frame.to_le_bytes());
             let numbers = key.translation.iter().chain(&key.rotation);
             numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
@@ -89,7 +88,7 @@ impl VmdMotion {
         bytes.push(visible);
         bytes.extend(count(self.ik_off.len())?);
         for bone in &self.ik_off {
-            bytes.extend(padded::<LONGEST_MODEL>(&name(bone, LONGEST_MODEL)?));
+            bytes.extend(padded::<LONGEST_MODEL>(&cp932(bone, LONGEST_MODEL)?));
             bytes.push(0);
         }
         Ok(())
@@ -108,23 +107,6 @@ fn padded<const WIDTH: usize>(text: &[u8]) -> [u8; WIDTH] {
     field
 }
 
-/// A name in CP932.
-///
-/// # Errors
-/// [`Error::Setting`] when it has a letter that CP932 has not, or more than `longest` bytes.
-pub(super) fn name(text: &str, longest: usize) -> Result<Vec<u8>, Error> {
-    let (bytes, _, has_others) = SHIFT_JIS.encode(text);
-    let wrong = |message| Err(Error::setting("vmd", message));
-    if has_others || text.contains('\0') {
-        return wrong(format!("\"{text}\" has letters that a VMD cannot hold (CP932)"));
-    }
-    if bytes.len() > longest {
-        let found = bytes.len();
-        return wrong(format!("\"{text}\" is {found} bytes in CP932; a VMD holds {longest}"));
-    }
-    Ok(bytes.into_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,15 +120,5 @@ mod tests {
             [20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0, 0],
         ];
         assert_eq!(LINEAR.to_vec(), rows.concat());
-    }
-
-    #[test]
-    fn names_are_cp932_and_never_cut() {
-        assert_eq!(name("センター", 15).unwrap(), b"\x83Z\x83\x93\x83^\x81[");
-        assert_eq!(name("左足ＩＫ", 15).unwrap(), b"\x8d\xb6\x91\xab\x82h\x82j");
-        let error = name("左つま先ＩＫ親子", 15).unwrap_err().to_string();
-        assert!(error.contains("16 bytes") && error.contains("holds 15"), "{error}");
-        assert_eq!(name("左つま先ＩＫ親", 15).unwrap().len(), 14);
-        assert!(name("🦵", 15).unwrap_err().to_string().contains("CP932"));
     }
 }

@@ -4,9 +4,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::bones::{Model, Part};
 use super::capture::Capture;
 use super::stance::Stance;
+use crate::motion::body::names::bones::{Model, Part};
 use crate::motion::{
     Body, Clip, Composite, CompositeRows, JointId, Pose, Stature, local_rotation, local_translation,
 };

@@ -8,8 +8,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::bones::{Bone, Part, Side};
 use super::capture::Capture;
+use crate::motion::body::names::bones::{Bone, Part, Side};
 
 /// Bones this near to an axis lie along it.
 const ALONG: f64 = 0.999;

@@ -3,5 +3,7 @@
 mod body;
 mod file;
 mod given;
+mod names;
 mod reader;
 mod rests;
+mod structure;

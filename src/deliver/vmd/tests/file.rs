@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 
-use super::super::bones::{LONGEST_NAME, Model};
-use super::super::{Frames, Vmd, VmdKey, VmdMotion, record};
+use super::super::{Frames, Vmd, VmdKey, VmdMotion};
 use super::body::clips;
 use super::reader::read;
 use super::rests::{kick, on_ones, standing};
 use crate::edits::Edits;
+use crate::motion::body::names::bones::{LONGEST_NAME, Model, cp932};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::sheet::{Exposure, Feet, RootMotion, Sheet};
@@ -46,7 +46,7 @@ proptest! {
         model in "[a-zA-Zぁ-んァ-ン一-龠]{0,10}",
         ik in prop::collection::vec(Just("左足ＩＫ".to_owned()), 0..3),
     ) {
-        prop_assume!(record::name(&model, 20).is_ok());
+        prop_assume!(cp932(&model, 20).is_ok());
         let bones = Model::standard().bones;
         let key = |(bone, frame, [a, b, c, d, e, f, g]): (usize, u32, [f32; 7])| VmdKey {
             bone: bones[bone].name.clone(),
@@ -163,7 +163,7 @@ fn every_bone_has_a_name_that_fits() {
     let bones = Model::standard().bones;
     assert_eq!(bones.len(), 50);
     for bone in bones {
-        let bytes = record::name(&bone.name, LONGEST_NAME).unwrap();
+        let bytes = cp932(&bone.name, LONGEST_NAME).unwrap();
         let (again, _, wrong) = encoding_rs::SHIFT_JIS.decode(&bytes);
         assert!(!wrong && again == bone.name, "{}", bone.name);
     }

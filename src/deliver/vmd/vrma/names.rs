@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use crate::deliver::vmd::bones::Side;
-use crate::deliver::vmd::map::BoneMap;
+use crate::motion::body::names::BoneMap;
+use crate::motion::body::names::bones::Side;
 
 /// The bone of MMD that is VRM's hips, and the one that is its spine.
 pub(super) const HIPS: &str = "下半身";

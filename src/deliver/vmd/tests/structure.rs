@@ -1,8 +1,11 @@
-use super::*;
+//! What the shape of a body says where names do not.
+
 use crate::deliver::Vmd;
-use crate::deliver::vmd::map::{BoneMap, SHAPE};
+use crate::motion::body::names::bones::Side;
+use crate::motion::body::names::{BoneMap, SHAPE};
+use crate::motion::body::structure::{LIMBS, still_limbs};
 use crate::motion::bvh::sample::real_clips;
-use crate::motion::{Axis, Channel, Joint, bvh};
+use crate::motion::{Axis, Channel, Clip, Joint, JointId, bvh};
 use crate::sheet::Sheet;
 use crate::time::{Frame, FrameRate};
 

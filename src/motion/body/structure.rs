@@ -8,7 +8,7 @@ mod fit;
 
 use std::collections::HashSet;
 
-use super::bones::{Model, Side};
+use super::names::bones::{Model, Side};
 use crate::motion::{Clip, JointId, LayFigure, Skeleton};
 use fit::{carries, fits};
 
@@ -16,7 +16,7 @@ use fit::{carries, fits};
 type Row = (String, Vec<JointId>);
 
 /// The bones of the four limbs, from the trunk outward, with what a person calls the limb.
-pub(super) const LIMBS: [(&str, [&str; 3]); 2] =
+pub(crate) const LIMBS: [(&str, [&str; 3]); 2] =
     [("arm", ["腕", "ひじ", "手首"]), ("leg", ["足", "ひざ", "足首"])];
 
 /// The collar bone of an arm.
@@ -29,7 +29,7 @@ const SPINE: [&str; 2] = ["上半身", "上半身2"];
 /// they say. A joint drives one bone only, but for the root, which the centre shares with the pelvis.
 ///
 /// Gives the bones of which the shape says the joints.
-pub(super) fn settle(
+pub(crate) fn settle(
     model: &Model,
     joints: &mut [Vec<JointId>],
     clip: &Clip,
@@ -82,7 +82,7 @@ fn is_of_limb(bone: &str) -> bool {
 }
 
 /// The limbs whose bone at the trunk is not driven, in words: left arm.
-pub(super) fn still_limbs(drives: impl Fn(&str) -> bool) -> Vec<String> {
+pub(crate) fn still_limbs(drives: impl Fn(&str) -> bool) -> Vec<String> {
     let limbs = LIMBS
         .iter()
         .flat_map(|(limb, bones)| Side::BOTH.map(|side| (side, *limb, bones)).into_iter());
@@ -164,6 +164,3 @@ fn rows(skeleton: &Skeleton, figure: &LayFigure) -> Vec<Row> {
     }
     rows
 }
-
-#[cfg(test)]
-mod tests;

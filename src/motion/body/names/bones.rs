@@ -1,5 +1,6 @@
 //! The bones of an MMD model (標準ボーン) that a motion is written for, and how they hang together.
 
+use encoding_rs::SHIFT_JIS;
 use glam::DVec3;
 
 use crate::error::Error;
@@ -7,11 +8,11 @@ use crate::maths;
 
 /// The longest name of a bone in a VMD, in bytes of CP932; a longer one would be cut there and match
 /// no bone of any model.
-pub(super) const LONGEST_NAME: usize = 15;
+pub(crate) const LONGEST_NAME: usize = 15;
 
 /// Left or right of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Side {
+pub(crate) enum Side {
     /// 左, which is +X also in MMD.
     Left,
     /// 右.
@@ -19,16 +20,16 @@ pub(super) enum Side {
 }
 
 impl Side {
-    pub(super) const BOTH: [Self; 2] = [Self::Left, Self::Right];
+    pub(crate) const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    pub(super) fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Left => "左",
             Self::Right => "右",
         }
     }
 
-    pub(super) fn english(self) -> &'static str {
+    pub(crate) fn english(self) -> &'static str {
         match self {
             Self::Left => "left",
             Self::Right => "right",
@@ -36,12 +37,12 @@ impl Side {
     }
 
     /// The bone of this side by its name without 左 or 右.
-    pub(super) fn named(self, bone: &str) -> String {
+    pub(crate) fn named(self, bone: &str) -> String {
         format!("{}{bone}", self.word())
     }
 
     /// 1 for left, −1 for right: the sign of its x.
-    pub(super) fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,
             Self::Right => -1.0,
@@ -51,7 +52,7 @@ impl Side {
 
 /// What a bone is to the body: how the model's rest and the capture's are brought together there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Part {
+pub(crate) enum Part {
     /// Carries the whole and turns nothing.
     Center,
     /// Pelvis, spine, neck, head, collar bones, feet: upright in the one is upright in the other,
@@ -68,7 +69,7 @@ pub(super) enum Part {
 impl Part {
     /// Where the bone of a limb points in a standard model at rest: arms hang `arm_angle` radians below the
     /// horizontal, legs straight down. Axes as in BVH: +X is left, +Y up, +Z in front.
-    pub(super) fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
+    pub(crate) fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
         let (sin, cos) = maths::sin_cos(arm_angle);
         match self {
             Self::Arm(side) => Some(DVec3::new(side.sign() * cos, -sin, 0.0)),
@@ -80,18 +81,18 @@ impl Part {
 
 /// A bone of the model.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Bone {
-    pub(super) name: String,
+pub(crate) struct Bone {
+    pub(crate) name: String,
     /// Index of the bone it hangs on, which stands before it.
-    pub(super) parent: Option<usize>,
-    pub(super) part: Part,
+    pub(crate) parent: Option<usize>,
+    pub(crate) part: Part,
     /// Where it points at rest, where a model says so.
-    pub(super) rest: Option<DVec3>,
+    pub(crate) rest: Option<DVec3>,
 }
 
 impl Bone {
     /// Where the bone of a limb points at rest: as its model has it, else with arms that hang `arm_angle` radians.
-    pub(super) fn rest_direction(&self, arm_angle: f64) -> Option<DVec3> {
+    pub(crate) fn rest_direction(&self, arm_angle: f64) -> Option<DVec3> {
         self.rest.or_else(|| self.part.rest_direction(arm_angle))
     }
 }
@@ -137,13 +138,13 @@ const SIDED: [Sided; 22] = [
 
 /// The bones of a model, parents before children.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Model {
-    pub(super) bones: Vec<Bone>,
+pub(crate) struct Model {
+    pub(crate) bones: Vec<Bone>,
 }
 
 impl Model {
     /// The standard and semi-standard bones that a motion can drive.
-    pub(super) fn standard() -> Self {
+    pub(crate) fn standard() -> Self {
         let mut model = Self { bones: Vec::new() };
         for (name, parent, part) in MIDDLE {
             model.hang(name.into(), parent, part);
@@ -164,7 +165,7 @@ impl Model {
     }
 
     /// Adds a bone that a person named; it follows the one it hangs on.
-    pub(super) fn add(&mut self, name: &str, parent: &str) -> Result<(), Error> {
+    pub(crate) fn add(&mut self, name: &str, parent: &str) -> Result<(), Error> {
         let wrong = |message| Err(Error::setting("bones", message));
         if self.find(name).is_some() {
             return wrong(format!("{name} is there already: give its joints under [bones]"));
@@ -177,12 +178,44 @@ impl Model {
         Ok(())
     }
 
-    pub(super) fn find(&self, name: &str) -> Option<usize> {
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.bones.iter().position(|bone| bone.name == name)
     }
 
     /// The bone of a side by its name without 左 or 右.
-    pub(super) fn sided(&self, side: Side, name: &str) -> Option<usize> {
+    pub(crate) fn sided(&self, side: Side, name: &str) -> Option<usize> {
         self.find(&side.named(name))
+    }
+}
+
+/// A name in CP932.
+///
+/// # Errors
+/// [`Error::Setting`] when it has a letter that CP932 has not, or more than `longest` bytes.
+pub(crate) fn cp932(text: &str, longest: usize) -> Result<Vec<u8>, Error> {
+    let (bytes, _, has_others) = SHIFT_JIS.encode(text);
+    let wrong = |message| Err(Error::setting("vmd", message));
+    if has_others || text.contains('\0') {
+        return wrong(format!("\"{text}\" has letters that a VMD cannot hold (CP932)"));
+    }
+    if bytes.len() > longest {
+        let found = bytes.len();
+        return wrong(format!("\"{text}\" is {found} bytes in CP932; a VMD holds {longest}"));
+    }
+    Ok(bytes.into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_cp932_and_never_cut() {
+        assert_eq!(cp932("センター", 15).unwrap(), b"\x83Z\x83\x93\x83^\x81[");
+        assert_eq!(cp932("左足ＩＫ", 15).unwrap(), b"\x8d\xb6\x91\xab\x82h\x82j");
+        let error = cp932("左つま先ＩＫ親子", 15).unwrap_err().to_string();
+        assert!(error.contains("16 bytes") && error.contains("holds 15"), "{error}");
+        assert_eq!(cp932("左つま先ＩＫ親", 15).unwrap().len(), 14);
+        assert!(cp932("🦵", 15).unwrap_err().to_string().contains("CP932"));
     }
 }

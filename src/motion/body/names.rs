@@ -1,27 +1,29 @@
 //! Which joints drive which bone: the table of dialects, a person's own rows over it, and what of it a
 //! clip has.
 
+pub(crate) mod bones;
+
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::bones::{LONGEST_NAME, Model, Side};
-use super::{record, structure};
 use crate::error::Error;
+use crate::motion::body::structure;
 use crate::motion::{Clip, JointId, Skeleton, plain_name};
+use bones::{LONGEST_NAME, Model, Side, cp932};
 
 /// The table that comes with the program.
-const DIALECTS: &str = include_str!("dialects.toml");
+const DIALECTS: &str = include_str!("names/dialects.toml");
 
 /// What stands for a dialect where no name is known and the shape of the body alone says what is what.
-pub(super) const SHAPE: &str = "by shape";
+pub(crate) const SHAPE: &str = "by shape";
 
 /// The table of bones (ボーン対応表): how programs name the joints of each MMD bone, and a person's own
 /// rows over that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoneMap {
-    pub(super) model: Model,
+    pub(crate) model: Model,
     dialects: Vec<Dialect>,
     own: BTreeMap<String, Vec<String>>,
 }
@@ -36,14 +38,14 @@ struct Dialect {
 
 /// What of the table a skeleton has.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Found {
-    pub(super) dialect: String,
+pub(crate) struct Found {
+    pub(crate) dialect: String,
     /// Of each bone of the model its joints, from the body outward; none when it is not driven.
-    pub(super) joints: Vec<Vec<JointId>>,
+    pub(crate) joints: Vec<Vec<JointId>>,
     /// Bones whose joints no name says, or a wrong one: the shape of the body does.
-    pub(super) by_shape: Vec<String>,
+    pub(crate) by_shape: Vec<String>,
     /// Names in a person's own rows that no joint has.
-    pub(super) missing: Vec<String>,
+    pub(crate) missing: Vec<String>,
 }
 
 impl Default for BoneMap {
@@ -75,7 +77,7 @@ impl BoneMap {
     }
 
     /// What a dialect calls a bone, or the first of the joints that make it there.
-    pub(super) fn first_name(&self, dialect: &str, bone: &str) -> Option<&str> {
+    pub(crate) fn first_name(&self, dialect: &str, bone: &str) -> Option<&str> {
         let dialect = self.dialects.iter().find(|own| own.name == dialect)?;
         dialect.rows.get(bone)?.first().map(String::as_str)
     }
@@ -88,7 +90,7 @@ impl BoneMap {
         let file: File =
             toml::from_str(text).map_err(|error| failed(error.span(), error.message()))?;
         for (name, extra) in &file.extra {
-            let bytes = record::name(name.get_ref(), LONGEST_NAME).map(drop);
+            let bytes = cp932(name.get_ref(), LONGEST_NAME).map(drop);
             bytes
                 .and_then(|()| self.model.add(name.get_ref(), &extra.parent))
                 .map_err(|error| failed(Some(name.span()), said(&error)))?;
@@ -116,7 +118,7 @@ impl BoneMap {
     ///
     /// # Errors
     /// [`Error::Clip`] when no joint is known: the message names them and the way out.
-    pub(super) fn of(&self, clip: &Clip) -> Result<Found, Error> {
+    pub(crate) fn of(&self, clip: &Clip) -> Result<Found, Error> {
         let mut found = self.find(clip.skeleton());
         let is_unknown = score(&found.joints) == (0, 0);
         found.by_shape = structure::settle(&self.model, &mut found.joints, clip, |bone| {
