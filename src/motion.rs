@@ -19,7 +19,7 @@ mod read;
 
 pub use axis::Axis;
 pub use body::landmarks;
-pub(crate) use body::{BodySide, Build, LayFigure, below, is_t_pose, plain_name};
+pub(crate) use body::{BodySide, Build, LayFigure, Members, below, is_t_pose, plain_name};
 pub use body::{Contact, ContactFinder, Foot, Landmarks, Limb, Point, Stature, Unit};
 pub use clip::{
     Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, Word,

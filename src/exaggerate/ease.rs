@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 use crate::maths;
-use crate::motion::{Clip, Joint, local_rotation};
+use crate::motion::{Build, Clip, Joint, local_rotation};
 
 /// How far the window goes, in standard deviations of its bell.
 const REACH: f64 = 3.0;
@@ -51,7 +51,9 @@ impl Poses {
     /// no part: who walks evenly is to gather in his steps as well.
     fn of(clip: &Clip) -> Self {
         let moving = clip.moving_joints();
-        let reaches = clip.skeleton().reaches();
+        let members = Build::of(clip).members;
+        let reaches = members.skeleton().reaches();
+        let moving = moving.into_iter().enumerate().map(|(at, moves)| moves && members.has(at));
         let joints = clip.skeleton().joints.iter().zip(reaches).zip(moving);
         let joints: Vec<(&Joint, f64)> = joints
             .filter(|((joint, _), moves)| *moves && joint.turns())

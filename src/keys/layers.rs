@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::{Kind, Setting};
-use crate::motion::body::mannequin::Mannequin;
-use crate::motion::{Clip, JointId, Landmarks, Skeleton, below};
+use crate::motion::{Build, Clip, JointId, Skeleton, below};
 use crate::sheet::column_name;
 
 pub(crate) use clip::LayerClip;
@@ -102,7 +101,7 @@ fn layers(layer_of: Vec<usize>) -> Vec<LayerJoints> {
 
 /// Trunk and head 0, the arms 1 and 2, the legs 3 and 4.
 fn limbs(clip: &Clip) -> Result<Vec<usize>, Error> {
-    let mannequin = Mannequin::of(clip, &Landmarks::of(clip)).ok_or_else(|| {
+    let mannequin = Build::of(clip).mannequin.ok_or_else(|| {
         let message = "this body has no head, two arms and two legs to be seen by; name the joints of each \
                        layer, layers = [{ name = \"A\", joints = [\"Hips\"] }], or take body";
         Error::setting("layers", message)

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
-use crate::motion::{Joint, Skeleton};
+use crate::motion::{Joint, Members, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -17,16 +17,18 @@ pub(super) struct Points {
     joints: usize,
     /// Each tip's joint, and where it lies from there.
     tips: Vec<(usize, DVec3)>,
+    /// Whether a point is of the body, joints first.
+    is_own: Vec<bool>,
     /// One weight a point, joints first; their sum is 1.
     weights: Vec<f64>,
 }
 
 impl Points {
-    /// The points of a skeleton, `own` what each joint and its tips count besides. Without any bone that
+    /// The points of a skeleton that are of the body, `own` what each joint and its tips count besides. Without any bone that
     /// counts they weigh that alone.
-    pub(super) fn of(skeleton: &Skeleton, own: &[f64]) -> Self {
+    pub(super) fn of(skeleton: &Skeleton, members: &Members, own: &[f64]) -> Self {
         let bone = |joint: &Joint| joint.parent.map_or(0.0, |_| joint.offset.length());
-        let mut bones: Vec<f64> = skeleton.joints.iter().map(bone).collect();
+        let mut bones: Vec<f64> = members.skeleton().joints.iter().map(bone).collect();
         let mut tips = Vec::new();
         for (joint, data) in skeleton.iter() {
             for end in &data.end_sites {
@@ -34,15 +36,23 @@ impl Points {
                 bones.push(end.offset.length());
             }
         }
-        let of_tips = tips.iter().map(|(joint, _)| own[*joint]);
-        let own: Vec<f64> = own.iter().copied().chain(of_tips).collect();
+        let is_own = |joint: &usize| members.has(*joint);
+        let joints = 0..skeleton.len();
+        let is_own: Vec<bool> = joints
+            .clone()
+            .chain(tips.iter().map(|(joint, _)| *joint))
+            .map(|at| is_own(&at))
+            .collect();
+        let own = joints.chain(tips.iter().map(|(joint, _)| *joint)).map(|joint| own[joint]);
+        let own: Vec<f64> =
+            own.zip(&is_own).map(|(own, is_own)| if *is_own { own } else { 0.0 }).collect();
         let mut weights: Vec<f64> = bones.iter().zip(&own).map(|(bone, own)| bone * own).collect();
         if weights.iter().all(|weight| *weight == 0.0) {
             weights = own;
         }
         let all: f64 = weights.iter().sum();
         weights.iter_mut().for_each(|weight| *weight /= all);
-        Self { joints: skeleton.len(), tips, weights }
+        Self { joints: skeleton.len(), tips, is_own, weights }
     }
 
     /// Number of points.
@@ -55,6 +65,12 @@ impl Points {
     pub(super) fn place(&self, pose: &LanePose, positions: &mut [LaneVec]) {
         positions[..self.joints].copy_from_slice(&pose.translations);
         self.place_tips(&pose.rotations, positions);
+    }
+
+    /// The body's among one value a point.
+    #[inline(always)]
+    pub(super) fn own<'a, T: Copy>(&'a self, values: &'a [T]) -> impl Iterator<Item = T> + 'a {
+        values.iter().zip(&self.is_own).filter(|(_, is_own)| **is_own).map(|(value, _)| *value)
     }
 
     /// What each point weighs, joints first; their sum is 1.
@@ -116,9 +132,13 @@ mod tests {
         Skeleton { joints }
     }
 
+    fn points_of(skeleton: &Skeleton, own: &[f64]) -> Points {
+        Points::of(skeleton, &Members::all(skeleton), own)
+    }
+
     #[test]
     fn a_point_weighs_as_much_as_the_bone_that_leads_to_it() {
-        let points = Points::of(&chain(&[3.0, 0.0], 1.0), &[1.0; 3]);
+        let points = points_of(&chain(&[3.0, 0.0], 1.0), &[1.0; 3]);
         assert_eq!(points.weights, [0.0, 0.75, 0.0, 0.25], "the root's offset is no bone");
         let rest = [LaneVec::default(); 4];
         let moved = [5.0, 2.0, 5.0, 4.0].map(|way| LaneVec::splat(DVec3::Y * way));
@@ -129,18 +149,18 @@ mod tests {
     fn a_joint_and_its_tips_count_as_much_as_a_person_says() {
         let body = chain(&[3.0, 2.0], 1.0);
         assert_eq!(
-            Points::of(&body, &[1.0, 1.0, 2.0]).weights,
+            points_of(&body, &[1.0, 1.0, 2.0]).weights,
             [0.0, 3.0 / 9.0, 4.0 / 9.0, 2.0 / 9.0]
         );
-        assert_eq!(Points::of(&body, &[1.0, 1.0, 0.0]).weights, [0.0, 1.0, 0.0, 0.0]);
-        let root_alone = Points::of(&body, &[2.0, 0.0, 0.0]).weights;
+        assert_eq!(points_of(&body, &[1.0, 1.0, 0.0]).weights, [0.0, 1.0, 0.0, 0.0]);
+        let root_alone = points_of(&body, &[2.0, 0.0, 0.0]).weights;
         assert_eq!(root_alone, [1.0, 0.0, 0.0, 0.0], "it has no bone and the only say");
     }
 
     #[test]
     fn a_joint_more_on_the_same_bone_changes_nothing_that_turns_with_it() {
         let apart = |skeleton: &Skeleton| {
-            let points = Points::of(skeleton, &vec![1.0; skeleton.len()]);
+            let points = points_of(skeleton, &vec![1.0; skeleton.len()]);
             let rate = FrameRate::new(24.0).unwrap();
             let clip = Clip::new(skeleton.clone(), rate, Frame(0), 1, vec![]).unwrap();
             let mut positions = vec![LaneVec::default(); points.len()];
@@ -158,7 +178,7 @@ mod tests {
     #[test]
     fn a_tip_turns_with_its_joint() {
         let skeleton = chain(&[2.0], 1.0);
-        let points = Points::of(&skeleton, &[1.0; 2]);
+        let points = points_of(&skeleton, &[1.0; 2]);
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         let pose = LanePose {
             rotations: [DQuat::IDENTITY, quarter].map(LaneQuat::splat).to_vec(),
@@ -172,8 +192,8 @@ mod tests {
 
     #[test]
     fn without_bones_all_points_weigh_the_same() {
-        let points = Points::of(&chain(&[0.0], 0.0), &[1.0; 2]);
+        let points = points_of(&chain(&[0.0], 0.0), &[1.0; 2]);
         assert_eq!(points.weights, [1.0 / 3.0; 3]);
-        assert_eq!(Points::of(&Skeleton::default(), &[]).len(), 0);
+        assert_eq!(points_of(&Skeleton::default(), &[]).len(), 0);
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::keys::points::Points;
 use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
-use crate::motion::{Clip, Screen};
+use crate::motion::{Build, Clip, Members, Screen};
 use crate::time::{Clock, Frame};
 
 /// The source at each koma, computed once: what a reconstruction is measured against.
@@ -39,7 +39,12 @@ impl Reference {
     /// The same where joints do not all count as much as their bones say: `own` has a factor for each, 0 or
     /// more and one of them above. It does not change the height.
     pub fn weighted(clip: &Clip, clock: Clock, own: &[f64]) -> Self {
-        let points = Points::of(clip.skeleton(), own);
+        Self::of_members(clip, &Build::of(clip).members, clock, own)
+    }
+
+    /// The same of the joints that are the body.
+    pub(crate) fn of_members(clip: &Clip, members: &Members, clock: Clock, own: &[f64]) -> Self {
+        let points = Points::of(clip.skeleton(), members, own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let mut poser = LanePoser::of(clip);
@@ -52,7 +57,7 @@ impl Reference {
                     for (block, row) in piece.zip(&mut rows) {
                         poser.koma(clock, block, koma);
                         points.place(poser.stand(), row);
-                        sides.extend(longest_sides(row).0);
+                        sides.extend(longest_sides(points.own(row)).0);
                     }
                 },
             );
@@ -61,7 +66,7 @@ impl Reference {
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
         // A body of one point has no height; what it moves through stands for it.
-        let height = if median > 0.0 { median } else { whole_side(&positions) };
+        let height = if median > 0.0 { median } else { whole_side(&positions, &points) };
         Self { clock, koma, points, positions, height, screen: Screen::WORLD }
     }
 
@@ -185,15 +190,16 @@ impl Reference {
 
 /// The longest side of the box round some points, of each lane by itself.
 #[inline(always)]
-fn longest_sides(points: &[LaneVec]) -> Lanes {
+fn longest_sides(points: impl Iterator<Item = LaneVec>) -> Lanes {
     let (low, high) = corners(points);
     let sides = high - low;
     sides.x.max(sides.y).max(sides.z)
 }
 
 /// The longest side of the box round the points of all lanes.
-fn whole_side(points: &[LaneVec]) -> f64 {
-    let (low, high) = corners(points);
+fn whole_side(positions: &[LaneVec], points: &Points) -> f64 {
+    let rows = positions.chunks_exact(points.len().max(1));
+    let (low, high) = corners(rows.flat_map(|row| points.own(row)));
     let lanes = 0..LANES;
     let low = lanes.clone().map(|lane| low.lane(lane)).reduce(DVec3::min).unwrap_or_default();
     let high = lanes.map(|lane| high.lane(lane)).reduce(DVec3::max).unwrap_or_default();
@@ -201,9 +207,9 @@ fn whole_side(points: &[LaneVec]) -> f64 {
 }
 
 #[inline(always)]
-fn corners(points: &[LaneVec]) -> (LaneVec, LaneVec) {
-    let Some((first, others)) = points.split_first() else { return Default::default() };
-    others.iter().fold((*first, *first), |(low, high), point| {
-        (low.with(*point, Lanes::min), high.with(*point, Lanes::max))
+fn corners(mut points: impl Iterator<Item = LaneVec>) -> (LaneVec, LaneVec) {
+    let Some(first) = points.next() else { return Default::default() };
+    points.fold((first, first), |(low, high), point| {
+        (low.with(point, Lanes::min), high.with(point, Lanes::max))
     })
 }

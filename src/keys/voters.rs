@@ -1,13 +1,18 @@
 //! Which joints speak for a key, and what each one's word is worth.
 
-use crate::motion::{Clip, JointId};
+use crate::motion::{Clip, JointId, Skeleton};
 use crate::signal::{Turn, TurnKind};
 use crate::time::Frame;
 
 /// The weight of each joint: how far its rotation carries, the largest set to 1, so that fingers
 /// cannot outvote an arm.
 pub fn weights(clip: &Clip) -> Vec<f64> {
-    let mut weights = clip.skeleton().reaches();
+    shares(clip.skeleton())
+}
+
+/// How far each joint of a skeleton reaches, the largest set to 1.
+pub(super) fn shares(skeleton: &Skeleton) -> Vec<f64> {
+    let mut weights = skeleton.reaches();
     let largest = weights.iter().copied().fold(0.0, f64::max);
     if largest > 0.0 {
         weights.iter_mut().for_each(|weight| *weight /= largest);

@@ -1,11 +1,14 @@
 //! **Body** (体): what is known of whoever moves in a clip, by bones, names and ground.
 
+mod accessories;
 mod build;
 mod contact;
 pub mod landmarks;
 pub(crate) mod lay_figure;
 pub(crate) mod leg;
+mod limbs;
 pub(crate) mod mannequin;
+mod members;
 pub(crate) mod names;
 mod side;
 mod stature;
@@ -17,6 +20,7 @@ pub use contact::{Contact, ContactFinder, Limb};
 pub(crate) use landmarks::below;
 pub use landmarks::{Foot, Landmarks, Point};
 pub(crate) use lay_figure::LayFigure;
+pub(crate) use members::Members;
 pub(crate) use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
 pub(crate) use t_pose::is_t_pose;

@@ -197,6 +197,18 @@ impl Clip {
         changes
     }
 
+    /// From the least to the largest value of each column of the table; 0 without a frame.
+    pub(crate) fn ranges(&self) -> Vec<f64> {
+        let Some(first) = self.rows().next() else { return vec![0.0; self.skeleton.channels()] };
+        let mut ends: Vec<(f64, f64)> = first.iter().map(|value| (*value, *value)).collect();
+        for row in self.rows() {
+            for ((low, high), value) in ends.iter_mut().zip(row) {
+                (*low, *high) = (low.min(*value), high.max(*value));
+            }
+        }
+        ends.into_iter().map(|(low, high)| high - low).collect()
+    }
+
     /// The same motion of some joints, all others as they are in the first frame.
     pub(crate) fn with_others_still(&self, moves: &[bool]) -> Self {
         let mut clip = self.clone();

@@ -109,8 +109,9 @@ impl LayerStages {
         weights: &JointWeights,
     ) -> Result<(), Error> {
         let settings = (joints.clone(), weights.clone());
-        self.motion.try_make((moving.clip,), settings, |(clip,), (joints, weights)| {
-            LayerClip::of(&clip, joints, weights)
+        let inputs = (moving.clip, moving.build);
+        self.motion.try_make(inputs, settings, |(clip, build), (joints, weights)| {
+            LayerClip::of(&clip, joints, &build.members, weights)
         })
     }
 
@@ -139,10 +140,12 @@ impl LayerStages {
     /// What the layer is judged beside.
     fn refer(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         let settings = (recipe.rate, moving.height, moving.screen);
-        self.reference.make((self.motion.output(),), settings, |(motion,), settings| {
+        let inputs = (self.motion.output(), moving.build);
+        self.reference.make(inputs, settings, |(motion, build), settings| {
             let (rate, height, screen) = *settings;
             let LayerClip { clip, judged, .. } = motion.value();
-            let own = Reference::weighted(clip, clip.clock(rate), judged).on(screen);
+            let own =
+                Reference::of_members(clip, &build.members, clip.clock(rate), judged).on(screen);
             match height {
                 None => own,
                 Some(height) => own.beside(height),

@@ -11,6 +11,7 @@ mod batch; // many clips at once
 mod batch_in_trouble; // lists of other systems, full disks, clips that are lost, two at once
 #[cfg(feature = "cli")]
 mod batch_packed; // one archive in place of folders
+mod bodies; // what a rig has besides the body changes no key
 #[path = "../cases/mod.rs"]
 mod cases; // how many cases a heavy property test takes
 mod clips; // where clips come from

@@ -425,7 +425,7 @@ fn the_axis_that_points_up_is_a_persons_word() {
     let place = Place::new();
     let up = |option: &str| {
         place.done(&format!("run data/kick.bvh --out out --deliver glb{option}"));
-        fs::read(place.path("out/kick_limited.glb")).unwrap()
+        fs::read(place.path("out/limited.glb")).unwrap()
     };
     let stands = up("");
     assert!(up(" --up y") == stands);

@@ -80,7 +80,7 @@ impl Rerig {
             };
             let count = channels.len();
             joints.push(Joint {
-                name: format!("bone.{at:02}"),
+                name: joint.name.clone(),
                 parent: joint.parent,
                 offset: self.scale * (parent_turn(joint) * joint.offset),
                 channels,

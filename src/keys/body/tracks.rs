@@ -7,7 +7,7 @@ use std::slice::ChunksExactMut;
 use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
 
-use crate::keys::weights;
+use crate::keys::voters::shares;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::clip::lane_poser::{LanePose, LanePoser};
 use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
@@ -113,7 +113,7 @@ fn turning(motion: &LayerMotion<'_>) -> Vec<Turning> {
         reach: 100.0 * REACH * carried,
         weight: ROTATION * carried * motion.heard[joint],
     };
-    let joints = weights(motion.clip).into_iter().enumerate();
+    let joints = shares(motion.build.members.skeleton()).into_iter().enumerate();
     let tracks = joints.filter(|(joint, _)| turns[*joint]).map(track);
     tracks.filter(|track| track.weight > 0.0).collect()
 }
@@ -149,7 +149,7 @@ fn of_person(motion: &LayerMotion<'_>, mannequin: &Mannequin) -> Vec<Travelling>
 
 /// The tips of its chains; its joints where there are none.
 fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
-    let skeleton = motion.clip.skeleton();
+    let skeleton = motion.build.members.skeleton();
     let of_joint = |(joint, data): (JointId, &Joint)| {
         let tips = data.end_sites.iter().map(move |end| Point { joint, offset: end.offset });
         tips.collect::<Vec<Point>>()
@@ -266,7 +266,7 @@ struct Sight<'a> {
 
 impl<'a> Sight<'a> {
     fn of(motion: &LayerMotion<'a>) -> Self {
-        let Build { landmarks, mannequin } = motion.build;
+        let Build { landmarks, mannequin, .. } = motion.build;
         let height = mannequin.as_ref().map_or(motion.height, Mannequin::height);
         let scale = if height > 0.0 { 100.0 * motion.clip.rate().fps() / height } else { 0.0 };
         // What is up on a screen is its second axis.

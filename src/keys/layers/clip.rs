@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::keys::JointWeights;
 use crate::keys::layers::LayerJoints;
-use crate::motion::{Clip, Skeleton};
+use crate::motion::{Clip, Members, Skeleton};
 
 /// The motion of a layer: its joints move, all others stay as in the clip's first frame.
 ///
@@ -28,16 +28,20 @@ impl LayerClip {
     pub(crate) fn of(
         clip: &Arc<Clip>,
         layer: &LayerJoints,
+        members: &Members,
         weights: &JointWeights,
     ) -> Result<Self, Error> {
         let skeleton = clip.skeleton();
         let own = weights.of(skeleton)?;
+        // A layer of hair alone is judged by its hair.
+        let is_of_body = layer.joints.iter().any(|joint| members.has(joint.0));
+        let own = if is_of_body { only(&own, |joint| members.has(joint)) } else { own };
         if layer.is_whole(skeleton) {
             return Ok(Self { clip: Arc::clone(clip), judged: own.clone(), heard: own });
         }
         let mut moves = vec![false; skeleton.len()];
         layer.joints.iter().for_each(|joint| moves[joint.0] = true);
-        let heard = only(&own, &moves);
+        let heard = only(&own, |joint| moves[joint]);
         if heard.iter().all(|weight| *weight == 0.0) {
             let name = &layer.name;
             let message = format!(
@@ -45,14 +49,16 @@ impl LayerClip {
             );
             return Err(Error::setting("keys.weights", message));
         }
-        let judged = only(&own, &carried(skeleton, &moves));
+        let carried = carried(skeleton, &moves);
+        let judged = only(&own, |joint| carried[joint]);
         Ok(Self { judged, heard, clip: Arc::new(clip.with_others_still(&moves)) })
     }
 }
 
 /// Weights of some joints, and 0 for all others.
-fn only(own: &[f64], counts: &[bool]) -> Vec<f64> {
-    own.iter().zip(counts).map(|(own, counts)| if *counts { *own } else { 0.0 }).collect()
+fn only(own: &[f64], counts: impl Fn(usize) -> bool) -> Vec<f64> {
+    let own = own.iter().enumerate();
+    own.map(|(joint, own)| if counts(joint) { *own } else { 0.0 }).collect()
 }
 
 /// Some joints and all that hang on them.

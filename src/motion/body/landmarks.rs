@@ -1,13 +1,12 @@
-//! The landmarks of a body (頭・手首・足首): head, wrists and ankles, found by its shape and motion.
-//!
-//! Names are a matter of the program that wrote the file, so they are not asked.
+//! The landmarks of a body (頭・手首・足首): head, wrists and ankles, by their names, else by its shape and motion.
 
 use std::collections::BTreeSet;
 use std::iter;
 
 use glam::DVec3;
 
-use crate::motion::{Axis, Body, Clip, JointId, Poser, Skeleton, Stature};
+use crate::motion::body::limbs::NamedLimbs;
+use crate::motion::{Axis, Body, Build, Clip, JointId, Members, Poser, Skeleton};
 use crate::time::{Clock, Frame};
 
 /// Frames that are looked at: enough to know which limb is usually low.
@@ -67,32 +66,48 @@ pub struct Landmarks {
 }
 
 impl Landmarks {
-    /// Finds them. A limb ends at the first joint from the root that carries no more than 15 %
+    /// Finds them. Limbs and head are those that [names](crate::deliver::BoneMap) give, where these make whole limbs. Else a
+    /// limb ends at the first joint from the root that carries no more than 15 %
     /// of the body's height. Of the ends the two that are lowest in the mean over the clip are the feet, of
     /// what is left the two furthest from the root along the bones are the hands, however high they are held,
     /// and the highest of the others is the head. A body of fewer than three ends has no landmark; what
     /// hangs on another root than most of the body, such as a sword, is not looked at.
     pub fn of(clip: &Clip) -> Self {
-        let up = Stature::of(clip).up;
-        let looks = Looks::at(clip, up.unit());
-        let ends = ends(clip.skeleton(), looks.height);
+        Build::of(clip).landmarks
+    }
+
+    /// The same of the joints that are the body: limbs that names give, and for the others its shape.
+    pub(super) fn of_members(clip: &Clip, members: &Members, limbs: &NamedLimbs, up: Axis) -> Self {
+        let skeleton = members.skeleton();
+        let looks = Looks::at(clip, members, up.unit());
+        let is_known = |joint: usize| limbs.take(skeleton, joint);
+        let ends = ends(skeleton, looks.height).into_iter().filter(|end| !is_known(*end));
+        let mut ends: Vec<usize> = ends.collect();
         let mut landmarks =
             Self { head: None, wrists: vec![], feet: vec![], up, height: looks.height };
-        if ends.len() < 3 {
+        let [mut ankles, mut wrists] = [limbs.legs, limbs.arms].map(|limbs| {
+            limbs.into_iter().flatten().map(|[_, _, lower]| lower).collect::<Vec<usize>>()
+        });
+        if ankles.len() + wrists.len() + usize::from(limbs.head.is_some()) + ends.len() < 3 {
             return landmarks;
         }
-        let mut ends: Vec<usize> = ends.into_iter().collect();
         ends.sort_by(|a, b| looks.levels[*a].total_cmp(&looks.levels[*b]));
-        let mut feet = ends.drain(..2).collect::<Vec<_>>();
-        feet.sort_unstable();
-        landmarks.feet = feet.into_iter().map(|ankle| looks.foot(clip.skeleton(), ankle)).collect();
-        let lengths = lengths(clip.skeleton());
+        ankles.extend(ends.drain(..(2 - ankles.len()).min(ends.len())));
+        ankles.sort_unstable();
+        landmarks.feet = ankles.into_iter().map(|ankle| looks.foot(skeleton, ankle)).collect();
+        let lengths = lengths(skeleton);
         let mut longest = ends.clone();
         longest.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
-        longest.truncate(2.min(ends.len() - 1));
-        landmarks.head = ends.into_iter().rfind(|end| !longest.contains(end)).map(Point::of);
-        longest.sort_unstable();
-        landmarks.wrists = longest.into_iter().map(Point::of).collect();
+        // One of them is left to be the head.
+        let spare = ends.len() - usize::from(limbs.head.is_none()).min(ends.len());
+        longest.truncate((2 - wrists.len()).min(spare));
+        let highest = ends.into_iter().rfind(|end| !longest.contains(end));
+        // Rigs of one person have their last joint of the neck elsewhere in the head; what is short enough begins alike.
+        let named = limbs.head.map(|head| first_end(skeleton, looks.height, head));
+        landmarks.head = named.or(highest).map(Point::of);
+        wrists.extend(longest);
+        wrists.sort_unstable();
+        landmarks.wrists = wrists.into_iter().map(Point::of).collect();
         landmarks
     }
 
@@ -127,8 +142,8 @@ struct Looks {
 }
 
 impl Looks {
-    fn at(clip: &Clip, up: DVec3) -> Self {
-        let skeleton = clip.skeleton();
+    fn at(clip: &Clip, members: &Members, up: DVec3) -> Self {
+        let skeleton = members.skeleton();
         let tips = skeleton.iter().flat_map(|(joint, data)| {
             data.end_sites.iter().map(move |end| (Point { joint, offset: end.offset }, 0.0))
         });
@@ -146,9 +161,7 @@ impl Looks {
             for (tip, level) in &mut looks.tips {
                 *level += tip.position(&body).dot(up);
             }
-            let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
-            let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
-            sides.push((high - low).max_element());
+            sides.push(members.extent(positions).max_element());
         }
         sides.sort_by(f64::total_cmp);
         looks.height = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
@@ -173,18 +186,27 @@ fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
         is_leaf[parent.0] = false;
     }
-    // A joint that cannot turn is a point on a bone.
-    let is_end =
-        |joint: &usize| reaches[*joint] <= LONGEST_END * height && skeleton.joints[*joint].turns();
-    let end = |leaf: usize| above(skeleton, leaf).filter(is_end).last().unwrap_or(leaf);
+    let end = |leaf: usize| first_end_of(skeleton, &reaches, height, leaf);
     let body = body_root(skeleton);
     let is_of_body = |leaf: &usize| above(skeleton, *leaf).last() == body;
     let leaves = (0..skeleton.len()).filter(|joint| is_leaf[*joint]).filter(is_of_body);
     leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
 }
 
+/// On the way to a joint the first from the root that carries no more than the end of a limb does.
+fn first_end(skeleton: &Skeleton, height: f64, joint: usize) -> usize {
+    first_end_of(skeleton, &skeleton.reaches(), height, joint)
+}
+
+fn first_end_of(skeleton: &Skeleton, reaches: &[f64], height: f64, joint: usize) -> usize {
+    // A joint that cannot turn is a point on a bone.
+    let is_end =
+        |joint: &usize| reaches[*joint] <= LONGEST_END * height && skeleton.joints[*joint].turns();
+    above(skeleton, joint).filter(is_end).last().unwrap_or(joint)
+}
+
 /// The root of the tree with most bones by their length, of equals the first.
-fn body_root(skeleton: &Skeleton) -> Option<usize> {
+pub(super) fn body_root(skeleton: &Skeleton) -> Option<usize> {
     let mut roots = Vec::with_capacity(skeleton.len());
     let mut sizes = vec![0.0; skeleton.len()];
     for (at, joint) in skeleton.joints.iter().enumerate() {

@@ -63,6 +63,8 @@ pub(crate) struct LayFigure {
     pub(crate) root: usize,
     /// The joint at which the arms part.
     pub(crate) chest: usize,
+    /// The joint that turns the head.
+    pub(crate) head_joint: usize,
     /// Of each joint whether the bone that leads to it lies in the body.
     pub(crate) covered: Vec<bool>,
 }
@@ -70,8 +72,8 @@ pub(crate) struct LayFigure {
 impl LayFigure {
     /// Finds the parts; none in a body without head, two arms and two legs.
     pub(crate) fn of(clip: &Clip) -> Option<Self> {
-        let Build { landmarks, mannequin } = Build::of(clip);
-        let rig = Rig::of(clip, mannequin.as_ref()?, landmarks.up.unit());
+        let build = Build::of(clip);
+        let rig = Rig::of(clip, &build)?;
         let toes = rig.mannequin.legs.each_ref().map(|leg| rig.toes(leg));
         let (legs_are_left_first, forward) = rig.sides(&rig.mannequin.legs, &toes);
         let (arms_are_left_first, _) = rig.sides(&rig.mannequin.arms, &toes);
@@ -98,18 +100,47 @@ impl LayFigure {
             height: rig.height,
             root: rig.root(),
             chest: rig.mannequin.chest,
+            head_joint: rig.head_joint(),
             covered: rig.covered(),
             marks,
         })
     }
 }
 
-impl LayFigure {
+/// Left before right.
+fn ordered([a, b]: [&Limb; 2], is_left_first: bool) -> [&Limb; 2] {
+    if is_left_first { [a, b] } else { [b, a] }
+}
+
+/// A rig with what is asked of it often.
+struct Rig<'a> {
+    clip: &'a Clip,
+    /// The body alone.
+    skeleton: &'a Skeleton,
+    mannequin: &'a Mannequin,
+    /// Where the joints are when nothing is turned.
+    rest: Vec<DVec3>,
+    up: DVec3,
+    height: f64,
+}
+
+impl<'a> Rig<'a> {
+    fn of(clip: &'a Clip, build: &'a Build) -> Option<Self> {
+        let mannequin = build.mannequin.as_ref()?;
+        let skeleton = build.members.skeleton();
+        let mut rest: Vec<DVec3> = Vec::with_capacity(skeleton.len());
+        for joint in &skeleton.joints {
+            rest.push(joint.offset + joint.parent.map_or(DVec3::ZERO, |parent| rest[parent.0]));
+        }
+        let (up, height) = (build.stature.up.unit(), mannequin.height());
+        Some(Self { clip, skeleton, mannequin, rest, up, height })
+    }
+
     /// The joint that turns the head. Where the head is short the landmark is the neck: then the last that turns in the
     /// one line that goes on from there.
-    pub(crate) fn head_joint(&self, skeleton: &Skeleton) -> usize {
-        // After both toes and both fingertips come the marks of the head, which it carries.
-        let mut head = self.marks[4].joint.0;
+    fn head_joint(&self) -> usize {
+        let skeleton = self.skeleton;
+        let mut head = self.mannequin.head.joint.0;
         let carries = |joint: usize| {
             let is_on = |other: &Joint| other.parent == Some(JointId(joint));
             skeleton.joints.iter().any(is_on) || !skeleton.joints[joint].end_sites.is_empty()
@@ -129,35 +160,6 @@ impl LayFigure {
         }
         head
     }
-}
-
-/// Left before right.
-fn ordered([a, b]: [&Limb; 2], is_left_first: bool) -> [&Limb; 2] {
-    if is_left_first { [a, b] } else { [b, a] }
-}
-
-/// A rig with what is asked of it often.
-struct Rig<'a> {
-    clip: &'a Clip,
-    mannequin: &'a Mannequin,
-    /// Where the joints are when nothing is turned.
-    rest: Vec<DVec3>,
-    up: DVec3,
-    height: f64,
-}
-
-impl<'a> Rig<'a> {
-    fn of(clip: &'a Clip, mannequin: &'a Mannequin, up: DVec3) -> Self {
-        let mut rest: Vec<DVec3> = Vec::with_capacity(clip.skeleton().len());
-        for joint in &clip.skeleton().joints {
-            rest.push(joint.offset + joint.parent.map_or(DVec3::ZERO, |parent| rest[parent.0]));
-        }
-        Self { clip, mannequin, rest, up, height: mannequin.height() }
-    }
-
-    fn skeleton(&self) -> &Skeleton {
-        self.clip.skeleton()
-    }
 
     fn at_rest(&self, point: Point) -> DVec3 {
         self.rest[point.joint.0] + point.offset
@@ -167,7 +169,7 @@ impl<'a> Rig<'a> {
     fn toes(&self, leg: &Limb) -> Point {
         let ankle = self.rest[leg.lower.joint.0];
         let way = |point: &Point| self.at_rest(*point) - ankle;
-        let ends = tips(self.skeleton(), leg.lower.joint.0).into_iter().chain(leg.tips.clone());
+        let ends = tips(self.skeleton, leg.lower.joint.0).into_iter().chain(leg.tips.clone());
         let furthest = ends.max_by(|a, b| way(a).length().total_cmp(&way(b).length()));
         let long = furthest.map_or(0.0, |end| way(&end).length());
         match furthest.filter(|_| long > 0.03 * self.height) {
@@ -188,9 +190,9 @@ impl<'a> Rig<'a> {
     /// The end of a hand: the way its fingers go, of a usual length.
     fn fingertips(&self, arm: &Limb) -> Point {
         let wrist = arm.lower.joint.0;
-        let joints = self.skeleton().joints.iter();
+        let joints = self.skeleton.joints.iter();
         let children = joints.filter(|joint| joint.parent.is_some_and(|parent| parent.0 == wrist));
-        let ends = self.skeleton().joints[wrist].end_sites.iter().map(|end| end.offset);
+        let ends = self.skeleton.joints[wrist].end_sites.iter().map(|end| end.offset);
         let ways = children.map(|joint| joint.offset).chain(ends);
         let way: DVec3 = ways.filter(|way| way.length() > 0.01 * self.height).sum();
         let forearm = self.rest[wrist] - self.rest[arm.middle.joint.0];
@@ -222,7 +224,7 @@ impl<'a> Rig<'a> {
             let neck = place(self.mannequin.head) - middle(&arms);
             [(forward * spine.cross(across)).normalize_or_zero(), spine, neck.normalize_or(spine)]
         };
-        let (mut poser, mut body) = (Poser::of(self.clip), Body::new(self.skeleton()));
+        let (mut poser, mut body) = (Poser::of(self.clip), Body::new(self.clip.skeleton()));
         let [mut face, mut crown] = [DVec3::ZERO; 2];
         let looks = self.clip.len().min(LOOKS);
         for look in 0..looks {
@@ -254,7 +256,7 @@ impl<'a> Rig<'a> {
     fn named(&self, limbs: &[Limb; 2]) -> Option<bool> {
         let side = |limb: &Limb| {
             let joints = [limb.upper, limb.middle, limb.lower].map(|point| point.joint.0);
-            let sides = joints.map(|joint| BodySide::of(&self.skeleton().joints[joint].name));
+            let sides = joints.map(|joint| BodySide::of(&self.skeleton.joints[joint].name));
             sides.into_iter().find(|side| *side != BodySide::Trunk)
         };
         match [side(&limbs[0]), side(&limbs[1])] {
@@ -266,7 +268,7 @@ impl<'a> Rig<'a> {
 
     /// Whether the first of two limbs is the left one, and whether up × right is forward: toes point forward.
     fn sides(&self, limbs: &[Limb; 2], toes: &[Point; 2]) -> (bool, f64) {
-        let mut body = Body::new(self.skeleton());
+        let mut body = Body::new(self.clip.skeleton());
         body.place(Poser::of(self.clip).frame(self.clip.first()));
         let at = |point: Point| point.position(&body);
         let ankles = self.mannequin.legs.each_ref().map(|leg| at(leg.lower));
@@ -290,7 +292,7 @@ impl<'a> Rig<'a> {
         };
         let (hips, shoulders) = (middle(&self.mannequin.legs), middle(&self.mannequin.arms));
         let root = self.root();
-        let spine = above(self.skeleton(), self.mannequin.chest).take_while(|joint| *joint != root);
+        let spine = above(self.skeleton, self.mannequin.chest).take_while(|joint| *joint != root);
         let share = |joint: usize| {
             let [low, high] = [hips, shoulders].map(|end| self.rest[joint].distance(end));
             low / (low + high).max(f64::MIN_POSITIVE)
@@ -302,7 +304,7 @@ impl<'a> Rig<'a> {
 
     /// The joint below which the whole body hangs: a game's root on the floor is above it.
     fn root(&self) -> usize {
-        let skeleton = self.skeleton();
+        let skeleton = self.skeleton;
         let ends = self.ends();
         let is_above_all = |joint: &usize| {
             ends.iter().all(|end| above(skeleton, *end).any(|above| above == *joint))
@@ -318,7 +320,7 @@ impl<'a> Rig<'a> {
 
     /// The joints whose bones lie in the body: those on the ways to its ends, and what hangs near them.
     fn covered(&self) -> Vec<bool> {
-        let (skeleton, root) = (self.skeleton(), self.root());
+        let (skeleton, root) = (self.skeleton, self.root());
         let mut far = vec![f64::INFINITY; skeleton.len()];
         far[root] = 0.0;
         for end in self.ends() {

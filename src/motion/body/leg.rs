@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use crate::maths;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::rotation_axes;
-use crate::motion::{Body, Clip, JointId, Landmarks, Pose, Poser};
+use crate::motion::{Body, Build, Clip, JointId, Pose, Poser};
 use crate::time::Frame;
 
 /// Frames that are looked at to see how a knee bends.
@@ -48,8 +48,8 @@ pub(in crate::motion) struct Reach {
 impl Leg {
     /// The legs of a body in the order of its feet; none where a leg can't be turned freely at hip, knee
     /// and ankle, or its knee never bends. A body without head, two arms and two legs has none.
-    pub(in crate::motion) fn both(clip: &Clip, landmarks: &Landmarks) -> Vec<Option<Self>> {
-        let joints = Mannequin::of(clip, landmarks).map(|mannequin| mannequin.legs());
+    pub(in crate::motion) fn both(clip: &Clip, build: &Build) -> Vec<Option<Self>> {
+        let joints = build.mannequin.as_ref().map(Mannequin::legs);
         joints.into_iter().flatten().map(|joints| Self::of(clip, joints)).collect()
     }
 

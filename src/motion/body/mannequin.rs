@@ -6,8 +6,9 @@
 
 use glam::DVec3;
 
+use crate::motion::body::limbs::NamedLimbs;
 use crate::motion::landmarks::{above, below, lengths};
-use crate::motion::{BodySide, Clip, EndSite, JointId, Landmarks, Point, Skeleton};
+use crate::motion::{BodySide, EndSite, JointId, Landmarks, Point, Skeleton};
 
 /// Points of a mannequin besides its pelvis: neck, head, and of each side shoulder, elbow, wrist,
 /// fingertips, hip, knee, ankle and toes.
@@ -30,7 +31,7 @@ pub(crate) const BONES: [f64; POINTS] = {
 const TRUNK_AND_LEG: f64 = 0.9;
 
 /// Thigh and shin together, in heights of the body.
-const LEG: f64 = 0.48;
+pub(super) const LEG: f64 = 0.48;
 
 /// Upper arm and forearm together, in heights of the body.
 const ARM: f64 = 0.32;
@@ -73,19 +74,23 @@ pub(crate) struct Stand {
 
 impl Mannequin {
     /// Finds its bones in a rig by their lengths; none in a body without head, two arms and two legs.
-    pub(crate) fn of(clip: &Clip, landmarks: &Landmarks) -> Option<Self> {
-        let skeleton = clip.skeleton();
+    pub(super) fn of(
+        skeleton: &Skeleton,
+        landmarks: &Landmarks,
+        named: &NamedLimbs,
+    ) -> Option<Self> {
         let [left_hand, right_hand] = landmarks.wrists[..] else { return None };
         let [left_foot, right_foot] = landmarks.feet[..] else { return None };
         let head = landmarks.head?;
         let lengths = lengths(skeleton);
-        let arms = Pair::of(skeleton, &lengths, [left_hand.joint, right_hand.joint]);
-        let legs = Pair::of(skeleton, &lengths, [left_foot.ankle.joint, right_foot.ankle.joint]);
+        let pair = |ends| Pair::of(skeleton, named, &lengths, ends);
+        let arms = pair([left_hand.joint, right_hand.joint]);
+        let legs = pair([left_foot.ankle.joint, right_foot.ankle.joint]);
         let hands = arms.ends.map(|wrist| tips(skeleton, wrist));
         let soles = [left_foot.sole, right_foot.sole].map(|sole| vec![sole]);
         // The bones and not the motion: somebody who crouches has legs as long as ever. A game's root on the floor is
         // no bone.
-        let trunk = Pair::of(skeleton, &lengths, [head.joint, JointId(legs.fork)]);
+        let trunk = pair([head.joint, JointId(legs.fork)]);
         let to_hips = lengths[trunk.fork];
         let height = (lengths[head.joint.0] + legs.mean_length() - 2.0 * to_hips) / TRUNK_AND_LEG;
         let arms_found = arms.limbs(ARM * height, hands)?;
@@ -188,6 +193,7 @@ impl Limb {
 /// Two limbs, from where they part to their ends.
 struct Pair<'a> {
     skeleton: &'a Skeleton,
+    named: &'a NamedLimbs,
     /// How far each joint is from its root along the bones.
     lengths: &'a [f64],
     ends: [usize; 2],
@@ -195,11 +201,16 @@ struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn of(skeleton: &'a Skeleton, lengths: &'a [f64], ends: [JointId; 2]) -> Self {
+    fn of(
+        skeleton: &'a Skeleton,
+        named: &'a NamedLimbs,
+        lengths: &'a [f64],
+        ends: [JointId; 2],
+    ) -> Self {
         let ends = ends.map(|end| end.0);
         let up: Vec<usize> = above(skeleton, ends[0]).collect();
         let fork = above(skeleton, ends[1]).find(|joint| up.contains(joint)).unwrap_or(0);
-        Self { skeleton, lengths, ends, fork }
+        Self { skeleton, named, lengths, ends, fork }
     }
 
     /// From the root to their ends, the mean of both.
@@ -213,9 +224,13 @@ impl<'a> Pair<'a> {
         Some([self.limb(self.ends[0], length, left)?, self.limb(self.ends[1], length, right)?])
     }
 
-    /// Shoulder and elbow are the joints that turn whose distance to the wrist is nearest to the usual
+    /// As names have it. Else shoulder and elbow are the joints that turn whose distance to the wrist is nearest to the usual
     /// one: a collar bone, a twist joint or an elbow of two bones is passed over.
     fn limb(&self, end: usize, length: f64, tips: Vec<Point>) -> Option<Limb> {
+        if let Some(limb) = self.named.ending_at(end) {
+            let [upper, middle, lower] = limb.map(Point::of);
+            return Some(Limb { upper, middle, lower, tips });
+        }
         let inner: Vec<usize> = above(self.skeleton, end)
             .skip(1)
             .take_while(|joint| {

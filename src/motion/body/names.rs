@@ -134,7 +134,7 @@ impl BoneMap {
     }
 
     /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
-    fn find(&self, skeleton: &Skeleton) -> Found {
+    pub(crate) fn find(&self, skeleton: &Skeleton) -> Found {
         let names = Names::of(skeleton);
         let nothing = Dialect { name: "own".into(), rows: BTreeMap::new() };
         let mut best = self.joints(&nothing, &names);

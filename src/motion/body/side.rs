@@ -62,7 +62,7 @@ pub(crate) fn plain_name(name: &str) -> String {
 }
 
 /// The words of a name in small letters: LThumb is l and thumb, UpperArm_R is upper, arm and r.
-fn words(name: &str) -> Vec<String> {
+pub(super) fn words(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     let mut words = vec![String::new()];
     for (at, letter) in letters.iter().enumerate() {

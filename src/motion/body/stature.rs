@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
-use crate::motion::{Axis, Body, Clip, Declared, Poser};
+use crate::motion::{Axis, Body, Build, Clip, Declared, Members, Poser};
 
 /// How much taller than along one axis a body has to be along the other to stand along it.
 const CLEARLY: f64 = 1.25;
@@ -15,7 +15,7 @@ const SOMEBODY: RangeInclusive<f64> = 0.1..=30.0;
 /// How a body stands in its file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stature {
-    /// The longest side of the box round all joints in the first frame, in the file's unit; 0 without
+    /// The longest side of the box round the joints of the body in the first frame, in the file's unit; 0 without
     /// a frame or with one joint.
     pub size: f64,
     /// The axis that points up, Y or Z.
@@ -32,12 +32,16 @@ impl Stature {
     /// is bent: then the rest pose says it, and else custom, which is Y. Z is not up where the rest pose stands
     /// along Y: that is somebody who begins on hands and knees.
     pub fn of(clip: &Clip) -> Self {
+        Build::of(clip).stature
+    }
+
+    pub(super) fn of_members(clip: &Clip, members: &Members) -> Self {
         let mut body = Body::new(clip.skeleton());
-        let rest = extent(&body);
+        let rest = members.extent(body.positions());
         if !clip.is_empty() {
             body.place(Poser::of(clip).frame(clip.first()));
         }
-        let first = extent(&body);
+        let first = members.extent(body.positions());
         let seen = match (taller(first), taller(rest)) {
             (Some(Axis::Z), Some(Axis::Y)) | (None, None) => Axis::Y,
             (Some(up), _) | (None, Some(up)) => up,
@@ -58,13 +62,6 @@ fn taller(extent: DVec3) -> Option<Axis> {
         DVec3 { y, z, .. } if is_clearly(y, z) => Some(Axis::Y),
         _ => None,
     }
-}
-
-/// The size of the box round the joints of a body.
-fn extent(body: &Body) -> DVec3 {
-    let low = body.positions().iter().copied().reduce(DVec3::min);
-    let high = body.positions().iter().copied().reduce(DVec3::max);
-    low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
 }
 
 /// The unit of a file's lengths (単位). BVH does not name it.

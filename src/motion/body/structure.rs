@@ -4,7 +4,7 @@
 //! shape decides the limb. It does not say where a chest begins or which finger is which: there names decide, and what
 //! nobody named is shared out along the spine.
 
-mod fit;
+pub(super) mod fit;
 
 use std::collections::HashSet;
 
@@ -138,7 +138,7 @@ fn rows(skeleton: &Skeleton, figure: &LayFigure) -> Vec<Row> {
         way
     };
     let of = |name: &str, joints: Vec<JointId>| (name.to_owned(), joints);
-    let (root, chest, head) = (figure.root, figure.chest, figure.head_joint(skeleton));
+    let (root, chest, head) = (figure.root, figure.chest, figure.head_joint);
     let mut spine = between(root, chest);
     spine.extend((chest != root).then_some(JointId(chest)));
     let bend = figure.waist.and_then(|waist| spine.iter().position(|joint| joint.0 == waist));

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::motion::body::leg::Leg;
-use crate::motion::{Body, Clip, Contact, ContactFinder, Landmarks, Point, Pose, landmarks};
+use crate::motion::{Body, Build, Clip, Contact, ContactFinder, Point, Pose, landmarks};
 use crate::time::Clock;
 
 /// Koma before and after a contact in which a foot comes to its place and leaves it.
@@ -44,11 +44,11 @@ struct Edge {
 impl HeldFeet {
     /// The feet of a clip that stand at some time; none where nothing can be held.
     pub(super) fn of(clip: &Clip, clock: Clock) -> Option<Self> {
-        let found = Landmarks::of(clip);
+        let build = Build::of(clip);
         let contacts = ContactFinder::default().find(clip, clock);
-        let soles: Vec<Point> = found.feet.iter().map(|foot| foot.sole).collect();
+        let soles: Vec<Point> = build.landmarks.feet.iter().map(|foot| foot.sole).collect();
         let paths = landmarks::paths(clip, clock, &soles);
-        let legs = Leg::both(clip, &found);
+        let legs = Leg::both(clip, &build);
         let feet = soles.into_iter().zip(&paths).zip(legs).filter_map(|((sole, path), leg)| {
             let own = contacts.iter().filter(|contact| contact.point == sole);
             Some(HeldFoot { leg: leg?, sole, stands: stands(own, path, clock) })

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::{Kind, Setting, as_word};
-use crate::motion::seen::view::{View, extent};
-use crate::motion::{BodySide, Clip, Skeleton, Stature};
+use crate::motion::seen::view::View;
+use crate::motion::{BodySide, Build, Clip, Members, Skeleton};
 
 /// From where a picture looks (カメラ): level, without perspective, standing still.
 ///
@@ -49,32 +49,49 @@ impl Camera {
 
     /// The view of some poses of a clip, each the positions of its joints and then of its tips.
     pub(crate) fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
+        let Build { members, stature, .. } = Build::of(clip);
         let first = poses.first().map_or(&[][..], Vec::as_slice);
-        let up = Stature::of(clip).up.unit();
-        let front = facing(clip.skeleton(), first, up);
+        let up = stature.up.unit();
+        let front = facing(&members, first, up);
         // Seen from the body's own right, a body that faces away from us looks to the right.
         let side = front.cross(up);
         match self {
             Self::Front => View::from(up, front),
             Self::Side => View::from(up, side),
             Self::ThreeQuarter => View::from(up, (front + side).normalize()),
-            Self::Auto => View::of(up, poses),
+            Self::Auto if members.are_all() => View::of(up, poses),
+            Self::Auto => View::of(up, &own(&members, clip.skeleton(), poses)),
         }
     }
 }
 
+/// The places of the body alone, its root first.
+fn own(members: &Members, skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
+    let root = members.root();
+    let tips =
+        skeleton.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
+    let of: Vec<usize> = (0..skeleton.len()).chain(tips).collect();
+    let is_own = |point: &usize| of.get(*point).is_none_or(|joint| members.has(*joint));
+    let pose = |pose: &Vec<DVec3>| {
+        let others = (0..pose.len()).filter(|point| *point != root).filter(is_own);
+        std::iter::once(root).chain(others).map(|point| pose[point]).collect()
+    };
+    poses.iter().map(pose).collect()
+}
+
 /// Where a body faces, level and of length 1.
-fn facing(skeleton: &Skeleton, pose: &[DVec3], up: DVec3) -> DVec3 {
+fn facing(members: &Members, pose: &[DVec3], up: DVec3) -> DVec3 {
     let of = |side| {
-        let joints = skeleton.joints.iter().enumerate();
-        joints.filter(move |(_, data)| BodySide::of(&data.name) == side).map(|(joint, _)| joint)
+        let joints = members.skeleton().joints.iter().enumerate();
+        let own = joints.filter(|(joint, _)| members.has(*joint));
+        own.filter(move |(_, data)| BodySide::of(&data.name) == side).map(|(joint, _)| joint)
     };
     // Both sides list their joints in one order, hips or shoulders first. Some rigs begin them with
     // joints in the middle of the body, which say nothing.
     let across = of(BodySide::Left).zip(of(BodySide::Right)).find_map(|(left, right)| {
         let across = *pose.get(left)? - *pose.get(right)?;
         let level = across - up * across.dot(up);
-        (level.length() > 0.02 * extent(pose).length()).then_some(level)
+        (level.length() > 0.02 * members.extent(pose).length()).then_some(level)
     });
     let usual = if up == DVec3::Z { DVec3::NEG_Y } else { DVec3::Z };
     across.map_or(usual, |left| left.cross(up).normalize_or(usual))

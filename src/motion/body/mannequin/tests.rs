@@ -1,5 +1,5 @@
 use super::*;
-use crate::motion::{Axis, Channel, EndSite, Joint, JointId};
+use crate::motion::{Axis, Build, Channel, Clip, EndSite, Joint, JointId};
 use crate::time::{Frame, FrameRate};
 
 /// Name, parent and offset of a joint.
@@ -68,7 +68,7 @@ fn clip(skeleton: Skeleton) -> Clip {
 }
 
 fn mannequin(clip: &Clip) -> Option<Mannequin> {
-    Mannequin::of(clip, &Landmarks::of(clip))
+    Build::of(clip).mannequin
 }
 
 fn stand(clip: &Clip) -> Stand {
@@ -84,7 +84,7 @@ fn its_joints_are_found_past_collars_and_twists() {
         names.map(String::as_str),
         [
             "chest",
-            "neck",
+            "head",
             "shoulder.l",
             "elbow.l",
             "wrist.l",

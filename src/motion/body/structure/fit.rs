@@ -38,7 +38,7 @@ pub(super) fn carries(skeleton: &Skeleton, upper: JointId, lower: JointId) -> bo
 }
 
 /// How far it is along the bones from a joint to one that hangs on it, whether or not directly.
-fn way(skeleton: &Skeleton, from: JointId, to: JointId) -> Option<f64> {
+pub(in crate::motion::body) fn way(skeleton: &Skeleton, from: JointId, to: JointId) -> Option<f64> {
     let (mut at, mut long) = (to, 0.0);
     while at != from {
         long += skeleton.joints[at.0].offset.length();

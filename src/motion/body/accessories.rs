@@ -1,0 +1,252 @@
+//! What hangs on a body and is none of it (付属物): hair and cloth, props, helpers of a rig, joints that never move.
+//!
+//! What lies on the way to the end of a limb that names give is the body. Of all else a name may say what it is, and no
+//! bone is as long as the way to a knee pole. Where all limbs are known, more is: what reaches further than a hand or a foot
+//! is no part of a body, what goes its own way is a control, and what never moves is a point on a bone.
+
+use crate::motion::Skeleton;
+use crate::motion::body::limbs::NamedLimbs;
+use crate::motion::body::members::Role;
+use crate::motion::body::side::words;
+use crate::motion::landmarks::above;
+
+/// How far from the line of a limb a joint may be that belongs to the body, in heights of the body: a hand is .11 long and a
+/// foot .15.
+const REACH: f64 = 0.22;
+
+/// The longest bone of a body, as a share of all its bones: a thigh has a tenth.
+const LONGEST: f64 = 0.25;
+
+/// Joints of a body at the least that its longest bone is looked for in.
+const FEWEST: usize = 8;
+
+/// The largest share of a body's joints that hang on something which is none of it.
+const MOST: usize = 3;
+
+/// Words of names, and letters of those that are not parted into words.
+type Names = (Role, &'static [&'static str], &'static [&'static str]);
+
+const NAMES: [Names; 3] = [
+    (
+        Role::Helper,
+        &[
+            "ik",
+            "pole",
+            "ctrl",
+            "control",
+            "controller",
+            "target",
+            "effector",
+            "helper",
+            "dummy",
+            "null",
+            "locator",
+            "weight",
+            "aim",
+            "goal",
+            "socket",
+            "attach",
+        ],
+        &["ＩＫ", "操作", "親"],
+    ),
+    (
+        Role::Hair,
+        &[
+            "hair", "ponytail", "twintail", "tail", "bang", "bangs", "braid", "skirt", "cloth",
+            "clothes", "cape", "cloak", "coat", "ribbon", "scarf", "tie", "sleeve", "ear", "ears",
+            "breast", "bust", "jiggle", "spring", "physics",
+        ],
+        &["髪", "スカート", "袖", "胸", "ネクタイ", "リボン", "耳", "尻尾"],
+    ),
+    (
+        Role::Prop,
+        &[
+            "prop", "weapon", "sword", "gun", "rifle", "bow", "racket", "bat", "ball", "camera",
+            "light", "shield",
+        ],
+        &["剣", "刀", "武器"],
+    ),
+];
+
+/// Words for what hangs on hands, feet, heads and backs and is a part of them.
+const PARTS: [&str; 15] = [
+    "toe", "toes", "finger", "fingers", "thumb", "index", "mid", "middle", "ring", "pinky",
+    "little", "eye", "eyes", "jaw", "wing",
+];
+
+/// What is known of the joints of a rig.
+pub(super) struct Rig<'a> {
+    pub(super) skeleton: &'a Skeleton,
+    pub(super) limbs: &'a NamedLimbs,
+    /// Of each joint whether it moves on what carries it.
+    pub(super) moves: &'a [bool],
+    /// Of each joint whether it leaves its place there.
+    pub(super) travels: &'a [bool],
+}
+
+/// What is added up over the joints of a rig.
+struct Sums {
+    /// On the way to the end of a limb or to the head.
+    is_core: Vec<bool>,
+    /// How far each joint is from there along the bones.
+    far: Vec<f64>,
+    /// The longest way from each joint outward.
+    reach: Vec<f64>,
+    /// Whether it or what hangs on it moves.
+    moves: Vec<bool>,
+    /// Whether it or what hangs on it is known by its name: a finger, a toe.
+    is_part: Vec<bool>,
+    /// How many joints hang on it, and how long their bones are together, itself among them.
+    joints: Vec<usize>,
+    bones: Vec<f64>,
+    /// The first joint of its tree.
+    root: Vec<usize>,
+}
+
+impl Rig<'_> {
+    /// Takes from the body what is none of it.
+    pub(super) fn strip(&self, roles: &mut [Role]) {
+        let sums = self.sums(roles);
+        for (joint, data) in self.skeleton.iter() {
+            let Some(parent) = data.parent.filter(|parent| roles[parent.0] != Role::Guide) else {
+                continue;
+            };
+            if roles[joint.0] == Role::Body && !sums.is_core[joint.0] {
+                let hangs_on = roles[parent.0];
+                roles[joint.0] = match hangs_on {
+                    Role::Body => self.role(&sums, joint.0).unwrap_or(Role::Body),
+                    other => other,
+                };
+            }
+        }
+    }
+
+    /// What a joint is that hangs on the body, where it is none of it.
+    fn role(&self, sums: &Sums, joint: usize) -> Option<Role> {
+        let root = sums.root[joint];
+        if MOST * sums.joints[joint] > sums.joints[root] {
+            return None;
+        }
+        let bone = self.skeleton.joints[joint].offset.length();
+        let others = sums.bones[root] - sums.bones[joint];
+        let is_long = sums.joints[root] >= FEWEST && bone > LONGEST * others;
+        if self.limbs.is_named(joint) {
+            return None;
+        }
+        role_of(&self.skeleton.joints[joint].name)
+            .or_else(|| is_long.then_some(Role::Helper))
+            .or_else(|| {
+                let height = self.limbs.height(self.skeleton)?;
+                match () {
+                    () if sums.is_part[joint] => None,
+                    () if sums.far[joint] + sums.reach[joint] > REACH * height => Some(Role::Far),
+                    () if self.travels[joint] => Some(Role::Helper),
+                    () if !sums.moves[joint] => Some(Role::Still),
+                    () => None,
+                }
+            })
+    }
+
+    fn sums(&self, roles: &[Role]) -> Sums {
+        let skeleton = self.skeleton;
+        let count = skeleton.len();
+        let mut is_core = vec![false; count];
+        for end in self.limbs.joints() {
+            above(skeleton, end).for_each(|joint| is_core[joint] = true);
+        }
+        let bone = |joint: usize| skeleton.joints[joint].offset.length();
+        let parent = |joint: usize| {
+            let parent = skeleton.joints[joint].parent.map(|parent| parent.0);
+            parent.filter(|parent| roles[*parent] != Role::Guide)
+        };
+        let (mut far, mut root) = (vec![0.0; count], Vec::with_capacity(count));
+        for joint in 0..count {
+            root.push(parent(joint).map_or(joint, |parent| root[parent]));
+            if let Some(parent) = parent(joint).filter(|_| !is_core[joint]) {
+                far[joint] = far[parent] + bone(joint);
+            }
+        }
+        // The first of a finger; what is called by it further out may be a point at its end.
+        let mut is_known = vec![false; count];
+        let mut is_part = Vec::with_capacity(count);
+        for (joint, data) in skeleton.iter() {
+            let is_further = parent(joint.0).is_some_and(|parent| is_known[parent]);
+            let is_first = !is_further && !is_core[joint.0] && is_part_name(&data.name);
+            is_known[joint.0] = is_further || is_first;
+            is_part.push(is_first || self.limbs.is_named(joint.0));
+        }
+        let (mut reach, mut moves) = (vec![0.0; count], self.moves.to_vec());
+        let (mut joints, mut bones) = (vec![1; count], vec![0.0; count]);
+        for joint in (0..count).rev() {
+            let Some(parent) = parent(joint) else { continue };
+            bones[joint] += bone(joint);
+            reach[parent] = f64::max(reach[parent], reach[joint] + bone(joint));
+            moves[parent] |= moves[joint];
+            is_part[parent] |= is_part[joint];
+            joints[parent] += joints[joint];
+            bones[parent] += bones[joint];
+        }
+        Sums { is_core, far, reach, moves, is_part, joints, bones, root }
+    }
+}
+
+/// What a name says that something is.
+fn role_of(name: &str) -> Option<Role> {
+    let own = words(name);
+    let is = |(_, words, letters): &&Names| {
+        own.iter().any(|word| {
+            words.contains(&word.trim_end_matches(|digit: char| digit.is_ascii_digit()))
+        }) || letters.iter().any(|letters| name.contains(letters))
+    };
+    NAMES.iter().find(is).map(|(role, ..)| *role)
+}
+
+/// Whether a name says that something is a part of a hand, a foot or a head.
+fn is_part_name(name: &str) -> bool {
+    let is = |word: &String| {
+        PARTS.iter().any(|part| {
+            word.trim_start_matches(['l', 'r']).starts_with(part) || word.starts_with(part)
+        })
+    };
+    words(name).iter().any(is)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_says_what_is_no_body() {
+        for (name, role) in [
+            ("Hair_L_0", Some(Role::Hair)),
+            ("J_Sec_Hair1_01", Some(Role::Hair)),
+            ("ik_foot_Left", Some(Role::Helper)),
+            ("KneePole", Some(Role::Helper)),
+            ("ClothWeight", Some(Role::Helper)),
+            ("左足ＩＫ", Some(Role::Helper)),
+            ("前髪1", Some(Role::Hair)),
+            ("Sword", Some(Role::Prop)),
+            ("LeftForeArm", None),
+            ("heart", None),
+            ("Tailor", None),
+            ("Spine", None),
+            ("LeftEar", Some(Role::Hair)),
+        ] {
+            assert_eq!(role_of(name), role, "{name}");
+        }
+        for name in [
+            "LeftToeBase",
+            "lBigToe",
+            "LeftFingerBase",
+            "LThumb",
+            "LeftHandIndex4",
+            "leftEye",
+            "l_toes",
+        ] {
+            assert!(is_part_name(name), "{name}");
+        }
+        for name in ["Hips", "Sword", "LeftHand", "Neck"] {
+            assert!(!is_part_name(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The limbs that names give (名前による手足), where they make whole ones.
+
+use std::sync::LazyLock;
+
+use super::names::BoneMap;
+use super::structure::fit::way;
+use crate::motion::body::mannequin::LEG;
+use crate::motion::body::names::bones::Side;
+use crate::motion::landmarks::above;
+use crate::motion::{JointId, Skeleton};
+
+/// The table that comes with the program.
+static NAMES: LazyLock<BoneMap> = LazyLock::new(BoneMap::default);
+
+/// How alike the two bones of a limb are at the least: a forearm may have half the length of an upper arm, while names that
+/// stand a joint too far out make a foot the second bone of a leg.
+const EVEN: f64 = 1.0 / 3.0;
+
+/// How much longer than the other a limb may be: an arm that is called a leg is half as long as a leg.
+const ALIKE: f64 = 1.4;
+
+/// An arm or a leg: shoulder, elbow and wrist, or hip, knee and ankle.
+pub(crate) type Limb = [usize; 3];
+
+/// What names say of a body.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct NamedLimbs {
+    /// Left and right.
+    pub(crate) arms: [Option<Limb>; 2],
+    /// Left and right.
+    pub(crate) legs: [Option<Limb>; 2],
+    pub(crate) head: Option<usize>,
+    /// Of each joint whether the dialect names it.
+    is_named: Vec<bool>,
+}
+
+impl NamedLimbs {
+    /// Of the dialect that names most of a skeleton's joints the limbs that are whole: their joints hang on one another,
+    /// their two bones are more or less alike, and so are both sides.
+    pub(crate) fn of(skeleton: &Skeleton) -> Self {
+        let found = NAMES.find(skeleton);
+        let named = |bone: &str| found.joints[NAMES.model.find(bone)?].first().copied();
+        let limbs = |bones: [&str; 3]| {
+            let limb = |side: Side| whole(skeleton, bones.map(|bone| named(&side.named(bone))));
+            alike(Side::BOTH.map(limb))
+        };
+        Self {
+            arms: limbs(["腕", "ひじ", "手首"]),
+            legs: limbs(["足", "ひざ", "足首"]),
+            head: named("頭").map(|head| head.0),
+            is_named: is_named(skeleton, &found.joints),
+        }
+    }
+
+    /// Whether a joint belongs to a limb or the head that names give: it hangs there, or leads to the head.
+    pub(super) fn take(&self, skeleton: &Skeleton, joint: usize) -> bool {
+        let tops =
+            || self.arms.iter().chain(&self.legs).flatten().map(|limb| limb[0]).chain(self.head);
+        let hangs = above(skeleton, joint).any(|above| tops().any(|top| top == above));
+        hangs || self.head.is_some_and(|head| above(skeleton, head).any(|above| above == joint))
+    }
+
+    /// Shoulder, elbow and wrist, or hip, knee and ankle, of the limb that ends at a joint.
+    pub(super) fn ending_at(&self, end: usize) -> Option<Limb> {
+        let mut limbs = self.arms.iter().chain(&self.legs).flatten().copied();
+        limbs.find(|limb| limb[2] == end)
+    }
+
+    /// Whether a table of names has a joint.
+    pub(super) fn is_named(&self, joint: usize) -> bool {
+        self.is_named[joint]
+    }
+
+    /// The height of a person with these legs, where head and all limbs are known.
+    pub(super) fn height(&self, skeleton: &Skeleton) -> Option<f64> {
+        let [Some(left), Some(right)] = self.legs else { return None };
+        let is_whole = self.arms.iter().all(Option::is_some) && self.head.is_some();
+        let length = |[hip, _, ankle]: Limb| way(skeleton, JointId(hip), JointId(ankle));
+        let mean = f64::midpoint(length(left)?, length(right)?);
+        is_whole.then_some(mean / LEG)
+    }
+
+    /// Their joints and the head.
+    pub(crate) fn joints(&self) -> impl Iterator<Item = usize> {
+        let limbs = self.arms.into_iter().chain(self.legs).flatten().flatten();
+        limbs.chain(self.head)
+    }
+}
+
+fn is_named(skeleton: &Skeleton, joints: &[Vec<JointId>]) -> Vec<bool> {
+    let mut is_named = vec![false; skeleton.len()];
+    joints.iter().flatten().for_each(|joint| is_named[joint.0] = true);
+    is_named
+}
+
+/// A limb and its length, where its joints can be one.
+fn whole(skeleton: &Skeleton, limb: [Option<JointId>; 3]) -> Option<(Limb, f64)> {
+    let [upper, middle, lower] = limb;
+    let (upper, middle, lower) = (upper?, middle?, lower?);
+    let [first, second] = [way(skeleton, upper, middle)?, way(skeleton, middle, lower)?];
+    let is_even = first.min(second) >= EVEN * first.max(second) && first > 0.0;
+    is_even.then_some(([upper.0, middle.0, lower.0], first + second))
+}
+
+/// Both sides, where their lengths are of one kind of limb.
+fn alike(limbs: [Option<(Limb, f64)>; 2]) -> [Option<Limb>; 2] {
+    if let [Some((_, left)), Some((_, right))] = limbs
+        && left.max(right) > ALIKE * left.min(right)
+    {
+        return [None; 2];
+    }
+    limbs.map(|limb| limb.map(|(limb, _)| limb))
+}

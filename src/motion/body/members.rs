@@ -1,0 +1,177 @@
+//! Which joints are the body (体をなす関節): rigs also have references that stay where they are, and what hangs on those.
+//!
+//! All that asks for the lengths of bones, for limbs or for ends asks the body alone.
+
+use glam::DVec3;
+
+use crate::motion::body::accessories::Rig;
+use crate::motion::body::limbs::NamedLimbs;
+use crate::motion::landmarks::{above, body_root};
+use crate::motion::{Channel, Clip, Joint, Skeleton, local_translation};
+
+/// Turns of fewer degrees are none: single floats and rounded decimals have such noise.
+const LEAST_TURN: f64 = 0.05;
+
+/// Ways of a smaller share of all bones are none, likewise.
+const LEAST_WAY: f64 = 1e-4;
+
+/// What a joint is to the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// A part of it.
+    Body,
+    /// Carries the body and never moves, as the reference of a scene.
+    Guide,
+    /// Never moves: it hangs on nothing that does, or is a point on a bone.
+    Still,
+    /// A helper or a control of the rig.
+    Helper,
+    /// Hair, cloth, a tail.
+    Hair,
+    /// Something that is held or worn.
+    Prop,
+    /// Reaches too far from the body to be a part of it.
+    Far,
+}
+
+/// The joints of a clip that are the body.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Members {
+    roles: Vec<Role>,
+    /// The same joints, where those that are no part of the body stand for themselves: without length, parent and tips. A
+    /// root of the body has no parent.
+    skeleton: Skeleton,
+}
+
+impl Members {
+    /// A tree begins where all of it hangs that moves, and the limbs that names give. Trees in which nothing moves are none
+    /// of a body beside one that does.
+    pub(super) fn of(clip: &Clip, skeleton: &Skeleton, limbs: &NamedLimbs) -> Self {
+        let [moves, travels] = moving(clip, skeleton);
+        let begins = if moves.contains(&true) {
+            tops(skeleton, &moves, limbs)
+        } else {
+            skeleton.joints.iter().map(|joint| joint.parent.is_none()).collect()
+        };
+        let mut roles = below(skeleton, &begins);
+        Rig { skeleton, limbs, moves: &moves, travels: &travels }.strip(&mut roles);
+        Self { skeleton: alone(skeleton, &roles), roles }
+    }
+
+    /// Every joint.
+    pub(crate) fn all(skeleton: &Skeleton) -> Self {
+        Self { roles: vec![Role::Body; skeleton.len()], skeleton: skeleton.clone() }
+    }
+
+    /// Whether every joint is a part of the body.
+    pub(crate) fn are_all(&self) -> bool {
+        self.roles.iter().all(|role| *role == Role::Body)
+    }
+
+    /// The body alone.
+    pub(crate) fn skeleton(&self) -> &Skeleton {
+        &self.skeleton
+    }
+
+    /// Whether a joint is a part of the body.
+    pub(crate) fn has(&self, joint: usize) -> bool {
+        self.roles[joint] == Role::Body
+    }
+
+    /// The joint at which most of it begins.
+    pub(crate) fn root(&self) -> usize {
+        body_root(&self.skeleton).unwrap_or(0)
+    }
+
+    /// The size of the box round its joints; `positions` begin with those of all joints.
+    pub(crate) fn extent(&self, positions: &[DVec3]) -> DVec3 {
+        let joints = || positions.iter().zip(&self.roles);
+        let own = || joints().filter(|(_, role)| **role == Role::Body).map(|(place, _)| *place);
+        let corners = own().reduce(DVec3::min).zip(own().reduce(DVec3::max));
+        corners.map_or(DVec3::ZERO, |(low, high)| high - low)
+    }
+}
+
+/// The roles of bodies that begin at some joints.
+fn below(skeleton: &Skeleton, begins: &[bool]) -> Vec<Role> {
+    let mut roles = vec![Role::Still; skeleton.len()];
+    for (joint, data) in skeleton.iter() {
+        let is_carried = data.parent.is_some_and(|parent| roles[parent.0] == Role::Body);
+        if begins[joint.0] || is_carried {
+            roles[joint.0] = Role::Body;
+        }
+    }
+    for (joint, _) in skeleton.iter().filter(|(joint, _)| begins[joint.0]) {
+        above(skeleton, joint.0).skip(1).for_each(|guide| roles[guide] = Role::Guide);
+    }
+    roles
+}
+
+/// The same joints, where those of another role than the body's stand for themselves.
+fn alone(skeleton: &Skeleton, roles: &[Role]) -> Skeleton {
+    let mut skeleton = skeleton.clone();
+    for (joint, role) in skeleton.joints.iter_mut().zip(roles) {
+        joint.parent = joint.parent.filter(|parent| roles[parent.0] == Role::Body);
+        if *role != Role::Body {
+            (joint.parent, joint.offset) = (None, DVec3::ZERO);
+            joint.end_sites.clear();
+        }
+    }
+    skeleton
+}
+
+/// The joints with the bones that lead to them: some files keep these in position channels, with offsets of nothing.
+pub(super) fn bones(clip: &Clip) -> Skeleton {
+    let mut skeleton = clip.skeleton().clone();
+    if let Some(first) = clip.rows().next() {
+        for joint in skeleton.joints.iter_mut().filter(|joint| joint.parent.is_some()) {
+            joint.offset = local_translation(joint, first);
+        }
+    }
+    skeleton
+}
+
+/// Which joints move on what carries them, and which leave their place there.
+fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
+    let ranges = clip.ranges();
+    let size: f64 = skeleton.joints.iter().map(|joint| joint.offset.length()).sum();
+    let any = |joint: &Joint, has: fn(&Channel) -> bool| {
+        let channels = joint.channels.iter().zip(&ranges[joint.first_channel..]);
+        let is_more = |(channel, range): (&Channel, &f64)| match channel {
+            Channel::Rotation(_) => *range > LEAST_TURN,
+            Channel::Position(_) => *range > LEAST_WAY * size,
+        };
+        channels.filter(|(channel, _)| has(channel)).any(is_more)
+    };
+    let joints = || skeleton.joints.iter();
+    let travels =
+        joints().map(|joint| any(joint, |channel| matches!(channel, Channel::Position(_))));
+    [joints().map(|joint| any(joint, |_| true)).collect(), travels.collect()]
+}
+
+/// In each tree that moves the joint at which the body begins.
+fn tops(skeleton: &Skeleton, moves: &[bool], limbs: &NamedLimbs) -> Vec<bool> {
+    let mut wanted = moves.to_vec();
+    limbs.joints().for_each(|joint| wanted[joint] = true);
+    let mut below: Vec<usize> = wanted.iter().map(|wanted| usize::from(*wanted)).collect();
+    let mut is_moving = moves.to_vec();
+    for (joint, data) in skeleton.iter().rev() {
+        if let Some(parent) = data.parent {
+            below[parent.0] += below[joint.0];
+            is_moving[parent.0] |= is_moving[joint.0];
+        }
+    }
+    let mut of_tree = Vec::with_capacity(below.len());
+    let mut tops = vec![false; below.len()];
+    // Parents come first: the last that carries all of its tree is the lowest.
+    let mut lowest = vec![None; below.len()];
+    for (joint, data) in skeleton.iter() {
+        let root = data.parent.map_or(joint.0, |parent| of_tree[parent.0]);
+        of_tree.push(root);
+        if below[joint.0] == below[root] && is_moving[root] {
+            lowest[root] = Some(joint.0);
+        }
+    }
+    lowest.into_iter().flatten().for_each(|top| tops[top] = true);
+    tops
+}

@@ -1,0 +1,183 @@
+//! Who moves is who counts: what a rig has besides the body changes no key, wherever it stands.
+
+use genga::edits::Edits;
+use genga::keys::Key;
+use genga::motion::{Axis, Channel, Clip, Joint, JointId, Skeleton};
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use glam::DVec3;
+
+use crate::cases::is_full;
+use crate::clips;
+
+/// The keys of the default recipe.
+fn keys(clip: &Clip) -> Vec<Key> {
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    engine.find_keys(&Recipe::default(), &Edits::default()).unwrap().keys.keys.clone()
+}
+
+/// Holds each clip against what is made of it: the same keys, of the same price, for the same reason, by the same joints.
+fn keeps_every_key(changes: impl Fn(&Clip) -> Clip) {
+    let of = |name: &str, clip: &Clip| {
+        let other = changes(clip);
+        let (own, others) = (keys(clip), keys(&other));
+        assert!(!own.is_empty(), "{name}");
+        let frames = |keys: &[Key]| keys.iter().map(|key| key.frame.0).collect::<Vec<_>>();
+        assert_eq!(frames(&own), frames(&others), "{name}");
+        for (one, two) in own.iter().zip(&others) {
+            let is_price = one.price == two.price || (one.price - two.price).abs() < 1e-6;
+            assert!(is_price && one.origin == two.origin, "{name}: {one:?} {two:?}");
+        }
+    };
+    for sample in ["kick", "pitch", "swing", "tennis", "kuroda-pitch"] {
+        of(sample, &clips::sample(&format!("{sample}.bvh")));
+    }
+    clips::with_all(|paths| {
+        paths.iter().for_each(|path| of(&clips::name(path), &clips::read(path)))
+    });
+}
+
+/// A clip with joints before all others, on the last of which hangs what had no parent.
+fn on(clip: &Clip, carriers: &[(&str, DVec3)]) -> Clip {
+    let count = carriers.len();
+    let joint = |(at, (name, offset)): (usize, &(&str, DVec3))| Joint {
+        name: (*name).into(),
+        parent: at.checked_sub(1).map(JointId),
+        offset: *offset,
+        channels: vec![Channel::Rotation(Axis::Y)],
+        first_channel: at,
+        end_sites: vec![],
+    };
+    let own = clip.skeleton().joints.iter().map(|joint| Joint {
+        parent: Some(joint.parent.map_or(JointId(count - 1), |parent| JointId(parent.0 + count))),
+        first_channel: joint.first_channel + count,
+        ..joint.clone()
+    });
+    let joints = carriers.iter().enumerate().map(joint).chain(own).collect();
+    let zeros = vec![0.0; count];
+    let rows = clip.rows().flat_map(|row| zeros.iter().chain(row).copied()).collect();
+    Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+/// The whole take elsewhere.
+fn moved(clip: &Clip, way: DVec3) -> Clip {
+    let mut rows: Vec<f64> = clip.rows().flatten().copied().collect();
+    let width = clip.skeleton().channels();
+    for joint in clip.skeleton().joints.iter().filter(|joint| joint.parent.is_none()) {
+        for (at, channel) in joint.channels.iter().enumerate() {
+            if let Channel::Position(axis) = channel {
+                rows.chunks_exact_mut(width)
+                    .for_each(|row| row[joint.first_channel + at] += way[*axis as usize]);
+            }
+        }
+    }
+    Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+#[test]
+fn a_reference_that_stays_changes_no_key() {
+    keeps_every_key(|clip| on(clip, &[("Reference", DVec3::ZERO)]));
+}
+
+#[test]
+fn a_reference_far_from_the_take_changes_no_key() {
+    let far = DVec3::new(700.0, 0.0, -900.0);
+    keeps_every_key(|clip| moved(&on(clip, &[("world", DVec3::X), ("Reference", DVec3::Z)]), far));
+}
+
+#[test]
+fn a_take_that_begins_elsewhere_has_the_same_keys() {
+    keeps_every_key(|clip| moved(clip, DVec3::new(-250.0, 0.0, 400.0)));
+}
+
+/// A clip with a chain of joints that hangs on one of its own, each turned by some degrees at a frame.
+fn hung(
+    clip: &Clip,
+    on: JointId,
+    chain: &[(String, DVec3)],
+    turned: impl Fn(usize, usize) -> f64,
+) -> Clip {
+    let mut joints = clip.skeleton().joints.clone();
+    let width = clip.skeleton().channels();
+    for (at, (name, offset)) in chain.iter().enumerate() {
+        let parent = if at == 0 { on } else { JointId(joints.len() - 1) };
+        joints.push(Joint {
+            name: name.clone(),
+            parent: Some(parent),
+            offset: *offset,
+            channels: vec![Channel::Rotation(Axis::X)],
+            first_channel: width + at,
+            end_sites: vec![],
+        });
+    }
+    let mut rows = Vec::with_capacity(clip.len() * (width + chain.len()));
+    for (frame, row) in clip.rows().enumerate() {
+        rows.extend_from_slice(row);
+        rows.extend((0..chain.len()).map(|at| turned(at, frame)));
+    }
+    Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+/// The height of a body, roughly.
+fn height(clip: &Clip) -> f64 {
+    genga::motion::Landmarks::of(clip).height
+}
+
+/// Joints on which something is hung: a few, or in the full check all.
+fn places(clip: &Clip) -> Vec<JointId> {
+    let every = if is_full() { 1 } else { 1 + clip.skeleton().len() / 4 };
+    (0..clip.skeleton().len()).step_by(every).map(JointId).collect()
+}
+
+#[test]
+fn static_joints_at_all_ends_change_no_key() {
+    keeps_every_key(|clip| {
+        let mut is_end = vec![true; clip.skeleton().len()];
+        clip.skeleton()
+            .joints
+            .iter()
+            .filter_map(|joint| joint.parent)
+            .for_each(|parent| is_end[parent.0] = false);
+        let ends: Vec<usize> = (0..is_end.len()).filter(|joint| is_end[*joint]).collect();
+        ends.into_iter().fold(clip.clone(), |clip, end| {
+            let name = format!("{}_End", clip.skeleton().joints[end].name);
+            let tip = 0.05 * height(&clip) * DVec3::new(0.6, 0.8, 0.0);
+            hung(&clip, JointId(end), &[(name, tip)], |_, _| 0.0)
+        })
+    });
+}
+
+/// Everything that is hung on some joint of a clip, one after the other.
+fn hanging_changes_no_key(hang: impl Fn(&Clip, JointId) -> Clip) {
+    keeps_every_key(|clip| {
+        places(clip).into_iter().fold(clip.clone(), |clip, place| hang(&clip, place))
+    });
+}
+
+#[test]
+fn hair_changes_no_key() {
+    hanging_changes_no_key(|clip, place| {
+        let strand = 0.07 * height(clip) * DVec3::new(0.2, -0.9, -0.3);
+        let chain: Vec<_> = (0..7).map(|at| (format!("Hair_{}_{at}", place.0), strand)).collect();
+        hung(clip, place, &chain, |at, frame| 8.0 * (0.3 * frame as f64 - 0.6 * at as f64).sin())
+    });
+}
+
+#[test]
+fn a_far_helper_changes_no_key() {
+    hanging_changes_no_key(|clip, place| {
+        let far = 1.8 * height(clip) * DVec3::new(0.1, 0.0, 1.0);
+        hung(clip, place, &[(format!("knee.{}", place.0), far)], |_, frame| {
+            5.0 * (0.2 * frame as f64).sin()
+        })
+    });
+}
+
+#[test]
+fn a_prop_changes_no_key() {
+    hanging_changes_no_key(|clip, place| {
+        let blade = 0.3 * height(clip) * DVec3::new(0.0, 0.5, 0.85);
+        let name = |end: &str| format!("Blade{end}.{}", place.0);
+        hung(clip, place, &[(name("Grip"), 0.1 * blade), (name("Tip"), 0.9 * blade)], |_, _| 0.0)
+    });
+}
