@@ -14,6 +14,7 @@ mod side;
 mod stature;
 pub(crate) mod structure;
 mod t_pose;
+mod upright;
 
 pub(crate) use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
@@ -24,3 +25,4 @@ pub(crate) use members::Members;
 pub(crate) use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
 pub(crate) use t_pose::is_t_pose;
+pub(crate) use upright::By;

@@ -9,7 +9,7 @@ use plotters::style::RGBColor;
 
 use crate::knob::choices;
 use crate::motion::seen::view::{View, extent};
-use crate::motion::{Body, BodySide, Clip, Point as Mark, Poser, Skeleton, Stature};
+use crate::motion::{Body, BodySide, Build, Clip, Point as Mark, Poser, Skeleton};
 use crate::plot::px::Point;
 use crate::plot::style;
 use dummy::Dummy;
@@ -48,6 +48,8 @@ pub(crate) struct Figure {
     guides: Vec<(usize, usize)>,
     /// Of each joint whether what it turns is drawn; all where nothing is said.
     only: Option<Vec<bool>>,
+    /// Joints and tips that a rig has for itself, and that are in no picture: all behind the end are seen.
+    hidden: Vec<bool>,
     /// The body's height in units of the file, as it stands in the first pose.
     pub(crate) height: f64,
 }
@@ -126,23 +128,51 @@ impl Figure {
     pub(crate) fn of(clip: &Clip, body: FigureBody) -> Self {
         let mut standing = Body::new(clip.skeleton());
         standing.place(Poser::of(clip).frame(clip.first()));
-        let up = Stature::of(clip).up.unit();
-        let sticks = || Self::sticks(clip.skeleton(), standing.points(), up);
+        let Build { members, stature, .. } = Build::of(clip);
+        let up = stature.up.unit();
+        let tips = clip.skeleton().iter();
+        let tips = tips.flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
+        let joints = (0..clip.skeleton().len()).chain(tips);
+        let hidden: Vec<bool> = joints.map(|joint| !members.shows(joint)).collect();
+        let sticks = || {
+            let sticks = Self::sticks(clip.skeleton(), standing.points(), up);
+            sticks.without(hidden.clone(), standing.points(), up)
+        };
         let dummy = match body {
             FigureBody::Mannequin => Dummy::of(clip),
             FigureBody::Sticks => None,
         };
         let Some(dummy) = dummy else { return sticks() };
         let guides = bones(clip.skeleton()).filter(|(_, to)| !dummy.covers(*to)).collect();
-        let height = extent(standing.points()).dot(up).abs();
-        Self { form: Form::Mannequin(Box::new(dummy)), guides, only: None, height }
+        let form = Form::Mannequin(Box::new(dummy));
+        let figure = Self { form, guides, only: None, hidden: Vec::new(), height: 0.0 };
+        figure.without(hidden, standing.points(), up)
+    }
+
+    /// The same without some points, as high as the others are in a pose.
+    fn without(mut self, hidden: Vec<bool>, pose: &[DVec3], up: DVec3) -> Self {
+        self.hidden = hidden;
+        let shown: Vec<DVec3> = self.shown(pose).copied().collect();
+        self.height = extent(&shown).dot(up).abs();
+        let is_shown = |point: &usize| !self.hidden[*point];
+        self.guides.retain(|(from, to)| is_shown(from) && is_shown(to));
+        if let Form::Sticks(sticks) = &mut self.form {
+            sticks.bones.retain(|bone| is_shown(&bone.from) && is_shown(&bone.to));
+        }
+        self
+    }
+
+    /// The points of a pose that are in a picture.
+    pub(crate) fn shown<'a>(&'a self, pose: &'a [DVec3]) -> impl Iterator<Item = &'a DVec3> {
+        let hidden = self.hidden.iter().copied().chain(std::iter::repeat(false));
+        pose.iter().zip(hidden).filter(|(_, hidden)| !hidden).map(|(point, _)| point)
     }
 
     /// Sticks for a skeleton that stands in a first pose, of which `up` is up.
     pub(crate) fn sticks(skeleton: &Skeleton, first: &[DVec3], up: DVec3) -> Self {
         let height = extent(first).dot(up).abs();
         let (sticks, guides) = Sticks::of(skeleton, first, height);
-        Self { form: Form::Sticks(sticks), guides, only: None, height }
+        Self { form: Form::Sticks(sticks), guides, only: None, hidden: Vec::new(), height }
     }
 
     /// The same figure, of which only what some joints turn is drawn.

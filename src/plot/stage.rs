@@ -29,11 +29,11 @@ impl Bounds {
             top: f64::NEG_INFINITY,
         };
         for pose in poses {
-            let (left, right) = view.sides(pose);
+            let (left, right) = view.sides(figure.shown(pose));
             let head = figure.reach(pose);
             bounds.left = bounds.left.min(left - head);
             bounds.right = bounds.right.max(right + head);
-            for point in pose {
+            for point in figure.shown(pose) {
                 let up = view.see(*point).1;
                 bounds.floor = bounds.floor.min(up);
                 bounds.top = bounds.top.max(up + head);
@@ -94,7 +94,7 @@ impl Stage {
 
     /// A pose with its middle over a point on the floor, wherever it is in the world.
     pub(crate) fn draw_over(&self, pose: &[DVec3], at: Point) -> Drawn {
-        let (left, right) = self.view.sides(pose);
+        let (left, right) = self.view.sides(self.figure.shown(pose));
         let origin = (0.5 * (left + right), self.origin.1);
         Self { origin, at, ..self.clone() }.draw(pose)
     }

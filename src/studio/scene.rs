@@ -48,7 +48,9 @@ impl Scene {
         let stature = Stature::of(clip);
         let view = |camera: Camera| seen_by(camera, clip, &poses);
         let up = stature.up.unit();
-        let floor = poses.iter().flatten().map(|point| point.dot(up)).fold(f64::INFINITY, f64::min);
+        let reached: Vec<DVec3> =
+            poses.iter().flat_map(|pose| figure.shown(pose)).copied().collect();
+        let floor = reached.iter().map(|point| point.dot(up)).fold(f64::INFINITY, f64::min);
         let cell = CELL / stature.metres;
         Self {
             figure,
@@ -59,7 +61,7 @@ impl Scene {
             front: view(Camera::Front),
             side: view(Camera::Side),
             three_quarter: view(Camera::ThreeQuarter),
-            reached: poses.concat(),
+            reached,
         }
     }
 

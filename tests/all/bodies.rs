@@ -1,11 +1,16 @@
 //! Who moves is who counts: what a rig has besides the body changes no key, wherever it stands.
 
+use std::f64::consts::FRAC_PI_2;
+
 use genga::edits::Edits;
 use genga::keys::Key;
-use genga::motion::{Axis, Channel, Clip, Joint, JointId, Skeleton};
+use genga::motion::{
+    Axis, Channel, Clip, Joint, JointId, Skeleton, Stature, local_rotation, local_translation,
+    set_local_rotation,
+};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::cases::is_full;
 use crate::clips;
@@ -180,4 +185,43 @@ fn a_prop_changes_no_key() {
         let name = |end: &str| format!("Blade{end}.{}", place.0);
         hung(clip, place, &[(name("Grip"), 0.1 * blade), (name("Tip"), 0.9 * blade)], |_, _| 0.0)
     });
+}
+
+/// A clip whose root is turned in the world, as where a program has written another axis up there alone.
+fn turned(clip: &Clip, turn: DQuat) -> Clip {
+    let width = clip.skeleton().channels();
+    let mut rows: Vec<f64> = clip.rows().flatten().copied().collect();
+    let roots = clip.skeleton().joints.iter().filter(|joint| joint.parent.is_none());
+    for (joint, row) in roots.flat_map(|joint| (0..clip.len()).map(move |row| (joint, row))) {
+        let row = &mut rows[row * width..(row + 1) * width];
+        let (place, own) = (local_translation(joint, row), local_rotation(joint, row));
+        set_local_rotation(joint, turn * own, row);
+        let place = turn * place;
+        for (at, channel) in joint.channels.iter().enumerate() {
+            if let Channel::Position(axis) = channel {
+                row[joint.first_channel + at] = place[*axis as usize];
+            }
+        }
+    }
+    Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+#[test]
+fn z_up_in_the_root_alone_changes_no_key() {
+    keeps_every_key(|clip| {
+        let turned = turned(clip, DQuat::from_rotation_x(FRAC_PI_2));
+        assert_eq!(Stature::of(&turned).up, Axis::Z);
+        turned
+    });
+}
+
+#[test]
+fn a_turn_about_the_vertical_changes_no_key() {
+    keeps_every_key(|clip| turned(clip, DQuat::from_rotation_y(2.1)));
+}
+
+#[test]
+fn somebody_who_lies_all_the_time_keeps_the_axis_of_the_rest_pose() {
+    let lying = turned(&clips::sample("kick.bvh"), DQuat::from_rotation_z(FRAC_PI_2));
+    assert_eq!(Stature::of(&lying).up, Axis::Y);
 }

@@ -1,8 +1,11 @@
 //! The build of a body (体つき): which joints are the body, its landmarks, and the mannequin that fits it.
 
+use crate::motion::body::landmarks::Looks;
 use crate::motion::body::limbs::NamedLimbs;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::body::members::{self, Members};
+use crate::motion::body::stature;
+use crate::motion::body::upright::{self, By};
 use crate::motion::{Clip, Landmarks, Stature};
 
 /// What a body is like, looked for once: every stage that asks for limbs is given it.
@@ -10,6 +13,8 @@ use crate::motion::{Clip, Landmarks, Stature};
 pub(crate) struct Build {
     pub(crate) members: Members,
     pub(crate) stature: Stature,
+    /// By what it is known which way is up.
+    pub(crate) up_by: By,
     pub(crate) landmarks: Landmarks,
     /// None for a body without head, two arms and two legs.
     pub(crate) mannequin: Option<Mannequin>,
@@ -30,9 +35,12 @@ impl Build {
     }
 
     fn with(clip: &Clip, members: Members, limbs: &NamedLimbs) -> Self {
-        let stature = Stature::of_members(clip, &members);
-        let landmarks = Landmarks::of_members(clip, &members, limbs, stature.up);
+        let looks = Looks::at(clip, &members);
+        let (size, rest) = stature::seen(clip, &members);
+        let (up, up_by) = upright::up(clip, &members, limbs, &looks, rest);
+        let landmarks = Landmarks::of_members(&looks, &members, limbs, up);
         let mannequin = Mannequin::of(members.skeleton(), &landmarks, limbs);
-        Self { members, stature, landmarks, mannequin }
+        let stature = Stature::of_size(clip, size, up);
+        Self { members, stature, up_by, landmarks, mannequin }
     }
 }

@@ -77,9 +77,13 @@ impl Landmarks {
     }
 
     /// The same of the joints that are the body: limbs that names give, and for the others its shape.
-    pub(super) fn of_members(clip: &Clip, members: &Members, limbs: &NamedLimbs, up: Axis) -> Self {
+    pub(super) fn of_members(
+        looks: &Looks,
+        members: &Members,
+        limbs: &NamedLimbs,
+        up: Axis,
+    ) -> Self {
         let skeleton = members.skeleton();
-        let looks = Looks::at(clip, members, up.unit());
         let is_known = |joint: usize| limbs.take(skeleton, joint);
         let ends = ends(skeleton, looks.height).into_iter().filter(|end| !is_known(*end));
         let mut ends: Vec<usize> = ends.collect();
@@ -91,10 +95,12 @@ impl Landmarks {
         if ankles.len() + wrists.len() + usize::from(limbs.head.is_some()) + ends.len() < 3 {
             return landmarks;
         }
-        ends.sort_by(|a, b| looks.levels[*a].total_cmp(&looks.levels[*b]));
+        let level = |joint: usize| looks.means[joint].dot(up.unit());
+        ends.sort_by(|a, b| level(*a).total_cmp(&level(*b)));
         ankles.extend(ends.drain(..(2 - ankles.len()).min(ends.len())));
         ankles.sort_unstable();
-        landmarks.feet = ankles.into_iter().map(|ankle| looks.foot(skeleton, ankle)).collect();
+        landmarks.feet =
+            ankles.into_iter().map(|ankle| looks.foot(skeleton, ankle, up.unit())).collect();
         let lengths = lengths(skeleton);
         let mut longest = ends.clone();
         longest.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
@@ -132,51 +138,79 @@ pub fn paths(clip: &Clip, clock: Clock, points: &[Point]) -> Vec<Vec<DVec3>> {
     paths
 }
 
-/// How high each joint and tip stands in the mean over a clip, and how tall the body is.
-struct Looks {
+/// Where each joint and tip stands in the mean over a clip, and how tall the body is.
+pub(super) struct Looks {
     /// One a joint.
-    levels: Vec<f64>,
+    means: Vec<DVec3>,
     /// One an End Site, in the order of the file.
-    tips: Vec<(Point, f64)>,
+    tips: Vec<(Point, DVec3)>,
     height: f64,
 }
 
 impl Looks {
-    fn at(clip: &Clip, members: &Members, up: DVec3) -> Self {
+    pub(super) fn at(clip: &Clip, members: &Members) -> Self {
         let skeleton = members.skeleton();
         let tips = skeleton.iter().flat_map(|(joint, data)| {
-            data.end_sites.iter().map(move |end| (Point { joint, offset: end.offset }, 0.0))
+            data.end_sites.iter().map(move |end| (Point { joint, offset: end.offset }, DVec3::ZERO))
         });
-        let mut looks =
-            Self { levels: vec![0.0; skeleton.len()], tips: tips.collect(), height: 0.0 };
-        let (mut poser, mut body) = (Poser::of(clip), Body::new(skeleton));
+        let means = vec![DVec3::ZERO; skeleton.len()];
+        let mut looks = Self { means, tips: tips.collect(), height: 0.0 };
         let mut sides = Vec::new();
-        for look in 0..clip.len().min(LOOKS) {
-            let row = look * clip.len() / clip.len().min(LOOKS);
-            body.place(poser.frame(Frame(clip.first().0 + row)));
-            let positions = body.positions();
-            for (level, position) in looks.levels.iter_mut().zip(positions) {
-                *level += position.dot(up);
+        each_look(clip, |body| {
+            for (mean, position) in looks.means.iter_mut().zip(body.positions()) {
+                *mean += *position;
             }
-            for (tip, level) in &mut looks.tips {
-                *level += tip.position(&body).dot(up);
+            for (tip, mean) in &mut looks.tips {
+                *mean += tip.position(body);
             }
-            sides.push(members.extent(positions).max_element());
-        }
-        sides.sort_by(f64::total_cmp);
-        looks.height = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+            sides.push(members.extent(body.positions()).max_element());
+        });
+        looks.height = median(sides);
         looks
     }
 
+    /// How upright a body stands along each axis in the middle of its poses, as a cosine: as its legs do from ankles to hips,
+    /// or all of it from there to the head, whichever is more.
+    pub(super) fn upright(clip: &Clip, legs: [[usize; 3]; 2], head: usize) -> DVec3 {
+        let [mut of_legs, mut of_all] = [Vec::new(), Vec::new()];
+        each_look(clip, |body| {
+            let at = |joint: usize| body.positions()[joint];
+            let [hips, ankles] = [0, 2].map(|end| at(legs[0][end]).midpoint(at(legs[1][end])));
+            of_legs.push((hips - ankles).normalize_or_zero());
+            of_all.push((at(head) - ankles).normalize_or_zero());
+        });
+        let middle = |ways: &[DVec3]| {
+            let along = |axis: DVec3| median(ways.iter().map(|way| way.dot(axis)).collect());
+            DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
+        };
+        middle(&of_legs).max(middle(&of_all))
+    }
+
     /// The foot below an ankle.
-    fn foot(&self, skeleton: &Skeleton, ankle: usize) -> Foot {
-        let joints = below(skeleton, ankle).map(|joint| (Point::of(joint), self.levels[joint]));
+    fn foot(&self, skeleton: &Skeleton, ankle: usize, up: DVec3) -> Foot {
+        let joints = below(skeleton, ankle).map(|joint| (Point::of(joint), self.means[joint]));
         let inside: BTreeSet<usize> = below(skeleton, ankle).collect();
         let tips = self.tips.iter().copied().filter(|(tip, _)| inside.contains(&tip.joint.0));
-        let lowest = joints.chain(tips).min_by(|a, b| a.1.total_cmp(&b.1));
+        let lowest = joints.chain(tips).min_by(|a, b| a.1.dot(up).total_cmp(&b.1.dot(up)));
         let ankle = Point::of(ankle);
         Foot { ankle, sole: lowest.map_or(ankle, |(sole, _)| sole) }
     }
+}
+
+/// Looks at a clip, evenly and not too often.
+fn each_look(clip: &Clip, mut look: impl FnMut(&Body)) {
+    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
+    let looks = clip.len().min(LOOKS);
+    for at in 0..looks {
+        body.place(poser.frame(Frame(clip.first().0 + at * clip.len() / looks)));
+        look(&body);
+    }
+}
+
+/// The middle one of some numbers; 0 without any.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// The joints at which limbs end.

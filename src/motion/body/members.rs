@@ -78,6 +78,11 @@ impl Members {
         self.roles[joint] == Role::Body
     }
 
+    /// Whether a joint is seen in a picture: what a rig has for itself alone is not.
+    pub(crate) fn shows(&self, joint: usize) -> bool {
+        matches!(self.roles[joint], Role::Body | Role::Hair | Role::Prop | Role::Far)
+    }
+
     /// The joint at which most of it begins.
     pub(crate) fn root(&self) -> usize {
         body_root(&self.skeleton).unwrap_or(0)

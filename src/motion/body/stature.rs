@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
-use crate::motion::{Axis, Body, Build, Clip, Declared, Members, Poser};
+use crate::motion::{Axis, Body, Build, Clip, Members, Poser};
 
 /// How much taller than along one axis a body has to be along the other to stand along it.
 const CLEARLY: f64 = 1.25;
@@ -26,32 +26,38 @@ pub struct Stature {
 }
 
 impl Stature {
-    /// Looks at a clip's first frame and at its rest pose.
+    /// Looks at a clip.
     ///
-    /// Up is what is [declared](Clip::declared), else the axis along which the body is clearly taller in the first frame. Where none is, arms are out or it
-    /// is bent: then the rest pose says it, and else custom, which is Y. Z is not up where the rest pose stands
-    /// along Y: that is somebody who begins on hands and knees.
+    /// Up is what is [declared](Clip::declared), else the axis along which the body mostly stands, from its ankles to hips or
+    /// head. Of somebody who lies or crawls all the time, and of a body without limbs, it is the axis along which it is
+    /// clearly taller in the first frame or at rest, and else custom, which is Y.
     pub fn of(clip: &Clip) -> Self {
         Build::of(clip).stature
     }
 
-    pub(super) fn of_members(clip: &Clip, members: &Members) -> Self {
-        let mut body = Body::new(clip.skeleton());
-        let rest = members.extent(body.positions());
-        if !clip.is_empty() {
-            body.place(Poser::of(clip).frame(clip.first()));
-        }
-        let first = members.extent(body.positions());
-        let seen = match (taller(first), taller(rest)) {
-            (Some(Axis::Z), Some(Axis::Y)) | (None, None) => Axis::Y,
-            (Some(up), _) | (None, Some(up)) => up,
-        };
-        let Declared { up, metres } = clip.declared();
-        let size = if clip.is_empty() { 0.0 } else { first.max_element() };
+    /// Of a body of that size in a clip.
+    pub(super) fn of_size(clip: &Clip, size: f64, up: Axis) -> Self {
+        let metres = clip.declared().metres;
         let declared = metres.filter(|metres| SOMEBODY.contains(&(size * metres)));
         let metres = declared.unwrap_or_else(|| Unit::nearest(size).metres());
-        Self { size, up: up.map_or(seen, |(up, _)| up), metres }
+        Self { size, up, metres }
     }
+}
+
+/// The size of a body in a clip's first frame, and along which axis it is clearly taller then or at rest. Z is not up where
+/// the rest pose stands along Y: that is somebody who begins on hands and knees.
+pub(super) fn seen(clip: &Clip, members: &Members) -> (f64, Option<Axis>) {
+    let mut body = Body::new(clip.skeleton());
+    let rest = members.extent(body.positions());
+    if !clip.is_empty() {
+        body.place(Poser::of(clip).frame(clip.first()));
+    }
+    let first = members.extent(body.positions());
+    let up = match (taller(first), taller(rest)) {
+        (Some(Axis::Z), Some(Axis::Y)) => Some(Axis::Y),
+        (first, rest) => first.or(rest),
+    };
+    (if clip.is_empty() { 0.0 } else { first.max_element() }, up)
 }
 
 /// Along which of Y and Z a body is clearly taller, if along any.
@@ -122,7 +128,7 @@ impl Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{Channel, Joint, JointId, Skeleton};
+    use crate::motion::{Channel, Declared, Joint, JointId, Skeleton};
     use crate::time::{Frame, FrameRate};
 
     /// A straight body along `offset` at rest, turned about X by some degrees in its one frame.

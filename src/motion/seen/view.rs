@@ -52,9 +52,9 @@ impl View {
     }
 
     /// The leftmost and the rightmost of some points.
-    pub(crate) fn sides(&self, pose: &[DVec3]) -> (f64, f64) {
+    pub(crate) fn sides<'a>(&self, pose: impl IntoIterator<Item = &'a DVec3>) -> (f64, f64) {
         let start = (f64::INFINITY, f64::NEG_INFINITY);
-        pose.iter().fold(start, |(low, high), point| {
+        pose.into_iter().fold(start, |(low, high), point| {
             let x = self.see(*point).0;
             (low.min(x), high.max(x))
         })

@@ -1,0 +1,64 @@
+//! Which way is up (上方向): as a person or the file says, else as the body stands over the clip.
+
+use glam::DVec3;
+
+use crate::motion::body::landmarks::Looks;
+use crate::motion::body::limbs::NamedLimbs;
+use crate::motion::body::mannequin::Mannequin;
+use crate::motion::body::members::Members;
+use crate::motion::{Axis, Clip, Landmarks, Word};
+
+/// How upright a body stands at the least in the middle of all its poses, as the cosine to the axis: 45°.
+const UPRIGHT: f64 = 0.7;
+
+/// By how much more than along the other axis.
+const CLEARLY: f64 = 0.15;
+
+/// By what something is known of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum By {
+    /// A person says it.
+    Person,
+    /// The file says it.
+    File,
+    /// The motion does: how the body stands.
+    Motion,
+    /// The shape of the body does.
+    Shape,
+    /// Nothing does: it is what is usual.
+    Custom,
+}
+
+/// The axis that points up, Y or Z, and by what it is known. Somebody who lies or crawls all the time keeps the axis of the
+/// rest pose, `rest`, where that stands, and else Y.
+pub(super) fn up(
+    clip: &Clip,
+    members: &Members,
+    limbs: &NamedLimbs,
+    looks: &Looks,
+    rest: Option<Axis>,
+) -> (Axis, By) {
+    match clip.declared().up {
+        Some((up, Word::Person)) => return (up, By::Person),
+        Some((up, Word::File)) => return (up, By::File),
+        None => {}
+    }
+    // Which ends are feet depends on what is up, where no name says it: each axis has to prove itself by its own.
+    let ends = |axis: Axis| {
+        let landmarks = Landmarks::of_members(looks, members, limbs, axis);
+        let legs = Mannequin::of(members.skeleton(), &landmarks, limbs)?.legs();
+        Some((legs, landmarks.head?.joint.0))
+    };
+    let stands = |ends: Option<([[usize; 3]; 2], usize)>| {
+        ends.map_or(DVec3::ZERO, |(legs, head)| Looks::upright(clip, legs, head))
+    };
+    let (of_y, of_z) = (ends(Axis::Y), ends(Axis::Z));
+    let along_y = stands(of_y);
+    let along_z = if of_z == of_y { along_y } else { stands(of_z) };
+    let (y, z) = (along_y.y, along_z.z);
+    match () {
+        () if y >= UPRIGHT && y >= z + CLEARLY => (Axis::Y, By::Motion),
+        () if z >= UPRIGHT && z >= y + CLEARLY => (Axis::Z, By::Motion),
+        () => rest.map_or((Axis::Y, By::Custom), |axis| (axis, By::Shape)),
+    }
+}
