@@ -19,8 +19,11 @@ mod read;
 
 pub use axis::Axis;
 pub use body::landmarks;
+pub use body::{
+    BODY_GUESS, Contact, ContactFinder, Description, Foot, Landmarks, Limb, PEOPLE, Point, Stature,
+    Unit,
+};
 pub(crate) use body::{BodySide, Build, LayFigure, Members, below, is_t_pose, plain_name};
-pub use body::{Contact, ContactFinder, Foot, Landmarks, Limb, Point, Stature, Unit};
 pub use clip::{
     Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, Word,
     local_rotation, local_translation, set_local_rotation,

@@ -12,6 +12,7 @@ use super::{files, frozen, pins, seen};
 use crate::deliver::ClipMark;
 use crate::edits::Edits;
 use crate::error::{Error, Warning};
+use crate::motion::Description;
 use crate::pipeline::Engine;
 use crate::recipe::{KNOBS, Recipe};
 use crate::target::{self, Met, Target};
@@ -128,7 +129,8 @@ impl<'a> Plan<'a> {
         let source = self.args.clip.read()?;
         let (seen_from, notes) = seen::asked(&self.args.corrections.seen, &source.clip)?;
         self.recipe.seen_from = seen_from.unwrap_or(self.recipe.seen_from);
-        source.notes.iter().chain(&notes).for_each(note);
+        let body = Description::of(&source.clip).notes;
+        source.notes.iter().chain(&notes).chain(&body).for_each(note);
         let engine = Engine::new(source.clip)?.with_budget(self.args.clip.budget());
         Ok((engine, source.of))
     }

@@ -15,6 +15,7 @@ mod stature;
 pub(crate) mod structure;
 mod t_pose;
 mod upright;
+mod words;
 
 pub(crate) use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
@@ -25,4 +26,4 @@ pub(crate) use members::Members;
 pub(crate) use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
 pub(crate) use t_pose::is_t_pose;
-pub(crate) use upright::By;
+pub use words::{BODY_GUESS, Description, PEOPLE};

@@ -3,10 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use genga::edits::Edits;
-use genga::keys::Key;
+use genga::keys::{Key, Layers};
 use genga::motion::{
-    Axis, Channel, Clip, Joint, JointId, Skeleton, Stature, local_rotation, local_translation,
-    set_local_rotation,
+    Axis, Channel, Clip, Description, Joint, JointId, Skeleton, Stature, local_rotation,
+    local_translation, set_local_rotation,
 };
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -224,4 +224,97 @@ fn a_turn_about_the_vertical_changes_no_key() {
 fn somebody_who_lies_all_the_time_keeps_the_axis_of_the_rest_pose() {
     let lying = turned(&clips::sample("kick.bvh"), DQuat::from_rotation_z(FRAC_PI_2));
     assert_eq!(Stature::of(&lying).up, Axis::Y);
+}
+
+#[test]
+fn a_layer_of_hair_alone_has_keys_of_its_own() {
+    let clip = clips::sample("kick.bvh");
+    let head = clip.skeleton().find("Head").unwrap();
+    let strand = 0.07 * height(&clip) * DVec3::new(0.0, -0.9, -0.3);
+    let chain: Vec<_> = (0..5).map(|at| (format!("Hair_{at}"), strand)).collect();
+    let haired =
+        hung(&clip, head, &chain, |at, frame| 25.0 * (0.35 * frame as f64 - 0.4 * at as f64).sin());
+    let mut recipe = Recipe::default();
+    let layers = "[[layers]]\nname = \"A\"\njoints = [\"Hips\"]\n[[layers]]\nname = \"B\"\njoints = \
+                  [\"Hair_0\", \"Hair_1\", \"Hair_2\", \"Hair_3\", \"Hair_4\"]\n";
+    recipe.layers = Layers::parse(layers).unwrap();
+    let mut engine = Engine::new(haired).unwrap();
+    let sheet = engine.run(&recipe, &Edits::default()).unwrap();
+    let turns = |layer: usize| sheet.layers().nth(layer).unwrap().body.turns.len();
+    assert!(turns(0) > 5 && turns(1) > 5, "{} and {}", turns(0), turns(1));
+}
+
+/// Two of a body in one file, each with its own letter before all names: the second moves, and the first stays as it is in
+/// the first frame, or moves too and 4 m away.
+fn two_people(clip: &Clip, is_first_still: bool) -> Clip {
+    let own = clip.skeleton();
+    let (count, width) = (own.len(), own.channels());
+    let of = |letter: char, joints: usize, channels: usize| {
+        own.joints.iter().map(move |joint| Joint {
+            name: format!("{letter}_{}", joint.name),
+            parent: joint.parent.map(|parent| JointId(parent.0 + joints)),
+            first_channel: joint.first_channel + channels,
+            ..joint.clone()
+        })
+    };
+    let joints = of('A', 0, 0).chain(of('B', count, width)).collect();
+    let first: Vec<f64> = clip.rows().next().unwrap().to_vec();
+    let away = moved(clip, DVec3::new(400.0, 0.0, 0.0));
+    let rows = clip.rows().zip(away.rows()).flat_map(|(row, away)| {
+        if is_first_still { [&first[..], row].concat() } else { [away, row].concat() }
+    });
+    let rows = rows.collect();
+    Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+#[test]
+fn of_two_people_the_keys_are_those_of_one_and_it_is_said() {
+    for is_first_still in [true, false] {
+        keeps_every_key(|clip| {
+            let both = two_people(clip, is_first_still);
+            let notes = Description::of(&both).notes;
+            let root = &clip.skeleton().joints[0].name;
+            let (whose, other) = if is_first_still { ("B", "A") } else { ("A", "B") };
+            let said =
+                format!("those of {whose}_{root}; --root {other}_{root} takes another alone");
+            assert!(notes.iter().any(|note| note.message.contains(&said)), "{notes:?}");
+            both
+        });
+    }
+}
+
+#[test]
+fn limbs_are_those_that_names_give_whatever_else_hangs_there() {
+    let clip = clips::sample("kick.bvh");
+    let lines = |clip: &Clip| Description::of(clip).lines;
+    let own = lines(&clip);
+    let told = |part: &str| own.iter().find(|(own, _)| *own == part).unwrap().1.clone();
+    assert_eq!(told("head"), "Head, by name");
+    assert_eq!(told("right leg"), "RightUpLeg RightLeg RightFoot, by names");
+    let head = clip.skeleton().find("Head").unwrap();
+    let strand = 0.12 * height(&clip) * DVec3::new(0.3, -0.9, 0.0);
+    let tails =
+        |side: &str| (0..7).map(|at| (format!("Hair_{side}_{at}"), strand)).collect::<Vec<_>>();
+    let wave = |at: usize, frame: usize| 9.0 * (0.4 * frame as f64 - at as f64).sin();
+    let haired = hung(&hung(&clip, head, &tails("L"), wave), head, &tails("R"), wave);
+    let found = lines(&haired);
+    assert_eq!(found[..own.len()], own[..]);
+    assert_eq!(found[own.len()], ("not body", "14 joints: 14 of hair or cloth".into()));
+}
+
+#[test]
+fn what_only_the_shape_says_is_a_guess_that_is_said() {
+    let clip = clips::sample("kick.bvh");
+    let nonsense = |at: usize, joint: &Joint| Joint { name: format!("q{at}"), ..joint.clone() };
+    let joints = clip.skeleton().joints.iter().enumerate().map(|(at, joint)| nonsense(at, joint));
+    let rows = clip.rows().flatten().copied().collect();
+    let skeleton = Skeleton { joints: joints.collect() };
+    let nameless = Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap();
+    let notes = Description::of(&nameless).notes;
+    assert_eq!((notes.len(), notes[0].code), (1, "W_BODY_GUESS"));
+    assert!(
+        notes[0].message.contains("its shape alone says head, left arm, right arm"),
+        "{notes:?}"
+    );
+    assert_eq!(Description::of(&clip).notes, []);
 }

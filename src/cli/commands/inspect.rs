@@ -10,8 +10,8 @@ use crate::cli::failure::Failure;
 use crate::cli::words::Words;
 use crate::cli::{files, paths};
 use crate::error::Warning;
-use crate::motion::file::Take;
-use crate::motion::{Axis, Channel, Joint, Stature, Unit};
+use crate::motion::file::{Found, Take};
+use crate::motion::{Axis, Channel, Description, Joint, Stature, Unit};
 use crate::plot::SkeletonPlot;
 use crate::time::{FrameRate, KOMA_RATE};
 
@@ -66,13 +66,17 @@ fn page(name: &str, source: &Source) -> String {
         let _ = writeln!(page, "{label:<9} {value}");
     };
     line("clip", name.into());
-    source.found.iter().for_each(|found| line(found.what, found.is.clone()));
+    let is_said = |found: &&Found| found.what != "up";
+    source.found.iter().filter(is_said).for_each(|found| line(found.what, found.is.clone()));
     source.takes.iter().for_each(|take| line("take", described_take(take)));
     line("frames", format!("{}, numbers {} to {}", clip.len(), clip.first(), clip.last()));
     line("rate", rate(clip.rate(), source.written_frame_time));
     line("length", format!("{:.2} s, {koma} koma at 24 a second", clip.seconds()));
     line("joints", format!("{}, {} channels", skeleton.len(), skeleton.channels()));
     line("size", size(source));
+    if !clip.is_empty() {
+        Description::of(clip).lines.into_iter().for_each(|(part, words)| line(part, words));
+    }
     page.push('\n');
     let mut depths = Vec::with_capacity(skeleton.len());
     for (_, joint) in skeleton.iter() {

@@ -113,7 +113,14 @@ fn turning(motion: &LayerMotion<'_>) -> Vec<Turning> {
         reach: 100.0 * REACH * carried,
         weight: ROTATION * carried * motion.heard[joint],
     };
-    let joints = shares(motion.build.members.skeleton()).into_iter().enumerate();
+    let members = &motion.build.members;
+    let is_of_body = |(joint, heard): (usize, &f64)| *heard > 0.0 && members.has(joint);
+    // A layer of hair alone reaches as far as its hair.
+    let skeleton = match motion.heard.iter().enumerate().any(is_of_body) {
+        true => members.skeleton(),
+        false => motion.clip.skeleton(),
+    };
+    let joints = shares(skeleton).into_iter().enumerate();
     let tracks = joints.filter(|(joint, _)| turns[*joint]).map(track);
     tracks.filter(|track| track.weight > 0.0).collect()
 }

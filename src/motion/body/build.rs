@@ -12,6 +12,8 @@ use crate::motion::{Clip, Landmarks, Stature};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Build {
     pub(crate) members: Members,
+    /// What names give of it.
+    pub(crate) limbs: NamedLimbs,
     pub(crate) stature: Stature,
     /// By what it is known which way is up.
     pub(crate) up_by: By,
@@ -25,22 +27,23 @@ impl Build {
     /// the whole has limbs.
     pub(crate) fn of(clip: &Clip) -> Self {
         let bones = members::bones(clip);
-        let limbs = NamedLimbs::of(&bones);
-        let build = Self::with(clip, Members::of(clip, &bones, &limbs), &limbs);
+        let moving = members::moving(clip, &bones);
+        let limbs = NamedLimbs::of(&bones, &members::main_tree(&bones, &moving[0]));
+        let build = Self::with(clip, Members::of(&bones, moving, &limbs), limbs);
         if build.mannequin.is_some() || build.members.are_all() {
             return build;
         }
-        let whole = Self::with(clip, Members::all(&bones), &limbs);
+        let whole = Self::with(clip, Members::all(&bones), build.limbs.clone());
         if whole.mannequin.is_some() { whole } else { build }
     }
 
-    fn with(clip: &Clip, members: Members, limbs: &NamedLimbs) -> Self {
+    fn with(clip: &Clip, members: Members, limbs: NamedLimbs) -> Self {
         let looks = Looks::at(clip, &members);
         let (size, rest) = stature::seen(clip, &members);
-        let (up, up_by) = upright::up(clip, &members, limbs, &looks, rest);
-        let landmarks = Landmarks::of_members(&looks, &members, limbs, up);
-        let mannequin = Mannequin::of(members.skeleton(), &landmarks, limbs);
+        let (up, up_by) = upright::up(clip, &members, &limbs, &looks, rest);
+        let landmarks = Landmarks::of_members(&looks, &members, &limbs, up);
+        let mannequin = Mannequin::of(members.skeleton(), &landmarks, &limbs);
         let stature = Stature::of_size(clip, size, up);
-        Self { members, stature, up_by, landmarks, mannequin }
+        Self { members, limbs, stature, up_by, landmarks, mannequin }
     }
 }

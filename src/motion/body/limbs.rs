@@ -35,10 +35,10 @@ pub(crate) struct NamedLimbs {
 }
 
 impl NamedLimbs {
-    /// Of the dialect that names most of a skeleton's joints the limbs that are whole: their joints hang on one another,
+    /// Of the dialect that names most joints of a tree the limbs that are whole: their joints hang on one another,
     /// their two bones are more or less alike, and so are both sides.
-    pub(crate) fn of(skeleton: &Skeleton) -> Self {
-        let found = NAMES.find(skeleton);
+    pub(crate) fn of(skeleton: &Skeleton, is_of_tree: &[bool]) -> Self {
+        let found = NAMES.find_among(skeleton, |joint| is_of_tree[joint]);
         let named = |bone: &str| found.joints[NAMES.model.find(bone)?].first().copied();
         let limbs = |bones: [&str; 3]| {
             let limb = |side: Side| whole(skeleton, bones.map(|bone| named(&side.named(bone))));

@@ -32,6 +32,8 @@ pub(crate) enum Role {
     Prop,
     /// Reaches too far from the body to be a part of it.
     Far,
+    /// Somebody else's, who is in the same file.
+    Other,
 }
 
 /// The joints of a clip that are the body.
@@ -46,14 +48,18 @@ pub(crate) struct Members {
 impl Members {
     /// A tree begins where all of it hangs that moves, and the limbs that names give. Trees in which nothing moves are none
     /// of a body beside one that does.
-    pub(super) fn of(clip: &Clip, skeleton: &Skeleton, limbs: &NamedLimbs) -> Self {
-        let [moves, travels] = moving(clip, skeleton);
+    pub(super) fn of(
+        skeleton: &Skeleton,
+        [moves, travels]: [Vec<bool>; 2],
+        limbs: &NamedLimbs,
+    ) -> Self {
         let begins = if moves.contains(&true) {
             tops(skeleton, &moves, limbs)
         } else {
             skeleton.joints.iter().map(|joint| joint.parent.is_none()).collect()
         };
         let mut roles = below(skeleton, &begins);
+        leave_out_others(skeleton, &main_tree(skeleton, &moves), &mut roles);
         Rig { skeleton, limbs, moves: &moves, travels: &travels }.strip(&mut roles);
         Self { skeleton: alone(skeleton, &roles), roles }
     }
@@ -78,9 +84,21 @@ impl Members {
         self.roles[joint] == Role::Body
     }
 
+    /// The roots of other people's trees.
+    pub(super) fn others<'a>(&'a self, clip: &'a Clip) -> impl Iterator<Item = &'a str> {
+        let roots = clip.skeleton().joints.iter().zip(&self.roles);
+        let roots = roots.filter(|(joint, role)| joint.parent.is_none() && **role == Role::Other);
+        roots.map(|(joint, _)| &joint.name[..])
+    }
+
+    /// How many joints have a role.
+    pub(super) fn count(&self, role: Role) -> usize {
+        self.roles.iter().filter(|own| **own == role).count()
+    }
+
     /// Whether a joint is seen in a picture: what a rig has for itself alone is not.
     pub(crate) fn shows(&self, joint: usize) -> bool {
-        matches!(self.roles[joint], Role::Body | Role::Hair | Role::Prop | Role::Far)
+        matches!(self.roles[joint], Role::Body | Role::Hair | Role::Prop | Role::Far | Role::Other)
     }
 
     /// The joint at which most of it begins.
@@ -137,7 +155,7 @@ pub(super) fn bones(clip: &Clip) -> Skeleton {
 }
 
 /// Which joints move on what carries them, and which leave their place there.
-fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
+pub(super) fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
     let ranges = clip.ranges();
     let size: f64 = skeleton.joints.iter().map(|joint| joint.offset.length()).sum();
     let any = |joint: &Joint, has: fn(&Channel) -> bool| {
@@ -152,6 +170,47 @@ fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
     let travels =
         joints().map(|joint| any(joint, |channel| matches!(channel, Channel::Position(_))));
     [joints().map(|joint| any(joint, |_| true)).collect(), travels.collect()]
+}
+
+/// The joints of the tree that is most of the body by its bones, among those in which something moves.
+pub(super) fn main_tree(skeleton: &Skeleton, moves: &[bool]) -> Vec<bool> {
+    let mut roots = Vec::with_capacity(moves.len());
+    let (mut bones, mut is_moving) = (vec![0.0; moves.len()], vec![false; moves.len()]);
+    for (joint, data) in skeleton.iter() {
+        let root = data.parent.map_or(joint.0, |parent| roots[parent.0]);
+        roots.push(root);
+        bones[root] += data.parent.map_or(0.0, |_| data.offset.length());
+        is_moving[root] |= moves[joint.0];
+    }
+    let largest = |best: usize, other: usize| {
+        let is_more = (is_moving[other], bones[other]) > (is_moving[best], bones[best]);
+        if is_more { other } else { best }
+    };
+    let main = roots.iter().copied().reduce(largest);
+    roots.iter().map(|root| Some(*root) == main).collect()
+}
+
+/// The fewest joints of a person, and the shortest bones beside those of another.
+const PERSON: (usize, f64) = (8, 1.0 / 3.0);
+
+/// Trees as large as a person beside the one that is most of the body are other people.
+fn leave_out_others(skeleton: &Skeleton, is_main: &[bool], roles: &mut [Role]) {
+    let mut roots: Vec<usize> = Vec::with_capacity(roles.len());
+    let (mut joints, mut bones) = (vec![0; roles.len()], vec![0.0; roles.len()]);
+    let mut main = 0.0;
+    for (joint, data) in skeleton.iter() {
+        let root = data.parent.map_or(joint.0, |parent| roots[parent.0]);
+        roots.push(root);
+        let bone = data.parent.map_or(0.0, |_| data.offset.length());
+        joints[root] += 1;
+        bones[root] += bone;
+        main += if is_main[joint.0] { bone } else { 0.0 };
+    }
+    for (joint, root) in roots.into_iter().enumerate().filter(|(joint, _)| !is_main[*joint]) {
+        if joints[root] >= PERSON.0 && bones[root] >= PERSON.1 * main {
+            roles[joint] = Role::Other;
+        }
+    }
 }
 
 /// In each tree that moves the joint at which the body begins.

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::error::Error;
+use crate::motion::body::side::{DASHES, own_name};
 use crate::motion::body::structure;
 use crate::motion::{Clip, JointId, Skeleton, plain_name};
 use bones::{LONGEST_NAME, Model, Side, cp932};
@@ -134,8 +135,17 @@ impl BoneMap {
     }
 
     /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
-    pub(crate) fn find(&self, skeleton: &Skeleton) -> Found {
-        let names = Names::of(skeleton);
+    fn find(&self, skeleton: &Skeleton) -> Found {
+        self.find_among(skeleton, |_| true)
+    }
+
+    /// The same among some joints, those of one tree.
+    pub(crate) fn find_among(
+        &self,
+        skeleton: &Skeleton,
+        is_among: impl Fn(usize) -> bool,
+    ) -> Found {
+        let names = Names::of(skeleton, is_among);
         let nothing = Dialect { name: "own".into(), rows: BTreeMap::new() };
         let mut best = self.joints(&nothing, &names);
         let mut dialect = &nothing;
@@ -180,10 +190,19 @@ fn unknown(skeleton: &Skeleton) -> Error {
 struct Names(HashMap<String, JointId>);
 
 impl Names {
-    fn of(skeleton: &Skeleton) -> Self {
+    fn of(skeleton: &Skeleton, is_among: impl Fn(usize) -> bool) -> Self {
+        let joints = || skeleton.iter().filter(|(id, _)| is_among(id.0));
+        let own: Vec<&str> = joints().map(|(_, joint)| own_name(&joint.name)).collect();
         let mut names = HashMap::new();
-        for (id, joint) in skeleton.iter() {
+        for (id, joint) in joints() {
             names.entry(plain_name(&joint.name)).or_insert(id);
+        }
+        // Two people in one file: A_Hips and B_Hips, or Hips and Hips.2.
+        let (prefix, suffix) =
+            (shared(&own, prefixes, str::starts_with), shared(&own, suffixes, str::ends_with));
+        for ((id, _), own) in joints().zip(&own) {
+            let bare = own.strip_prefix(prefix).unwrap_or(own);
+            names.entry(plain_name(bare.strip_suffix(suffix).unwrap_or(bare))).or_insert(id);
         }
         Self(names)
     }
@@ -191,6 +210,33 @@ impl Names {
     fn find(&self, name: &str) -> Option<JointId> {
         self.0.get(&plain_name(name)).copied()
     }
+}
+
+/// Joints at the least of which a part of their names can be nobody's own.
+const FEWEST: usize = 8;
+
+/// The longest of some parts of a first name that nearly all names have; nothing where none is.
+fn shared<'a, Parts: Iterator<Item = &'a str>>(
+    names: &[&'a str],
+    parts: impl Fn(&'a str) -> Parts,
+    has: impl Fn(&'a str, &'a str) -> bool,
+) -> &'a str {
+    let is_shared = |part: &&'a str| {
+        let having = names.iter().filter(|name| has(name, part)).count();
+        names.len() >= FEWEST && 10 * having >= 9 * names.len()
+    };
+    let first = names.first().copied().unwrap_or_default();
+    parts(first).filter(is_shared).max_by_key(|part| part.len()).unwrap_or_default()
+}
+
+/// What a name begins with, up to something that parts words.
+fn prefixes(name: &str) -> impl Iterator<Item = &str> {
+    name.char_indices().filter(|(_, letter)| DASHES.contains(letter)).map(|(at, _)| &name[..=at])
+}
+
+/// What a name ends with, from something that parts words.
+fn suffixes(name: &str) -> impl Iterator<Item = &str> {
+    name.char_indices().filter(|(_, letter)| DASHES.contains(letter)).map(|(at, _)| &name[at..])
 }
 
 /// `line:column: ` of a byte in a text, from 1.

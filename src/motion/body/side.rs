@@ -4,7 +4,7 @@
 const PREFIXES: [&str; 4] = ["mixamorig", "bip001", "bip01", "character1"];
 
 /// What stands between the words of a name.
-const DASHES: [char; 4] = [' ', '_', '-', '.'];
+pub(super) const DASHES: [char; 4] = [' ', '_', '-', '.'];
 
 /// What an l or r may be written together with in one case: lfemur, RHAND. Not lumbar, RIBS.
 const PARTS: [&str; 24] = [

@@ -117,31 +117,65 @@ fn a_body_of_other_shape_is_drawn_as_sticks() {
     assert!(matches!(figure.form, Form::Sticks(_)));
 }
 
-#[test]
-fn a_root_on_the_floor_is_a_thin_guide_in_sticks_too() {
-    use crate::motion::{Joint, JointId};
-    let clip = kick();
+/// A clip whose body hangs on one more joint on the floor, which turns so far at each frame.
+fn on_a_root(clip: &Clip, turned: impl Fn(usize) -> f64) -> Clip {
+    use crate::motion::{Axis, Channel, Joint, JointId};
     let mut skeleton = clip.skeleton().clone();
     for joint in &mut skeleton.joints {
         joint.parent = Some(joint.parent.map_or(JointId(0), |parent| JointId(parent.0 + 1)));
+        joint.first_channel += 1;
     }
-    let (name, channels) = ("joint_Root".into(), vec![]);
     let root = Joint {
-        name,
+        name: "joint_Root".into(),
         parent: None,
         offset: DVec3::ZERO,
-        channels,
+        channels: vec![Channel::Rotation(Axis::Y)],
         first_channel: 0,
         end_sites: vec![],
     };
     skeleton.joints.insert(0, root);
-    let values = clip.rows().flatten().copied().collect();
-    let rooted = Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), values).unwrap();
+    let rows = clip.rows().enumerate();
+    let rows = rows.flat_map(|(at, row)| std::iter::once(turned(at)).chain(row.iter().copied()));
+    Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows.collect()).unwrap()
+}
+
+#[test]
+fn a_root_on_the_floor_is_a_thin_guide_in_sticks_too_and_none_where_it_never_moves() {
+    let rooted = on_a_root(&kick(), |frame| 0.1 * frame as f64);
+    let still = on_a_root(&kick(), |_| 0.0);
     for body in [FigureBody::Mannequin, FigureBody::Sticks] {
         let figure = Figure::of(&rooted, body);
         assert_eq!(figure.guides(), [(0, 1)], "{body}");
         let shapes = seen(&figure, &pose(&rooted, &figure, 0.0), DVec3::Z);
         let Shape::Line(guide) = &shapes[0] else { panic!("the guide lies behind all") };
         assert!(guide.ink == Ink::Guide && guide.width <= 1.0, "{guide:?}");
+        assert_eq!(Figure::of(&still, body).guides(), [], "{body}");
+    }
+}
+
+#[test]
+fn a_far_helper_is_in_no_picture() {
+    use crate::motion::{Joint, JointId};
+    use crate::plot::stage::Bounds;
+    let clip = kick();
+    let mut skeleton = clip.skeleton().clone();
+    skeleton.joints.push(Joint {
+        name: "KneePole".into(),
+        parent: Some(JointId(0)),
+        offset: DVec3::new(0.0, 0.0, 300.0),
+        channels: vec![],
+        first_channel: skeleton.channels(),
+        end_sites: vec![],
+    });
+    let rows = clip.rows().flatten().copied().collect();
+    let poled = Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap();
+    for body in [FigureBody::Mannequin, FigureBody::Sticks] {
+        let seen = |clip: &Clip| {
+            let figure = Figure::of(clip, body);
+            let poses = [pose(clip, &figure, 0.0), pose(clip, &figure, 40.0)];
+            let view = crate::motion::Camera::Auto.view(clip, &poses);
+            (figure.guides().len(), figure.height, view, Bounds::of(&figure, &view, &poses))
+        };
+        assert_eq!(seen(&poled), seen(&clip), "{body}");
     }
 }

@@ -84,7 +84,7 @@ fn its_joints_are_found_past_collars_and_twists() {
         names.map(String::as_str),
         [
             "chest",
-            "head",
+            "neck",
             "shoulder.l",
             "elbow.l",
             "wrist.l",

@@ -1,0 +1,153 @@
+//! A body in words (体の説明): what is known of whoever moves in a clip, and by what.
+
+use super::members::Role;
+use super::upright::By;
+use crate::error::Warning;
+use crate::motion::landmarks::above;
+use crate::motion::{Axis, Build, Clip, LayFigure, Skeleton};
+
+/// What is known of the body is a guess.
+pub const BODY_GUESS: &str = "W_BODY_GUESS";
+
+/// More people than one are in a file.
+pub const PEOPLE: &str = "W_PEOPLE";
+
+/// What is known of a body, for a person to read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Description {
+    /// Each with what it is about: `up`, `height`, `head`, a limb, `not body`.
+    pub lines: Vec<(&'static str, String)>,
+    /// What a person should know: that something of it nothing but the shape of the body says, or that others are there.
+    pub notes: Vec<Warning>,
+}
+
+/// Parts of a body as people call them, left before right.
+const LIMBS: [[&str; 2]; 2] = [["left arm", "right arm"], ["left leg", "right leg"]];
+
+impl Description {
+    /// Describes whoever moves in a clip.
+    ///
+    /// ```
+    /// let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
+    /// let body = genga::motion::Description::of(&clip);
+    /// assert_eq!(body.lines[0], ("up", "Y, as the body stands".into()));
+    /// assert_eq!(body.lines[3], ("left arm", "LeftArm LeftForeArm LeftHand, by names".into()));
+    /// assert_eq!(body.notes, []);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
+    pub fn of(clip: &Clip) -> Self {
+        let build = Build::of(clip);
+        let mut guesses = Vec::new();
+        let mut lines = vec![("up", up(&build, &mut guesses)), ("height", height(&build))];
+        match LayFigure::of(clip) {
+            Some(figure) => lines.extend(limbs(clip, &build, &figure, &mut guesses)),
+            None => {
+                let none = "none: no head, two arms and two legs are found; the ends of its chains stand for them";
+                guesses.push("it has no limbs that are known".to_owned());
+                lines.push(("limbs", none.into()));
+            }
+        }
+        lines.extend(not_body(&build).map(|joints| ("not body", joints)));
+        let guess = (!guesses.is_empty()).then(|| {
+            let message = format!("of the body {}; genga inspect tells more", guesses.join("; "));
+            Warning::new(BODY_GUESS, message)
+        });
+        Self { lines, notes: guess.into_iter().chain(people(clip, &build)).collect() }
+    }
+}
+
+/// Whose keys these are, where somebody else is in the file.
+fn people(clip: &Clip, build: &Build) -> Option<Warning> {
+    let others: Vec<&str> = build.members.others(clip).collect();
+    let own = clip.skeleton().joints.get(top(clip, build.members.root()))?;
+    let roots: Vec<String> = others.iter().map(|root| format!("--root {root}")).collect();
+    let message = format!(
+        "{} people are in the file, and the keys are those of {}; {} takes another alone",
+        others.len() + 1,
+        own.name,
+        roots.join(" or ")
+    );
+    (!others.is_empty()).then(|| Warning::new(PEOPLE, message))
+}
+
+/// The root of a joint's tree in the file.
+fn top(clip: &Clip, joint: usize) -> usize {
+    above(clip.skeleton(), joint).last().unwrap_or(joint)
+}
+
+fn up(build: &Build, guesses: &mut Vec<String>) -> String {
+    let axis = if build.stature.up == Axis::Z { "Z" } else { "Y" };
+    let why = match build.up_by {
+        By::Person => "as --up says",
+        By::File => "as the file says",
+        By::Motion => "as the body stands",
+        By::Shape => "by the longest side of the body, which does not stand upright",
+        By::Custom => "as usual: the body does not stand upright",
+    };
+    if matches!(build.up_by, By::Shape | By::Custom) && build.mannequin.is_some() {
+        guesses.push(format!("{axis} is taken to be up (--up y, --up z)"));
+    }
+    format!("{axis}, {why}")
+}
+
+fn height(build: &Build) -> String {
+    let (height, why) = match &build.mannequin {
+        Some(mannequin) => (mannequin.height(), "by its legs from hip to ankle"),
+        None => (build.landmarks.height, "the longest side of its joints, most of the time"),
+    };
+    format!("{:.0} cm, {why}", 100.0 * height * build.stature.metres)
+}
+
+fn limbs(
+    clip: &Clip,
+    build: &Build,
+    figure: &LayFigure,
+    guesses: &mut Vec<String>,
+) -> Vec<(&'static str, String)> {
+    let skeleton = clip.skeleton();
+    let mut by_shape = Vec::new();
+    let head = build.limbs.head.unwrap_or(figure.head_joint);
+    let is_named = build.limbs.head.is_some();
+    by_shape.extend((!is_named).then_some("head"));
+    let mut lines = vec![("head", told(skeleton, &[head], is_named))];
+    for (words, limbs) in LIMBS.iter().zip([figure.arms, figure.legs]) {
+        for (word, limb) in words.iter().zip(limbs) {
+            let is_named = build.limbs.ending_at(limb[2]).is_some();
+            by_shape.extend((!is_named).then_some(*word));
+            lines.push((*word, told(skeleton, &limb[..3], is_named)));
+        }
+    }
+    if !by_shape.is_empty() {
+        guesses
+            .push(format!("its shape alone says {} (--bones names joints)", by_shape.join(", ")));
+    }
+    lines
+}
+
+fn told(skeleton: &Skeleton, joints: &[usize], is_named: bool) -> String {
+    let names: Vec<&str> = joints.iter().map(|joint| &skeleton.joints[*joint].name[..]).collect();
+    let by = match (is_named, joints.len()) {
+        (false, _) => "by shape",
+        (true, 1) => "by name",
+        (true, _) => "by names",
+    };
+    format!("{}, {by}", names.join(" "))
+}
+
+/// How many joints are none of the body, and what they are.
+fn not_body(build: &Build) -> Option<String> {
+    let kinds = [
+        (Role::Guide, "that only carry it"),
+        (Role::Still, "that never move"),
+        (Role::Hair, "of hair or cloth"),
+        (Role::Prop, "props"),
+        (Role::Helper, "helpers"),
+        (Role::Far, "that reach too far"),
+        (Role::Other, "of somebody else"),
+    ];
+    let count = |role: Role| build.members.count(role);
+    let all: usize = kinds.iter().map(|(role, _)| count(*role)).sum();
+    let told = kinds.iter().filter(|(role, _)| count(*role) > 0);
+    let told: Vec<String> = told.map(|(role, what)| format!("{} {what}", count(*role))).collect();
+    (all > 0).then(|| format!("{all} joints: {}", told.join(", ")))
+}
