@@ -1,5 +1,6 @@
 //! Who moves is who counts: what a rig has besides the body changes no key, wherever it stands.
 
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use genga::edits::Edits;
@@ -317,4 +318,163 @@ fn what_only_the_shape_says_is_a_guess_that_is_said() {
         "{notes:?}"
     );
     assert_eq!(Description::of(&clip).notes, []);
+}
+
+/// A clip with its joints in another order: those that hang on one joint the other way round.
+fn reordered(clip: &Clip) -> Clip {
+    let own = clip.skeleton();
+    let mut open: Vec<usize> =
+        (0..own.len()).filter(|joint| own.joints[*joint].parent.is_none()).collect();
+    let mut order = Vec::new();
+    while let Some(joint) = open.pop() {
+        order.push(joint);
+        open.extend(
+            (0..own.len()).filter(|child| own.joints[*child].parent == Some(JointId(joint))),
+        );
+    }
+    let mut places = vec![0; own.len()];
+    order.iter().enumerate().for_each(|(place, joint)| places[*joint] = place);
+    let mut first_channel = 0;
+    let joint = |joint: &usize| {
+        let data = own.joints[*joint].clone();
+        let parent = data.parent.map(|parent| JointId(places[parent.0]));
+        let moved = Joint { parent, first_channel, ..data };
+        first_channel += moved.channels.len();
+        moved
+    };
+    let joints = order.iter().map(joint).collect();
+    let columns = order.iter().flat_map(|joint| {
+        let Joint { first_channel, channels, .. } = &own.joints[*joint];
+        *first_channel..first_channel + channels.len()
+    });
+    let columns: Vec<usize> = columns.collect();
+    let rows = clip.rows().flat_map(|row| columns.iter().map(|column| row[*column])).collect();
+    Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+#[test]
+fn joints_in_another_order_change_no_key() {
+    keeps_every_key(reordered);
+}
+
+/// A clip as in a mirror, left and right exchanged.
+fn mirrored(clip: &Clip) -> Clip {
+    let across = DVec3::new(-1.0, 1.0, 1.0);
+    let mut skeleton = clip.skeleton().clone();
+    for joint in &mut skeleton.joints {
+        joint.name = exchanged(&joint.name);
+        joint.offset *= across;
+        joint.end_sites.iter_mut().for_each(|end| end.offset *= across);
+    }
+    let width = skeleton.channels();
+    let mut rows: Vec<f64> = clip.rows().flatten().copied().collect();
+    for row in rows.chunks_exact_mut(width) {
+        for (own, joint) in clip.skeleton().joints.iter().zip(&skeleton.joints) {
+            let (place, turn) = (across * local_translation(own, row), local_rotation(own, row));
+            set_local_rotation(joint, DQuat::from_xyzw(turn.x, -turn.y, -turn.z, turn.w), row);
+            for (at, channel) in joint.channels.iter().enumerate() {
+                if let Channel::Position(axis) = channel {
+                    row[joint.first_channel + at] = place[*axis as usize];
+                }
+            }
+        }
+    }
+    Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+/// The name of the other side.
+fn exchanged(name: &str) -> String {
+    let sides = [
+        ("Left", "Right"),
+        ("left", "right"),
+        ("LHip", "RHip"),
+        ("LThumb", "RThumb"),
+        ("LFingers", "RFingers"),
+    ];
+    for (left, right) in sides {
+        if name.contains(left) || name.contains(right) {
+            let (from, to) = if name.contains(left) { (left, right) } else { (right, left) };
+            return name.replace(from, to);
+        }
+    }
+    let mut letters = name.chars();
+    let is_sided =
+        name.chars().nth(1).is_some_and(char::is_uppercase) || ["lhand", "rhand"].contains(&name);
+    match letters.next() {
+        Some('l') if is_sided => format!("r{}", letters.as_str()),
+        Some('r') if is_sided => format!("l{}", letters.as_str()),
+        _ => name.into(),
+    }
+}
+
+#[test]
+fn a_mirrored_take_has_the_same_keys() {
+    keeps_every_key(mirrored);
+}
+
+/// Of each bone of MMD the joints that make it, in every dialect of the table.
+type Dialect = BTreeMap<String, Vec<String>>;
+
+fn dialects() -> Vec<Dialect> {
+    let text = std::fs::read_to_string(clips::here("src/motion/body/names/dialects.toml")).unwrap();
+    let table: toml::Table = toml::from_str(&text).unwrap();
+    let names = |joints: &toml::Value, side: &str| -> Vec<String> {
+        let one = |name: &toml::Value| name.as_str().unwrap().replace('@', side);
+        joints.as_array().map_or_else(|| vec![one(joints)], |list| list.iter().map(one).collect())
+    };
+    let dialect = |dialect: &toml::Value| {
+        let sides = dialect.get("sides").and_then(toml::Value::as_array);
+        let side = |at: usize| sides.map_or("", |sides| sides[at].as_str().unwrap());
+        let rows = dialect["bones"].as_table().unwrap().iter();
+        let rows = rows.flat_map(|(bone, joints)| {
+            match bone.strip_prefix('左').filter(|_| sides.is_some()) {
+                Some(stem) => vec![
+                    (bone.clone(), names(joints, side(0))),
+                    (format!("右{stem}"), names(joints, side(1))),
+                ],
+                None => vec![(bone.clone(), names(joints, ""))],
+            }
+        });
+        rows.collect()
+    };
+    table["dialect"].as_array().unwrap().iter().map(dialect).collect()
+}
+
+/// A clip whose joints have the names of another dialect, as far as that names them.
+fn renamed(clip: &Clip, from: &Dialect, to: &Dialect) -> Clip {
+    let mut skeleton = clip.skeleton().clone();
+    for (bone, joints) in from {
+        let there: Vec<usize> = joints
+            .iter()
+            .filter_map(|name| clip.skeleton().find(name).map(|joint| joint.0))
+            .collect();
+        let names = to.get(bone).map_or(&[][..], Vec::as_slice);
+        for (joint, name) in there.into_iter().zip(names) {
+            skeleton.joints[joint].name.clone_from(name);
+        }
+    }
+    let rows = clip.rows().flatten().copied().collect();
+    Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap()
+}
+
+#[test]
+fn names_of_another_dialect_change_no_key() {
+    let dialects = dialects();
+    assert!(dialects.len() > 12);
+    let named = |clip: &Clip, dialect: &Dialect| {
+        dialect.values().flatten().filter(|name| clip.skeleton().find(name).is_some()).count()
+    };
+    let others: Vec<&Dialect> =
+        dialects.iter().filter(|dialect| dialect.contains_key("左手首")).collect();
+    // One after the other for each clip, all of them in the full check.
+    let next = std::cell::Cell::new(0);
+    keeps_every_key(|clip| {
+        let own = dialects.iter().max_by_key(|dialect| named(clip, dialect)).unwrap();
+        next.set(next.get() + 1);
+        let other = others[(5 * next.get()) % others.len()];
+        let changed = renamed(clip, own, other);
+        let limb = |clip: &Clip| Description::of(clip).lines[3].1.clone();
+        assert!(limb(&changed).ends_with("by names"), "{}", limb(&changed));
+        changed
+    });
 }

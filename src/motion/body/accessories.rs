@@ -47,7 +47,7 @@ const NAMES: [Names; 3] = [
             "socket",
             "attach",
         ],
-        &["ＩＫ", "操作", "親"],
+        &["ＩＫ", "操作", "の親"],
     ),
     (
         Role::Hair,
@@ -70,9 +70,28 @@ const NAMES: [Names; 3] = [
 
 /// Words for what hangs on hands, feet, heads and backs and is a part of them.
 const PARTS: [&str; 15] = [
-    "toe", "toes", "finger", "fingers", "thumb", "index", "mid", "middle", "ring", "pinky",
-    "little", "eye", "eyes", "jaw", "wing",
+    "toe",
+    "finger",
+    "thumb",
+    "index",
+    "mid",
+    "ring",
+    "pinky",
+    "little",
+    "eye",
+    "jaw",
+    "wing",
+    "指",
+    "つま先",
+    "目",
+    "翼",
 ];
+
+/// What the joints of a finger are called where they have no numbers.
+const KNUCKLES: [&str; 4] = ["metacarpal", "proximal", "intermediate", "distal"];
+
+/// Words for sides, which stand behind a number in some names.
+const SIDES: [&str; 4] = ["l", "r", "left", "right"];
 
 /// What is known of the joints of a rig.
 pub(super) struct Rig<'a> {
@@ -130,9 +149,6 @@ impl Rig<'_> {
         let bone = self.skeleton.joints[joint].offset.length();
         let others = sums.bones[root] - sums.bones[joint];
         let is_long = sums.joints[root] >= FEWEST && bone > LONGEST * others;
-        if self.limbs.is_named(joint) {
-            return None;
-        }
         role_of(&self.skeleton.joints[joint].name)
             .or_else(|| is_long.then_some(Role::Helper))
             .or_else(|| {
@@ -166,14 +182,14 @@ impl Rig<'_> {
                 far[joint] = far[parent] + bone(joint);
             }
         }
-        // The first of a finger; what is called by it further out may be a point at its end.
-        let mut is_known = vec![false; count];
+        // The joints of a finger. What is called by the same word further out is a point at its end.
+        let mut known = vec![0; count];
         let mut is_part = Vec::with_capacity(count);
         for (joint, data) in skeleton.iter() {
-            let is_further = parent(joint.0).is_some_and(|parent| is_known[parent]);
-            let is_first = !is_further && !is_core[joint.0] && is_part_name(&data.name);
-            is_known[joint.0] = is_further || is_first;
-            is_part.push(is_first || self.limbs.is_named(joint.0));
+            let before = parent(joint.0).map_or(0, |parent| known[parent]);
+            let own = if is_core[joint.0] { 0 } else { parts_in(&data.name) };
+            known[joint.0] = before | own;
+            is_part.push(own & !before != 0 || own != 0 && is_in_a_row(&data.name));
         }
         let (mut reach, mut moves) = (vec![0.0; count], self.moves.to_vec());
         let (mut joints, mut bones) = (vec![1; count], vec![0.0; count]);
@@ -201,14 +217,26 @@ fn role_of(name: &str) -> Option<Role> {
     NAMES.iter().find(is).map(|(role, ..)| *role)
 }
 
-/// Whether a name says that something is a part of a hand, a foot or a head.
-fn is_part_name(name: &str) -> bool {
-    let is = |word: &String| {
-        PARTS.iter().any(|part| {
-            word.trim_start_matches(['l', 'r']).starts_with(part) || word.starts_with(part)
-        })
+/// Of which parts of hands, feet, heads and backs a name speaks: a bit for each word.
+fn parts_in(name: &str) -> u32 {
+    let words = words(name);
+    let has = |part: &str| {
+        let is = |word: &String| {
+            word.starts_with(part) || word.trim_start_matches(['l', 'r']).starts_with(part)
+        };
+        words.iter().any(is) || !part.is_ascii() && name.contains(part)
     };
-    words(name).iter().any(is)
+    let bit = |(at, part): (usize, &&str)| if has(part) { 1 << at } else { 0 };
+    PARTS.iter().enumerate().map(bit).fold(0, |all, bit| all | bit)
+}
+
+/// Whether a name says that something is one of several in a row, as the joints of a finger.
+fn is_in_a_row(name: &str) -> bool {
+    let words = words(name);
+    let last = words.iter().rfind(|word| !SIDES.contains(&&word[..]));
+    last.is_some_and(|word| {
+        word.ends_with(char::is_numeric) || KNUCKLES.iter().any(|knuckle| word.ends_with(knuckle))
+    })
 }
 
 #[cfg(test)]
@@ -231,6 +259,7 @@ mod tests {
             ("Tailor", None),
             ("Spine", None),
             ("LeftEar", Some(Role::Hair)),
+            ("左親指０", None),
         ] {
             assert_eq!(role_of(name), role, "{name}");
         }
@@ -241,12 +270,19 @@ mod tests {
             "LThumb",
             "LeftHandIndex4",
             "leftEye",
+            "左人指１",
             "l_toes",
         ] {
-            assert!(is_part_name(name), "{name}");
+            assert!(parts_in(name) != 0, "{name}");
+        }
+        for name in ["rMid2", "index_02_l", "leftIndexDistal", "左人指２", "f_index.02.L"] {
+            assert!(is_in_a_row(name), "{name}");
+        }
+        for name in ["LeftToeBase_End", "LeftHandIndex3_tip", "more"] {
+            assert!(!is_in_a_row(name), "{name}");
         }
         for name in ["Hips", "Sword", "LeftHand", "Neck"] {
-            assert!(!is_part_name(name), "{name}");
+            assert!(parts_in(name) == 0, "{name}");
         }
     }
 }

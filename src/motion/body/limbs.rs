@@ -30,8 +30,6 @@ pub(crate) struct NamedLimbs {
     /// Left and right.
     pub(crate) legs: [Option<Limb>; 2],
     pub(crate) head: Option<usize>,
-    /// Of each joint whether the dialect names it.
-    is_named: Vec<bool>,
 }
 
 impl NamedLimbs {
@@ -48,7 +46,6 @@ impl NamedLimbs {
             arms: limbs(["腕", "ひじ", "手首"]),
             legs: limbs(["足", "ひざ", "足首"]),
             head: named("頭").map(|head| head.0),
-            is_named: is_named(skeleton, &found.joints),
         }
     }
 
@@ -66,11 +63,6 @@ impl NamedLimbs {
         limbs.find(|limb| limb[2] == end)
     }
 
-    /// Whether a table of names has a joint.
-    pub(super) fn is_named(&self, joint: usize) -> bool {
-        self.is_named[joint]
-    }
-
     /// The height of a person with these legs, where head and all limbs are known.
     pub(super) fn height(&self, skeleton: &Skeleton) -> Option<f64> {
         let [Some(left), Some(right)] = self.legs else { return None };
@@ -85,12 +77,6 @@ impl NamedLimbs {
         let limbs = self.arms.into_iter().chain(self.legs).flatten().flatten();
         limbs.chain(self.head)
     }
-}
-
-fn is_named(skeleton: &Skeleton, joints: &[Vec<JointId>]) -> Vec<bool> {
-    let mut is_named = vec![false; skeleton.len()];
-    joints.iter().flatten().for_each(|joint| is_named[joint.0] = true);
-    is_named
 }
 
 /// A limb and its length, where its joints can be one.

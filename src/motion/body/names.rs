@@ -121,7 +121,7 @@ impl BoneMap {
     /// [`Error::Clip`] when no joint is known: the message names them and the way out.
     pub(crate) fn of(&self, clip: &Clip) -> Result<Found, Error> {
         let mut found = self.find(clip.skeleton());
-        let is_unknown = score(&found.joints) == (0, 0);
+        let is_unknown = found.joints.iter().all(Vec::is_empty);
         found.by_shape = structure::settle(&self.model, &mut found.joints, clip, |bone| {
             self.own.contains_key(bone)
         });
@@ -151,7 +151,7 @@ impl BoneMap {
         let mut dialect = &nothing;
         for other in &self.dialects {
             let joints = self.joints(other, &names);
-            if score(&joints) > score(&best) {
+            if score(&self.model, &joints) > score(&self.model, &best) {
                 (best, dialect) = (joints, other);
             }
         }
@@ -170,10 +170,11 @@ impl BoneMap {
     }
 }
 
-/// Bones that are driven, and joints that drive them.
-fn score(joints: &[Vec<JointId>]) -> (usize, usize) {
-    let driven = joints.iter().filter(|joints| !joints.is_empty()).count();
-    (driven, joints.iter().flatten().collect::<HashSet<_>>().len())
+/// Bones of limbs that are driven, all bones that are, and joints that drive them: fingers of another dialect are many.
+fn score(model: &Model, joints: &[Vec<JointId>]) -> [usize; 3] {
+    let driven = || model.bones.iter().zip(joints).filter(|(_, joints)| !joints.is_empty());
+    let of_limbs = driven().filter(|(bone, _)| structure::is_of_limb(&bone.name)).count();
+    [of_limbs, driven().count(), joints.iter().flatten().collect::<HashSet<_>>().len()]
 }
 
 fn unknown(skeleton: &Skeleton) -> Error {

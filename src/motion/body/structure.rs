@@ -76,7 +76,7 @@ fn take_limbs(
     }
 }
 
-fn is_of_limb(bone: &str) -> bool {
+pub(super) fn is_of_limb(bone: &str) -> bool {
     let stem = bone.trim_start_matches(['左', '右']);
     LIMBS.iter().any(|(_, bones)| bones.contains(&stem))
 }
