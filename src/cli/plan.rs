@@ -129,7 +129,7 @@ impl<'a> Plan<'a> {
         let source = self.args.clip.read()?;
         let (seen_from, notes) = seen::asked(&self.args.corrections.seen, &source.clip)?;
         self.recipe.seen_from = seen_from.unwrap_or(self.recipe.seen_from);
-        let body = Description::of(&source.clip).notes;
+        let body = Description::notes(&source.clip);
         source.notes.iter().chain(&notes).chain(&body).for_each(note);
         let engine = Engine::new(source.clip)?.with_budget(self.args.clip.budget());
         Ok((engine, source.of))

@@ -10,6 +10,7 @@ mod limbs;
 pub(crate) mod mannequin;
 mod members;
 pub(crate) mod names;
+mod role;
 mod side;
 mod stature;
 pub(crate) mod structure;

@@ -6,7 +6,7 @@
 
 use crate::motion::Skeleton;
 use crate::motion::body::limbs::NamedLimbs;
-use crate::motion::body::members::Role;
+use crate::motion::body::role::Role;
 use crate::motion::body::side::words;
 use crate::motion::landmarks::above;
 

@@ -38,7 +38,7 @@ impl Build {
     }
 
     fn with(clip: &Clip, members: Members, limbs: NamedLimbs) -> Self {
-        let looks = Looks::at(clip, &members);
+        let looks = Looks::at(clip, &members, &limbs);
         let (size, rest) = stature::seen(clip, &members);
         let (up, up_by) = upright::up(clip, &members, &limbs, &looks, rest);
         let landmarks = Landmarks::of_members(&looks, &members, &limbs, up);

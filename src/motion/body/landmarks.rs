@@ -145,17 +145,20 @@ pub(super) struct Looks {
     /// One an End Site, in the order of the file.
     tips: Vec<(Point, DVec3)>,
     height: f64,
+    /// How upright it stands, where names give legs and head.
+    upright: Option<DVec3>,
 }
 
 impl Looks {
-    pub(super) fn at(clip: &Clip, members: &Members) -> Self {
+    pub(super) fn at(clip: &Clip, members: &Members, limbs: &NamedLimbs) -> Self {
         let skeleton = members.skeleton();
         let tips = skeleton.iter().flat_map(|(joint, data)| {
             data.end_sites.iter().map(move |end| (Point { joint, offset: end.offset }, DVec3::ZERO))
         });
         let means = vec![DVec3::ZERO; skeleton.len()];
-        let mut looks = Self { means, tips: tips.collect(), height: 0.0 };
+        let mut looks = Self { means, tips: tips.collect(), height: 0.0, upright: None };
         let mut sides = Vec::new();
+        let mut stands = limbs.legs_and_head().map(|(legs, head)| Stands::of(legs, head));
         each_look(clip, |body| {
             for (mean, position) in looks.means.iter_mut().zip(body.positions()) {
                 *mean += *position;
@@ -164,26 +167,20 @@ impl Looks {
                 *mean += tip.position(body);
             }
             sides.push(members.extent(body.positions()).max_element());
+            stands.iter_mut().for_each(|stands| stands.look(body));
         });
         looks.height = median(sides);
+        looks.upright = stands.map(|stands| stands.upright());
         looks
     }
 
-    /// How upright a body stands along each axis in the middle of its poses, as a cosine: as its legs do from ankles to hips,
-    /// or all of it from there to the head, whichever is more.
-    pub(super) fn upright(clip: &Clip, legs: [[usize; 3]; 2], head: usize) -> DVec3 {
-        let [mut of_legs, mut of_all] = [Vec::new(), Vec::new()];
-        each_look(clip, |body| {
-            let at = |joint: usize| body.positions()[joint];
-            let [hips, ankles] = [0, 2].map(|end| at(legs[0][end]).midpoint(at(legs[1][end])));
-            of_legs.push((hips - ankles).normalize_or_zero());
-            of_all.push((at(head) - ankles).normalize_or_zero());
-        });
-        let middle = |ways: &[DVec3]| {
-            let along = |axis: DVec3| median(ways.iter().map(|way| way.dot(axis)).collect());
-            DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
-        };
-        middle(&of_legs).max(middle(&of_all))
+    /// How upright a body with these ends stands along each axis, as [`Stands::upright`] has it.
+    pub(super) fn upright(&self, clip: &Clip, legs: [[usize; 3]; 2], head: usize) -> DVec3 {
+        self.upright.unwrap_or_else(|| {
+            let mut stands = Stands::of(legs, head);
+            each_look(clip, |body| stands.look(body));
+            stands.upright()
+        })
     }
 
     /// The foot below an ankle.
@@ -194,6 +191,39 @@ impl Looks {
         let lowest = joints.chain(tips).min_by(|a, b| a.1.dot(up).total_cmp(&b.1.dot(up)));
         let ankle = Point::of(ankle);
         Foot { ankle, sole: lowest.map_or(ankle, |(sole, _)| sole) }
+    }
+}
+
+/// How a body stands in the poses that are looked at.
+struct Stands {
+    legs: [[usize; 3]; 2],
+    head: usize,
+    /// From ankles to hips, and from ankles to the head.
+    ways: [Vec<DVec3>; 2],
+}
+
+impl Stands {
+    fn of(legs: [[usize; 3]; 2], head: usize) -> Self {
+        Self { legs, head, ways: [Vec::new(), Vec::new()] }
+    }
+
+    fn look(&mut self, body: &Body) {
+        let at = |joint: usize| body.positions()[joint];
+        let [left, right] = self.legs;
+        let [hips, ankles] = [0, 2].map(|end| at(left[end]).midpoint(at(right[end])));
+        self.ways[0].push((hips - ankles).normalize_or_zero());
+        self.ways[1].push((at(self.head) - ankles).normalize_or_zero());
+    }
+
+    /// How upright it stands along each axis in the middle of its poses, as a cosine: as its legs do, or all of it, whichever
+    /// is more.
+    fn upright(&self) -> DVec3 {
+        let middle = |ways: &Vec<DVec3>| {
+            let along = |axis: DVec3| median(ways.iter().map(|way| way.dot(axis)).collect());
+            DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
+        };
+        let [legs, all] = self.ways.each_ref().map(middle);
+        legs.max(all)
     }
 }
 

@@ -72,8 +72,12 @@ pub(crate) struct LayFigure {
 impl LayFigure {
     /// Finds the parts; none in a body without head, two arms and two legs.
     pub(crate) fn of(clip: &Clip) -> Option<Self> {
-        let build = Build::of(clip);
-        let rig = Rig::of(clip, &build)?;
+        Self::of_build(clip, &Build::of(clip))
+    }
+
+    /// The same of a body that is described.
+    pub(crate) fn of_build(clip: &Clip, build: &Build) -> Option<Self> {
+        let rig = Rig::of(clip, build)?;
         let toes = rig.mannequin.legs.each_ref().map(|leg| rig.toes(leg));
         let (legs_are_left_first, forward) = rig.sides(&rig.mannequin.legs, &toes);
         let (arms_are_left_first, _) = rig.sides(&rig.mannequin.arms, &toes);

@@ -4,7 +4,6 @@ use std::sync::LazyLock;
 
 use super::names::BoneMap;
 use super::structure::fit::way;
-use crate::motion::body::mannequin::LEG;
 use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
 use crate::motion::{JointId, Skeleton};
@@ -18,6 +17,9 @@ const EVEN: f64 = 1.0 / 3.0;
 
 /// How much longer than the other a limb may be: an arm that is called a leg is half as long as a leg.
 const ALIKE: f64 = 1.4;
+
+/// Thigh and shin together, in heights of the body.
+pub(super) const LEG: f64 = 0.48;
 
 /// An arm or a leg: shoulder, elbow and wrist, or hip, knee and ankle.
 pub(crate) type Limb = [usize; 3];
@@ -66,10 +68,20 @@ impl NamedLimbs {
     /// The height of a person with these legs, where head and all limbs are known.
     pub(super) fn height(&self, skeleton: &Skeleton) -> Option<f64> {
         let [Some(left), Some(right)] = self.legs else { return None };
-        let is_whole = self.arms.iter().all(Option::is_some) && self.head.is_some();
         let length = |[hip, _, ankle]: Limb| way(skeleton, JointId(hip), JointId(ankle));
         let mean = f64::midpoint(length(left)?, length(right)?);
-        is_whole.then_some(mean / LEG)
+        self.are_whole().then_some(mean / LEG)
+    }
+
+    /// Both legs and the head, where names give them.
+    pub(super) fn legs_and_head(&self) -> Option<([Limb; 2], usize)> {
+        let [left, right] = self.legs;
+        Some(([left?, right?], self.head?))
+    }
+
+    /// Whether head and all limbs are known.
+    pub(super) fn are_whole(&self) -> bool {
+        self.head.is_some() && self.arms.iter().chain(&self.legs).all(Option::is_some)
     }
 
     /// Their joints and the head.

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::motion::body::limbs::NamedLimbs;
+use crate::motion::body::limbs::{LEG, NamedLimbs};
 use crate::motion::landmarks::{above, below, lengths};
 use crate::motion::{BodySide, EndSite, JointId, Landmarks, Point, Skeleton};
 
@@ -29,9 +29,6 @@ pub(crate) const BONES: [f64; POINTS] = {
 
 /// From the root to the head and to an ankle along the bones, both together, in heights of the body.
 const TRUNK_AND_LEG: f64 = 0.9;
-
-/// Thigh and shin together, in heights of the body.
-pub(super) const LEG: f64 = 0.48;
 
 /// Upper arm and forearm together, in heights of the body.
 const ARM: f64 = 0.32;

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::motion::body::accessories::Rig;
 use crate::motion::body::limbs::NamedLimbs;
+use crate::motion::body::role::Role;
 use crate::motion::landmarks::{above, body_root};
 use crate::motion::{Channel, Clip, Joint, Skeleton, local_translation};
 
@@ -14,27 +15,6 @@ const LEAST_TURN: f64 = 0.05;
 
 /// Ways of a smaller share of all bones are none, likewise.
 const LEAST_WAY: f64 = 1e-4;
-
-/// What a joint is to the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
-    /// A part of it.
-    Body,
-    /// Carries the body and never moves, as the reference of a scene.
-    Guide,
-    /// Never moves: it hangs on nothing that does, or is a point on a bone.
-    Still,
-    /// A helper or a control of the rig.
-    Helper,
-    /// Hair, cloth, a tail.
-    Hair,
-    /// Something that is held or worn.
-    Prop,
-    /// Reaches too far from the body to be a part of it.
-    Far,
-    /// Somebody else's, who is in the same file.
-    Other,
-}
 
 /// The joints of a clip that are the body.
 #[derive(Debug, Clone, PartialEq)]

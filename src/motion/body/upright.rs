@@ -50,7 +50,7 @@ pub(super) fn up(
         Some((legs, landmarks.head?.joint.0))
     };
     let stands = |ends: Option<([[usize; 3]; 2], usize)>| {
-        ends.map_or(DVec3::ZERO, |(legs, head)| Looks::upright(clip, legs, head))
+        ends.map_or(DVec3::ZERO, |(legs, head)| looks.upright(clip, legs, head))
     };
     let (of_y, of_z) = (ends(Axis::Y), ends(Axis::Z));
     let along_y = stands(of_y);

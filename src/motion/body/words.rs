@@ -1,6 +1,6 @@
 //! A body in words (体の説明): what is known of whoever moves in a clip, and by what.
 
-use super::members::Role;
+use super::role::Role;
 use super::upright::By;
 use crate::error::Warning;
 use crate::motion::landmarks::above;
@@ -36,23 +36,36 @@ impl Description {
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn of(clip: &Clip) -> Self {
+        Self::of_build(clip, &Build::of(clip))
+    }
+
+    /// Its notes alone, which take less where there are none.
+    pub fn notes(clip: &Clip) -> Vec<Warning> {
         let build = Build::of(clip);
+        let is_known = build.limbs.are_whole() && !matches!(build.up_by, By::Shape | By::Custom);
+        match is_known {
+            true => people(clip, &build).into_iter().collect(),
+            false => Self::of_build(clip, &build).notes,
+        }
+    }
+
+    fn of_build(clip: &Clip, build: &Build) -> Self {
         let mut guesses = Vec::new();
-        let mut lines = vec![("up", up(&build, &mut guesses)), ("height", height(&build))];
-        match LayFigure::of(clip) {
-            Some(figure) => lines.extend(limbs(clip, &build, &figure, &mut guesses)),
+        let mut lines = vec![("up", up(build, &mut guesses)), ("height", height(build))];
+        match LayFigure::of_build(clip, build) {
+            Some(figure) => lines.extend(limbs(clip, build, &figure, &mut guesses)),
             None => {
                 let none = "none: no head, two arms and two legs are found; the ends of its chains stand for them";
                 guesses.push("it has no limbs that are known".to_owned());
                 lines.push(("limbs", none.into()));
             }
         }
-        lines.extend(not_body(&build).map(|joints| ("not body", joints)));
+        lines.extend(not_body(build).map(|joints| ("not body", joints)));
         let guess = (!guesses.is_empty()).then(|| {
             let message = format!("of the body {}; genga inspect tells more", guesses.join("; "));
             Warning::new(BODY_GUESS, message)
         });
-        Self { lines, notes: guess.into_iter().chain(people(clip, &build)).collect() }
+        Self { lines, notes: guess.into_iter().chain(people(clip, build)).collect() }
     }
 }
 
