@@ -342,11 +342,10 @@ impl Engine {
         recipe.keys.weights.of(self.clip.skeleton())?;
         let count = split.len();
         self.layers.resize_with(count.max(self.layers.len()), LayerStages::default);
-        self.moving.exaggerate(&self.clip, recipe)?;
+        self.measure(recipe)?;
         if count > 1 {
             self.moving.stand(clock);
         }
-        self.measure(recipe)?;
         let split = self.split.output().value();
         let moving = self.moving.outputs(split.len() > 1);
         let first = &mut self.layers[0];

@@ -36,16 +36,9 @@ impl Points {
                 bones.push(end.offset.length());
             }
         }
-        let is_own = |joint: &usize| members.has(*joint);
-        let joints = 0..skeleton.len();
-        let is_own: Vec<bool> = joints
-            .clone()
-            .chain(tips.iter().map(|(joint, _)| *joint))
-            .map(|at| is_own(&at))
-            .collect();
-        let own = joints.chain(tips.iter().map(|(joint, _)| *joint)).map(|joint| own[joint]);
-        let own: Vec<f64> =
-            own.zip(&is_own).map(|(own, is_own)| if *is_own { own } else { 0.0 }).collect();
+        let is_own: Vec<bool> = skeleton.owners().map(|joint| members.has(joint)).collect();
+        let weigh = |joint: usize| if members.has(joint) { own[joint] } else { 0.0 };
+        let own: Vec<f64> = skeleton.owners().map(weigh).collect();
         let mut weights: Vec<f64> = bones.iter().zip(&own).map(|(bone, own)| bone * own).collect();
         if weights.iter().all(|weight| *weight == 0.0) {
             weights = own;

@@ -188,13 +188,7 @@ impl Clip {
 
     /// Which columns of the table are not the same in every row.
     pub(crate) fn changing_channels(&self) -> Vec<bool> {
-        let mut changes = vec![false; self.skeleton.channels()];
-        for (row, next) in self.rows().zip(self.rows().skip(1)) {
-            for (changes, (value, next)) in changes.iter_mut().zip(row.iter().zip(next)) {
-                *changes |= value != next;
-            }
-        }
-        changes
+        self.ranges().into_iter().map(|range| range > 0.0).collect()
     }
 
     /// From the least to the largest value of each column of the table; 0 without a frame.

@@ -60,8 +60,10 @@ impl MovingStages {
 
     /// Measures how high the body stands.
     pub(super) fn stand(&mut self, clock: Clock) {
-        self.height.make((self.drawn.output(),), clock, |(clip,), clock| {
-            Reference::of(&clip, *clock).height()
+        let inputs = (self.drawn.output(), self.build.output());
+        self.height.make(inputs, clock, |(clip, build), clock| {
+            let all = vec![1.0; clip.skeleton().len()];
+            Reference::of_members(&clip, &build.members, *clock, &all).height()
         });
     }
 

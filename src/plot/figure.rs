@@ -128,18 +128,16 @@ impl Figure {
     pub(crate) fn of(clip: &Clip, body: FigureBody) -> Self {
         let mut standing = Body::new(clip.skeleton());
         standing.place(Poser::of(clip).frame(clip.first()));
-        let Build { members, stature, .. } = Build::of(clip);
-        let up = stature.up.unit();
-        let tips = clip.skeleton().iter();
-        let tips = tips.flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
-        let joints = (0..clip.skeleton().len()).chain(tips);
-        let hidden: Vec<bool> = joints.map(|joint| !members.shows(joint)).collect();
+        let build = Build::of(clip);
+        let up = build.stature.up.unit();
+        let owners = clip.skeleton().owners();
+        let hidden: Vec<bool> = owners.map(|joint| !build.members.shows(joint)).collect();
         let sticks = || {
             let sticks = Self::sticks(clip.skeleton(), standing.points(), up);
             sticks.without(hidden.clone(), standing.points(), up)
         };
         let dummy = match body {
-            FigureBody::Mannequin => Dummy::of(clip),
+            FigureBody::Mannequin => Dummy::of(clip, &build),
             FigureBody::Sticks => None,
         };
         let Some(dummy) = dummy else { return sticks() };
@@ -299,9 +297,8 @@ fn draw_solid(
 pub(crate) fn bones(skeleton: &Skeleton) -> impl Iterator<Item = (usize, usize)> {
     let joints = skeleton.iter();
     let joints = joints.filter_map(|(joint, data)| Some((data.parent?.0, joint.0)));
-    let ends =
-        skeleton.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
-    joints.chain(ends.enumerate().map(|(tip, joint)| (joint, skeleton.len() + tip)))
+    joints
+        .chain(skeleton.owners().enumerate().skip(skeleton.len()).map(|(tip, joint)| (joint, tip)))
 }
 
 #[cfg(test)]

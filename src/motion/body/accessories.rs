@@ -20,8 +20,8 @@ const LONGEST: f64 = 0.25;
 /// Joints of a body at the least that its longest bone is looked for in.
 const FEWEST: usize = 8;
 
-/// The largest share of a body's joints that hang on something which is none of it.
-const MOST: usize = 3;
+/// Something that carries more than one of so many joints is no accessory, whatever it is called.
+const ONE_OF: usize = 3;
 
 /// Words of names, and letters of those that are not parted into words.
 type Names = (Role, &'static [&'static str], &'static [&'static str]);
@@ -143,7 +143,7 @@ impl Rig<'_> {
     /// What a joint is that hangs on the body, where it is none of it.
     fn role(&self, sums: &Sums, joint: usize) -> Option<Role> {
         let root = sums.root[joint];
-        if MOST * sums.joints[joint] > sums.joints[root] {
+        if ONE_OF * sums.joints[joint] > sums.joints[root] {
             return None;
         }
         let bone = self.skeleton.joints[joint].offset.length();

@@ -271,15 +271,19 @@ fn first_end_of(skeleton: &Skeleton, reaches: &[f64], height: f64, joint: usize)
 
 /// The root of the tree with most bones by their length, of equals the first.
 pub(super) fn body_root(skeleton: &Skeleton) -> Option<usize> {
-    let mut roots = Vec::with_capacity(skeleton.len());
-    let mut sizes = vec![0.0; skeleton.len()];
-    for (at, joint) in skeleton.joints.iter().enumerate() {
-        let root = joint.parent.map_or(at, |parent| roots[parent.0]);
-        roots.push(root);
-        sizes[root] += joint.parent.map_or(0.0, |_| joint.offset.length());
-    }
+    let roots = skeleton.roots();
+    let sizes = bones_by_tree(skeleton, &roots);
     let largest = |best: usize, other: usize| if sizes[other] > sizes[best] { other } else { best };
     roots.into_iter().reduce(largest)
+}
+
+/// How long the bones of each tree are together, at its root.
+pub(super) fn bones_by_tree(skeleton: &Skeleton, roots: &[usize]) -> Vec<f64> {
+    let mut sizes = vec![0.0; skeleton.len()];
+    for (joint, root) in skeleton.joints.iter().zip(roots) {
+        sizes[*root] += joint.parent.map_or(0.0, |_| joint.offset.length());
+    }
+    sizes
 }
 
 /// A joint and all that it hangs on, up to its root.

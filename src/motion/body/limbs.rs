@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use super::names::BoneMap;
+use super::structure::LIMBS;
 use super::structure::fit::way;
 use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
@@ -45,8 +46,8 @@ impl NamedLimbs {
             alike(Side::BOTH.map(limb))
         };
         Self {
-            arms: limbs(["腕", "ひじ", "手首"]),
-            legs: limbs(["足", "ひざ", "足首"]),
+            arms: limbs(LIMBS[0].1),
+            legs: limbs(LIMBS[1].1),
             head: named("頭").map(|head| head.0),
         }
     }

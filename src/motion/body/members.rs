@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::motion::body::accessories::Rig;
 use crate::motion::body::limbs::NamedLimbs;
 use crate::motion::body::role::Role;
-use crate::motion::landmarks::{above, body_root};
+use crate::motion::landmarks::{above, body_root, bones_by_tree};
 use crate::motion::{Channel, Clip, Joint, Skeleton, local_translation};
 
 /// Turns of fewer degrees are none: single floats and rounded decimals have such noise.
@@ -154,14 +154,10 @@ pub(super) fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
 
 /// The joints of the tree that is most of the body by its bones, among those in which something moves.
 pub(super) fn main_tree(skeleton: &Skeleton, moves: &[bool]) -> Vec<bool> {
-    let mut roots = Vec::with_capacity(moves.len());
-    let (mut bones, mut is_moving) = (vec![0.0; moves.len()], vec![false; moves.len()]);
-    for (joint, data) in skeleton.iter() {
-        let root = data.parent.map_or(joint.0, |parent| roots[parent.0]);
-        roots.push(root);
-        bones[root] += data.parent.map_or(0.0, |_| data.offset.length());
-        is_moving[root] |= moves[joint.0];
-    }
+    let roots = skeleton.roots();
+    let bones = bones_by_tree(skeleton, &roots);
+    let mut is_moving = vec![false; moves.len()];
+    roots.iter().zip(moves).for_each(|(root, moves)| is_moving[*root] |= moves);
     let largest = |best: usize, other: usize| {
         let is_more = (is_moving[other], bones[other]) > (is_moving[best], bones[best]);
         if is_more { other } else { best }
@@ -175,17 +171,11 @@ const PERSON: (usize, f64) = (8, 1.0 / 3.0);
 
 /// Trees as large as a person beside the one that is most of the body are other people.
 fn leave_out_others(skeleton: &Skeleton, is_main: &[bool], roles: &mut [Role]) {
-    let mut roots: Vec<usize> = Vec::with_capacity(roles.len());
-    let (mut joints, mut bones) = (vec![0; roles.len()], vec![0.0; roles.len()]);
-    let mut main = 0.0;
-    for (joint, data) in skeleton.iter() {
-        let root = data.parent.map_or(joint.0, |parent| roots[parent.0]);
-        roots.push(root);
-        let bone = data.parent.map_or(0.0, |_| data.offset.length());
-        joints[root] += 1;
-        bones[root] += bone;
-        main += if is_main[joint.0] { bone } else { 0.0 };
-    }
+    let roots = skeleton.roots();
+    let bones = bones_by_tree(skeleton, &roots);
+    let mut joints = vec![0; roots.len()];
+    roots.iter().for_each(|root| joints[*root] += 1);
+    let main = is_main.iter().position(|is_main| *is_main).map_or(0.0, |main| bones[roots[main]]);
     for (joint, root) in roots.into_iter().enumerate().filter(|(joint, _)| !is_main[*joint]) {
         if joints[root] >= PERSON.0 && bones[root] >= PERSON.1 * main {
             roles[joint] = Role::Other;
@@ -205,17 +195,14 @@ fn tops(skeleton: &Skeleton, moves: &[bool], limbs: &NamedLimbs) -> Vec<bool> {
             is_moving[parent.0] |= is_moving[joint.0];
         }
     }
-    let mut of_tree = Vec::with_capacity(below.len());
-    let mut tops = vec![false; below.len()];
     // Parents come first: the last that carries all of its tree is the lowest.
     let mut lowest = vec![None; below.len()];
-    for (joint, data) in skeleton.iter() {
-        let root = data.parent.map_or(joint.0, |parent| of_tree[parent.0]);
-        of_tree.push(root);
-        if below[joint.0] == below[root] && is_moving[root] {
-            lowest[root] = Some(joint.0);
+    for (joint, root) in skeleton.roots().into_iter().enumerate() {
+        if below[joint] == below[root] && is_moving[root] {
+            lowest[root] = Some(joint);
         }
     }
+    let mut tops = vec![false; below.len()];
     lowest.into_iter().flatten().for_each(|top| tops[top] = true);
     tops
 }

@@ -83,6 +83,22 @@ impl Skeleton {
         self.joints.iter().position(|joint| joint.name == name).map(JointId)
     }
 
+    /// The root of each joint's tree.
+    pub(crate) fn roots(&self) -> Vec<usize> {
+        let mut roots = Vec::with_capacity(self.len());
+        for (joint, data) in self.iter() {
+            roots.push(data.parent.map_or(joint.0, |parent| roots[parent.0]));
+        }
+        roots
+    }
+
+    /// The joint of each point of a pose: the joints themselves, then that of each tip.
+    pub(crate) fn owners(&self) -> impl Iterator<Item = usize> {
+        let tips =
+            self.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
+        (0..self.len()).chain(tips)
+    }
+
     /// How far a joint's rotation carries: the length of the longest chain of bones below it, End
     /// Sites included, in the file's unit. A leaf without an End Site takes its own bone's length.
     ///

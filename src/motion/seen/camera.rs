@@ -68,9 +68,7 @@ impl Camera {
 /// The places of the body alone, its root first.
 fn own(members: &Members, skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
     let root = members.root();
-    let tips =
-        skeleton.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
-    let of: Vec<usize> = (0..skeleton.len()).chain(tips).collect();
+    let of: Vec<usize> = skeleton.owners().collect();
     let is_own = |point: &usize| of.get(*point).is_none_or(|joint| members.has(*joint));
     let pose = |pose: &Vec<DVec3>| {
         let others = (0..pose.len()).filter(|point| *point != root).filter(is_own);

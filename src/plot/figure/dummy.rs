@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::motion::{BodySide, Clip, LayFigure, Point as Mark};
+use crate::motion::{BodySide, Build, Clip, LayFigure, Point as Mark};
 
 /// How thick a limb may be against its length: a toy's arms are short.
 const THICKEST: f64 = 0.3;
@@ -146,13 +146,9 @@ impl Axes {
 
 impl Dummy {
     /// The lay figure of a clip; none where a body has no head, two arms and two legs.
-    pub(super) fn of(clip: &Clip) -> Option<Self> {
-        let lay = LayFigure::of(clip)?;
-        let skeleton = clip.skeleton();
-        let joints = skeleton.iter().map(|(joint, _)| joint.0);
-        let tips = skeleton.iter();
-        let tips = tips.flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
-        Some(Self { lay, owners: joints.chain(tips).collect() })
+    pub(super) fn of(clip: &Clip, build: &Build) -> Option<Self> {
+        let lay = LayFigure::of_build(clip, build)?;
+        Some(Self { lay, owners: clip.skeleton().owners().collect() })
     }
 
     /// What a pose has to have behind its joints and tips.
