@@ -4,6 +4,7 @@
 //! between them is dear. [`Choose`] takes the set that loses least at that price. For studies joints may pick instead: they
 //! vote, their speeds are added, or any joint's turn is a candidate.
 
+mod acting;
 mod actions;
 mod body;
 mod bridge;
@@ -24,6 +25,7 @@ mod postures;
 mod reconstruction;
 mod reference;
 mod rest;
+mod stillness;
 mod sum;
 mod vote;
 mod voters;
@@ -53,6 +55,7 @@ pub use merge::JointTurns;
 pub use reconstruction::Reconstruction;
 pub(crate) use reconstruction::with_ends;
 pub use reference::Reference;
+pub use rest::AtRests;
 pub(crate) use rest::{rest_frames, rests};
 pub use voters::weights;
 pub use weights::JointWeights;

@@ -20,10 +20,12 @@ mod read;
 pub use axis::Axis;
 pub use body::landmarks;
 pub use body::{
-    BODY_GUESS, Contact, ContactFinder, Description, Foot, Landmarks, Limb, PEOPLE, Point, Stature,
-    Unit,
+    BODY_GUESS, BoneMap, Contact, ContactFinder, Description, Foot, Landmarks, Limb, PEOPLE, Point,
+    STILL, Stature, Unit,
 };
-pub(crate) use body::{BodySide, Build, LayFigure, Members, below, is_t_pose, plain_name};
+pub(crate) use body::{
+    BodySide, Build, LayFigure, Members, above, below, is_still, is_t_pose, plain_name,
+};
 pub use clip::{
     Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, Word,
     local_rotation, local_translation, set_local_rotation,

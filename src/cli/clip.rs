@@ -14,7 +14,7 @@ use crate::deliver::sheet_json::SheetFile;
 use crate::error::{Error, Warning};
 use crate::motion::bvh::{Cleaning, glitches};
 use crate::motion::file::{self, Found, Take};
-use crate::motion::{Axis, Clip, StreamLimit};
+use crate::motion::{Axis, BoneMap, Clip, StreamLimit};
 use crate::pipeline::Budget;
 use crate::time::FrameRate;
 
@@ -56,6 +56,10 @@ pub(super) struct Reading {
     /// The axis that points up, y or z, whatever the file says and however the body stands.
     #[arg(long, value_name = "AXIS", value_parser = up)]
     up: Option<Axis>,
+    /// A table of bones: which joints are head and limbs, and which drive which bone of vmd and vrma, over the table that
+    /// comes with genga.
+    #[arg(long, value_name = "BONES.toml")]
+    pub(super) bones: Option<PathBuf>,
     /// The bones of a motion that has none: a model (.pmx, .pmd) of a VMD, the .asf of an AMC that does not lie beside it.
     #[arg(long, value_name = "FILE")]
     skeleton: Option<PathBuf>,
@@ -180,6 +184,12 @@ impl Part {
 }
 
 impl Reading {
+    /// The table of bones that is named.
+    pub(super) fn bones(&self) -> Result<Option<BoneMap>, Failure> {
+        let parsed = |path| files::parsed("bones", path, BoneMap::parse);
+        self.bones.as_deref().map(parsed).transpose()
+    }
+
     /// Reads the whole file, with everything that is no motion.
     fn read(&self, path: &Path) -> Result<file::Read, Failure> {
         if path.is_dir() {
@@ -187,7 +197,9 @@ impl Reading {
         }
         let Self { fps, root, take, up, skeleton, repair, strict, memory, .. } = self.clone();
         let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
-        let options = file::Options { strict, repair, fps, root, take, skeleton, up, stream };
+        let bones = self.bones()?;
+        let options =
+            file::Options { strict, repair, fps, root, take, skeleton, up, bones, stream };
         let read = if paths::is_stream(path) {
             options.read(&files::read_up_to(stream, path)?)
         } else {

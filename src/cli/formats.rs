@@ -1,6 +1,6 @@
 //! The formats that a person asks for, and their files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::{Args, ValueEnum};
 
@@ -25,9 +25,6 @@ pub(super) struct FormatArgs {
     /// One setting of a format: --with csv.bom=true (may be given again).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
     with: Vec<(String, String)>,
-    /// For vmd: which of your joints drive which bone, over the table that comes with genga.
-    #[arg(long, value_name = "BONES.toml")]
-    pub(super) bones: Option<PathBuf>,
     /// Write over files that were changed since genga wrote them, and into a folder of another clip.
     #[arg(long)]
     pub(super) force: bool,
@@ -92,6 +89,7 @@ impl Formats {
         names: &[String],
         always: &[&str],
         args: &FormatArgs,
+        bones: Option<&BoneMap>,
     ) -> Result<Self, Failure> {
         let bvh = args.bvh.map(|rows| match rows {
             BvhRows::Stepped => "bvh",
@@ -116,8 +114,7 @@ impl Formats {
                 settings.set(name, value).map_err(|error| wrongly("with", &error))?;
             }
         }
-        let bones = |path| files::parsed("bones", path, BoneMap::parse);
-        settings.vmd.map = args.bones.as_deref().map(bones).transpose()?;
+        settings.vmd.map = bones.cloned();
         Ok(Self { formats, named, settings, is_forced: args.force })
     }
 

@@ -57,7 +57,7 @@ choices!(Step { Single: "single", Doubled: "doubled" });
 /// A unit of length (単位), or that nobody knows it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LengthUnit {
-    /// The one that the file declares, else the one that makes a person of the body in its first frame.
+    /// The one that the file declares, else the one in which the body is as high as a person.
     #[default]
     Auto,
     /// Metres.

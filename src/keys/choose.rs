@@ -13,7 +13,8 @@ use crate::keys::correct::{corrected, moved};
 use crate::keys::local::{Chosen, Word};
 use crate::keys::voters::voters;
 use crate::keys::{
-    AtContacts, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference, Wall, rest,
+    AtContacts, AtRests, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference,
+    Wall, rest,
 };
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::Clip;
@@ -94,6 +95,10 @@ pub struct Choose {
     /// Both ends of a rest of half a second or more are keys whatever they save. Raised, slow gestures
     /// count as rests.
     pub rest: f64,
+    /// What the begin and the end of a rest are: `keys` (default) whatever they save, or `off`, moments like all others.
+    /// With `off` there may also be keys within a rest that look like its begin. A number of genga that cannot be had
+    /// otherwise is met so.
+    pub at_rests: AtRests,
     /// What the begin and the end of a contact (接地) are, of a foot that comes down or leaves the ground and
     /// of a hand that stays somewhere: `off` (default) moments like all others, `candidates` also where no
     /// joint turns, `keys` whatever they save. With `keys` a walk has a key at every step, and more of them.
@@ -121,6 +126,7 @@ impl Default for Choose {
             rank: Rank::Price,
             min_price: 7.5,
             rest: 15.0,
+            at_rests: AtRests::default(),
             contacts: AtContacts::default(),
             min_strength: 0.0,
             per_second: 6.0,
@@ -184,6 +190,11 @@ knobs!(keys::Choose {
     )
     .unit("% of body height a second")
     .slider(0.0, 60.0),
+    at_rests: knob(
+        "止めの両端を原画に",
+        "What both ends of a rest are: keys whatever they save, or moments like all others (off).",
+        "止めの両端をどう扱うか。必ず原画にする（keys）、特別扱いしない（off）。",
+    ),
     contacts: knob(
         "接地を原画に",
         "What the moments are at which a foot or a hand comes down or leaves: like all others \
@@ -302,7 +313,10 @@ impl Choose {
         contacts: &[Frame],
         (edits, apart): (&Edits, f64),
     ) -> Vec<Key> {
-        let rests = rest::rest_ends(chords, rests);
+        let rests = match self.at_rests {
+            AtRests::Keys => rest::rest_ends(chords, rests),
+            AtRests::Off => Vec::new(),
+        };
         let contacts = if self.contacts == AtContacts::Keys { contacts } else { &[] };
         corrected(candidates, (&rests, contacts), edits, clip, apart)
     }

@@ -4,6 +4,7 @@ use std::array;
 use std::iter::once;
 
 use crate::keys::Reference;
+use crate::keys::acting::Acting;
 use crate::keys::postures::Postures;
 use crate::motion::lanes::{LANES, Lanes, pieces, wide};
 use crate::motion::{Build, Clip};
@@ -95,6 +96,11 @@ impl Chords {
     /// The body at each instant.
     pub(super) fn postures(&self) -> &Postures {
         &self.postures
+    }
+
+    /// What parts do while the body as a whole is quiet.
+    pub(crate) fn acting(&self) -> &Acting {
+        self.postures.acting()
     }
 
     /// Number of instants.

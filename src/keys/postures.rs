@@ -11,6 +11,7 @@ use std::array;
 
 use glam::DVec3;
 
+use crate::keys::acting::{self, Acting};
 use crate::keys::points::Points;
 use crate::maths;
 use crate::motion::body::mannequin::{BONES, Mannequin, POINTS, Stand};
@@ -29,6 +30,8 @@ pub(super) struct Postures {
     columns: usize,
     /// Instants × columns, in % of the body's height.
     rows: Vec<f64>,
+    /// What parts do while the body as a whole is quiet.
+    acting: Acting,
 }
 
 impl Postures {
@@ -36,8 +39,8 @@ impl Postures {
     /// and `own` how much each joint counts beside its bones. `build` is that of the whole body.
     ///
     /// The squared distance of two rows is the mean squared way of the points, weighed by their bones,
-    /// plus the squared way of the pelvis and, in the world, of the heading. A body that is no person's is
-    /// taken by its own points, where they are.
+    /// plus the squared way of the pelvis and, in the world, of the heading, and of the turns of parts that act while the
+    /// rest is quiet. A body that is no person's is taken by its own points, where they are.
     pub(super) fn of(
         clip: &Clip,
         build: &Build,
@@ -54,7 +57,29 @@ impl Postures {
             None => of_points(clip, &build.members, clock, instants, (screen, height), own),
         };
         postures.start_at_0();
+        postures.watch(clip, build, clock, (own, screen.is_world()));
         postures
+    }
+
+    /// Adds what parts do.
+    fn watch(&mut self, clip: &Clip, build: &Build, clock: Clock, own: (&[f64], bool)) {
+        let acting = Acting::of(clip, build, clock, own, &self.speeds(clock.koma_rate));
+        if acting.len() > 0 {
+            let columns = self.columns + acting::COLUMNS * acting.len();
+            let mut rows = vec![0.0; self.len() * columns];
+            let places = self.rows.chunks_exact(self.columns);
+            rows.chunks_exact_mut(columns).zip(places).for_each(|(row, places)| {
+                row[..places.len()].copy_from_slice(places);
+            });
+            acting.write(&mut rows, columns);
+            (self.columns, self.rows) = (columns, rows);
+        }
+        self.acting = acting;
+    }
+
+    /// What parts do while the body as a whole is quiet.
+    pub(super) fn acting(&self) -> &Acting {
+        &self.acting
     }
 
     /// Counts every column from where it is first: a body far from the middle of its world would have
@@ -120,7 +145,7 @@ fn of_person(
         }
         row[COLUMNS - 1] = 100.0 * GIRTH * heading;
     }
-    Postures { columns: COLUMNS, rows }
+    Postures { columns: COLUMNS, rows, acting: Acting::default() }
 }
 
 /// The points and the pelvis alone: a turn of the body is what is seen of it.
@@ -147,7 +172,7 @@ fn of_person_seen(
             column.copy_from_slice(&way.to_array());
         }
     });
-    Postures { columns: COLUMNS_SEEN, rows }
+    Postures { columns: COLUMNS_SEEN, rows, acting: Acting::default() }
 }
 
 /// Where a point of the rig stands in one of some poses.
@@ -202,7 +227,7 @@ fn of_points(
             column.copy_from_slice(&way.to_array());
         }
     });
-    Postures { columns, rows }
+    Postures { columns, rows, acting: Acting::default() }
 }
 
 /// Places the body at every koma of a clock: the instant, the poses of its block, and its lane of it.

@@ -5,9 +5,10 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::keys::points::Points;
+use crate::motion::body::mannequin::Mannequin;
 use crate::motion::clip::lane_poser::LanePoser;
 use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
-use crate::motion::{Build, Clip, Members, Screen};
+use crate::motion::{Build, Clip, Screen};
 use crate::time::{Clock, Frame};
 
 /// The source at each koma, computed once: what a reconstruction is measured against.
@@ -29,9 +30,9 @@ pub struct Reference {
 impl Reference {
     /// Samples the clip at every koma of the clock.
     ///
-    /// The body's height is the median over the koma of the longest side of the box round all its points.
-    /// It is taken from the motion and not from the rest pose because rest poses are a matter of the
-    /// rig: arms out, arms down, or all bones along one axis.
+    /// The body's height is that of a person with legs as long as these, from hip to ankle. Of a body without limbs it is
+    /// the median over the koma of the longest side of the box round all its points: rest poses are a matter of the rig,
+    /// with arms out, arms down, or all bones along one axis.
     pub fn of(clip: &Clip, clock: Clock) -> Self {
         Self::weighted(clip, clock, &vec![1.0; clip.skeleton().len()])
     }
@@ -39,12 +40,12 @@ impl Reference {
     /// The same where joints do not all count as much as their bones say: `own` has a factor for each, 0 or
     /// more and one of them above. It does not change the height.
     pub fn weighted(clip: &Clip, clock: Clock, own: &[f64]) -> Self {
-        Self::of_members(clip, &Build::of(clip).members, clock, own)
+        Self::of_build(clip, &Build::of(clip), clock, own)
     }
 
-    /// The same of the joints that are the body.
-    pub(crate) fn of_members(clip: &Clip, members: &Members, clock: Clock, own: &[f64]) -> Self {
-        let points = Points::of(clip.skeleton(), members, own);
+    /// The same of a body that is known.
+    pub(crate) fn of_build(clip: &Clip, build: &Build, clock: Clock, own: &[f64]) -> Self {
+        let points = Points::of(clip.skeleton(), &build.members, own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let mut poser = LanePoser::of(clip);
@@ -66,7 +67,8 @@ impl Reference {
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
         // A body of one point has no height; what it moves through stands for it.
-        let height = if median > 0.0 { median } else { whole_side(&positions, &points) };
+        let seen = || if median > 0.0 { median } else { whole_side(&positions, &points) };
+        let height = build.mannequin.as_ref().map_or_else(seen, Mannequin::height);
         Self { clock, koma, points, positions, height, screen: Screen::WORLD }
     }
 

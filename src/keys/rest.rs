@@ -6,13 +6,21 @@ use std::ops::RangeInclusive;
 
 use crate::keys::Chords;
 use crate::keys::postures::{Postures, apart};
+use crate::keys::stillness::{LEAST, SMOOTH, runs, smoothed, steps};
+use crate::knob::choices;
 use crate::time::Frame;
 
-/// Seconds that a stillness must last to be a rest.
-const LEAST: f64 = 0.5;
+/// What the begin and the end of a rest are to the keys of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AtRests {
+    /// Keys whatever they save, and nothing within that looks like the begin.
+    #[default]
+    Keys,
+    /// Moments like all others, as those within are. On the sheet drawings are held there all the same.
+    Off,
+}
 
-/// Seconds over which the speed is averaged, so that one tremble does not cut a rest in two.
-const SMOOTH: f64 = 0.125;
+choices!(AtRests { Keys: "keys", Off: "off" });
 
 /// How far the body may be from the posture that it holds, beside its unrest, in % of its height.
 const NEAR: f64 = 0.2;
@@ -42,21 +50,16 @@ pub(super) fn rest_ends(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec
 }
 
 /// The instants from the first to the last of each rest: the posture changes by less than `speed`, in %
-/// of the body's height a second, for at least half a second.
+/// of the body's height a second, for at least half a second, and no part of the body acts.
 pub(crate) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
-    let steps = |seconds: f64| (seconds * chords.clock().koma_rate).round() as usize;
-    let speeds = smoothed(&chords.postures().speeds(chords.clock().koma_rate), steps(SMOOTH));
-    let mut rests = Vec::new();
-    let mut begin = 0;
-    for still in speeds.chunk_by(|a, b| (*a < speed) == (*b < speed)) {
-        let end = begin + still.len();
-        // The speed of an instant is that of the step into it: a run of steps joins one instant more.
-        if still[0] < speed && still.len() >= steps(LEAST) {
-            rests.push(held(chords.postures(), begin, end, steps(SMOOTH)));
-        }
-        begin = end;
-    }
-    rests
+    let steps = |seconds| steps(seconds, chords.clock().koma_rate);
+    let postures = chords.postures();
+    let speeds = smoothed(&postures.speeds(chords.clock().koma_rate), steps(SMOOTH));
+    let is_still = |at: usize| speeds[at] < speed && !postures.acting().goes_on(at);
+    let stills = runs(speeds.len(), is_still).into_iter();
+    // The speed of an instant is that of the step into it: a run of steps joins one instant more.
+    let stills = stills.filter(|still| still.len() >= steps(LEAST));
+    stills.map(|still| held(postures, still.start, still.end, steps(SMOOTH))).collect()
 }
 
 /// From when until when a body that is still keeps to the posture that it holds, itself as still as it is
@@ -84,15 +87,6 @@ fn mean(postures: &Postures, first: usize, last: usize) -> Vec<f64> {
         }
     }
     mean
-}
-
-/// A centred mean over so many values and one more, over fewer at the ends.
-pub(super) fn smoothed(values: &[f64], over: usize) -> Vec<f64> {
-    let mean = |at: usize| {
-        let near = &values[at.saturating_sub(over / 2)..(at + over / 2 + 1).min(values.len())];
-        near.iter().sum::<f64>() / near.len() as f64
-    };
-    (0..values.len()).map(mean).collect()
 }
 
 #[cfg(test)]

@@ -20,11 +20,13 @@ mod words;
 
 pub(crate) use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
-pub(crate) use landmarks::below;
 pub use landmarks::{Foot, Landmarks, Point};
+pub(crate) use landmarks::{above, below};
 pub(crate) use lay_figure::LayFigure;
 pub(crate) use members::Members;
+pub(crate) use members::is_still;
+pub use names::BoneMap;
 pub(crate) use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
 pub(crate) use t_pose::is_t_pose;
-pub use words::{BODY_GUESS, Description, PEOPLE};
+pub use words::{BODY_GUESS, Description, PEOPLE, STILL};

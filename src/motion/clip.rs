@@ -15,6 +15,8 @@ pub use kinematics::{Body, Pose, local_rotation, local_translation};
 pub use poser::Poser;
 pub use skeleton::{Channel, EndSite, Joint, JointId, Skeleton};
 
+use std::sync::OnceLock;
+
 use crate::error::Error;
 use crate::time::{Clock, Frame, FrameRate};
 
@@ -33,6 +35,8 @@ pub struct Clip {
     frames: usize,
     values: Vec<f64>,
     declared: Declared,
+    /// How much each column changes, once that was asked.
+    ranges: OnceLock<Vec<f64>>,
 }
 
 impl PartialEq for Clip {
@@ -70,7 +74,7 @@ impl Clip {
             let frame = first.0 + at / channels;
             return Err(Error::clip(format!("frame {frame} holds a value that is not a number")));
         }
-        Ok(Self { skeleton, rate, first, frames, values, declared: Declared::default() })
+        Ok(Self::of_finite(skeleton, rate, first, frames, values))
     }
 
     /// A clip from a table known to have that shape and to hold finite values only: a reader that looked
@@ -84,7 +88,8 @@ impl Clip {
     ) -> Self {
         debug_assert_eq!(values.len(), frames * skeleton.channels());
         debug_assert!(values.iter().all(|value| value.is_finite()));
-        Self { skeleton, rate, first, frames, values, declared: Declared::default() }
+        let (declared, ranges) = (Declared::default(), OnceLock::new());
+        Self { skeleton, rate, first, frames, values, declared, ranges }
     }
 
     /// Checks that no value is so large that work on it would overflow: none may be beyond 10¹².
@@ -188,24 +193,30 @@ impl Clip {
 
     /// Which columns of the table are not the same in every row.
     pub(crate) fn changing_channels(&self) -> Vec<bool> {
-        self.ranges().into_iter().map(|range| range > 0.0).collect()
+        self.ranges().iter().map(|range| *range > 0.0).collect()
     }
 
     /// From the least to the largest value of each column of the table; 0 without a frame.
-    pub(crate) fn ranges(&self) -> Vec<f64> {
-        let Some(first) = self.rows().next() else { return vec![0.0; self.skeleton.channels()] };
-        let mut ends: Vec<(f64, f64)> = first.iter().map(|value| (*value, *value)).collect();
-        for row in self.rows() {
-            for ((low, high), value) in ends.iter_mut().zip(row) {
-                (*low, *high) = (low.min(*value), high.max(*value));
+    pub(crate) fn ranges(&self) -> &[f64] {
+        self.ranges.get_or_init(|| {
+            let first = self.rows().next().map_or_else(Vec::new, <[f64]>::to_vec);
+            let (mut lows, mut highs) = (first.clone(), first);
+            for row in self.rows() {
+                for ((low, high), value) in lows.iter_mut().zip(&mut highs).zip(row) {
+                    // No value is a nan, and a plain choice takes several at once.
+                    *low = if value < low { *value } else { *low };
+                    *high = if value > high { *value } else { *high };
+                }
             }
-        }
-        ends.into_iter().map(|(low, high)| high - low).collect()
+            lows.resize(self.skeleton.channels(), 0.0);
+            highs.resize(self.skeleton.channels(), 0.0);
+            highs.iter().zip(lows).map(|(high, low)| high - low).collect()
+        })
     }
 
     /// The same motion of some joints, all others as they are in the first frame.
     pub(crate) fn with_others_still(&self, moves: &[bool]) -> Self {
-        let mut clip = self.clone();
+        let mut clip = Self { ranges: OnceLock::new(), ..self.clone() };
         let Some(first) = self.rows().next() else { return clip };
         let channels = self.skeleton.channels();
         for (joint, _) in self.skeleton.joints.iter().zip(moves).filter(|(_, moves)| !**moves) {
@@ -245,6 +256,7 @@ impl Clip {
         self.values.drain(..(begin.0 - first) * channels);
         self.frames = end.0 - begin.0;
         self.first = begin;
+        self.ranges = OnceLock::new();
         Ok(self)
     }
 
@@ -254,9 +266,9 @@ impl Clip {
     /// When there are more or fewer values.
     pub(crate) fn with_values(&self, values: Vec<f64>) -> Self {
         assert_eq!(values.len(), self.values.len(), "as many values as before");
-        let Self { skeleton, rate, first, frames, declared, .. } = self;
-        let (skeleton, rate, first) = (skeleton.clone(), *rate, *first);
-        Self { skeleton, rate, first, frames: *frames, values, declared: *declared }
+        let new =
+            Self::of_finite(self.skeleton.clone(), self.rate, self.first, self.frames, values);
+        new.with_declared(self.declared)
     }
 
     /// What is said of it besides its values.

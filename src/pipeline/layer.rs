@@ -144,8 +144,7 @@ impl LayerStages {
         self.reference.make(inputs, settings, |(motion, build), settings| {
             let (rate, height, screen) = *settings;
             let LayerClip { clip, judged, .. } = motion.value();
-            let own =
-                Reference::of_members(clip, &build.members, clip.clock(rate), judged).on(screen);
+            let own = Reference::of_build(clip, &build, clip.clock(rate), judged).on(screen);
             match height {
                 None => own,
                 Some(height) => own.beside(height),
@@ -187,13 +186,14 @@ impl LayerStages {
 
     /// How all that moves in the layer moves.
     pub(super) fn follow(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
-        self.refer(moving, recipe);
-        let inputs = (self.motion.output(), moving.build, self.reference.output());
-        self.tracks.make(inputs, moving.screen, |(motion, build, reference), screen| {
+        self.compare(moving, recipe);
+        let (reference, chords) = (self.reference.output(), self.chords.output());
+        let inputs = (self.motion.output(), moving.build, reference, chords);
+        self.tracks.make(inputs, moving.screen, |(motion, build, reference, chords), screen| {
             let LayerClip { clip, judged, heard } = motion.value();
-            let height = reference.height();
+            let (height, acting) = (reference.height(), chords.value().acting());
             let build = build.value();
-            Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height })
+            Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height, acting })
         });
     }
 
@@ -215,8 +215,13 @@ impl LayerStages {
     fn gather(&mut self, moving: &Moving<'_>, heard: Option<&Measured<'_>>, recipe: &Recipe) {
         let finding = Finding::of(moving, recipe);
         // Price, rests and limit choose among candidates and do not change them.
-        let merging =
-            Choose { min_price: 0.0, rest: 0.0, per_second: f64::INFINITY, ..recipe.keys.clone() };
+        let merging = Choose {
+            min_price: 0.0,
+            rest: 0.0,
+            at_rests: keys::AtRests::Off,
+            per_second: f64::INFINITY,
+            ..recipe.keys.clone()
+        };
         let (body, settings) = (self.body.output(), (merging, finding));
         let Some(Measured { filtered, turns, .. }) = heard else {
             return self.candidates.make((body,), settings, |(body,), (choose, finding)| {
@@ -315,7 +320,11 @@ impl LayerStages {
             let (clip, chords, rests, candidates, contacts, reference) = inputs;
             let still = (chords.value(), &rests[..]);
             let mut keys = choose.eligible(&clip, still, &candidates, &contacts, (edits, *koma));
-            let (held, pace) = (keys::rest_frames(&chords, &rests), Pace::of(&reference));
+            let held = match choose.at_rests {
+                keys::AtRests::Keys => keys::rest_frames(&chords, &rests),
+                keys::AtRests::Off => Vec::new(),
+            };
+            let pace = Pace::of(&reference);
             let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
             keys.retain(|key| !key.origin.is_found() || room(key.frame));
             keys

@@ -63,7 +63,7 @@ impl MovingStages {
         let inputs = (self.drawn.output(), self.build.output());
         self.height.make(inputs, clock, |(clip, build), clock| {
             let all = vec![1.0; clip.skeleton().len()];
-            Reference::of_members(&clip, &build.members, *clock, &all).height()
+            Reference::of_build(&clip, &build, *clock, &all).height()
         });
     }
 

@@ -496,7 +496,7 @@ fn any_recipe() -> impl Strategy<Value = Recipe> {
 }
 
 proptest! {
-    #![proptest_config(cases(5, 60))]
+    #![proptest_config(cases(2, 60))]
 
     #[test]
     fn registers_of_any_width_give_the_same_bits(recipe in any_recipe()) {

@@ -12,10 +12,10 @@ use crate::time::Clock;
 
 /// How far a coordinate must go before and after a turn, in % of body height. What trembles less is
 /// dust.
-const SWING: f64 = 5.0;
+const SWING: f64 = 4.0;
 
 /// How near to its extremum a coordinate is still there, in % of body height.
-const THERE: f64 = 0.5;
+const THERE: f64 = 0.4;
 
 /// Seconds that it must be there for the extremum to be held: then it is reached and it is left.
 const HELD: f64 = 0.25;
@@ -42,8 +42,8 @@ pub struct Extrema {
 
 impl Extrema {
     /// Looks at the path of each landmark, smoothed over three koma (¼ ½ ¼), along each axis of the
-    /// file. A turn counts where the coordinate goes 5 % of the body's height or more before and after
-    /// it. Where it stays within 0.5 % of its extremum for a quarter of a second, the moments are those
+    /// file. A turn counts where the coordinate goes 4 % of the body's height or more before and after
+    /// it. Where it stays within 0.4 % of its extremum for a quarter of a second, the moments are those
     /// of arriving and of leaving; else it is the middle between the two.
     ///
     /// Turns of all coordinates and landmarks within a koma are one moment, at the heaviest koma.
@@ -170,7 +170,7 @@ mod tests {
         // The last way ends with the wave.
         let near = [10.0, 20.0, 20.0, 20.0, 20.0, 7.0].map(|way| way - 0.2..way + 0.1);
         assert!(weights.zip(near).all(|(weight, near)| near.contains(&weight)));
-        let dust: Vec<f64> = wave.iter().map(|value| 0.2 * value).collect();
+        let dust: Vec<f64> = wave.iter().map(|value| 0.15 * value).collect();
         assert!(coordinate_turns(&dust, 6).is_empty());
     }
 

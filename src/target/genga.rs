@@ -1,9 +1,12 @@
 //! A number of genga: how many keys there is room for.
 
+use std::cmp::Ordering;
+
 use super::{Outcome, Target, between, layer, reasons, room};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{Fill, Merge, Rank};
+use crate::motion::is_still;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
@@ -20,46 +23,82 @@ pub(super) fn meet(
     edits: &Edits,
     count: usize,
 ) -> Result<(Recipe, Outcome), Error> {
-    let target = Target::Keys(count);
-    let mut best = (layer(&engine.run(recipe, edits)?).genga(), recipe.clone());
-    if best.0 == count {
-        return Ok((best.1, Outcome { target, reached: count as f64, shortfall: None }));
+    let outcome = |reached: usize, shortfall| Outcome {
+        target: Target::Keys(count),
+        reached: reached as f64,
+        shortfall,
+    };
+    let there = genga(engine, recipe, edits)?;
+    if there == count {
+        return Ok((recipe.clone(), outcome(there, None)));
     }
-    let mut wanted = room::found(engine, recipe, edits)?;
-    let mut now = best.0;
-    for _ in 0..MOST_LOOKS {
-        let next = (wanted + count).saturating_sub(now);
-        if best.0 == count || next == wanted {
-            break;
-        }
-        wanted = next;
-        let tried = room::with_found(engine, recipe, edits, wanted)?;
-        now = layer(&engine.run(&tried, edits)?).genga();
-        let is_all = room::found(engine, &tried, edits)? < wanted;
-        if now.abs_diff(count) < best.0.abs_diff(count) {
-            best = (now, tried);
-        }
-        if is_all {
-            break;
-        }
+    if there < count && is_still(engine.clip()) {
+        let why = "nothing moves in the clip, and all genga would be one";
+        return Ok((recipe.clone(), outcome(there, Some(why.into()))));
     }
-    let (reached, mut recipe) = best;
+    let Looked { reached, mut recipe, over } = look(engine, recipe, edits, (count, there))?;
     if reached == count && recipe.keys.rank == Rank::Price {
         let priced = room::by_price(engine, &recipe, edits)?;
-        if layer(&engine.run(&priced, edits)?).genga() == count {
+        if genga(engine, &priced, edits)? == count {
             recipe = priced;
         }
     }
     let shortfall = match reached.cmp(&count) {
-        std::cmp::Ordering::Equal => None,
-        std::cmp::Ordering::Less => Some(too_few(&recipe, edits)),
-        std::cmp::Ordering::Greater if edits.freeze() => reasons::settled(edits).map(String::from),
-        std::cmp::Ordering::Greater => {
+        Ordering::Equal => None,
+        Ordering::Less => Some(match over {
+            Some(over) => format!("with a key more there are {over}"),
+            None => too_few(&recipe, edits),
+        }),
+        Ordering::Greater if edits.freeze() => reasons::settled(edits).map(String::from),
+        Ordering::Greater => {
             let left = engine.find_keys(&recipe, edits)?.keys.keys.clone();
             Some(reasons::staying(between(&engine.run(&recipe, edits)?), &left))
         }
     };
-    Ok((recipe, Outcome { target, reached: reached as f64, shortfall }))
+    Ok((recipe, outcome(reached, shortfall)))
+}
+
+/// The nearest to a number of genga that was found.
+struct Looked {
+    reached: usize,
+    recipe: Recipe,
+    /// A number beyond the one that is asked for, where that was met on the way.
+    over: Option<usize>,
+}
+
+/// Looks for the number of found keys with which there are so many genga, from those that there are.
+fn look(
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &Edits,
+    (count, there): (usize, usize),
+) -> Result<Looked, Error> {
+    let mut best = Looked { reached: there, recipe: recipe.clone(), over: None };
+    let (mut wanted, mut now) = (room::found(engine, recipe, edits)?, there);
+    for _ in 0..MOST_LOOKS {
+        let next = (wanted + count).saturating_sub(now);
+        if best.reached == count || next == wanted {
+            break;
+        }
+        wanted = next;
+        let tried = room::with_found(engine, recipe, edits, wanted)?;
+        now = genga(engine, &tried, edits)?;
+        let over = best.over.or((now > count).then_some(now));
+        let is_all = room::found(engine, &tried, edits)? < wanted;
+        if now.abs_diff(count) < best.reached.abs_diff(count) {
+            best = Looked { reached: now, recipe: tried, over };
+        }
+        best.over = over;
+        if is_all {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// How many genga the sheet of a recipe has.
+fn genga(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
+    Ok(layer(&engine.run(recipe, edits)?).genga())
 }
 
 fn too_few(recipe: &Recipe, edits: &Edits) -> String {
@@ -69,8 +108,10 @@ fn too_few(recipe: &Recipe, edits: &Edits) -> String {
     let limits = reasons::limits(recipe, edits);
     match (recipe.keys.merge, recipe.keys.fill) {
         (Merge::Body, Fill::On) => {
+            let stay = recipe.spacing.on.stay();
+            let way = if stay > 1 { "; spacing.on=1 has more" } else { "" };
             format!(
-                "there is no room for another{limits}: keys stand as far apart as a drawing stays"
+                "there is no room for another{limits}: a drawing stays for {stay} koma at the least{way}"
             )
         }
         (Merge::Body, Fill::Off) => format!(

@@ -46,9 +46,9 @@ pub(super) fn staying(between: usize, keys: &[Key]) -> String {
         there.map(|(_, one, many)| if between == 1 { one } else { many }).collect();
     let words = listed(&words);
     let way = match (rests, contacts) {
-        (true, true) => "; keys.rest=0 knows no rests, and keys.contacts=off no contacts",
-        (true, false) => "; keys.rest=0 knows no rests",
-        (false, true) => "; keys.contacts=off knows no contacts",
+        (true, true) => "; with keys.at_rests=off and keys.contacts=off they may go",
+        (true, false) => "; with keys.at_rests=off they may go",
+        (false, true) => "; with keys.contacts=off they may go",
         (false, false) => "",
     };
     let ends = "the first and the last drawing always are genga";

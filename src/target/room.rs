@@ -2,7 +2,7 @@
 
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Key, Rank};
+use crate::keys::{AtRests, Key, Rank};
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
@@ -13,7 +13,7 @@ const PRICES: (f64, f64) = (0.01, 1000.0);
 const HALVINGS: usize = 20;
 
 /// A recipe with so many found keys, or as many as there are: a number a second and, where fewer are worth
-/// their price, no price.
+/// their price, no price. Where rests leave too few other moments they are moments too.
 pub(crate) fn with_found(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -25,6 +25,9 @@ pub(crate) fn with_found(
     roomy.keys.per_second = per_second(count, seconds);
     if found(engine, &roomy, edits)? < count && roomy.keys.rank == Rank::Price {
         roomy.keys.min_price = 0.0;
+    }
+    if found(engine, &roomy, edits)? < count {
+        roomy.keys.at_rests = AtRests::Off;
     }
     Ok(roomy)
 }

@@ -41,11 +41,11 @@ pub struct Spacing {
     /// into straight jumps. A range, `1-3`, chooses for each interval by `step`.
     pub on: On,
     /// Where `on` is a range: how far the body may go from one drawing to the next, in % of its height
-    /// (root mean square over its bones, in the mean over the interval); above 0, default 9, which gives
+    /// (root mean square over its bones, in the mean over the interval); above 0, default 7.5, which gives
     /// about as many drawings as twos do. Raised, more of the motion is on threes.
     pub step: f64,
     /// How far the body may be from the drawing that a rest (止め) holds, in % of its height (root mean square over
-    /// its bones); 0 or more, default 1. Where it goes further, an inbetween stands there: a moving hold. 0 puts
+    /// its bones); 0 or more, default 0.8. Where it goes further, an inbetween stands there: a moving hold. 0 puts
     /// inbetweens into rests as everywhere. Raised, small gestures are lost in holds and come all at once after them.
     pub drift: f64,
     /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
@@ -66,8 +66,8 @@ impl Default for Spacing {
     fn default() -> Self {
         Self {
             on: On::every(2),
-            step: 9.0,
-            drift: 1.0,
+            step: 7.5,
+            drift: 0.8,
             inbetweens: None,
             weight: 0.3,
             max_shift: 2.0,

@@ -5,9 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use genga::edits::Edits;
 use genga::keys::{Key, Layers};
+use genga::motion::file::Options;
 use genga::motion::{
-    Axis, Channel, Clip, Description, Joint, JointId, Skeleton, Stature, local_rotation,
-    local_translation, set_local_rotation,
+    Axis, BoneMap, Channel, Clip, Description, Joint, JointId, Landmarks, Skeleton, Stature,
+    local_rotation, local_translation, set_local_rotation,
 };
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -48,6 +49,7 @@ fn each_clip(of: impl Fn(&str, &Clip)) {
     clips::with_all(|paths| {
         paths.iter().for_each(|path| of(&clips::name(path), &clips::read(path)));
     });
+    clips::more().iter().for_each(|path| of(&clips::name(path), &clips::read(path)));
 }
 
 /// A clip with joints before all others, on the last of which hangs what had no parent.
@@ -487,4 +489,77 @@ fn names_of_another_dialect_move_no_key_by_more_than_a_frame() {
         let is_near = own.iter().zip(&others).all(|(one, two)| one.abs_diff(*two) <= 1);
         assert!(own.len() == others.len() && is_near, "{name}: {own:?} {others:?}");
     });
+}
+
+#[test]
+fn a_head_that_ends_in_its_joint_is_the_head_and_not_the_neck() {
+    let clip = clips::sample("kick.bvh");
+    let mut skeleton = clip.skeleton().clone();
+    let head = skeleton.find("Head").unwrap();
+    assert!(!skeleton.joints[head.0].end_sites.is_empty());
+    skeleton.joints[head.0].end_sites.clear();
+    let rows = clip.rows().flatten().copied().collect();
+    let topless = Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap();
+    assert_eq!(Landmarks::of(&topless).head.map(|head| head.joint), Some(head));
+}
+
+/// An animal of which each leg is one long bone, and nothing has a name.
+fn animal() -> Clip {
+    let mut joints = Vec::new();
+    let mut add = |parent: Option<usize>, offset: DVec3| {
+        let at = joints.len();
+        joints.push(Joint {
+            name: format!("Bone{at}"),
+            parent: parent.map(JointId),
+            offset,
+            channels: [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation).to_vec(),
+            first_channel: 3 * at,
+            end_sites: vec![],
+        });
+        at
+    };
+    let hips = add(None, DVec3::new(0.0, 100.0, 0.0));
+    let chest = add(Some(hips), DVec3::new(0.0, 0.0, 40.0));
+    for (on, x) in [(hips, 10.0), (hips, -10.0), (chest, 10.0), (chest, -10.0)] {
+        let top = add(Some(on), DVec3::new(x, 0.0, 0.0));
+        add(Some(top), DVec3::new(0.0, -90.0, 0.0));
+    }
+    add(Some(chest), DVec3::new(0.0, 20.0, 20.0));
+    let row = |frame: usize| {
+        let swing = 30.0 * (0.3 * frame as f64).sin();
+        let of_joint = move |at: usize| {
+            let sign = if matches!(at, 2 | 8) { 1.0 } else { -1.0 };
+            [0.0, if matches!(at, 2 | 4 | 6 | 8) { sign * swing } else { 0.0 }, 0.0]
+        };
+        (0..11).flat_map(of_joint)
+    };
+    let values = (0..72).flat_map(row).collect();
+    let rate = genga::time::FrameRate::new(24.0).unwrap();
+    Clip::new(Skeleton { joints }, rate, genga::time::Frame(0), 72, values).unwrap()
+}
+
+#[test]
+fn the_long_legs_of_an_animal_are_no_helpers() {
+    let animal = animal();
+    let lines = Description::of(&animal).lines;
+    assert!(lines.iter().all(|(what, _)| *what != "not body"), "{lines:?}");
+    assert!(keys(&animal).len() > 4, "{:?}", frames(&keys(&animal)));
+}
+
+#[test]
+fn what_a_table_of_bones_says_goes_before_names() {
+    let clip = clips::sample("kick.bvh");
+    let text = clips::here("data/kick.bvh");
+    let table =
+        BoneMap::parse("[bones]\n\"左ひじ\" = \"LeftHand\"\n\"左手首\" = \"LeftForeArm\"\n");
+    let wrong = Options { bones: Some(table.unwrap()), ..Options::default() };
+    let left_arm = |clip: &Clip| Description::of(clip).lines[3].clone();
+    // A hand does not carry its forearm: that is no limb, and names stay.
+    assert_eq!(left_arm(&wrong.open(&text).unwrap().clip), left_arm(&clip));
+    let table = BoneMap::parse("[bones]\n\"左腕\" = \"LeftShoulder\"\n").unwrap();
+    let said = Options { bones: Some(table), ..Options::default() }.open(&text).unwrap().clip;
+    assert_eq!(
+        left_arm(&said),
+        ("left arm", "LeftShoulder LeftForeArm LeftHand, as --bones says".into())
+    );
 }

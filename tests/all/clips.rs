@@ -8,7 +8,7 @@ use genga::motion::{Clip, bvh};
 #[path = "../real/mod.rs"]
 mod real;
 
-pub(crate) use real::{all, name, with, with_all, without};
+pub(crate) use real::{all, more, name, with, with_all, without};
 
 /// A file in the repository.
 pub(crate) fn here(path: &str) -> PathBuf {

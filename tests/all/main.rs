@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test")]
 
+mod acting; // a nod, a gaze and a fist have keys
 mod actions; // a long take as its actions
 #[cfg(feature = "cli")]
 mod asked; // people asked which of two films they take

@@ -837,7 +837,7 @@ fn nothing_is_written_over_a_sheet_that_was_edited() {
 #[test]
 fn a_sheet_is_not_delivered_onto_itself() {
     let place = Place::new();
-    place.done("run data/kick.bvh --out a");
+    place.done("run data/kick.bvh --trim 0..12 --out a");
     let edited = edit(&place.path("a/sheet.json"));
     for to in ["json", "all,json", "csv --out ./a/../a --to json"] {
         let said = place.refused(2, &format!("deliver a/sheet.json data/kick.bvh --to {to}"));
@@ -903,10 +903,10 @@ fn all_goes_without_what_cannot_be_made_and_says_so() {
     // A stick that swings: neither names nor shape have a bone of it.
     let mut bvh = String::from(
         "HIERARCHY\nROOT q0\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT q1\n{\nOFFSET 0 50 0\n\
-         CHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 50 0\n}\n}\n}\nMOTION\nFrames: 40\n\
+         CHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 50 0\n}\n}\n}\nMOTION\nFrames: 12\n\
          Frame Time: 0.0416667\n",
     );
-    for frame in 0..40 {
+    for frame in 0..12 {
         let angle = 40.0 * (f64::from(frame) / 8.0).sin();
         bvh += &format!("{angle} 0 0 {} 0 0\n", 0.5 * angle);
     }
@@ -914,7 +914,7 @@ fn all_goes_without_what_cannot_be_made_and_says_so() {
     let unknown = "all goes without vmd: vmd: no joint has a name that is known";
     let fast = "all goes without vmd: vmd.fps: 48 koma a second do not go into 30 frames";
     for (o, args, note) in
-        [("o", "k.bvh", unknown), ("r", "data/kick.bvh --trim 0..24 --set rate=48", fast)]
+        [("o", "k.bvh", unknown), ("r", "data/kick.bvh --trim 0..12 --set rate=48", fast)]
     {
         let said = text(&place.genga(&format!("run {args} --deliver all --out {o}")).stderr);
         assert!(said.contains(note), "{said}");
@@ -1130,7 +1130,7 @@ fn files_that_wait_for_their_places_are_not_open() {
     let place = Place::new();
     let clip = here("data/kick.bvh");
     let script = format!(
-        "ulimit -n 12; exec '{}' run '{}' --deliver all --out o",
+        "ulimit -n 12; exec '{}' run '{}' --trim 0..12 --deliver all --out o",
         env!("CARGO_BIN_EXE_genga"),
         clip.display()
     );

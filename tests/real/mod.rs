@@ -52,6 +52,17 @@ pub(crate) fn all() -> Vec<PathBuf> {
     there.into_iter().map(path).collect()
 }
 
+/// The BVH clips of the folder that `GENGA_MORE_CLIPS` names, for laws that hold on any clip; none where it names none.
+pub(crate) fn more() -> Vec<PathBuf> {
+    let Some(folder) = env::var_os("GENGA_MORE_CLIPS") else { return Vec::new() };
+    let entries = fs::read_dir(&folder).expect("GENGA_MORE_CLIPS names a folder");
+    let paths = entries.map(|entry| entry.expect("a folder can be listed").path());
+    let mut paths: Vec<_> =
+        paths.filter(|path| path.extension().is_some_and(|end| end == "bvh")).collect();
+    paths.sort();
+    paths
+}
+
 /// Runs a test on all clips that are there. Without any it does not run.
 pub(crate) fn with_all(test: impl FnOnce(Vec<PathBuf>)) {
     let clips = all();

@@ -102,8 +102,9 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if args.list {
         return files::to_stdout(&list::written(&list::items(&args.clips, &args.out)?));
     }
-    let formats = Formats::new("deliver", &args.deliver, &[], &args.formats)?;
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
+    let bones = clip.part.reading().bones()?;
+    let formats = Formats::new("deliver", &args.deliver, &[], &args.formats, bones.as_ref())?;
     let plan = PlanArgs::of(clip, args.corrections.clone(), args.targets.clone());
     let asked = Asked::of(&plan, &formats)?;
     let items = list::items(&args.clips, &args.out)?;

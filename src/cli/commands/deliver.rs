@@ -41,7 +41,8 @@ pub(super) struct DeliverArgs {
 }
 
 pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
-    let mut formats = Formats::new("to", &args.to, &[], &args.formats)?;
+    let mut formats =
+        Formats::new("to", &args.to, &[], &args.formats, args.reading.bones()?.as_ref())?;
     if paths::is_stream(&args.sheet) && paths::is_stream(&args.clip) {
         let message = "sheet and clip cannot both come from stdin".into();
         return Err(Failure::AskedWrongly(message));
@@ -51,7 +52,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     formats.leave_sheet(&args.sheet, folder)?;
     formats.spare_edited(folder)?;
     let file = read(args, words)?;
-    let bones = args.formats.bones.as_deref().map(|path| ("table of bones", path));
+    let bones = args.reading.bones.as_deref().map(|path| ("table of bones", path));
     let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
     for (what, path) in sources {
         formats.spare(what, path, folder, &file.cut)?;

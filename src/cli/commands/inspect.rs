@@ -131,7 +131,7 @@ fn described(joint: &Joint) -> String {
     words
 }
 
-/// The size of the body in its first frame, and the unit that makes it a person's where the file does not say its own.
+/// The height of the body in the file's unit, and the unit that makes it a person's where the file does not say its own.
 fn size(source: &Source) -> String {
     let clip = &source.clip;
     if clip.is_empty() {
@@ -141,7 +141,7 @@ fn size(source: &Source) -> String {
     if source.found.iter().any(|found| found.what == "unit") {
         let is_odd = Unit::of_size(size).is_none();
         let odd = if is_odd { ": no person's size, so the unit is likely another" } else { "" };
-        return format!("{size:.2} in its first frame{odd}");
+        return format!("{size:.2} high{odd}");
     }
     let unit = match Unit::of_size(size) {
         Some(Unit::Metre) => "metres, by the size",
@@ -152,5 +152,5 @@ fn size(source: &Source) -> String {
         Some(Unit::Millimetre) => "millimetres, by the size",
         None => "an unknown unit",
     };
-    format!("{size:.1} in its first frame: {unit}")
+    format!("{size:.1} high: {unit}")
 }

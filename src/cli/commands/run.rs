@@ -45,7 +45,13 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::of(&args.plan)?;
-    let mut formats = Formats::new("deliver", &args.deliver, &Run::FORMATS, &args.formats)?;
+    let mut formats = Formats::new(
+        "deliver",
+        &args.deliver,
+        &Run::FORMATS,
+        &args.formats,
+        args.plan.clip.part.reading().bones()?.as_ref(),
+    )?;
     let clip = &args.plan.clip.path;
     let name = paths::stem(clip);
     paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
@@ -96,7 +102,7 @@ fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<
     let sources = [
         ("motion", Some(&*clip.path)),
         ("recipe", corrections.settings.recipe.as_deref()),
-        ("table of bones", args.formats.bones.as_deref()),
+        ("table of bones", args.plan.clip.part.reading().bones.as_deref()),
         ("camera", seen::file(&corrections.seen)),
     ];
     for (what, path) in sources.into_iter().filter_map(|(what, path)| Some((what, path?))) {

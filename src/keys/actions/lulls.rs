@@ -3,7 +3,7 @@
 use std::ops::{Range, RangeInclusive};
 
 use crate::keys::Chords;
-use crate::keys::rest::smoothed;
+use crate::keys::stillness::smoothed;
 use crate::maths;
 
 /// Seconds over which the speed is averaged: a step or a tremble is no lull.

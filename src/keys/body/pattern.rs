@@ -20,14 +20,14 @@ pub(super) struct Pattern {
     frames: usize,
     /// Tracks × frames.
     speeds: Vec<f64>,
-    /// One a track; together 1, or 0 where nothing moves.
+    /// One a track.
     weights: Vec<f64>,
 }
 
 impl Pattern {
     /// The speed of each track at each frame, its steps smoothed; they are written over what was in `room`.
     pub(super) fn of(Tracks { steps, weights }: &Tracks, filter: &LowPass, room: Vec<f64>) -> Self {
-        let (count, all) = (steps.frames(), weights.iter().sum::<f64>());
+        let count = steps.frames();
         let mut speeds = room;
         speeds.clear();
         speeds.reserve_exact((count + 1) * weights.len());
@@ -37,8 +37,8 @@ impl Pattern {
                 || add_speeds(track, count, &mut speeds),
             );
         });
-        let weights = weights.iter().map(|own| own / all).collect();
-        Self { first: steps.unfiltered().first, frames: count + 1, speeds, weights }
+        let first = steps.unfiltered().first;
+        Self { first, frames: count + 1, speeds, weights: weights.clone() }
     }
 
     /// The speeds alone.

@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::keys::acting::Acting;
 use crate::keys::tests::swing;
 use crate::motion::lanes::{LaneQuat, narrow};
 use crate::motion::{Build, Clip, Screen};
@@ -19,6 +20,7 @@ fn speeds(clip: &Clip, width: f64) -> BodySpeeds {
         judged: &own,
         screen: &Screen::WORLD,
         height: 2.0,
+        acting: &Acting::default(),
     };
     let filter = LowPass { width: Span::Frames(width), ..LowPass::default() };
     BodySpeeds::of(&Tracks::of(&motion), &filter)

@@ -7,6 +7,7 @@ use std::slice::ChunksExactMut;
 use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
 
+use crate::keys::acting::{Acting, Part};
 use crate::keys::voters::shares;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::clip::lane_poser::{LanePose, LanePoser};
@@ -41,6 +42,8 @@ pub(crate) struct LayerMotion<'a> {
     pub(crate) screen: &'a Screen,
     /// The height of the body in the file's unit, where the build does not say it.
     pub(crate) height: f64,
+    /// What its parts do while the body as a whole is quiet.
+    pub(crate) acting: &'a Acting,
 }
 
 /// The velocities of a layer: another filter needs no new ones.
@@ -48,7 +51,8 @@ pub(crate) struct LayerMotion<'a> {
 pub(crate) struct Tracks {
     /// Three columns a track: the step from each frame to the next, one fewer than there are frames.
     pub(super) steps: Spectrum,
-    /// One a track, above 0.
+    /// One a track, above 0: together 1, and besides them those of parts that act while all else is quiet. Each of these
+    /// speaks as loudly as a whole body.
     pub(super) weights: Vec<f64>,
 }
 
@@ -58,6 +62,14 @@ struct Turning {
     /// How far it reaches, in % of the body's height.
     reach: f64,
     weight: f64,
+}
+
+/// A part that turns on what carries it while all else is quiet.
+struct Acts<'a> {
+    part: &'a Part,
+    weight: f64,
+    /// The steps that are its acting, by the frame that each leads to.
+    when: Vec<Range<usize>>,
 }
 
 /// What travels.
@@ -84,13 +96,17 @@ impl Tracks {
     pub(crate) fn of(motion: &LayerMotion<'_>) -> Self {
         let clip = motion.clip;
         let (turning, travelling) = (turning(motion), travelling(motion));
+        let acting = acting(motion);
         let weights = turning.iter().map(|track| track.weight);
         let weights: Vec<f64> =
             weights.chain(travelling.iter().map(|track| track.weight)).collect();
+        let all: f64 = weights.iter().sum();
+        let weights = weights.into_iter().map(|own| own / all);
+        let weights: Vec<f64> = weights.chain(acting.iter().map(|track| track.weight)).collect();
         let (steps, columns) = (clip.len() - 1, 3 * weights.len());
         let mut values = vec![0.0; steps * columns];
         if clip.len() > 1 {
-            let mut following = Following::of(motion, &turning, &travelling);
+            let mut following = Following::of(motion, &turning, &travelling, &acting);
             for piece in pieces(clip.len().div_ceil(LANES)) {
                 wide(
                     #[inline(always)]
@@ -173,16 +189,32 @@ fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     tips.into_iter().map(track).collect()
 }
 
+/// What parts do while all else is quiet.
+fn acting<'a>(motion: &LayerMotion<'a>) -> Vec<Acts<'a>> {
+    let first = motion.clip.first().0;
+    let acts = motion.acting.parts().map(|(part, when)| Acts {
+        part,
+        weight: motion.heard[part.ends()[1]],
+        when: when
+            .into_iter()
+            .map(|when| when.start().0 - first + 1..when.end().0 - first + 1)
+            .collect(),
+    });
+    acts.filter(|track| track.weight > 0.0).collect()
+}
+
 /// Follows the body from block to block; keeps how it stood in the frame before.
 struct Following<'a> {
     motion: &'a LayerMotion<'a>,
     turning: &'a [Turning],
     travelling: &'a [Travelling],
+    acting: &'a [Acts<'a>],
     rows: Vec<&'a [f64]>,
     sight: Sight<'a>,
     poser: LanePoser<'a>,
     turned: Vec<DQuat>,
     stood: Vec<DVec3>,
+    held: Vec<DQuat>,
 }
 
 impl<'a> Following<'a> {
@@ -190,16 +222,19 @@ impl<'a> Following<'a> {
         motion: &'a LayerMotion<'a>,
         turning: &'a [Turning],
         travelling: &'a [Travelling],
+        acting: &'a [Acts<'a>],
     ) -> Self {
         Self {
             motion,
             turning,
             travelling,
+            acting,
             rows: motion.clip.rows().collect(),
             sight: Sight::of(motion),
             poser: LanePoser::of(motion.clip),
             turned: vec![DQuat::IDENTITY; turning.len()],
             stood: vec![DVec3::ZERO; travelling.len()],
+            held: vec![DQuat::IDENTITY; acting.len()],
         }
     }
 
@@ -212,6 +247,7 @@ impl<'a> Following<'a> {
             let mut tracks = values.chunks_exact_mut(3 * steps);
             self.turn(begin, &mut tracks);
             self.travel(begin, &mut tracks);
+            self.act(begin, &mut tracks);
         }
     }
 
@@ -243,6 +279,26 @@ impl<'a> Following<'a> {
                 *before = now.lane(0);
             }
             put(columns, begin, now - now.shifted(*before));
+            *before = now.lane(LANES - 1);
+        }
+    }
+
+    /// Writes what parts do in the block that was posed; what they do at other times is no acting.
+    #[inline(always)]
+    fn act(&mut self, begin: usize, tracks: &mut ChunksExactMut<'_, f64>) {
+        let Self { motion, acting, poser, held, .. } = self;
+        let (fps, pose) = (motion.clip.rate().fps(), poser.pose());
+        for ((track, before), columns) in acting.iter().zip(held).zip(tracks) {
+            let [base, tip] = track.part.ends().map(|joint| pose.rotations[joint]);
+            let now = base.conjugate() * tip;
+            if begin == 0 {
+                *before = now.lane(0);
+            }
+            let acts = Lanes::from_fn(|lane| {
+                let acts = track.when.iter().any(|when| when.contains(&(begin + lane)));
+                if acts { track.part.worth * fps } else { 0.0 }
+            });
+            put(columns, begin, now.shifted(*before).way_to(now) * acts);
             *before = now.lane(LANES - 1);
         }
     }

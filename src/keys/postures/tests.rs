@@ -147,8 +147,9 @@ fn front_and_side_together_see_a_level_way_and_each_of_them_all_of_one_up() {
 #[test]
 fn on_a_screen_a_person_is_still_a_mannequin_and_anything_else_its_own_points() {
     let kick = seen(&sample("kick"), "front");
-    assert_eq!(kick.columns, COLUMNS_SEEN);
-    let depth = |row: &[f64]| row.chunks_exact(3).map(|point| point[2].abs()).sum::<f64>();
+    assert_eq!(kick.columns, COLUMNS_SEEN + acting::COLUMNS * kick.acting.len());
+    let depth =
+        |row: &[f64]| row[..COLUMNS_SEEN].chunks_exact(3).map(|point| point[2].abs()).sum::<f64>();
     assert!((0..kick.len()).all(|at| depth(kick.row(at)) == 0.0), "a screen has no depth");
     let arm = swing(&[0.0, 30.0, 60.0]);
     let world = seen(&arm, "world");

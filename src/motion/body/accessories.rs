@@ -17,6 +17,12 @@ const REACH: f64 = 0.22;
 /// The longest bone of a body, as a share of all its bones: a thigh has a tenth.
 const LONGEST: f64 = 0.25;
 
+/// A helper is alone, or one of two: where more bones are about as long they are the legs of an animal.
+const PAIR: usize = 2;
+
+/// As what share of another a bone is about as long.
+const ALIKE: f64 = 0.67;
+
 /// Joints of a body at the least that its longest bone is looked for in.
 const FEWEST: usize = 8;
 
@@ -148,7 +154,9 @@ impl Rig<'_> {
         }
         let bone = self.skeleton.joints[joint].offset.length();
         let others = sums.bones[root] - sums.bones[joint];
-        let is_long = sums.joints[root] >= FEWEST && bone > LONGEST * others;
+        let is_long = sums.joints[root] >= FEWEST
+            && bone > LONGEST * others
+            && self.count_like(sums, joint) <= PAIR;
         role_of(&self.skeleton.joints[joint].name)
             .or_else(|| is_long.then_some(Role::Helper))
             .or_else(|| {
@@ -161,6 +169,14 @@ impl Rig<'_> {
                     () => None,
                 }
             })
+    }
+
+    /// How many bones of its tree are about as long as that of a joint, or longer.
+    fn count_like(&self, sums: &Sums, joint: usize) -> usize {
+        let root = sums.root[joint];
+        let bone = |joint: usize| self.skeleton.joints[joint].offset.length();
+        let own = (0..sums.root.len()).filter(|other| sums.root[*other] == root && *other != root);
+        own.filter(|other| bone(*other) > ALIKE * bone(joint)).count()
     }
 
     fn sums(&self, roles: &[Role]) -> Sums {

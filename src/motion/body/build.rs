@@ -28,7 +28,10 @@ impl Build {
     pub(crate) fn of(clip: &Clip) -> Self {
         let bones = members::bones(clip);
         let moving = members::moving(clip, &bones);
-        let limbs = NamedLimbs::of(&bones, &members::main_tree(&bones, &moving[0]));
+        let limbs = {
+            let tree = members::main_tree(&bones, &moving[0]);
+            NamedLimbs::of(&bones, &tree, clip.declared())
+        };
         let build = Self::with(clip, Members::of(&bones, moving, &limbs), limbs);
         if build.mannequin.is_some() || build.members.are_all() {
             return build;
@@ -41,9 +44,11 @@ impl Build {
         let looks = Looks::at(clip, &members, &limbs);
         let (size, rest) = stature::seen(clip, &members);
         let (up, up_by) = upright::up(clip, &members, &limbs, &looks, rest);
-        let landmarks = Landmarks::of_members(&looks, &members, &limbs, up);
+        let mut landmarks = Landmarks::of_members(&looks, &members, &limbs, up);
         let mannequin = Mannequin::of(members.skeleton(), &landmarks, &limbs);
-        let stature = Stature::of_size(clip, size, up);
+        let height = mannequin.as_ref().map(Mannequin::height);
+        landmarks.height = height.unwrap_or(landmarks.height);
+        let stature = Stature::of_size(clip, height.unwrap_or(size), up);
         Self { members, limbs, stature, up_by, landmarks, mannequin }
     }
 }

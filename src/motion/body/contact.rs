@@ -31,34 +31,34 @@ pub struct Contact {
 /// Finds contacts in world positions koma by koma.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactFinder {
-    /// How fast a foot may be and still stand, in % of body height a second. Default 15. Raised, slow
+    /// How fast a foot may be and still stand, in % of body height a second. Default 12. Raised, slow
     /// swings of a foot near the ground count as standing.
     pub foot_speed: f64,
     /// How high a foot may stand above the ground it shares with the other, in % of body height: above its
     /// own lowest (the level below which it is in one of twenty koma), or, on a step, above the other foot
-    /// at the koma on which that is highest. Default 4. Raised, a foot that is held still in the air
+    /// at the koma on which that is highest. Default 3. Raised, a foot that is held still in the air
     /// stands too.
     pub foot_lift: f64,
     /// How long a foot must stand, in seconds. Default 0.125, three koma.
     pub foot_least: f64,
-    /// How fast a hand may be and still stay, in % of body height a second. Default 8.
+    /// How fast a hand may be and still stay, in % of body height a second. Default 6.5.
     pub hand_speed: f64,
     /// How long a hand must stay, in seconds. Default 0.25.
     pub hand_least: f64,
     /// How fast a hand must have been in the half second before, in % of body height a second: a hand
-    /// that hangs still touches nothing. Default 40.
+    /// that hangs still touches nothing. Default 32.
     pub hand_before: f64,
 }
 
 impl Default for ContactFinder {
     fn default() -> Self {
         Self {
-            foot_speed: 15.0,
-            foot_lift: 4.0,
+            foot_speed: 12.0,
+            foot_lift: 3.0,
             foot_least: 0.125,
-            hand_speed: 8.0,
+            hand_speed: 6.5,
             hand_least: 0.25,
-            hand_before: 40.0,
+            hand_before: 32.0,
         }
     }
 }
@@ -71,7 +71,7 @@ const LOW: f64 = 0.05;
 
 /// Seconds over which small steps are looked at together, and how far they may lead, in % of body height.
 const SLOW: f64 = 0.5;
-const SLOW_WAY: f64 = 3.0;
+const SLOW_WAY: f64 = 2.5;
 
 /// Steps of the path that may be too fast within one contact: one koma that is off has two.
 const TORN: usize = 2;
@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn a_foot_that_is_set_elsewhere_slowly_stands_twice() {
         let slow = standing(path(&[(24, 0.02), (48, 0.49), (24, 0.02)], |_| 0.0));
-        assert_eq!(slow, [0..=24, 73..=96]);
+        assert_eq!(slow, [0..=23, 74..=96]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::iter;
 use glam::DVec3;
 
 use crate::motion::body::limbs::NamedLimbs;
-use crate::motion::{Axis, Body, Build, Clip, JointId, Members, Poser, Skeleton};
+use crate::motion::{Axis, Body, Build, Clip, Joint, JointId, Members, Poser, Skeleton};
 use crate::time::{Clock, Frame};
 
 /// Frames that are looked at: enough to know which limb is usually low.
@@ -60,8 +60,8 @@ pub struct Landmarks {
     pub feet: Vec<Foot>,
     /// The axis that points up.
     pub up: Axis,
-    /// The height of the body in the file's unit: the middle one of the longest sides of the boxes
-    /// round its joints, over the frames.
+    /// The height of the body in the file's unit: of a person with legs as long as these, from hip to ankle over 0.48. Of a
+    /// body without limbs it is the middle one of the longest sides of the boxes round its joints, over the frames.
     pub height: f64,
 }
 
@@ -109,7 +109,7 @@ impl Landmarks {
         longest.truncate((2 - wrists.len()).min(spare));
         let highest = ends.into_iter().rfind(|end| !longest.contains(end));
         // Rigs of one person have their last joint of the neck elsewhere in the head; what is short enough begins alike.
-        let named = limbs.head.map(|head| first_end(skeleton, looks.height, head));
+        let named = limbs.head.map(|head| first_of_head(skeleton, looks.height, head));
         landmarks.head = named.or(highest).map(Point::of);
         wrists.extend(longest);
         wrists.sort_unstable();
@@ -257,9 +257,18 @@ fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
 }
 
+/// The shortest bone from the joint of a head to its top, as a share of the body's height: some rigs end in that joint.
+const SHORTEST_HEAD: f64 = 0.02;
+
 /// On the way to a joint the first from the root that carries no more than the end of a limb does.
-fn first_end(skeleton: &Skeleton, height: f64, joint: usize) -> usize {
-    first_end_of(skeleton, &skeleton.reaches(), height, joint)
+fn first_of_head(skeleton: &Skeleton, height: f64, head: usize) -> usize {
+    let is_long = |offset: DVec3| offset.length() >= SHORTEST_HEAD * height;
+    let mut tips = skeleton.joints[head].end_sites.iter().map(|end| end.offset);
+    let mut joints = skeleton.joints.iter();
+    let hangs_on = |joint: &Joint| joint.parent == Some(JointId(head)) && is_long(joint.offset);
+    // Without its top the neck would be as short as a head.
+    let has_top = tips.any(is_long) || joints.any(hangs_on);
+    if has_top { first_end_of(skeleton, &skeleton.reaches(), height, head) } else { head }
 }
 
 fn first_end_of(skeleton: &Skeleton, reaches: &[f64], height: f64, joint: usize) -> usize {
@@ -287,7 +296,7 @@ pub(super) fn bones_by_tree(skeleton: &Skeleton, roots: &[usize]) -> Vec<f64> {
 }
 
 /// A joint and all that it hangs on, up to its root.
-pub(super) fn above(skeleton: &Skeleton, joint: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn above(skeleton: &Skeleton, joint: usize) -> impl Iterator<Item = usize> {
     iter::successors(Some(joint), |joint| skeleton.joints[*joint].parent.map(|parent| parent.0))
 }
 
@@ -312,7 +321,7 @@ pub(crate) fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{Channel, EndSite, Joint};
+    use crate::motion::{Channel, EndSite};
     use crate::time::FrameRate;
 
     /// Name, parent, offset at rest and tip of a joint.

@@ -7,7 +7,7 @@ use super::structure::LIMBS;
 use super::structure::fit::way;
 use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
-use crate::motion::{JointId, Skeleton};
+use crate::motion::{Declared, JointId, Skeleton};
 
 /// The table that comes with the program.
 static NAMES: LazyLock<BoneMap> = LazyLock::new(BoneMap::default);
@@ -36,9 +36,19 @@ pub(crate) struct NamedLimbs {
 }
 
 impl NamedLimbs {
-    /// Of the dialect that names most joints of a tree the limbs that are whole: their joints hang on one another,
-    /// their two bones are more or less alike, and so are both sides.
-    pub(crate) fn of(skeleton: &Skeleton, is_of_tree: &[bool]) -> Self {
+    /// What a person says of a clip, and else, of the dialect that names most joints of a tree, the limbs that are whole:
+    /// their joints hang on one another, their two bones are more or less alike, and so are both sides.
+    pub(crate) fn of(skeleton: &Skeleton, is_of_tree: &[bool], said: Declared) -> Self {
+        let named = Self::by_names(skeleton, is_of_tree);
+        let limb = |at: usize| said.limbs[at].map(|limb| limb.map(|joint| joint.0));
+        Self {
+            arms: [limb(0).or(named.arms[0]), limb(1).or(named.arms[1])],
+            legs: [limb(2).or(named.legs[0]), limb(3).or(named.legs[1])],
+            head: said.head.map(|head| head.0).or(named.head),
+        }
+    }
+
+    fn by_names(skeleton: &Skeleton, is_of_tree: &[bool]) -> Self {
         let found = NAMES.find_among(skeleton, |joint| is_of_tree[joint]);
         let named = |bone: &str| found.joints[NAMES.model.find(bone)?].first().copied();
         let limbs = |bones: [&str; 3]| {
@@ -89,6 +99,27 @@ impl NamedLimbs {
     pub(crate) fn joints(&self) -> impl Iterator<Item = usize> {
         let limbs = self.arms.into_iter().chain(self.legs).flatten().flatten();
         limbs.chain(self.head)
+    }
+}
+
+/// What a person's table of bones says of head and limbs: of a limb for which it has a row, where its joints hang on one
+/// another.
+pub(crate) fn said(map: &BoneMap, skeleton: &Skeleton) -> Declared {
+    let found = map.find(skeleton);
+    let named = |bone: &str| found.joints[map.model.find(bone)?].first().copied();
+    let limb = |(bones, side): ([&str; 3], Side)| {
+        let bones = bones.map(|bone| side.named(bone));
+        let limb @ [upper, middle, lower] = bones.each_ref().map(|bone| named(bone));
+        let is_said = map.says(&found, &bones.each_ref().map(String::as_str));
+        let hangs = way(skeleton, upper?, middle?).and(way(skeleton, middle?, lower?));
+        hangs.filter(|_| is_said).and(Some([limb[0]?, limb[1]?, limb[2]?]))
+    };
+    let limbs = [LIMBS[0].1, LIMBS[1].1].map(|bones| Side::BOTH.map(|side| limb((bones, side))));
+    let head = named("頭").filter(|_| map.says(&found, &["頭"]));
+    Declared {
+        limbs: [limbs[0][0], limbs[0][1], limbs[1][0], limbs[1][1]],
+        head,
+        ..Declared::default()
     }
 }
 

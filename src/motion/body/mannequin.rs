@@ -124,10 +124,24 @@ impl Mannequin {
         joints
     }
 
+    /// The joint of the head.
+    pub(crate) fn head(&self) -> usize {
+        self.head.joint.0
+    }
+
+    /// The joint at which the arms part.
+    pub(crate) fn chest(&self) -> usize {
+        self.chest
+    }
+
+    /// Shoulder, elbow and wrist of each arm, in the order of the wrists.
+    pub(crate) fn arms(&self) -> [[usize; 3]; 2] {
+        self.arms.each_ref().map(Limb::joints)
+    }
+
     /// Hip, knee and ankle of each leg, in the order of the feet.
     pub(crate) fn legs(&self) -> [[usize; 3]; 2] {
-        [&self.legs[0], &self.legs[1]]
-            .map(|leg| [leg.upper, leg.middle, leg.lower].map(|point| point.joint.0))
+        self.legs.each_ref().map(Limb::joints)
     }
 
     /// Where the limbs begin: left and right shoulder, left and right hip, as far as names tell a side.
@@ -164,6 +178,11 @@ impl Mannequin {
 }
 
 impl Limb {
+    /// Its joints from the trunk on.
+    fn joints(&self) -> [usize; 3] {
+        [self.upper, self.middle, self.lower].map(|point| point.joint.0)
+    }
+
     /// Writes the limb's four points from `first` on: it hangs on `trunk` in the rig and on `from` in
     /// the mannequin. A bone that the rig does not have points as the one before it.
     fn reach(

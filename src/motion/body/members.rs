@@ -152,6 +152,12 @@ pub(super) fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
     [joints().map(|joint| any(joint, |_| true)).collect(), travels.collect()]
 }
 
+/// Whether nothing moves in a clip.
+pub(crate) fn is_still(clip: &Clip) -> bool {
+    let [moves, _] = moving(clip, &bones(clip));
+    !moves.contains(&true)
+}
+
 /// The joints of the tree that is most of the body by its bones, among those in which something moves.
 pub(super) fn main_tree(skeleton: &Skeleton, moves: &[bool]) -> Vec<bool> {
     let roots = skeleton.roots();

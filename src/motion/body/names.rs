@@ -10,8 +10,8 @@ use toml::Spanned;
 
 use crate::error::Error;
 use crate::motion::body::side::{DASHES, own_name};
-use crate::motion::body::structure;
-use crate::motion::{Clip, JointId, Skeleton, plain_name};
+use crate::motion::body::{limbs, structure};
+use crate::motion::{Clip, Declared, JointId, Skeleton, plain_name};
 use bones::{LONGEST_NAME, Model, Side, cp932};
 
 /// The table that comes with the program.
@@ -26,7 +26,10 @@ pub(crate) const SHAPE: &str = "by shape";
 pub struct BoneMap {
     pub(crate) model: Model,
     dialects: Vec<Dialect>,
+    /// Rows of a person.
     own: BTreeMap<String, Vec<String>>,
+    /// How many dialects are a person's; they come first.
+    added: usize,
 }
 
 /// One program's way to name joints.
@@ -35,6 +38,8 @@ struct Dialect {
     name: String,
     /// Of each bone the joints that make it, from the body outward.
     rows: BTreeMap<String, Vec<String>>,
+    /// The plain names of the same joints.
+    plain: BTreeMap<String, Vec<String>>,
 }
 
 /// What of the table a skeleton has.
@@ -52,8 +57,10 @@ pub(crate) struct Found {
 impl Default for BoneMap {
     /// The table that comes with the program.
     fn default() -> Self {
-        let mut map = Self { model: Model::standard(), dialects: vec![], own: BTreeMap::new() };
+        let mut map =
+            Self { model: Model::standard(), dialects: vec![], own: BTreeMap::new(), added: 0 };
         map.take(DIALECTS).expect("the table that comes with the program is tested");
+        map.added = 0;
         map
     }
 }
@@ -70,6 +77,11 @@ impl BoneMap {
         let mut map = Self::default();
         map.take(text)?;
         Ok(map)
+    }
+
+    /// What a person's rows and dialects say of head and limbs of a skeleton.
+    pub(crate) fn limbs_said(&self, skeleton: &Skeleton) -> Declared {
+        limbs::said(self, skeleton)
     }
 
     /// The names of the dialects, in the order in which they are asked.
@@ -107,6 +119,7 @@ impl BoneMap {
         known(&file.bones)?;
         file.dialect.iter().try_for_each(|dialect| known(&dialect.bones))?;
         // A person's dialects are asked first: of two that fit equally well theirs is taken.
+        self.added += file.dialect.len();
         let dialects = file.dialect.into_iter().map(Dialect::from);
         self.dialects.splice(0..0, dialects.collect::<Vec<_>>());
         let own = file.bones.into_iter();
@@ -134,8 +147,15 @@ impl BoneMap {
         Ok(found)
     }
 
+    /// Whether a person says which joints are one of some bones, by rows or by a dialect of their own.
+    pub(super) fn says(&self, found: &Found, bones: &[&str]) -> bool {
+        let mut added = self.dialects[..self.added].iter();
+        let is_own = added.any(|dialect| dialect.name == found.dialect);
+        is_own || bones.iter().any(|bone| self.own.contains_key(*bone))
+    }
+
     /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
-    fn find(&self, skeleton: &Skeleton) -> Found {
+    pub(super) fn find(&self, skeleton: &Skeleton) -> Found {
         self.find_among(skeleton, |_| true)
     }
 
@@ -146,7 +166,7 @@ impl BoneMap {
         is_among: impl Fn(usize) -> bool,
     ) -> Found {
         let names = Names::of(skeleton, is_among);
-        let nothing = Dialect { name: "own".into(), rows: BTreeMap::new() };
+        let nothing = Dialect::new("own".into(), BTreeMap::new());
         let mut best = self.joints(&nothing, &names);
         let mut dialect = &nothing;
         for other in &self.dialects {
@@ -161,10 +181,12 @@ impl BoneMap {
     }
 
     fn joints(&self, dialect: &Dialect, names: &Names) -> Vec<Vec<JointId>> {
-        let row = |bone: &str| self.own.get(bone).or_else(|| dialect.rows.get(bone));
-        let bones = self.model.bones.iter().map(|bone| {
-            let row = row(&bone.name).map_or(&[][..], Vec::as_slice);
-            row.iter().filter_map(|name| names.find(name)).collect()
+        let bones = self.model.bones.iter().map(|bone| match self.own.get(&bone.name) {
+            Some(own) => own.iter().filter_map(|name| names.find(name)).collect(),
+            None => {
+                let row = dialect.plain.get(&bone.name).map_or(&[][..], Vec::as_slice);
+                row.iter().filter_map(|name| names.0.get(name).copied()).collect()
+            }
         });
         bones.collect()
     }
@@ -302,6 +324,14 @@ impl Joints {
     }
 }
 
+impl Dialect {
+    fn new(name: String, rows: BTreeMap<String, Vec<String>>) -> Self {
+        let plain = |joints: &Vec<String>| joints.iter().map(|joint| plain_name(joint)).collect();
+        let plain = rows.iter().map(|(bone, joints)| (bone.clone(), plain(joints))).collect();
+        Self { name, rows, plain }
+    }
+}
+
 impl From<DialectText> for Dialect {
     fn from(text: DialectText) -> Self {
         let mut rows = BTreeMap::new();
@@ -317,7 +347,7 @@ impl From<DialectText> for Dialect {
                 rows.insert(format!("{}{stem}", side.word()), joints);
             }
         }
-        Self { name: text.name, rows }
+        Self::new(text.name, rows)
     }
 }
 

@@ -15,8 +15,8 @@ const SOMEBODY: RangeInclusive<f64> = 0.1..=30.0;
 /// How a body stands in its file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stature {
-    /// The longest side of the box round the joints of the body in the first frame, in the file's unit; 0 without
-    /// a frame or with one joint.
+    /// The height of a person with the legs of this body, in the file's unit. Of a body without limbs it is the longest side of
+    /// the box round its joints in the first frame; 0 without a frame or with one joint.
     pub size: f64,
     /// The axis that points up, Y or Z.
     pub up: Axis,

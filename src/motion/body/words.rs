@@ -1,5 +1,6 @@
 //! A body in words (体の説明): what is known of whoever moves in a clip, and by what.
 
+use super::members::is_still;
 use super::role::Role;
 use super::upright::By;
 use crate::error::Warning;
@@ -11,6 +12,9 @@ pub const BODY_GUESS: &str = "W_BODY_GUESS";
 
 /// More people than one are in a file.
 pub const PEOPLE: &str = "W_PEOPLE";
+
+/// Nothing moves.
+pub const STILL: &str = "W_STILL";
 
 /// What is known of a body, for a person to read.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +48,7 @@ impl Description {
         let build = Build::of(clip);
         let is_known = build.limbs.are_whole() && !matches!(build.up_by, By::Shape | By::Custom);
         match is_known {
-            true => people(clip, &build).into_iter().collect(),
+            true => people(clip, &build).into_iter().chain(still(clip)).collect(),
             false => Self::of_build(clip, &build).notes,
         }
     }
@@ -65,8 +69,15 @@ impl Description {
             let message = format!("of the body {}; genga inspect tells more", guesses.join("; "));
             Warning::new(BODY_GUESS, message)
         });
-        Self { lines, notes: guess.into_iter().chain(people(clip, build)).collect() }
+        let notes = guess.into_iter().chain(people(clip, build)).chain(still(clip));
+        Self { lines, notes: notes.collect() }
     }
+}
+
+/// That there is no motion.
+fn still(clip: &Clip) -> Option<Warning> {
+    let message = "nothing moves in this clip: all of it is one drawing";
+    is_still(clip).then(|| Warning::new(STILL, message.to_owned()))
 }
 
 /// Whose keys these are, where somebody else is in the file.
@@ -120,14 +131,16 @@ fn limbs(
     let skeleton = clip.skeleton();
     let mut by_shape = Vec::new();
     let head = build.limbs.head.unwrap_or(figure.head_joint);
+    let said = clip.declared();
     let is_named = build.limbs.head.is_some();
     by_shape.extend((!is_named).then_some("head"));
-    let mut lines = vec![("head", told(skeleton, &[head], is_named))];
+    let mut lines = vec![("head", told(skeleton, &[head], (is_named, said.head.is_some())))];
     for (words, limbs) in LIMBS.iter().zip([figure.arms, figure.legs]) {
         for (word, limb) in words.iter().zip(limbs) {
             let is_named = build.limbs.ending_at(limb[2]).is_some();
             by_shape.extend((!is_named).then_some(*word));
-            lines.push((*word, told(skeleton, &limb[..3], is_named)));
+            let is_said = said.limbs.iter().flatten().any(|own| own[2].0 == limb[2]);
+            lines.push((*word, told(skeleton, &limb[..3], (is_named, is_said))));
         }
     }
     if !by_shape.is_empty() {
@@ -137,9 +150,10 @@ fn limbs(
     lines
 }
 
-fn told(skeleton: &Skeleton, joints: &[usize], is_named: bool) -> String {
+fn told(skeleton: &Skeleton, joints: &[usize], (is_named, is_said): (bool, bool)) -> String {
     let names: Vec<&str> = joints.iter().map(|joint| &skeleton.joints[*joint].name[..]).collect();
     let by = match (is_named, joints.len()) {
+        _ if is_said => "as --bones says",
         (false, _) => "by shape",
         (true, 1) => "by name",
         (true, _) => "by names",

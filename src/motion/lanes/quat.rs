@@ -178,12 +178,18 @@ impl LaneQuat {
     /// angle of the short way in radians.
     #[inline(always)]
     pub(crate) fn way_to(self, to: Self) -> LaneVec {
-        let turn = to * Self { v: self.v * Lanes::splat(-1.0), w: self.w };
+        let turn = to * self.conjugate();
         let sine = turn.v.dot(turn.v).sqrt();
         let sign = turn.w.map(|w| 1f64.copysign(w));
         // Of a way so short the angle is twice the sine of its half.
         let stretch = |angle: f64, sine: f64| if sine > 0.0 { angle / sine } else { 2.0 };
         turn.v * (self.angle_to(to).with(sine, stretch) * sign)
+    }
+
+    /// The rotation back.
+    #[inline(always)]
+    pub(crate) fn conjugate(self) -> Self {
+        Self { v: self.v * Lanes::splat(-1.0), w: self.w }
     }
 
     #[inline(always)]

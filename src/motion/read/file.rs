@@ -123,8 +123,10 @@ impl Options {
 
     /// Puts a person's word before the file's.
     fn declare(&self, read: Read) -> Read {
-        let Some(up) = self.up else { return read };
-        let declared = Declared { up: Some((up, Word::Person)), ..read.clip.declared() };
+        let of_file = read.clip.declared();
+        let up = self.up.map(|up| (up, Word::Person)).or(of_file.up);
+        let bones = self.bones.as_ref().map(|bones| bones.limbs_said(read.clip.skeleton()));
+        let declared = Declared { up, metres: of_file.metres, ..bones.unwrap_or(of_file) };
         Read { clip: read.clip.with_declared(declared), ..read }
     }
 

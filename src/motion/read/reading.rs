@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use crate::error::{Error, Warning};
 use crate::motion::read::bvh;
-use crate::motion::{Axis, Clip, StreamLimit};
+use crate::motion::{Axis, BoneMap, Clip, StreamLimit};
 use crate::time::FrameRate;
 
 pub use given::Given;
@@ -32,6 +32,8 @@ pub struct Options {
     pub skeleton: Option<PathBuf>,
     /// The axis that points up, whatever the file says. Default: none, as the file declares or as the body stands.
     pub up: Option<Axis>,
+    /// A person's table of bones: which joints are head and limbs. Default: none, as names say or the body's shape.
+    pub bones: Option<BoneMap>,
     /// How much is read of what is no regular file, and of a file that is read whole. What is sampled of curves, or
     /// unpacked, may take as much again.
     pub stream: StreamLimit,

@@ -41,6 +41,8 @@ const JAPANESE: &[(&str, &str, &str)] = &[
     ("keys.merge", "sum", "速さの合計"),
     ("keys.rank", "price", "値段"),
     ("keys.rank", "strength", "強さ"),
+    ("keys.at_rests", "keys", "原画にする"),
+    ("keys.at_rests", "off", "特別扱いしない"),
     ("keys.contacts", "off", "特別扱いしない"),
     ("keys.contacts", "candidates", "候補にする"),
     ("keys.contacts", "keys", "原画にする"),

@@ -16,7 +16,7 @@ const TRAVEL: f64 = 0.2;
 const KEYS: usize = 16;
 
 /// How far apart two keys after one another are at least, in heights of the body: what one would draw.
-const APART: f64 = 0.12;
+const APART: f64 = 0.1;
 
 /// Seconds of a clip from one key's pose to the next one's, back or forth, at the most.
 const NEAR: f64 = 1.0;

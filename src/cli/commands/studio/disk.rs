@@ -164,7 +164,7 @@ fn written(
     tell: &dyn Fn(&str),
 ) -> Result<Vec<String>, Failure> {
     let names: Vec<String> = export.formats.iter().map(|name| (*name).to_owned()).collect();
-    let formats = Formats::new("deliver", &names, &Run::FORMATS, &FormatArgs::default())?;
+    let formats = Formats::new("deliver", &names, &Run::FORMATS, &FormatArgs::default(), None)?;
     let mut formats = formats.set(export.settings);
     let tell = |name: &str| {
         tell(name);

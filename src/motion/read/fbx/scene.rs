@@ -4,8 +4,9 @@ use std::cell::Cell;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use ufbx::{
-    AnimStack, CoordinateAxes, CoordinateAxis, ElementType, InheritModeHandling, LoadOpts, Matrix,
-    Node, ProgressCb, ProgressResult, Scene, SceneRoot, SpaceConversion, Transform,
+    AnimStack, CoordinateAxes, CoordinateAxis, ElementType, InheritMode, InheritModeHandling,
+    LoadOpts, Matrix, Node, ProgressCb, ProgressResult, Scene, SceneRoot, SpaceConversion,
+    Transform,
 };
 
 use super::takes::{Curves, key_at, listed};
@@ -37,15 +38,16 @@ pub(in crate::motion::read) fn read(given: &Given<'_>, options: &Options) -> Res
     let ((begin, end), far) = curves.whole(stack).map_err(|error| of_take(error, stack))?;
     let frames = rates::frames(end - begin, rate);
     let Joints { joints, left_out: beside } = joints(&scene, &curves);
-    let mut world = vec![DAffine3::IDENTITY; scene.nodes.count];
+    let mut world = vec![World::default(); scene.nodes.count];
     let carrying = carrying(&scene, &joints);
     let keys = curves.most_keys();
     let stand = |frame: usize, stands: &mut [DAffine3]| {
         let time = key_at(keys, begin + frame as f64 / rate.fps(), rate);
-        place(&scene, stack, &carrying, time, &mut world);
-        stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = world[*node]);
+        let local = |node: &Node| ufbx::evaluate_transform(&stack.anim, node, time);
+        place(&scene, &carrying, local, &mut world);
+        stands.iter_mut().zip(&joints).for_each(|(stand, (node, _))| *stand = world[*node].stand);
     };
-    let (clip, named) = Posed::of(bones(&scene, &joints), frames, options, stand)
+    let (clip, named) = Posed::of(bones(&scene, &joints, &carrying), frames, options, stand)
         .and_then(|posed| posed.clip(rate))
         .map_err(|error| of_take(error, stack))?;
     let mut warnings: Vec<Warning> = told.into_iter().chain(named).chain(far).collect();
@@ -72,7 +74,7 @@ fn loaded(bytes: &[u8], options: &Options) -> Result<SceneRoot, Error> {
         },
         target_unit_meters: CENTIMETRE,
         space_conversion: SpaceConversion::TransformRoot,
-        inherit_mode_handling: InheritModeHandling::HelperNodes,
+        inherit_mode_handling: InheritModeHandling::Preserve,
         node_depth_limit: 4096,
         progress_interval_hint: STEP,
         ..LoadOpts::default()
@@ -148,9 +150,8 @@ fn joints(scene: &Scene, curves: &Curves<'_>) -> Joints {
     let mut joints = Vec::new();
     for node in order {
         let carrier = parent(node).and_then(|parent| places[parent]);
-        let is_helper = scene.nodes[node].is_scale_helper;
         places[node] = carrier;
-        if chosen[node] && !scene.nodes[node].is_root && !is_helper {
+        if chosen[node] && !scene.nodes[node].is_root {
             places[node] = Some(joints.len());
             joints.push((node, carrier));
         }
@@ -175,16 +176,16 @@ fn order(scene: &Scene) -> Vec<usize> {
     order
 }
 
-/// Whether a node is a bone. Where scales are inherited oddly, ufbx gives the node a helper, which takes the bone over.
 fn is_bone(node: &Node) -> bool {
-    let helper = node.scale_helper.as_ref();
-    node.bone.is_some() || helper.is_some_and(|helper| helper.bone.is_some())
+    node.bone.is_some()
 }
 
 /// The joints with how they rest: bound, as far as the file says how, else as the scene stands.
-fn bones(scene: &Scene, joints: &[(usize, Option<usize>)]) -> Vec<Bone> {
+fn bones(scene: &Scene, joints: &[(usize, Option<usize>)], carrying: &[usize]) -> Vec<Bone> {
     let mut rests: Vec<DAffine3> = Vec::with_capacity(joints.len());
-    let stands = |node: usize| affine(&scene.nodes[node].node_to_world);
+    let mut world = vec![World::default(); scene.nodes.count];
+    place(scene, carrying, |node| node.local_transform, &mut world);
+    let stands = |node: usize| world[node].stand;
     let mut bone = |(node, parent): &(usize, Option<usize>)| {
         let by_parent = || {
             let on_parent = |parent: usize| stands(joints[parent].0).inverse() * stands(*node);
@@ -222,28 +223,53 @@ fn carrying(scene: &Scene, joints: &[(usize, Option<usize>)]) -> Vec<usize> {
     (0..is_needed.len()).filter(|node| is_needed[*node]).collect()
 }
 
-/// Where some nodes stand at an instant.
-fn place(scene: &Scene, stack: &AnimStack, nodes: &[usize], time: f64, world: &mut [DAffine3]) {
+/// Where a node stands in the world, and what of that is rotation and what its own scale.
+#[derive(Debug, Clone, Copy, Default)]
+struct World {
+    stand: DAffine3,
+    rotation: DQuat,
+    scale: DVec3,
+}
+
+/// Where some nodes stand, parents first, by how each stands on its parent.
+fn place(scene: &Scene, nodes: &[usize], local: impl Fn(&Node) -> Transform, world: &mut [World]) {
     for &at in nodes {
         let node = &scene.nodes[at];
-        let own = match node.is_root {
-            true => affine(&node.node_to_parent),
-            false => local(&ufbx::evaluate_transform(&stack.anim, node, time)),
-        };
         world[at] = match node.parent.as_ref().map(|parent| id(parent)) {
-            Some(parent) => world[parent] * own,
-            None => own,
+            Some(parent) => world[parent].carry(&local(node), node.inherit_mode),
+            // Its scale is the unit, which nobody is free of.
+            None => {
+                let stand = affine(&node.node_to_parent);
+                let rotation = stand.to_scale_rotation_translation().1;
+                World { stand, rotation, scale: DVec3::ONE }
+            }
         };
     }
 }
 
-fn local(transform: &Transform) -> DAffine3 {
-    let Transform { translation, rotation, scale } = transform;
-    DAffine3::from_scale_rotation_translation(
-        DVec3::new(scale.x, scale.y, scale.z),
-        DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
-        DVec3::new(translation.x, translation.y, translation.z),
-    )
+impl World {
+    /// Where a node stands that this one carries. FBX has three ways to inherit a scale: before the node's own turn, as all
+    /// programs else do; behind it; or behind it and without the scale of the parent alone.
+    fn carry(&self, local: &Transform, mode: InheritMode) -> Self {
+        let Transform { translation, rotation, scale } = local;
+        let scale = DVec3::new(scale.x, scale.y, scale.z);
+        let turn = DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w);
+        let (turned, sized) = (DMat3::from_quat(turn), DMat3::from_diagonal(scale));
+        let before = self.stand.matrix3;
+        let behind = DMat3::from_quat(self.rotation.inverse()) * before;
+        let rotation = self.rotation * turn;
+        let matrix3 = match mode {
+            InheritMode::Normal => before * turned * sized,
+            InheritMode::ComponentwiseScale => DMat3::from_quat(rotation) * behind * sized,
+            InheritMode::IgnoreParentScale => {
+                let without = DMat3::from_diagonal(self.scale.recip());
+                DMat3::from_quat(rotation) * behind * without * sized
+            }
+        };
+        let way = DVec3::new(translation.x, translation.y, translation.z);
+        let translation = self.stand.transform_point3(way);
+        Self { stand: DAffine3 { matrix3, translation }, rotation, scale }
+    }
 }
 
 fn affine(m: &Matrix) -> DAffine3 {

@@ -247,6 +247,33 @@ fn scales_are_inherited_in_each_of_the_three_ways() {
 }
 
 #[test]
+fn an_even_scale_reaches_all_below_in_two_of_the_three_ways() {
+    // The knee's own ways, beside a hip that is scaled evenly: the foot is 2 below the knee in the file.
+    let text = scene(1, 1.0, &[take(10, "Walk", [0.0, 0.1])]);
+    let hip = r#""Model::Hip", "LimbNode" { Properties70: {"#;
+    let scaled = format!(
+        r#"{hip} P: "Lcl Scaling", "Lcl Scaling", "", "A",10,10,10
+                "#
+    );
+    let far = |text: &str| {
+        let clip = read(text).unwrap().clip;
+        let joints = &clip.skeleton().joints;
+        joints.iter().skip(1).map(|joint| joint.offset.length()).sum::<f64>()
+    };
+    let plain = far(&text);
+    let text = text.replace(hip, &scaled);
+    for (way, times) in [(0, 10.0), (1, 10.0)] {
+        let inherit = format!(
+            r#"P: "InheritType", "enum", "", "",{way}
+                "#
+        );
+        let text = text.replace("Properties70: {", &format!("Properties70: {{ {inherit}"));
+        let found = far(&text);
+        assert!((found - times * plain).abs() < 1e-6, "{way}: {found} beside {plain}");
+    }
+}
+
+#[test]
 fn what_is_no_motion_is_counted_and_a_value_that_is_no_number_has_its_joint() {
     let text = scene(1, 1.0, &[walk()]);
     let lamp = r#"
