@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
-use crate::motion::{Joint, Members, Skeleton};
+use crate::motion::{Build, Joint, Members, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -26,7 +26,16 @@ pub(super) struct Points {
 impl Points {
     /// The points of a skeleton that are of the body, `own` what each joint and its tips count besides. Without any bone that
     /// counts they weigh that alone.
-    pub(super) fn of(skeleton: &Skeleton, members: &Members, own: &[f64]) -> Self {
+    ///
+    /// Where no limbs are known, a joint that turns and has nothing at its end has a tip as far away as it is from the joint that
+    /// carries it: in many animals of games a leg is such a joint, and its turn would move nothing.
+    pub(super) fn of(skeleton: &Skeleton, build: &Build, own: &[f64]) -> Self {
+        let own_skeleton = build.members.skeleton();
+        let bare = if build.mannequin.is_none() { bare_ends(own_skeleton) } else { Vec::new() };
+        Self::of_members(skeleton, &build.members, bare, own)
+    }
+
+    fn of_members(skeleton: &Skeleton, members: &Members, bare: Vec<usize>, own: &[f64]) -> Self {
         let bone = |joint: &Joint| joint.parent.map_or(0.0, |_| joint.offset.length());
         let mut bones: Vec<f64> = members.skeleton().joints.iter().map(bone).collect();
         let mut tips = Vec::new();
@@ -36,9 +45,16 @@ impl Points {
                 bones.push(end.offset.length());
             }
         }
-        let is_own: Vec<bool> = skeleton.owners().map(|joint| members.has(joint)).collect();
-        let weigh = |joint: usize| if members.has(joint) { own[joint] } else { 0.0 };
-        let own: Vec<f64> = skeleton.owners().map(weigh).collect();
+        let mut is_own = members.own_points(skeleton);
+        for joint in &bare {
+            let offset = skeleton.joints[*joint].offset;
+            tips.push((*joint, offset));
+            bones.push(offset.length());
+            is_own.push(true);
+        }
+        let weigh = |(joint, is_own): (usize, &bool)| if *is_own { own[joint] } else { 0.0 };
+        let owners = skeleton.owners().chain(bare);
+        let own: Vec<f64> = owners.zip(&is_own).map(weigh).collect();
         let mut weights: Vec<f64> = bones.iter().zip(&own).map(|(bone, own)| bone * own).collect();
         if weights.iter().all(|weight| *weight == 0.0) {
             weights = own;
@@ -97,6 +113,19 @@ impl Points {
     }
 }
 
+/// The joints that turn, have no tip, and carry nothing.
+fn bare_ends(skeleton: &Skeleton) -> Vec<usize> {
+    let mut is_bare: Vec<bool> = skeleton
+        .joints
+        .iter()
+        .map(|joint| joint.parent.is_some() && joint.end_sites.is_empty() && joint.turns())
+        .collect();
+    for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
+        is_bare[parent.0] = false;
+    }
+    (0..is_bare.len()).filter(|joint| is_bare[*joint]).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use glam::DQuat;
@@ -126,7 +155,7 @@ mod tests {
     }
 
     fn points_of(skeleton: &Skeleton, own: &[f64]) -> Points {
-        Points::of(skeleton, &Members::all(skeleton), own)
+        Points::of_members(skeleton, &Members::all(skeleton), vec![], own)
     }
 
     #[test]

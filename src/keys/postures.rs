@@ -17,7 +17,7 @@ use crate::maths;
 use crate::motion::body::mannequin::{BONES, Mannequin, POINTS, Stand};
 use crate::motion::clip::lane_poser::{LanePose, LanePoser};
 use crate::motion::lanes::{LANES, LaneVec, wide};
-use crate::motion::{Axis, Build, Clip, Members, Point, Screen};
+use crate::motion::{Axis, Build, Clip, Point, Screen};
 use crate::time::Clock;
 
 /// How far a turn of the body by one radian counts as moved, in heights of the body: half a hip's width
@@ -54,7 +54,7 @@ impl Postures {
                 of_person(clip, clock, instants, mannequin, build.landmarks.up, own)
             }
             Some(mannequin) => of_person_seen(clip, clock, instants, mannequin, screen, own),
-            None => of_points(clip, &build.members, clock, instants, (screen, height), own),
+            None => of_points(clip, build, clock, instants, (screen, height), own),
         };
         postures.start_at_0();
         postures.watch(clip, build, clock, (own, screen.is_world()));
@@ -206,13 +206,13 @@ fn upright(way: DVec3, up: Axis) -> DVec3 {
 
 fn of_points(
     clip: &Clip,
-    members: &Members,
+    build: &Build,
     clock: Clock,
     instants: usize,
     (screen, height): (&Screen, f64),
     own: &[f64],
 ) -> Postures {
-    let points = Points::of(clip.skeleton(), members, own);
+    let points = Points::of(clip.skeleton(), build, own);
     let columns = 3 * points.len();
     let mut rows = vec![0.0; instants * columns];
     let scale = if height > 0.0 { 100.0 / height } else { 0.0 };

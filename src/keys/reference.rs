@@ -45,7 +45,7 @@ impl Reference {
 
     /// The same of a body that is known.
     pub(crate) fn of_build(clip: &Clip, build: &Build, clock: Clock, own: &[f64]) -> Self {
-        let points = Points::of(clip.skeleton(), &build.members, own);
+        let points = Points::of(clip.skeleton(), build, own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
         let mut poser = LanePoser::of(clip);

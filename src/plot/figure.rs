@@ -130,8 +130,8 @@ impl Figure {
         standing.place(Poser::of(clip).frame(clip.first()));
         let build = Build::of(clip);
         let up = build.stature.up.unit();
-        let owners = clip.skeleton().owners();
-        let hidden: Vec<bool> = owners.map(|joint| !build.members.shows(joint)).collect();
+        let shown = build.members.shown(clip.skeleton());
+        let hidden: Vec<bool> = shown.into_iter().map(|shown| !shown).collect();
         let sticks = || {
             let sticks = Self::sticks(clip.skeleton(), standing.points(), up);
             sticks.without(hidden.clone(), standing.points(), up)

@@ -223,7 +223,7 @@ impl Rig<'_> {
 }
 
 /// What a name says that something is.
-fn role_of(name: &str) -> Option<Role> {
+pub(super) fn role_of(name: &str) -> Option<Role> {
     let own = words(name);
     let is = |(_, words, letters): &&Names| {
         own.iter().any(|word| {

@@ -16,6 +16,9 @@ const LOOKS: usize = 48;
 /// A direction at rest is taken for that of the motion within this angle, by its cosine: 40°.
 const ALIKE: f64 = 0.766;
 
+/// How far up the spine a neck has to point to say where a head is, by its cosine: 75° off.
+const UPWARD: f64 = 0.26;
+
 /// From a wrist to the fingertips, in heights of the body.
 const HAND: f64 = 0.105;
 
@@ -225,8 +228,10 @@ impl<'a> Rig<'a> {
             let middle = |limbs: &[&Limb; 2]| place(limbs[0].upper).midpoint(place(limbs[1].upper));
             let across = place(arms[1].upper) - place(arms[0].upper);
             let spine = (middle(&arms) - middle(&legs)).normalize_or_zero();
-            let neck = place(self.mannequin.head) - middle(&arms);
-            [(forward * spine.cross(across)).normalize_or_zero(), spine, neck.normalize_or(spine)]
+            let neck = (place(self.mannequin.head) - middle(&arms)).normalize_or(spine);
+            // The joint of a head between raised shoulders says nothing of where its top is.
+            let neck = if neck.dot(spine) > UPWARD { neck } else { spine };
+            [(forward * spine.cross(across)).normalize_or_zero(), spine, neck]
         };
         let (mut poser, mut body) = (Poser::of(self.clip), Body::new(self.clip.skeleton()));
         let [mut face, mut crown] = [DVec3::ZERO; 2];

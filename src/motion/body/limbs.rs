@@ -1,13 +1,18 @@
 //! The limbs that names give (名前による手足), where they make whole ones.
 
+mod words;
+
 use std::sync::LazyLock;
 
 use super::names::BoneMap;
+use super::side::BodySide;
 use super::structure::LIMBS;
 use super::structure::fit::way;
 use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
 use crate::motion::{Declared, JointId, Skeleton};
+
+use words::ByWords;
 
 /// The table that comes with the program.
 static NAMES: LazyLock<BoneMap> = LazyLock::new(BoneMap::default);
@@ -55,10 +60,26 @@ impl NamedLimbs {
             let limb = |side: Side| whole(skeleton, bones.map(|bone| named(&side.named(bone))));
             alike(Side::BOTH.map(limb))
         };
-        Self {
+        let found = Self {
             arms: limbs(LIMBS[0].1),
             legs: limbs(LIMBS[1].1),
             head: named("頭").map(|head| head.0),
+        };
+        if found.are_whole() { found } else { found.or_by_words(skeleton, is_of_tree) }
+    }
+
+    /// What no dialect names may still be plain by the words in names: both sides of a kind of limb at once.
+    fn or_by_words(self, skeleton: &Skeleton, is_of_tree: &[bool]) -> Self {
+        let words = ByWords::of(skeleton, is_of_tree);
+        let both = |own: [Option<Limb>; 2], limb: &dyn Fn(BodySide) -> [Option<JointId>; 3]| {
+            let sides = [BodySide::Left, BodySide::Right];
+            let by_words = || alike(sides.map(|side| whole(skeleton, limb(side))));
+            if own == [None; 2] { by_words() } else { own }
+        };
+        Self {
+            arms: both(self.arms, &|side| words.arm(side)),
+            legs: both(self.legs, &|side| words.leg(side)),
+            head: self.head.or_else(|| words.head()),
         }
     }
 

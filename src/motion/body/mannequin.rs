@@ -41,7 +41,8 @@ pub(crate) struct Mannequin {
     pub(super) chest: usize,
     pub(super) arms: [Limb; 2],
     pub(super) legs: [Limb; 2],
-    /// The height of a person with the legs of this rig, in the file's unit.
+    /// The height of a person with the legs of this rig, and no less than from its ankles to its head along the bones, in the
+    /// file's unit.
     height: f64,
 }
 
@@ -94,16 +95,19 @@ impl Mannequin {
         let legs_found = legs.limbs(LEG * height, soles)?;
         let leg = |leg: &Limb| lengths[leg.lower.joint.0] - lengths[leg.upper.joint.0];
         let leg_length = f64::midpoint(leg(&legs_found[0]), leg(&legs_found[1]));
+        // A doll with a large head and short legs is no shorter than the way from its ankles to its head.
+        let upright = TRUNK_AND_LEG * height;
         (leg_length > 0.0).then_some(Self {
             head,
             chest: arms.fork,
             arms: arms_found,
             legs: legs_found,
-            height: leg_length / LEG,
+            height: f64::max(leg_length / LEG, upright),
         })
     }
 
-    /// The height of a person with the legs of this rig, in the file's unit.
+    /// The height of a person with the legs of this rig, and no less than from its ankles to its head along the bones, in the
+    /// file's unit.
     pub(crate) fn height(&self) -> f64 {
         self.height
     }

@@ -8,7 +8,7 @@ use crate::motion::body::accessories::Rig;
 use crate::motion::body::limbs::NamedLimbs;
 use crate::motion::body::role::Role;
 use crate::motion::landmarks::{above, body_root, bones_by_tree};
-use crate::motion::{Channel, Clip, Joint, Skeleton, local_translation};
+use crate::motion::{Channel, Clip, EndSite, Joint, Skeleton, local_translation};
 
 /// Turns of fewer degrees are none: single floats and rounded decimals have such noise.
 const LEAST_TURN: f64 = 0.05;
@@ -23,6 +23,8 @@ pub(crate) struct Members {
     /// The same joints, where those that are no part of the body stand for themselves: without length, parent and tips. A
     /// root of the body has no parent.
     skeleton: Skeleton,
+    /// How far the tip of a bone may be from its joint to be a part of the body, in the file's unit.
+    longest: f64,
 }
 
 impl Members {
@@ -41,12 +43,14 @@ impl Members {
         let mut roles = below(skeleton, &begins);
         leave_out_others(skeleton, &main_tree(skeleton, &moves), &mut roles);
         Rig { skeleton, limbs, moves: &moves, travels: &travels }.strip(&mut roles);
-        Self { skeleton: alone(skeleton, &roles), roles }
+        let longest = longest_tip(skeleton, &roles);
+        Self { skeleton: alone(skeleton, &roles, longest), roles, longest }
     }
 
     /// Every joint.
     pub(crate) fn all(skeleton: &Skeleton) -> Self {
-        Self { roles: vec![Role::Body; skeleton.len()], skeleton: skeleton.clone() }
+        let roles = vec![Role::Body; skeleton.len()];
+        Self { roles, skeleton: skeleton.clone(), longest: f64::INFINITY }
     }
 
     /// Whether every joint is a part of the body.
@@ -76,9 +80,28 @@ impl Members {
         self.roles.iter().filter(|own| **own == role).count()
     }
 
-    /// Whether a joint is seen in a picture: what a rig has for itself alone is not.
-    pub(crate) fn shows(&self, joint: usize) -> bool {
-        matches!(self.roles[joint], Role::Body | Role::Hair | Role::Prop | Role::Far | Role::Other)
+    /// Which points of a clip, its joints and then its tips, are a part of the body.
+    pub(crate) fn own_points(&self, skeleton: &Skeleton) -> Vec<bool> {
+        self.points(skeleton, |joint| self.has(joint))
+    }
+
+    /// Which of them are seen in a picture: what a rig has for itself alone is not.
+    pub(crate) fn shown(&self, skeleton: &Skeleton) -> Vec<bool> {
+        self.points(skeleton, |joint| {
+            matches!(
+                self.roles[joint],
+                Role::Body | Role::Hair | Role::Prop | Role::Far | Role::Other
+            )
+        })
+    }
+
+    fn points(&self, skeleton: &Skeleton, is: impl Fn(usize) -> bool) -> Vec<bool> {
+        let of_tips = skeleton.iter().flat_map(|(joint, data)| {
+            let is_one = is(joint.0);
+            let near = |end: &EndSite| end.offset.length() <= self.longest;
+            data.end_sites.iter().map(move |end| is_one && near(end))
+        });
+        (0..skeleton.len()).map(&is).chain(of_tips).collect()
     }
 
     /// The joint at which most of it begins.
@@ -110,11 +133,23 @@ fn below(skeleton: &Skeleton, begins: &[bool]) -> Vec<Role> {
     roles
 }
 
+/// The longest tip of a bone, as a share of all bones of the body.
+const LONGEST_TIP: f64 = 0.25;
+
+/// How far the tip of a bone may be from its joint: some hands have one that is as far away as the floor.
+fn longest_tip(skeleton: &Skeleton, roles: &[Role]) -> f64 {
+    let own = skeleton.joints.iter().zip(roles);
+    let own = own.filter(|(joint, role)| joint.parent.is_some() && **role == Role::Body);
+    let bones: Vec<f64> = own.map(|(joint, _)| joint.offset.length()).collect();
+    if bones.len() < PERSON.0 { f64::INFINITY } else { LONGEST_TIP * bones.iter().sum::<f64>() }
+}
+
 /// The same joints, where those of another role than the body's stand for themselves.
-fn alone(skeleton: &Skeleton, roles: &[Role]) -> Skeleton {
+fn alone(skeleton: &Skeleton, roles: &[Role], longest: f64) -> Skeleton {
     let mut skeleton = skeleton.clone();
     for (joint, role) in skeleton.joints.iter_mut().zip(roles) {
         joint.parent = joint.parent.filter(|parent| roles[parent.0] == Role::Body);
+        joint.end_sites.retain(|end| end.offset.length() <= longest);
         if *role != Role::Body {
             (joint.parent, joint.offset) = (None, DVec3::ZERO);
             joint.end_sites.clear();

@@ -238,7 +238,7 @@ impl Names {
 /// Joints at the least of which a part of their names can be nobody's own.
 const FEWEST: usize = 8;
 
-/// The longest of some parts of a first name that nearly all names have; nothing where none is.
+/// The longest of some parts of the first names that nearly all names have; nothing where none is.
 fn shared<'a, Parts: Iterator<Item = &'a str>>(
     names: &[&'a str],
     parts: impl Fn(&'a str) -> Parts,
@@ -248,8 +248,9 @@ fn shared<'a, Parts: Iterator<Item = &'a str>>(
         let having = names.iter().filter(|name| has(name, part)).count();
         names.len() >= FEWEST && 10 * having >= 9 * names.len()
     };
-    let first = names.first().copied().unwrap_or_default();
-    parts(first).filter(is_shared).max_by_key(|part| part.len()).unwrap_or_default()
+    // The root may have another name than all others.
+    let some = names.iter().take(2).flat_map(|name| parts(name));
+    some.filter(is_shared).max_by_key(|part| part.len()).unwrap_or_default()
 }
 
 /// What a name begins with, up to something that parts words.

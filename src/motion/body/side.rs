@@ -7,10 +7,10 @@ const PREFIXES: [&str; 4] = ["mixamorig", "bip001", "bip01", "character1"];
 pub(super) const DASHES: [char; 4] = [' ', '_', '-', '.'];
 
 /// What an l or r may be written together with in one case: lfemur, RHAND. Not lumbar, RIBS.
-const PARTS: [&str; 24] = [
-    "ankle", "arm", "calf", "clavicle", "collar", "elbow", "eye", "femur", "finger", "foot",
-    "forearm", "hand", "hip", "humerus", "knee", "leg", "radius", "shin", "shoulder", "thigh",
-    "thumb", "tibia", "toe", "wrist",
+const PARTS: [&str; 25] = [
+    "ankle", "arm", "buttock", "calf", "clavicle", "collar", "elbow", "eye", "femur", "finger",
+    "foot", "forearm", "hand", "hip", "humerus", "knee", "leg", "radius", "shin", "shoulder",
+    "thigh", "thumb", "tibia", "toe", "wrist",
 ];
 
 /// Which side of the body a joint belongs to.

@@ -6,7 +6,7 @@ use crate::motion::body::landmarks::Looks;
 use crate::motion::body::limbs::NamedLimbs;
 use crate::motion::body::mannequin::Mannequin;
 use crate::motion::body::members::Members;
-use crate::motion::{Axis, Clip, Landmarks, Word};
+use crate::motion::{Axis, Body, Clip, Landmarks, Word};
 
 /// How upright a body stands at the least in the middle of all its poses, as the cosine to the axis: 45°.
 const UPRIGHT: f64 = 0.7;
@@ -23,6 +23,8 @@ pub(crate) enum By {
     File,
     /// The motion does: how the body stands.
     Motion,
+    /// The motion does, and the rest pose stands otherwise: a file that is turned in its root, or somebody who lies.
+    Turned,
     /// The shape of the body does.
     Shape,
     /// Nothing does: it is what is usual.
@@ -58,7 +60,18 @@ pub(super) fn up(
     let (y, z) = (along_y.y, along_z.z);
     match () {
         () if y >= UPRIGHT && y >= z + CLEARLY => (Axis::Y, By::Motion),
-        () if z >= UPRIGHT && z >= y + CLEARLY => (Axis::Z, By::Motion),
+        () if z >= UPRIGHT && z >= y + CLEARLY => {
+            let is_turned = of_z.is_some_and(|(legs, _)| rests_along_y(clip, legs));
+            (Axis::Z, if is_turned { By::Turned } else { By::Motion })
+        }
         () => rest.map_or((Axis::Y, By::Custom), |axis| (axis, By::Shape)),
     }
+}
+
+/// Whether the legs of a rest pose hang along Y.
+fn rests_along_y(clip: &Clip, legs: [[usize; 3]; 2]) -> bool {
+    let body = Body::new(clip.skeleton());
+    let way = |[hip, _, ankle]: [usize; 3]| body.positions()[hip] - body.positions()[ankle];
+    let ways = legs.map(|leg| way(leg).normalize_or_zero());
+    (ways[0] + ways[1]).normalize_or_zero().y.abs() >= UPRIGHT
 }

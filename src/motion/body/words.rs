@@ -1,5 +1,7 @@
 //! A body in words (体の説明): what is known of whoever moves in a clip, and by what.
 
+use std::ops::RangeInclusive;
+
 use super::members::is_still;
 use super::role::Role;
 use super::upright::By;
@@ -46,7 +48,8 @@ impl Description {
     /// Its notes alone, which take less where there are none.
     pub fn notes(clip: &Clip) -> Vec<Warning> {
         let build = Build::of(clip);
-        let is_known = build.limbs.are_whole() && !matches!(build.up_by, By::Shape | By::Custom);
+        let is_up_known = !matches!(build.up_by, By::Shape | By::Custom | By::Turned);
+        let is_known = build.limbs.are_whole() && is_up_known && odd_height(&build).is_none();
         match is_known {
             true => people(clip, &build).into_iter().chain(still(clip)).collect(),
             false => Self::of_build(clip, &build).notes,
@@ -65,6 +68,7 @@ impl Description {
             }
         }
         lines.extend(not_body(build).map(|joints| ("not body", joints)));
+        guesses.extend(odd_height(build));
         let guess = (!guesses.is_empty()).then(|| {
             let message = format!("of the body {}; genga inspect tells more", guesses.join("; "));
             Warning::new(BODY_GUESS, message)
@@ -105,10 +109,11 @@ fn up(build: &Build, guesses: &mut Vec<String>) -> String {
         By::Person => "as --up says",
         By::File => "as the file says",
         By::Motion => "as the body stands",
+        By::Turned => "as the body stands; its rest pose stands along the other axis",
         By::Shape => "by the longest side of the body, which does not stand upright",
         By::Custom => "as usual: the body does not stand upright",
     };
-    if matches!(build.up_by, By::Shape | By::Custom) && build.mannequin.is_some() {
+    if matches!(build.up_by, By::Shape | By::Custom | By::Turned) && build.mannequin.is_some() {
         guesses.push(format!("{axis} is taken to be up (--up y, --up z)"));
     }
     format!("{axis}, {why}")
@@ -120,6 +125,16 @@ fn height(build: &Build) -> String {
         None => (build.landmarks.height, "the longest side of its joints, most of the time"),
     };
     format!("{:.0} cm, {why}", 100.0 * height * build.stature.metres)
+}
+
+/// Metres of a person, a child among them.
+const PERSON: RangeInclusive<f64> = 0.8..=2.5;
+
+/// That somebody with limbs is as tall as nobody: then the unit is another, or it is no person.
+fn odd_height(build: &Build) -> Option<String> {
+    let metres = build.mannequin.as_ref()?.height() * build.stature.metres;
+    (!PERSON.contains(&metres))
+        .then(|| format!("it is {:.0} cm tall: no person, or the unit is another", 100.0 * metres))
 }
 
 fn limbs(
