@@ -8,7 +8,7 @@ use crate::motion::body::accessories::Rig;
 use crate::motion::body::limbs::NamedLimbs;
 use crate::motion::body::role::Role;
 use crate::motion::landmarks::{above, body_root, bones_by_tree};
-use crate::motion::{Channel, Clip, EndSite, Joint, Skeleton, local_translation};
+use crate::motion::{Channel, Clip, EndSite, Joint, JointId, Skeleton, local_translation};
 
 /// Turns of fewer degrees are none: single floats and rounded decimals have such noise.
 const LEAST_TURN: f64 = 0.05;
@@ -134,13 +134,15 @@ fn below(skeleton: &Skeleton, begins: &[bool]) -> Vec<Role> {
 }
 
 /// The longest tip of a bone, as a share of all bones of the body.
-const LONGEST_TIP: f64 = 0.25;
+const LONGEST_TIP: f64 = 0.15;
 
 /// How far the tip of a bone may be from its joint: some hands have one that is as far away as the floor.
 fn longest_tip(skeleton: &Skeleton, roles: &[Role]) -> f64 {
-    let own = skeleton.joints.iter().zip(roles);
-    let own = own.filter(|(joint, role)| joint.parent.is_some() && **role == Role::Body);
-    let bones: Vec<f64> = own.map(|(joint, _)| joint.offset.length()).collect();
+    let is_own = |joint: &JointId| roles[joint.0] == Role::Body;
+    let own = skeleton
+        .iter()
+        .filter(|(joint, data)| is_own(joint) && data.parent.is_some_and(|parent| is_own(&parent)));
+    let bones: Vec<f64> = own.map(|(_, data)| data.offset.length()).collect();
     if bones.len() < PERSON.0 { f64::INFINITY } else { LONGEST_TIP * bones.iter().sum::<f64>() }
 }
 
@@ -228,22 +230,43 @@ fn leave_out_others(skeleton: &Skeleton, is_main: &[bool], roles: &mut [Role]) {
 fn tops(skeleton: &Skeleton, moves: &[bool], limbs: &NamedLimbs) -> Vec<bool> {
     let mut wanted = moves.to_vec();
     limbs.joints().for_each(|joint| wanted[joint] = true);
-    let mut below: Vec<usize> = wanted.iter().map(|wanted| usize::from(*wanted)).collect();
     let mut is_moving = moves.to_vec();
     for (joint, data) in skeleton.iter().rev() {
         if let Some(parent) = data.parent {
-            below[parent.0] += below[joint.0];
             is_moving[parent.0] |= is_moving[joint.0];
+        }
+    }
+    let roots = skeleton.roots();
+    let mut lowest = carriers(skeleton, &roots, &wanted);
+    if limbs.are_whole() {
+        let mut core = vec![false; wanted.len()];
+        limbs.joints().for_each(|joint| core[joint] = true);
+        // What else moves in a tree may hang on what only carries the body.
+        for (top, carrier) in lowest.iter_mut().zip(carriers(skeleton, &roots, &core)) {
+            let begin = |carrier| above(skeleton, carrier).filter(|joint| moves[*joint]).last();
+            *top = carrier.map(|carrier| begin(carrier).unwrap_or(carrier)).or(*top);
+        }
+    }
+    let mut tops = vec![false; wanted.len()];
+    let moving = lowest.into_iter().zip(is_moving).filter(|(_, is_moving)| *is_moving);
+    moving.filter_map(|(top, _)| top).for_each(|top| tops[top] = true);
+    tops
+}
+
+/// Of each root the lowest joint that carries all of some joints of its tree, where it has any.
+fn carriers(skeleton: &Skeleton, roots: &[usize], wanted: &[bool]) -> Vec<Option<usize>> {
+    let mut below: Vec<usize> = wanted.iter().map(|wanted| usize::from(*wanted)).collect();
+    for (joint, data) in skeleton.iter().rev() {
+        if let Some(parent) = data.parent {
+            below[parent.0] += below[joint.0];
         }
     }
     // Parents come first: the last that carries all of its tree is the lowest.
     let mut lowest = vec![None; below.len()];
-    for (joint, root) in skeleton.roots().into_iter().enumerate() {
-        if below[joint] == below[root] && is_moving[root] {
-            lowest[root] = Some(joint);
+    for (joint, root) in roots.iter().enumerate() {
+        if below[joint] > 0 && below[joint] == below[*root] {
+            lowest[*root] = Some(joint);
         }
     }
-    let mut tops = vec![false; below.len()];
-    lowest.into_iter().flatten().for_each(|top| tops[top] = true);
-    tops
+    lowest
 }

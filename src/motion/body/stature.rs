@@ -87,11 +87,11 @@ pub enum Unit {
     Millimetre,
 }
 
-/// Sizes of a person in each unit, from small to large.
+/// Sizes of a person in each unit, from small to large. Where two units meet, one makes somebody tall and the other a child.
 const PERSONS: [(Unit, f64, f64); 6] = [
     (Unit::Metre, 1.0, 3.0),
-    (Unit::Decimetre, 10.0, 18.0),
-    (Unit::Cmu, 18.0, 40.0),
+    (Unit::Decimetre, 10.0, 21.5),
+    (Unit::Cmu, 21.5, 40.0),
     (Unit::Inch, 50.0, 90.0),
     (Unit::Centimetre, 100.0, 250.0),
     (Unit::Millimetre, 1000.0, 2500.0),

@@ -32,7 +32,7 @@ pub(crate) enum By {
 }
 
 /// The axis that points up, Y or Z, and by what it is known. Somebody who lies or crawls all the time keeps the axis of the
-/// rest pose, `rest`, where that stands, and else Y.
+/// rest pose, where its legs stand along one, and else Y. A body without legs has that of its longest side, `rest`.
 pub(super) fn up(
     clip: &Clip,
     members: &Members,
@@ -61,17 +61,28 @@ pub(super) fn up(
     match () {
         () if y >= UPRIGHT && y >= z + CLEARLY => (Axis::Y, By::Motion),
         () if z >= UPRIGHT && z >= y + CLEARLY => {
-            let is_turned = of_z.is_some_and(|(legs, _)| rests_along_y(clip, legs));
+            let is_turned = along_rest(clip, of_z).y.abs() >= UPRIGHT;
             (Axis::Z, if is_turned { By::Turned } else { By::Motion })
         }
+        // Where a body lies says nothing of the room.
+        () if of_y.or(of_z).is_some() => (rest_up(clip, of_y.or(of_z)), By::Custom),
         () => rest.map_or((Axis::Y, By::Custom), |axis| (axis, By::Shape)),
     }
 }
 
-/// Whether the legs of a rest pose hang along Y.
-fn rests_along_y(clip: &Clip, legs: [[usize; 3]; 2]) -> bool {
+/// Head and legs of a body.
+type Ends = Option<([[usize; 3]; 2], usize)>;
+
+/// The way that the legs of a rest pose stand up; none without legs.
+fn along_rest(clip: &Clip, ends: Ends) -> DVec3 {
+    let Some((legs, _)) = ends else { return DVec3::ZERO };
     let body = Body::new(clip.skeleton());
     let way = |[hip, _, ankle]: [usize; 3]| body.positions()[hip] - body.positions()[ankle];
     let ways = legs.map(|leg| way(leg).normalize_or_zero());
-    (ways[0] + ways[1]).normalize_or_zero().y.abs() >= UPRIGHT
+    (ways[0] + ways[1]).normalize_or_zero()
+}
+
+/// The axis along which the legs of a rest pose stand, Y if neither.
+fn rest_up(clip: &Clip, ends: Ends) -> Axis {
+    if along_rest(clip, ends).z.abs() >= UPRIGHT { Axis::Z } else { Axis::Y }
 }

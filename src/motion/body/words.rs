@@ -7,7 +7,7 @@ use super::role::Role;
 use super::upright::By;
 use crate::error::Warning;
 use crate::motion::landmarks::above;
-use crate::motion::{Axis, Build, Clip, LayFigure, Skeleton};
+use crate::motion::{Axis, Build, Clip, LayFigure, Skeleton, Unit};
 
 /// What is known of the body is a guess.
 pub const BODY_GUESS: &str = "W_BODY_GUESS";
@@ -49,7 +49,7 @@ impl Description {
     pub fn notes(clip: &Clip) -> Vec<Warning> {
         let build = Build::of(clip);
         let is_up_known = !matches!(build.up_by, By::Shape | By::Custom | By::Turned);
-        let is_known = build.limbs.are_whole() && is_up_known && odd_height(&build).is_none();
+        let is_known = build.limbs.are_whole() && is_up_known && odd_height(clip, &build).is_none();
         match is_known {
             true => people(clip, &build).into_iter().chain(still(clip)).collect(),
             false => Self::of_build(clip, &build).notes,
@@ -68,7 +68,7 @@ impl Description {
             }
         }
         lines.extend(not_body(build).map(|joints| ("not body", joints)));
-        guesses.extend(odd_height(build));
+        guesses.extend(odd_height(clip, build));
         let guess = (!guesses.is_empty()).then(|| {
             let message = format!("of the body {}; genga inspect tells more", guesses.join("; "));
             Warning::new(BODY_GUESS, message)
@@ -111,7 +111,7 @@ fn up(build: &Build, guesses: &mut Vec<String>) -> String {
         By::Motion => "as the body stands",
         By::Turned => "as the body stands; its rest pose stands along the other axis",
         By::Shape => "by the longest side of the body, which does not stand upright",
-        By::Custom => "as usual: the body does not stand upright",
+        By::Custom => "as at rest: the body does not stand upright",
     };
     if matches!(build.up_by, By::Shape | By::Custom | By::Turned) && build.mannequin.is_some() {
         guesses.push(format!("{axis} is taken to be up (--up y, --up z)"));
@@ -131,10 +131,17 @@ fn height(build: &Build) -> String {
 const PERSON: RangeInclusive<f64> = 0.8..=2.5;
 
 /// That somebody with limbs is as tall as nobody: then the unit is another, or it is no person.
-fn odd_height(build: &Build) -> Option<String> {
-    let metres = build.mannequin.as_ref()?.height() * build.stature.metres;
-    (!PERSON.contains(&metres))
-        .then(|| format!("it is {:.0} cm tall: no person, or the unit is another", 100.0 * metres))
+fn odd_height(clip: &Clip, build: &Build) -> Option<String> {
+    let height = build.mannequin.as_ref()?.height();
+    let metres = height * build.stature.metres;
+    let is_unknown = clip.declared().metres.is_none() && Unit::of_size(height).is_none();
+    match () {
+        () if !PERSON.contains(&metres) => {
+            Some(format!("it is {:.0} cm tall: no person, or the unit is another", 100.0 * metres))
+        }
+        () if is_unknown => Some(format!("{height:.1} is a person's height in no unit")),
+        () => None,
+    }
 }
 
 fn limbs(

@@ -49,7 +49,7 @@ impl<'a> ByWords<'a> {
 
     /// The head.
     pub(super) fn head(&self) -> Option<usize> {
-        self.find(BodySide::Trunk, &["head"])
+        self.find(BodySide::Trunk, &["head", "skull", "forehead"])
     }
 
     /// What ends a limb may hang elsewhere, on an IK: then it is the first joint that its middle one carries.
