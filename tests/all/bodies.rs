@@ -567,6 +567,33 @@ fn the_long_legs_of_an_animal_are_no_helpers() {
 }
 
 #[test]
+fn names_that_the_shape_contradicts_are_taken_and_it_is_said() {
+    let clip = clips::sample("kick.bvh");
+    let exchanged = |name: &str| {
+        let pairs = [("UpLeg", "Arm"), ("Leg", "ForeArm"), ("Foot", "Hand")];
+        let other = pairs.into_iter().find_map(|(leg, arm)| {
+            let side =
+                |end: &str| name.strip_suffix(end).filter(|side| ["Left", "Right"].contains(side));
+            let as_arm = side(leg).map(|side| format!("{side}{arm}"));
+            as_arm.or_else(|| side(arm).map(|side| format!("{side}{leg}")))
+        });
+        other.unwrap_or_else(|| name.to_owned())
+    };
+    let joints = clip.skeleton().joints.iter();
+    let joints =
+        joints.map(|joint| Joint { name: exchanged(&joint.name), ..joint.clone() }).collect();
+    let rows = clip.rows().flatten().copied().collect();
+    let wrong =
+        Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap();
+    let notes = Description::notes(&wrong);
+    assert!(
+        notes.iter().any(|note| note.message.contains("arms and legs are others by its shape")),
+        "{notes:?}"
+    );
+    assert_eq!(Description::notes(&clip), []);
+}
+
+#[test]
 fn what_a_table_of_bones_says_goes_before_names() {
     let clip = clips::sample("kick.bvh");
     let text = clips::here("data/kick.bvh");

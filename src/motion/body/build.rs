@@ -40,6 +40,13 @@ impl Build {
         if whole.mannequin.is_some() { whole } else { build }
     }
 
+    /// Where head, hands and feet are by the shape and the motion of the body alone, whatever names say.
+    pub(super) fn by_shape(&self, clip: &Clip) -> Landmarks {
+        let nobody = NamedLimbs::default();
+        let looks = Looks::at(clip, &self.members, &nobody);
+        Landmarks::of_members(&looks, &self.members, &nobody, self.landmarks.up)
+    }
+
     fn with(clip: &Clip, members: Members, limbs: NamedLimbs) -> Self {
         let looks = Looks::at(clip, &members, &limbs);
         let (size, rest) = stature::seen(clip, &members);

@@ -31,7 +31,7 @@ pub(super) const LEG: f64 = 0.48;
 pub(crate) type Limb = [usize; 3];
 
 /// What names say of a body.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct NamedLimbs {
     /// Left and right.
     pub(crate) arms: [Option<Limb>; 2],

@@ -49,7 +49,10 @@ impl Description {
     pub fn notes(clip: &Clip) -> Vec<Warning> {
         let build = Build::of(clip);
         let is_up_known = !matches!(build.up_by, By::Shape | By::Custom | By::Turned);
-        let is_known = build.limbs.are_whole() && is_up_known && odd_height(clip, &build).is_none();
+        let is_known = build.limbs.are_whole()
+            && is_up_known
+            && odd_height(clip, &build).is_none()
+            && contradicted(clip, &build).is_none();
         match is_known {
             true => people(clip, &build).into_iter().chain(still(clip)).collect(),
             false => Self::of_build(clip, &build).notes,
@@ -69,6 +72,7 @@ impl Description {
         }
         lines.extend(not_body(build).map(|joints| ("not body", joints)));
         guesses.extend(odd_height(clip, build));
+        guesses.extend(contradicted(clip, build));
         let guess = (!guesses.is_empty()).then(|| {
             let message = format!("of the body {}; genga inspect tells more", guesses.join("; "));
             Warning::new(BODY_GUESS, message)
@@ -125,6 +129,28 @@ fn height(build: &Build) -> String {
         None => (build.landmarks.height, "the longest side of its joints, most of the time"),
     };
     format!("{:.0} cm, {why}", 100.0 * height * build.stature.metres)
+}
+
+/// Arms or legs that have other joints by the shape of the body than by names, which go before it.
+fn contradicted(clip: &Clip, build: &Build) -> Option<String> {
+    if !build.limbs.are_whole() {
+        return None;
+    }
+    let shape = build.by_shape(clip);
+    let skeleton = build.members.skeleton();
+    let hangs = |end: usize, limbs: [Option<[usize; 3]>; 2]| {
+        let tops = limbs.into_iter().flatten().map(|[top, ..]| top);
+        above(skeleton, end).any(|joint| tops.clone().any(|top| top == joint))
+    };
+    let feet = shape.feet.iter().all(|foot| hangs(foot.ankle.joint.0, build.limbs.legs));
+    let hands = shape.wrists.iter().all(|wrist| hangs(wrist.joint.0, build.limbs.arms));
+    let what = match (feet, hands) {
+        (true, true) => return None,
+        (false, true) => "legs",
+        (true, false) => "arms",
+        (false, false) => "arms and legs",
+    };
+    Some(format!("its {what} are others by its shape than by names, which were taken (--bones)"))
 }
 
 /// Metres of a person, a child among them.
