@@ -21,7 +21,7 @@ const WIDTH: f32 = 120.0;
 enum Come {
     #[default]
     Nowhere,
-    Read(Opened),
+    Read(Box<Opened>),
     Taken(Box<Take>),
 }
 
@@ -43,9 +43,11 @@ impl Opening {
         let errand = Errand::in_steps(move || {
             let at = told.load(Ordering::Relaxed);
             let further = match (Step::ALL[at], take(&mut come)) {
-                (_, Come::Nowhere) => desk.open(&clip).map(Come::Read),
-                (Step::Clean, Come::Read(opened)) => desk.clean(&clip, opened).map(Come::Read),
-                (_, Come::Read(opened)) => Take::of(opened, &*desk, &clip, recipe.as_deref())
+                (_, Come::Nowhere) => desk.open(&clip).map(Box::new).map(Come::Read),
+                (Step::Clean, Come::Read(opened)) => {
+                    desk.clean(&clip, *opened).map(Box::new).map(Come::Read)
+                }
+                (_, Come::Read(opened)) => Take::of(*opened, &*desk, &clip, recipe.as_deref())
                     .map(|take| Come::Taken(Box::new(take))),
                 (step, Come::Taken(mut take)) => take.run(step).map(|()| Come::Taken(take)),
             };
