@@ -77,13 +77,7 @@ impl Acting {
             let is_cut = [run.start > 0, run.end < instants];
             let ways = ways(&mut poser, &acts, clock, run.clone(), instants);
             for (act, ways) in acts.iter_mut().zip(ways) {
-                let when = when(&ways, clock.koma_rate, is_cut).into_iter();
-                act.stretches.extend(
-                    when.map(|own| Stretch {
-                        from: run.start + own.start,
-                        ways: ways[own].to_vec(),
-                    }),
-                );
+                act.take(run.start, &ways, when(&ways, clock.koma_rate, is_cut));
             }
         }
         let is_quiet = quiet.first().is_some_and(|run| run.len() == instants);
@@ -139,6 +133,15 @@ impl Acting {
             frame(own.from)..=frame(own.last())
         };
         self.acts.iter().map(move |act| (&act.part, act.stretches.iter().map(frames).collect()))
+    }
+}
+
+impl Act {
+    /// Takes on what of some ways is acting; the first of them is that of an instant.
+    fn take(&mut self, first: usize, ways: &[DVec3], when: Vec<Range<usize>>) {
+        let stretch =
+            |own: Range<usize>| Stretch { from: first + own.start, ways: ways[own].to_vec() };
+        self.stretches.extend(when.into_iter().map(stretch));
     }
 }
 

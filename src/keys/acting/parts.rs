@@ -15,6 +15,9 @@ const FINGER: f64 = 75.0;
 const LEG: f64 = 30.0;
 const FOOT: f64 = 15.0;
 
+/// What hangs on a head, and on a hand, at the most: some faces have a thousand joints.
+const MOST: [usize; 2] = [48, 24];
+
 /// A part of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Part {
@@ -47,14 +50,14 @@ pub(super) fn parts(build: &Build, own: &[f64], is_world: bool) -> Vec<Part> {
     };
     let head = mannequin.head();
     add(mannequin.chest(), head, HEAD);
-    ends_below(build, head).for_each(|end| add(head, end, FACE));
+    ends_below(build, head).take(MOST[0]).for_each(|end| add(head, end, FACE));
     for [upper, middle, lower] in mannequin.arms() {
         if is_world {
             add(mannequin.chest(), upper, ARM);
             add(upper, middle, FOREARM);
         }
         add(middle, lower, HAND);
-        ends_below(build, lower).for_each(|end| add(lower, end, FINGER));
+        ends_below(build, lower).take(MOST[1]).for_each(|end| add(lower, end, FINGER));
     }
     for [upper, middle, lower] in mannequin.legs() {
         if let Some(hips) = skeleton.joints[upper].parent.filter(|_| is_world) {
