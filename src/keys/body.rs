@@ -9,7 +9,9 @@ mod pattern;
 mod tests;
 mod tracks;
 
-use crate::keys::{Chords, Reference, Wall};
+use crate::keys::chords::INSTANTS;
+use crate::keys::postures::Postures;
+use crate::keys::{Reference, Wall};
 use crate::motion::lanes::wide;
 use crate::motion::{Build, Clip};
 use crate::signal::LowPass;
@@ -51,7 +53,9 @@ impl BodyTurns {
     /// ```
     pub fn of(clip: &Clip, reference: &Reference, filter: &LowPass, persistence: Span) -> Self {
         let (build, own) = (Build::of(clip), vec![1.0; clip.skeleton().len()]);
-        let chords = Chords::of_layer(clip, &build, reference, &own, 0.0);
+        let clock = clip.clock(INSTANTS as f64 * reference.clock().koma_rate);
+        let look = (reference.screen(), reference.height());
+        let postures = Postures::of(clip, &build, clock, look, &own);
         let motion = LayerMotion {
             clip,
             build: &build,
@@ -59,7 +63,7 @@ impl BodyTurns {
             judged: &own,
             screen: reference.screen(),
             height: reference.height(),
-            acting: chords.acting(),
+            acting: postures.acting(),
         };
         let speeds = BodySpeeds::of(&Tracks::of(&motion), filter);
         speeds.turns(persistence.frames(clip.rate()), reference.clock().frames_in_koma())

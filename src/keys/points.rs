@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
-use crate::motion::{Build, Joint, Members, Skeleton};
+use crate::motion::{Build, Joint, JointId, Members, Skeleton};
 
 /// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
 /// it as its weight.
@@ -115,15 +115,11 @@ impl Points {
 
 /// The joints that turn, have no tip, and carry nothing.
 fn bare_ends(skeleton: &Skeleton) -> Vec<usize> {
-    let mut is_bare: Vec<bool> = skeleton
-        .joints
-        .iter()
-        .map(|joint| joint.parent.is_some() && joint.end_sites.is_empty() && joint.turns())
-        .collect();
-    for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
-        is_bare[parent.0] = false;
-    }
-    (0..is_bare.len()).filter(|joint| is_bare[*joint]).collect()
+    let carries = skeleton.carriers();
+    let is_bare = |(joint, data): &(JointId, &Joint)| {
+        data.parent.is_some() && data.end_sites.is_empty() && data.turns() && !carries[joint.0]
+    };
+    skeleton.iter().filter(is_bare).map(|(joint, _)| joint.0).collect()
 }
 
 #[cfg(test)]
@@ -133,7 +129,7 @@ mod tests {
     use super::*;
     use crate::motion::clip::lane_poser::LanePoser;
     use crate::motion::lanes::LANES;
-    use crate::motion::{Clip, EndSite, JointId};
+    use crate::motion::{Clip, EndSite};
     use crate::time::{Frame, FrameRate};
 
     /// A chain of bones along x with a tip at its end.

@@ -72,8 +72,6 @@ pub(super) fn parts(build: &Build, own: &[f64], is_world: bool) -> Vec<Part> {
 /// The last joints of all that the body has below one of its joints.
 fn ends_below(build: &Build, top: usize) -> impl Iterator<Item = usize> {
     let skeleton = build.members.skeleton();
-    let mut carries = vec![false; skeleton.len()];
-    let parents = skeleton.joints.iter().filter_map(|joint| joint.parent);
-    parents.for_each(|parent| carries[parent.0] = true);
+    let carries = skeleton.carriers();
     below(skeleton, top).filter(move |joint| *joint != top && !carries[*joint])
 }

@@ -246,27 +246,25 @@ fn median(mut numbers: Vec<f64>) -> f64 {
 /// The joints at which limbs end.
 fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     let (reaches, lengths) = (skeleton.reaches(), lengths(skeleton));
-    let mut is_leaf = vec![true; skeleton.len()];
-    for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
-        is_leaf[parent.0] = false;
-    }
+    let carries = skeleton.carriers();
     let end = |leaf: usize| first_end_of(skeleton, &reaches, height, leaf);
     let body = body_root(skeleton);
     let is_of_body = |leaf: &usize| above(skeleton, *leaf).last() == body;
-    let leaves = (0..skeleton.len()).filter(|joint| is_leaf[*joint]).filter(is_of_body);
+    let leaves = (0..skeleton.len()).filter(|joint| !carries[*joint]).filter(is_of_body);
     leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
 }
 
 /// The shortest bone from the joint of a head to its top, as a share of the body's height: some rigs end in that joint.
 const SHORTEST_HEAD: f64 = 0.02;
 
-/// On the way to a joint the first from the root that carries no more than the end of a limb does.
+/// On the way to a head the first joint from the root that carries no more than a head does; the head itself where it ends in
+/// its joint.
 fn first_of_head(skeleton: &Skeleton, height: f64, head: usize) -> usize {
     let is_long = |offset: DVec3| offset.length() >= SHORTEST_HEAD * height;
     let mut tips = skeleton.joints[head].end_sites.iter().map(|end| end.offset);
     let mut joints = skeleton.joints.iter();
     let hangs_on = |joint: &Joint| joint.parent == Some(JointId(head)) && is_long(joint.offset);
-    // Without its top the neck would be as short as a head.
+    // Without its top the neck would be as short as one.
     let has_top = tips.any(is_long) || joints.any(hangs_on);
     if has_top { first_end_of(skeleton, &skeleton.reaches(), height, head) } else { head }
 }

@@ -275,16 +275,13 @@ impl<'a> Pair<'a> {
 /// The tips of all that hangs on a joint, and the joints without any at its ends; none where nothing
 /// hangs on it.
 pub(super) fn tips(skeleton: &Skeleton, top: usize) -> Vec<Point> {
-    let mut is_parent = vec![false; skeleton.len()];
-    for parent in skeleton.joints.iter().filter_map(|joint| joint.parent) {
-        is_parent[parent.0] = true;
-    }
+    let carries = skeleton.carriers();
     let mut tips = Vec::new();
     for joint in below(skeleton, top) {
         let ends = &skeleton.joints[joint].end_sites;
         let at = |end: &EndSite| Point { offset: end.offset, ..Point::of(joint) };
         tips.extend(ends.iter().map(at));
-        if ends.is_empty() && !is_parent[joint] && joint != top {
+        if ends.is_empty() && !carries[joint] && joint != top {
             tips.push(Point::of(joint));
         }
     }

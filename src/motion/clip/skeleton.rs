@@ -99,6 +99,14 @@ impl Skeleton {
         (0..self.len()).chain(tips)
     }
 
+    /// Which joints carry another.
+    pub(crate) fn carriers(&self) -> Vec<bool> {
+        let mut carries = vec![false; self.len()];
+        let parents = self.joints.iter().filter_map(|joint| joint.parent);
+        parents.for_each(|parent| carries[parent.0] = true);
+        carries
+    }
+
     /// How far a joint's rotation carries: the length of the longest chain of bones below it, End
     /// Sites included, in the file's unit. A leaf without an End Site takes its own bone's length.
     ///
