@@ -9,7 +9,7 @@ use crate::edits::Edits;
 use crate::error::Error;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
-use crate::timing::{Amount, Spacing};
+use crate::timing::{Amount, On, Spacing};
 
 /// Nearer than this no whole number of drawings comes.
 const EXACT: f64 = 0.5 + 1e-9;
@@ -219,7 +219,13 @@ impl Search<'_> {
         // Only rests are left in which there could be more.
         recipe.spacing.drift = 0.0;
         let moving = self.hold(&recipe)?;
-        Ok(dense.or(whole).or(moving))
+        if moving.excess >= -EXACT {
+            return Ok(dense.or(whole).or(moving));
+        }
+        // A range of koma may have been dense enough while rests were held.
+        recipe.spacing.on = On::every(1);
+        let on_ones = self.hold(&recipe)?;
+        Ok(dense.or(whole).or(moving).or(on_ones))
     }
 
     /// By how many genga a recipe has more than leave room for inbetweens among so many drawings; none where all that
