@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use genga::edits::Edits;
-use genga::keys::{self, BodyTurns, Chords, JointTurns, Judges, Reference};
+use genga::keys::{self, Alike, BodyTurns, Chords, JointTurns, Judges, Reference};
 use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -88,7 +88,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let clock = clip.clock(recipe.rate);
     let reference = Reference::of(clip, clock);
     watch.lap("reference");
-    let body = BodyTurns::of(clip, &reference, &recipe.filter, recipe.turns.persistence);
+    let body = BodyTurns::of(clip, &reference, &recipe.filter, &recipe.turns);
     watch.lap("turns of the body");
     let joints = JointTurns {
         filtered: &filtered,
@@ -105,7 +105,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let own = vec![1.0; clip.skeleton().len()];
     let chords = Chords::of(clip, &reference, &own, recipe.keys.span());
     watch.lap("chords");
-    let judges = Judges { reference: &reference, chords: &chords };
+    let judges = Judges { reference: &reference, chords: &chords, alike: &Alike::default() };
     let keys = recipe.keys.choose(clip, judges, &candidates, &joints, &Edits::default());
     watch.lap("rests, keys");
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);

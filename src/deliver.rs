@@ -54,7 +54,7 @@ pub use mp4::Mp4;
 pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;
 pub use remap::{Remap, remap_csv};
-pub use report::{LayerReport, Report};
+pub use report::{GaitReport, LayerReport, Report};
 pub use run::Run;
 pub use settings::{CsvSettings, Settings};
 pub use sts::sts;

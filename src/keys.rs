@@ -6,6 +6,7 @@
 
 mod acting;
 mod actions;
+mod alike;
 mod body;
 mod bridge;
 mod cheapest;
@@ -29,6 +30,7 @@ mod stillness;
 mod sum;
 mod vote;
 mod voters;
+mod walk;
 mod weights;
 
 use std::ops::RangeInclusive;
@@ -38,10 +40,12 @@ use crate::sheet::Reason;
 use crate::time::Frame;
 
 pub use actions::{Action, ActionFinder, Actions, Split, SplitReason};
+pub use alike::Alike;
 pub use body::BodyTurns;
-pub(crate) use body::{BodySpeeds, LayerMotion, Tracks};
+pub(crate) use body::{BodySpeeds, LayerMotion, Tracks, drawn};
 pub(crate) use bridge::Bridge;
 pub(crate) use choice::{Choice, Picked};
+pub(crate) use choose::Picks;
 pub use choose::{Choose, Fill, Judges, Merge, Rank};
 pub use chords::Chords;
 pub use contact::AtContacts;
@@ -58,6 +62,8 @@ pub use reference::Reference;
 pub use rest::AtRests;
 pub(crate) use rest::{rest_frames, rests};
 pub use voters::weights;
+pub(crate) use walk::median;
+pub use walk::{AtGaits, Phase, Walk, WalkStep};
 pub use weights::JointWeights;
 
 /// A key (原画) of a layer.
@@ -100,6 +106,8 @@ pub enum Origin {
     Rest,
     /// The begin or the end of a contact (接地): it is kept whatever it saves.
     Contact,
+    /// A phase of a step in a gait (歩み): it is kept whatever it saves.
+    Step,
     /// Set by a person; it survives everything.
     Pinned,
     /// Found elsewhere and put here by a person; it survives everything.
@@ -117,6 +125,7 @@ impl Origin {
             Self::Fill => Reason::Fill,
             Self::Rest => Reason::Rest,
             Self::Contact => Reason::Contact,
+            Self::Step => Reason::Step,
             Self::Pinned | Self::Moved { .. } => Reason::Pin,
         }
     }
@@ -162,7 +171,7 @@ pub struct Candidate {
 }
 
 /// The keys and walls of a layer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct LayerKeys {
     /// Keys by frame, found ones at least a koma apart; the clip's ends are not among them.
     pub keys: Vec<Key>,
@@ -171,6 +180,10 @@ pub struct LayerKeys {
     /// Rests (止め) by the frames of their begins and ends, both included. One that touches the clip's begin or
     /// end begins or ends with it; two may overlap.
     pub rests: Vec<RangeInclusive<Frame>>,
+    /// Whether a key holds up to the sheet's end where the body does: the end has a drawing of its own else.
+    pub holds_end: bool,
+    /// Gaits (歩き) whose steps have the same phases.
+    pub gaits: Vec<Walk>,
     /// Keys that were worth a drawing and went all the same, because there were too many a second.
     pub over_limit: usize,
 }

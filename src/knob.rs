@@ -74,6 +74,8 @@ pub enum Kind {
     On,
     /// A number, or a share of the joint's own 95th percentile (`5%`).
     Band,
+    /// A number, or `auto`.
+    OrAuto,
     /// A side to look from (`front`), or where a camera stands and what it looks at (`X,Y,Z:X,Y,Z`).
     SeenFrom,
     /// One of these words.
@@ -193,6 +195,7 @@ impl Knob {
                 format!("{whole}{unit}, {range}{none}")
             }
             Kind::Span => format!("{unit}, {range}"),
+            Kind::OrAuto => format!("auto, or {range}"),
             Kind::Amount | Kind::On | Kind::Band | Kind::SeenFrom | Kind::Text => (*unit).into(),
         }
     }

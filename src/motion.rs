@@ -20,8 +20,8 @@ mod read;
 pub use axis::Axis;
 pub use body::landmarks;
 pub use body::{
-    BODY_GUESS, BoneMap, Contact, ContactFinder, Description, Foot, Landmarks, Limb, PEOPLE, Point,
-    STILL, Stature, Unit,
+    BODY_GUESS, BoneMap, Contact, ContactFinder, Description, Foot, Gait, Landmarks, Limb, PEOPLE,
+    Point, STILL, Stature, Step, Unit,
 };
 pub(crate) use body::{
     BodySide, Build, LayFigure, Members, above, below, is_still, is_t_pose, plain_name,

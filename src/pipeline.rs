@@ -6,7 +6,7 @@ mod layer;
 mod moving;
 mod stage;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod voices;
 
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub struct Engine {
     /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
     layers: Vec<LayerStages>,
     /// The actions of the take, by the body or the first of its layers.
-    actions: Stage<(ActionFinder, f64, Vec<Frame>), Actions>,
+    actions: Stage<(ActionFinder, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
     /// Whether all outputs are of one run.
     is_whole: bool,
@@ -311,10 +311,10 @@ impl Engine {
 
     /// The take split into its actions, by what is lost between the instants of the first layer.
     fn split(&mut self, recipe: &Recipe, edits: &Edits) {
-        let settings = (recipe.actions.clone(), recipe.keys.rest, edits.splits.clone());
+        let settings = (recipe.actions.clone(), edits.splits.clone());
         let inputs = (self.moving.drawn(), self.layers[0].chords());
-        self.actions.make(inputs, settings, |(clip, chords), (finder, rest, splits)| {
-            finder.find(&clip, &chords, *rest, splits)
+        self.actions.make(inputs, settings, |(clip, chords), (finder, splits)| {
+            finder.find(&clip, &chords, splits)
         });
     }
 

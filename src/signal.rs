@@ -12,7 +12,7 @@ use crate::time::{Frame, FrameRate};
 pub use crate::motion::{Contact, ContactFinder, Limb};
 pub use low_pass::{FilterKind, LowPass, Spectrum};
 pub use speed::{Measure, Speed};
-pub use turns::{Reading, Side, Steady, Turn, TurnFinder, TurnKind};
+pub use turns::{Drawn, Reading, Side, Steady, Turn, TurnFinder, TurnKind};
 
 /// One value a frame and joint.
 #[derive(Debug, Clone, PartialEq)]

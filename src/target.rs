@@ -6,6 +6,7 @@
 
 mod drawings;
 mod error;
+mod gaits;
 mod genga;
 mod ladder;
 mod reasons;
@@ -140,8 +141,16 @@ impl Met {
         let mut keys_are_free = true;
         for target in targets {
             let settled = match *target {
-                Target::Keys(count) => genga::meet(engine, &self.recipe, edits, count)?,
-                Target::MaxError(most) => error::meet(engine, &self.recipe, edits, most)?,
+                Target::Keys(count) => {
+                    gaits::meet(engine, &self.recipe, edits, |engine, recipe| {
+                        genga::meet(engine, recipe, edits, count)
+                    })?
+                }
+                Target::MaxError(most) => {
+                    gaits::meet(engine, &self.recipe, edits, |engine, recipe| {
+                        error::meet(engine, recipe, edits, most)
+                    })?
+                }
                 Target::DrawingsPerSecond(_) => continue,
             };
             keys_are_free = false;
@@ -150,7 +159,9 @@ impl Met {
         for target in targets {
             if let Target::DrawingsPerSecond(rate) = *target {
                 let goal = drawings::Goal { per_second: rate, keys_are_free };
-                self.settle(goal.meet(engine, &self.recipe, edits)?);
+                self.settle(gaits::meet(engine, &self.recipe, edits, |engine, recipe| {
+                    goal.meet(engine, recipe, edits)
+                })?);
             }
         }
         Ok(())

@@ -8,6 +8,7 @@ mod people;
 mod poses;
 mod rates;
 mod rigs;
+mod timing;
 
 use crate::part::Part;
 use crate::takes::Take;
@@ -23,8 +24,10 @@ pub(crate) fn from_samples() -> Outcome<Part> {
 /// All that is of real clips.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     let events = events::read(&root().join("docs/evidence/events.csv"))?;
+    let marks = events::read(&root().join("docs/evidence/timing.csv"))?;
     let mut part = Part::default();
     for (name, text) in [
+        ("timing", timing::table(takes, &marks)?),
         ("rates", rates::table(takes)),
         ("merges", rates::merges(takes, &events)?),
         ("hits", events::summary(takes, &events)?),

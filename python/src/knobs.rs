@@ -54,6 +54,7 @@ fn word_of(kind: Kind) -> &'static str {
         Kind::Span => "span",
         Kind::Amount => "amount",
         Kind::On => "on",
+        Kind::OrAuto => "or_auto",
         Kind::Band => "band",
         Kind::SeenFrom => "seen_from",
         Kind::Choice(_) => "choice",

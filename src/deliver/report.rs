@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::keys::{Action, Actions};
+use crate::keys::{Action, Actions, Phase, Walk};
 use crate::motion::SeenFrom;
 use crate::pipeline::{Breakdown, LayerBreakdown};
 use crate::{study, timing};
@@ -28,6 +28,8 @@ pub struct Report {
     pub koma: usize,
     /// Koma a second.
     pub koma_rate: f64,
+    /// How much of the motion counts as drawn, 0 to 1; of several layers that of the first.
+    pub drawn: f64,
     /// Turns over all joints, and distinct frames among them.
     pub turns: Turns,
     /// Key candidates of the layer, before it was asked what they are worth.
@@ -53,6 +55,9 @@ pub struct Report {
     /// The actions that the take consists of, in order; none where it is one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub actions: Vec<Action>,
+    /// The gaits whose steps have the same drawings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaits: Vec<GaitReport>,
     /// What was left out.
     pub omission: OmissionCounts,
     /// The layers, where there are several; candidates, genga, drawings and what was left out are then those
@@ -73,6 +78,8 @@ pub struct LayerReport {
     pub name: String,
     /// Its joints.
     pub joints: Vec<String>,
+    /// How much of its motion counts as drawn, 0 to 1.
+    pub drawn: f64,
     /// Genga, the first and the last drawing among them.
     pub genga: usize,
     /// Drawings.
@@ -83,6 +90,27 @@ pub struct LayerReport {
     pub longest_hold: usize,
     /// What was left out.
     pub omission: OmissionCounts,
+}
+
+/// A gait (歩き) whose steps have the same drawings.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GaitReport {
+    /// Its steps, but for those that a person corrects.
+    pub steps: usize,
+    /// Koma of the step in the middle, with a fraction.
+    pub koma: f64,
+    /// What each step has a genga of, in order.
+    pub phases: Vec<&'static str>,
+}
+
+impl From<&Walk> for GaitReport {
+    fn from(walk: &Walk) -> Self {
+        Self {
+            steps: walk.steps.len(),
+            koma: (walk.koma * 100.0).round() / 100.0,
+            phases: walk.phases.iter().copied().map(Phase::word).collect(),
+        }
+    }
 }
 
 /// Key turns of all joints.
@@ -120,9 +148,10 @@ impl From<&timing::OmissionReport> for OmissionCounts {
 
 /// The figures of each layer; none of a single one.
 fn layers(breakdown: &Breakdown<'_>) -> Vec<LayerReport> {
-    let report = |LayerBreakdown { layer, omission, .. }: LayerBreakdown<'_>| LayerReport {
+    let report = |LayerBreakdown { layer, omission, drawn, .. }: LayerBreakdown<'_>| LayerReport {
         name: layer.name.clone(),
         joints: layer.joints.clone(),
+        drawn,
         genga: layer.genga(),
         drawings: layer.shown().count(),
         drawings_per_second: layer.shown().count() as f64 * breakdown.clock.koma_rate
@@ -161,6 +190,7 @@ impl Report {
             seen_from: seen_from(breakdown.seen_from),
             koma,
             koma_rate,
+            drawn: first.drawn,
             turns: Turns {
                 total: study::total(breakdown.turns),
                 union: study::union(breakdown.turns),
@@ -176,6 +206,7 @@ impl Report {
             held_koma: layer.held_koma(),
             inbetweens_that_did_not_fit: first.did_not_fit,
             actions: several(breakdown.actions),
+            gaits: first.keys.gaits.iter().map(GaitReport::from).collect(),
             omission: first.omission.into(),
             layers: layers(breakdown),
             losses: Vec::new(),

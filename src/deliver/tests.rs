@@ -77,9 +77,15 @@ pub(crate) fn wave() -> Clip {
 
 pub(crate) fn recipe() -> Recipe {
     let mut recipe = Recipe::default();
-    for (knob, value) in
-        [("omission.naka_nashi", "2"), ("keys.min_price", "2.5"), ("keys.per_second", "4.5")]
-    {
+    for (knob, value) in [
+        ("omission.naka_nashi", "2"),
+        ("omission.fast", "0"),
+        ("keys.min_price", "2.5"),
+        ("keys.per_second", "4.5"),
+        ("spacing.on", "2"),
+        ("spacing.drift", "0"),
+        ("keys.rest", "15"),
+    ] {
         recipe.set(knob, value).unwrap();
     }
     recipe

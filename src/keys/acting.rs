@@ -97,6 +97,11 @@ impl Acting {
         self.acts.len()
     }
 
+    /// Whether nothing goes far enough to be acting, and what little there is counts as all there is.
+    pub(super) fn is_slight(&self) -> bool {
+        self.is_slight
+    }
+
     /// Whether any part acts from an instant to the next.
     pub(super) fn goes_on(&self, instant: usize) -> bool {
         let mut stretches = self.acts.iter().flat_map(|act| &act.stretches);

@@ -4,6 +4,7 @@
 //! turns and travels together: the velocity of each is smoothed, and where its size is less than a moment before and after
 //! it turns. Added up by weight that is one number a frame, and its peaks are the turns of the body.
 
+mod crispness;
 mod pattern;
 #[cfg(test)]
 mod tests;
@@ -14,9 +15,10 @@ use crate::keys::postures::Postures;
 use crate::keys::{Reference, Wall};
 use crate::motion::lanes::wide;
 use crate::motion::{Build, Clip};
-use crate::signal::LowPass;
-use crate::time::{Frame, Span};
+use crate::signal::{LowPass, TurnFinder};
+use crate::time::Frame;
 
+pub(crate) use crispness::drawn;
 use pattern::{LEAST, Pattern, largest_near, summits};
 pub(crate) use tracks::{LayerMotion, Tracks};
 
@@ -38,20 +40,20 @@ pub struct BodyTurns {
 
 impl BodyTurns {
     /// The turns of a clip whose `reference` says how high it is, from where it is seen and how long a koma is: the
-    /// velocities are smoothed by `filter` and a turn is to last for `persistence` to each side.
+    /// velocities are smoothed by `filter` and a turn is to last for the persistence of `finder` to each side, both as
+    /// far as the clip is not drawn.
     ///
     /// ```
     /// use genga::keys::{BodyTurns, Reference};
-    /// use genga::signal::LowPass;
-    /// use genga::time::Span;
+    /// use genga::signal::{LowPass, TurnFinder};
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let reference = Reference::of(&clip, clip.clock(24.0));
-    /// let body = BodyTurns::of(&clip, &reference, &LowPass::default(), Span::Seconds(0.1));
+    /// let body = BodyTurns::of(&clip, &reference, &LowPass::default(), &TurnFinder::default());
     /// assert_eq!(body.turns[0].0, 3, "the first frame at which the body turns");
     /// # Ok::<(), genga::Error>(())
     /// ```
-    pub fn of(clip: &Clip, reference: &Reference, filter: &LowPass, persistence: Span) -> Self {
+    pub fn of(clip: &Clip, reference: &Reference, filter: &LowPass, finder: &TurnFinder) -> Self {
         let (build, own) = (Build::of(clip), vec![1.0; clip.skeleton().len()]);
         let clock = clip.clock(INSTANTS as f64 * reference.clock().koma_rate);
         let look = (reference.screen(), reference.height());
@@ -65,8 +67,10 @@ impl BodyTurns {
             height: reference.height(),
             acting: postures.acting(),
         };
-        let speeds = BodySpeeds::of(&Tracks::of(&motion), filter);
-        speeds.turns(persistence.frames(clip.rate()), reference.clock().frames_in_koma())
+        let tracks = Tracks::of(&motion);
+        let drawn = finder.drawn.share(drawn(tracks.crispness()));
+        let (filter, persistence) = finder.of_body(filter, drawn, clip.rate());
+        BodySpeeds::of(&tracks, &filter).turns(persistence, reference.clock().frames_in_koma())
     }
 }
 

@@ -31,6 +31,8 @@ pub(super) struct Entry {
     pub(super) stays: bool,
     /// What it costs, as a share of the price.
     pub(super) cost: f64,
+    /// The last koma up to which its pose holds.
+    pub(super) holds: usize,
 }
 
 /// Chooses among entries, the first and the last of which are the clip's ends and stay.
@@ -191,9 +193,12 @@ impl<'a> Cheapest<'a> {
         kept.iter().filter(|entry| !self.entries[**entry].stays).count()
     }
 
+    /// Whether both are drawn: the second is no pose that the first holds, but for the clip's end.
     fn are_apart(&self, from: usize, to: usize) -> bool {
+        let is_end = to + 1 == self.entries.len();
         let [from, to] = [from, to].map(|entry| &self.entries[entry]);
-        (from.stays && to.stays) || to.frame.0 - from.frame.0 >= self.apart
+        let is_new = to.koma > from.holds || is_end;
+        (from.stays && to.stays) || (is_new && to.frame.0 - from.frame.0 >= self.apart)
     }
 
     /// As many as fit, from the first on.

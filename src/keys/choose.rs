@@ -12,12 +12,13 @@ use crate::keys::choice::{By, Choice};
 use crate::keys::correct::{corrected, moved};
 use crate::keys::local::{Chosen, Word};
 use crate::keys::voters::voters;
+use crate::keys::walk::{Choosable, Walks};
 use crate::keys::{
-    AtContacts, AtRests, Candidates, Chords, JointTurns, JointWeights, Key, LayerKeys, Reference,
-    Wall, rest,
+    Alike, AtContacts, AtGaits, AtRests, Candidates, Chords, JointTurns, JointWeights, Key,
+    LayerKeys, Origin, Reference, Wall, rest,
 };
 use crate::knob::{Knobs, choices, knob, knobs};
-use crate::motion::Clip;
+use crate::motion::{Clip, Gait};
 use crate::signal::Turn;
 use crate::time::{Frame, Span};
 
@@ -91,14 +92,16 @@ pub struct Choose {
     /// their keys first. It counts when ranked by price.
     pub min_price: f64,
     /// The speed below which the whole body rests, in % of its height a second (the posture's: pelvis,
-    /// heading, and root mean square over the other points); 0 or more, default 15, 0 for no rests.
+    /// heading, and root mean square over the other points); 0 or more, default 25, 0 for no rests.
     /// Both ends of a rest of half a second or more are keys whatever they save. Raised, slow gestures
     /// count as rests.
     pub rest: f64,
     /// What the begin and the end of a rest are: `keys` (default) whatever they save, or `off`, moments like all others.
-    /// With `off` there may also be keys within a rest that look like its begin. A number of genga that cannot be had
-    /// otherwise is met so.
+    /// With `off` there may also be keys that look like the one before. A number of genga that is asked for is met so.
     pub at_rests: AtRests,
+    /// What the steps of a gait (歩き・走り) have for genga: `steps` (default) the same phases, each for as long left and
+    /// right, or `off`, what is worth a drawing. It counts with `body`, in a layer with both legs.
+    pub gaits: AtGaits,
     /// What the begin and the end of a contact (接地) are, of a foot that comes down or leaves the ground and
     /// of a hand that stays somewhere: `off` (default) moments like all others, `candidates` also where no
     /// joint turns, `keys` whatever they save. With `keys` a walk has a key at every step, and more of them.
@@ -125,8 +128,9 @@ impl Default for Choose {
             reach: Span::Seconds(0.08),
             rank: Rank::Price,
             min_price: 7.5,
-            rest: 15.0,
+            rest: 25.0,
             at_rests: AtRests::default(),
+            gaits: AtGaits::default(),
             contacts: AtContacts::default(),
             min_strength: 0.0,
             per_second: 6.0,
@@ -142,6 +146,18 @@ pub struct Judges<'a> {
     pub reference: &'a Reference,
     /// What is lost from any instant to another.
     pub chords: &'a Chords,
+    /// Which poses are one on the sheet.
+    pub alike: &'a Alike,
+}
+
+/// What is drawn of a layer before a person moves keys.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Picks<'a> {
+    /// The keys that are worth a drawing.
+    pub(crate) chosen: &'a Chosen,
+    pub(crate) walls: &'a [Wall],
+    /// The gaits whose steps are to have the same phases.
+    pub(crate) gaits: &'a [Gait],
 }
 
 knobs!(keys::Choose {
@@ -195,6 +211,13 @@ knobs!(keys::Choose {
         "What both ends of a rest are: keys whatever they save, or moments like all others (off).",
         "止めの両端をどう扱うか。必ず原画にする（keys）、特別扱いしない（off）。",
     ),
+    gaits: knob(
+        "歩きを揃える",
+        "What the steps of a walk or a run have for genga: the same phases for as long, left and \
+         right (steps), or what is worth a drawing (off).",
+        "歩き・走りの一歩ごとの原画。左右とも同じ局面を同じコマ数で描く（steps）、\
+         ほかと同じく価値で選ぶ（off）。",
+    ),
     contacts: knob(
         "接地を原画に",
         "What the moments are at which a foot or a hand comes down or leaves: like all others \
@@ -246,7 +269,7 @@ impl Choose {
     ///
     /// ```
     /// # use genga::edits::Edits;
-    /// # use genga::keys::{BodyTurns, Choose, Chords, JointTurns, Judges, Reference, weights};
+    /// # use genga::keys::{Alike, BodyTurns, Choose, Chords, JointTurns, Judges, Reference, weights};
     /// # use genga::signal::{LowPass, Spectrum, Speed, TurnFinder};
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// # let (clock, filter, finder) = (clip.clock(24.0), LowPass::default(), TurnFinder::default());
@@ -254,7 +277,7 @@ impl Choose {
     /// # let delay = filter.delay(clip.rate());
     /// # let turns = finder.find(&filtered, delay);
     /// # let reference = Reference::of(&clip, clock);
-    /// # let body = BodyTurns::of(&clip, &reference, &filter, finder.persistence);
+    /// # let body = BodyTurns::of(&clip, &reference, &filter, &finder);
     /// # let own = vec![1.0; clip.skeleton().len()];
     /// # let joints = JointTurns {
     /// #     filtered: &filtered,
@@ -268,7 +291,7 @@ impl Choose {
     /// # };
     /// let keys = Choose::default();
     /// let chords = Chords::of(&clip, &reference, &own, keys.span());
-    /// let judges = Judges { reference: &reference, chords: &chords };
+    /// let judges = Judges { reference: &reference, chords: &chords, alike: &Alike::default() };
     /// let candidates = keys.candidates(&joints);
     /// let chosen = keys.choose(&clip, judges, &candidates, &joints, &Edits::default());
     /// assert_eq!((candidates.keys.len(), chosen.keys.len()), (90, 13));
@@ -298,10 +321,25 @@ impl Choose {
                 [] => pick(&free),
                 frames => self.frozen((clip, chords), frames, &free),
             };
-            self.correct((clip, chords), &before, &corrected, Word { edits, koma: apart, apart })
+            self.correct(
+                (clip, chords),
+                &before,
+                &corrected,
+                Word { edits, koma: apart, apart, alike: judges.alike },
+            )
         };
         let heard = (joints.turns, joints.weights);
-        self.drawn(still, &chosen, &candidates.walls, heard, (edits, apart))
+        let gaits = match self.walks() {
+            true => Gait::find(clip, clip.clock(clip.rate().fps() / apart)),
+            false => Vec::new(),
+        };
+        let picked = Picks { chosen: &chosen, walls: &candidates.walls, gaits: &gaits };
+        self.drawn(still, picked, heard, ((clip.first(), clip.last()), edits, apart))
+    }
+
+    /// Whether the steps of gaits have the same phases.
+    pub(crate) fn walks(&self) -> bool {
+        self.gaits == AtGaits::Steps && self.merge == Merge::Body
     }
 
     /// All that may become keys: candidates, the ends of rests and of contacts, and pins.
@@ -313,12 +351,15 @@ impl Choose {
         contacts: &[Frame],
         (edits, apart): (&Edits, f64),
     ) -> Vec<Key> {
-        let rests = match self.at_rests {
-            AtRests::Keys => rest::rest_ends(chords, rests),
-            AtRests::Off => Vec::new(),
-        };
+        let rests = rest::rest_ends(chords, rests);
         let contacts = if self.contacts == AtContacts::Keys { contacts } else { &[] };
-        corrected(candidates, (&rests, contacts), edits, clip, apart)
+        let mut keys = corrected(candidates, (&rests, contacts), edits, clip, apart);
+        if self.at_rests == AtRests::Off {
+            // There the body comes to rest or sets out, (−, 0) and (0, +): turns like others, that need not stay.
+            let ends = keys.iter_mut().filter(|key| key.origin == Origin::Rest);
+            ends.for_each(|end| end.origin = Origin::Turn);
+        }
+        keys
     }
 
     /// On what it hangs which of some keys are picked.
@@ -329,20 +370,27 @@ impl Choose {
         keys: &[Key],
         apart: f64,
     ) -> Choice {
-        let Judges { reference, chords } = judges;
+        let Judges { reference, chords, alike } = judges;
         let most = (self.per_second * reference.seconds() + 1e-9).floor() as usize;
-        self.choice_among(chords, (clip.first(), clip.last()), keys, (apart, most))
+        self.choice_among((chords, alike), (clip.first(), clip.last()), keys, (apart, most))
     }
 
     /// The same between two frames that stay, with so many at the most.
     pub(super) fn choice_among(
         &self,
-        chords: &Chords,
+        (chords, alike): (&Chords, &Alike),
         (first, last): (Frame, Frame),
         keys: &[Key],
         (apart, most): (f64, usize),
     ) -> Choice {
-        let entry = |frame, stays, cost| Entry { frame, koma: chords.koma_of(frame), stays, cost };
+        let entry = |frame, stays, cost| {
+            let koma = chords.koma_of(frame);
+            let holds = match self.at_rests {
+                AtRests::Keys => alike.last(koma),
+                AtRests::Off => koma,
+            };
+            Entry { frame, koma, stays, cost, holds }
+        };
         let cost = |key: &Key| match self.merge {
             Merge::Body => (1.0 - DISCOUNT * key.strength).max(LEAST_COST),
             Merge::Union | Merge::Vote | Merge::Sum => 1.0,
@@ -364,23 +412,27 @@ impl Choose {
         }
     }
 
-    /// The keys that were chosen, moved where a person wants them, with their voters.
+    /// The keys that were chosen, moved where a person wants them, with their voters; in gaits the phases of steps.
     pub(crate) fn drawn(
         &self,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
-        chosen: &Chosen,
-        walls: &[Wall],
+        Picks { chosen, walls, gaits }: Picks<'_>,
         (turns, weights): (&[Vec<Turn>], &[f64]),
-        (edits, apart): (&Edits, f64),
+        (ends, edits, apart): ((Frame, Frame), &Edits, f64),
     ) -> LayerKeys {
         let mut keys = chosen.keys.clone();
+        let walks = Walks::of(gaits, Choosable { keys: &keys, edits, koma: apart, ends });
+        walks.give(&mut keys, edits, apart);
         moved(&mut keys, edits, apart);
+        walks.lay(&mut keys, apart);
         let reach = self.reach.frames(chords.clock().frame_rate).max(apart);
         let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
         let voters = voters(turns, weights, &frames, reach);
         keys.iter_mut().zip(voters).for_each(|(key, voters)| key.voters = voters);
         let over_limit = if edits.only_pins { 0 } else { chosen.over_limit };
         let rests = rest::rest_frames(chords, rests);
-        LayerKeys { keys, walls: walls.to_vec(), rests, over_limit }
+        let holds_end = self.at_rests == AtRests::Keys;
+        let (walls, gaits) = (walls.to_vec(), walks.regular);
+        LayerKeys { keys, walls, rests, holds_end, gaits, over_limit }
     }
 }

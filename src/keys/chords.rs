@@ -103,6 +103,13 @@ impl Chords {
         self.postures.acting()
     }
 
+    /// How far parts that act while the body is quiet turn from one koma to another, in % of its height: see
+    /// [`Postures`].
+    pub(crate) fn acted(&self, a: usize, b: usize) -> f64 {
+        let last = self.koma.saturating_sub(1);
+        self.postures.acted(INSTANTS * a.min(last), INSTANTS * b.min(last))
+    }
+
     /// Number of instants.
     pub(super) fn len(&self) -> usize {
         self.postures.len()

@@ -1,8 +1,8 @@
 //! Corrections are local (その場の修正): keys that no correction pushes out stay what they were.
 
 use crate::edits::Edits;
-use crate::keys::choice::{Choice, Picked};
-use crate::keys::{Choose, Chords, Key, Origin, Rank};
+use crate::keys::choice::Picked;
+use crate::keys::{Alike, Choose, Chords, Key, Origin, Rank};
 use crate::motion::Clip;
 use crate::time::Frame;
 
@@ -40,6 +40,8 @@ pub(crate) struct Word<'a> {
     pub(crate) koma: f64,
     /// The least distance of two keys that are found.
     pub(crate) apart: f64,
+    /// Which poses are one on the sheet.
+    pub(crate) alike: &'a Alike,
 }
 
 impl Word<'_> {
@@ -93,7 +95,8 @@ impl Choose {
                 };
                 let own = eligible.iter().filter(|key| inside(key.frame) && !near(key));
                 let own: Vec<Key> = own.cloned().collect();
-                let choice = self.choice_among(chords, (gap[0], gap[1]), &own, (word.apart, most));
+                let judged = (chords, word.alike);
+                let choice = self.choice_among(judged, (gap[0], gap[1]), &own, (word.apart, most));
                 keys.extend(choice.pick(chords).kept.iter().map(|(at, _)| own[*at].clone()));
             }
         }
@@ -123,8 +126,9 @@ impl Choose {
 
     /// Says of each key what it saves beside the others.
     fn price(&self, keys: &mut [Key], clip: &Clip, chords: &Chords) {
-        let choice: Choice =
-            self.choice_among(chords, (clip.first(), clip.last()), keys, (0.0, usize::MAX));
+        let ends = (clip.first(), clip.last());
+        let all = (0.0, usize::MAX);
+        let choice = self.choice_among((chords, &Alike::default()), ends, keys, all);
         let prices = choice.prices(chords);
         keys.iter_mut().zip(prices).for_each(|(key, price)| key.price = price);
     }

@@ -101,6 +101,12 @@ impl Points {
         values.zip(&self.weights).map(|(value, weight)| value * weight).sum()
     }
 
+    /// The largest of one value a point, of those that count.
+    pub(super) fn furthest(&self, values: impl Iterator<Item = f64>) -> f64 {
+        let counting = values.zip(&self.weights).filter(|(_, weight)| **weight > 0.0);
+        counting.map(|(value, _)| value).fold(0.0, f64::max)
+    }
+
     /// The squared distance of two poses, a weighted mean over the points.
     #[inline(always)]
     pub(super) fn apart(&self, a: &[LaneVec], b: &[LaneVec]) -> Lanes {

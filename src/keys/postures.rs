@@ -106,6 +106,15 @@ impl Postures {
         (1..self.len()).map(speed).collect()
     }
 
+    /// How far parts that act turn from one instant to another, in % of the body's height. What is slight is a rest.
+    pub(super) fn acted(&self, a: usize, b: usize) -> f64 {
+        if self.acting.len() == 0 || self.acting.is_slight() {
+            return 0.0;
+        }
+        let acts = self.columns - acting::COLUMNS * self.acting.len();
+        apart(&self.row(a)[acts..], &self.row(b)[acts..])
+    }
+
     /// The body at an instant.
     pub(super) fn row(&self, instant: usize) -> &[f64] {
         &self.rows[instant * self.columns..(instant + 1) * self.columns]

@@ -11,6 +11,9 @@ use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
 use crate::motion::{Build, Clip, Screen};
 use crate::time::{Clock, Frame};
 
+/// So many times as far as the whole body in the mean a single point goes that is as plainly to be seen.
+const FURTHEST: f64 = 2.5;
+
 /// The source at each koma, computed once: what a reconstruction is measured against.
 ///
 /// A reconstruction is off by what it is off in the world; how fast the body is, and what is lost between two
@@ -126,6 +129,20 @@ impl Reference {
     /// When there is no such koma.
     pub fn apart(&self, a: usize, b: usize) -> f64 {
         self.way(self.still(a), self.still(b))
+    }
+
+    /// How unlike the poses of two koma look: the larger of how far they are [apart](Self::apart) and 0.4 of the way
+    /// of the point of the body that goes furthest. Of one arm that is raised the mean alone says little.
+    ///
+    /// # Panics
+    /// When there is no such koma.
+    pub fn unlike(&self, a: usize, b: usize) -> f64 {
+        let ways = || self.still(a).zip(self.still(b)).map(|(a, b)| a.distance_squared(b));
+        if self.height <= 0.0 {
+            return 0.0;
+        }
+        let furthest = self.points.furthest(ways());
+        self.percent(self.points.mean(ways())).max(self.percent(furthest) / FURTHEST)
     }
 
     /// How far some positions of all points are from the source at a koma, in the same measure.

@@ -13,10 +13,11 @@ use crate::time::Frame;
 /// What the begin and the end of a rest are to the keys of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtRests {
-    /// Keys whatever they save, and nothing within that looks like the begin.
+    /// Keys whatever they save, and nothing that looks like the key before.
     #[default]
     Keys,
-    /// Moments like all others, as those within are. On the sheet drawings are held there all the same.
+    /// Moments like all others, as those within are: a key may look like the one before. On the sheet drawings hold all the
+    /// same.
     Off,
 }
 

@@ -3,6 +3,7 @@
 mod accessories;
 mod build;
 mod contact;
+mod gait;
 pub mod landmarks;
 pub(crate) mod lay_figure;
 pub(crate) mod leg;
@@ -20,6 +21,7 @@ mod words;
 
 pub(crate) use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
+pub use gait::{Gait, Step};
 pub use landmarks::{Foot, Landmarks, Point};
 pub(crate) use landmarks::{above, below};
 pub(crate) use lay_figure::LayFigure;

@@ -1,6 +1,6 @@
 //! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
 
-use std::ops::{Deref, RangeInclusive};
+use std::ops::{Deref, Range, RangeInclusive};
 
 use super::moving::Moving;
 use super::stage::{Before, Of, Stage};
@@ -8,16 +8,18 @@ use super::voices::{Finding, Voices, joints};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
-    self, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, Chosen, JointWeights, Judges,
-    Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked, Reconstruction, Reference, Tracks,
-    Word,
+    self, Alike, BodySpeeds, BodyTurns, Candidates, Choice, Choose, Chords, Chosen, JointWeights,
+    Judges, Key, LayerClip, LayerJoints, LayerKeys, LayerMotion, Picked, Picks, Reconstruction,
+    Reference, Tracks, Word,
 };
-use crate::motion::{Screen, Skeleton};
+use crate::motion::{Gait, Screen, Skeleton};
 use crate::recipe::Recipe;
 use crate::sheet::Layer;
-use crate::signal::{LowPass, Signals, Turn};
+use crate::signal::{Drawn, LowPass, Signals, Turn};
 use crate::time::Frame;
-use crate::timing::{Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills};
+use crate::timing::{
+    self, Course, Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills,
+};
 
 /// The whole body that moves, with what was measured of its joints.
 #[derive(Debug, Clone, Copy)]
@@ -44,14 +46,21 @@ pub(super) struct LayerStages {
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
     /// What is lost from any koma to another, up to a span in seconds.
     chords: Stage<f64, Chords>,
+    /// Which poses are one on the sheet, by how far the body may get from a drawing.
+    alike: Stage<f64, Alike>,
     /// The instants from begin to end of each rest.
     rests: Stage<f64, Vec<RangeInclusive<usize>>>,
     /// The turns of joints that have a say, and the weight of each one's vote.
     voices: Stage<(), Voices>,
+    /// Its gaits, where their steps are to have the same phases, at koma a second.
+    gaits: Stage<(bool, f64), Vec<Gait>>,
     /// When feet and hands of the layer come down or leave, where that counts.
     contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
-    /// How all that moves in the layer moves, how fast that is, and when it turns as a whole.
+    /// How all that moves in the layer moves, how suddenly it changes that and how much of it is drawn, how fast it is,
+    /// and when it turns as a whole.
     tracks: Stage<Screen, Tracks>,
+    crispness: Stage<(), f64>,
+    drawn: Stage<(Drawn, Option<f64>), f64>,
     speeds: Stage<LowPass, BodySpeeds>,
     /// Persistence and the least distance of two turns, in frames.
     body: Stage<(f64, f64), BodyTurns>,
@@ -61,10 +70,11 @@ pub(super) struct LayerStages {
     around: Choosing,
     /// The keys with corrections, each in its own neighbourhood or all chosen again; before any is moved.
     corrected: Stage<(Choose, Edits, f64, f64), [Chosen; 2]>,
-    keys: Stage<(Choose, Edits, Finding), LayerKeys>,
+    /// The clip's ends are a setting of it.
+    keys: Stage<(Choose, Edits, Finding, (Frame, Frame)), LayerKeys>,
     spaced: Stage<(Spacing, LayerJoints), Spaced>,
     stills: Stage<(), Stills>,
-    omitted: Stage<(Omission, usize, Vec<usize>), Omitted>,
+    omitted: Stage<(Omission, Course), Omitted>,
 }
 
 /// A choice of keys, before a person has a say or after.
@@ -80,6 +90,10 @@ struct Choosing {
 /// What was found and decided for one layer.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerBreakdown<'a> {
+    /// How suddenly it changes its velocities, 0 as a capture does to 1 for nothing but kinks.
+    pub crispness: f64,
+    /// How much of it counts as drawn, 0 to 1: by its crispness, or as the recipe says.
+    pub drawn: f64,
     /// When it turns as a whole.
     pub body: &'a BodyTurns,
     /// What may be a key, before it was asked what it is worth.
@@ -90,6 +104,8 @@ pub struct LayerBreakdown<'a> {
     pub uncorrected: &'a [Key],
     /// Inbetweens that were asked for and did not fit.
     pub did_not_fit: usize,
+    /// The koma of its gaits, from the first contact to the last, in which nothing is left out.
+    pub gaits: &'a [Range<usize>],
     /// The layer before anything was left out.
     pub spaced: &'a Layer,
     /// Where all joints stand in its drawings; none after [`Engine::run_once`](super::Engine::run_once), which forgets it.
@@ -159,6 +175,11 @@ impl LayerStages {
         self.chords.make(inputs, recipe.keys.span(), |(motion, build, reference), span| {
             Chords::of_layer(&motion.clip, &build, &reference, &motion.judged, *span)
         });
+        let inputs = (self.reference.output(), self.chords.output());
+        self.alike.make(inputs, recipe.spacing.drift, |(reference, chords), drift| {
+            let pace = Pace::of(&reference).with_acting(&chords);
+            timing::alike(&pace, *drift)
+        });
         let chords = (self.chords.output(),);
         self.rests.make(chords, recipe.keys.rest, |(chords,), rest| keys::rests(&chords, *rest));
     }
@@ -190,7 +211,7 @@ impl LayerStages {
         let (reference, chords) = (self.reference.output(), self.chords.output());
         let inputs = (self.motion.output(), moving.build, reference, chords);
         self.tracks.make(inputs, moving.screen, |(motion, build, reference, chords), screen| {
-            let LayerClip { clip, judged, heard } = motion.value();
+            let LayerClip { clip, judged, heard, .. } = motion.value();
             let (height, acting) = (reference.height(), chords.value().acting());
             let build = build.value();
             Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height, acting })
@@ -200,12 +221,21 @@ impl LayerStages {
     /// The turns of the layer as a whole.
     fn turn(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.follow(moving, recipe);
-        let tracks = (self.tracks.output(),);
-        self.speeds.make_over(tracks, recipe.filter.clone(), |(tracks,), filter, before| {
+        let (tracks, rate) = ((self.tracks.output(),), moving.clip.rate());
+        self.crispness.make(tracks, (), |(tracks,), ()| tracks.crispness());
+        let crispness = (self.crispness.output(),);
+        let settings = (recipe.turns.drawn, moving.crispness);
+        self.drawn.make(crispness, settings, |(own,), (drawn, whole)| {
+            // A toe or a finger may be still and leap in any capture.
+            let crispness = whole.map_or(*own, |whole| own.min(whole));
+            drawn.share(keys::drawn(crispness))
+        });
+        let drawn = *self.drawn.output();
+        let (filter, persistence) = recipe.turns.of_body(&recipe.filter, drawn, rate);
+        self.speeds.make_over(tracks, filter, |(tracks,), filter, before| {
             BodySpeeds::over(before.map(|before| before.output), &tracks, filter)
         });
-        let rate = moving.clip.rate();
-        let settings = (recipe.turns.persistence.frames(rate), moving.apart(recipe));
+        let settings = (persistence, moving.apart(recipe));
         self.body.make((self.speeds.output(),), settings, |(speeds,), settings| {
             speeds.turns(settings.0, settings.1)
         });
@@ -219,6 +249,7 @@ impl LayerStages {
             min_price: 0.0,
             rest: 0.0,
             at_rests: keys::AtRests::Off,
+            gaits: keys::AtGaits::Off,
             per_second: f64::INFINITY,
             ..recipe.keys.clone()
         };
@@ -234,8 +265,23 @@ impl LayerStages {
         });
     }
 
+    /// The gaits of a layer that has both legs.
+    fn walk(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
+        let inputs = (moving.clip, moving.build, self.motion.output());
+        let settings = (recipe.keys.walks(), recipe.rate);
+        self.gaits.make(inputs, settings, |(clip, build, motion), (walks, rate)| {
+            let legs = build.mannequin.as_ref().map(|body| body.legs().concat());
+            let has_legs = |joints: Vec<usize>| joints.iter().all(|joint| motion.moves[*joint]);
+            match *walks && legs.is_some_and(has_legs) {
+                true => Gait::of(&clip, &build, clip.clock(*rate)),
+                false => Vec::new(),
+            }
+        });
+    }
+
     /// The keys among it, with who turns on each.
     fn draw(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
+        self.walk(measured, recipe);
         let turns = measured.turns;
         let inputs = (
             self.chords.output(),
@@ -244,13 +290,18 @@ impl LayerStages {
             self.candidates.output(),
             turns,
             self.voices.output(),
+            self.gaits.output(),
         );
-        let settings = (recipe.keys.clone(), edits.clone(), Finding::of(measured, recipe));
-        self.keys.make(inputs, settings, |inputs, (choose, edits, finding)| {
-            let (chords, rests, corrected, candidates, turns, voices) = inputs;
+        let ends = (measured.clip.first(), measured.clip.last());
+        let finding = Finding::of(measured, recipe);
+        let settings = (recipe.keys.clone(), edits.clone(), finding, ends);
+        self.keys.make(inputs, settings, |inputs, (choose, edits, finding, ends)| {
+            let (chords, rests, corrected, candidates, turns, voices, gaits) = inputs;
             let heard = (voices.turns(turns.value()), &voices.weights[..]);
             let still = (chords.value(), &rests[..]);
-            choose.drawn(still, &corrected[1], &candidates.walls, heard, (edits, finding.apart))
+            let picked =
+                Picks { chosen: &corrected[1], walls: &candidates.walls, gaits: gaits.value() };
+            choose.drawn(still, picked, heard, (*ends, edits, finding.apart))
         });
     }
 
@@ -277,18 +328,20 @@ impl LayerStages {
         let last = if is_other && edits.again { &self.around } else { &self.free };
         let may_be = (self.free.eligible.output(), may_be_now.eligible.output());
         let chosen = (self.free.chosen.output(), last.chosen.output());
-        let inputs = (moving.clip, self.chords.output(), may_be.0, may_be.1, chosen.0, chosen.1);
+        let chords = self.chords.output();
+        let alike = self.alike.output();
+        let inputs = (moving.clip, chords, alike, may_be.0, may_be.1, chosen.0, chosen.1);
         let apart = recipe.spacing.on.stay() as f64 * koma;
         let edits = Edits { moves: Vec::new(), ..edits.clone() };
         let settings = (recipe.keys.clone(), edits, koma, apart);
         self.corrected.make(inputs, settings, |inputs, (choose, edits, koma, apart)| {
-            let (clip, chords, free, around, before, last) = inputs;
+            let (clip, chords, alike, free, around, before, last) = inputs;
             let motion = (&**clip.value(), chords.value());
             let before = match edits.frozen.as_slice() {
                 [] => before.value().clone(),
                 frames => choose.frozen(motion, frames, &free),
             };
-            let word = Word { edits, koma: *koma, apart: *apart };
+            let word = Word { edits, koma: *koma, apart: *apart, alike: &alike };
             let is_bare = edits.pins.is_empty() && edits.forbidden.is_empty();
             let corrected = match edits.again {
                 true => last.value().clone(),
@@ -324,7 +377,7 @@ impl LayerStages {
                 keys::AtRests::Keys => keys::rest_frames(&chords, &rests),
                 keys::AtRests::Off => Vec::new(),
             };
-            let pace = Pace::of(&reference);
+            let pace = Pace::of(&reference).with_acting(&chords);
             let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
             keys.retain(|key| !key.origin.is_found() || room(key.frame));
             keys
@@ -334,7 +387,8 @@ impl LayerStages {
     /// Which of them are drawn.
     fn pick(&self, choosing: &mut Choosing, moving: &Moving<'_>, recipe: &Recipe, koma: f64) {
         let (chords, reference) = (self.chords.output(), self.reference.output());
-        let judges = Judges { reference: reference.value(), chords: chords.value() };
+        let alike = self.alike.output().value();
+        let judges = Judges { reference: reference.value(), chords: chords.value(), alike };
         // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
         let apart = recipe.spacing.on.stay() as f64 * koma;
         let eligible = choosing.eligible.output();
@@ -352,10 +406,11 @@ impl LayerStages {
         recipe: &Recipe,
         later: &[usize],
     ) -> Result<(), Error> {
-        let inputs = (measured.clip, self.keys.output(), self.reference.output());
+        let (reference, chords) = (self.reference.output(), self.chords.output());
+        let inputs = (measured.clip, self.keys.output(), reference, chords);
         let settings = (recipe.spacing.clone(), joints.clone());
-        self.spaced.make(inputs, settings, |(clip, keys, reference), (spacing, joints)| {
-            let (skeleton, pace) = (clip.skeleton(), Pace::of(&reference));
+        self.spaced.make(inputs, settings, |(clip, keys, reference, chords), (spacing, joints)| {
+            let (skeleton, pace) = (clip.skeleton(), Pace::of(&reference).with_acting(&chords));
             let koma = clip.rate().koma_from_frames(clip.len(), reference.clock().koma_rate);
             named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), joints, skeleton)
         });
@@ -370,10 +425,16 @@ impl LayerStages {
                 _ => Stills::on(&clip, layer, screen),
             }
         });
-        let settings = (recipe.omission, recipe.spacing.on.most, later.to_vec());
-        self.omitted.try_make((spaced, self.stills.output()), settings, |inputs, settings| {
-            let ((spaced, stills), (omission, on, later)) = (inputs, settings);
-            omission.apply_by_action(&spaced.layer, &stills, *on, later)
+        let course = Course {
+            on: recipe.spacing.on,
+            later: later.to_vec(),
+            gaits: spaced.gaits.clone(),
+            height: self.reference.output().height(),
+        };
+        let inputs = (spaced, self.stills.output());
+        self.omitted.try_make(inputs, (recipe.omission, course), |inputs, settings| {
+            let ((spaced, stills), (omission, course)) = (inputs, settings);
+            omission.apply_to(&spaced.layer, &stills, course)
         })
     }
 
@@ -390,11 +451,14 @@ impl LayerStages {
     pub(super) fn breakdown(&self) -> LayerBreakdown<'_> {
         let (spaced, omitted) = (self.spaced.output().value(), self.omitted.output().value());
         LayerBreakdown {
+            crispness: *self.crispness.output(),
+            drawn: *self.drawn.output(),
             body: self.body.output().value(),
             candidates: self.candidates.output().value(),
             keys: self.keys.output().value(),
             uncorrected: &self.corrected.output().value()[0].keys,
             did_not_fit: spaced.did_not_fit,
+            gaits: &spaced.gaits,
             spaced: &spaced.layer,
             stills: self.stills.last(),
             layer: &omitted.layer,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::stage::{Of, Stage};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
-use crate::keys::Reference;
+use crate::keys::{Reference, Tracks};
 use crate::motion::{Build, Clip, Screen, SeenFrom};
 use crate::recipe::Recipe;
 use crate::time::Clock;
@@ -20,6 +20,8 @@ pub(super) struct MovingStages {
     build: Stage<(), Build>,
     /// How high it stands, beside which its layers are judged.
     height: Stage<Clock, f64>,
+    /// How suddenly it changes its velocities: its layers are no crisper.
+    crispness: Stage<Screen, f64>,
 }
 
 /// What they made last.
@@ -29,6 +31,8 @@ pub(super) struct Moving<'a> {
     pub(super) build: Of<'a, Build>,
     /// The body's height in the file's unit, for a layer that is not all of it.
     pub(super) height: Option<f64>,
+    /// The crispness of the body, likewise.
+    pub(super) crispness: Option<f64>,
     /// From where it is seen.
     pub(super) screen: Screen,
 }
@@ -58,12 +62,16 @@ impl MovingStages {
         self.build.make((clip,), (), |(clip,), ()| Build::of(&clip));
     }
 
-    /// Measures how high the body stands.
+    /// Measures how high the body stands and how crisp its motion is.
     pub(super) fn stand(&mut self, clock: Clock) {
         let inputs = (self.drawn.output(), self.build.output());
         self.height.make(inputs, clock, |(clip, build), clock| {
             let all = vec![1.0; clip.skeleton().len()];
             Reference::of_build(&clip, &build, *clock, &all).height()
+        });
+        let inputs = (self.drawn.output(), self.build.output(), self.height.output());
+        self.crispness.make(inputs, *self.screen.output(), |(clip, build, height), screen| {
+            Tracks::of_all(&clip, &build, screen, *height).crispness()
         });
     }
 
@@ -83,6 +91,7 @@ impl MovingStages {
             clip: self.drawn.output(),
             build: self.build.output(),
             height: is_split.then(|| *self.height.output()),
+            crispness: is_split.then(|| *self.crispness.output()),
             screen: *self.screen.output(),
         }
     }

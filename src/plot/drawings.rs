@@ -51,7 +51,7 @@ impl ShownDrawing<'_> {
             reasons.push(format!("抜いた中割 {}", why.omitted_before));
         }
         match why.reason {
-            Some(reason @ (Reason::Fill | Reason::Rest | Reason::Contact)) => {
+            Some(reason @ (Reason::Fill | Reason::Rest | Reason::Contact | Reason::Step)) => {
                 reasons.push(format!("{} {}", reason.word(), reason.japanese()));
             }
             Some(Reason::Turn | Reason::Pin) | None => {}

@@ -21,7 +21,8 @@ use crate::plot::style;
 use crate::sheet::{Sheet, Source};
 
 /// Source above, result below, koma by koma (\[KKMFT\] figures 4 to 7). What naka-nashi left out is
-/// crossed out above and a gap below; a held drawing is repeated, fainter, with a bracket under it.
+/// crossed out above and a gap below; a new drawing has a frame, and while it is held it is repeated, fainter, with a bracket under
+/// it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Strip {
@@ -67,6 +68,8 @@ const BETWEEN_LINES: f64 = 22.0;
 const FEWER: [usize; 4] = [8, 6, 4, 2];
 /// How far apart figures are against the width of the widest: few are that wide, and arms may cross.
 const APART: f64 = 0.8;
+/// Room between a new drawing and its frame.
+const FRAME: f64 = 3.0;
 /// How much paper a repeated figure is mixed with.
 const REPEATED: f64 = 0.72;
 
@@ -262,6 +265,11 @@ impl Lines<'_> {
             canvas.figure(&self.stage.draw_over(pose, (middle, floor)), inks);
         }
         let color = style::of_role(cell.drawing.role);
+        if koma.start == cell.koma {
+            let corner = (self.x(cell.koma) + FRAME, floor - self.high - FRAME);
+            let size = (self.column - 2.0 * FRAME, self.high + 2.0 * FRAME);
+            canvas.frame(corner, size, color, 4.0);
+        }
         let label = (self.x(koma.start) + 0.5 * self.column, floor + 15.0);
         if koma.start == cell.koma {
             match cell.genga {

@@ -20,13 +20,16 @@ pub enum Reason {
     Rest,
     /// A contact (接地) begins or ends.
     Contact,
+    /// A step of a gait has it, as all others have (歩み).
+    Step,
     /// A person wants it (固定).
     Pin,
 }
 
 impl Reason {
     /// Every reason.
-    pub const ALL: [Self; 5] = [Self::Turn, Self::Fill, Self::Rest, Self::Contact, Self::Pin];
+    pub const ALL: [Self; 6] =
+        [Self::Turn, Self::Fill, Self::Rest, Self::Contact, Self::Step, Self::Pin];
 
     /// Its word in files.
     pub fn word(self) -> &'static str {
@@ -35,6 +38,7 @@ impl Reason {
             Self::Fill => "fill",
             Self::Rest => "rest",
             Self::Contact => "contact",
+            Self::Step => "step",
             Self::Pin => "pin",
         }
     }
@@ -46,6 +50,7 @@ impl Reason {
             Self::Fill => "補い",
             Self::Rest => "止め",
             Self::Contact => "接地",
+            Self::Step => "歩み",
             Self::Pin => "固定",
         }
     }
@@ -135,6 +140,7 @@ impl fmt::Display for Why {
             Some(Reason::Fill) => reasons.push("keeps the body on its way".into()),
             Some(Reason::Rest) => reasons.push("a rest begins or ends".into()),
             Some(Reason::Contact) => reasons.push("a foot or a hand comes down or leaves".into()),
+            Some(Reason::Step) => reasons.push("every step of the gait has it".into()),
             Some(Reason::Turn | Reason::Pin) | None => {}
         }
         if let [first, ..] = &*self.voters {

@@ -1,5 +1,6 @@
 //! Keys and walls of one joint: where its speed turns [KT11 §3.3, §3.4].
 
+mod drawn;
 mod event;
 mod literal;
 mod persistence;
@@ -16,6 +17,7 @@ use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::signal::Signals;
 use crate::time::{Frame, Span};
 
+pub use drawn::Drawn;
 use persistence::Persistence;
 pub use steady::Steady;
 
@@ -88,6 +90,9 @@ pub struct TurnFinder {
     pub persistence: Span,
     /// Which frames confirm a candidate of the `literal` reading; `after` by default.
     pub side: Side,
+    /// How much of the clip is drawn: the turns of the body are then asked for with a narrower filter and a shorter
+    /// persistence. `auto` by default. Turns of single joints do not ask for it.
+    pub drawn: Drawn,
 }
 
 impl Default for TurnFinder {
@@ -97,6 +102,7 @@ impl Default for TurnFinder {
             steady: Steady::Acceleration(100.0),
             persistence: Span::Seconds(0.1),
             side: Side::After,
+            drawn: Drawn::Auto,
         }
     }
 }
@@ -134,6 +140,16 @@ knobs!(turns::TurnFinder {
          のとき、どちら側で続けばよいか。変わり目の後、前後の両方、または後で毎フレーム速くなり続けること。",
     )
     .for_studies(),
+    drawn: knob(
+        "手付けの度合い",
+        "How much of the motion was keyed by hand, with straight inbetweens: from 0 for a capture, \
+         whose speeds are smoothed, to 1 for keys whose turns are sharp. auto looks how sharp they \
+         are. Turns of joints do not ask for it.",
+        "手付けで直線的に補間された動きの度合い。0はキャプチャーで速さをならして見る。\
+         1は手付けで、鋭い変わり目をそのまま見る。autoは変わり目の鋭さから決める。\
+         部位の変わり目には効かない。",
+    )
+    .at_most(1.0),
 });
 
 impl TurnFinder {

@@ -55,5 +55,10 @@ fn found(layer: &LayerBreakdown<'_>, again: bool) -> Vec<Frame> {
         _ => key.frame,
     };
     let keys = if again { &layer.keys.keys } else { layer.uncorrected };
-    keys.iter().map(frame).collect()
+    // In gaits the sheet has the phases of steps instead.
+    let steps = layer.keys.keys.iter().filter(|key| key.origin == Origin::Step);
+    let mut frames: Vec<Frame> = keys.iter().chain(steps).map(frame).collect();
+    frames.sort_unstable();
+    frames.dedup();
+    frames
 }

@@ -64,7 +64,7 @@ impl Here<'_> {
     fn is_set(&self, key: &Key) -> bool {
         let edits = self.wanted.edits.of_layer(self.column.name);
         match key.origin {
-            Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => false,
+            Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact | Origin::Step => false,
             Origin::Moved { .. } => true,
             Origin::Pinned => edits.pins.iter().any(|pin| pin.frame == key.frame),
         }

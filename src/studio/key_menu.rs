@@ -36,7 +36,7 @@ fn choices(key: &Key, words: Words) -> Vec<(&'static str, Correction)> {
         (words.say("No genga here", "ここは原画にしない"), Correction::Forbid(key.clone()));
     let take_back = Correction::TakeBack(key.clone());
     match key.origin {
-        Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact => {
+        Origin::Turn | Origin::Fill | Origin::Rest | Origin::Contact | Origin::Step => {
             vec![(words.say("Lock", "固定"), Correction::Lock(key.clone())), forbid]
         }
         Origin::Pinned => vec![(words.say("Unlock", "固定を解除"), take_back), forbid],

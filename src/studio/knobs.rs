@@ -24,6 +24,8 @@ use crate::recipe::{KNOBS, Kind, Knob, Recipe, Who};
 const ON: [&str; 8] = ["1", "2", "3", "4", "1-2", "1-3", "2-3", "2-4"];
 /// Sides to look from that are offered; a recipe may have a place.
 const SEEN_FROM: [&str; 5] = ["world", "auto", "front", "side", "three-quarter"];
+/// Shares that are offered; a recipe may have others.
+const OR_AUTO: [&str; 4] = ["auto", "0", "0.5", "1"];
 /// Layers that are offered; a recipe may name its own.
 const LAYERS: [&str; 3] = ["body", "limbs", "joints"];
 /// Knobs that find fewer turns, and what comes of it while fills are on: genga hardly become fewer.
@@ -196,6 +198,7 @@ pub(super) fn control(
         }
         Kind::Span | Kind::Amount | Kind::Band => measured::show(ui, knob, value, set),
         Kind::On => choice(ui, (knob, words), value, &ON, set),
+        Kind::OrAuto => choice(ui, (knob, words), value, &OR_AUTO, set),
         Kind::SeenFrom => choice(ui, (knob, words), value, &SEEN_FROM, set),
         Kind::Choice(choices) => choice(ui, (knob, words), value, choices, set),
         Kind::Text if knob.name != "layers" => words_of(ui, knob, value, set),

@@ -19,7 +19,7 @@ pub(super) fn in_short(cell: &KeyedCell<'_>, words: Words) -> String {
                 true => format!("フレーム{from}から"),
                 false => format!("from frame {from}"),
             }),
-            Origin::Fill | Origin::Rest | Origin::Contact => {
+            Origin::Fill | Origin::Rest | Origin::Contact | Origin::Step => {
                 let reason = key.origin.reason();
                 reasons.push(words.say(reason.word(), reason.japanese()).into());
             }
@@ -59,6 +59,7 @@ fn japanese(why: &Why) -> String {
         Some(Reason::Fill) => reasons.push("ないと動きが崩れる".into()),
         Some(Reason::Rest) => reasons.push("止めの始まりか終わり".into()),
         Some(Reason::Contact) => reasons.push("足か手が着く、または離れる".into()),
+        Some(Reason::Step) => reasons.push("歩きの一歩ごとにある絵".into()),
         Some(Reason::Turn | Reason::Pin) | None => {}
     }
     match &*why.voters {

@@ -24,8 +24,7 @@ pub enum Measure {
     /// Turns of the body.
     #[default]
     Turns,
-    /// Genga of the layer: its keys, and the first and the last drawing. On the sheet a key on the koma of
-    /// such a one is a drawing with it.
+    /// Genga on the sheet, the first and the last drawing among them.
     Genga,
     /// Of these the ones that are neither a turn nor the first or last drawing.
     Fills,
@@ -149,7 +148,7 @@ impl Measure {
         match self {
             Self::Union | Self::Total => Reach::Joints,
             Self::Turns => Reach::Body,
-            Self::Genga | Self::Fills => Reach::Keys,
+            Self::Fills => Reach::Keys,
             _ => Reach::Sheet,
         }
     }
@@ -160,7 +159,6 @@ impl Measure {
             Self::Union => union(found.turns) as f64,
             Self::Total => total(found.turns) as f64,
             Self::Turns => found.body.map_or(f64::NAN, |body| body.turns.len() as f64),
-            Self::Genga => found.keys_of(|_| true) + found.clip.len().min(2) as f64,
             Self::Fills => found.keys_of(|origin| origin == Origin::Fill),
             _ => found.layer.map_or(f64::NAN, |layer| self.of_layer(found.clip, layer)),
         }
@@ -171,12 +169,13 @@ impl Measure {
         match self {
             Self::Drawings => layer.shown().count() as f64,
             Self::DrawingsPerSecond => per_second(layer.shown().count()),
+            Self::Genga => layer.genga() as f64,
             Self::GengaPerSecond => per_second(layer.genga()),
             Self::LongestHold => layer.longest_hold() as f64,
             Self::HeldKoma => layer.held_koma() as f64,
             Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),
             Self::MedianSsd => median(&steps(clip, layer)).unwrap_or(0.0),
-            Self::Union | Self::Total | Self::Turns | Self::Genga | Self::Fills => f64::NAN,
+            Self::Union | Self::Total | Self::Turns | Self::Fills => f64::NAN,
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::edits::Edits;
 use crate::error::Error;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
+use crate::sheet::{Drawing, Reason};
 use crate::timing::{Amount, On, Spacing};
 
 /// Nearer than this no whole number of drawings comes.
@@ -33,6 +34,15 @@ const FEWEST_GENGA: f64 = 0.25;
 
 /// How often the number of found keys is corrected for it.
 const MOST_THINNED: usize = 16;
+
+/// How far the body may go while a drawing of a range stays, at the most, in % of its height: all are as slow as it lets them.
+const LONGEST_STEP: f64 = 100.0;
+
+/// Halvings of the span up to there: two steps that are nearer to each other part nothing.
+const STEPS: usize = 10;
+
+/// A movement that is small whatever it is, in % of body height: a number of drawings is a person's wish.
+const ANY_MOVEMENT: f64 = 1000.0;
 
 /// So many drawings a second.
 pub(super) struct Goal {
@@ -196,10 +206,31 @@ impl Search<'_> {
                 break;
             }
             if (found.excess > 0.0) != was_above {
-                let few = if was_above { found } else { last };
+                let [many, few] = if was_above { [last, found] } else { [found, last] };
+                let best = best.or(self.stretch(many)?);
                 return if best.is_exact() { Ok(best) } else { Ok(best.or(self.spare(few)?)) };
             }
             last = found;
+        }
+        Ok(best)
+    }
+
+    /// On a rung of a range that has too many drawings each stays longer: the body may go further meanwhile.
+    fn stretch(&mut self, from: Found) -> Result<Found, Error> {
+        let mut recipe = from.recipe.clone();
+        let mut best = from;
+        if recipe.spacing.on.is_fixed() {
+            return Ok(best);
+        }
+        let (mut low, mut high) = (recipe.spacing.step, LONGEST_STEP);
+        for _ in 0..STEPS {
+            if best.is_exact() {
+                break;
+            }
+            recipe.spacing.step = rounded((low * high).sqrt());
+            let found = self.hold(&recipe)?;
+            *if found.excess > 0.0 { &mut low } else { &mut high } = recipe.spacing.step;
+            best = best.or(found);
         }
         Ok(best)
     }
@@ -228,13 +259,18 @@ impl Search<'_> {
         Ok(dense.or(whole).or(moving).or(on_ones))
     }
 
-    /// By how many genga a recipe has more than leave room for inbetweens among so many drawings; none where all that
-    /// could go are gone.
+    /// By how many genga a recipe has more than leave room for inbetweens among so many drawings, gaits apart; none where
+    /// all that could go are gone.
     fn too_many(&mut self, recipe: &Recipe) -> Result<usize, Error> {
         let breakdown = self.engine.run(recipe, self.edits)?;
-        let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
-        let room = (MOST_GENGA * self.per_second * seconds) as usize;
-        let too_many = between(&breakdown).saturating_sub(room);
+        let first = breakdown.first_layer();
+        let in_gaits: usize = first.gaits.iter().map(ExactSizeIterator::len).sum();
+        let koma = breakdown.sheet.length().saturating_sub(in_gaits);
+        let room =
+            (MOST_GENGA * self.per_second * koma as f64 / breakdown.clock.koma_rate) as usize;
+        let is_step = |drawing: &&Drawing| drawing.why.reason == Some(Reason::Step);
+        let steps = layer(&breakdown).drawings.iter().filter(is_step).count();
+        let too_many = between(&breakdown).saturating_sub(steps + room);
         Ok(too_many.min(room::found(self.engine, recipe, self.edits)?))
     }
 
@@ -273,7 +309,7 @@ impl Search<'_> {
     /// too many, unless still more keys go.
     fn fewer(&mut self, from: Found) -> Result<Found, Error> {
         let found = room::found(self.engine, &from.recipe, self.edits)?;
-        let least = found.min(self.fewest_found(&from.recipe)?);
+        let least = self.fewest_found(&from.recipe, found)?;
         let mut best = from.clone();
         let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);
         for spacing in rungs {
@@ -288,11 +324,22 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// How many found keys stay at least: a quarter of the drawings that are asked for.
-    fn fewest_found(&mut self, recipe: &Recipe) -> Result<usize, Error> {
+    /// Of so many found keys how many stay at least, so that a quarter of the drawings that are asked for are genga: one
+    /// that is like the drawing on screen is none.
+    fn fewest_found(&mut self, recipe: &Recipe, found: usize) -> Result<usize, Error> {
         let breakdown = self.engine.run(recipe, self.edits)?;
         let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
-        Ok((FEWEST_GENGA * self.per_second * seconds).ceil() as usize)
+        let wanted = (FEWEST_GENGA * self.per_second * seconds).ceil() as usize;
+        let mut count = wanted.min(found);
+        while count < found {
+            let recipe = room::with_found(self.engine, recipe, self.edits, count)?;
+            let drawn = between(&self.engine.run(&recipe, self.edits)?);
+            if drawn >= wanted {
+                break;
+            }
+            count += wanted - drawn;
+        }
+        Ok(count.min(found))
     }
 
     /// The most keys with which there are few enough drawings: from the start of the span on, fewer than its end.
@@ -323,5 +370,13 @@ impl Search<'_> {
 fn with_koma_dori(recipe: &Recipe, count: usize) -> Recipe {
     let mut recipe = recipe.clone();
     recipe.omission.koma_dori = Amount::Count(count);
+    if count > 0 {
+        recipe.omission.small = ANY_MOVEMENT;
+    }
     recipe
+}
+
+/// A setting as a person would write it.
+fn rounded(value: f64) -> f64 {
+    (100.0 * value).round() / 100.0
 }

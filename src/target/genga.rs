@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::{Outcome, Target, between, layer, reasons, room};
 use crate::edits::Edits;
 use crate::error::Error;
-use crate::keys::{Fill, Merge, Rank};
+use crate::keys::{AtRests, Fill, Merge, Rank};
 use crate::motion::is_still;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
@@ -36,7 +36,11 @@ pub(super) fn meet(
         let why = "nothing moves in the clip, and all genga would be one";
         return Ok((recipe.clone(), outcome(there, Some(why.into()))));
     }
-    let Looked { reached, mut recipe, over } = look(engine, recipe, edits, (count, there))?;
+    // A number that is asked for wins over rests: they hold on the sheet, but their ends are moments like others.
+    let mut free = recipe.clone();
+    free.keys.at_rests = AtRests::Off;
+    let there = genga(engine, &free, edits)?;
+    let Looked { reached, mut recipe, over } = look(engine, &free, edits, (count, there))?;
     if reached == count && recipe.keys.rank == Rank::Price {
         let priced = room::by_price(engine, &recipe, edits)?;
         if genga(engine, &priced, edits)? == count {

@@ -35,11 +35,13 @@ pub(super) fn staying(between: usize, keys: &[Key]) -> String {
     let any = |is: fn(Origin) -> bool| keys.iter().any(|key| is(key.origin));
     let rests = any(|origin| origin == Origin::Rest);
     let contacts = any(|origin| origin == Origin::Contact);
-    let kinds: [(bool, &str, &str); 4] = [
+    let steps = any(|origin| origin == Origin::Step);
+    let kinds: [(bool, &str, &str); 5] = [
         (any(|origin| origin == Origin::Pinned), "a pin", "pins"),
         (any(|origin| matches!(origin, Origin::Moved { .. })), "a moved key", "moved keys"),
         (rests, "the end of a rest", "ends of rests"),
         (contacts, "the end of a contact", "ends of contacts"),
+        (steps, "a step of a gait", "steps of gaits"),
     ];
     let there = kinds.into_iter().filter(|(is_there, ..)| *is_there);
     let words: Vec<&str> =

@@ -13,8 +13,8 @@ pub(super) struct Replaced {
     pub(super) shortfall: Option<Shortfall>,
 }
 
-/// Replaces `count` drawings by the one before them, the smallest movements first.
-pub(super) fn run(count: usize, strip: &mut Strip<'_>) -> Replaced {
+/// Replaces `count` drawings by the one before them, the smallest movements first, none with an SSD above `small`.
+pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
     let mut replaced = Replaced::default();
     let mut refused = false;
     if count == 0 {
@@ -22,10 +22,14 @@ pub(super) fn run(count: usize, strip: &mut Strip<'_>) -> Replaced {
     }
     let mut smallest = Tournament::new(strip.links.iter().map(smallness));
     while replaced.gone.len() < count {
-        let Some((drawing, _)) = smallest.best() else {
+        let Some((drawing, step)) = smallest.best() else {
             replaced.shortfall = Some(why_not_more(strip, refused));
             break;
         };
+        if step > small {
+            replaced.shortfall = Some(Shortfall::NoneSmall);
+            break;
+        }
         smallest.set(drawing, OUT);
         let Link { before, after, koma, .. } = strip.links[drawing];
         // For good: the one before only grows, and so does what stands before it.

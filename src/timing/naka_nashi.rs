@@ -22,6 +22,8 @@ pub(super) struct Quota {
     pub(super) drawings: Range<usize>,
     /// Drawings to leave out; koma on a sheet on ones without genga.
     pub(super) count: usize,
+    /// The SSD from which a movement is markedly fast.
+    pub(super) fast: f64,
 }
 
 /// What the stage did.
@@ -105,6 +107,7 @@ impl<'a, 'b> Stage<'a, 'b> {
             let shortfall = match self.fastest.best_in(quota.drawings.clone()) {
                 None => self.nothing_left(&quota.drawings),
                 Some((_, 0.0)) => Shortfall::NoMotion,
+                Some((_, speed)) if -speed < quota.fast => self.none_fast(&quota.drawings),
                 Some((drawing, _)) => {
                     self.take_if_it_fits(drawing);
                     continue;
@@ -199,8 +202,15 @@ impl<'a, 'b> Stage<'a, 'b> {
     }
 
     fn nothing_left(&self, drawings: &Range<usize>) -> Shortfall {
-        let any_barred = self.barred[drawings.clone()].contains(&true);
-        if any_barred { Shortfall::NoRoom } else { Shortfall::NoneLeft }
+        if self.any_barred(drawings) { Shortfall::NoRoom } else { Shortfall::NoneLeft }
+    }
+
+    fn none_fast(&self, drawings: &Range<usize>) -> Shortfall {
+        if self.any_barred(drawings) { Shortfall::NoRoom } else { Shortfall::NoneFast }
+    }
+
+    fn any_barred(&self, drawings: &Range<usize>) -> bool {
+        self.barred[drawings.clone()].contains(&true)
     }
 }
 

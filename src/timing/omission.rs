@@ -1,14 +1,16 @@
 //! Omission: naka-nashi (中無し) and koma-dori (コマ撮り) over one layer (KKMFT §3).
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::sheet::Layer;
 use crate::timing::naka_nashi::{NakaNashi, Quota};
-use crate::timing::report::{Gone, OmissionReport, StageReport};
+use crate::timing::report::{Gone, OmissionReport, Shortfall, StageReport};
 use crate::timing::strip::Strip;
-use crate::timing::{Amount, Stills, koma_dori};
+use crate::timing::{Amount, On, Stills, koma_dori};
 
 #[cfg(test)]
 mod tests;
@@ -29,11 +31,19 @@ pub struct Omission {
     /// smallest; a share is of the inbetweens there are when it begins. Default 1/3. Raised, small
     /// movement is lost.
     pub koma_dori: Amount,
-    /// Koma that an exposure may grow to, 1 or more; never below twice the sheet's spacing. Default
-    /// 4. Raised, the body stands still; lowered, less can be left out.
+    /// What is markedly fast (著しく速い), so that naka-nashi may leave it out: so many times the movement from drawing to
+    /// drawing in the middle of its action (the median); 0 or more, default 2, 0 for anything that moves. It does not
+    /// count on ones without genga. Lowered, evenly fast movements lose drawings.
+    pub fast: f64,
+    /// What is a small movement (微小な動き), so that koma-dori may hold the drawing before it: so far at the most a joint
+    /// goes (root mean square), in % of body height; 0 or more, default 3.3. It does not count on ones without genga.
+    /// Raised, drawings are held in the midst of a movement.
+    pub small: f64,
+    /// Koma that koma-dori may let an exposure grow to, 1 or more; never below twice the sheet's fewest koma a drawing.
+    /// Default 4. Raised, the body stands still; lowered, less can be left out.
     pub max_hold: usize,
-    /// Whether koma freed by naka-nashi are given to slow drawings, so that the length stays and
-    /// kept drawings stay on their koma. Default true; without it the layer gets shorter.
+    /// Whether koma freed by naka-nashi are given to the drawing from which the movement starts, so that the length
+    /// stays and what it arrives at stays on its koma. Default true; without it the layer gets shorter.
     pub keep_length: bool,
     /// Whether naka-nashi chooses all drawings by the distances at its beginning (KKMFT §3.4), for
     /// comparison. Default false; with it the omissions scatter and the speed is hardly stressed.
@@ -55,6 +65,25 @@ pub enum Order {
 
 choices!(Order { NakaNashiFirst: "naka_nashi_first", KomaDoriFirst: "koma_dori_first" });
 
+/// What is known of a motion beside its drawings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    /// For how many koma the sheet has a drawing.
+    pub on: On,
+    /// The koma on which each action but the first begins, in order.
+    pub later: Vec<usize>,
+    /// Koma of gaits (歩き), in which no drawing is left out or held: each step would be another.
+    pub gaits: Vec<Range<usize>>,
+    /// The height of the body in the file's unit; infinite where it is not known, and every movement is small.
+    pub height: f64,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { on: On::every(1), later: Vec::new(), gaits: Vec::new(), height: f64::INFINITY }
+    }
+}
+
 /// A layer with drawings left out, and what was done to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Omitted {
@@ -69,6 +98,8 @@ impl Default for Omission {
         Self {
             naka_nashi: Amount::Share(0.04),
             koma_dori: Amount::Share(1.0 / 3.0),
+            fast: 2.0,
+            small: 3.3,
             max_hold: 4,
             keep_length: true,
             all_at_once: false,
@@ -93,11 +124,27 @@ knobs!(omission::Omission {
         "いちばん遅い動きの中割りを何枚止めに変えるか（コマ撮り）。多いほど小さな動きが止まる。",
     )
     .unit("drawings, or a share of the inbetweens"),
+    fast: knob(
+        "著しく速い動き",
+        "How many times as far as usual in its action the body must go from drawing to drawing for \
+         naka-nashi to leave one out. 0 is anything that moves.",
+        "中無しで抜いてよい速さ。絵から絵への動きが、その動作のふつう（中央値）の何倍以上か。0なら動きがあれば抜く。",
+    )
+    .unit("times the median")
+    .slider(0.0, 6.0),
+    small: knob(
+        "微小な動き",
+        "How far a joint may go in the mean from the drawing before for koma-dori to hold that one. \
+         More holds drawings in the midst of movements.",
+        "コマ撮りで止めてよい動きの大きさ（部位の平均）。大きいほど動きの途中でも止まる。",
+    )
+    .unit("% of body height")
+    .slider(0.0, 20.0),
     max_hold: knob(
         "最長の止め",
-        "How long a drawing may stay because others were left out, though never less than two \
-         drawings' time (4 koma on twos). Longer freezes the body.",
-        "抜いた分、一枚をどこまで長く見せてよいか。\
+        "How long koma-dori may let a drawing stay, though never less than two drawings' time (4 \
+         koma on twos). Longer freezes the body.",
+        "コマ撮りで一枚をどこまで長く見せてよいか。\
          ただし絵二枚分（2コマ打ちなら4コマ）を下回らない。長いほど体が固まる。",
     )
     .unit("koma")
@@ -133,10 +180,10 @@ impl Omission {
         self.check()
     }
 
-    /// [`Omission::apply_by_action`] where the whole layer is one action.
+    /// [`Omission::apply_to`] where the whole layer is one action, and no movement too large to be small.
     ///
     /// # Errors
-    /// Those of [`Omission::apply_by_action`].
+    /// Those of [`Omission::apply_to`].
     ///
     /// ```
     /// use genga::sheet::Sheet;
@@ -151,42 +198,39 @@ impl Omission {
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn apply(&self, layer: &Layer, stills: &Stills, on: usize) -> Result<Omitted, Error> {
-        self.apply_by_action(layer, stills, on, &[])
+        self.apply_to(layer, stills, &Course { on: On::every(on), ..Course::default() })
     }
 
-    /// Leaves drawings of a layer out: genga, pinned and end drawings stay, and with `keep_length`
-    /// they stay on their koma. Naka-nashi goes through the actions one by one; `later` are the koma on
-    /// which each but the first begins, in order.
+    /// Leaves drawings of a layer out: genga, pinned and end drawings stay. With `keep_length` they stay on their koma
+    /// too, but for fills, which lie in transit, and in gaits all drawings do. Naka-nashi goes through the actions one by one.
     ///
-    /// `stills` are the positions of the layer's drawings, `on` is the sheet's spacing in koma (1 on
-    /// ones). No exposure grows beyond max(`max_hold`, 2 · `on`). On ones without genga naka-nashi is
-    /// Algorithm 1 koma for koma, but that the first and the last drawing stay.
+    /// `stills` are the positions of the layer's drawings. On ones without genga naka-nashi is Algorithm 1 koma for koma,
+    /// but that the first and the last drawing stay, and what is fast or small does not count.
     ///
     /// # Errors
     /// [`Error::Setting`] when a setting cannot be; [`Error::Clip`] unless the layer shows each of its
     /// drawings once, in order, there is a still for each, and the actions begin in order.
-    pub fn apply_by_action(
+    pub fn apply_to(
         &self,
         layer: &Layer,
         stills: &Stills,
-        on: usize,
-        later: &[usize],
+        course: &Course,
     ) -> Result<Omitted, Error> {
         self.validate()?;
-        if !later.is_sorted() {
+        if !course.later.is_sorted() {
             return Err(Error::clip("actions must begin one after the other: sort their koma"));
         }
-        let bound = self.max_hold.max(on.saturating_mul(2));
-        let mut strip = Strip::new(layer, stills, bound, on)?;
+        let bound = self.max_hold.max(course.on.least.saturating_mul(2));
+        let mut strip = Strip::new(layer, stills, bound, course)?;
         let mut report = OmissionReport::default();
         match self.order {
             Order::NakaNashiFirst => {
-                self.leave_out(layer, later, &mut strip, &mut report);
-                self.hold(layer, &mut strip, &mut report);
+                self.leave_out(layer, course, &mut strip, &mut report);
+                self.hold(layer, course, &mut strip, &mut report);
             }
             Order::KomaDoriFirst => {
-                self.hold(layer, &mut strip, &mut report);
-                self.leave_out(layer, later, &mut strip, &mut report);
+                self.hold(layer, course, &mut strip, &mut report);
+                self.leave_out(layer, course, &mut strip, &mut report);
             }
         }
         Ok(Omitted { layer: strip.into_layer(layer), report })
@@ -195,37 +239,38 @@ impl Omission {
     fn leave_out(
         &self,
         layer: &Layer,
-        later: &[usize],
+        course: &Course,
         strip: &mut Strip<'_>,
         report: &mut OmissionReport,
     ) {
-        let stage = NakaNashi {
-            quotas: self.quotas(layer, later),
-            keep_length: self.keep_length,
-            all_at_once: self.all_at_once,
-        };
+        let quotas = self.quotas(layer, course, strip);
+        quotas.iter().for_each(|quota| strip.tell_slow(quota.drawings.clone()));
+        let stage =
+            NakaNashi { quotas, keep_length: self.keep_length, all_at_once: self.all_at_once };
         let taken = stage.run(strip);
         report.lengthened = taken.given;
         report.naka_nashi = StageReport {
             asked: stage.count(),
             done: taken.done,
             gone: named(layer, &taken.gone),
-            shortfall: taken.shortfall,
+            shortfall: unmet(self.naka_nashi, taken.shortfall),
         };
     }
 
     /// What naka-nashi leaves out of each action: a drawing belongs to the one in which it begins.
-    fn quotas(&self, layer: &Layer, later: &[usize]) -> Vec<Quota> {
+    fn quotas(&self, layer: &Layer, course: &Course, strip: &Strip<'_>) -> Vec<Quota> {
         let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
         let length = layer.length();
         let mut bounds = vec![0];
-        bounds.extend(later.iter().filter(|koma| (1..length).contains(*koma)));
+        bounds.extend(course.later.iter().filter(|koma| (1..length).contains(*koma)));
         bounds.dedup();
         bounds.push(length);
         let drawing = |koma: usize| begins.partition_point(|begin| *begin < koma);
-        let quota = |bounds: &[usize]| Quota {
-            drawings: drawing(bounds[0])..drawing(bounds[1]),
-            count: self.count_in(bounds[1] - bounds[0]),
+        let quota = |bounds: &[usize]| {
+            let drawings = drawing(bounds[0])..drawing(bounds[1]);
+            let fast = if strip.by_koma { 0.0 } else { self.fast };
+            let fast = fast * strip.usual_way(drawings.clone());
+            Quota { drawings, count: self.count_in(bounds[1] - bounds[0]), fast: fast * fast }
         };
         bounds.windows(2).map(quota).collect()
     }
@@ -238,16 +283,32 @@ impl Omission {
         }
     }
 
-    fn hold(&self, layer: &Layer, strip: &mut Strip<'_>, report: &mut OmissionReport) {
+    fn hold(
+        &self,
+        layer: &Layer,
+        course: &Course,
+        strip: &mut Strip<'_>,
+        report: &mut OmissionReport,
+    ) {
         let count = self.koma_dori.of(strip.inbetweens());
-        let replaced = koma_dori::run(count, strip);
+        let small = self.small / 100.0 * course.height;
+        let small = match strip.by_koma {
+            true => f64::INFINITY,
+            false => small * small * strip.stills.joints() as f64,
+        };
+        let replaced = koma_dori::run(count, small, strip);
         report.koma_dori = StageReport {
             asked: count,
             done: replaced.gone.len(),
             gone: named(layer, &replaced.gone),
-            shortfall: replaced.shortfall,
+            shortfall: unmet(self.koma_dori, replaced.shortfall),
         };
     }
+}
+
+/// Why less was done than asked for; a share is the most that may go.
+fn unmet(asked: Amount, why: Option<Shortfall>) -> Option<Shortfall> {
+    why.filter(|_| matches!(asked, Amount::Count(_)))
 }
 
 /// Drawings by their index, with their places and koma in the layer they stood in.

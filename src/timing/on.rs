@@ -1,11 +1,10 @@
-//! How many koma a drawing stays between two keys (何コマ打ち): the same everywhere, or chosen for each
-//! interval by its motion (打ち分け).
+//! How many koma a drawing stays (何コマ打ち): the same everywhere, or each by its own pace (打ち分け).
 
 use std::cell::OnceCell;
 use std::fmt;
 use std::str::FromStr;
 
-use crate::keys::Reference;
+use crate::keys::{Chords, Reference};
 use crate::knob::{Kind, Setting, as_word, by_word};
 
 /// Koma between two drawings beyond which nobody spaces.
@@ -14,8 +13,8 @@ const MOST: usize = 1000;
 /// Koma that a drawing stays at the least where drawings are not on ones.
 pub(super) const STAY: usize = 2;
 
-/// A drawing every so many koma: `2` is on twos everywhere, `1-3` on ones to threes (1〜3コマ打ち), as the
-/// motion of each interval asks.
+/// A drawing every so many koma: `2` is on twos everywhere, `1-3` on ones to threes (1〜3コマ打ち), each drawing as its own
+/// pace asks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct On {
     /// The fewest koma, where the body is fast; 1 to 1000.
@@ -35,10 +34,10 @@ impl On {
         self.least == self.most
     }
 
-    /// Koma that a drawing stays at the least wherever it stands: two, since one alone is a twitch, or one where
-    /// there may be ones.
+    /// Koma from one key to the next at the least: two, since a drawing of one koma alone is a twitch, or one where all
+    /// is on ones.
     pub(crate) fn stay(self) -> usize {
-        self.least.min(STAY)
+        self.most.min(STAY)
     }
 
     /// Whether it can be.
@@ -46,15 +45,11 @@ impl On {
         1 <= self.least && self.least <= self.most && self.most <= MOST
     }
 
-    /// For an interval from one koma to another: the most koma for which the body goes no further than
-    /// `step`, in % of its height, from drawing to drawing in the mean.
-    pub(super) fn within(self, from: usize, to: usize, pace: &Pace<'_>, step: f64) -> usize {
-        if self.is_fixed() {
-            return self.least;
-        }
-        let koma = step / pace.mean(from, to);
-        // Of a body that does not move this is infinite, which the bound below takes.
-        (koma.floor() as usize).clamp(self.least, self.most)
+    /// For how many koma the drawing of a koma stays: the most in which the body goes no further than `step`, in % of its
+    /// height.
+    pub(super) fn from(self, koma: usize, pace: &Pace<'_>, step: f64) -> usize {
+        let goes_on = |koma_on: &usize| pace.way(koma, koma + koma_on) <= step;
+        (self.least + 1..=self.most).rev().find(goes_on).unwrap_or(self.least)
     }
 }
 
@@ -62,33 +57,66 @@ impl On {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pace<'a> {
     body: Option<&'a Reference>,
+    /// What is known of parts that act while the body is quiet.
+    chords: Option<&'a Chords>,
     /// How far it has gone by each koma, in % of its height, from 0 on the first; not before it is asked for.
     way: OnceCell<Vec<f64>>,
+    /// How far its poses get from each other, likewise.
+    reach: OnceCell<f64>,
 }
 
 impl<'a> Pace<'a> {
     /// The pace of the source, koma after koma.
     pub fn of(reference: &'a Reference) -> Self {
-        Self { body: Some(reference), way: OnceCell::new() }
+        Self { body: Some(reference), ..Self::default() }
+    }
+
+    /// The same where what parts do counts too while the body is quiet.
+    pub fn with_acting(self, chords: &'a Chords) -> Self {
+        Self { chords: Some(chords), ..self }
     }
 
     /// The pace of no body, that would go so far into each koma from the second on, in % of its height.
     #[cfg(test)]
     pub(super) fn of_steps(steps: impl Iterator<Item = f64>) -> Self {
-        Self { body: None, way: OnceCell::from(summed(steps)) }
+        Self { way: OnceCell::from(summed(steps)), ..Self::default() }
     }
 
-    /// How far apart the poses of two koma are, in % of the body's height: what it does on the way does not count.
-    pub(super) fn apart(&self, a: usize, b: usize) -> f64 {
-        let body = self.body.filter(|body| a.max(b) < body.koma());
-        body.map_or(0.0, |body| body.apart(a, b))
+    /// How unlike the poses of two koma are, in % of the body's height: what it does on the way does not count.
+    pub(super) fn unlike(&self, a: usize, b: usize) -> f64 {
+        let places = match self.body {
+            Some(body) if a.max(b) < body.koma() => body.unlike(a, b),
+            Some(_) => 0.0,
+            None => self.way(a.min(b), a.max(b)),
+        };
+        places.max(self.chords.map_or(0.0, |chords| chords.acted(a, b)))
     }
 
-    /// How far it goes a koma between two koma, in the mean.
-    fn mean(&self, from: usize, to: usize) -> f64 {
+    /// Number of koma.
+    pub(super) fn koma(&self) -> usize {
+        self.body.map_or(0, Reference::koma).max(self.way.get().map_or(0, Vec::len))
+    }
+
+    /// How far the poses of the body get from each other: from the one that is furthest from the first to the one that is
+    /// furthest from there.
+    pub(super) fn reach(&self) -> f64 {
+        *self.reach.get_or_init(|| {
+            let furthest = |from: usize| {
+                let further = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
+                (0..self.koma())
+                    .map(|at| (at, self.unlike(from, at)))
+                    .max_by(further)
+                    .unwrap_or_default()
+            };
+            furthest(furthest(0).0).1
+        })
+    }
+
+    /// How far it goes from one koma to a later one, in % of its height.
+    fn way(&self, from: usize, to: usize) -> f64 {
         let ways = self.way.get_or_init(|| self.body.map_or_else(Vec::new, ways));
         let way = |koma: usize| ways.get(koma).or(ways.last()).copied().unwrap_or(0.0);
-        (way(to) - way(from)) / (to - from) as f64
+        way(to) - way(from)
     }
 }
 
@@ -166,12 +194,19 @@ mod tests {
         let steps = [[1.0; 4], [4.0; 4], [20.0; 4], [0.0; 4]].concat();
         let pace = Pace::of_steps(steps.into_iter());
         let on = On { least: 1, most: 3 };
-        // 11 are 2.75 steps of 4: the step is no further than asked.
-        let within = |from, to| on.within(from, to, &pace, 11.0);
-        assert_eq!([within(0, 4), within(4, 8), within(8, 12), within(12, 16)], [3, 2, 1, 3]);
-        assert_eq!(on.within(4, 8, &pace, 8.0), 2, "exactly as far as asked");
-        assert_eq!(On::every(2).within(8, 12, &pace, 8.0), 2, "fixed is fixed");
-        assert_eq!(on.within(0, 1, &Pace::default(), 8.0), 3, "nothing moves");
-        assert_eq!(on.within(14, 40, &pace, 8.0), 3, "behind the end nothing moves");
+        let from = |koma| on.from(koma, &pace, 8.0);
+        assert_eq!([0, 1, 2, 3].map(from), [3, 3, 3, 2], "by what comes, and not by the mean");
+        assert_eq!([4, 6, 7, 10, 11, 12].map(from), [2, 2, 1, 1, 1, 3], "exactly as far as asked");
+        assert_eq!(On::every(2).from(9, &pace, 8.0), 2, "fixed is fixed");
+        assert_eq!(on.from(0, &Pace::default(), 8.0), 3, "nothing moves");
+        assert_eq!(on.from(40, &pace, 8.0), 3, "behind the end nothing moves");
+    }
+
+    #[test]
+    fn poses_reach_as_far_as_the_furthest_two_are_unlike() {
+        let pace = Pace::of_steps([3.0, 4.0, 0.0].into_iter());
+        assert_eq!([pace.unlike(0, 1), pace.unlike(2, 0), pace.unlike(2, 3)], [3.0, 7.0, 0.0]);
+        assert_eq!(pace.reach(), 7.0);
+        assert_eq!(Pace::default().reach(), 0.0);
     }
 }

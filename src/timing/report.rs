@@ -63,6 +63,10 @@ pub enum Shortfall {
     NoMotion,
     /// The drawings round those that could go cannot be held any longer.
     NoRoom,
+    /// No movement that is left is markedly faster than the others of its action.
+    NoneFast,
+    /// No movement that is left is small.
+    NoneSmall,
 }
 
 impl fmt::Display for Shortfall {
@@ -71,7 +75,9 @@ impl fmt::Display for Shortfall {
             Self::NoneLeft => "no inbetween is left",
             Self::AllHolds => "every inbetween that is left is a hold already",
             Self::NoMotion => "nothing moves in what is left",
-            Self::NoRoom => "the drawings around cannot be held any longer (max_hold)",
+            Self::NoRoom => "the drawings around cannot be held any longer",
+            Self::NoneFast => "nothing that is left is markedly fast (omission.fast)",
+            Self::NoneSmall => "no movement that is left is small (omission.small)",
         })
     }
 }

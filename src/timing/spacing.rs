@@ -2,22 +2,27 @@
 //! [KT11 §3.4].
 
 mod interval;
-mod rests;
+mod row;
 mod station;
+mod steps;
+mod still;
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use self::interval::Interval;
-use self::rests::Rests;
-use self::station::{Station, stations};
+use self::row::Rules;
+use self::station::{Station, koma_before, stations};
+use self::steps::Steps;
+use self::still::Still;
+pub(crate) use self::still::alike;
 use crate::error::Error;
 use crate::keys::LayerKeys;
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::motion::Skeleton;
-use crate::sheet::{Drawing, Exposure, Layer};
+use crate::sheet::{Exposure, Layer, Reason, Role};
 use crate::time::{Clock, Frame};
 use crate::timing::on::{On, Pace, STAY};
 
@@ -37,16 +42,16 @@ choices!(InbetweenSource { Sample: "sample", Blend: "blend" });
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Spacing {
-    /// A drawing every so many koma, 1 or more. Default 2, on twos (2コマ打ち). Raised, fast arcs turn
-    /// into straight jumps. A range, `1-3`, chooses for each interval by `step`.
+    /// For how many koma a drawing stays, 1 or more, or the fewest and the most: each drawing then stays for as many as
+    /// `step` lets it. Default `2-3`, on twos and threes (2〜3コマ打ち); `1-3` has ones where the body is fast. Raised, fast arcs turn into straight jumps.
     pub on: On,
-    /// Where `on` is a range: how far the body may go from one drawing to the next, in % of its height
-    /// (root mean square over its bones, in the mean over the interval); above 0, default 7.5, which gives
-    /// about as many drawings as twos do. Raised, more of the motion is on threes.
+    /// Where `on` is a range: how far the body may go while a drawing stays, in % of its height (root mean square over its
+    /// bones); above 0, default 9. Raised, more of the motion is on threes.
     pub step: f64,
-    /// How far the body may be from the drawing that a rest (止め) holds, in % of its height (root mean square over
-    /// its bones); 0 or more, default 0.8. Where it goes further, an inbetween stands there: a moving hold. 0 puts
-    /// inbetweens into rests as everywhere. Raised, small gestures are lost in holds and come all at once after them.
+    /// How unlike a drawing the body may get before another is drawn, in % of its height (root mean square over its bones,
+    /// or 0.4 of the way of what goes furthest); 0 or more, default 3.3. Up to there a genga holds (止め). In a take
+    /// whose poses are all nearer to each other than eight times as much, it is an eighth of that, 0.8 at the least. 0 holds
+    /// nothing. Raised, small gestures are lost in holds.
     pub drift: f64,
     /// A fixed number of inbetweens between two keys instead; default none. An interval too short for
     /// them takes as many as fit.
@@ -65,9 +70,9 @@ pub struct Spacing {
 impl Default for Spacing {
     fn default() -> Self {
         Self {
-            on: On::every(2),
-            step: 7.5,
-            drift: 0.8,
+            on: On { least: 2, most: 3 },
+            step: 9.0,
+            drift: 3.3,
             inbetweens: None,
             weight: 0.3,
             max_shift: 2.0,
@@ -83,6 +88,8 @@ pub struct Spaced {
     pub layer: Layer,
     /// Inbetweens asked for that did not fit between their keys.
     pub did_not_fit: usize,
+    /// Koma from the first contact to the last of gaits (歩き), in which every step has the same drawings.
+    pub gaits: Vec<Range<usize>>,
 }
 
 /// What a hand asks for that pulls an inbetween towards a key or away from it.
@@ -97,27 +104,27 @@ pub struct Pull {
 knobs!(spacing::Spacing {
     on: knob(
         "何コマ打ち",
-        "A drawing every so many koma: 1 is on ones, 2 on twos, 3 on threes. 1-3 chooses for each \
-         interval: fast on ones, slow on threes (打ち分け).",
-        "何コマごとに絵を置くか。1は1コマ打ち、2は2コマ打ち、3は3コマ打ち。1-3 \
-         は区間ごとに選び、速いところは1コマ、遅いところは3コマ（打ち分け）。",
+        "For how many koma a drawing stays: 1 is on ones, 2 on twos, 3 on threes. 2-3 chooses for \
+         each drawing: fast on twos, slow on threes (打ち分け); 1-3 has ones too.",
+        "一枚を何コマ見せるか。1は1コマ打ち、2は2コマ打ち、3は3コマ打ち。2-3 \
+         は一枚ごとに選び、速いところは2コマ、遅いところは3コマ（打ち分け）。1-3は1コマも使う。",
     )
-    .unit("koma, 1 (ones) to 1000, or the fewest and the most (\"1-3\")"),
+    .unit("koma, 1 (ones) to 1000, or the fewest and the most (\"2-3\")"),
     step: knob(
         "一枚で動く量",
-        "Where spacing.on is a range: how far the body may go from one drawing to the next. More \
-         puts more of the motion on threes.",
-        "spacing.on が範囲のとき、次の絵までに体が動いてよい量。大きいほど3コマ打ちが増える。",
+        "Where spacing.on is a range: how far the body may go while a drawing stays. More puts more \
+         of the motion on threes.",
+        "spacing.on が範囲のとき、一枚を見せるあいだに体が動いてよい量。大きいほど3コマ打ちが増える。",
     )
     .unit("% of body height")
     .above(0.0)
     .slider(0.1, 50.0),
     drift: knob(
         "止めのずれ",
-        "How far the body may be from the drawing that a rest holds; further on, an inbetween \
-         stands there. 0 has inbetweens in rests as everywhere. More loses small gestures.",
-        "止めのあいだ、体が今の絵からどこまで離れてよいか。それより離れたところには中割りを置く。\
-         0なら止めの中にも普段どおり中割りを置く。大きいほど小さな芝居が消える。",
+        "How unlike a drawing the body may get before another is drawn: up to there a genga holds. 0 \
+         holds nothing. More loses small gestures.",
+        "体が今の絵からどこまで離れるまで、原画を止めておくか。\
+         0なら何も止めない。大きいほど小さな芝居が消える。",
     )
     .unit("% of body height")
     .slider(0.0, 20.0),
@@ -165,9 +172,9 @@ impl Spacing {
     /// Places the keys of a layer and the inbetweens between them on a sheet of `koma` koma.
     ///
     /// The first and the last koma show an `end`; a key that falls on one gives way to it and hands over its
-    /// voters. Of keys that stand too near for a drawing to stay, the dearer stays. In a rest the drawing on screen
-    /// holds until the body has gone further from it than `drift`; a body that never moves has no other. Where `on`
-    /// is a range the pace decides.
+    /// voters. Of keys that stand too near for a drawing to stay, the dearer stays. A genga holds until the body has gone
+    /// further from it than `drift`, and what would show it again is not drawn; a body that never moves has one drawing.
+    /// Where `on` is a range the pace decides. In a gait every step has the same drawings for as long.
     ///
     /// ```
     /// # use genga::{edits::Edits, keys::Reference, pipeline::Engine, recipe::Recipe};
@@ -192,31 +199,15 @@ impl Spacing {
         koma: usize,
         pace: &Pace<'_>,
     ) -> Spaced {
-        let rests = Rests::of(&layer.rests, clock, self.drift, pace);
-        let least = |from: usize, to: usize| self.least(from, to, pace);
-        let stations = stations(&layer.keys, clock, koma, least);
-        let mut row = Row::default();
+        let still = Still::of(&layer.rests, clock, self.drift, pace);
+        let least = |koma: usize| self.least(koma, pace);
+        let steps = Steps::of(&layer.gaits, koma, self, pace);
+        let stations = stations(&layer.keys, &steps, (clock, koma), least);
         let names: Vec<Arc<str>> =
             skeleton.joints.iter().map(|joint| joint.name.as_str().into()).collect();
-        for (at, station) in stations.iter().enumerate() {
-            row.put(station.koma, station.drawing(&names));
-            let Some(next) = stations.get(at + 1) else { continue };
-            let interval = Interval::new(self, station, next, &layer.walls, clock);
-            let on = self.on.within(station.koma, next.koma, pace, self.step);
-            let all = self.koma_between(station.koma, next.koma, on);
-            row.did_not_fit += self.inbetweens.map_or(0, |asked| asked - all.len());
-            let shown = rests.what_moves(station.koma, &all);
-            // A body that never moves is one drawing.
-            let is_all = stations.len() == 2 && shown.is_empty() && !next.is_set();
-            if is_all && rests.hold(station.koma, koma - 1) {
-                break;
-            }
-            let ends = shown.iter().skip(1).copied().chain([next.koma]);
-            for (koma, end) in shown.iter().zip(ends) {
-                row.put(*koma, interval.inbetween(*koma, end - koma));
-            }
-        }
-        row.into_spaced(koma)
+        let (walls, holds_end) = (&layer.walls[..], layer.holds_end);
+        let rules = Rules { spacing: self, clock, walls, holds_end, pace, still, steps };
+        rules.lay_out(&stations, koma, &names)
     }
 
     /// The weight of a key that takes the inbetween of a koma to a place, or as near as `max_shift` lets it.
@@ -245,7 +236,14 @@ impl Spacing {
             let (koma, _, drawing) = all[at];
             let place = drawing.source.place();
             let key = layer.keys.iter().find(|key| key.frame.0 as f64 == place);
-            Station { koma, place, role: drawing.role, key }
+            // One at which the body arrived before is timed by its own frame.
+            let own = match drawing.role {
+                _ if drawing.why.reason == Some(Reason::Step) => koma,
+                Role::Genga => koma_before(clock, place),
+                Role::End if at > 0 => (koma_before(clock, place) + 1).saturating_sub(STAY),
+                Role::End | Role::Inbetween => koma,
+            };
+            Station { koma: koma.max(own), place, role: drawing.role, key }
         };
         let [from, to] = [from, to].map(station);
         let interval = Interval::new(self, &from, &to, &layer.walls, clock);
@@ -263,63 +261,32 @@ impl Spacing {
         koma: usize,
         pace: &'a Pace<'a>,
     ) -> impl Fn(Frame) -> bool + use<'a> {
-        let rests = Rests::of(rests, clock, self.drift, pace);
+        let still = Still::of(rests, clock, self.drift, pace);
         let stay = self.on.stay();
         // Koma on which one would stand too near to the end.
         let past = if stay > 1 { (koma + 1).saturating_sub(2 * stay) } else { koma };
         move |frame| {
             let place = frame.0 as f64;
-            place < clock.place_from_koma(past) && !rests.cover(clock.koma_from_place(place))
+            place < clock.place_from_koma(past) && !still.covers(clock.koma_from_place(place))
         }
     }
 
-    /// For how many koma a drawing stays at the least between two koma.
-    fn least(&self, from: usize, to: usize, pace: &Pace<'_>) -> usize {
-        self.on.within(from, to, pace, self.step).min(STAY)
+    /// For how many koma the drawing of a koma stays.
+    fn stay(&self, koma: usize, pace: &Pace<'_>) -> usize {
+        self.on.from(koma, pace, self.step)
     }
 
-    /// The koma on which inbetweens stand between two koma, each for as long as a drawing has to.
-    fn koma_between(&self, from: usize, to: usize, on: usize) -> Vec<usize> {
-        let (distance, least) = (to - from, on.min(STAY));
-        match self.inbetweens {
-            None => (from + on..=to.saturating_sub(least)).step_by(on).collect(),
-            Some(asked) => {
-                let count = asked.min((distance / least).saturating_sub(1));
-                let koma = |at: usize| (at * distance) as f64 / (count + 1) as f64;
-                (1..=count).map(|at| from + koma(at).round() as usize).collect()
-            }
-        }
-    }
-}
-
-/// Drawings and the koma on which they begin.
-#[derive(Default)]
-struct Row {
-    drawings: Vec<Drawing>,
-    begins: Vec<usize>,
-    did_not_fit: usize,
-}
-
-impl Row {
-    fn put(&mut self, koma: usize, drawing: Drawing) {
-        self.drawings.push(drawing);
-        self.begins.push(koma);
+    /// The same at the least.
+    fn least(&self, koma: usize, pace: &Pace<'_>) -> usize {
+        self.stay(koma, pace).min(STAY)
     }
 
-    /// A layer of so many koma, each drawing up to the next.
-    fn into_spaced(self, koma: usize) -> Spaced {
-        let Self { drawings, begins, did_not_fit } = self;
-        let ends = begins.iter().skip(1).copied().chain([koma]);
-        let exposures = begins
-            .iter()
-            .zip(ends)
-            .enumerate()
-            .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
-            .collect();
-        Spaced {
-            layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
-            did_not_fit,
-        }
+    /// The koma of so many inbetweens between two koma, or of as many as fit.
+    fn evenly(&self, asked: usize, koma: Range<usize>, pace: &Pace<'_>) -> Vec<usize> {
+        let least = koma.clone().map(|koma| self.least(koma, pace)).max().unwrap_or(STAY);
+        let count = asked.min((koma.len() / least).saturating_sub(1));
+        let place = |at: usize| (at * koma.len()) as f64 / (count + 1) as f64;
+        (1..=count).map(|at| koma.start + place(at).round() as usize).collect()
     }
 }
 

@@ -144,6 +144,11 @@ impl Stills {
         sums.iter().flat_map(|sum| sum.0).sum()
     }
 
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.joints
+    }
+
     /// Where a joint stands in a drawing, in the file's unit.
     ///
     /// # Panics

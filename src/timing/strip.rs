@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::error::Error;
-use crate::sheet::{Drawing, Exposure, Layer};
-use crate::timing::Stills;
+use crate::sheet::{Drawing, Exposure, Layer, Reason};
+use crate::timing::{Course, On, Stills};
 
 /// How often naka-nashi may lengthen a drawing (KKMFT §3.2, Algorithm 1).
 pub(super) const MOST_LENGTHENINGS: usize = 3;
@@ -20,8 +20,12 @@ pub(super) struct Link {
     pub(super) koma: usize,
     /// SSD to the drawing before it; 0 for the first.
     pub(super) step: f64,
-    /// Whether it stays, and stays where it is.
+    /// Whether it is never left out.
     pub(super) kept: bool,
+    /// Whether the body hardly moves there, before anything goes. A turn in the midst of a swing is no pose to hold.
+    is_slow: bool,
+    /// Whether it begins in a gait, and stays for as long as it does.
+    pub(super) paced: bool,
     /// The interval it lies in or opens, an index into [`Strip::intervals`].
     pub(super) interval: usize,
     /// Times naka-nashi lengthened it.
@@ -38,7 +42,7 @@ pub(super) struct Link {
 pub(super) struct Strip<'a> {
     pub(super) stills: &'a Stills,
     pub(super) links: Vec<Link>,
-    /// A kept drawing and the inbetweens up to the next kept one, as index ranges.
+    /// A drawing that stays where it is and those in transit up to the next such one, as index ranges.
     pub(super) intervals: Vec<Range<usize>>,
     /// Koma an exposure may grow to.
     pub(super) bound: usize,
@@ -46,6 +50,8 @@ pub(super) struct Strip<'a> {
     pub(super) by_koma: bool,
     /// Drawings that are not gone.
     pub(super) drawings: usize,
+    /// Drawings that never go.
+    kept: usize,
 }
 
 impl<'a> Strip<'a> {
@@ -58,17 +64,22 @@ impl<'a> Strip<'a> {
         layer: &Layer,
         stills: &'a Stills,
         bound: usize,
-        on: usize,
+        course: &Course,
     ) -> Result<Self, Error> {
         check(layer, stills)?;
+        let is_in_gait = |begin| course.gaits.iter().any(|gait| gait.contains(&begin));
         let count = layer.drawings.len();
         let mut links: Vec<Link> = Vec::with_capacity(count);
         let mut intervals: Vec<Range<usize>> = Vec::new();
-        for (index, (drawing, exposure)) in layer.drawings.iter().zip(&layer.exposures).enumerate()
+        for (index, (drawing, (begin, exposure))) in
+            layer.drawings.iter().zip(layer.timed()).enumerate()
         {
+            let paced = is_in_gait(begin);
             // The first and the last drawing stay whatever they are called.
-            let kept = drawing.role.is_kept() || index == 0 || index + 1 == count;
-            if kept {
+            let kept = drawing.role.is_kept() || paced || index == 0 || index + 1 == count;
+            // A fill lies in transit: where the body turns, rests or comes to an end the next interval begins.
+            let opens = drawing.why.reason != Some(Reason::Fill) || intervals.is_empty();
+            if kept && (opens || index + 1 == count) {
                 intervals.push(index..index);
             }
             let interval = intervals.len() - 1;
@@ -80,6 +91,8 @@ impl<'a> Strip<'a> {
                 koma: exposure.koma,
                 step: if index == 0 { 0.0 } else { stills.ssd(before, index) },
                 kept,
+                paced,
+                is_slow: false,
                 interval,
                 given: 0,
                 taken: 0,
@@ -87,24 +100,53 @@ impl<'a> Strip<'a> {
                 omitted_before: 0,
             });
         }
-        let by_koma = on == 1 && intervals.len() <= 2;
-        Ok(Self { stills, links, intervals, bound, by_koma, drawings: count })
+        let kept = links.iter().filter(|link| link.kept).count();
+        let by_koma = course.on == On::every(1) && kept <= 2;
+        Ok(Self { stills, links, intervals, bound, by_koma, drawings: count, kept })
     }
 
     /// Koma that naka-nashi may still give to a drawing.
     pub(super) fn room(&self, drawing: usize) -> usize {
-        let Link { given, koma, .. } = self.links[drawing];
-        self.room_of(given, koma)
+        let Link { given, koma, interval, paced, is_slow, .. } = self.links[drawing];
+        match () {
+            () if paced => 0,
+            () if self.by_koma => self.room_of(given, koma),
+            // What opens an interval is held, and what follows comes later: a snap.
+            () if drawing == self.intervals[interval].start && is_slow => {
+                MOST_LENGTHENINGS.saturating_sub(given)
+            }
+            () => 0,
+        }
     }
 
-    /// The same for a drawing lengthened `given` times that stays for `koma`.
+    /// The same on ones for a drawing lengthened `given` times that stays for `koma`.
     pub(super) fn room_of(&self, given: usize, koma: usize) -> usize {
         MOST_LENGTHENINGS.saturating_sub(given).min(self.bound.saturating_sub(koma))
     }
 
+    /// Says of some drawings, those of an action, whether the body hardly moves there: it arrives or sets out no faster than
+    /// usual.
+    pub(super) fn tell_slow(&mut self, drawings: Range<usize>) {
+        let usual = self.usual_way(drawings.clone());
+        for at in drawings {
+            let out = self.links.get(self.links[at].after).map_or(0.0, |next| next.step);
+            // Roots on both sides, as the median is one of them: squared again it may be another number.
+            self.links[at].is_slow = self.links[at].step.min(out).sqrt() <= usual;
+        }
+    }
+
+    /// How far the body goes from drawing to drawing in the middle of some, the root of the SSD: the median of those that
+    /// move, 0 where none does.
+    pub(super) fn usual_way(&self, drawings: Range<usize>) -> f64 {
+        let steps = self.links[drawings].iter().filter(|link| link.koma > 0 && link.step > 0.0);
+        let mut ways: Vec<f64> = steps.map(|link| link.step.sqrt()).collect();
+        ways.sort_by(f64::total_cmp);
+        ways.get(ways.len() / 2).copied().unwrap_or(0.0)
+    }
+
     /// Inbetweens that are not gone.
     pub(super) fn inbetweens(&self) -> usize {
-        self.drawings - self.intervals.len()
+        self.drawings - self.kept
     }
 
     /// Takes an inbetween out of the list and gives its koma; its neighbours are measured anew.

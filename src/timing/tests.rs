@@ -8,7 +8,7 @@ use crate::cases::cases;
 use crate::edits::Hold;
 use crate::keys::{Key, LayerKeys, Origin, Wall};
 use crate::motion::Skeleton;
-use crate::sheet::{Layer, Role};
+use crate::sheet::Layer;
 use crate::time::{Clock, Frame, FrameRate};
 
 /// Frames of the clips, 30 a second.
@@ -54,10 +54,12 @@ prop_compose! {
         }
         let rest = |(begin, frames): (usize, usize)| Frame(begin)..=Frame((begin + frames).min(FRAMES - 1));
         LayerKeys {
+            gaits: Vec::new(),
             keys,
             walls: walls.into_iter().map(|frame| Wall { frame: Frame(frame), strength: 1.0 }).collect(),
             rests: rests.into_iter().map(rest).collect(),
-            over_limit: 0,
+            holds_end: true,
+        over_limit: 0,
         }
     }
 }
@@ -78,7 +80,9 @@ prop_compose! {
     ) -> Omission {
         let [naka_nashi, koma_dori] = [naka_nashi, koma_dori].map(Amount::Count);
         let order = if koma_dori_first { Order::KomaDoriFirst } else { Order::NakaNashiFirst };
-        Omission { naka_nashi, koma_dori, max_hold, keep_length, all_at_once, order }
+        let fast = if max_hold > 3 { 2.0 } else { 0.0 };
+        let small = if all_at_once { 3.3 } else { 100.0 };
+        Omission { naka_nashi, koma_dori, fast, small, max_hold, keep_length, all_at_once, order }
     }
 }
 
@@ -90,21 +94,20 @@ fn stills(layer: &Layer, places: &[f64]) -> Stills {
     stills
 }
 
-/// The drawings that stay for one koma without a reason: the koma, and what each is.
-fn twitches(layer: &Layer, may: impl Fn(usize, usize) -> bool) -> Vec<(usize, Role)> {
+const NONE: [usize; 0] = [];
+
+/// The koma of drawings that stay for one without a reason; `may` says of the place of which.
+fn twitches(layer: &Layer, may: impl Fn(f64) -> bool) -> Vec<usize> {
     let shown: Vec<_> = layer.timed().collect();
     let drawing = |at: usize| &layer.drawings[shown[at].1.drawing];
     let is_set = |at: usize| {
         at < shown.len() && (drawing(at).why.pinned.is_some() || drawing(at).why.hold_set)
     };
-    let kept = |at: &usize| drawing(*at).role.is_kept();
     let twitch = |at: &usize| {
-        let opener = (0..=*at).rev().find(kept).map_or(0, |at| shown[at].0);
-        let closer = (at + 1..shown.len()).find(kept).map_or(layer.length(), |at| shown[at].0);
         let is_asked = is_set(*at) || is_set(at + 1) || (*at > 0 && is_set(at - 1));
-        shown[*at].1.koma == 1 && !is_asked && !may(opener, closer)
+        shown[*at].1.koma == 1 && !is_asked && !may(drawing(*at).source.place())
     };
-    (0..shown.len()).filter(twitch).map(|at| (shown[at].0, drawing(at).role)).collect()
+    (0..shown.len()).filter(twitch).map(|at| shown[at].0).collect()
 }
 
 proptest! {
@@ -124,20 +127,23 @@ proptest! {
         let spacing = Spacing { on, inbetweens, drift, ..Spacing::default() };
         let pace = Pace::of_steps(steps.into_iter());
         let spaced = spacing.place(&keys, &Skeleton::default(), clock(), length(), &pace).layer;
-        // In a range an interval that is fast enough is on ones.
-        let on_ones = |from: usize, to: usize| {
-            let [from, to] = if to == length() { [to - 2, to - 1] } else { [from, to] };
-            on.within(from, to, &pace, spacing.step) == 1
-        };
-        prop_assert_eq!(twitches(&spaced, on_ones), [], "{:?}", spaced.exposures);
-        let omitted = omission.apply(&spaced, &stills(&spaced, &places), on.most).unwrap().layer;
-        // Without its length the koma of the sheet are no longer those of the pace.
-        let is_ones = |from, to| if omission.keep_length { on_ones(from, to) } else { on.least == 1 };
-        prop_assert_eq!(twitches(&omitted, is_ones), [], "{:?}", omitted.exposures);
+        // In a range what is fast enough is on ones, and the end by the koma before.
+        let last = length() - 1;
+        let is_fast = |koma: usize| on.from(koma.min(last - 1), &pace, spacing.step) == 1;
+        let fast: Vec<f64> = spaced
+            .timed()
+            .filter(|(begin, _)| is_fast(*begin))
+            .map(|(_, shown)| spaced.drawings[shown.drawing].source.place())
+            .collect();
+        prop_assert_eq!(twitches(&spaced, |place| fast.contains(&place)), NONE, "{:?}", spaced.exposures);
+        let course = Course { on, height: 100.0, ..Course::default() };
+        let stills = stills(&spaced, &places);
+        let omitted = omission.apply_to(&spaced, &stills, &course).unwrap().layer;
+        prop_assert_eq!(twitches(&omitted, |place| fast.contains(&place)), NONE, "{:?}", omitted.exposures);
         let holds: Vec<Hold> =
             holds.into_iter().map(|(frame, koma)| Hold { frame: Frame(frame), koma }).collect();
         let held = with_holds(&omitted, &spaced, &holds, clock());
-        prop_assert_eq!(twitches(&held, is_ones), [], "{:?}", held.exposures);
+        prop_assert_eq!(twitches(&held, |_| on.least == 1), NONE, "{:?}", held.exposures);
         prop_assert_eq!(held.length(), omitted.length());
     }
 

@@ -177,7 +177,11 @@ fn keys_of_one_column_come_back_to_their_layer() {
     let [a, b] = ["a", "b"].map(|out| {
         let keys = String::from_utf8(place.files(out)["keys.csv"].clone()).unwrap();
         let rows = keys.lines().filter(|line| line.starts_with("kick,C,"));
-        rows.map(|row| row.split(',').nth(8).unwrap().to_owned()).collect::<Vec<_>>()
+        let second = |row: &str| row.split(',').nth(8).unwrap().parse::<f64>().unwrap();
+        rows.map(second).collect::<Vec<_>>()
     });
-    assert_eq!(a, b);
+    assert_eq!(a.len(), b.len());
+    // One that is found may come when the body has arrived; a pin stands on its koma.
+    let is_near = |(a, b): (&f64, &f64)| (0.0..=4.0 / 24.0).contains(&(b - a));
+    assert!(a.iter().zip(&b).all(is_near), "{a:?} {b:?}");
 }

@@ -19,10 +19,12 @@ mod clips; // where clips come from
 mod contacts; // contacts as keys, and feet that stay where they stand
 mod defaults; // the method states every default as it is
 mod documented; // every format and setting is in the docs
+mod drawn; // captures are not taken for drawings
 mod examples; // the examples print what they printed
 #[cfg(feature = "cli")]
 mod folders; // a results folder is one run
 mod fuzzed; // what fuzzing checks and what it found
+mod gaits; // steps of left and right, and their phases
 mod glitches; // single frames that fly off
 mod held; // rests are holds, and no drawing stays for one koma
 #[cfg(feature = "cli")]

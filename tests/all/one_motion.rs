@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use genga::edits::Edits;
-use genga::keys::Matching;
+use genga::keys::{AtGaits, Matching};
 use genga::motion::{Clip, EndSite, Joint, JointId, Landmarks, Skeleton};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -21,6 +21,8 @@ const FINE: f64 = 100.0;
 fn keys(clip: &Clip, min_price: f64) -> Vec<Frame> {
     let mut recipe = Recipe::default();
     recipe.keys.min_price = min_price;
+    // The choice alone: a gait comes after it, and is there or not.
+    recipe.keys.gaits = AtGaits::Off;
     let mut engine = Engine::new(clip.clone()).unwrap();
     let layer = engine.find_keys(&recipe, &Edits::default()).unwrap().keys;
     let fine = |frame: Frame| FINE * (frame.0 - clip.first().0) as f64 * 24.0 / clip.rate().fps();

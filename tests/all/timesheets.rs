@@ -54,7 +54,8 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let table = String::from_utf8(output.stdout).unwrap();
         // Column, koma and source frame.
-        let row = |row: csv::StringRecord| format!("{} {} {}", &row[1], &row[6], &row[9]);
+        let number = |row: &csv::StringRecord, at: usize| row[at].parse::<usize>().unwrap();
+        let row = |row: csv::StringRecord| (row[1].to_owned(), number(&row, 6), number(&row, 9));
         let mut reader = csv::Reader::from_reader(table.as_bytes());
         let rows: Vec<_> = reader.records().map(|record| row(record.unwrap())).collect();
         (rows, table, String::from_utf8(output.stderr).unwrap())
@@ -62,7 +63,14 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
     let (own, ..) = keys(&[]);
     for file in ["out/kick_genga_ts.xdts", "out/kick_douga_ts.xdts"] {
         let (back, table, said) = keys(&[&["--pin-from", file], &alone[..]].concat());
-        assert_eq!(back, own, "{file}");
+        // A found key may come before its own koma, of which the sheet does not say.
+        let is_same = |(a, b): (&(String, usize, usize), &(String, usize, usize))| {
+            a.0 == b.0 && a.1.abs_diff(b.1) <= 2 && a.2.abs_diff(b.2) <= 8
+        };
+        assert!(
+            back.len() == own.len() && back.iter().zip(&own).all(is_same),
+            "{file}: {back:?} {own:?}"
+        );
         assert!(table.contains("pinned: A2"), "{table}");
         assert!(said.contains(&format!("pinned from {file}: {} keys of column A", own.len())));
     }

@@ -261,12 +261,12 @@ fn kinds(
 
 /// What the genga of each clip are.
 fn reasons(benches: &mut [Bench<'_>]) -> Outcome<String> {
-    let shown = [Reason::Turn, Reason::Fill, Reason::Rest];
+    let shown = [Reason::Turn, Reason::Fill, Reason::Rest, Reason::Step];
     let names = shown.map(|reason| format!(">{}", reason.word()));
     let header: Vec<&str> =
         ["clip", ">genga"].into_iter().chain(names.iter().map(String::as_str)).collect();
     let mut table = Table::new(&header);
-    let mut all = [0; 3];
+    let mut all = [0; 4];
     for bench in benches.iter_mut() {
         let keys = bench.keys(&Recipe::default())?;
         let counts =

@@ -96,7 +96,7 @@ fn sheet(clip: &Clip, weight: f64, walls: &[Frame]) -> Sheet {
     let (on, inbetweens) = (On::every(1), Some(3));
     let spacing = Spacing { on, inbetweens, weight, ..Spacing::default() };
     let walls = walls.iter().map(|frame| Wall { frame: *frame, strength: 1.0 }).collect();
-    let keys = LayerKeys { keys: Vec::new(), walls, rests: Vec::new(), over_limit: 0 };
+    let keys = LayerKeys { walls, ..LayerKeys::default() };
     let clock = clip.clock(KOMA_RATE);
     let spaced = spacing.place(&keys, clip.skeleton(), clock, KOMA, &Pace::default());
     Sheet::new(clock, vec![spaced.layer])

@@ -141,6 +141,7 @@ impl Way {
             steady: Steady::Acceleration(self.band * RATE * RATE),
             persistence: Span::Seconds(persistence / RATE),
             side: self.side,
+            ..TurnFinder::default()
         }
     }
 

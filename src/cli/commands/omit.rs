@@ -96,6 +96,8 @@ fn omission(args: &OmitArgs) -> Omission {
         keep_length: !args.let_length_change,
         all_at_once: args.all_at_once,
         order: if args.koma_dori_first { Order::KomaDoriFirst } else { Order::NakaNashiFirst },
+        // On ones without genga the others do not count.
+        ..Omission::default()
     }
 }
 

@@ -11,7 +11,7 @@ use crate::cli::plan::{Plan, PlanArgs};
 use crate::cli::results::{OWN, Outcome, Results};
 use crate::cli::words::{Words, counted};
 use crate::cli::{corrections, files, paths, pins, seen};
-use crate::deliver::{LayerReport, Report, Run};
+use crate::deliver::{GaitReport, LayerReport, Report, Run};
 use crate::edits::Edits;
 use crate::pipeline::Breakdown;
 use crate::recipe::Recipe;
@@ -141,6 +141,9 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         words.lose(format_args!("{line}; warning: {}", report.losses.join("; ")));
     }
     report.notes.iter().for_each(|note| words.say(format_args!("note        {note}")));
+    if let Some(line) = drawn(report) {
+        words.say(format_args!("drawn       手付け     {line}"));
+    }
     if let Some(seen_from) = &report.seen_from {
         words.say(format_args!("seen from   画面       {seen_from}"));
     }
@@ -154,6 +157,19 @@ fn summary(words: &Words, cut: &str, report: &Report) {
         let count = report.inbetweens_that_did_not_fit;
         words.say(format_args!("note        {count} inbetweens did not fit between their keys"));
     }
+}
+
+/// How much of the motion counts as drawn, of each layer where they differ; none where all is captured.
+fn drawn(report: &Report) -> Option<String> {
+    let percent = |drawn: f64| format!("{:.0} %", 100.0 * drawn);
+    let first = report.drawn;
+    let much = if report.layers.iter().all(|layer| layer.drawn == first) {
+        (first > 0.0).then(|| percent(first))?
+    } else {
+        let of_layer = |layer: &LayerReport| format!("{} {}", layer.name, percent(layer.drawn));
+        report.layers.iter().map(of_layer).collect::<Vec<_>>().join(", ")
+    };
+    Some(format!("{much} keyed by hand, so that turns are smoothed less (turns.drawn)"))
 }
 
 /// What could not be left out or held as asked.
@@ -179,6 +195,13 @@ fn of_layer(layer: &LayerReport) -> String {
          ({first}{others})",
         layer.drawings_per_second
     )
+}
+
+/// A gait in a line.
+fn of_gait(gait: &GaitReport) -> String {
+    let GaitReport { steps, koma, phases } = gait;
+    let steps = counted(*steps, "step");
+    format!("gait        歩き       {steps} of {koma:.0} koma: {}", phases.join(", "))
 }
 
 /// The figures of a sheet of one layer.
@@ -210,6 +233,7 @@ fn of_body(words: &Words, report: &Report) {
             later.take(ACTIONS).collect::<Vec<_>>().join(" ")
         ));
     }
+    report.gaits.iter().for_each(|gait| words.say(of_gait(gait)));
     let omission = &report.omission;
     words.say(format_args!(
         "naka-nashi  中無し     {} of {} inbetweens left out, where it is fastest",

@@ -26,7 +26,7 @@ fn kick() -> (Vec<Pin>, [String; 4]) {
     let recipe = Recipe::default();
     let edits = Edits {
         pins: vec![Pin::parse("42:contact, the \"ball\"@0.7").unwrap(), Pin::parse("60").unwrap()],
-        moves: vec![Move::parse("73:75:land@0.1").unwrap()],
+        moves: vec![Move::parse("71:75:land@0.1").unwrap()],
         ..Edits::default()
     };
     let made = engine.run(&recipe, &edits).unwrap();

@@ -93,7 +93,7 @@ impl ActionFinder {
     }
 
     /// The actions of a clip: between a person's splits where there are any, else between those that are
-    /// found. `rest` is the speed below which the body rests, as [`Choose::rest`](crate::keys::Choose::rest).
+    /// found.
     ///
     /// ```
     /// use genga::keys::{ActionFinder, Chords, Reference};
@@ -102,17 +102,16 @@ impl ActionFinder {
     /// let reference = Reference::of(&clip, clip.clock(24.0));
     /// let own = vec![1.0; clip.skeleton().len()];
     /// let chords = Chords::of(&clip, &reference, &own, f64::INFINITY);
-    /// let actions = ActionFinder::default().find(&clip, &chords, 15.0, &[]);
+    /// let actions = ActionFinder::default().find(&clip, &chords, &[]);
     /// assert_eq!(actions.iter().count(), 1, "a kick is one action");
     /// # Ok::<(), genga::Error>(())
     /// ```
-    pub fn find(&self, clip: &Clip, chords: &Chords, rest: f64, asked: &[Frame]) -> Actions {
+    pub fn find(&self, clip: &Clip, chords: &Chords, asked: &[Frame]) -> Actions {
         if !asked.is_empty() {
             let asked = asked.iter().map(|frame| Split { frame: *frame, why: SplitReason::Asked });
             return Actions::split(clip, asked.collect());
         }
-        let splits =
-            if self.split { self.found(clip, &candidates(chords, rest)) } else { Vec::new() };
+        let splits = if self.split { self.found(clip, &candidates(chords)) } else { Vec::new() };
         Actions::split(clip, splits)
     }
 
@@ -131,13 +130,16 @@ impl ActionFinder {
     }
 }
 
+/// The speed below which a body rests between two actions, in % of its height a second: slower than what a drawing holds.
+const RESTS: f64 = 15.0;
+
 /// Every place where a take may be split, by time.
-fn candidates(chords: &Chords, rest: f64) -> Vec<Candidate> {
+fn candidates(chords: &Chords) -> Vec<Candidate> {
     let candidate = |instant, why, clear| {
         let split = Split { frame: chords.frame(instant), why };
         Candidate { split, clear }
     };
-    let rests = rests(chords, rest);
+    let rests = rests(chords, RESTS);
     let lulls = lulls(chords, &rests).into_iter().map(|lull| {
         let why = if lull.is_rest { SplitReason::Rest } else { SplitReason::Lull };
         candidate(lull.instant, why, lull.depth)

@@ -33,7 +33,7 @@ fn arms(angles: &[(f64, f64)]) -> Clip {
 fn found(clip: &Clip, finder: &ActionFinder, asked: &[Frame]) -> Actions {
     let reference = Reference::of(clip, clip.clock(24.0));
     let chords = Chords::of(clip, &reference, &vec![1.0; clip.skeleton().len()], 2.0);
-    finder.find(clip, &chords, 15.0, asked)
+    finder.find(clip, &chords, asked)
 }
 
 /// The splits that the defaults find.

@@ -26,7 +26,11 @@ pub(super) struct Pattern {
 
 impl Pattern {
     /// The speed of each track at each frame, its steps smoothed; they are written over what was in `room`.
-    pub(super) fn of(Tracks { steps, weights }: &Tracks, filter: &LowPass, room: Vec<f64>) -> Self {
+    pub(super) fn of(
+        Tracks { steps, weights, .. }: &Tracks,
+        filter: &LowPass,
+        room: Vec<f64>,
+    ) -> Self {
         let count = steps.frames();
         let mut speeds = room;
         speeds.clear();

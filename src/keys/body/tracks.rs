@@ -7,6 +7,7 @@ use std::slice::ChunksExactMut;
 use glam::{DQuat, DVec3};
 use nalgebra::DMatrix;
 
+use super::crispness::crispness;
 use crate::keys::acting::{Acting, Part};
 use crate::keys::voters::shares;
 use crate::motion::body::mannequin::Mannequin;
@@ -54,6 +55,8 @@ pub(crate) struct Tracks {
     /// One a track, above 0: together 1, and besides them those of parts that act while all else is quiet. Each of these
     /// speaks as loudly as a whole body.
     pub(super) weights: Vec<f64>,
+    /// How many of them are of the body, in front of those of parts that act.
+    pub(super) of_body: usize,
 }
 
 /// A joint that turns.
@@ -103,6 +106,7 @@ impl Tracks {
         let all: f64 = weights.iter().sum();
         let weights = weights.into_iter().map(|own| own / all);
         let weights: Vec<f64> = weights.chain(acting.iter().map(|track| track.weight)).collect();
+        let of_body = weights.len() - acting.len();
         let (steps, columns) = (clip.len() - 1, 3 * weights.len());
         let mut values = vec![0.0; steps * columns];
         if clip.len() > 1 {
@@ -117,7 +121,19 @@ impl Tracks {
         let values = DMatrix::from_vec(steps, columns, values);
         let signals =
             Signals { values, unit: Quantity::Ratio, rate: clip.rate(), first: clip.first() };
-        Self { steps: Spectrum::from(signals), weights }
+        Self { steps: Spectrum::from(signals), weights, of_body }
+    }
+
+    /// Measures those of a whole body, none of its parts acting.
+    pub(crate) fn of_all(clip: &Clip, build: &Build, screen: &Screen, height: f64) -> Self {
+        let all = vec![1.0; clip.skeleton().len()];
+        let (heard, judged, acting) = (&all[..], &all[..], &Acting::default());
+        Self::of(&LayerMotion { clip, build, heard, judged, screen, height, acting })
+    }
+
+    /// How suddenly the body changes its velocities, 0 for a capture to 1 for nothing but kinks.
+    pub(crate) fn crispness(&self) -> f64 {
+        crispness(self)
     }
 }
 

@@ -23,6 +23,7 @@ fn several(count: usize, staying: &[usize], a_koma: usize) -> Vec<Entry> {
         koma: frame / a_koma,
         stays: frame == 0 || frame + 1 == count || staying.contains(&frame),
         cost: if frame.is_multiple_of(3) { 0.1 } else { 1.0 },
+        holds: frame / a_koma,
     };
     (0..count).map(entry).collect()
 }
@@ -55,8 +56,10 @@ proptest! {
         apart in prop::sample::select(&[1.0, 1.5, 3.0][..]),
         price in 0.01..400.0,
         a_koma in 1usize..4,
+        holds in prop::collection::vec(0usize..3, 12),
     ) {
-        let (chords, entries) = (chords(count), several(count, &staying, a_koma));
+        let (chords, mut entries) = (chords(count), several(count, &staying, a_koma));
+        entries.iter_mut().zip(holds).for_each(|(entry, more)| entry.holds += more);
         let cheapest = Cheapest::among(&entries, &chords, apart);
         let set = cheapest.set(price, usize::MAX);
         let found = cost(&cheapest, &set.kept, price);
@@ -115,6 +118,7 @@ fn a_chord_out_of_reach_is_taken_where_nothing_nearer_may_be_a_key() {
     let clip = swing(&(0..3000).map(|at: i32| f64::from((at - 2900).max(0))).collect::<Vec<_>>());
     let chords = tests::chords(&clip, f64::INFINITY);
     let far = [0, 10, 2900, 2999].map(|frame| Entry {
+        holds: frame,
         frame: Frame(frame),
         koma: frame,
         stays: frame == 0 || frame == 2999,

@@ -14,6 +14,8 @@ use crate::motion::{Clip, Members, Skeleton};
 #[derive(Debug, Clone)]
 pub(crate) struct LayerClip {
     pub(crate) clip: Arc<Clip>,
+    /// Which joints are of the layer.
+    pub(crate) moves: Vec<bool>,
     /// How much each joint's turns count; 0 outside the layer.
     pub(crate) heard: Vec<f64>,
     /// How much each joint counts where poses are compared; 0 for what the layer does not carry.
@@ -37,7 +39,8 @@ impl LayerClip {
         let is_of_body = layer.joints.iter().any(|joint| members.has(joint.0));
         let own = if is_of_body { only(&own, |joint| members.has(joint)) } else { own };
         if layer.is_whole(skeleton) {
-            return Ok(Self { clip: Arc::clone(clip), judged: own.clone(), heard: own });
+            let moves = vec![true; skeleton.len()];
+            return Ok(Self { clip: Arc::clone(clip), moves, judged: own.clone(), heard: own });
         }
         let mut moves = vec![false; skeleton.len()];
         layer.joints.iter().for_each(|joint| moves[joint.0] = true);
@@ -51,7 +54,8 @@ impl LayerClip {
         }
         let carried = carried(skeleton, &moves);
         let judged = only(&own, |joint| carried[joint]);
-        Ok(Self { judged, heard, clip: Arc::new(clip.with_others_still(&moves)) })
+        let clip = Arc::new(clip.with_others_still(&moves));
+        Ok(Self { clip, moves, judged, heard })
     }
 }
 

@@ -25,6 +25,7 @@ fn finder(reading: Reading, steady: f64, persistence: f64) -> TurnFinder {
         steady: Steady::Acceleration(steady),
         persistence: Span::Frames(persistence),
         side: Side::After,
+        ..TurnFinder::default()
     }
 }
 
@@ -510,7 +511,8 @@ fn reads_as_the_words_say(path: &Path) {
         (Reading::Literal, Side::Rising, 5),
     ] {
         let span = Span::Frames(persistence as f64);
-        let finder = TurnFinder { reading, steady, persistence: span, side };
+        let finder =
+            TurnFinder { reading, steady, persistence: span, side, ..TurnFinder::default() };
         // The words of the oracle know no units: its band is in radians.
         let band = Steady::Acceleration(100f64.to_radians());
         let in_radians = TurnFinder { steady: band, ..finder.clone() };
@@ -585,7 +587,7 @@ proptest! {
         for reading in [Reading::Event, Reading::Literal] {
             for m in [1, 2, 3, 5, 8, 30, 500] {
                 let finder =
-                    TurnFinder { reading, steady, persistence: Span::Frames(m as f64), side };
+                    TurnFinder { reading, steady, persistence: Span::Frames(m as f64), side, ..TurnFinder::default() };
                 let found = finder.find(&signals(fps, Quantity::Length, std::slice::from_ref(&speeds)), delay);
                 let found: Vec<_> =
                     found[0].iter().map(|turn| (turn.frame.0 - FIRST, turn.kind)).collect();
@@ -609,7 +611,7 @@ proptest! {
         for reading in [Reading::Event, Reading::Literal] {
             let find = |m: usize| {
                 let persistence = Span::Frames(m as f64);
-                TurnFinder { reading, steady, persistence, side }.find(&speeds, delay)
+                TurnFinder { reading, steady, persistence, side, ..TurnFinder::default() }.find(&speeds, delay)
             };
             for m in 1..12 {
                 let (less, more) = (find(m), find(m + 1));

@@ -35,6 +35,7 @@ const JAPANESE: &[(&str, &str, &str)] = &[
     ("turns.side", "after", "後だけ"),
     ("turns.side", "both", "前後"),
     ("turns.side", "rising", "増え続ける後"),
+    ("turns.drawn", "auto", "自動"),
     ("keys.merge", "body", "全身"),
     ("keys.merge", "union", "どれかの部位"),
     ("keys.merge", "vote", "部位の投票"),
@@ -43,6 +44,8 @@ const JAPANESE: &[(&str, &str, &str)] = &[
     ("keys.rank", "strength", "強さ"),
     ("keys.at_rests", "keys", "原画にする"),
     ("keys.at_rests", "off", "特別扱いしない"),
+    ("keys.gaits", "steps", "一歩ごとに揃える"),
+    ("keys.gaits", "off", "揃えない"),
     ("keys.contacts", "off", "特別扱いしない"),
     ("keys.contacts", "candidates", "候補にする"),
     ("keys.contacts", "keys", "原画にする"),
@@ -96,6 +99,7 @@ mod tests {
             }
         }
         let said = |name, value| japanese(Knob::find(name).unwrap(), value);
+        assert_eq!(said("turns.drawn", "auto").as_deref(), Some("自動"));
         assert_eq!(said("spacing.on", "1-3").as_deref(), Some("1〜3コマ打ち"));
         assert_eq!(said("seen_from", "0 100 200"), None, "a place is one in any language");
     }

@@ -21,10 +21,11 @@ const fn preset(
 pub(in crate::studio) const PRESETS: &[Preset] = &[
     preset("On twos", "2コマ打ち", &[("spacing.on", "2")]),
     preset("On threes", "3コマ打ち", &[("spacing.on", "3")]),
-    preset("Ones to threes", "打ち分け", &[("spacing.on", "1-3")]),
+    preset("Ones to threes", "1〜3コマ打ち", &[("spacing.on", "1-3")]),
+    preset("Twos and threes", "2〜3コマ打ち", &[("spacing.on", "2-3")]),
     preset("Snappy", "メリハリ", &[("spacing.weight", "0.5"), ("omission.naka_nashi", "4%")]),
     preset("Soft", "なめらか", &[("spacing.weight", "0.1"), ("omission.naka_nashi", "0")]),
-    preset("Few genga", "原画少なめ", &[("keys.min_price", "6")]),
+    preset("Few genga", "原画少なめ", &[("keys.min_price", "12")]),
 ];
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::sync::Arc;
 
+use super::steps::Steps;
 use crate::keys::{Key, Origin};
 use crate::motion::JointId;
 use crate::sheet::{Drawing, Role, Source, Why};
@@ -20,17 +21,18 @@ pub(super) struct Station<'a> {
 
 /// Keys and ends by koma, of those that stand too near to each other the stronger.
 ///
-/// `least` is for how many koma a drawing has to stay between two koma. What a person set stays, however near.
+/// `least` is for how many koma the drawing of a koma has to stay. What a person set stays, however near. The phases of
+/// `steps` stand on koma of their own.
 pub(super) fn stations<'a>(
     keys: &'a [Key],
-    clock: Clock,
-    length: usize,
-    least: impl Fn(usize, usize) -> usize,
+    steps: &Steps,
+    (clock, length): (Clock, usize),
+    least: impl Fn(usize) -> usize,
 ) -> Vec<Station<'a>> {
     let Some(last) = length.checked_sub(1) else { return Vec::new() };
-    let mut own = on_koma(keys, clock, last, &least);
+    let mut own = on_koma(keys, steps, (clock, last), &least);
     let set: Vec<usize> = own.iter().filter(|key| key.is_set()).map(|key| key.koma).collect();
-    let stay = if last == 0 { 1 } else { least(last - 1, last) };
+    let stay = if last == 0 { 1 } else { least(last - 1) };
     let mut taken = ends(clock, last, stay, &set);
     // The strongest first; of equals the earlier, since the order of those is kept.
     own.sort_by(|a, b| b.strength().total_cmp(&a.strength()));
@@ -40,7 +42,9 @@ pub(super) fn stations<'a>(
         let (before, next) = (after - 1, after);
         let is_near = |other: &Station<'_>| {
             let [a, b] = [station.koma.min(other.koma), station.koma.max(other.koma)];
-            a == b || b - a < least(a, b)
+            let are_steps = station.is_step() && other.is_step();
+            let least = || steps.least(a).unwrap_or_else(|| least(a));
+            a == b || !are_steps && b - a < least()
         };
         let is_last_end = |at: usize| at > 0 && taken[at].role == Role::End;
         let near_before = is_near(&taken[before]);
@@ -64,26 +68,34 @@ pub(super) fn stations<'a>(
 /// what a person set already, what else they set comes on the next.
 fn on_koma<'a>(
     keys: &'a [Key],
-    clock: Clock,
-    last: usize,
-    least: &impl Fn(usize, usize) -> usize,
+    steps: &Steps,
+    (clock, last): (Clock, usize),
+    least: &impl Fn(usize) -> usize,
 ) -> Vec<Station<'a>> {
     let mut stations: Vec<Station<'a>> = Vec::with_capacity(keys.len());
     let mut set = None;
     for key in keys {
         let place = key.frame.0 as f64;
         let nearest = clock.koma_from_place(place).min(last);
-        let is_early = nearest > 0 && place < clock.place_from_koma(nearest) - HAIR;
-        let earlier = nearest.saturating_sub(usize::from(is_early));
-        let begins_earlier = is_early && least(earlier, nearest) > 1;
+        let earlier = koma_before(clock, place).min(last);
+        let begins_earlier = earlier < nearest && least(earlier) > 1;
         let is_free = !key.origin.is_set() || set != Some(earlier);
+        let own = steps.koma(key.frame).filter(|_| key.origin == Origin::Step);
         let koma = if begins_earlier && is_free { earlier } else { nearest };
+        let koma = own.unwrap_or(koma).min(last);
         if key.origin.is_set() {
             set = Some(koma);
         }
         stations.push(Station { koma, place, role: Role::Genga, key: Some(key) });
     }
     stations
+}
+
+/// The last koma that is not behind a place.
+pub(super) fn koma_before(clock: Clock, place: f64) -> usize {
+    let nearest = clock.koma_from_place(place);
+    let is_behind = nearest > 0 && place < clock.place_from_koma(nearest) - HAIR;
+    nearest - usize::from(is_behind)
 }
 
 /// Places nearer than this, in frames, are one.
@@ -113,10 +125,35 @@ impl Station<'_> {
         self.key.is_some_and(|key| key.origin.is_set())
     }
 
+    /// Whether it is drawn whatever the body does: a person wants it, something touches, or all steps of a gait have it.
+    pub(super) fn is_fixed(&self) -> bool {
+        self.is_set() || matches!(self.origin(), Some(Origin::Contact | Origin::Step))
+    }
+
+    /// Whether it is a phase of a step in a gait.
+    fn is_step(&self) -> bool {
+        self.origin() == Some(Origin::Step)
+    }
+
+    /// Whether it is an end of the sheet that no person wants.
+    pub(super) fn is_free_end(&self) -> bool {
+        self.role == Role::End && !self.is_set()
+    }
+
+    /// Whether a rest begins or ends there, within the sheet.
+    pub(super) fn is_rest(&self) -> bool {
+        self.role == Role::Genga && self.origin() == Some(Origin::Rest)
+    }
+
+    fn origin(&self) -> Option<Origin> {
+        self.key.map(|key| key.origin)
+    }
+
     /// What goes before what, whatever it saves.
     fn rank(&self) -> usize {
-        match self.key.map(|key| key.origin) {
-            Some(Origin::Pinned | Origin::Moved { .. }) => 3,
+        match self.origin() {
+            Some(Origin::Pinned | Origin::Moved { .. }) => 4,
+            Some(Origin::Step) => 3,
             Some(Origin::Rest) => 2,
             Some(Origin::Contact) => 1,
             Some(Origin::Turn | Origin::Fill) | None => 0,

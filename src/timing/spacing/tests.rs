@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::keys::{Key, Origin, Wall};
+use crate::keys::{Alike, Key, Origin, Wall};
 use crate::sheet::{Role, Source};
 use crate::time::FrameRate;
 
@@ -23,15 +23,30 @@ fn key(frame: usize, price: f64) -> Key {
 
 fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
     LayerKeys {
+        gaits: Vec::new(),
         keys: keys.iter().map(|frame| key(*frame, 10.0)).collect(),
         walls: walls.iter().map(|frame| Wall { frame: Frame(*frame), strength: 1.0 }).collect(),
         rests: Vec::new(),
+        holds_end: true,
         over_limit: 0,
     }
 }
 
+/// Everything on twos.
+fn twos() -> Spacing {
+    Spacing { on: On::every(2), ..Spacing::default() }
+}
+
+/// A body that goes on all the time but in rests, at 24 frames a second.
+fn moving(rests: &[RangeInclusive<Frame>]) -> Pace<'static> {
+    let is_still =
+        |koma: usize| rests.iter().any(|rest| rest.start().0 < koma && koma <= rest.end().0);
+    Pace::of_steps((1..1000).map(move |koma| if is_still(koma) { 0.0 } else { 10.0 }))
+}
+
 fn place(spacing: &Spacing, layer: &LayerKeys, fps: f64, koma: usize) -> Layer {
-    spacing.place(layer, &Skeleton::default(), clock(fps), koma, &Pace::default()).layer
+    let pace = moving(&layer.rests);
+    spacing.place(layer, &Skeleton::default(), clock(fps), koma, &pace).layer
 }
 
 fn places(layer: &Layer) -> Vec<f64> {
@@ -141,7 +156,7 @@ fn what_does_not_fit_is_reported() {
     let spaced = |on| {
         let spacing = Spacing { on: On::every(on), inbetweens: Some(4), ..Spacing::default() };
         let keys = layer(&[3], &[]);
-        spacing.place(&keys, &Skeleton::default(), clock(24.0), 9, &Pace::default())
+        spacing.place(&keys, &Skeleton::default(), clock(24.0), 9, &moving(&[]))
     };
     assert_eq!(spaced(1).did_not_fit, 2);
     assert_eq!(begins(&spaced(1).layer), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
@@ -167,7 +182,7 @@ fn a_key_on_an_end_gives_way_and_the_dearer_of_two_on_one_koma_stays() {
     let mut keys = layer(&[1, 50, 52, 119], &[]);
     keys.keys[0].voters = vec![];
     keys.keys[2].price = 20.0;
-    let layer = place(&Spacing::default(), &keys, 120.0, 25);
+    let layer = place(&twos(), &keys, 120.0, 25);
     let kept: Vec<_> = layer.drawings.iter().filter(|drawing| drawing.role.is_kept()).collect();
     let roles: Vec<_> = kept.iter().map(|drawing| drawing.role).collect();
     assert_eq!(roles, [Role::End, Role::Genga, Role::End]);
@@ -182,27 +197,32 @@ fn a_pin_on_an_end_is_what_the_end_shows() {
     for key in &mut keys.keys {
         (key.origin, key.price) = (Origin::Pinned, f64::INFINITY);
     }
-    let layer = place(&Spacing::default(), &keys, 120.0, 25);
+    let layer = place(&twos(), &keys, 120.0, 25);
     let (first, last) = (&layer.drawings[0], &layer.drawings[layer.drawings.len() - 1]);
     assert_eq!((first.role, first.source), (Role::End, Source::At(2.0)));
     assert_eq!((last.role, last.source), (Role::End, Source::At(118.0)));
 }
 
 #[test]
-fn a_fast_interval_is_on_ones_and_a_slow_one_on_threes() {
-    let spacing = Spacing { on: On { least: 1, most: 3 }, ..Spacing::default() };
-    let steps = [[12.0; 8], [1.0; 8], [5.0; 8]].concat();
+fn each_drawing_stays_by_its_own_pace() {
+    let steps = [[12.0; 8], [2.0; 8], [4.0; 8]].concat();
     let pace = Pace::of_steps(steps.into_iter());
     let layer = layer(&[8, 16], &[]);
+    let on = On { least: 1, most: 3 };
+    let spacing = Spacing { on, drift: 0.0, ..Spacing::default() };
     let layer = spacing.place(&layer, &Skeleton::default(), clock(24.0), 25, &pace).layer;
     let ones = [0, 1, 2, 3, 4, 5, 6, 7];
     assert_eq!(begins(&layer)[..8], ones);
-    assert_eq!(begins(&layer)[8..], [8, 11, 14, 16, 17, 18, 19, 20, 21, 22, 23, 24]);
+    assert_eq!(
+        begins(&layer)[8..],
+        [8, 11, 14, 16, 18, 20, 23],
+        "threes, twos, and the end on twos"
+    );
 }
 
 #[test]
 fn what_is_no_inbetween_of_a_key_cannot_be_pulled() {
-    let (spacing, layer) = (Spacing::default(), layer(&[10], &[]));
+    let (spacing, layer) = (twos(), layer(&[10], &[]));
     let spaced = place(&spacing, &layer, 24.0, 22);
     assert_eq!(begins(&spaced), [0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20]);
     let pulled = |koma, place| spacing.pulled(&layer, &spaced, clock(24.0), koma, place);
@@ -247,20 +267,18 @@ fn resting(keys: &[usize], rests: &[(usize, usize)]) -> LayerKeys {
 
 #[test]
 fn one_drawing_holds_through_a_rest() {
-    let held = |layer: &LayerKeys| begins(&place(&Spacing::default(), layer, 24.0, 40));
-    assert_eq!(held(&resting(&[], &[(8, 32)])), [0, 2, 4, 6, 8, 32, 34, 36, 38]);
-    assert_eq!(
-        held(&resting(&[20], &[(8, 32)])),
-        [0, 2, 4, 6, 8, 20, 32, 34, 36, 38],
-        "a key is a drawing"
-    );
-    let room = |spacing: &Spacing, frame| {
-        spacing.room(&[Frame(8)..=Frame(32)], clock(24.0), 40, &Pace::default())(Frame(frame))
-    };
-    let found = Spacing::default();
-    assert_eq!([8, 9, 31, 32].map(|frame| room(&found, frame)), [true, false, false, true]);
-    assert_eq!([36, 37].map(|frame| room(&found, frame)), [true, false], "the end begins with 38");
-    let everywhere = Spacing { drift: 0.0, ..Spacing::default() };
+    let held = |layer: &LayerKeys| begins(&place(&twos(), layer, 24.0, 40));
+    // The end of the rest is a time alone: a koma after it the body is elsewhere.
+    assert_eq!(held(&resting(&[], &[(8, 32)])), [0, 2, 4, 6, 8, 33, 35, 38]);
+    let with_key = held(&resting(&[20], &[(8, 32)]));
+    assert_eq!(with_key, [0, 2, 4, 6, 8, 20, 33, 35, 38], "what was chosen is drawn");
+    let rests = [Frame(8)..=Frame(32)];
+    let pace = moving(&rests);
+    let room =
+        |spacing: &Spacing, frame| spacing.room(&rests, clock(24.0), 40, &pace)(Frame(frame));
+    assert_eq!([8, 9, 31, 32].map(|frame| room(&twos(), frame)), [true, false, false, true]);
+    assert_eq!([36, 37].map(|frame| room(&twos(), frame)), [true, false], "the end begins with 38");
+    let everywhere = Spacing { drift: 0.0, ..twos() };
     assert!(room(&everywhere, 20));
     let all = begins(&place(&everywhere, &resting(&[], &[(8, 32)]), 24.0, 40));
     assert_eq!(all, (0..20).map(|at| 2 * at).collect::<Vec<_>>(), "0 holds nothing");
@@ -269,21 +287,103 @@ fn one_drawing_holds_through_a_rest() {
 #[test]
 fn a_rest_at_an_end_of_the_sheet_is_held_by_one_drawing() {
     let mut keys = layer(&[20], &[]);
+    keys.keys[0].origin = Origin::Rest;
     keys.rests = vec![Frame(0)..=Frame(20)];
-    let begin = place(&Spacing::default(), &keys, 24.0, 28);
-    assert_eq!(begins(&begin), [0, 20, 22, 24, 26]);
+    let begin = place(&twos(), &keys, 24.0, 28);
+    assert_eq!(begins(&begin), [0, 21, 23, 26]);
     keys.rests = vec![Frame(20)..=Frame(27)];
-    let end = place(&Spacing::default(), &keys, 24.0, 28);
-    let expected: Vec<usize> = (0..11).map(|at| 2 * at).chain([26]).collect();
-    assert_eq!(begins(&end), expected, "the clip's end is the end of the rest");
-    assert_eq!([10, 11].map(|at| end.drawings[at].role), [Role::Genga, Role::End]);
+    let end = place(&twos(), &keys, 24.0, 28);
+    let expected: Vec<usize> = (0..11).map(|at| 2 * at).collect();
+    assert_eq!(begins(&end), expected, "the genga holds up to the end");
+    assert_eq!(end.drawings[10].role, Role::Genga);
     keys = layer(&[], &[]);
     keys.rests = vec![Frame(0)..=Frame(27)];
-    let still = place(&Spacing::default(), &keys, 24.0, 28);
+    let still = place(&twos(), &keys, 24.0, 28);
     assert_eq!((begins(&still), still.length()), (vec![0], 28), "it never moves");
     assert_eq!(still.drawings[0].role, Role::End);
     keys.keys = vec![Key { origin: Origin::Pinned, ..key(27, f64::INFINITY) }];
-    assert_eq!(begins(&place(&Spacing::default(), &keys, 24.0, 28)), [0, 26], "a person wants it");
+    assert_eq!(begins(&place(&twos(), &keys, 24.0, 28)), [0, 26], "a person wants it");
+}
+
+// Holds.
+
+/// The row of a body that goes so far into each koma from the second on.
+fn laid_out(keys: &LayerKeys, steps: &[f64], spacing: &Spacing) -> Layer {
+    let pace = Pace::of_steps(steps.iter().copied());
+    spacing.place(keys, &Skeleton::default(), clock(24.0), steps.len() + 1, &pace).layer
+}
+
+/// The frames and the begins of the genga.
+fn genga(layer: &Layer) -> Vec<(usize, usize)> {
+    let shown = layer.timed().map(|(begin, shown)| (&layer.drawings[shown.drawing], begin));
+    let genga = shown.filter(|(drawing, _)| drawing.role == Role::Genga);
+    genga.map(|(drawing, begin)| (drawing.source.place() as usize, begin)).collect()
+}
+
+#[test]
+fn a_genga_holds_while_the_body_hardly_gets_away_and_stands_from_when_it_is_there() {
+    // Fast, slow into frame 12 and out of it, fast.
+    let steps = [vec![5.0; 8], vec![0.5; 3], vec![0.1; 2], vec![0.5; 3], vec![5.0; 8]].concat();
+    let layer = laid_out(&layer(&[12], &[]), &steps, &twos());
+    assert_eq!(
+        genga(&layer),
+        [(12, 10)],
+        "it is 1.1 % away on 9, and the drawing of 8 stays two koma"
+    );
+    assert_eq!(begins(&layer), [0, 2, 4, 6, 8, 10, 16, 18, 20, 23], "16 is 1.6 % away");
+    assert_eq!(places(&layer)[5], 12.0);
+    let pinned = LayerKeys {
+        keys: vec![Key { origin: Origin::Pinned, ..key(12, f64::INFINITY) }],
+        ..super::tests::layer(&[], &[])
+    };
+    let layer = laid_out(&pinned, &steps, &twos());
+    assert_eq!(genga(&layer), [(12, 12)], "a person wants it there");
+    let free = Spacing { drift: 0.0, ..twos() };
+    let layer = laid_out(&super::tests::layer(&[12], &[]), &steps, &free);
+    assert_eq!(begins(&layer), (0..11).map(|at| 2 * at).chain([23]).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_sheet_ends_with_what_is_held_unless_keys_are_asked_for() {
+    let steps = [vec![5.0; 8], vec![0.1; 16]].concat();
+    let mut keys = layer(&[9], &[]);
+    let begins_of = |keys: &LayerKeys| begins(&laid_out(keys, &steps, &twos()));
+    assert_eq!(begins_of(&keys), [0, 2, 4, 6, 8]);
+    keys.holds_end = false;
+    assert_eq!(begins_of(&keys).last(), Some(&23));
+}
+
+#[test]
+fn koma_are_alike_up_to_where_the_body_is_elsewhere_on_the_way() {
+    let alike = |steps: &[f64], drift| alike(&Pace::of_steps(steps.iter().copied()), drift);
+    let steps = [20.0, 1.0, 1.0, 1.0, 20.0];
+    assert_eq!(alike(&steps, 3.3), Alike::from_last(vec![0, 4, 4, 4, 4, 5]));
+    assert_eq!(alike(&steps, 2.5), Alike::from_last(vec![0, 3, 4, 4, 4, 5]));
+    assert_eq!(alike(&steps, 0.0), Alike::from_last((0..6).collect()));
+}
+
+#[test]
+fn a_slow_drift_in_a_rest_is_a_moving_hold() {
+    let steps = [vec![5.0; 8], vec![0.4; 20], vec![5.0; 8]].concat();
+    let keys = resting(&[], &[(8, 28)]);
+    let layer = laid_out(&keys, &steps, &twos());
+    assert_eq!(begins(&layer)[..7], [0, 2, 4, 6, 8, 18, 28], "4 % away each");
+    let layer = laid_out(&resting(&[20], &[(8, 28)]), &steps, &twos());
+    assert_eq!(
+        begins(&layer)[..7],
+        [0, 2, 4, 6, 8, 18, 28],
+        "a genga takes the place of what is like it"
+    );
+    assert_eq!(genga(&layer)[1], (20, 18));
+}
+
+#[test]
+fn where_hardly_anything_moves_less_is_another_pose() {
+    // 4 % in all: an eighth of it is less than a tremble, 0.8.
+    let alike = |steps: &[f64]| alike(&Pace::of_steps(steps.iter().copied()), 3.3);
+    assert_eq!(alike(&[0.5; 8]), Alike::from_last(vec![1, 2, 3, 4, 5, 6, 7, 8, 8]));
+    let far = alike(&[vec![10.0; 20], vec![0.5; 8]].concat());
+    assert_ne!(far, alike(&[vec![1.0; 20], vec![0.5; 8]].concat()));
 }
 
 // Nearness.

@@ -55,7 +55,7 @@ fn the_plan_has_the_drawings_of_each_film() {
     let plan = Trial::default().files(&[take(&clip, &sheet)]).unwrap().plan;
     let kick = &plan.clips[0];
     let drawings = Condition::ALL.map(|condition| kick.drawings[&condition.to_string()]);
-    assert_eq!((kick.koma, drawings), (92, [92, 47, 32, 27, 27]));
+    assert_eq!((kick.koma, drawings), (92, [92, 47, 32, 26, 26]));
     assert_eq!(plan.shown(), 2 * (20 + 3));
 }
 
@@ -80,7 +80,7 @@ fn what_cannot_be_laid_side_by_side_is_refused() {
     let mut short = sheet.clone();
     short.layers[0].exposures.pop();
     let error = said(&all, with(own("hand", &short)));
-    assert!(error.contains("hand has 90 koma and the motion 92"), "{error}");
+    assert!(error.contains("hand has 83 koma and the motion 92"), "{error}");
     let mut late = sheet.clone();
     late.clock.koma_rate = 12.0;
     assert!(said(&all, with(own("hand", &late))).contains("has another rate"));

@@ -104,6 +104,8 @@ struct Made<'a> {
     keys: &'a [Known],
     /// Joint by joint, how many koma later each key is reached than it is by the body as a whole.
     late: Vec<Vec<f64>>,
+    /// Whether its inbetweens are straight and nothing is smoothed.
+    is_straight: bool,
 }
 
 impl Made<'_> {
@@ -123,6 +125,9 @@ impl Made<'_> {
         let [out, into] = [before, before + 1].map(|key| f64::from(keys[key].is_passed));
         // Hermite's curve: it starts and ends at rest, or at the pace of the whole way.
         let (square, cube) = (share * share, share * share * share);
+        if self.is_straight {
+            return Source::Between { from: place(before), to: place(before + 1), share };
+        }
         let share = out * (cube - 2.0 * square + share)
             + into * (cube - square)
             + (3.0 * square - 2.0 * cube);
@@ -150,7 +155,7 @@ impl Made<'_> {
             }
         }
         let rate = FrameRate::new(24.0 * FRAMES as f64).expect("a rate");
-        let values = smooth(&values, channels);
+        let values = if self.is_straight { values } else { smooth(&values, channels) };
         Clip::new(skeleton.clone(), rate, Frame(0), frames, values)
             .expect("a rate and a whole table")
     }
@@ -174,12 +179,25 @@ pub(crate) fn made(from: &Clip, seed: u64, noise: f64) -> (Clip, Vec<Frame>) {
     let late = (0..from.skeleton().len())
         .map(|_| keys.iter().map(|_| lot.between(-LATE, LATE)).collect())
         .collect();
-    let clip = Made { from, keys: &keys, late }.clip();
+    let clip = Made { from, keys: &keys, late, is_straight: false }.clip();
+    (Noise { degrees: noise, seed }.on(&clip), frames(&keys))
+}
+
+/// The same keys as a program inbetweens them: straight, and all joints on the same frame.
+#[allow(dead_code, reason = "no figure of the pages is made of such clips")]
+pub(crate) fn keyed(from: &Clip, seed: u64) -> (Clip, Vec<Frame>) {
+    let keys = known(from, &mut Lot(seed));
+    let late = vec![vec![0.0; KEYS]; from.skeleton().len()];
+    (Made { from, keys: &keys, late, is_straight: true }.clip(), frames(&keys))
+}
+
+/// The frames of all keys but the first and the last.
+fn frames(keys: &[Known]) -> Vec<Frame> {
     let frame = |koma: f64| Frame((koma * FRAMES as f64).round() as usize);
     let inner = keys[1..KEYS - 1].iter().flat_map(|key| [frame(key.at), frame(key.at + key.hold)]);
     let mut frames: Vec<Frame> = inner.collect();
     frames.dedup();
-    (Noise { degrees: noise, seed }.on(&clip), frames)
+    frames
 }
 
 /// The noise of a clip in degrees, from the third differences of its rotations, which motion hardly has: half

@@ -14,7 +14,7 @@ fn a_share_gives_six_an_action_and_not_six_a_take() {
     let (layer, stills) = long(600);
     let asked = |naka_nashi, later: &[usize]| {
         let settings = Omission { naka_nashi, ..Omission::default() };
-        settings.apply_by_action(&layer, &stills, 1, later).unwrap().report.naka_nashi.asked
+        settings.apply_to(&layer, &stills, &course(1, later)).unwrap().report.naka_nashi.asked
     };
     let share = Amount::Share(0.04);
     assert_eq!(asked(share, &[]), 6);
@@ -26,17 +26,21 @@ fn a_share_gives_six_an_action_and_not_six_a_take() {
 #[test]
 fn actions_begin_in_order_and_one_without_a_koma_is_none() {
     let (layer, stills) = long(60);
-    let apply = |later: &[usize]| counts(3, 0).apply_by_action(&layer, &stills, 1, later);
+    let apply = |later: &[usize]| counts(3, 0).apply_to(&layer, &stills, &course(1, later));
     let parted = apply(&[25]).unwrap();
     assert_ne!(parted, apply(&[]).unwrap());
     assert_eq!(apply(&[0, 25, 25, 60, 99]).unwrap(), parted);
     assert!(apply(&[25, 24]).unwrap_err().to_string().contains("sort their koma"));
 }
 
-/// Drawings of an action: a genga, then inbetweens.
+fn course(on: usize, later: &[usize]) -> Course {
+    Course { on: On::every(on), later: later.to_vec(), ..Course::default() }
+}
+
+/// Drawings of an action: one that stays, then inbetweens.
 fn action() -> impl Strategy<Value = Vec<Plan>> {
     prop::collection::vec(place(), 2..20).prop_map(|places| {
-        let role = |at| if at == 0 { Role::Genga } else { Role::Inbetween };
+        let role = |at| if at == 0 { Role::End } else { Role::Inbetween };
         places.into_iter().enumerate().map(|(at, place)| (place, 2, role(at))).collect()
     })
 }
@@ -50,7 +54,7 @@ proptest! {
         naka_nashi in 0..9usize,
         settings in settings(),
     ) {
-        let settings = Omission { naka_nashi: Amount::Count(naka_nashi), koma_dori: Amount::Count(0), ..settings };
+        let settings = Omission { naka_nashi: Amount::Count(naka_nashi), koma_dori: Amount::Count(0), fast: 0.0, keep_length: false, ..settings };
         let end = ((7, 7), 2, Role::End);
         let whole: Vec<Plan> = actions.iter().flatten().copied().chain([end]).collect();
         let (layer, stills) = laid_out(&whole);
@@ -59,7 +63,7 @@ proptest! {
             Some(*koma)
         });
         let later: Vec<usize> = begins.take(actions.len() - 1).collect();
-        let together = settings.apply_by_action(&layer, &stills, 2, &later).unwrap();
+        let together = settings.apply_to(&layer, &stills, &course(2, &later)).unwrap();
         let (mut one_by_one, mut done) = (Vec::new(), 0);
         for (at, action) in actions.iter().enumerate() {
             let next = actions.get(at + 1).map_or(end, |next| next[0]);

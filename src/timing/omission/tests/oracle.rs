@@ -8,6 +8,8 @@ pub(super) struct Row {
     pub(super) drawing: usize,
     pub(super) koma: usize,
     pub(super) kept: bool,
+    /// Whether a movement begins and ends there: kept, and no fill.
+    pub(super) opens: bool,
 }
 
 /// What is left as (drawing, koma), who went in which order, and how many rounds were done.
@@ -28,6 +30,8 @@ pub(super) struct Rules<'a> {
     pub(super) keep_length: bool,
     pub(super) all_at_once: bool,
     pub(super) order: Order,
+    pub(super) fast: f64,
+    pub(super) small: f64,
 }
 
 impl<'a> Rules<'a> {
@@ -44,6 +48,8 @@ impl<'a> Rules<'a> {
             keep_length: settings.keep_length,
             all_at_once: settings.all_at_once,
             order: settings.order,
+            fast: settings.fast,
+            small: settings.small,
         }
     }
 
@@ -71,6 +77,8 @@ impl<'a> Rules<'a> {
             rows: rows.to_vec(),
             lengthened: vec![0; rows.len()],
             held: vec![0; rows.len()],
+            fast: 0.0,
+            slow: Vec::new(),
             outcome: Outcome::default(),
         };
         match self.order {
@@ -228,6 +236,10 @@ struct Keyed<'a> {
     rows: Vec<Row>,
     lengthened: Vec<usize>,
     held: Vec<usize>,
+    /// The SSD of what is markedly fast.
+    fast: f64,
+    /// Whether the body is slow at a drawing.
+    slow: Vec<bool>,
     outcome: Outcome,
 }
 
@@ -236,30 +248,36 @@ impl Keyed<'_> {
         self.rules.stills.ssd(self.rows[at - 1].drawing, self.rows[at].drawing)
     }
 
-    fn room(&self, at: usize) -> usize {
-        let Row { drawing, koma, .. } = self.rows[at];
-        usize::min(3 - self.lengthened[drawing], self.rules.bound.saturating_sub(koma))
-    }
-
-    /// From the kept drawing at or before `at` up to the next kept one.
-    fn interval(&self, at: usize) -> std::ops::Range<usize> {
-        let opener = (0..=at).rev().find(|&at| self.rows[at].kept).unwrap();
-        let closer = (at + 1..self.rows.len()).find(|&at| self.rows[at].kept);
-        opener..closer.unwrap_or(self.rows.len())
+    /// The drawing from which the movement at `at` starts.
+    fn opener(&self, at: usize) -> usize {
+        (0..=at).rev().find(|&at| self.rows[at].opens).unwrap()
     }
 
     fn fits(&self, at: usize, owed: usize) -> bool {
-        let others = self.interval(at).filter(|&other| other != at);
-        others.map(|other| self.room(other)).sum::<usize>() >= owed + self.rows[at].koma
+        let opener = self.rows[self.opener(at)].drawing;
+        self.slow[opener] && self.lengthened[opener] + owed + self.rows[at].koma <= 3
     }
 
     fn give(&mut self, within: usize, koma: usize) {
-        for _ in 0..koma {
-            let growing = self.interval(within).filter(|&at| self.room(at) > 0);
-            let at = first_min(growing.map(|at| (at, self.ssd(at + 1)))).unwrap();
-            self.rows[at].koma += 1;
-            self.lengthened[self.rows[at].drawing] += 1;
+        let opener = self.opener(within);
+        self.rows[opener].koma += koma;
+        self.lengthened[self.rows[opener].drawing] += koma;
+    }
+
+    /// The median of what moves, as it is before anything goes.
+    fn measure(&mut self) {
+        let steps = (1..self.rows.len()).map(|at| self.ssd(at).sqrt());
+        let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
+        steps.sort_by(f64::total_cmp);
+        let median = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+        self.fast = (self.rules.fast * median).powi(2);
+        let count = self.rows.len();
+        let step = |at: usize| if at == 0 || at == count { 0.0 } else { self.ssd(at) };
+        let mut slow = vec![false; self.lengthened.len()];
+        for at in 0..count {
+            slow[self.rows[at].drawing] = step(at).min(step(at + 1)).sqrt() <= median;
         }
+        self.slow = slow;
     }
 
     fn omit(&mut self, at: usize) -> usize {
@@ -270,6 +288,7 @@ impl Keyed<'_> {
     }
 
     fn naka_nashi(&mut self) {
+        self.measure();
         if self.rules.all_at_once {
             return self.all_at_once();
         }
@@ -277,7 +296,8 @@ impl Keyed<'_> {
             let free = (0..self.rows.len())
                 .filter(|&at| !self.rows[at].kept && (!self.rules.keep_length || self.fits(at, 0)));
             let fastest = first_max(free.map(|at| (at, self.ssd(at))));
-            let Some((at, _)) = fastest.filter(|(_, ssd)| *ssd > 0.0) else { return };
+            let is_fast = |(_, ssd): &(usize, f64)| *ssd > 0.0 && *ssd >= self.fast;
+            let Some((at, _)) = fastest.filter(is_fast) else { return };
             let koma = self.omit(at);
             if self.rules.keep_length {
                 self.give(at - 1, koma);
@@ -289,7 +309,7 @@ impl Keyed<'_> {
         let free = (0..self.rows.len()).filter(|&at| !self.rows[at].kept);
         let mut ranked: Vec<(usize, f64)> =
             free.map(|at| (self.rows[at].drawing, self.ssd(at))).collect();
-        ranked.retain(|(_, ssd)| *ssd > 0.0);
+        ranked.retain(|(_, ssd)| *ssd > 0.0 && *ssd >= self.fast);
         ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
         // Koma owed by the drawing that opens the interval.
         let mut owed = vec![0; self.lengthened.len()];
@@ -298,7 +318,7 @@ impl Keyed<'_> {
                 break;
             }
             let at = self.rows.iter().position(|row| row.drawing == drawing).unwrap();
-            let opener = self.rows[self.interval(at).start].drawing;
+            let opener = self.rows[self.opener(at)].drawing;
             if !self.rules.keep_length {
                 self.omit(at);
             } else if self.fits(at, owed[opener]) {
@@ -314,13 +334,17 @@ impl Keyed<'_> {
     fn koma_dori(&mut self) {
         for _ in 0..self.rules.koma_dori {
             let free = (1..self.rows.len()).filter(|&at| {
-                let Row { drawing, koma, kept } = self.rows[at];
+                let Row { drawing, koma, kept, .. } = self.rows[at];
                 !kept
                     && self.lengthened[drawing] == 0
                     && self.held[drawing] == 0
                     && self.rows[at - 1].koma + koma <= self.rules.bound
             });
             let Some(at) = first_min(free.map(|at| (at, self.ssd(at)))) else { return };
+            // Two joints of a body 100 high.
+            if self.ssd(at) > 2.0 * self.rules.small.powi(2) {
+                return;
+            }
             let row = self.rows.remove(at);
             self.outcome.replaced.push(row.drawing);
             self.rows[at - 1].koma += row.koma;

@@ -1,0 +1,278 @@
+//! Gaits that walk (歩き): every step of a gait has the same phases, a genga each.
+
+use crate::edits::Edits;
+use crate::keys::{Key, Origin};
+use crate::knob::choices;
+use crate::motion::{Gait, Step};
+use crate::time::Frame;
+
+/// Koma that each of four phases needs: less is no drawing on twos.
+const ROOM: f64 = 2.0;
+
+/// Koma from the bounds of a gait, or from a phase, within which what was found gives way to it: two genga would not fit.
+const NEAR: f64 = 2.0;
+
+/// The least distance of two phases in koma: nearer ones are one.
+const ONE: f64 = 1.0;
+
+/// How the genga of the steps of a gait are chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AtGaits {
+    /// The same phases at the same times.
+    #[default]
+    Steps,
+    /// By what they save, as everywhere.
+    Off,
+}
+
+choices!(AtGaits { Steps: "steps", Off: "off" });
+
+/// A phase of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// A foot comes down (接地).
+    Contact,
+    /// The body is lowest (沈み), or half-way to the passing where that is at the contact.
+    Down,
+    /// The other foot passes (すれ違い).
+    Passing,
+    /// The body is highest (伸び), or half-way to the next contact where that is at the passing.
+    Up,
+}
+
+/// A gait on the sheet: steps with the same phases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Walk {
+    /// The phases that each step has a genga of, in order. The contact is the first.
+    pub phases: Vec<Phase>,
+    /// The instant of each phase, 0 to 1 of the way from contact to contact. It is the median of all steps.
+    pub shares: Vec<f64>,
+    /// Koma of a step: the median of all.
+    pub koma: f64,
+    /// Its steps, but for those that a person corrects.
+    pub steps: Vec<WalkStep>,
+}
+
+/// A step on the sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WalkStep {
+    /// When its foot comes down, in koma from the sheet's first; below 0 where the clip begins in it.
+    pub contact: f64,
+    /// When the other foot comes down.
+    pub next: f64,
+    /// The frame that each phase shows, and last the next contact; none where the clip has none.
+    pub frames: Vec<Option<Frame>>,
+}
+
+impl Phase {
+    /// How many there are.
+    pub const MOST: usize = 4;
+
+    /// Its word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Contact => "contact",
+            Self::Down => "down",
+            Self::Passing => "passing",
+            Self::Up => "up",
+        }
+    }
+
+    /// The phases for which steps of so many koma have room.
+    fn with_room(koma: f64) -> &'static [Self] {
+        match koma {
+            koma if koma >= 4.0 * ROOM => &[Self::Contact, Self::Down, Self::Passing, Self::Up],
+            koma if koma >= 2.0 * ROOM => &[Self::Contact, Self::Passing],
+            _ => &[Self::Contact],
+        }
+    }
+}
+
+/// Keys that were chosen in a clip, and what a person wants of them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Choosable<'a> {
+    pub(super) keys: &'a [Key],
+    pub(super) edits: &'a Edits,
+    /// A koma in frames.
+    pub(super) koma: f64,
+    /// The clip's first and last frame, which are no keys.
+    pub(super) ends: (Frame, Frame),
+}
+
+/// Gaits as they are drawn, and the phases of steps that a person corrects.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Walks {
+    pub(super) regular: Vec<Walk>,
+    corrected: Vec<Frame>,
+}
+
+impl Walks {
+    /// The gaits of a layer on its sheet.
+    pub(super) fn of(gaits: &[Gait], chosen: Choosable<'_>) -> Self {
+        let mut walks = Self::default();
+        for gait in gaits {
+            let walk = chosen.walk(gait);
+            let (corrected, steps): (Vec<_>, Vec<_>) =
+                walk.steps.into_iter().partition(|step| chosen.corrects(step));
+            walks.corrected.extend(corrected.into_iter().flat_map(|step| step.frames).flatten());
+            if !steps.is_empty() {
+                walks.regular.push(Walk { steps, ..walk });
+            }
+        }
+        walks
+    }
+
+    /// Puts phases that a person moves among the keys, where no other key stands. They were on the sheet before.
+    pub(super) fn give(&self, keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
+        for moved in &edits.moves {
+            let near = |frame: &Frame| (frame.0.abs_diff(moved.from.0) as f64) < apart;
+            let phase = self.corrected.iter().filter(|frame| near(frame));
+            let phase = phase.min_by_key(|frame| frame.0.abs_diff(moved.from.0));
+            if let Some(phase) = phase.filter(|_| !keys.iter().any(|key| near(&key.frame))) {
+                keys.push(Key { origin: Origin::Step, ..Key::set(*phase) });
+            }
+        }
+        keys.sort_by_key(|key| key.frame);
+    }
+
+    /// Puts the phases of regular steps in the place of what was found in them. What a person set stays, and what stands
+    /// nearer to it than a koma, which is `apart` frames, goes.
+    pub(super) fn lay(&self, keys: &mut Vec<Key>, apart: f64) {
+        let steps = || self.regular.iter().flat_map(|walk| &walk.steps);
+        let turns: Vec<Key> =
+            keys.iter().filter(|key| key.origin == Origin::Turn).cloned().collect();
+        let is_within = |frame: Frame| steps().any(|step| step.covers(frame, NEAR * apart));
+        keys.retain(|key| key.origin.is_set() || !is_within(key.frame));
+        let mut frames: Vec<Frame> =
+            steps().flat_map(|step| &step.frames).copied().flatten().collect();
+        frames.sort_unstable();
+        frames.dedup();
+        let is_free =
+            |frame: &Frame| !keys.iter().any(|key| (key.frame.0.abs_diff(frame.0) as f64) < apart);
+        frames.retain(is_free);
+        let key = |frame: Frame| match turns.iter().find(|turn| turn.frame == frame) {
+            Some(turn) => Key { origin: Origin::Step, ..turn.clone() },
+            None => Key { origin: Origin::Step, strength: 0.0, ..Key::set(frame) },
+        };
+        keys.extend(frames.into_iter().map(key));
+        keys.sort_by_key(|key| key.frame);
+    }
+}
+
+impl Choosable<'_> {
+    /// A gait with the phases for which its steps have room.
+    fn walk(&self, gait: &Gait) -> Walk {
+        let koma = median(gait.steps.iter().map(length));
+        let phases = Phase::with_room(koma);
+        let own = |step: &Step| [step.contact, step.down, step.passing, step.up];
+        let [_, down, passing, up] = [0, 1, 2, 3].map(|phase| {
+            koma * median(
+                gait.steps.iter().map(|step| (own(step)[phase] - step.contact) / length(step)),
+            )
+        });
+        let is_between = |at: f64, from: f64, to: f64| from + ONE <= at && at <= to - ONE;
+        let has_own = (is_between(down, 0.0, passing), is_between(up, passing, koma));
+        // Sooner the drawing before is still on screen, and its pose hardly another.
+        let behind =
+            |at: f64, from: f64, to: f64| at.max((from + ROOM).min(f64::midpoint(from, to)));
+        let instant = |step: &Step, phase: Phase| match phase {
+            Phase::Contact => step.contact,
+            Phase::Down if has_own.0 => behind(step.down, step.contact, step.passing),
+            Phase::Down => f64::midpoint(step.contact, step.passing),
+            Phase::Passing => step.passing,
+            Phase::Up if has_own.1 => behind(step.up, step.passing, step.next),
+            Phase::Up => f64::midpoint(step.passing, step.next),
+        };
+        let share = |phase: &Phase| {
+            let shares =
+                gait.steps.iter().map(|step| (instant(step, *phase) - step.contact) / length(step));
+            median(shares)
+        };
+        let step = |step: &Step| WalkStep {
+            contact: step.contact,
+            next: step.next,
+            frames: self
+                .frames(phases.iter().map(|phase| instant(step, *phase)).chain([step.next])),
+        };
+        Walk {
+            phases: phases.to_vec(),
+            shares: phases.iter().map(share).collect(),
+            koma,
+            steps: gait.steps.iter().map(step).collect(),
+        }
+    }
+
+    /// The frames nearest to some instants in koma, or the turns that were found within a koma of them.
+    fn frames(&self, instants: impl Iterator<Item = f64>) -> Vec<Option<Frame>> {
+        let koma = self.koma;
+        let (first, last) = (self.ends.0.0 as f64, self.ends.1.0 as f64);
+        let mut before = self.ends.0;
+        let frame = |instant: f64| {
+            let place = first + instant * koma;
+            let off = |frame: Frame| (frame.0 as f64 - place).abs();
+            let turns = self.keys.iter().filter(|key| key.origin == Origin::Turn);
+            let turn = turns.map(|key| key.frame).min_by(|a, b| off(*a).total_cmp(&off(*b)));
+            let is_inside = first < place.round() && place.round() < last;
+            let nearest = is_inside.then(|| Frame(place.round() as usize))?;
+            let turn = turn.filter(|turn| off(*turn) <= koma && before < *turn);
+            before = turn.unwrap_or(nearest.max(Frame(before.0 + 1)));
+            (before < self.ends.1).then_some(before)
+        };
+        instants.map(frame).collect()
+    }
+
+    /// Whether a person corrects a step. Such a step keeps the keys that were found in it.
+    fn corrects(&self, step: &WalkStep) -> bool {
+        let Edits { pins, moves, forbidden, frozen, only_pins, .. } = self.edits;
+        let set = pins.iter().map(|pin| pin.frame);
+        let set = set.chain(moves.iter().flat_map(|moved| [moved.from, moved.to]));
+        let shown = || step.frames.iter().flatten();
+        let is_forbidden =
+            shown().any(|frame| forbidden.iter().any(|range| range.reaches(*frame, self.koma)));
+        // Beside the clip's ends a sheet has no room for a genga.
+        let room = NEAR * self.koma + 1.0;
+        let far =
+            |frame: &&Frame| (self.ends.1.0 - frame.0).min(frame.0 - self.ends.0.0) as f64 > room;
+        let was_there =
+            frozen.is_empty() || shown().filter(far).all(|frame| frozen.contains(frame));
+        *only_pins || !was_there || is_forbidden || set.into_iter().any(|frame| step.has(frame))
+    }
+}
+
+impl WalkStep {
+    /// Whether a frame is in it: from its contact on, before the next.
+    fn has(&self, frame: Frame) -> bool {
+        let [from, to] = self.bounds();
+        from.is_none_or(|from| from <= frame) && to.is_none_or(|to| frame < to)
+    }
+
+    /// Whether a frame is in it, or nearer to it than so many frames.
+    fn covers(&self, frame: Frame, near: f64) -> bool {
+        let [from, to] = self.bounds();
+        let is_past = |end: Frame, frame: Frame| (end.0 as f64 - frame.0 as f64) < near;
+        from.is_none_or(|from| is_past(from, frame)) && to.is_none_or(|to| is_past(frame, to))
+    }
+
+    /// The frames of its contacts.
+    fn bounds(&self) -> [Option<Frame>; 2] {
+        [self.frames.first().copied().flatten(), self.frames.last().copied().flatten()]
+    }
+}
+
+/// Koma from contact to contact.
+fn length(step: &Step) -> f64 {
+    step.next - step.contact
+}
+
+/// The one in the middle; of an even number the mean of both there. 0 of none.
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    match values.len() {
+        0 => 0.0,
+        count => (values[(count - 1) / 2] + values[count / 2]) / 2.0,
+    }
+}
+
+#[cfg(test)]
+mod tests;

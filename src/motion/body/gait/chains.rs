@@ -1,0 +1,224 @@
+//! Chains (連なり) of steps by turns of left and right, and which stretches of them are one gait.
+
+use std::array;
+use std::mem;
+use std::ops::{Range, RangeInclusive};
+
+use super::legs::{Legs, Passing, RATE, most};
+use super::{Gait, Step};
+
+/// Steps of a gait: two of each foot, as one alone is like every other.
+const LEAST_STEPS: usize = 4;
+
+/// The shortest and the longest step, in seconds: a sprint, and a walk in slow motion.
+const SECONDS: RangeInclusive<f64> = 0.15..=2.0;
+
+/// How long both feet may stay on the ground in a step, in seconds: after more one has stopped.
+const LONGEST_STAND: f64 = 0.4;
+
+/// How far a step may be from the middle one of its foot, as a share of that and in seconds, whichever is more: a koma and a
+/// half of film, as steps of a run are counted in few koma.
+const ALIKE: (f64, f64) = (0.25, 0.0625);
+
+/// How far ankles are still apart when a foot comes down, as a share of how far they get, in the middle step of a gait at the
+/// least. Who pedals has a foot lowest where the other is highest: 0.2. In a sprint it is 0.4 and more, in a walk nearly 1.
+const STILL_APART: f64 = 0.33;
+
+/// How near to an end of the clip a step may begin or end without a contact to be one that the clip cuts, in seconds.
+const AT_END: f64 = 1.0 / 12.0;
+
+/// How long a foot must be down before the clip ends to have come down, in seconds: half of [`AT_END`], so that a step
+/// whose end is hardly not seen still counts.
+const LANDED: f64 = AT_END / 2.0;
+
+/// What is seen of a step, in instants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Seen {
+    foot: usize,
+    contact: Option<f64>,
+    passing: Option<f64>,
+    next: Option<f64>,
+    /// How far the ankles are still apart at its contact.
+    still_apart: Option<f64>,
+}
+
+impl Seen {
+    /// How long it is, where both its contacts are seen.
+    fn length(&self) -> Option<f64> {
+        Some(self.next? - self.contact?)
+    }
+}
+
+/// The gaits of two legs, in instants.
+pub(super) fn gaits(legs: &Legs) -> Vec<Gait> {
+    chains(legs).iter().flat_map(|chain| parts(chain)).filter_map(|part| gait(legs, part)).collect()
+}
+
+/// The longest stretches of steps that alternate and are steps of somebody who goes on.
+fn chains(legs: &Legs) -> Vec<Vec<Seen>> {
+    let passings = legs.passings();
+    let downs = touchdowns(legs, &passings);
+    let (mut chains, mut chain) = (Vec::new(), Vec::new());
+    for (at, passing) in passings.iter().enumerate() {
+        let foot = 1 - passing.swings;
+        let before = at.checked_sub(1);
+        let goes_on = before.is_none_or(|at| passings[at].is_step && passings[at].swings == foot);
+        let contact = match before {
+            Some(before) => downs[before].filter(|_| goes_on),
+            None => legs.touchdown(foot, 0.0, passing.at).filter(|at| legs.was_lifted(foot, *at)),
+        };
+        let from = before.map_or(0.0, |before| passings[before].at);
+        let still_apart = contact.map(|contact| legs.still_apart(from, contact, passing.at));
+        let (passed, next) = (Some(passing.at), downs[at]);
+        let step = Seen { foot, contact, passing: passed, next, still_apart };
+        if !(goes_on && passing.is_step && is_step(legs, step)) {
+            chains.push(mem::take(&mut chain));
+        }
+        if passing.is_step && is_step(legs, step) && (contact.is_some() || before.is_none()) {
+            chain.push(step);
+        }
+    }
+    chain.extend(cut_off(legs, &passings, &downs));
+    chains.push(chain);
+    chains
+}
+
+/// When the foot that passes at each passing comes down after it. One that is hardly down when the clip ends may still
+/// be on its way.
+fn touchdowns(legs: &Legs, passings: &[Passing]) -> Vec<Option<f64>> {
+    let last = legs.last() as f64;
+    let down = |(at, passing): (usize, &Passing)| {
+        let after = passings.get(at + 1);
+        let down = legs.touchdown(passing.swings, passing.at, after.map_or(last, |after| after.at));
+        down.filter(|down| passing.is_step && (after.is_some() || *down <= last - LANDED * RATE))
+    };
+    passings.iter().enumerate().map(down).collect()
+}
+
+/// Whether what is seen of a step is one of somebody who goes on.
+fn is_step(legs: &Legs, step: Seen) -> bool {
+    let (Some(contact), Some(passing)) = (step.contact, step.passing) else { return true };
+    let is_long = |length: f64| SECONDS.contains(&(length / RATE));
+    let overtakes = |next: f64| legs.is_overtaken(contact, next);
+    legs.stands(contact, passing) <= LONGEST_STAND * RATE
+        && step.length().is_none_or(is_long)
+        && step.next.is_none_or(overtakes)
+}
+
+/// The step in the middle of which the clip ends, before its passing.
+fn cut_off(legs: &Legs, passings: &[Passing], downs: &[Option<f64>]) -> Option<Seen> {
+    let (passing, contact) = (passings.last()?, downs.last().copied()??);
+    let foot = passing.swings;
+    let is_seen = legs.is_half_way(foot, passing.at, contact);
+    let (contact, next) = (Some(contact), None);
+    is_seen.then_some(Seen { foot, contact, passing: None, next, still_apart: None })
+}
+
+/// The stretches of a chain whose steps are as long as others of their foot: the longest, then those before and behind it.
+fn parts(chain: &[Seen]) -> Vec<&[Seen]> {
+    let Some(Range { start, end }) = longest(chain) else { return Vec::new() };
+    let mut found = parts(&chain[..start]);
+    found.push(&chain[start..end]);
+    found.extend(parts(&chain[end..]));
+    found
+}
+
+/// The longest stretch of a chain in which steps are alike however many of its first ones are taken; of equals the first.
+fn longest(chain: &[Seen]) -> Option<Range<usize>> {
+    let mut best = 0..LEAST_STEPS - 1;
+    for begin in 0..chain.len() {
+        if chain.len() - begin <= best.len() {
+            break;
+        }
+        let alike = (begin + 1..=chain.len()).take_while(|end| are_alike(&chain[begin..*end]));
+        let end = alike.last().unwrap_or(begin);
+        if end - begin > best.len() {
+            best = begin..end;
+        }
+    }
+    (best.len() >= LEAST_STEPS).then_some(best)
+}
+
+fn are_alike(steps: &[Seen]) -> bool {
+    (0..2).all(|foot| {
+        let own = steps.iter().filter(|step| step.foot == foot);
+        let lengths: Vec<f64> = own.filter_map(Seen::length).collect();
+        let middle = median(lengths.clone()).unwrap_or(0.0);
+        let most = f64::max(ALIKE.0 * middle, ALIKE.1 * RATE);
+        lengths.iter().all(|length| (length - middle).abs() <= most)
+    })
+}
+
+/// The gait of some steps: what the clip cuts off of the first and the last is as in the others.
+fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
+    let still_apart = median(steps.iter().filter_map(|step| step.still_apart).collect())?;
+    if still_apart < STILL_APART {
+        return None;
+    }
+    let parts: [fn(&Seen) -> Option<f64>; 2] =
+        [|step| Some(step.passing? - step.contact?), |step| Some(step.next? - step.passing?)];
+    let usual = |foot: usize| parts.map(|part| middle(steps, foot, part));
+    let usual: [[Option<f64>; 2]; 2] = array::from_fn(usual);
+    let whole = |step: &Seen| {
+        let [swing, fall] = usual[step.foot];
+        let plus = |at: Option<f64>, way: Option<f64>| Some(at? + way?);
+        let passing = step.passing.or_else(|| plus(step.contact, swing))?;
+        let contact = step.contact.or_else(|| Some(passing - swing?))?;
+        let next = step.next.or_else(|| plus(Some(passing), fall))?;
+        Some((step.foot, [contact, passing, next]))
+    };
+    let mut whole: Vec<_> = steps.iter().map(whole).collect::<Option<_>>()?;
+    let (near, last) = (AT_END * RATE, legs.last() as f64);
+    let is_cut = |(seen, (_, [contact, _, next])): (&Seen, &(usize, [f64; 3]))| {
+        (seen.contact.is_some() || *contact <= near)
+            && (seen.next.is_some() || *next >= last - near)
+    };
+    let mut keep = steps.iter().zip(&whole).map(is_cut).collect::<Vec<bool>>().into_iter();
+    whole.retain(|_| keep.next().unwrap_or(false));
+    (whole.len() >= LEAST_STEPS).then(|| with_heights(legs, &whole))
+}
+
+/// What a part of the steps of a foot is like: the middle one of those that are seen, or of the other foot's.
+fn middle(steps: &[Seen], foot: usize, part: fn(&Seen) -> Option<f64>) -> Option<f64> {
+    let of =
+        |foot| median(steps.iter().filter(|step| step.foot == foot).filter_map(part).collect());
+    of(foot).or_else(|| of(1 - foot))
+}
+
+fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
+    let last = legs.last() as f64;
+    let extreme = |sign: f64, from: f64, to: f64| {
+        let at = most(&legs.pelvis, (from, to), sign);
+        // At an end of the clip it may go on rising or falling.
+        (at > 0.0 && at < last && from < last && to > 0.0).then_some((at - from) / (to - from))
+    };
+    let seen = |&(foot, [contact, passing, next]): &(usize, [f64; 3])| {
+        (foot, [extreme(-1.0, contact, passing), extreme(1.0, passing, next)])
+    };
+    let seen: Vec<_> = steps.iter().map(seen).collect();
+    let usual = |foot: usize, part: usize| {
+        let of = |foot| {
+            let own = seen.iter().filter(|(own, _)| *own == foot);
+            median(own.filter_map(|(_, shares)| shares[part]).collect())
+        };
+        of(foot).or_else(|| of(1 - foot)).unwrap_or(0.5)
+    };
+    let usual: [[f64; 2]; 2] = array::from_fn(|foot| array::from_fn(|part| usual(foot, part)));
+    let step =
+        |(&(foot, [contact, passing, next]), (_, shares)): (&(usize, [f64; 3]), &(_, [_; 2]))| {
+            let share = |part: usize| -> f64 { Option::unwrap_or(shares[part], usual[foot][part]) };
+            let (down, up) = (share(0), share(1));
+            let (down, up) =
+                (contact + down * (passing - contact), passing + up * (next - passing));
+            Step { foot, contact, down, passing, up, next }
+        };
+    Gait { steps: steps.iter().zip(&seen).map(step).collect() }
+}
+
+/// The middle one of some numbers, or between the two in the middle.
+fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    numbers.sort_by(f64::total_cmp);
+    let (low, high) =
+        (numbers.get(numbers.len().saturating_sub(1) / 2)?, numbers.get(numbers.len() / 2)?);
+    Some(f64::midpoint(*low, *high))
+}

@@ -1,0 +1,43 @@
+//! Targets that the steps of gaits stand in the way of: then these give way.
+
+use super::{Outcome, Target};
+use crate::edits::Edits;
+use crate::error::Error;
+use crate::keys::AtGaits;
+use crate::pipeline::Engine;
+use crate::recipe::Recipe;
+
+/// Meets a target. Where gaits keep a sheet from it, it is met without them if that comes nearer.
+pub(super) fn meet(
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &Edits,
+    meet: impl Fn(&mut Engine, &Recipe) -> Result<(Recipe, Outcome), Error>,
+) -> Result<(Recipe, Outcome), Error> {
+    let met = meet(engine, recipe)?;
+    let breakdown = engine.run(&met.0, edits)?;
+    let has_gaits = breakdown.layers().any(|layer| !layer.keys.gaits.is_empty());
+    let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
+    // No whole number of drawings is nearer than half a drawing.
+    let near = match met.1.target {
+        Target::DrawingsPerSecond(_) => 0.5 / seconds + 1e-9,
+        Target::Keys(_) | Target::MaxError(_) => 0.0,
+    };
+    let is_met = excess(&met.1) <= near;
+    if is_met || !has_gaits {
+        return Ok(met);
+    }
+    let mut free = recipe.clone();
+    free.keys.gaits = AtGaits::Off;
+    let other = meet(engine, &free)?;
+    Ok(if excess(&other.1) < excess(&met.1) { other } else { met })
+}
+
+/// How far an outcome is from what was asked for: in genga, in drawings a second, or in % of body height too much.
+fn excess(Outcome { target, reached, .. }: &Outcome) -> f64 {
+    match *target {
+        Target::Keys(asked) => (reached - asked as f64).abs(),
+        Target::DrawingsPerSecond(asked) => (reached - asked).abs(),
+        Target::MaxError(most) => (reached - most).max(0.0),
+    }
+}

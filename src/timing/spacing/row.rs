@@ -1,0 +1,194 @@
+//! The row of drawings on a sheet as it is laid out: stations, and what stands between them.
+
+use std::sync::Arc;
+
+use super::interval::Interval;
+use super::station::Station;
+use super::steps::Steps;
+use super::still::Still;
+use super::{Spaced, Spacing};
+use crate::keys::Wall;
+use crate::sheet::{Drawing, Exposure, Layer};
+use crate::time::Clock;
+use crate::timing::on::{Pace, STAY};
+
+/// By what a row is laid out.
+pub(super) struct Rules<'a> {
+    pub(super) spacing: &'a Spacing,
+    pub(super) clock: Clock,
+    pub(super) walls: &'a [Wall],
+    /// Whether the drawing before holds up to the sheet's end.
+    pub(super) holds_end: bool,
+    pub(super) pace: &'a Pace<'a>,
+    pub(super) still: Still<'a>,
+    pub(super) steps: Steps,
+}
+
+/// Drawings, the koma on which they begin, and the inbetweens asked for that did not fit.
+#[derive(Default)]
+pub(super) struct Row {
+    drawings: Vec<Drawing>,
+    begins: Vec<usize>,
+    /// The koma whose poses the last two of them show: a genga may come before its own.
+    shown: [usize; 2],
+    did_not_fit: usize,
+}
+
+impl Rules<'_> {
+    /// Lays stations out on so many koma; `names` are those of all joints.
+    pub(super) fn lay_out(
+        self,
+        stations: &[Station<'_>],
+        koma: usize,
+        names: &[Arc<str>],
+    ) -> Spaced {
+        let mut row = Row::default();
+        let drawn = self.drawn(stations);
+        let mut begin = 0;
+        for (at, station) in stations.iter().enumerate() {
+            let is_new = !(self.is_end_of_rest(station) && row.holds_up_to(station, &self.still));
+            if drawn[at] && is_new {
+                row.put(begin, station.koma, station.drawing(names));
+            }
+            if let Some(next) = stations.get(at + 1) {
+                begin = self.go(&mut row, station, next, drawn[at + 1]);
+            }
+        }
+        Spaced { gaits: self.steps.into_koma(), ..row.into_spaced(koma) }
+    }
+
+    /// Which stations are drawn: not the ends of rests and of the sheet up to which the one before holds. All that was chosen
+    /// is drawn.
+    fn drawn(&self, stations: &[Station<'_>]) -> Vec<bool> {
+        let mut drawn = vec![true; stations.len()];
+        let mut shown = 0;
+        for (at, station) in stations.iter().enumerate().skip(1) {
+            let before = &stations[shown];
+            let is_time = station.is_rest() || (self.holds_end && station.is_free_end());
+            drawn[at] = !(is_time && self.still.holds(before.koma, station.koma));
+            if drawn[at] {
+                shown = at;
+            }
+        }
+        drawn
+    }
+
+    /// Puts the inbetweens between two stations into a row and gives the koma from which on the second is shown.
+    fn go(&self, row: &mut Row, from: &Station<'_>, to: &Station<'_>, is_drawn: bool) -> usize {
+        if let Some(koma) = self.steps.between(from.koma, to.koma) {
+            return self.step(row, from, to, &koma);
+        }
+        let [_, shown] = row.shown;
+        let all = self.inbetweens(shown, from.koma, to.koma);
+        row.did_not_fit += self.spacing.inbetweens.map_or(0, |asked| asked - all.len());
+        let holds = self.still.holds(shown, to.koma);
+        if !is_drawn && holds {
+            return to.koma;
+        }
+        let mut koma = self.still.what_moves(row.shown, all);
+        let end = match self.still.is_rest(from.koma, to.koma) {
+            _ if !is_drawn || holds => to.koma,
+            true if self.is_end_of_rest(to) => to.koma,
+            true => self.displace(&mut koma, to),
+            false => self.arrive(row, &mut koma, to),
+        };
+        self.put(row, [from, to], &koma, end);
+        end
+    }
+
+    /// Puts the inbetweens of a step between two stations: those that every step has. Nothing holds there.
+    fn step(&self, row: &mut Row, from: &Station<'_>, to: &Station<'_>, koma: &[usize]) -> usize {
+        row.did_not_fit +=
+            self.spacing.inbetweens.map_or(0, |asked| asked.saturating_sub(koma.len()));
+        self.put(row, [from, to], koma, to.koma);
+        to.koma
+    }
+
+    /// Puts inbetweens on some koma into a row, the last up to `end`.
+    fn put(&self, row: &mut Row, [from, to]: [&Station<'_>; 2], koma: &[usize], end: usize) {
+        let interval = Interval::new(self.spacing, from, to, self.walls, self.clock);
+        let ends = koma.iter().skip(1).copied().chain([end]);
+        for (koma, end) in koma.iter().zip(ends) {
+            row.put(*koma, *koma, interval.inbetween(*koma, end - koma));
+        }
+    }
+
+    /// The koma on which inbetweens stand between two koma: the first no earlier than the body sets out from the drawing on
+    /// screen, each for as long as a drawing has to.
+    fn inbetweens(&self, shown: usize, from: usize, to: usize) -> Vec<usize> {
+        if let Some(asked) = self.spacing.inbetweens {
+            return self.spacing.evenly(asked, from..to, self.pace);
+        }
+        let step = |koma: usize| self.spacing.stay(koma, self.pace);
+        let stays = |koma: &usize| koma + step(*koma).min(STAY) <= to;
+        // What is on screen stays for as long as any drawing does.
+        let first = from.max(shown + step(shown));
+        let first = match self.still.is_rest(from, to) {
+            true => first,
+            false => first.max(self.still.departure(shown, from, to)),
+        };
+        let next = |koma: &usize| Some(koma + step(*koma));
+        std::iter::successors(Some(first), next).take_while(stays).collect()
+    }
+
+    /// Whether a station is the end of a rest: a time rather than a pose.
+    fn is_end_of_rest(&self, station: &Station<'_>) -> bool {
+        station.is_rest() && self.still.ends_rest(station.koma)
+    }
+
+    /// The koma on which a station within a rest comes: its own, or that of the first inbetween that is like it, whose place it
+    /// takes.
+    fn displace(&self, koma: &mut Vec<usize>, to: &Station<'_>) -> usize {
+        let is_like = |koma: &usize| self.still.leads_to(*koma, to.koma);
+        match koma.iter().position(is_like).filter(|_| !to.is_fixed()) {
+            Some(at) => koma.drain(at..).next().unwrap_or(to.koma),
+            None => to.koma,
+        }
+    }
+
+    /// The koma on which a station comes: its own, or the one from which on the body is there, if the drawing before it has
+    /// stayed by then. What would come after it goes.
+    fn arrive(&self, row: &Row, koma: &mut Vec<usize>, to: &Station<'_>) -> usize {
+        let stays_two = self.spacing.stay(to.koma, self.pace) >= STAY;
+        if to.is_fixed() || self.spacing.inbetweens.is_some() || !stays_two {
+            return to.koma;
+        }
+        let [_, shown] = row.shown;
+        let there = self.still.arrival(shown, to.koma);
+        koma.retain(|koma| *koma < there);
+        let before = koma.last().copied().unwrap_or(shown);
+        there.max(before + self.spacing.stay(before, self.pace)).min(to.koma)
+    }
+}
+
+impl Row {
+    /// Whether what is on screen holds up to a station.
+    fn holds_up_to(&self, station: &Station<'_>, still: &Still<'_>) -> bool {
+        let is_any = !self.drawings.is_empty();
+        is_any && !station.is_set() && still.holds(self.shown[1], station.koma)
+    }
+
+    /// Puts a drawing on a koma that shows the pose of one.
+    fn put(&mut self, koma: usize, shown: usize, drawing: Drawing) {
+        self.drawings.push(drawing);
+        self.begins.push(koma);
+        self.shown = [self.shown[1], shown];
+    }
+
+    /// A layer of so many koma, each drawing up to the next.
+    fn into_spaced(self, koma: usize) -> Spaced {
+        let Self { drawings, begins, did_not_fit, .. } = self;
+        let ends = begins.iter().skip(1).copied().chain([koma]);
+        let exposures = begins
+            .iter()
+            .zip(ends)
+            .enumerate()
+            .map(|(drawing, (begin, end))| Exposure { drawing, koma: end - begin })
+            .collect();
+        Spaced {
+            layer: Layer { name: "A".into(), joints: vec![], drawings, exposures },
+            did_not_fit,
+            gaits: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+use proptest::prelude::*;
+
+use super::*;
+
+const ON_TWOS: Rhythm = Rhythm { on: 2, inbetweens: None };
+
+fn koma(step: &[Exposed]) -> Vec<usize> {
+    step.iter().map(|phase| phase.koma).collect()
+}
+
+fn drawings(step: &[Exposed]) -> Vec<usize> {
+    step.iter().map(|phase| phase.drawings).collect()
+}
+
+#[test]
+fn a_step_has_exposures_by_its_length_alone() {
+    let walk = Exposures::of(&[0.0, 0.22, 0.47, 0.74], 13.2, ON_TWOS);
+    let of = |length| koma(&walk.of_step(length));
+    assert_eq!(of(13), [3, 3, 4, 3]);
+    assert_eq!(of(14), [3, 3, 5, 3], "a koma more goes where drawings are short");
+    assert_eq!(of(16), [3, 3, 6, 4]);
+    assert_eq!(of(12), [2, 3, 4, 3], "and a koma less comes from where it lacks least");
+    assert_eq!(of(9), [2, 2, 3, 2]);
+    assert_eq!(of(8), [2; 4]);
+    let run = Exposures::of(&[0.0, 0.1, 0.9, 0.95], 8.0, ON_TWOS);
+    assert_eq!(koma(&run.of_step(8)), [2; 4], "each stays for two");
+    assert_eq!(run.of_step(7).iter().map(|phase| phase.koma).sum::<usize>(), 7);
+    assert_eq!(koma(&Exposures::of(&[0.0], 3.1, ON_TWOS).of_step(3)), [3]);
+}
+
+#[test]
+fn a_drawing_stays_a_koma_longer_rather_than_one_stays_for_one() {
+    let drawings =
+        |on, inbetweens| [1, 2, 3, 4, 5, 6, 7].map(|koma| Rhythm { on, inbetweens }.drawings(koma));
+    assert_eq!(drawings(1, None), [1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(drawings(2, None), [1, 1, 1, 2, 2, 3, 3]);
+    assert_eq!(drawings(3, None), [1, 1, 1, 1, 2, 2, 2]);
+    assert_eq!(drawings(2, Some(1)), [1, 1, 1, 2, 2, 2, 2], "those that fit");
+    let cuts = |koma, drawings| Exposed { koma, drawings }.cuts().collect::<Vec<_>>();
+    assert_eq!(cuts(5, 2), [(0, 3), (3, 5)], "the longer first");
+    assert_eq!(cuts(3, 1), [(0, 3)]);
+}
+
+#[test]
+fn shorter_steps_keep_their_drawings_as_long_as_each_stays_for_two_koma() {
+    let slow = Exposures::of(&[0.0, 0.15, 0.38, 0.54], 13.0, ON_TWOS);
+    assert_eq!(
+        (koma(&slow.of_step(13)), drawings(&slow.of_step(13))),
+        (vec![2, 3, 2, 6], vec![1, 1, 1, 3])
+    );
+    assert_eq!(
+        (koma(&slow.of_step(12)), drawings(&slow.of_step(12))),
+        (vec![2, 2, 2, 6], vec![1, 1, 1, 3])
+    );
+    assert_eq!(
+        (koma(&slow.of_step(11)), drawings(&slow.of_step(11))),
+        (vec![2, 2, 2, 5], vec![1, 1, 1, 2])
+    );
+}
+
+proptest! {
+    #[test]
+    fn a_koma_more_is_a_koma_more_in_one_phase(
+        mut shares in prop::collection::vec(0.01..0.99_f64, 3),
+        usual in 8.0..40.0_f64,
+        count in prop::sample::select(vec![1_usize, 2, 4]),
+        on in 1_usize..4,
+        off in -6_isize..6,
+    ) {
+        shares.sort_by(f64::total_cmp);
+        let shares = [vec![0.0], shares].concat();
+        let exposures = Exposures::of(&shares[..count], usual, Rhythm { on, inbetweens: None });
+        let length = (usual.round() as usize).saturating_add_signed(off).max(count);
+        let [one, more] = [0, 1].map(|more| exposures.of_step(length + more));
+        prop_assert_eq!(&more, &exposures.of_step(length + 1), "the same again");
+        prop_assert!(one.iter().all(|phase| phase.drawings * on.min(2) <= phase.koma.max(2)));
+        let [one, more] = [koma(&one), koma(&more)];
+        prop_assert_eq!(one.iter().sum::<usize>(), length);
+        prop_assert!(length < 2 * count || one.iter().all(|koma| *koma >= 2), "{:?}", one);
+        let apart: usize = one.iter().zip(&more).map(|(a, b)| a.abs_diff(*b)).sum();
+        prop_assert_eq!(apart, 1);
+    }
+}

@@ -1,0 +1,253 @@
+//! Gaits and the phases of their steps, and clips that have none.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use genga::edits::{Edits, Pin};
+use genga::keys::{AtGaits, Choose, Origin};
+use genga::motion::{Clip, Gait, Step};
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use genga::sheet::{Layer, Reason};
+use genga::study::Noise;
+use genga::time::Frame;
+
+use crate::clips;
+use crate::one_motion::every_other_frame;
+use crate::rerig::Rerig;
+
+const WALKS: [&str; 2] = ["cmu-07_01-walk", "cmu-09_01-run"];
+
+/// How far phases may be from each other in clips of one motion, in koma.
+const NEAR: f64 = 0.5;
+
+fn gaits(clip: &Clip) -> Vec<Gait> {
+    Gait::find(clip, clip.clock(24.0))
+}
+
+/// What is called how of a step.
+fn phases(step: &Step) -> [(&'static str, f64); 4] {
+    let Step { contact, down, passing, up, .. } = *step;
+    [("contact", contact), ("down", down), ("passing", passing), ("up", up)]
+}
+
+/// How far a gait's phases are from where an eye sees them, in koma: the marks of `docs/evidence/events.csv`.
+fn off_marks(name: &str, clip: &Clip) -> Vec<f64> {
+    let marks = fs::read_to_string(clips::here("docs/evidence/events.csv")).unwrap();
+    let marks = marks.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let marks = marks.filter(|mark| mark[..2] == [name, "gait"]);
+    let gaits = gaits(clip);
+    let steps = || gaits.iter().flat_map(|gait| &gait.steps);
+    let frames = clip.rate().fps() / 24.0;
+    let off = |mark: Vec<&str>| {
+        let [from, to] = [2, 3].map(|at| mark[at].parse::<f64>().unwrap());
+        let of_kind = steps().flat_map(phases).filter(|(kind, _)| *kind == mark[4]);
+        let off = of_kind.map(|(_, koma)| {
+            let frame = clip.first().0 as f64 + koma * frames;
+            (from - frame).max(frame - to).max(0.0) / frames
+        });
+        off.fold(f64::INFINITY, f64::min)
+    };
+    marks.map(off).collect()
+}
+
+#[test]
+fn phases_are_where_an_eye_sees_them() {
+    clips::with(WALKS, |paths| {
+        for path in paths {
+            let name = clips::name(&path);
+            let off = off_marks(&name, &clips::read(&path));
+            assert!(off.len() >= 14 && off.iter().all(|off| *off <= 1.0), "{name}: {off:?}");
+        }
+    });
+}
+
+#[test]
+fn who_walks_or_runs_has_a_gait_and_nobody_else() {
+    clips::with_all(|paths| {
+        for path in paths {
+            let name = clips::name(&path);
+            let found = gaits(&clips::read(&path));
+            let steps: Vec<usize> = found.iter().map(|gait| gait.steps.len()).collect();
+            match &name[..] {
+                "cmu-07_01-walk" => assert_eq!(steps, [5]),
+                "cmu-09_01-run" => assert_eq!(steps, [4]),
+                "cmu-01_06-playground-long" => assert!((2..=5).contains(&steps.len()), "{steps:?}"),
+                _ => assert!(steps.is_empty(), "{name}: {found:?}"),
+            }
+        }
+    });
+    for name in ["kick.bvh", "kuroda-pitch.bvh", "pitch.bvh", "swing.bvh", "tennis.bvh"] {
+        assert!(gaits(&clips::sample(name)).is_empty(), "{name}");
+    }
+}
+
+/// Holds the phases of walk and run against those of what is made of them, `later` koma later.
+fn agree(later: f64, made: impl Fn(&Clip) -> Clip) {
+    clips::with(WALKS, |paths| {
+        for path in paths {
+            let clip = clips::read(&path);
+            let [one, other] = [&clip, &made(&clip)].map(gaits);
+            let steps: Vec<&Step> = one.iter().flat_map(|gait| &gait.steps).collect();
+            let others: Vec<&Step> = other.iter().flat_map(|gait| &gait.steps).collect();
+            assert!(!others.is_empty() && others.len() + later as usize >= steps.len());
+            // A step that is cut off is as others are.
+            for step in others.iter().filter(|step| step.contact > 0.0) {
+                let near = |own: &&&Step| (own.passing - step.passing - later).abs() <= NEAR;
+                let own = steps.iter().find(near).expect("it is a step of both");
+                let off = phases(own).into_iter().zip(phases(step));
+                let off: Vec<f64> = off.map(|(a, b)| (a.1 - b.1 - later).abs()).collect();
+                assert!(own.foot == step.foot && off.iter().all(|off| *off <= NEAR), "{off:?}");
+            }
+        }
+    });
+}
+
+#[test]
+fn another_rate_noise_and_another_rig_move_no_phase() {
+    agree(0.0, every_other_frame);
+    agree(0.0, |clip| Noise { degrees: 0.1, seed: 1 }.on(clip));
+    let rerig = Rerig { first_order: 4, other_axes: true, scale: 2.54 };
+    agree(0.0, |clip| rerig.of(clip));
+}
+
+#[test]
+fn a_clip_that_begins_a_koma_later_has_its_phases_a_koma_earlier() {
+    agree(1.0, |clip| {
+        let begin = clip.first().0 + (clip.rate().fps() / 24.0).round() as usize;
+        clip.clone().trimmed(Frame(begin), Frame(clip.first().0 + clip.len())).unwrap()
+    });
+}
+
+/// Clips with gaits: a walk, a run, and walks among much else.
+const GAITS: [&str; 3] = ["cmu-07_01-walk", "cmu-09_01-run", "cmu-01_06-playground-long"];
+
+/// A sheet, and its steps that are not cut: the koma of each and of what it shows.
+struct Walked {
+    layer: Layer,
+    /// Of each gait the koma from contact to contact.
+    steps: Vec<Vec<(usize, usize)>>,
+}
+
+fn walked(clip: Clip, edits: &Edits) -> Walked {
+    let mut engine = Engine::new(clip).unwrap();
+    let breakdown = engine.run(&Recipe::default(), edits).unwrap();
+    let first = breakdown.first_layer();
+    let koma = |instant: f64| (instant + 1e-6).floor() as usize;
+    // A genga nearer than that to the last drawing gives way to it.
+    let last = first.layer.length() as f64 - 3.0;
+    let steps = first.keys.gaits.iter().map(|walk| {
+        let whole = walk.steps.iter().filter(|step| step.contact >= 2.0 && step.next < last);
+        whole.map(|step| (koma(step.contact), koma(step.next))).collect()
+    });
+    Walked { layer: first.layer.clone(), steps: steps.collect() }
+}
+
+/// For how long each drawing from one koma up to another stays.
+fn exposures(layer: &Layer, (from, to): (usize, usize)) -> Vec<usize> {
+    let inside = layer.timed().filter(|(begin, _)| (from..to).contains(begin));
+    inside.map(|(_, exposure)| exposure.koma).collect()
+}
+
+/// The same of each phase, inbetweens and all.
+fn phases_shown(layer: &Layer, (from, to): (usize, usize)) -> Vec<usize> {
+    let is_step = |drawing: usize| layer.drawings[drawing].why.reason == Some(Reason::Step);
+    let steps = layer.timed().filter(|(_, exposure)| is_step(exposure.drawing));
+    let mut begins: Vec<usize> =
+        steps.map(|(begin, _)| begin).filter(|begin| (from..to).contains(begin)).collect();
+    begins.push(to);
+    begins.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+#[test]
+fn steps_as_long_as_each_other_have_the_same_exposures() {
+    clips::with(GAITS, |paths| {
+        for path in paths {
+            let name = clips::name(&path);
+            let Walked { layer, steps } = walked(clips::read(&path), &Edits::default());
+            assert!(!steps.is_empty(), "{name}");
+            for steps in steps {
+                let mut of_length: BTreeMap<usize, (Vec<usize>, Vec<usize>)> = BTreeMap::new();
+                for step in steps {
+                    let now = (exposures(&layer, step), phases_shown(&layer, step));
+                    assert_eq!(now.0.iter().sum::<usize>(), step.1 - step.0, "{name}: {step:?}");
+                    assert_eq!(now.1.len(), 4, "{name}: {step:?}");
+                    assert!(now.0.iter().all(|koma| *koma >= 2), "{name}: {step:?} {now:?}");
+                    let like = of_length.entry(step.1 - step.0).or_insert_with(|| now.clone());
+                    assert_eq!(*like, now, "{name}: {step:?}");
+                }
+                let lengths: Vec<_> = of_length.into_iter().collect();
+                for pair in lengths.windows(2).filter(|pair| pair[0].0 + 1 == pair[1].0) {
+                    let apart = pair[0].1.1.iter().zip(&pair[1].1.1).map(|(a, b)| b - a);
+                    assert_eq!(apart.filter(|koma| *koma > 0).count(), 1, "{name}: {pair:?}");
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn passings_are_drawn() {
+    clips::with(["cmu-07_01-walk"], |[path]| {
+        let clip = clips::read(&path);
+        let koma = clip.rate().fps() / 24.0;
+        let mut engine = Engine::new(clip).unwrap();
+        let breakdown = engine.run(&Recipe::default(), &Edits::default()).unwrap();
+        let layer = &breakdown.sheet.layers[0];
+        let genga = layer.drawings.iter().filter(|drawing| drawing.role.is_kept());
+        let places: Vec<f64> = genga.map(|drawing| drawing.source.place()).collect();
+        let marks = fs::read_to_string(clips::here("docs/evidence/events.csv")).unwrap();
+        let is_passing = |mark: &Vec<&str>| {
+            mark[0] == "cmu-07_01-walk"
+                && ["gait", "second-eye"].contains(&mark[1])
+                && mark[4] == "passing"
+        };
+        let marks = marks.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let marks: Vec<_> = marks.filter(is_passing).collect();
+        let hit = |mark: &&Vec<&str>| {
+            let [from, to] = [2, 3].map(|at| mark[at].parse::<f64>().unwrap());
+            places.iter().any(|place| from - koma <= *place && *place <= to + koma)
+        };
+        let hits = marks.iter().filter(hit).count();
+        assert!(marks.len() >= 10 && hits * 5 >= marks.len() * 4, "{hits} of {}", marks.len());
+    });
+}
+
+#[test]
+fn a_pin_breaks_one_step() {
+    clips::with(["cmu-07_01-walk"], |[path]| {
+        let clip = clips::read(&path);
+        let before = walked(clip.clone(), &Edits::default());
+        let (from, to) = before.steps[0][1];
+        let frame = clip.clock(24.0).frame_from_koma(usize::midpoint(from, to));
+        let pin = Pin::parse(&frame.to_string()).unwrap();
+        let after = walked(clip, &Edits { pins: vec![pin], ..Edits::default() });
+        let own = |step: &&(usize, usize)| step.0 != from;
+        let others: Vec<_> = before.steps[0].iter().filter(own).copied().collect();
+        assert_eq!(after.steps[0], others);
+        for step in others {
+            assert_eq!(exposures(&before.layer, step), exposures(&after.layer, step), "{step:?}");
+        }
+    });
+}
+
+#[test]
+fn clips_without_gaits_are_what_they_were() {
+    clips::with_all(|paths| {
+        for path in paths {
+            let mut engine = Engine::new(clips::read(&path)).unwrap();
+            let mut sheet = |gaits| {
+                let keys = Choose { gaits, ..Choose::default() };
+                let recipe = Recipe { keys, ..Recipe::default() };
+                let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
+                let keys = &breakdown.first_layer().keys.keys;
+                let has_steps = keys.iter().any(|key| key.origin == Origin::Step);
+                (breakdown.sheet.layers.clone(), has_steps)
+            };
+            let ([steps, off], name) =
+                ([AtGaits::Steps, AtGaits::Off].map(&mut sheet), clips::name(&path));
+            assert!(!off.1, "{name}");
+            assert_eq!(steps.0 != off.0, GAITS.contains(&&name[..]), "{name}");
+        }
+    });
+}
