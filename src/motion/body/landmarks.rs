@@ -1,12 +1,16 @@
 //! The landmarks of a body (頭・手首・足首): head, wrists and ankles, by their names, else by its shape and motion.
 
+use std::array;
 use std::collections::BTreeSet;
 use std::iter;
 
 use glam::DVec3;
 
 use crate::motion::body::limbs::NamedLimbs;
-use crate::motion::{Axis, Body, Build, Clip, Joint, JointId, Members, Poser, Skeleton};
+use crate::motion::clip::lane_poser::LanePoser;
+use crate::motion::clip::rig::Rig;
+use crate::motion::lanes::{LANES, LaneVec, pieces, wide};
+use crate::motion::{Axis, Body, Build, Clip, Joint, JointId, Members, Skeleton};
 use crate::time::{Clock, Frame};
 
 /// Frames that are looked at: enough to know which limb is usually low.
@@ -127,14 +131,28 @@ impl Landmarks {
 /// Where some points stand in the world at each koma of a clock: one path a point, in the file's unit.
 pub fn paths(clip: &Clip, clock: Clock, points: &[Point]) -> Vec<Vec<DVec3>> {
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
-    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
-    let mut paths = vec![Vec::with_capacity(koma); points.len()];
-    for koma in 0..koma {
-        body.place(poser.place(clock.place_from_koma(koma)));
-        for (path, point) in paths.iter_mut().zip(points) {
-            path.push(point.position(&body));
-        }
+    let joints: Vec<usize> = points.iter().map(|point| point.joint.0).collect();
+    let (rig, places) = Rig::carrying(clip.skeleton(), &joints);
+    let mut poser = LanePoser::of_rig(clip, rig);
+    let mut paths = vec![Vec::with_capacity(koma + LANES); points.len()];
+    for piece in pieces(koma.div_ceil(LANES)) {
+        wide(
+            #[inline(always)]
+            || {
+                for block in piece {
+                    poser.koma(clock, block, koma);
+                    let pose = poser.stand();
+                    for ((path, point), joint) in paths.iter_mut().zip(points).zip(&places) {
+                        let offset = LaneVec::splat(point.offset);
+                        let position =
+                            pose.translations[*joint] + pose.rotations[*joint].rotate(offset);
+                        path.extend((0..LANES).map(|lane| position.lane(lane)));
+                    }
+                }
+            },
+        );
     }
+    paths.iter_mut().for_each(|path| path.truncate(koma));
     paths
 }
 
@@ -229,11 +247,22 @@ impl Stands {
 
 /// Looks at a clip, evenly and not too often.
 fn each_look(clip: &Clip, mut look: impl FnMut(&Body)) {
-    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
+    let (mut poser, mut body) = (LanePoser::of(clip), Body::new(clip.skeleton()));
     let looks = clip.len().min(LOOKS);
-    for at in 0..looks {
-        body.place(poser.frame(Frame(clip.first().0 + at * clip.len() / looks)));
-        look(&body);
+    let frame = |look: usize| Frame(clip.first().0 + look * clip.len() / looks);
+    for first in (0..looks).step_by(LANES) {
+        let rows = array::from_fn(|lane| clip.row(frame((first + lane).min(looks - 1))));
+        wide(
+            #[inline(always)]
+            || {
+                poser.rows(&rows);
+                poser.stand();
+            },
+        );
+        for lane in 0..LANES.min(looks - first) {
+            body.take_lane(poser.pose(), lane);
+            look(&body);
+        }
     }
 }
 

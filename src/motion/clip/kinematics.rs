@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::maths;
+use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::{Axis, Channel, Clip, Joint, Skeleton};
 use crate::time::Frame;
 
@@ -168,7 +169,7 @@ impl Body {
 
     /// Takes on a pose.
     pub fn place(&mut self, pose: &Pose) {
-        let (positions, tips) = self.points.split_at_mut(self.parents.len());
+        let positions = &mut self.points;
         for (joint, parent) in self.parents.iter().enumerate() {
             let (rotation, translation) = (pose.rotations[joint], pose.translations[joint]);
             (self.rotations[joint], positions[joint]) = match *parent {
@@ -179,6 +180,20 @@ impl Body {
                 ),
             };
         }
+        self.place_tips();
+    }
+
+    /// Takes on one of several poses that stand in the world already.
+    pub(in crate::motion) fn take_lane(&mut self, world: &LanePose, lane: usize) {
+        for (joint, rotation) in self.rotations.iter_mut().enumerate() {
+            *rotation = world.rotations[joint].lane(lane);
+            self.points[joint] = world.translations[joint].lane(lane);
+        }
+        self.place_tips();
+    }
+
+    fn place_tips(&mut self) {
+        let (positions, tips) = self.points.split_at_mut(self.parents.len());
         for (tip, (joint, offset)) in tips.iter_mut().zip(&self.tips) {
             *tip = positions[*joint] + self.rotations[*joint] * *offset;
         }

@@ -6,7 +6,7 @@ use std::array;
 
 use crate::motion::clip::rig::{Rig, Rows};
 use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
-use crate::motion::{Clip, Skeleton};
+use crate::motion::Clip;
 use crate::sheet::Source;
 use crate::time::{Clock, Frame};
 
@@ -22,8 +22,12 @@ pub(crate) struct LanePoser<'a> {
 
 impl<'a> LanePoser<'a> {
     pub(crate) fn of(clip: &'a Clip) -> Self {
-        let rest = LanePose::rest(clip.skeleton());
-        let rig = Rig::of(clip.skeleton());
+        Self::of_rig(clip, Rig::of(clip.skeleton()))
+    }
+
+    /// Poses of a part of the clip's skeleton, its joints in the order of the rig.
+    pub(crate) fn of_rig(clip: &'a Clip, rig: Rig) -> Self {
+        let rest = LanePose::rest(&rig);
         Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
     }
 
@@ -83,13 +87,10 @@ pub(crate) struct LanePose {
 }
 
 impl LanePose {
-    /// A buffer for poses of a skeleton.
-    fn rest(skeleton: &Skeleton) -> Self {
-        let offsets = skeleton.joints.iter().map(|joint| LaneVec::splat(joint.offset));
-        Self {
-            rotations: vec![LaneQuat::default(); skeleton.len()],
-            translations: offsets.collect(),
-        }
+    /// A buffer for poses of a rig.
+    fn rest(rig: &Rig) -> Self {
+        let offsets = (0..rig.len()).map(|joint| LaneVec::splat(rig.offset(joint)));
+        Self { rotations: vec![LaneQuat::default(); rig.len()], translations: offsets.collect() }
     }
 
     /// Takes on the poses at some places, fractional frame numbers: slerp between the two neighbouring
@@ -146,7 +147,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::motion::{Axis, Body, Channel, Joint, JointId, Pose};
+    use crate::motion::{Axis, Body, Channel, Joint, JointId, Pose, Skeleton};
     use crate::time::FrameRate;
 
     /// A root that travels, an arm with every order of axes, a bone without channels, and columns that
@@ -189,11 +190,11 @@ mod tests {
         ) {
             let clip = clip(&values);
             let (rig, skeleton) = (Rig::of(clip.skeleton()), clip.skeleton());
-            let mut wide = LanePose::rest(skeleton);
+            let mut wide = LanePose::rest(&rig);
             wide.take_places(&clip, &rig, places);
             let other = wide.clone();
             wide.take_places(&clip, &rig, array::from_fn(|lane| places[lane ^ 1]));
-            let mut blend = LanePose::rest(skeleton);
+            let mut blend = LanePose::rest(&rig);
             blend.take_blends(&other, &wide, Lanes::splat(share));
             blend.place(&rig);
             wide.place(&rig);
@@ -218,13 +219,37 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn a_part_of_a_skeleton_stands_where_it_does_in_the_whole(
+            values in prop::collection::vec(-400.0..400.0, 9..45),
+            places in prop::array::uniform(0.0..9.0),
+            picked in prop::collection::vec(any::<prop::sample::Index>(), 1..3),
+        ) {
+            let clip = clip(&values);
+            let joints: Vec<usize> =
+                picked.iter().map(|picked| picked.index(clip.skeleton().len())).collect();
+            let (part, found) = Rig::carrying(clip.skeleton(), &joints);
+            let stand = |rig: &Rig| {
+                let mut pose = LanePose::rest(rig);
+                pose.take_places(&clip, rig, places);
+                pose.place(rig);
+                pose
+            };
+            let (whole, part) = (stand(&Rig::of(clip.skeleton())), stand(&part));
+            for (joint, place) in joints.into_iter().zip(found) {
+                prop_assert_eq!(whole.translations[joint], part.translations[place]);
+                prop_assert_eq!(whole.rotations[joint], part.rotations[place]);
+            }
+        }
+    }
+
     #[test]
     fn between_equal_frames_nothing_moves_by_even_the_last_digit() {
         let row = [33.3, 0.1, -77.7, 12.0, 5.0, 179.0, -3.0, 361.0, 40.0];
         let clip = clip(&[row, row].concat());
         let rig = Rig::of(clip.skeleton());
-        let (mut frame, mut between) =
-            (LanePose::rest(clip.skeleton()), LanePose::rest(clip.skeleton()));
+        let (mut frame, mut between) = (LanePose::rest(&rig), LanePose::rest(&rig));
         frame.take_places(&clip, &rig, [3.0, 4.0, 4.0, 3.0]);
         between.take_places(&clip, &rig, [3.3, 3.9, 3.5, 3.0]);
         assert_eq!(frame.rotations, between.rotations);

@@ -1,6 +1,7 @@
 //! A skeleton read for work on several poses at once: which columns of a row turn and move what.
 
 use std::array;
+use std::iter;
 
 use glam::DVec3;
 
@@ -58,6 +59,26 @@ impl Rig {
             RigJoint { parent, offset: joint.offset, turns: Turns::of(turns), moves }
         };
         Self { joints: skeleton.iter().map(joint).collect() }
+    }
+
+    /// The part of a skeleton that carries some joints, with these, and where in it each of them is.
+    pub(crate) fn carrying(skeleton: &Skeleton, joints: &[usize]) -> (Self, Vec<usize>) {
+        let mut carries = vec![false; skeleton.len()];
+        for joint in joints {
+            let up = |joint: &usize| skeleton.joints[*joint].parent.map(|parent| parent.0);
+            for joint in iter::successors(Some(*joint), up) {
+                carries[joint] = true;
+            }
+        }
+        let mut rig = Self::of(skeleton);
+        let kept: Vec<usize> = (0..rig.len()).filter(|joint| carries[*joint]).collect();
+        let place = |joint: &usize| kept.partition_point(|kept| kept < joint);
+        let mut carries = carries.into_iter();
+        rig.joints.retain(|_| carries.next().unwrap_or_default());
+        for joint in &mut rig.joints {
+            joint.parent = joint.parent.as_ref().map(place);
+        }
+        (rig, joints.iter().map(place).collect())
     }
 
     pub(crate) fn len(&self) -> usize {
