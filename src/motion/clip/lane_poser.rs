@@ -4,9 +4,9 @@
 
 use std::array;
 
+use crate::motion::Clip;
 use crate::motion::clip::rig::{Rig, Rows};
 use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
-use crate::motion::Clip;
 use crate::sheet::Source;
 use crate::time::{Clock, Frame};
 
