@@ -85,7 +85,7 @@ impl Evaluation {
     /// # let mut engine = Engine::new(clip)?;
     /// let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
     /// let sheet = Evaluation::of(breakdown.clip, breakdown.sheet, None, 1.0)?;
-    /// assert_eq!(sheet.pace.drawings, 27);
+    /// assert_eq!(sheet.pace.drawings, 26);
     /// assert!(sheet.shown.mean < 10.0, "% of body height off, in the mean over koma");
     /// # Ok::<(), genga::Error>(())
     /// ```

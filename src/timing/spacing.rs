@@ -188,7 +188,7 @@ impl Spacing {
     /// let reference = Reference::of(&clip, clock);
     /// let on_threes = Spacing { on: On::every(3), ..Spacing::default() };
     /// let spaced = on_threes.place(keys, clip.skeleton(), clock, koma, &Pace::of(&reference));
-    /// assert_eq!((spaced.layer.length(), spaced.layer.drawings.len()), (92, 27));
+    /// assert_eq!((spaced.layer.length(), spaced.layer.drawings.len()), (92, 22));
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn place(

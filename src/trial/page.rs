@@ -135,7 +135,7 @@ impl Trial {
     /// let take = Take { name: "kick", source: made.source, drawn: made.clip, sheet: made.sheet, own: vec![] };
     /// let files = Trial::default().files(&[take])?;
     /// let drawings = &files.plan.clips[0].drawings;
-    /// assert_eq!((drawings["genga"], drawings["uniform"], drawings["twos"]), (27, 27, 47));
+    /// assert_eq!((drawings["genga"], drawings["uniform"], drawings["twos"]), (26, 26, 47));
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn files(&self, takes: &[Take<'_>]) -> Result<Files, Error> {
