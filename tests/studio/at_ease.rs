@@ -37,6 +37,7 @@ fn a_key_pressed_twice_at_once_sets_and_takes_back() {
     table.twice(Key::K);
     assert!(table.says_nothing());
     assert!(table.edits().is_empty(), "{:?}", table.edits());
+    table.go(10);
     table.tap(Modifiers::NONE, Key::ArrowDown);
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.edits().forbidden.len(), 1);
@@ -108,7 +109,7 @@ fn in_japanese_choices_and_reasons_are_japanese_too() {
         table.harness.get_by_role_and_label(Role::ComboBox, knob).accesskit_node().value()
     };
     assert_eq!(chosen(&table, "spacing.source").as_deref(), Some("元の動き"));
-    assert_eq!(chosen(&table, "spacing.on").as_deref(), Some("2コマ打ち"));
+    assert_eq!(chosen(&table, "spacing.on").as_deref(), Some("2〜3コマ打ち"));
     table.tap(Modifiers::NONE, Key::ArrowDown);
     table.harness.get_by_label_contains("誤差を防ぐ");
 }

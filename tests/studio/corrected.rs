@@ -148,8 +148,8 @@ fn a_hold_is_made_longer_and_shorter_by_its_end_in_one_step() {
     let mut table = Table::with_kick();
     let sheet = table.canvas("Timesheet");
     let line = |koma: usize| pos2(sheet.min.x + 92.0, sheet.min.y + ROW * koma as f32);
-    // The first drawing is on screen for four koma, and inbetweens follow.
-    table.drag(line(4), line(7));
+    // The first drawing is on screen for ten koma, and inbetweens follow.
+    table.drag(line(10), line(7));
     let holds = |table: &Table| -> Vec<(usize, usize)> {
         table.edits().holds.iter().map(|hold| (hold.frame.0, hold.koma)).collect()
     };
@@ -170,11 +170,11 @@ fn a_hold_is_set_on_the_keyboard_and_survives_another_recipe() {
     table.tap(Modifiers::NONE, Key::CloseBracket);
     table.tap(Modifiers::NONE, Key::OpenBracket);
     assert_eq!(table.edits().holds.len(), 1);
-    assert_eq!(table.edits().holds[0].koma, 5);
+    assert_eq!(table.edits().holds[0].koma, 11);
     table.harness.get_by_label("On threes").click();
     table.harness.run();
-    table.harness.get_by_label("held 0: 5 koma");
-    table.harness.get_by_label("Take back: held 0: 5 koma").click();
+    table.harness.get_by_label("held 0: 11 koma");
+    table.harness.get_by_label("Take back: held 0: 11 koma").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }
@@ -182,7 +182,7 @@ fn a_hold_is_set_on_the_keyboard_and_survives_another_recipe() {
 #[test]
 fn an_inbetween_is_pulled_towards_its_genga() {
     let mut table = Table::with_kick();
-    // On ones there are inbetweens in plenty.
+    // Nothing is left out or held.
     for (knob, value) in [("omission.koma_dori", "0"), ("omission.naka_nashi", "0")] {
         table.harness.state_mut().turn(knob, value).unwrap();
     }
@@ -191,12 +191,12 @@ fn an_inbetween_is_pulled_towards_its_genga() {
     let curves = table.canvas("Speed curves");
     let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
     let at = |place: f64| pos2(left + (right - left) * (place / 91.0) as f32, curves.min.y + 25.0);
-    // The last inbetween before the first genga, on frame 12: koma 10 of 12, drawn towards it by 0.3.
-    let place = 12.0 - 2.0 * (1.0 - own);
-    table.drag(at(place), at(11.2));
+    // The last inbetween before the first genga, on frame 15: koma 13 of 15, drawn towards it by 0.3.
+    let place = 15.0 - 2.0 * (1.0 - own);
+    table.drag(at(place), at(14.2));
     let [pin] = &table.edits().pins[..] else { panic!("{:?}", table.edits()) };
     let weight = pin.weight.unwrap();
-    assert_eq!(pin.frame, Frame(12));
+    assert_eq!(pin.frame, Frame(15));
     assert!((weight - 0.6).abs() < 0.06, "{weight}");
     table.tap(Modifiers::COMMAND, Key::Z);
     assert!(table.edits().is_empty(), "a drag is one step");

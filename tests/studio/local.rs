@@ -116,7 +116,7 @@ fn one_key_goes_from_one_sheet_to_the_other() {
     table.harness.get_by_label("On threes").click();
     table.harness.run();
     table.tap(Modifiers::NONE, Key::X);
-    assert_eq!(table.recipe().get("spacing.on").unwrap(), "2");
+    assert_eq!(table.recipe().get("spacing.on").unwrap(), "2-3");
     table.tap(Modifiers::NONE, Key::X);
     assert_eq!(table.recipe().get("spacing.on").unwrap(), "3");
     table.harness.get_by_label("B: The other sheet (X)");
