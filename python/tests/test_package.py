@@ -292,7 +292,9 @@ def test_a_study_is_the_programs(clip, tmp_path):
 
 def test_evaluation_and_comparison(clip):
     result = genga.run(clip)
-    found = genga.evaluate(clip, result.to_json(), reference=result.keys["frame"].tolist())
+    drawings = result.sheet.drawings
+    genga_on_sheet = drawings["place"][drawings["role"] == "genga"].astype(int)
+    found = genga.evaluate(clip, result.to_json(), reference=genga_on_sheet.tolist())
     assert found["pace"]["drawings"] == len(set(result.sheet.exposures["drawing"].tolist()))
     assert found["timing"]["f1"] == 1.0 and 0 < found["shown"]["mean"] < 10
     table = genga.compare(clip, keys=[6], noise=0.0)

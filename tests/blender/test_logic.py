@@ -201,7 +201,7 @@ class Corrections(unittest.TestCase):
 
 class Settings(unittest.TestCase):
     KNOBS = SimpleNamespace(
-        rate=24.0, on="2", snap=np.float32(0.3).item(), naka_nashi=4.0, koma_dori=np.float32(100 / 3).item(),
+        rate=24.0, on="2-3", snap=np.float32(0.3).item(), naka_nashi=4.0, koma_dori=np.float32(100 / 3).item(),
         feet=False, rest="", pins="", forbid="", only_pins=False, genga=0, drawings=0.0,
     )
 

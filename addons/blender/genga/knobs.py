@@ -12,7 +12,7 @@ PRESETS = (
     ("modulated", "Ones to Threes", "As the motion of each interval asks", {"on": "1-3"}),
     ("snappy", "Snappy", "The middle of a movement snaps", {"snap": 0.5, "naka_nashi": 4.0}),
     ("soft", "Soft", "Even spacing, nothing left out", {"snap": 0.1, "naka_nashi": 0.0}),
-    ("few", "Few Genga", "Only what saves much", {"rest": "keys.min_price=6"}),
+    ("few", "Few Genga", "Only what saves much", {"rest": "keys.min_price=12"}),
 )
 
 # Whether knobs are being set together, so that nothing runs for each.
@@ -66,7 +66,7 @@ class GengaKnobs(PropertyGroup):
             ("1-3", "Ones to Threes", "Fast on ones, slow on threes, as the motion asks"),
             ("2-3", "Twos and Threes", "Fast on twos, slow on threes"),
         ),
-        default="2",
+        default="2-3",
         update=turned,
     )
     snap: FloatProperty(
