@@ -62,7 +62,6 @@ pub use reference::Reference;
 pub use rest::AtRests;
 pub(crate) use rest::{rest_frames, rests};
 pub use voters::weights;
-pub(crate) use walk::median;
 pub use walk::{AtGaits, Phase, Walk, WalkStep};
 pub use weights::JointWeights;
 

@@ -3,6 +3,7 @@
 use crate::edits::Edits;
 use crate::keys::{Key, Origin};
 use crate::knob::choices;
+use crate::maths::median;
 use crate::motion::{Gait, Step};
 use crate::time::Frame;
 
@@ -162,11 +163,11 @@ impl Walks {
 impl Choosable<'_> {
     /// A gait with the phases for which its steps have room.
     fn walk(&self, gait: &Gait) -> Walk {
-        let koma = median(gait.steps.iter().map(length));
+        let koma = middle(gait.steps.iter().map(length));
         let phases = Phase::with_room(koma);
         let own = |step: &Step| [step.contact, step.down, step.passing, step.up];
         let [_, down, passing, up] = [0, 1, 2, 3].map(|phase| {
-            koma * median(
+            koma * middle(
                 gait.steps.iter().map(|step| (own(step)[phase] - step.contact) / length(step)),
             )
         });
@@ -186,7 +187,7 @@ impl Choosable<'_> {
         let share = |phase: &Phase| {
             let shares =
                 gait.steps.iter().map(|step| (instant(step, *phase) - step.contact) / length(step));
-            median(shares)
+            middle(shares)
         };
         let step = |step: &Step| WalkStep {
             contact: step.contact,
@@ -264,14 +265,9 @@ fn length(step: &Step) -> f64 {
     step.next - step.contact
 }
 
-/// The one in the middle; of an even number the mean of both there. 0 of none.
-pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    match values.len() {
-        0 => 0.0,
-        count => (values[(count - 1) / 2] + values[count / 2]) / 2.0,
-    }
+/// The middle of some values, 0 of none.
+fn middle(values: impl Iterator<Item = f64>) -> f64 {
+    median(values).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::keys::{BodyTurns, LayerKeys, Origin};
+use crate::maths::median;
 use crate::motion::Clip;
 use crate::sheet::Layer;
 use crate::signal::Turn;
@@ -174,7 +175,7 @@ impl Measure {
             Self::LongestHold => layer.longest_hold() as f64,
             Self::HeldKoma => layer.held_koma() as f64,
             Self::PeakSsd => steps(clip, layer).last().copied().unwrap_or(0.0),
-            Self::MedianSsd => median(&steps(clip, layer)).unwrap_or(0.0),
+            Self::MedianSsd => median(steps(clip, layer)).unwrap_or(0.0),
             Self::Union | Self::Total | Self::Turns | Self::Fills => f64::NAN,
         }
     }
@@ -188,13 +189,6 @@ fn steps(clip: &Clip, layer: &Layer) -> Vec<f64> {
         pairs.map(|pair| stills.ssd(pair[0].drawing, pair[1].drawing)).collect();
     steps.sort_by(f64::total_cmp);
     steps
-}
-
-/// The middle of sorted values, the mean of both middles for an even number; none of none.
-fn median(sorted: &[f64]) -> Option<f64> {
-    let middle = sorted.len() / 2;
-    let upper = *sorted.get(middle)?;
-    Some(if sorted.len().is_multiple_of(2) { 0.5 * (sorted[middle - 1] + upper) } else { upper })
 }
 
 impl fmt::Display for Measure {

@@ -22,6 +22,8 @@ pub(super) struct Quota {
     pub(super) drawings: Range<usize>,
     /// Drawings to leave out; koma on a sheet on ones without genga.
     pub(super) count: usize,
+    /// How far the body goes from drawing to drawing in its middle.
+    pub(super) usual: f64,
     /// The SSD from which a movement is markedly fast.
     pub(super) fast: f64,
 }
@@ -43,8 +45,8 @@ impl NakaNashi {
         self.quotas.iter().fold(0, |sum, quota| sum.saturating_add(quota.count))
     }
 
-    /// Leaves drawings out, the fastest of each action first, and gives their koma to the slowest of the
-    /// interval.
+    /// Leaves drawings out, the fastest of each action first, and gives their koma to those of the interval that have
+    /// [room](Strip::room), the slowest first.
     pub(super) fn run(&self, strip: &mut Strip<'_>) -> Taken {
         if self.count() == 0 {
             return Taken::default();

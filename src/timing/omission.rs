@@ -244,7 +244,7 @@ impl Omission {
         report: &mut OmissionReport,
     ) {
         let quotas = self.quotas(layer, course, strip);
-        quotas.iter().for_each(|quota| strip.tell_slow(quota.drawings.clone()));
+        quotas.iter().for_each(|quota| strip.tell_slow(quota.drawings.clone(), quota.usual));
         let stage =
             NakaNashi { quotas, keep_length: self.keep_length, all_at_once: self.all_at_once };
         let taken = stage.run(strip);
@@ -269,8 +269,9 @@ impl Omission {
         let quota = |bounds: &[usize]| {
             let drawings = drawing(bounds[0])..drawing(bounds[1]);
             let fast = if strip.by_koma { 0.0 } else { self.fast };
-            let fast = fast * strip.usual_way(drawings.clone());
-            Quota { drawings, count: self.count_in(bounds[1] - bounds[0]), fast: fast * fast }
+            let usual = strip.usual_way(drawings.clone());
+            let count = self.count_in(bounds[1] - bounds[0]);
+            Quota { drawings, count, usual, fast: (fast * usual) * (fast * usual) }
         };
         bounds.windows(2).map(quota).collect()
     }

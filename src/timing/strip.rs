@@ -125,9 +125,8 @@ impl<'a> Strip<'a> {
     }
 
     /// Says of some drawings, those of an action, whether the body hardly moves there: it arrives or sets out no faster than
-    /// usual.
-    pub(super) fn tell_slow(&mut self, drawings: Range<usize>) {
-        let usual = self.usual_way(drawings.clone());
+    /// [usual](Self::usual_way).
+    pub(super) fn tell_slow(&mut self, drawings: Range<usize>, usual: f64) {
         for at in drawings {
             let out = self.links.get(self.links[at].after).map_or(0.0, |next| next.step);
             // Roots on both sides, as the median is one of them: squared again it may be another number.

@@ -152,25 +152,13 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::keys::acting::Acting;
-    use crate::keys::body::LayerMotion;
     use crate::keys::tests::swing;
     use crate::motion::{Build, Screen};
     use crate::time::FrameRate;
 
     fn of(angles: &[f64], fps: f64) -> f64 {
         let clip = swing(angles).with_rate(FrameRate::new(fps).unwrap());
-        let (build, own) = (Build::of(&clip), [1.0; 2]);
-        let motion = LayerMotion {
-            clip: &clip,
-            build: &build,
-            heard: &own,
-            judged: &own,
-            screen: &Screen::WORLD,
-            height: 2.0,
-            acting: &Acting::default(),
-        };
-        Tracks::of(&motion).crispness()
+        Tracks::of_all(&clip, &Build::of(&clip), &Screen::WORLD, 2.0).crispness()
     }
 
     /// An arm that swings as one does, for five seconds.

@@ -4,26 +4,14 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::keys::acting::Acting;
 use crate::keys::tests::swing;
 use crate::motion::lanes::{LaneQuat, narrow};
 use crate::motion::{Build, Clip, Screen};
 use crate::time::{FrameRate, Span};
 
 fn speeds(clip: &Clip, width: f64) -> BodySpeeds {
-    let own = vec![1.0; clip.skeleton().len()];
-    let build = Build::of(clip);
-    let motion = LayerMotion {
-        clip,
-        build: &build,
-        heard: &own,
-        judged: &own,
-        screen: &Screen::WORLD,
-        height: 2.0,
-        acting: &Acting::default(),
-    };
     let filter = LowPass { width: Span::Frames(width), ..LowPass::default() };
-    BodySpeeds::of(&Tracks::of(&motion), &filter)
+    BodySpeeds::of(&Tracks::of_all(clip, &Build::of(clip), &Screen::WORLD, 2.0), &filter)
 }
 
 fn turns(clip: &Clip, width: f64, persistence: f64) -> BodyTurns {

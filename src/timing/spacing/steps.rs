@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::Spacing;
-use crate::keys::{Phase, Walk, median};
+use crate::keys::{Phase, Walk};
+use crate::maths::median;
 use crate::time::Frame;
 use crate::timing::on::{Pace, STAY};
 
@@ -139,7 +140,8 @@ fn on(walk: &Walk, comes_early: bool, spacing: &Spacing, pace: &Pace<'_>) -> usi
         .iter()
         .flat_map(|step| koma(step.contact, comes_early)..koma(step.next, comes_early));
     let all = all.filter_map(|koma| usize::try_from(koma).ok());
-    let on = median(all.map(|koma| spacing.stay(koma, pace) as f64)).floor() as usize;
+    let on =
+        median(all.map(|koma| spacing.stay(koma, pace) as f64)).unwrap_or(0.0).floor() as usize;
     let least = if walk.phases.len() == Phase::MOST { spacing.on.stay() } else { 1 };
     on.max(least)
 }

@@ -6,6 +6,7 @@ use std::ops::{Range, RangeInclusive};
 
 use super::legs::{Legs, Passing, RATE, most};
 use super::{Gait, Step};
+use crate::maths::median;
 
 /// Steps of a gait: two of each foot, as one alone is like every other.
 const LEAST_STEPS: usize = 4;
@@ -143,7 +144,7 @@ fn are_alike(steps: &[Seen]) -> bool {
     (0..2).all(|foot| {
         let own = steps.iter().filter(|step| step.foot == foot);
         let lengths: Vec<f64> = own.filter_map(Seen::length).collect();
-        let middle = median(lengths.clone()).unwrap_or(0.0);
+        let middle = median(lengths.iter().copied()).unwrap_or(0.0);
         let most = f64::max(ALIKE.0 * middle, ALIKE.1 * RATE);
         lengths.iter().all(|length| (length - middle).abs() <= most)
     })
@@ -151,7 +152,7 @@ fn are_alike(steps: &[Seen]) -> bool {
 
 /// The gait of some steps: what the clip cuts off of the first and the last is as in the others.
 fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
-    let still_apart = median(steps.iter().filter_map(|step| step.still_apart).collect())?;
+    let still_apart = median(steps.iter().filter_map(|step| step.still_apart))?;
     if still_apart < STILL_APART {
         return None;
     }
@@ -180,8 +181,7 @@ fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
 
 /// What a part of the steps of a foot is like: the middle one of those that are seen, or of the other foot's.
 fn middle(steps: &[Seen], foot: usize, part: fn(&Seen) -> Option<f64>) -> Option<f64> {
-    let of =
-        |foot| median(steps.iter().filter(|step| step.foot == foot).filter_map(part).collect());
+    let of = |foot| median(steps.iter().filter(|step| step.foot == foot).filter_map(part));
     of(foot).or_else(|| of(1 - foot))
 }
 
@@ -199,7 +199,7 @@ fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
     let usual = |foot: usize, part: usize| {
         let of = |foot| {
             let own = seen.iter().filter(|(own, _)| *own == foot);
-            median(own.filter_map(|(_, shares)| shares[part]).collect())
+            median(own.filter_map(|(_, shares)| shares[part]))
         };
         of(foot).or_else(|| of(1 - foot)).unwrap_or(0.5)
     };
@@ -213,12 +213,4 @@ fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
             Step { foot, contact, down, passing, up, next }
         };
     Gait { steps: steps.iter().zip(&seen).map(step).collect() }
-}
-
-/// The middle one of some numbers, or between the two in the middle.
-fn median(mut numbers: Vec<f64>) -> Option<f64> {
-    numbers.sort_by(f64::total_cmp);
-    let (low, high) =
-        (numbers.get(numbers.len().saturating_sub(1) / 2)?, numbers.get(numbers.len() / 2)?);
-    Some(f64::midpoint(*low, *high))
 }
