@@ -1,6 +1,7 @@
 //! The chain, stage by stage and as a whole, on a synthetic body: `cargo bench -p genga-benches --bench chain`.
 //!
-//! A table in Markdown: CPU time in ns per frame·joint, median of the rounds. `-- 5000` is of as many frames alone.
+//! Prints a Markdown table: CPU time in ns per frame·joint, median of the rounds. `-- 5000` measures only that number
+//! of frames.
 
 #![allow(clippy::print_stdout, reason = "it prints a table")]
 
@@ -39,7 +40,7 @@ fn main() {
     }
 }
 
-/// The median of many rounds for each stage.
+/// The median time of each stage over many rounds.
 fn medians(frames: usize) -> Vec<(&'static str, f64)> {
     let clip = swinging(frames);
     let count = (1_000_000 / frames).clamp(9, 500);
@@ -52,7 +53,7 @@ fn medians(frames: usize) -> Vec<(&'static str, f64)> {
     (0..rounds[0].len()).map(median).collect()
 }
 
-/// The times of one run of the chain, stage after stage.
+/// The times of one run of the chain, stage by stage.
 struct Stopwatch {
     begin: Instant,
     last: f64,
@@ -72,13 +73,13 @@ impl Stopwatch {
     }
 }
 
-/// One run over a clip, each stage by itself, and the whole by the engine.
+/// Runs each stage on a clip by itself, and then the whole chain with the engine.
 fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let recipe = Recipe::default();
     let mut watch = Stopwatch::start();
     let speed = recipe.speed.measure(clip).expect("a clip with motion");
     watch.lap("speeds");
-    let spectrum = Spectrum::of(&speed);
+    let spectrum = Spectrum::new(&speed);
     watch.lap("spectrum");
     let filtered = recipe.filter.apply(&spectrum);
     watch.lap("filter");
@@ -86,15 +87,13 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let turns = recipe.turns.find(&filtered, delay);
     watch.lap("turns");
     let clock = clip.clock(recipe.rate);
-    let reference = Reference::of(clip, clock);
+    let reference = Reference::new(clip, clock);
     watch.lap("reference");
-    let body = BodyTurns::of(clip, &reference, &recipe.filter, &recipe.turns);
+    let body = BodyTurns::new(clip, &reference, &recipe.filter, &recipe.turns);
     watch.lap("turns of the body");
     let joints = JointTurns {
         filtered: &filtered,
         turns: &turns,
-        finder: &recipe.turns,
-        delay,
         weights: &keys::weights(clip),
         apart: clock.frames_in_koma(),
         contacts: &[],
@@ -103,7 +102,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let candidates = recipe.keys.candidates(&joints);
     watch.lap("candidates");
     let own = vec![1.0; clip.skeleton().len()];
-    let chords = Chords::of(clip, &reference, &own, recipe.keys.span());
+    let chords = Chords::new(clip, &reference, &own, recipe.keys.span());
     watch.lap("chords");
     let judges = Judges { reference: &reference, chords: &chords, alike: &Alike::default() };
     let keys = recipe.keys.choose(clip, judges, &candidates, &joints, &Edits::default());
@@ -111,7 +110,7 @@ fn timed(clip: &Clip) -> Vec<(&'static str, f64)> {
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
     let spaced = recipe.spacing.place(&keys, clip.skeleton(), clock, koma, &Pace::default());
     watch.lap("spacing");
-    let stills = Stills::of(clip, &spaced.layer);
+    let stills = Stills::from_layer(clip, &spaced.layer);
     watch.lap("stills");
     let omitted = recipe.omission.apply(&spaced.layer, &stills, recipe.spacing.on.most);
     watch.lap("omission");

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The tables of docs/performance.md again: `benches/compare.sh [ROUNDS]`. Markdown on stdout.
+# The tables of docs/lab/performance.md again: `benches/compare.sh [ROUNDS]`. Markdown on stdout.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export ROUNDS=${1:-15}

@@ -1,7 +1,7 @@
-//! One large file, opened by one core and by all of them: `cargo bench -p genga-benches --bench cores -- FILE.bvh`.
+//! One large file, opened by one core and by all cores: `cargo bench -p genga-benches --bench cores -- FILE.bvh`.
 //!
-//! A process of its own each time, held to one core or free, turn about: a ratio is taken within a
-//! round. Wall time, which is what more cores are to save.
+//! Each measurement is a process of its own, in turn pinned to one core and unpinned. A ratio is taken within a round.
+//! Wall time is measured, since that is what more cores should save.
 
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "it prints a table")]
 
@@ -15,7 +15,7 @@ use genga::motion::bvh;
 
 const ROUNDS: usize = 9;
 
-/// How often a process opens the file; the best counts, for others work on the machine too.
+/// Times that a process opens the file. The best counts, because other work runs on the machine too.
 const TIMES: usize = 3;
 
 fn main() {

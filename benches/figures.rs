@@ -1,12 +1,12 @@
-//! A hundred figures as one SVG, with volume and as sticks.
+//! Measures how long it takes to draw a hundred figures into one SVG, as mannequins and as sticks.
 //!
 //! `cargo bench -p genga-benches --bench figures`
 #![allow(missing_docs)]
 
 use divan::Bencher;
 use genga::motion::{Clip, bvh};
-use genga::plot::{FigureBody, PoseRow};
 use genga::sheet::Role;
+use genga_plot::{FigureBody, PoseRow};
 
 const FIGURES: usize = 100;
 

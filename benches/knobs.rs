@@ -1,4 +1,4 @@
-//! What is run again when one knob was turned, as items (frames × joints) a second:
+//! The cost of rerunning after one turned knob, as items (frames × joints) a second:
 //! `cargo bench -p genga-benches --bench knobs`.
 
 use divan::Bencher;
@@ -18,7 +18,7 @@ fn main() {
     divan::main();
 }
 
-/// Runs an engine that ran before again, with one of two values of a knob.
+/// Reruns an engine with one of two values of a knob in turn.
 fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]) {
     let mut engine = Engine::new(swinging(frames)).expect("a clip with motion");
     let recipes = values.map(|value| {
@@ -34,25 +34,25 @@ fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]
     });
 }
 
-/// From the smoothing on: filter, turns, keys, spacing, omission.
+/// Reruns from the filter on: filter, turns, keys, spacing, omission.
 #[divan::bench(args = FRAMES, sample_count = 5)]
 fn filter_width_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "filter.width", ["0.1s", "0.11s"]);
 }
 
-/// From the choice of keys on: prices, spacing, omission.
+/// Reruns from the choice of keys on: prices, spacing, omission.
 #[divan::bench(args = FRAMES, sample_count = 5)]
 fn min_price_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "keys.min_price", ["3", "3.1"]);
 }
 
-/// From spacing on: spacing, positions of the drawings, omission.
+/// Reruns from spacing on: spacing, positions of the drawings, omission.
 #[divan::bench(args = FRAMES, sample_count = 5)]
 fn spacing_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "spacing.weight", ["0.3", "0.31"]);
 }
 
-/// Omission alone.
+/// Reruns omission alone.
 #[divan::bench(args = FRAMES, sample_count = 5)]
 fn omission_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "omission.koma_dori", ["30%", "31%"]);

@@ -1,8 +1,8 @@
-//! Time and memory that a reader spends on files that lie, and memory that a run does on small files that ask for much:
-//! `cargo bench -p genga-benches --bench lies`, or `-- memory` for the second table alone.
+//! Time and memory that a reader spends on lying files, and memory of runs on small files that ask for much: `cargo
+//! bench -p genga-benches --bench lies`, or `-- memory` for the second table alone.
 //!
-//! Every file is read in a process of its own, whose peak of memory is taken from /proc. Two sizes show
-//! whether both grow with the size and no faster.
+//! Every file is read in a process of its own, whose peak memory is taken from /proc. Two sizes show whether time and
+//! memory grow no faster than the size.
 
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "it prints a table")]
 
@@ -25,10 +25,10 @@ mod memory;
 
 use lying_files::LIES;
 
-/// Bytes of a file.
+/// Sizes of a file in bytes.
 const SIZES: [usize; 2] = [8 << 20, 64 << 20];
 
-/// A file that takes longer than so many seconds is called a hang.
+/// Seconds after which a file counts as a hang.
 const LONGEST: u64 = 20;
 
 fn main() {
@@ -45,7 +45,7 @@ fn main() {
     }
 }
 
-/// What a process of its own prints: bytes, outcome, nanoseconds, bytes of memory beyond the file's.
+/// Prints the result of a child process: bytes, outcome, nanoseconds, bytes of memory beyond the file's.
 fn one(lie: usize, size: usize) {
     let bytes = (LIES[lie].2)(size);
     let before = memory::now();
@@ -79,7 +79,7 @@ fn table() {
             println!("| {name} | | over {LONGEST} s: A HANG | | | | |");
             continue;
         };
-        // A file of a few bytes takes what a process takes for nothing.
+        // Of a file of a few bytes, only the fixed cost of a process would be measured.
         let growth =
             if large.0 > small.0 { format!("{:.1} times", large.1 / small.1) } else { "-".into() };
         let memory =
@@ -94,7 +94,7 @@ fn table() {
     }
 }
 
-/// Bytes, nanoseconds, bytes of memory and outcome of one file; none when it takes too long.
+/// Bytes, nanoseconds, bytes of memory and outcome of one file. `None` if it takes too long.
 fn run(lie: usize, size: usize) -> Option<(f64, f64, f64, String)> {
     let program = env::current_exe().unwrap();
     let arguments = ["one".to_owned(), lie.to_string(), size.to_string()];

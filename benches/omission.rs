@@ -1,4 +1,4 @@
-//! The omission stages, against a version that computes every distance anew in every round.
+//! The omission stages, compared with a version that recomputes every distance in every round.
 //!
 //! `cargo bench -p genga-benches --bench omission`
 #![allow(missing_docs)]
@@ -14,14 +14,14 @@ use genga::timing::{Amount, Omission, Stills};
 use glam::DVec3;
 
 const JOINTS: usize = 31;
-/// The first is the length of "Pitch" in Table 1 of KKMFT.
+/// The first length is that of "Pitch" in Table 1 of KKMFT.
 const LENGTHS: [usize; 4] = [129, 1_000, 10_000, 100_000];
 
 fn main() {
     divan::main();
 }
 
-/// Four limbs that swing at rates of their own, on a root that walks.
+/// Four limbs that swing at different rates, on a root that walks.
 fn clip(frames: usize) -> Clip {
     let rotations = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
     let position = Channel::Position(Axis::X);
@@ -48,7 +48,7 @@ fn clip(frames: usize) -> Clip {
 fn laid_out(frames: usize) -> (Layer, Stills) {
     let clip = clip(frames);
     let layer = Sheet::on_ones(clip.clock(24.0), frames).layers.remove(0);
-    let stills = Stills::of(&clip, &layer);
+    let stills = Stills::from_layer(&clip, &layer);
     (layer, stills)
 }
 
@@ -65,7 +65,7 @@ fn items(frames: usize) -> ItemsCount {
 fn a_positions(bencher: Bencher, frames: usize) {
     let clip = clip(frames);
     let layer = Sheet::on_ones(clip.clock(24.0), frames).layers.remove(0);
-    bencher.counter(items(frames)).bench(|| Stills::of(&clip, &layer));
+    bencher.counter(items(frames)).bench(|| Stills::from_layer(&clip, &layer));
 }
 
 #[divan::bench(args = LENGTHS)]
@@ -75,7 +75,7 @@ fn b_distances_once(bencher: Bencher, frames: usize) {
     bencher.counter(items(frames)).bench(sum);
 }
 
-/// What every run pays: distances once, linking, and the layer that comes out.
+/// The fixed cost of every run: distances once, linking, and building the resulting layer.
 #[divan::bench(args = LENGTHS)]
 fn c_nothing_left_out(bencher: Bencher, frames: usize) {
     stages(bencher, frames, 0, 0);
@@ -113,7 +113,7 @@ fn g_both_straight(bencher: Bencher, frames: usize) {
     bencher.counter(items(frames)).bench(|| straight(&stills, naka_nashi, koma_dori));
 }
 
-/// Algorithms 1 and 2 on a list of frames, every distance anew in every round.
+/// Algorithms 1 and 2 on a list of frames, with every distance recomputed in every round.
 fn straight(stills: &Stills, naka_nashi: usize, koma_dori: usize) -> Vec<usize> {
     let mut frames: Vec<usize> = (0..stills.len()).collect();
     let mut duplicated = vec![0; stills.len()];

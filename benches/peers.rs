@@ -1,7 +1,7 @@
-//! The reader beside its peers and its limits, in one run: `benches/compare.sh`.
+//! The reader compared with its peers and its limits, in one run: `benches/compare.sh`.
 //!
-//! Every round runs every engine once on the same file, in an order that is rotated; a ratio is taken
-//! within a round, so that a bad minute of the machine hits both sides. CPU time of this thread.
+//! Every round runs every engine once on the same file, in rotating order. A ratio is taken within a round, so that a
+//! slow minute of the machine hits both sides. Times are CPU time of this thread.
 
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "it prints a table")]
 
@@ -28,17 +28,17 @@ const FILES: [&str; 6] = [
 
 const ROUNDS: usize = 15;
 
-/// A file, as every engine wants it.
+/// A file in the forms that the engines need.
 struct Input {
     path: PathBuf,
     bytes: Vec<u8>,
-    /// Where the numbers of the motion begin.
+    /// Byte offset at which the numbers of the motion begin.
     table: usize,
-    /// How many there are.
+    /// Number of values.
     values: usize,
 }
 
-/// What an engine made: dropped outside the measured time, as a program would keep it.
+/// The result of an engine. It is dropped outside the measured time, because a program would keep it.
 enum Made {
     Clip(Clip),
     Values(Vec<f64>),
@@ -78,7 +78,7 @@ const GENGA_MEMORY: usize = 1;
 const FAST_FLOAT: usize = 2;
 const BVH_ANIM: usize = 4;
 
-/// File to clip, as a program has it.
+/// Reads a clip from a file, as a program does.
 fn open(path: &Path) -> Clip {
     bvh::open(path).unwrap().clip
 }
@@ -119,7 +119,7 @@ fn count_lines(input: &Input) -> Made {
     Made::Count(input.bytes.iter().map(|byte| usize::from(*byte == b'\n')).sum())
 }
 
-/// The sum of all values, each as an `f32` for a peer that has no more.
+/// The sum of all values, each rounded to `f32` for a peer that has no more.
 fn check(made: &Made, single: bool) -> Option<f64> {
     let round = |value: f64| if single { f64::from(value as f32) } else { value };
     match made {
@@ -133,13 +133,13 @@ fn check(made: &Made, single: bool) -> Option<f64> {
     }
 }
 
-/// Every engine has read the same numbers.
+/// Checks that every engine has read the same numbers.
 fn agree(input: &Input, name: &str) {
     let clip = ENGINES[GENGA].run_on(input);
     let (exact, single) = (check(&clip, false).unwrap(), check(&clip, true).unwrap());
     for engine in &ENGINES {
         let made = engine.run_on(input);
-        // Its own parser is not correctly rounded.
+        // The parser of bvh_anim is not correctly rounded.
         let (expected, near) = match made {
             Made::Bvh(_) => (single, 1e-6 * input.values as f64),
             _ => (exact, 0.0),
@@ -199,7 +199,7 @@ fn measure(input: &Input, rounds: usize) -> Vec<Vec<f64>> {
     times
 }
 
-/// How many times faster `a` is than `b`: median, smallest and largest of the rounds.
+/// Speedup of `a` over `b`: median, smallest and largest of the rounds.
 fn faster(times: &[Vec<f64>], a: usize, b: usize) -> [f64; 3] {
     let mut ratios: Vec<f64> = times[a].iter().zip(&times[b]).map(|(a, b)| b / a).collect();
     let median = median(&mut ratios);

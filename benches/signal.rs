@@ -31,7 +31,7 @@ fn skeleton() -> Skeleton {
     Skeleton { joints: (0..JOINTS).map(joint).collect() }
 }
 
-/// Every channel swings at a pace of its own, at 120 frames a second.
+/// A clip at 120 frames per second in which every channel swings at its own pace.
 fn clip(frames: usize) -> Clip {
     let skeleton = skeleton();
     let channels = skeleton.channels();
@@ -59,30 +59,30 @@ fn speed(bencher: Bencher, frames: usize) {
 #[divan::bench(args = FRAMES)]
 fn spectrum(bencher: Bencher, frames: usize) {
     let speeds = speeds(frames);
-    bencher.counter(ItemsCount::new(frames * JOINTS)).bench(|| Spectrum::of(black_box(&speeds)));
+    bencher.counter(ItemsCount::new(frames * JOINTS)).bench(|| Spectrum::new(black_box(&speeds)));
 }
 
 #[divan::bench(args = FRAMES)]
 fn apply(bencher: Bencher, frames: usize) {
-    let spectrum = Spectrum::of(&speeds(frames));
+    let spectrum = Spectrum::new(&speeds(frames));
     bencher
         .counter(ItemsCount::new(frames * JOINTS))
         .bench(|| LowPass::default().apply(black_box(&spectrum)));
 }
 
-/// A filter that is no running sum: with the transform forth, and the way back alone.
+/// A filter that is not a running sum: first with the forward transform, then the way back alone.
 #[divan::bench(args = FRAMES)]
 fn gaussian_once(bencher: Bencher, frames: usize) {
     let signals = speeds(frames);
     let gaussian = LowPass { kind: FilterKind::Gaussian, ..LowPass::default() };
     bencher
         .counter(ItemsCount::new(frames * JOINTS))
-        .bench(|| gaussian.apply(&Spectrum::of(black_box(&signals))));
+        .bench(|| gaussian.apply(&Spectrum::new(black_box(&signals))));
 }
 
 #[divan::bench(args = FRAMES)]
 fn gaussian_again(bencher: Bencher, frames: usize) {
-    let spectrum = Spectrum::of(&speeds(frames));
+    let spectrum = Spectrum::new(&speeds(frames));
     let gaussian = LowPass { kind: FilterKind::Gaussian, ..LowPass::default() };
     bencher
         .counter(ItemsCount::new(frames * JOINTS))
@@ -93,7 +93,7 @@ fn gaussian_again(bencher: Bencher, frames: usize) {
 fn find(bencher: Bencher, frames: usize) {
     let speeds = speeds(frames);
     let filter = LowPass::default();
-    let filtered = filter.apply(&Spectrum::of(&speeds));
+    let filtered = filter.apply(&Spectrum::new(&speeds));
     let delay = filter.delay(speeds.rate);
     bencher
         .counter(ItemsCount::new(frames * JOINTS))

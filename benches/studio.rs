@@ -1,5 +1,5 @@
-//! What a turned knob costs until the picture has changed, without a window: `cargo bench -p genga-benches
-//! --features studio --bench studio`.
+//! The cost of a turned knob until the picture has changed, without a window: `cargo bench -p genga-benches --features
+//! studio --bench studio`.
 //!
 //! One round is the chain from that knob on, and the frame that shows the result with its triangles, in a window of
 //! 1440 × 900. A frame at 60 Hz has 16.7 ms.
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use divan::Bencher;
 use egui::{Context, Pos2, RawInput, Rect, vec2};
-use genga::studio::{ClipsAlone, Language, Studio};
+use genga_studio::{ClipsAlone, Language, Studio};
 
 #[path = "common/body.rs"]
 mod body;
@@ -22,7 +22,7 @@ fn main() {
     divan::main();
 }
 
-/// Draws a frame, and gives the number of its triangles' corners.
+/// Draws a frame and returns the number of tessellated primitives.
 fn frame(context: &Context, studio: &mut Studio) -> usize {
     let screen = Rect::from_min_size(Pos2::ZERO, vec2(1440.0, 900.0));
     let input = RawInput { screen_rect: Some(screen), ..RawInput::default() };
@@ -32,7 +32,7 @@ fn frame(context: &Context, studio: &mut Studio) -> usize {
     drawn.len()
 }
 
-/// Turns a knob to and fro.
+/// Turns a knob back and forth between two values.
 fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]) {
     let context = Context::default();
     let desk = ClipsAlone(move |_: &Path| Ok(body::swinging(frames)));
@@ -50,19 +50,19 @@ fn turned(bencher: Bencher<'_, '_>, frames: usize, knob: &str, values: [&str; 2]
     });
 }
 
-/// From the smoothing on, the longest way.
+/// Reruns from the filter on, the longest path.
 #[divan::bench(args = FRAMES, sample_count = 40)]
 fn filter_width_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "filter.width", ["0.1s", "0.11s"]);
 }
 
-/// From the choice of keys on.
+/// Reruns from the choice of keys on.
 #[divan::bench(args = FRAMES, sample_count = 40)]
 fn min_price_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "keys.min_price", ["3", "3.1"]);
 }
 
-/// From spacing on.
+/// Reruns from spacing on.
 #[divan::bench(args = FRAMES, sample_count = 40)]
 fn spacing_turned(bencher: Bencher<'_, '_>, frames: usize) {
     turned(bencher, frames, "spacing.weight", ["0.3", "0.31"]);

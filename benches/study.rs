@@ -4,7 +4,7 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use genga::pipeline::Budget;
 use genga::recipe::Recipe;
-use genga::study::{Axis, Measure, Noise, Study, table_1_recipe};
+use genga_lab::study::{Axis, Measure, Noise, Study, table_1_recipe};
 
 #[path = "common/body.rs"]
 mod body;
@@ -27,7 +27,7 @@ fn study(bencher: Bencher<'_, '_>, recipe: Recipe, degrees: f64, measures: &[Mea
         keep_keys: false,
         budget: Budget::default(),
     };
-    // A capture shakes: without noise there are few turns to count.
+    // Captures are noisy: without noise there are few turns to count.
     let clip = std::sync::Arc::new(Noise { degrees, seed: 0 }.on(&swinging(FRAMES)));
     bencher.counter(ItemsCount::new(study.len())).bench_local(|| {
         study.run(std::sync::Arc::clone(&clip), || ()).expect("it runs").cells.len()
@@ -36,13 +36,13 @@ fn study(bencher: Bencher<'_, '_>, recipe: Recipe, degrees: f64, measures: &[Mea
 
 const NOISE: [f64; 2] = [0.0, 0.1];
 
-/// Turns counted over all joints, by the recipe of Table 1.
+/// Turns counted over all joints, with the recipe of Table 1.
 #[divan::bench(args = NOISE, sample_count = 5)]
 fn union_and_total(bencher: Bencher<'_, '_>, degrees: f64) {
     study(bencher, table_1_recipe(), degrees, &[Measure::Union, Measure::Total]);
 }
 
-/// Merge and prices too, by the recipe of a run.
+/// Genga counted on the sheet, with the recipe of a run. This also measures the merge and the choice by price.
 #[divan::bench(args = NOISE, sample_count = 3)]
 fn genga(bencher: Bencher<'_, '_>, degrees: f64) {
     study(bencher, Recipe::default(), degrees, &[Measure::Genga]);

@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         joint("UpperArm", None, DVec3::Y * 140.0, 0),
         joint("ForeArm", Some(0), DVec3::NEG_Y * 30.0, 1),
     ];
-    // A row a frame, a column a channel, in degrees: an arm that waves, its forearm behind it.
+    // One row per frame, one column per channel, in degrees: an arm that waves, its forearm lagging behind.
     let wave = |frame: usize| f64::to_radians(6.0 * frame as f64).sin();
     let rows =
         (0..120).flat_map(|frame| [60.0 * wave(frame), 30.0 * wave(frame.saturating_sub(8))]);

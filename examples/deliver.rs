@@ -6,11 +6,11 @@ use std::error::Error;
 use std::fs;
 use std::path::PathBuf;
 
-use genga::deliver::{Cut, Format, Settings};
 use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
+use genga_files::{Cut, Format, Settings};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);

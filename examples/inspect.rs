@@ -5,13 +5,14 @@
 use std::error::Error;
 use std::path::PathBuf;
 
+use genga::motion::clean::Cleaning;
 use genga::motion::{Stature, Unit, bvh};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).map_or("data/kick.bvh".into(), PathBuf::from);
     let read = bvh::open(&path)?;
-    // A T-pose in front of the motion would be its fastest frame.
-    let (clip, cleaned) = bvh::Cleaning::default().of(read.clip)?;
+    // Removes a T-pose in front of the motion, which would be its fastest frame.
+    let (clip, cleaned) = Cleaning::default().apply(read.clip)?;
     for warning in read.warnings.iter().chain(&cleaned) {
         println!("{warning}");
     }
@@ -24,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  {} hangs on {parent}", joint.name);
     }
 
-    let Stature { size, up, .. } = Stature::of(&clip);
+    let Stature { size, up, .. } = Stature::new(&clip);
     println!("{size:.0} units high along {up:?}; a unit is probably a {:?}", Unit::nearest(size));
     Ok(())
 }

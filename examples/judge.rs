@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::Engine;
-use genga::quality::Evaluation;
 use genga::recipe::Recipe;
+use genga_lab::quality::Evaluation;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).map_or("data/kick.bvh".into(), PathBuf::from);
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         recipe.set("spacing.on", on)?;
         let breakdown = engine.run(&recipe, &Edits::default())?;
         let Evaluation { pace, shown, keys, .. } =
-            Evaluation::of(breakdown.clip, breakdown.sheet, None, 1.0)?;
+            Evaluation::new(breakdown.clip, breakdown.sheet, None, 1.0)?;
         println!("{on:>10} {:>9} {:>18.1} {:>14.1}", pace.drawings, shown.mean, keys.mean);
     }
     Ok(())

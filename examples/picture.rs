@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use genga::edits::Edits;
 use genga::motion::bvh;
 use genga::pipeline::Engine;
-use genga::plot::PoseRow;
 use genga::recipe::Recipe;
+use genga_plot::PoseRow;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let made = || std::env::temp_dir().join("genga-poses.svg");
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         breakdown.sheet.first_layer()?.drawings.iter().filter(|drawing| drawing.role.is_kept());
     println!("{} figures, six in a row, as SVG", kept.count());
 
-    // What cannot be drawn is refused, with what would be right.
+    // An impossible setting is refused with a hint.
     let too_small = PoseRow { figure_height: 4, ..picture };
     if let Err(error) = too_small.draw_kept(breakdown.clip, breakdown.sheet) {
         println!("{error}");

@@ -23,7 +23,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     for edits in [Edits::default(), corrected] {
         let breakdown = engine.run(&Recipe::default(), &edits)?;
         let layer = breakdown.sheet.first_layer()?;
-        // A column of the sheet, a letter a koma: O genga, X end, o inbetween, | the drawing before it stays.
+        // Prints a column of the sheet, one letter per koma: O genga, X end, o inbetween, | the drawing before it
+        // stays.
         let letters = layer.exposures.iter().map(|exposure| {
             let letter = match layer.drawings[exposure.drawing].role {
                 Role::Genga => "O",

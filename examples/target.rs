@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{:?}: {:.2} reached", outcome.target, outcome.reached);
         outcome.shortfall.iter().for_each(|why| println!("  {why}"));
     }
-    // The settings that were found are a recipe like any other.
+    // The settings found are a recipe like any other.
     let (before, after) = (recipe.settings(), met.recipe.settings());
     for ((name, was), (_, is)) in before.iter().zip(&after).filter(|(was, is)| was != is) {
         println!("{name} = {is} (was {was})");

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use genga::motion::bvh;
 use genga::pipeline::Budget;
 use genga::recipe::Recipe;
-use genga::study::{Axis, Measure, Study};
+use genga_lab::study::{Axis, Measure, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).map_or("data/kick.bvh".into(), PathBuf::from);

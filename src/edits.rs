@@ -1,4 +1,4 @@
-//! A person's corrections. They are anchored to source frames, so that a recompute keeps them.
+//! A person's corrections. They are anchored to source frames, so that they survive a recompute.
 
 mod forbidden;
 mod hold;
@@ -20,46 +20,45 @@ pub use layer::{LayerEdits, layer_of};
 pub use marks::{Move, Pin};
 pub use speech::Speech;
 
-/// What a person wants in spite of what was found.
+/// A person's corrections to the computed sheet.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Edits {
-    /// Frames that are keys whatever is found.
+    /// Frames that are always keys.
     pub pins: Vec<Pin>,
-    /// Frames near which no key may be found: within two koma of them none is, the end of a rest neither.
-    /// Pins and moved keys stay.
+    /// Frames at which no key may be found. The ban extends two koma around them and includes the ends of rests. Pins
+    /// and moved keys stay.
     pub forbidden: Vec<Forbidden>,
-    /// Keys that are found near one frame and drawn at another instead.
+    /// Keys found near one frame and drawn at another instead.
     #[serde(skip_serializing_if = "is_default")]
     pub moves: Vec<Move>,
-    /// Drawings that stay on screen longer or shorter than was found.
+    /// Drawings held longer or shorter than computed.
     #[serde(skip_serializing_if = "is_default")]
     pub holds: Vec<Hold>,
-    /// Whether pins and moved keys are the only keys; default no.
+    /// Whether pins and moved keys are the only keys. Default: no.
     #[serde(skip_serializing_if = "is_default")]
     pub only_pins: bool,
-    /// Whether every key is chosen anew around the corrections (選び直す); default no: each changes its own
-    /// neighbourhood and nothing else.
+    /// Whether every key is chosen anew around the corrections (選び直す). Default: no; each correction changes only its
+    /// own neighbourhood.
     #[serde(skip_serializing_if = "is_default")]
     pub again: bool,
-    /// Frames of keys that stay (凍結), those of a sheet before: no others are found, whatever the settings say, and
-    /// pins, moves and what is forbidden correct these. None for what is found.
+    /// Key frames of an earlier sheet that are kept (凍結). No others are found, whatever the settings. Pins, moves and
+    /// forbidden frames correct these keys. Empty: keys are found as usual.
     #[serde(skip_serializing_if = "is_default")]
     pub frozen: Vec<Frame>,
-    /// Frames with which actions (動作) begin, instead of those that are found; none for those that are
-    /// found.
+    /// Frames at which actions (動作) begin, in place of the computed ones. Empty: actions are found.
     #[serde(skip_serializing_if = "is_default")]
     pub splits: Vec<Frame>,
-    /// What is spoken (セリフ), for the S column. It changes no drawing.
+    /// Spoken lines (セリフ) for the S column. They change no drawing.
     #[serde(skip_serializing_if = "is_default")]
     pub speech: Vec<Speech>,
-    /// Corrections of one layer alone, by its name; all others are of every layer.
+    /// Corrections of single layers by name; all other corrections apply to every layer.
     #[serde(skip_serializing_if = "layer::say_nothing")]
     pub layers: BTreeMap<String, LayerEdits>,
 }
 
 impl Edits {
-    /// Whether there is nothing to correct.
+    /// Whether there are no corrections.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
@@ -67,11 +66,11 @@ impl Edits {
     /// Checks the corrections against the frames of a clip.
     ///
     /// # Errors
-    /// [`Error::Edits`] when a frame lies outside `first..=last` (of forbidden ones all), is pinned and
-    /// forbidden or pinned and moved at the same time, or moved twice or to where it is; when a weight is
-    /// not in [0, 1); when a drawing is held twice or for no koma; when pins are to be the only keys and there
-    /// are none; when an action is to begin with the first frame, which begins one anyway, or outside; and when a
-    /// spoken line lies outside, or has no words.
+    /// [`Error::Edits`] when a frame lies outside `first..=last` (a forbidden range: lies outside entirely), is both
+    /// pinned and forbidden, is both pinned and moved, or is moved twice or onto itself; when a weight is not in [0,
+    /// 1); when a drawing is held twice or for no koma; when only pins may be keys and there are none; when an action
+    /// is to begin outside the clip or at the first frame, which begins one anyway; and when a spoken line lies outside
+    /// or has no words.
     ///
     /// ```
     /// use genga::edits::{Edits, Pin};
@@ -104,7 +103,7 @@ impl Edits {
         of_all || self.layers.values().any(of_layer)
     }
 
-    /// Whether keys of a sheet before stay, in any layer.
+    /// Whether any layer keeps keys of an earlier sheet.
     pub fn freeze(&self) -> bool {
         let is_frozen = |own: &LayerEdits| !own.frozen.is_empty();
         !self.frozen.is_empty() || self.layers.values().any(is_frozen)
@@ -158,7 +157,7 @@ impl Edits {
         }
     }
 
-    /// Whether just this frame is named as forbidden. In a range a pin is the exception.
+    /// Whether this very frame is forbidden. A pin within a forbidden range is an allowed exception.
     fn forbids(&self, frame: Frame) -> bool {
         self.forbidden.contains(&Forbidden::one(frame))
     }
@@ -230,7 +229,7 @@ fn wrong(message: impl Into<String>) -> Result<(), Error> {
     Err(Error::Edits { message: message.into() })
 }
 
-/// The frames of a clip, the last with them.
+/// The frames of a clip, including the last.
 #[derive(Debug, Clone, Copy)]
 struct Frames {
     first: Frame,

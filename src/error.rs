@@ -1,146 +1,128 @@
-//! Errors by whose fault they are, and warnings with stable codes.
+//! Errors, sorted by whose fault they are, and warnings with stable codes.
 
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-/// What another library said, behind an error.
+/// An error of another library that caused ours.
 pub type Cause = Box<dyn std::error::Error + Send + Sync>;
 
-/// Everything that can go wrong, sorted by who can mend it.
+/// Every error of the crate, sorted by who can fix it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The motion file is not what it should be. Line and column count from 1.
-    #[error("{line}:{column}: {message}")]
-    Bvh {
-        /// Line in the file, from 1.
-        line: usize,
-        /// Column in that line in bytes, from 1.
-        column: usize,
-        /// What was expected and what was found.
-        message: String,
-    },
-    /// A motion file of another format than BVH is not what it should be.
+    /// A motion or model file is malformed.
     #[error("{place}{message}")]
     Motion {
-        /// Where in the file.
+        /// Position in the file.
         place: Place,
-        /// What was expected and what was found.
+        /// Expected and found input.
         message: String,
     },
-    /// A setting has a value it cannot have.
+    /// A setting has an invalid value.
     #[error("{name}: {message}")]
     Setting {
-        /// The knob, as `--set` and the recipe name it.
+        /// Name of the knob, as in `--set` and in the recipe.
         name: String,
-        /// What is wrong and what would be right.
+        /// Message naming the fault and the remedy.
         message: String,
     },
     /// The recipe file is not a recipe.
     #[error("recipe: {}{message}", located(*place))]
     Recipe {
-        /// Line and column in the file, from 1, where there is a place to point at.
+        /// Line and column in the file, from 1, if known.
         place: Option<(usize, usize)>,
-        /// What is wrong, and what would be right.
+        /// Message naming the fault and the remedy.
         message: String,
-        /// What the reader of its format said, or why a setting was refused.
+        /// Error of the format's parser, or the reason why a setting was refused.
         source: Option<Cause>,
     },
-    /// The clip cannot be worked on as it is.
+    /// The clip cannot be processed as it is.
     #[error("{message}")]
     Clip {
-        /// What is missing, and the way out.
+        /// Message naming the missing part and the remedy.
         message: String,
     },
-    /// A correction names something the clip does not have.
+    /// An edit names something that the clip does not have.
     #[error("edits: {message}")]
     Edits {
-        /// What was named and what there is.
+        /// Message with the unknown name and the available ones.
         message: String,
     },
-    /// A sheet is not what it should be, or does not fit its clip.
+    /// A sheet is malformed, or does not fit its clip.
     #[error("{}{message}", located(*place))]
     Sheet {
-        /// Line and column in the file, from 1, where there is a place to point at.
+        /// Line and column in the file, from 1, if known.
         place: Option<(usize, usize)>,
-        /// What is wrong, and the way out.
+        /// Message naming the fault and the remedy.
         message: String,
-        /// What the reader of its format said.
+        /// Error of the format's parser.
         source: Option<Cause>,
     },
-    /// A table is not what it should be. Its message has the name of the field, so that only the line goes before it.
+    /// A table is malformed. The message names the field, so only the line number is put in front.
     #[error("{}{message}", line(*place))]
     Table {
-        /// Line of the row and number of the field in it, from 1, where there is a place to point at.
+        /// Line of the row and number of the field in it, from 1, if known.
         place: Option<(usize, usize)>,
-        /// What was expected and what was found.
+        /// Expected and found input.
         message: String,
-        /// What the reader of its format said.
+        /// Error of the format's parser.
         source: Option<Cause>,
     },
-    /// A result does not go into its format. No file of a person is at fault.
+    /// A result cannot be encoded in its format. No input file is at fault.
     #[error("{what} could not be written: {source}")]
     Encoding {
-        /// What was to be written.
+        /// Name of the encoded item.
         what: &'static str,
-        /// What the writer of the format said.
+        /// Error of the format's writer.
         source: Cause,
     },
-    /// A file has no camera that can be used.
+    /// A file has no usable camera.
     #[error("{message}")]
     Camera {
-        /// What is wrong with it, and what there is.
+        /// Message naming the fault and the available cameras.
         message: String,
     },
-    /// A file is no model of MMD that can be used.
-    #[error("byte {byte}: {message}")]
-    Model {
-        /// The byte of the file, from 0.
-        byte: usize,
-        /// What was expected and what was found.
-        message: String,
-    },
-    /// Reading or writing failed.
+    /// Reading or writing a file failed.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// A picture could not be drawn.
     #[error("picture: {message}")]
     Picture {
-        /// What is wrong with what should be drawn, or what the drawing library said.
+        /// Message naming the fault in the drawn data, or the drawing library's own message.
         message: String,
-        /// What the drawing library said.
+        /// Error of the drawing library.
         source: Option<Cause>,
     },
 }
 
 impl Error {
-    /// A setting error: `name` is the knob, `message` says what would be right.
+    /// Creates a setting error: `name` is the knob, `message` says what would be right.
     pub fn setting(name: impl Into<String>, message: impl Into<String>) -> Self {
         Self::Setting { name: name.into(), message: message.into() }
     }
 
-    /// A clip error.
+    /// Creates a clip error.
     pub fn clip(message: impl Into<String>) -> Self {
         Self::Clip { message: message.into() }
     }
 
-    /// An error of a sheet as a whole.
+    /// Creates an error about a sheet as a whole.
     pub fn sheet(message: impl Into<String>) -> Self {
         Self::Sheet { place: None, message: message.into(), source: None }
     }
 
-    /// An error of a sheet at a line and column of its file, from 1.
+    /// Creates an error at a line and column, from 1, of the sheet's file.
     pub fn sheet_at(place: (usize, usize), message: impl Into<String>) -> Self {
         Self::Sheet { place: Some(place), message: message.into(), source: None }
     }
 
-    /// Line and column in the file, from 1, where there is a file to point into.
+    /// Returns line and column in the file, from 1, if the error points into a file.
     ///
     /// ```
     /// let error = genga::motion::bvh::read(b"HIERARCHY\nJOIN Hips").unwrap_err();
@@ -148,7 +130,6 @@ impl Error {
     /// ```
     pub fn position(&self) -> Option<(usize, usize)> {
         match self {
-            Self::Bvh { line, column, .. } => Some((*line, *column)),
             Self::Motion { place: Place::Line(line, column), .. } => Some((*line, *column)),
             Self::Recipe { place, .. } | Self::Sheet { place, .. } | Self::Table { place, .. } => {
                 *place
@@ -158,20 +139,20 @@ impl Error {
     }
 }
 
-/// Where in a motion file something is.
+/// A position in a motion or model file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
-    /// Nowhere: the file as a whole.
+    /// No position: the file as a whole.
     Whole,
-    /// In a line and its column, both from 1, of a file that is text.
+    /// A line and a column in bytes, both from 1, of a text file.
     Line(usize, usize),
-    /// At a byte, from 0, of one that is not.
+    /// A byte offset, from 0, in a binary file.
     Byte(u64),
-    /// In a part that has a name or a path, such as `animations[0].samplers[3]`.
+    /// A part with a name or a path, such as `animations[0].samplers[3]`.
     Part(String),
 }
 
-/// As it stands before a message.
+/// Formats the position as the prefix of a message.
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -183,12 +164,12 @@ impl fmt::Display for Place {
     }
 }
 
-/// The name nearest to one that is not there, to offer it.
-pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+/// Finds the most similar name, to suggest it in place of an unknown one.
+pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     names.min_by_key(|other| distance(other, name))
 }
 
-/// Letters to change, add or drop between two names.
+/// Levenshtein distance: the fewest bytes to change, add or drop between two names.
 fn distance(a: &str, b: &str) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, x) in a.bytes().enumerate() {
@@ -210,24 +191,24 @@ fn line(place: Option<(usize, usize)>) -> String {
     place.map_or_else(String::new, |(line, _)| format!("line {line}: "))
 }
 
-/// Something a person should know which does not stop the work.
+/// A problem worth reporting that does not stop the work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
-    /// A stable code to match on, such as `W_LEAD_IN`.
+    /// Stable code to match on, such as `W_LEAD_IN`.
     pub code: &'static str,
     /// One plain sentence.
     pub message: String,
-    /// Line and column in the file, from 1, where there is a place to point at.
+    /// Line and column in the file, from 1, if known.
     pub place: Option<(usize, usize)>,
 }
 
 impl Warning {
-    /// A warning with a stable code, about the whole.
+    /// Creates a warning about the whole, with a stable code.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
         Self { code, message: message.into(), place: None }
     }
 
-    /// A warning about a line and column of the file, from 1.
+    /// Creates a warning about a line and column, from 1, of the file.
     pub fn at(place: (usize, usize), code: &'static str, message: impl Into<String>) -> Self {
         Self { code, message: message.into(), place: Some(place) }
     }

@@ -1,6 +1,6 @@
-//! **Exaggerate** (誇張): anticipation and follow-through, slow-in and slow-out, before anything is drawn.
+//! **Exaggerate** (誇張): anticipation and follow-through, slow-in and slow-out, applied before anything is drawn.
 //!
-//! Off unless it is asked for. The result is a clip like any other: what comes after it need not know.
+//! Off by default. The result is an ordinary clip; later stages need not know.
 
 mod cartoon;
 mod ease;
@@ -24,22 +24,21 @@ pub use parts::CartoonParts;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Exaggerate {
-    /// How strong anticipation (予備動作) and follow-through (後追い) are, 0 (none) to 3; default 0. With 1 a
-    /// sudden turn goes back by 36 % of itself before and beyond by as much after, and a swing in the
-    /// period that is met best is twice as wide. Raised, limbs go through the body and joints beyond what
-    /// they can.
+    /// Strength of anticipation (予備動作) and follow-through (後追い), 0 (none) to 3; default 0. At 1, a sudden turn goes
+    /// back by 36 % of itself before and overshoots by as much after, and a swing of the period that gains most is
+    /// twice as wide. Higher values push limbs through the body and joints beyond their limits.
     pub cartoon: f64,
-    /// The time from the furthest back to the furthest beyond of a sudden movement, frames or seconds, 0 or
-    /// more; 0.25 s by default. A swing of 2.4 times that period gains most. Raised, slow movements are
-    /// exaggerated as well; more than the clip's length counts as that.
+    /// The time from the furthest anticipation to the furthest follow-through of a sudden movement, in frames or
+    /// seconds, 0 or more; default 0.25 s. A swing of 2.4 times that period gains most. Higher values exaggerate slow
+    /// movements as well. Values beyond the clip's length count as that length.
     pub cartoon_width: Span,
-    /// What of the body the cartoon filter moves. Default: what no foot hangs on.
+    /// The parts of the body that the cartoon filter moves. Default: those that carry no foot.
     pub cartoon_parts: CartoonParts,
-    /// How far poses gather round the slow ones beside them (slow-in, slow-out; スローイン・スローアウト), 0 (not
-    /// at all) to 1; default 0. The way of every joint stays what it was, and the movement between is faster.
+    /// How far poses gather around the slow ones beside them (slow-in, slow-out; スローイン・スローアウト), 0 (not at all) to 1;
+    /// default 0. The path of every joint stays the same, and the movement in between gets faster.
     pub ease: f64,
-    /// How far in time poses draw one another, as a standard deviation, frames or seconds, 0 or more; 0.1 s by
-    /// default. Raised, short movements are drawn to the rests beside them.
+    /// How far apart in time poses attract one another, as a standard deviation in frames or seconds, 0 or more;
+    /// default 0.1 s. Higher values pull short movements towards the rests beside them.
     pub ease_reach: Span,
 }
 
@@ -59,32 +58,32 @@ knobs!(exaggerate::Exaggerate {
     cartoon: knob(
         "誇張",
         "Anticipation before movements and follow-through after them (the cartoon animation \
-         filter), before keys are chosen. 1 goes back and beyond by 36 % of a sudden movement. \
-         More breaks joints.",
+         filter), added before keys are chosen. At 1, each is 36 % of a sudden movement. Higher \
+         values break joints.",
         "原画を選ぶ前に、\
          動きの前の予備動作と後の後追いを強める（カートゥーン・アニメーション・フィルタ）。1で、\
          急な動きの36％だけ逆へ引き、行き過ぎる。強すぎると関節が壊れる。",
     )
     .unit("strength (0 is off)")
-    .at_most(3.0) // three times the swing is beyond what a body can be read in
+    .at_most(3.0) // a body is unreadable beyond three times the swing
     .slider(0.0, 2.0),
     cartoon_width: knob(
         "予備動作から後追いまで",
-        "The time from the anticipation of a sudden movement to its follow-through. Longer \
-         exaggerates slow movements too.",
+        "Time from the anticipation of a sudden movement to its follow-through. Longer values \
+         exaggerate slow movements too.",
         "急な動きの予備動作から後追いまでの時間。長いほど、ゆっくりした動きも誇張される。",
     ),
     cartoon_parts: knob(
         "誇張する部位",
-        "What is exaggerated so: all that no foot hangs on, so that feet stand where they stood \
-         (upper), or legs and the way of the body too (body): feet slide a little then.",
-        "誇張する部位。足につながらない部位だけで、接地した足は動かない（upper）か、\
-         脚と体の移動も含む全身（body）で、足は少し滑る。",
+        "Body parts that are exaggerated. upper: those that carry no foot, so standing feet stay \
+         in place. body: also the legs and the travel of the body, so feet slide a little.",
+        "誇張する部位。upperは足につながらない部位だけで、接地した足は動かない。\
+         bodyは脚と体の移動も含む全身で、足が少し滑る。",
     ),
     ease: knob(
         "スローイン・スローアウト",
-        "Slow-in and slow-out: poses gather round rests and turning points, and the movement \
-         between is faster. No pose is changed, only its time.",
+        "Slow-in and slow-out: poses gather around rests and turning points, and the movement \
+         between is faster. Only the time of a pose changes.",
         "止まりや折り返しの近くに時間を集め、あいだの動きを速くする。ポーズは変わらず、\
          時刻だけが変わる。",
     )
@@ -92,31 +91,31 @@ knobs!(exaggerate::Exaggerate {
     .at_most(1.0),
     ease_reach: knob(
         "時間を集める範囲",
-        "How far in time poses are drawn to the slow ones beside them. Longer draws short \
-         movements to the rests beside them.",
-        "近くの遅いポーズに引き寄せる時間の範囲。長いほど、短い動きは隣の止めに引き寄せられる。",
+        "How far apart in time poses move towards the slow ones beside them. Longer values pull \
+         short movements towards the rests beside them.",
+        "近くの遅いポーズに引き寄せる時間の範囲。長いほど、短い動きが隣の止めに引き寄せられる。",
     ),
 });
 
 impl Exaggerate {
-    /// Whether the settings can be used.
+    /// Checks that the settings can be used.
     ///
     /// # Errors
-    /// [`Error::Setting`] naming the first that is out of its range.
+    /// [`Error::Setting`] naming the first setting that is out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         self.check()
     }
 
-    /// Whether nothing is exaggerated.
+    /// Whether the exaggeration changes nothing.
     pub fn is_off(&self) -> bool {
         self.cartoon == 0.0 && self.ease == 0.0
     }
 
-    /// The exaggerated clip: same joints, rate and frames. First the poses, then their times, so that what the
-    /// first makes is eased as well. The first and the last frame stay as they are.
+    /// Returns the exaggerated clip, with the same joints, rate and frames. The poses are exaggerated before their
+    /// times, so that the result is eased as well. The first and the last frame stay unchanged.
     ///
     /// # Errors
-    /// Those of [`Exaggerate::validate`], and [`Error::Clip`] where a position would grow beyond 10¹².
+    /// As for [`Exaggerate::validate`], and [`Error::Clip`] if a position would grow beyond 10¹².
     ///
     /// ```
     /// use genga::exaggerate::Exaggerate;
@@ -137,14 +136,14 @@ impl Exaggerate {
         Ok(exaggerated)
     }
 
-    /// Anticipation and follow-through; none where there is nothing to do.
+    /// Adds anticipation and follow-through; `None` if that has no effect.
     fn posed(&self, clip: &Clip) -> Option<Clip> {
         let width = self.cartoon_width.frames(clip.rate()).min(clip.len() as f64);
-        let filter = cartoon::Filter::of(self.cartoon, 0.5 * width)?;
+        let filter = cartoon::Filter::new(self.cartoon, 0.5 * width)?;
         Some(filter.apply(clip, &self.cartoon_parts.joints(clip)))
     }
 
-    /// The same poses at other times; none where there is nothing to do.
+    /// Shows the same poses at other times; `None` if that has no effect.
     fn eased(&self, clip: &Clip) -> Option<Clip> {
         let reach = self.ease_reach.frames(clip.rate()).min(clip.len() as f64);
         let places = ease::places(clip, self.ease, reach)?;

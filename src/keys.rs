@@ -1,8 +1,8 @@
-//! **Choose** (選ぶ): from the turns of joints to the keys (原画) and walls (壁) of a layer.
+//! **Choose** (選ぶ): chooses the keys (原画) and walls (壁) of a layer from its turns.
 //!
-//! The filter, the sign pattern and the persistence pick the turns of the body ([`BodyTurns`]). They are cheap; what lies
-//! between them is dear. [`Choose`] takes the set that loses least at that price. For studies joints may pick instead: they
-//! vote, their speeds are added, or any joint's turn is a candidate.
+//! The filter, the sign pattern and the persistence find the turns of the body ([`BodyTurns`]). A key at a turn is
+//! cheap, a key between turns is dear. [`Choose`] takes the set of keys that loses least at these prices. For studies
+//! the joints may pick instead: they vote, their speeds are added, or any joint's turn is a candidate.
 
 mod acting;
 mod actions;
@@ -10,14 +10,13 @@ mod alike;
 mod body;
 mod bridge;
 mod cheapest;
-mod choice;
 mod choose;
 mod chords;
 mod contact;
 mod correct;
 mod drawn_body;
 mod layers;
-mod local;
+mod local_corrections;
 mod matching;
 mod merge;
 mod peaks;
@@ -26,8 +25,8 @@ mod postures;
 mod reconstruction;
 mod reference;
 mod rest;
+mod selection;
 mod stillness;
-mod sum;
 mod vote;
 mod voters;
 mod walk;
@@ -43,8 +42,7 @@ pub use actions::{Action, ActionFinder, Actions, Split, SplitReason};
 pub use alike::Alike;
 pub use body::BodyTurns;
 pub(crate) use body::{BodySpeeds, LayerMotion, Tracks, drawn};
-pub(crate) use bridge::Bridge;
-pub(crate) use choice::{Choice, Picked};
+pub use bridge::Bridge;
 pub(crate) use choose::Picks;
 pub use choose::{Choose, Fill, Judges, Merge, Rank};
 pub use chords::Chords;
@@ -53,14 +51,15 @@ pub(crate) use contact::contact_ends;
 pub use drawn_body::DrawnBody;
 pub(crate) use layers::LayerClip;
 pub use layers::{LayerJoints, Layers, NamedLayer};
-pub(crate) use local::{Chosen, Word};
+pub(crate) use local_corrections::{Chosen, Word};
 pub use matching::Matching;
 pub use merge::JointTurns;
 pub use reconstruction::Reconstruction;
-pub(crate) use reconstruction::with_ends;
+pub use reconstruction::with_ends;
 pub use reference::Reference;
 pub use rest::AtRests;
 pub(crate) use rest::{rest_frames, rests};
+pub(crate) use selection::{Choice, Picked};
 pub use voters::weights;
 pub use walk::{AtGaits, Phase, Walk, WalkStep};
 pub use weights::JointWeights;
@@ -70,42 +69,42 @@ pub use weights::JointWeights;
 pub struct Key {
     /// The source frame it shows.
     pub frame: Frame,
-    /// How much of a turn it is, 0 to 1; a share of all weight for votes, the prominence of its valley for `sum`.
+    /// Strength of the turn, 0 to 1: for votes the share of all weight.
     pub strength: f64,
-    /// What it saves, in % of body height: the error that its neighbours would leave without it, spread
-    /// over an eighth of a second. Infinite for keys that may not go.
+    /// The error it saves, in % of body height: what its neighbours would lose without it, spread over an eighth of a
+    /// second. Infinite for keys that must stay.
     pub price: f64,
-    /// Joints that have a turn of their own here.
+    /// Joints with a turn of their own here.
     pub voters: Vec<JointId>,
-    /// Its own spacing weight, where a person gave one.
+    /// Spacing weight, if a person gave one.
     pub weight: Option<f64>,
-    /// The name a person gave it.
+    /// Name, if a person gave one.
     pub name: Option<String>,
-    /// Where it comes from.
+    /// Origin of the key.
     pub origin: Origin,
 }
 
 impl Key {
-    /// A frame that a person wants to be a key, without a name.
-    pub(crate) fn set(frame: Frame) -> Self {
+    /// Creates a key that a person wants at a frame, without a name.
+    pub fn set(frame: Frame) -> Self {
         let (voters, weight, name) = (Vec::new(), None, None);
         let (strength, price) = (1.0, f64::INFINITY);
         Self { frame, strength, price, voters, weight, name, origin: Origin::Pinned }
     }
 }
 
-/// Where a key comes from.
+/// The origin of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
     /// A turn of the body (変わり目).
     Turn,
-    /// No turn, but without it the body would go astray (補い).
+    /// Not a turn, but the body would go astray without it (補い).
     Fill,
-    /// The begin or the end of a rest (止め): it is kept whatever it saves.
+    /// The begin or the end of a rest (止め), kept whatever it saves.
     Rest,
-    /// The begin or the end of a contact (接地): it is kept whatever it saves.
+    /// The begin or the end of a contact (接地), kept whatever it saves.
     Contact,
-    /// A phase of a step in a gait (歩み): it is kept whatever it saves.
+    /// A phase of a step in a gait (歩み), kept whatever it saves.
     Step,
     /// Set by a person; it survives everything.
     Pinned,
@@ -117,7 +116,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// What it says of its drawing.
+    /// Returns the reason that the sheet gives for its drawing.
     pub fn reason(self) -> Reason {
         match self {
             Self::Turn => Reason::Turn,
@@ -129,12 +128,12 @@ impl Origin {
         }
     }
 
-    /// Whether it was found in the motion and may go.
+    /// Whether the key was found in the motion and may be left out.
     pub fn is_found(self) -> bool {
         matches!(self, Self::Turn | Self::Fill)
     }
 
-    /// Whether a person wants it just where it is.
+    /// Whether a person placed the key at exactly this frame.
     pub fn is_set(self) -> bool {
         matches!(self, Self::Pinned | Self::Moved { .. })
     }
@@ -145,11 +144,11 @@ impl Origin {
 pub struct Wall {
     /// The source frame.
     pub frame: Frame,
-    /// How strong it is, in the measure of the keys.
+    /// Strength of the wall, in the measure of the keys.
     pub strength: f64,
 }
 
-/// What may be a key, before it is asked what it is worth, and the walls.
+/// The key candidates of a layer, not yet priced, and its walls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidates {
     /// Key candidates by frame.
@@ -163,27 +162,27 @@ pub struct Candidates {
 pub struct Candidate {
     /// The source frame.
     pub frame: Frame,
-    /// How much of a turn it is, 0 to 1; what joints say together where they pick.
+    /// Strength of the turn, 0 to 1; the joints' combined strength if they pick.
     pub strength: f64,
-    /// Whether it is a turn; else it fills what lies between turns.
+    /// Whether it is a turn; otherwise it fills the time between turns.
     pub is_turn: bool,
 }
 
 /// The keys and walls of a layer.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LayerKeys {
-    /// Keys by frame, found ones at least a koma apart; the clip's ends are not among them.
+    /// Keys by frame, found ones at least a koma apart. The clip's ends are not included.
     pub keys: Vec<Key>,
     /// Walls by frame.
     pub walls: Vec<Wall>,
-    /// Rests (止め) by the frames of their begins and ends, both included. One that touches the clip's begin or
-    /// end begins or ends with it; two may overlap.
+    /// Rests (止め) from first to last frame, both included. A rest that touches an end of the clip begins or ends there.
+    /// Two rests may overlap.
     pub rests: Vec<RangeInclusive<Frame>>,
-    /// Whether a key holds up to the sheet's end where the body does: the end has a drawing of its own else.
+    /// Whether a key holds to the sheet's end while the body stays still there; otherwise the end gets its own drawing.
     pub holds_end: bool,
     /// Gaits (歩き) whose steps have the same phases.
     pub gaits: Vec<Walk>,
-    /// Keys that were worth a drawing and went all the same, because there were too many a second.
+    /// Number of keys that were worth a drawing but dropped, because there were too many a second.
     pub over_limit: usize,
 }
 

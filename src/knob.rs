@@ -1,6 +1,6 @@
-//! Knobs (つまみ): what is said of a setting, once, beside the struct that has it.
+//! Knobs (つまみ): the description of each setting, declared once beside the struct that holds it.
 //!
-//! From it come the check of its range, `--set` and `--with`, the recipe file, and what the window and the pages show.
+//! The range check, `--set` and `--with`, the recipe file, the window and the pages are all derived from it.
 
 mod range;
 mod value;
@@ -9,10 +9,13 @@ use std::ops::Bound::{Excluded, Included, Unbounded};
 
 use crate::error::Error;
 
+#[doc(hidden)]
+pub use crate::{as_word, by_word, choices, knobs};
 pub use range::Range;
-pub(crate) use value::{Setting, Value, as_word, by_word, choices, word_from, word_into};
+#[doc(hidden)]
+pub use value::{Setting, Value, word_from, word_into};
 
-/// One setting: its name, what it takes, and what it does.
+/// A setting: its name, the values it accepts, and its effect.
 ///
 /// ```
 /// use genga::knob::{Knob, Who};
@@ -27,71 +30,67 @@ pub(crate) use value::{Setting, Value, as_word, by_word, choices, word_from, wor
 pub struct Knob {
     /// Its name, `section.field`.
     pub name: &'static str,
-    /// The same in Japanese.
+    /// The Japanese name.
     pub japanese: &'static str,
-    /// What it takes.
+    /// The type of its values.
     pub kind: Kind,
-    /// Which numbers: of a [`Kind::Number`], and of frames or seconds.
+    /// The valid numbers of a [`Kind::Number`], and of a number of frames or seconds.
     pub range: Range,
-    /// What it counts in; empty for choices and flags.
+    /// The unit; empty for choices and flags.
     pub unit: &'static str,
-    /// What it does, in a sentence or two.
+    /// Its effect, in a sentence or two.
     pub help: &'static str,
-    /// The same in Japanese.
+    /// The help in Japanese.
     pub japanese_help: &'static str,
-    /// Who turns it.
+    /// The audience.
     pub who: Who,
 }
 
-/// Who turns a knob.
+/// The audience of a knob.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Who {
-    /// Who draws (アニメーター): it changes what is drawn, in a way that can be seen and wanted.
+    /// Animators (アニメーター): the knob changes the drawings visibly, in a way one may want.
     Animator,
-    /// Who studies the method (研究者): it is one of the papers' readings, or there for comparison.
+    /// Researchers (研究者): the knob is a reading of the papers, or there for comparison.
     Researcher,
 }
 
-/// What a knob takes.
+/// The type of value that a knob accepts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
-    /// A number. From `min` to `max` it makes sense on a slider; [`Knob::range`] is what it may be.
+    /// A number. `min` to `max` is the useful span of a slider; [`Knob::range`] is the valid range.
     Number {
-        /// Where a slider begins.
+        /// Start of the slider.
         min: f64,
-        /// Where it ends.
+        /// End of the slider.
         max: f64,
-        /// Whether it must be whole.
+        /// Whether it must be a whole number.
         whole: bool,
-        /// Whether it may be `none`.
+        /// Whether the value may also be `none`.
         optional: bool,
     },
-    /// A length of time, frames or seconds.
+    /// A length of time, in frames or seconds.
     Span,
     /// A count (`4`) or a share (`4%`, `1/3`).
     Amount,
-    /// Koma a drawing (`2`), or the fewest and the most (`1-3`).
+    /// Number of koma per drawing (`2`), or the fewest and the most (`1-3`).
     On,
-    /// A number, or a share of the joint's own 95th percentile (`5%`).
+    /// A number, or a share of the 95th percentile of the joint's own values (`5%`).
     Band,
     /// A number, or `auto`.
     OrAuto,
-    /// A side to look from (`front`), or where a camera stands and what it looks at (`X,Y,Z:X,Y,Z`).
+    /// A side to look from (`front`), or a camera's position and target (`X,Y,Z:X,Y,Z`).
     SeenFrom,
-    /// One of these words.
+    /// One of the listed words.
     Choice(&'static [&'static str]),
     /// `true` or `false`.
     Flag,
-    /// Any words.
+    /// Free text.
     Text,
 }
 
-/// A knob of an animator, its names and help in two languages; a number it takes is 0 or more.
-pub(crate) const fn knob(
-    japanese: &'static str,
-    help: &'static str,
-    japanese_help: &'static str,
-) -> Knob {
+/// Creates a knob for animators from its Japanese name and its help in two languages; numbers must be 0 or more.
+pub const fn knob(japanese: &'static str, help: &'static str, japanese_help: &'static str) -> Knob {
     let (name, unit, who) = ("", "", Who::Animator);
     let kind = number(f64::NAN, f64::NAN, false);
     Knob { name, japanese, kind, range: Range::LENGTH, unit, help, japanese_help, who }
@@ -101,24 +100,27 @@ const fn number(min: f64, max: f64, whole: bool) -> Kind {
     Kind::Number { min, max, whole, optional: false }
 }
 
-/// The kind of knob that sets a field.
-pub(crate) const fn kind_of<S, V: Setting>(_field: fn(&S) -> &V) -> Kind {
+/// Returns the kind of knob for the type of a field.
+pub const fn kind_of<S, V: Setting>(_field: fn(&S) -> &V) -> Kind {
     V::KIND
 }
 
-/// How a knob is declared.
+/// Builder methods that declare a knob.
 impl Knob {
-    pub(crate) const fn at_least(mut self, least: f64) -> Self {
+    /// Sets the lower bound of a number, inclusive.
+    pub const fn at_least(mut self, least: f64) -> Self {
         self.range.from = Included(least);
         self
     }
 
-    pub(crate) const fn above(mut self, bound: f64) -> Self {
+    /// Sets the lower bound of a number, exclusive.
+    pub const fn above(mut self, bound: f64) -> Self {
         self.range.from = Excluded(bound);
         self
     }
 
-    pub(crate) const fn at_most(mut self, most: f64) -> Self {
+    /// Sets the upper bound of a number, inclusive.
+    pub const fn at_most(mut self, most: f64) -> Self {
         self.range.to = Included(most);
         self
     }
@@ -128,31 +130,32 @@ impl Knob {
         self
     }
 
-    /// Infinity too, which is no limit.
+    /// Also accepts infinity, which means no limit.
     pub(crate) const fn or_inf(mut self) -> Self {
         self.range.to = Unbounded;
         self
     }
 
-    pub(crate) const fn unit(mut self, unit: &'static str) -> Self {
+    /// Sets the unit.
+    pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self
     }
 
-    /// Where a slider begins and ends, if not where the range does.
-    pub(crate) const fn slider(mut self, min: f64, max: f64) -> Self {
+    /// Sets the start and end of the slider, if they differ from the range.
+    pub const fn slider(mut self, min: f64, max: f64) -> Self {
         self.kind = number(min, max, false);
         self
     }
 
-    /// Nobody draws with it.
-    pub(crate) const fn for_studies(mut self) -> Self {
+    /// Marks the knob as one for researchers.
+    pub const fn for_studies(mut self) -> Self {
         self.who = Who::Researcher;
         self
     }
 
-    /// The knob with its name and the kind of its field.
-    pub(crate) const fn named(mut self, name: &'static str, kind: Kind) -> Self {
+    /// Returns the knob with its name and the kind of its field.
+    pub const fn named(mut self, name: &'static str, kind: Kind) -> Self {
         self.name = name;
         self.kind = match (self.kind, kind) {
             (Kind::Number { min, max, .. }, Kind::Number { whole, optional, .. }) => {
@@ -170,19 +173,19 @@ impl Knob {
 }
 
 impl Knob {
-    /// Section and field; no section for a setting at the top.
+    /// Returns section and field; a setting at the top level has no section.
     pub fn path(&self) -> (Option<&'static str>, &'static str) {
         self.name
             .split_once('.')
             .map_or((None, self.name), |(section, field)| (Some(section), field))
     }
 
-    /// Whether it may be `none`.
+    /// Whether the knob accepts `none`.
     pub fn is_optional(&self) -> bool {
         matches!(self.kind, Kind::Number { optional: true, .. })
     }
 
-    /// What it takes, in words.
+    /// Describes in words the values that the knob accepts.
     pub fn takes(&self) -> String {
         let Self { unit, range, .. } = self;
         match self.kind {
@@ -200,8 +203,8 @@ impl Knob {
         }
     }
 
-    /// That a value is none of those it takes.
-    pub(crate) fn refusal(&self, found: &str) -> Error {
+    /// Returns the error for a value that the knob does not accept.
+    pub fn refusal(&self, found: &str) -> Error {
         let takes = match self.kind {
             Kind::Choice(words) => format!("one of {}", words.join(", ")),
             _ => self.takes(),
@@ -210,21 +213,21 @@ impl Knob {
     }
 }
 
-/// Settings that have names.
-pub(crate) trait Knobs {
-    /// Every knob with its value.
+/// Named settings.
+pub trait Knobs {
+    /// Returns every knob with its value.
     fn values(&self) -> Vec<(&'static Knob, &dyn Value)>;
 
-    /// Every knob with its value, to be set.
+    /// Returns every knob with its mutable value.
     fn values_mut(&mut self) -> Vec<(&'static Knob, &mut dyn Value)>;
 
-    /// Checks that every value is one that its knob takes.
+    /// Checks that every knob accepts its value.
     fn check(&self) -> Result<(), Error> {
         let wrong = self.values().into_iter().find(|(knob, value)| !value.fits(knob.range));
         wrong.map_or(Ok(()), |(knob, value)| Err(knob.refusal(&value.text())))
     }
 
-    /// Sets the knob of that name from text, without a look at its range; none where there is no such knob.
+    /// Sets the knob called `name` from text without checking its range. `None` for an unknown name.
     fn turn(&mut self, name: &str, text: &str) -> Option<Result<(), Error>> {
         let (knob, value) = self.values_mut().into_iter().find(|(knob, _)| knob.name == name)?;
         Some(if value.take(text.trim()) { Ok(()) } else { Err(knob.refusal(text)) })
@@ -233,8 +236,10 @@ pub(crate) trait Knobs {
 
 /// Declares the knobs of a settings struct of a section: `knobs!(filter::LowPass { width: knob(…), … })`.
 ///
-/// Behind `..` stand fields that have none, or in brackets those that have knobs of their own. What is forgotten does
-/// not compile.
+/// Fields after `..` have no knob; fields after `..` in brackets are structs with knobs of their own. A forgotten field
+/// does not compile.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! knobs {
     ($section:ident::$of:ident { $($rows:tt)* }) => {
         $crate::knob::knobs!(@rows (concat!(stringify!($section), ".")) $of $($rows)*);
@@ -253,7 +258,7 @@ macro_rules! knobs {
     };
     (@impl ($section:expr) $of:ident [$($field:ident: $knob:expr),*] [$($bare:ident),*] [$($under:ident),*]) => {
         impl $of {
-            /// What is said of each setting.
+            /// The knob of each setting.
             pub(crate) const KNOBS: &'static [$crate::knob::Knob] = &[$($knob.named(
                 concat!($section, stringify!($field)),
                 $crate::knob::kind_of(|of: &Self| &of.$field),
@@ -275,4 +280,3 @@ macro_rules! knobs {
         }
     };
 }
-pub(crate) use knobs;

@@ -1,44 +1,52 @@
 //! **Read** (読む): the file as written ⇄ [`Clip`], and the poses of a clip.
 //!
-//! Its rooms, each of which imports only those above it: `lanes` works on several numbers at once, `clip` is joints,
-//! channels and poses, `body` whoever moves, `seen` from where, `composite` layers put together again, `read` the files.
+//! Each module imports only those listed before it: `lanes` computes on several numbers at once, `clip` holds joints,
+//! channels and poses, `body` describes the performer, `seen` the camera, `composite` puts layers together again,
+//! `bvh` reads and writes the native format, and `clean` removes capture artefacts.
 
 mod axis;
 
-pub(crate) mod lanes;
+#[doc(hidden)]
+pub mod lanes;
 
 pub(crate) mod clip;
 
-pub(crate) mod body;
+pub mod body;
 
-pub(crate) mod seen;
+pub mod seen;
 
 mod composite;
 
-mod read;
+pub mod bvh;
+
+pub mod clean;
+
+mod stream;
 
 pub use axis::Axis;
+pub use body::Build;
+pub use body::MannequinParts;
+pub use body::Members;
+pub(crate) use body::above;
+pub(crate) use body::below;
+pub(crate) use body::is_still;
+pub(crate) use body::is_t_pose;
 pub use body::landmarks;
+pub(crate) use body::plain_name;
 pub use body::{
-    BODY_GUESS, BoneMap, Contact, ContactFinder, Description, Foot, Gait, Landmarks, Limb, PEOPLE,
-    Point, STILL, Stature, Step, Unit,
+    BODY_GUESS, BodySide, BoneMap, Contact, ContactFinder, Description, Foot, Gait, Landmarks,
+    Limb, PEOPLE, Point, STILL, Stature, Step, Unit,
 };
-pub(crate) use body::{
-    BodySide, Build, LayFigure, Members, above, below, is_still, is_t_pose, plain_name,
-};
+pub(crate) use clip::rotation_axes;
+pub(crate) use clip::turn_columns;
 pub use clip::{
     Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Poser, RowWriter, Skeleton, Word,
     local_rotation, local_translation, set_local_rotation,
 };
-pub(crate) use clip::{rotation_axes, turn_columns};
-#[cfg(feature = "panels")]
-pub(crate) use composite::Cels;
-#[cfg(feature = "pictures")]
-pub(crate) use composite::layer_of;
-pub(crate) use composite::{Composite, CompositePoser, CompositeRows};
-#[cfg(test)]
-pub(crate) use read::model_tests;
-pub(crate) use read::{GIB, bytes_in_words};
-pub use read::{GltfCamera, MmdModel, StreamLimit, bvh, file};
-pub(crate) use read::{is_vmd, vmd_key_frames};
+pub use composite::Cels;
+pub use composite::layer_of;
+pub use composite::{Composite, CompositePoser, CompositeRows};
 pub use seen::{Camera, Eye, Screen, SeenFrom};
+pub(crate) use stream::GIB;
+pub use stream::StreamLimit;
+pub use stream::bytes_in_words;

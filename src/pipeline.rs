@@ -7,7 +7,7 @@ mod moving;
 mod stage;
 #[cfg(test)]
 pub(crate) mod tests;
-mod voices;
+mod voters;
 
 use std::sync::Arc;
 
@@ -30,58 +30,58 @@ use layer::{LayerStages, Measured};
 use moving::{Moving, MovingStages};
 use stage::{Of, Stage};
 
-/// Runs the chain and keeps each stage's last output with the settings that made it, so that a run
-/// starts again at the first stage whose input changed. A clone shares what was made so far.
+/// Runs the chain and keeps each stage's last output with the settings that made it, so that a run restarts at the
+/// first stage whose input changed. A clone shares the outputs made so far.
 #[derive(Debug, Clone)]
 pub struct Engine {
     clip: Arc<Clip>,
     budget: Budget,
     moving: MovingStages,
-    /// The speeds, and what filters make of them first.
+    /// The speeds, and the spectrum that the filters start from.
     speed: Stage<(Speed, Screen), Spectrum>,
     joints: JointStages,
     split: Stage<Layers, Vec<LayerJoints>>,
-    /// The stages of each layer. Those of layers that a recipe does not have wait for one that has them.
+    /// The stages of each layer. Layers that the current recipe lacks are kept for a recipe that has them.
     layers: Vec<LayerStages>,
-    /// The actions of the take, by the body or the first of its layers.
+    /// The actions of the take, found in the body or its first layer.
     actions: Stage<(ActionFinder, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
-    /// Whether all outputs are of one run.
+    /// Whether all outputs belong to the same run.
     is_whole: bool,
 }
 
-/// Of which time and motion the sheet is and with which frame that ends, what a person holds, and what is spoken.
+/// The sheet's clock, root motion, feet and last frame, a person's holds, and the spoken lines.
 type SheetSettings = ((Clock, RootMotion, Feet, Frame), Vec<Hold>, Vec<Speech>);
 
 /// Every intermediate result of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Breakdown<'a> {
-    /// The motion as it was given.
+    /// The source motion, unchanged.
     pub source: &'a Clip,
-    /// The motion that is measured and drawn: the source, exaggerated where the recipe asks for it.
+    /// The motion that is measured and drawn: the source, exaggerated if the recipe asks for it.
     pub clip: &'a Clip,
-    /// From where its movement was measured.
+    /// Camera in which movement was measured.
     pub seen_from: SeenFrom,
-    /// The screen there.
+    /// The screen of that camera.
     pub screen: &'a Screen,
-    /// Where the sheet's koma stand in it.
+    /// Maps the sheet's koma to frames of the clip.
     pub clock: Clock,
-    /// How fast each joint is.
+    /// The speed of each joint.
     pub speed: &'a Signals,
-    /// The same, smoothed.
+    /// The smoothed speeds.
     pub filtered: &'a Signals,
     /// Confirmed keys and walls of each joint, by frame.
     pub turns: &'a [Vec<Turn>],
-    /// The actions that the take consists of.
+    /// The actions of the take.
     pub actions: &'a Actions,
-    /// The sheet before anything was left out.
+    /// The sheet before omission.
     pub spaced: &'a Sheet,
-    /// The result.
+    /// The final sheet.
     pub sheet: &'a Sheet,
     layers: &'a [LayerStages],
 }
 
-/// What was found up to the keys of the first layer.
+/// Results up to the keys of the first layer.
 #[derive(Debug, Clone, Copy)]
 pub struct FoundKeys<'a> {
     /// Confirmed keys and walls of each joint, by frame.
@@ -90,27 +90,27 @@ pub struct FoundKeys<'a> {
     pub body: &'a BodyTurns,
     /// Keys and walls of the layer.
     pub keys: &'a LayerKeys,
-    /// Its keys without corrections, or those that are frozen.
+    /// The keys without corrections, or the frozen ones.
     pub uncorrected: &'a [Key],
 }
 
 impl<'a> Breakdown<'a> {
-    /// What was found and decided for each layer of the sheet.
+    /// Returns the results of each layer of the sheet.
     pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
         self.layers.iter().map(LayerStages::breakdown)
     }
 
-    /// The first layer of the sheet: the whole body where a recipe asks for no others.
+    /// Returns the first layer of the sheet: the whole body, unless the recipe splits it.
     pub fn first_layer(&self) -> LayerBreakdown<'a> {
         self.layers[0].breakdown()
     }
 }
 
 impl Engine {
-    /// An engine for a clip.
+    /// Creates an engine for a clip.
     ///
     /// # Errors
-    /// [`Error::Clip`] when the clip has no frame or no joint, or values that are no motion.
+    /// [`Error::Clip`] when the clip has no frame or no joint, or when its values are not a motion.
     pub fn new(clip: impl Into<Arc<Clip>>) -> Result<Self, Error> {
         let clip = clip.into();
         if clip.is_empty() || clip.skeleton().is_empty() {
@@ -131,26 +131,26 @@ impl Engine {
         })
     }
 
-    /// The same with another bound of memory.
+    /// Replaces the memory budget.
     pub fn with_budget(self, budget: Budget) -> Self {
         Self { budget, ..self }
     }
 
-    /// The motion as it was given.
+    /// Returns the source motion.
     pub fn clip(&self) -> &Clip {
         &self.clip
     }
 
-    /// The motion as it was given, to be kept beyond this engine.
+    /// Returns the source motion, shared so that it can outlive this engine.
     pub fn shared_clip(&self) -> Arc<Clip> {
         Arc::clone(&self.clip)
     }
 
-    /// Runs the chain as far as it has to be run again.
+    /// Runs the chain from the first stage whose input changed.
     ///
     /// # Errors
-    /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction does not hold, and when two
-    /// pins fall on one koma.
+    /// [`Error::Setting`] or [`Error::Edits`] when a setting or a correction is invalid, and when two pins fall on one
+    /// koma.
     ///
     /// ```
     /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
@@ -167,18 +167,18 @@ impl Engine {
         self.make(recipe, edits, |_| {})
     }
 
-    /// [`Engine::run`] for the last time: what only another run would use is forgotten.
+    /// Like [`Engine::run`], for the last run: drops outputs that only a further run would use.
     ///
     /// # Errors
-    /// Those of [`Engine::run`].
+    /// As for [`Engine::run`].
     pub fn run_once(&mut self, recipe: &Recipe, edits: &Edits) -> Result<Breakdown<'_>, Error> {
-        // One layer after the other, so that what is large is there for one of them at a time.
+        // Finishes one layer before the next, so that only one layer's large outputs exist at a time.
         self.make(recipe, edits, LayerStages::forget)?;
         self.joints.forget();
         Ok(self.breakdown(recipe))
     }
 
-    /// Runs the chain, layer by layer; `done` is called with each that is done.
+    /// Runs the chain layer by layer and calls `done` with each finished layer.
     fn make(
         &mut self,
         recipe: &Recipe,
@@ -200,8 +200,8 @@ impl Engine {
         Ok(self.breakdown(recipe))
     }
 
-    /// What the last run made of a recipe, without a look at what would be made now; none after a run that failed or
-    /// did not come to the sheet.
+    /// Returns the outputs of the last run, without checking whether they are current for `recipe`. `None` if that run
+    /// failed or did not reach the sheet.
     pub fn last(&self, recipe: &Recipe) -> Option<Breakdown<'_>> {
         self.is_whole.then(|| self.breakdown(recipe))
     }
@@ -225,10 +225,10 @@ impl Engine {
         }
     }
 
-    /// Runs the chain up to every joint's turns.
+    /// Runs the chain up to the turns of every joint.
     ///
     /// # Errors
-    /// Those of [`Engine::run`].
+    /// As for [`Engine::run`].
     pub fn find_turns(&mut self, recipe: &Recipe) -> Result<&[Vec<Turn>], Error> {
         self.measure(recipe)?;
         self.joints.turn(self.moving.drawn(), self.speed.output(), recipe);
@@ -238,17 +238,17 @@ impl Engine {
     /// Runs the chain up to the keys of the first layer.
     ///
     /// # Errors
-    /// Those of [`Engine::run`].
+    /// As for [`Engine::run`].
     pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
         self.find(recipe, edits)?;
         let (body, keys, uncorrected) = self.layers[0].keys();
         Ok(FoundKeys { turns: self.joints.turns.output().value(), body, keys, uncorrected })
     }
 
-    /// Runs the chain up to the turns: every joint's, and those of the body, or of the first of its layers.
+    /// Runs the chain up to the turns: those of every joint, and those of the body or its first layer.
     ///
     /// # Errors
-    /// Those of [`Engine::run`].
+    /// As for [`Engine::run`].
     pub fn find_body_turns(
         &mut self,
         recipe: &Recipe,
@@ -259,37 +259,35 @@ impl Engine {
         Ok((self.joints.turns.output().value(), self.layers[0].body_turns()))
     }
 
-    /// Runs the chain up to how the body, or the first of its layers, moves: what its turns are found in.
-    #[cfg(feature = "panels")]
-    pub(crate) fn follow(&mut self, recipe: &Recipe) -> Result<(), Error> {
+    /// Runs the chain up to the tracks of the body or its first layer, in which its turns are found.
+    pub fn follow(&mut self, recipe: &Recipe) -> Result<(), Error> {
         self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
             first.follow(moving, recipe);
         })
     }
 
-    /// Runs the chain up to the turns of the body and what is lost from any koma to another, by which genga are chosen.
-    #[cfg(feature = "panels")]
-    pub(crate) fn compare(&mut self, recipe: &Recipe) -> Result<(), Error> {
+    /// Runs the chain up to the body's turns and the loss between any two koma, by which genga are chosen.
+    pub fn compare(&mut self, recipe: &Recipe) -> Result<(), Error> {
         self.check_and_turn(recipe, &Edits::default(), |first, moving, _| {
             first.find_body_turns(moving, recipe);
             first.compare(moving, recipe);
         })
     }
 
-    /// Runs the chain as far as it takes to tell the actions of the take.
+    /// Runs the chain up to the actions of the take.
     ///
     /// # Errors
-    /// Those of [`Engine::run`].
+    /// As for [`Engine::run`].
     pub fn find_actions(&mut self, recipe: &Recipe, edits: &Edits) -> Result<&Actions, Error> {
         self.find(recipe, edits)?;
         self.split(recipe, edits);
         Ok(self.actions.output().value())
     }
 
-    /// How far off the body, or the first of its layers, is when nothing but the keys of a recipe is left.
+    /// Measures how far the body or its first layer deviates if only the keys of a recipe remain.
     ///
     /// # Errors
-    /// Those of [`Engine::run`].
+    /// As for [`Engine::run`].
     pub fn reconstruction(
         &mut self,
         recipe: &Recipe,
@@ -299,7 +297,7 @@ impl Engine {
         Ok(self.layers[0].reconstruction())
     }
 
-    /// The keys of the first layer.
+    /// Finds the keys of the first layer.
     fn find(&mut self, recipe: &Recipe, edits: &Edits) -> Result<(), Error> {
         self.check_and_turn(recipe, edits, |first, moving, name| {
             first.find_alone(moving, recipe, &edits.of_layer(name));
@@ -309,7 +307,7 @@ impl Engine {
         Ok(())
     }
 
-    /// The take split into its actions, by what is lost between the instants of the first layer.
+    /// Splits the take into actions by the loss between instants of the first layer.
     fn split(&mut self, recipe: &Recipe, edits: &Edits) {
         let settings = (recipe.actions.clone(), edits.splits.clone());
         let inputs = (self.moving.drawn(), self.layers[0].chords());
@@ -318,7 +316,7 @@ impl Engine {
         });
     }
 
-    /// The turns of every joint and, beside that, of the first layer what does not wait for them.
+    /// Finds the turns of every joint while `alone` runs those stages of the first layer that do not need them.
     fn check_and_turn(
         &mut self,
         recipe: &Recipe,
@@ -327,7 +325,7 @@ impl Engine {
     ) -> Result<(), Error> {
         recipe.validate()?;
         edits.validate(self.clip.first(), self.clip.last())?;
-        // What is wrong with them is said before the work.
+        // Reports invalid corrections before the expensive work.
         self.is_whole = false;
         self.split.try_make(
             (Of::given(&self.clip),),
@@ -339,7 +337,7 @@ impl Engine {
         edits.check_layers(&names)?;
         let clock = self.clip.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
-        recipe.keys.weights.of(self.clip.skeleton())?;
+        recipe.keys.weights.resolve(self.clip.skeleton())?;
         let count = split.len();
         self.layers.resize_with(count.max(self.layers.len()), LayerStages::default);
         self.measure(recipe)?;
@@ -356,7 +354,7 @@ impl Engine {
         Ok(())
     }
 
-    /// What was measured of the whole body, its layers, and their stages.
+    /// Returns the measurements of the whole body, its layers, and their stages.
     fn layers(&mut self) -> (Measured<'_>, &[LayerJoints], &mut [LayerStages]) {
         let split = self.split.output().value();
         let moving = self.moving.outputs(split.len() > 1);
@@ -365,14 +363,14 @@ impl Engine {
         (measured, split, &mut self.layers[..split.len()])
     }
 
-    /// How fast every joint is.
-    pub(crate) fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
+    /// Measures the speed of every joint.
+    pub fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
         recipe.validate()?;
         self.budget.check(&self.clip, recipe.rate)?;
         self.is_whole = false;
         self.moving.exaggerate(&self.clip, recipe)?;
         self.moving.see(recipe.seen_from);
-        // A rotation is the same from everywhere.
+        // Rotations do not depend on the camera.
         let is_seen = recipe.speed.measure.is_seen();
         let screen = if is_seen { *self.moving.screen() } else { Screen::WORLD };
         let clip = self.moving.drawn();
@@ -383,7 +381,7 @@ impl Engine {
         Ok(())
     }
 
-    /// The sheet, before and after omission and what a person holds.
+    /// Builds the sheet before and after omission and a person's holds.
     fn sheet(&mut self, recipe: &Recipe, edits: &Edits) {
         let layers = &self.layers[..self.split.output().len()];
         let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
@@ -408,8 +406,8 @@ impl Engine {
     }
 }
 
-/// A koma shows one drawing: of two pins on it, or keys moved there, one would be lost, and they survive
-/// everything.
+/// Rejects two pins or moved keys on one koma: a koma shows one drawing, so one of them would be lost, and corrections
+/// must never be lost.
 fn one_pin_a_koma(edits: &Edits, clock: Clock) -> Result<(), Error> {
     let moved = edits.moves.iter().map(|moved| moved.to);
     let mut frames: Vec<Frame> = edits.pins.iter().map(|pin| pin.frame).chain(moved).collect();

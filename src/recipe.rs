@@ -1,5 +1,5 @@
-//! The recipe: every setting of the chain, one settings struct a stage, in one small TOML file
-//! together with a person's corrections.
+//! The recipe: every setting of the chain, one settings struct per stage, in one small TOML file together with a
+//! person's corrections.
 
 mod file;
 mod footage;
@@ -21,44 +21,44 @@ pub use crate::knob::{Kind, Knob, Who};
 pub use footage::Footage;
 pub use knobs::KNOBS;
 
-/// What the weight of a joint is set by, in front of its name.
+/// The prefix of a setting that weights a joint, followed by the joint's name.
 const WEIGHTS: &str = "keys.weights.";
 
-/// Every setting of the chain. The defaults alone give a sheet an animator can use.
+/// All settings of the chain. The defaults alone give a sheet that an animator can use.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recipe {
-    /// Koma a second of the sheet, 2 to 1000; default 24.
+    /// Koma per second of the sheet, 2 to 1000; default 24.
     pub rate: f64,
-    /// The layers (セル) of the sheet, each with its own keys, spacing and omission. Default: one, the
-    /// whole body. More of them let hands and feet hold their own time, and the body falls apart a little:
-    /// on a koma not all of it is from one instant.
+    /// The layers (セル) of the sheet, each with its own keys, spacing and omission. Default: one, the whole body. With
+    /// several, hands and feet can be held on their own, but the body comes apart a little: its parts on one koma are
+    /// not all from the same instant.
     pub layers: Layers,
-    /// What carries the body through the room while a drawing is held. Default: its drawings. From the
-    /// source, `ones`, the travel is smooth, and feet that stand slide as far as the body goes while
-    /// their drawing is held.
+    /// The source of the body's travel while a drawing is held. Default: the drawings themselves. With `ones`, the
+    /// source moves the body on every koma: the travel is smooth, but planted feet slide with the body as long as their
+    /// drawing is held.
     pub root: RootMotion,
-    /// From where movement is measured; default `world`. On a camera's screen it counts for speeds of
-    /// displacement, for the keys and rests of the body, and for what omission leaves out.
+    /// Camera in which movement is measured; default `world`. A camera's screen counts for speeds of displacement, for
+    /// the keys and rests of the body, and for what omission leaves out.
     pub seen_from: SeenFrom,
-    /// Whether a foot stays where it stands. Default: it is where its drawing has it. Held, it does not slide
-    /// as far as the leg reaches, and the legs are no longer the performer's to the last degree.
+    /// Whether a standing foot is held in place. Default: it stays as drawn. A held foot does not slide as far as the
+    /// leg reaches, but the leg's angles then differ from the performer's.
     pub feet: Feet,
-    /// How the motion is exaggerated before all else. Default: not at all.
+    /// Exaggeration, applied before all other stages. Default: off.
     pub exaggerate: Exaggerate,
-    /// How fast a joint is.
+    /// Measures the speed of each joint.
     pub speed: Speed,
-    /// How its speed is smoothed.
+    /// Smooths the speeds.
     pub filter: LowPass,
-    /// Where its speed turns.
+    /// Finds the turns of the speeds.
     pub turns: TurnFinder,
-    /// Which turns are keys of the layer.
+    /// Chooses which turns become keys of the layer.
     pub keys: Choose,
-    /// Which actions a take consists of.
+    /// Splits the take into actions.
     pub actions: ActionFinder,
-    /// Where inbetweens stand and what they show.
+    /// Places the inbetweens and picks the poses they show.
     pub spacing: Spacing,
-    /// What is left out.
+    /// Leaves drawings out.
     pub omission: Omission,
 }
 
@@ -85,7 +85,7 @@ impl Default for Recipe {
 knobs!(Recipe {
     rate: knob(
         "コマ数",
-        "Koma a second of the sheet: 24 in film and TV animation.",
+        "Koma per second of the sheet. Film and TV animation use 24.",
         "シートの毎秒コマ数。映画やテレビアニメは24。",
     )
     .unit("koma a second")
@@ -95,35 +95,34 @@ knobs!(Recipe {
     .slider(2.0, 60.0),
     layers: knob(
         "セル分け",
-        "The layers of the sheet, each with keys and timing of its own: the whole body, trunk and \
-         each limb, or every joint that moves. A recipe may name them too: [{ name = \"A\", joints \
-         = [\"Hips\", \"*Arm*\"] }].",
+        "Layers of the sheet, each with its own keys and timing: the whole body (body), the trunk \
+         and each limb (limbs), or every moving joint (joints). A recipe can also name layers: [{ \
+         name = \"A\", joints = [\"Hips\", \"*Arm*\"] }].",
         "シートのセル分け。全身を一枚（body）、胴と手足（limbs）、動く部位ごと（joints）。\
          セルごとに原画とタイミングを持つ。レシピでは名前を付けて分けることもできる。",
     ),
     root: knob(
         "移動",
-        "What carries the body through the room: its drawings, or the source on ones, so that held \
-         drawings slide on (1コマ打ち).",
-        "体を運ぶのは絵（drawings）か、1コマ打ちの元の動き（ones）か。\
-         onesでは止めた絵のまま体が滑っていく。",
+        "How the body travels through space. drawings: with its drawings. ones: on every koma as \
+         in the source (1コマ打ち), so held drawings slide.",
+        "体の移動。drawingsでは絵とともに動く。onesでは元の動きのまま1コマ打ちで動き、\
+         止めた絵のまま体が滑っていく。",
     ),
     seen_from: knob(
         "見る位置",
-        "From where movement is measured: in the world, or on the screen of a camera, where what \
-         comes straight at us hardly moves. It counts for displacements, keys, rests and omission, \
-         not for rotations.",
-        "動きをどこから測るか。空間（world）か、カメラの画面の上か。\
-         画面ではこちらへ真っすぐ来る動きは小さい。移動・原画・止め・省略に効き、\
-         回転には効かない。",
+        "Where movement is measured: in the world, or on the screen of a camera, where movement \
+         towards the camera is small. It affects displacements, keys, rests and omission, but not \
+         rotations.",
+        "動きを測る場所。空間（world）か、カメラの画面の上か。画面では、\
+         カメラへ向かう動きは小さい。移動・原画・止め・省略に効き、回転には効かない。",
     )
     .unit("world | auto | front | side | three-quarter, or X,Y,Z:X,Y,Z (where a camera stands : what it looks at)"),
     feet: knob(
         "接地",
-        "Whether a foot stays where it stands: where its drawing has it (free), or on one place \
-         for as long as it stands in the source, hip and knee giving way (held).",
-        "接地した足を止めるか。絵のまま（free）か、素材で接地している間は一か所に止め、\
-         股と膝で合わせる（held）か。",
+        "Position of a standing foot. free: as in its drawing. held: in one place for as long as \
+         it stands in the source; hip and knee adapt.",
+        "接地した足の位置。freeは絵のまま。heldは素材で接地している間一か所に止め、\
+         股と膝で合わせる。",
     ),
     ..[exaggerate, speed, filter, turns, keys, actions, spacing, omission]
 });
@@ -139,10 +138,10 @@ impl Recipe {
         self.keys.weights.validate()
     }
 
-    /// Sets one knob from text, as `--set KEY=VALUE` does; `none` clears one that may be absent.
+    /// Sets one knob from text, as `--set KEY=VALUE` does. The text `none` clears an optional one.
     ///
     /// # Errors
-    /// [`Error::Setting`] when there is no such knob, or the value is not one it takes.
+    /// [`Error::Setting`] when there is no such knob, or the knob does not accept the value.
     ///
     /// ```
     /// use genga::recipe::Recipe;
@@ -164,7 +163,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// Sets how much joints of a name or pattern count; `none` takes that back.
+    /// Sets the weight of the joints that a name or pattern matches; `none` removes it.
     fn set_weight(&mut self, joint: &str, text: &str) -> Result<(), Error> {
         let mut weights = self.keys.weights.clone();
         if text == "none" {
@@ -181,8 +180,8 @@ impl Recipe {
         Ok(())
     }
 
-    /// Every setting with its value, in the words of [`Recipe::set`]: all of [`KNOBS`], and the weights of
-    /// joints that have one.
+    /// Returns every setting with its value, in the words of [`Recipe::set`]: all of [`KNOBS`], and the weights given
+    /// to joints.
     pub fn settings(&self) -> Vec<(String, String)> {
         let mut values = self.values();
         values.sort_by_key(|(knob, _)| knob.who);
@@ -193,7 +192,7 @@ impl Recipe {
         knobs.chain(weights).collect()
     }
 
-    /// A knob's value as text: what [`Recipe::set`] takes back.
+    /// Returns a knob's value as text that [`Recipe::set`] reads back.
     ///
     /// # Errors
     /// [`Error::Setting`] when there is no such knob.

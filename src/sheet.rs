@@ -1,6 +1,6 @@
-//! The timesheet (タイムシート): which drawing stands on which koma. The program's one result.
+//! The timesheet (タイムシート): which drawing is on screen on which koma. It is the program's one result.
 //!
-//! Plain data: everything that is handed over is a function of (clip, sheet).
+//! Plain data: every delivered file is a function of (clip, sheet).
 
 mod spoken;
 mod why;
@@ -16,66 +16,66 @@ use crate::time::Clock;
 pub use spoken::SpokenLine;
 pub use why::{Names, Reason, Why};
 
-/// Koma of all layers together at most, half a day of film: a longer hold is a slip of the hand, and
-/// would fill the memory.
+/// Most koma that all layers together may have: half a day of film. A longer hold is a slip of the hand and would
+/// exhaust the memory.
 pub(crate) const MOST_KOMA: usize = 1_000_000;
 
-/// A timesheet: for each layer, drawings and how long each stays on screen.
+/// A timesheet: the drawings of each layer and how long each stays on screen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sheet {
-    /// Where its koma stand in the source.
+    /// Maps the koma of the sheet to places in the source.
     pub clock: Clock,
     /// Layers (セル), back to front: column A first.
     pub layers: Vec<Layer>,
-    /// What carries the body through the room while a drawing is held.
+    /// How the body travels through the room while a drawing is held.
     #[serde(default, skip_serializing_if = "is_default")]
     pub root: RootMotion,
-    /// Whether a foot stays where it stands.
+    /// Whether a foot on the ground stays in place.
     #[serde(default, skip_serializing_if = "is_default")]
     pub feet: Feet,
-    /// What is spoken (セリフ), in the order in which it begins.
+    /// Spoken lines (セリフ), sorted by their first koma.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lines: Vec<SpokenLine>,
 }
 
-/// Whether a foot on the ground (接地) stays where it is in the motion that is handed over.
+/// How a foot on the ground (接地) behaves in the delivered motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Feet {
-    /// It is where its drawing has it.
+    /// The foot moves freely, as drawn.
     #[default]
     Free,
-    /// In each drawing of an instant at which it stands in the source, it is where it stood there in the
-    /// mean: hip and knee give way as far as the leg reaches, the pelvis stays.
+    /// While the foot stands in the source, every drawing puts it at its mean position of that contact. Hip and knee
+    /// bend as far as the leg reaches; the pelvis stays.
     Held,
 }
 
 choices!(Feet { Free: "free", Held: "held" });
 
-/// What carries the body through the room (移動) from koma to koma.
+/// How the body travels through the room (移動) from koma to koma.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RootMotion {
-    /// Its drawings: the body stays where its drawing has it for as long as that is held.
+    /// With the drawings: the body stays where its drawing has it for as long as the drawing is held.
     #[default]
     Drawings,
-    /// The source, on ones (1コマ打ち): a held drawing slides on with the travel of the performer. Only
-    /// where the body is follows, not how it is turned.
+    /// With the source, on ones (1コマ打ち): a held drawing slides on with the performer's travel. Only the position
+    /// follows the source, not the orientation.
     Ones,
 }
 
 choices!(RootMotion { Drawings: "drawings", Ones: "ones" });
 
-/// A group of joints with a column of its own on the sheet (セル).
+/// A layer (セル): a group of joints with its own column on the sheet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Layer {
     /// The column's name: A, B, C ….
     pub name: String,
-    /// The names of its joints. Those that no layer names are of the first one; of a single layer that
-    /// names none all are.
+    /// Names of its joints. A joint that no layer names belongs to the first layer; a single layer without names has
+    /// all joints.
     #[serde(default, skip_serializing_if = "is_default")]
     pub joints: Vec<String>,
     /// Drawings in the order of their source places.
     pub drawings: Vec<Drawing>,
-    /// What is on screen, koma after koma.
+    /// Exposures in order of time.
     pub exposures: Vec<Exposure>,
 }
 
@@ -89,28 +89,28 @@ pub struct Exposure {
     pub koma: usize,
 }
 
-/// What is shown (画): a pose taken from the source, or blended from two keys.
+/// A drawing (画): a pose taken from the source, or blended from two keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drawing {
-    /// Where its pose comes from.
+    /// Origin of its pose.
     pub source: Source,
-    /// What it is to the motion.
+    /// Its role in the motion.
     pub role: Role,
-    /// Why it is here.
+    /// Why it is on the sheet.
     pub why: Why,
 }
 
-/// Where a drawing's pose comes from.
+/// Origin of a drawing's pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// The source at a place: a frame number of the file, fractional between two frames.
     At(f64),
-    /// An inbetweener's blend of two key poses: `share` of the way from one to the other.
+    /// An inbetweener's blend of two key poses: `share` of the way from the first to the second.
     Between {
-        /// Place of the key before.
+        /// Place of the earlier key.
         from: f64,
-        /// Place of the key after.
+        /// Place of the later key.
         to: f64,
         /// 0 is `from`, 1 is `to`.
         share: f64,
@@ -118,7 +118,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// The place in the source, as a fractional frame number.
+    /// Returns the place in the source, as a fractional frame number.
     pub fn place(self) -> f64 {
         match self {
             Self::At(place) => place,
@@ -127,7 +127,7 @@ impl Source {
     }
 }
 
-/// What a drawing is to the motion.
+/// Role of a drawing in the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -135,12 +135,12 @@ pub enum Role {
     Genga,
     /// A drawing between two keys (中割り).
     Inbetween,
-    /// The clip's first or last drawing, a genga whether or not a key was found there.
+    /// The clip's first or last drawing: a genga even if no key was found there.
     End,
 }
 
 impl Role {
-    /// The word used in files.
+    /// Returns the word used in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Genga => "genga",
@@ -149,28 +149,28 @@ impl Role {
         }
     }
 
-    /// Whether the omission stages must leave it where it is.
+    /// Whether the omission stages must leave the drawing in place.
     pub fn is_kept(self) -> bool {
         self != Self::Inbetween
     }
 }
 
-/// The usual name of a column: A to Z, then AA, AB ….
-pub(crate) fn column_name(column: usize) -> String {
+/// Returns the usual name of a column: A to Z, then AA, AB ….
+pub fn column_name(column: usize) -> String {
     let letter = char::from(b'A' + (column % 26) as u8);
     let mut name = if column < 26 { String::new() } else { column_name(column / 26 - 1) };
     name.push(letter);
     name
 }
 
-/// What says nothing is not written.
-pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+/// Whether a value equals its default, and serialization can skip it.
+pub fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
 impl Exposure {
-    /// The koma of the layers up to this with it, if it may stand for so long.
-    pub(crate) fn after(self, before: usize) -> Result<usize, String> {
+    /// Adds this exposure to the koma counted `before` it. Fails if it lasts 0 koma or the sum exceeds a million.
+    pub fn after(self, before: usize) -> Result<usize, String> {
         let koma = self.koma;
         if koma == 0 {
             return Err("an exposure of 0 koma is not seen: 1 at the least, or leave it out".into());
@@ -183,7 +183,7 @@ impl Exposure {
 }
 
 impl Layer {
-    /// Checks it, of which the layers before have so many koma. Gives those with it.
+    /// Checks the layer. `before` is the number of koma in the layers before it; returns that number plus its own.
     fn check(&self, before: usize) -> Result<usize, Error> {
         let (name, drawings) = (&self.name, self.drawings.len());
         if let Some(wrong) = self.exposures.iter().find(|shown| shown.drawing >= drawings) {
@@ -195,12 +195,12 @@ impl Layer {
         after.map_err(|message| Error::sheet(format!("layer {name}: {message}")))
     }
 
-    /// Koma of the layer: the sum of its exposures.
+    /// Number of koma in the layer: the sum of its exposures.
     pub fn length(&self) -> usize {
         self.exposures.iter().map(|exposure| exposure.koma).sum()
     }
 
-    /// Each exposure with the koma it begins on, from 0.
+    /// Returns each exposure with its first koma, counted from 0.
     ///
     /// ```
     /// use genga::sheet::{Exposure, Layer};
@@ -217,8 +217,8 @@ impl Layer {
         })
     }
 
-    /// The koma on which another drawing comes, from 0, with its index into [`Layer::drawings`]. One that goes on over two
-    /// exposures is no change.
+    /// Returns each koma, counted from 0, on which a new drawing appears, with its index into [`Layer::drawings`]. A
+    /// drawing that continues over two exposures is no change.
     ///
     /// ```
     /// use genga::sheet::{Exposure, Layer};
@@ -234,14 +234,14 @@ impl Layer {
         drawings.filter(move |(_, drawing)| before.replace(*drawing) != Some(*drawing))
     }
 
-    /// The drawing on each koma, as an index into [`Layer::drawings`].
+    /// Returns the drawing on each koma, as an index into [`Layer::drawings`].
     pub fn koma(&self) -> impl Iterator<Item = usize> + '_ {
         self.exposures
             .iter()
             .flat_map(|exposure| std::iter::repeat_n(exposure.drawing, exposure.koma))
     }
 
-    /// The drawings that are on screen at all, in their order: a person may have left others.
+    /// Returns the drawings that appear on screen, in order. A person's edits may leave others unused.
     pub fn shown(&self) -> impl Iterator<Item = &Drawing> {
         let mut is_shown = vec![false; self.drawings.len()];
         for exposure in &self.exposures {
@@ -253,19 +253,18 @@ impl Layer {
         drawings.filter_map(|(drawing, is_shown)| is_shown.then_some(drawing))
     }
 
-    /// Drawings of a role that are on screen.
+    /// Number of drawings of a role on screen.
     pub fn count(&self, role: Role) -> usize {
         self.shown().filter(|drawing| drawing.role == role).count()
     }
 
-    /// Genga on screen, the clip's first and last drawing among them: how many poses are to be drawn, from
-    /// which inbetweens are then made.
+    /// Number of genga on screen, the clip's first and last drawing included: the poses to draw by hand before
+    /// inbetweening.
     pub fn genga(&self) -> usize {
         self.shown().filter(|drawing| drawing.role.is_kept()).count()
     }
 
-    /// The number of each drawing among the kept ones, genga and ends as one series from 1; none for
-    /// inbetweens.
+    /// Numbers genga and ends as one series from 1; `None` for inbetweens.
     pub fn genga_numbers(&self) -> Vec<Option<usize>> {
         let number = |kept: &mut usize, drawing: &Drawing| {
             *kept += usize::from(drawing.role.is_kept());
@@ -274,29 +273,30 @@ impl Layer {
         self.drawings.iter().scan(0, number).collect()
     }
 
-    /// Koma of the longest exposure; 0 for an empty layer.
+    /// Number of koma of the longest exposure; 0 for an empty layer.
     pub fn longest_hold(&self) -> usize {
         self.exposures.iter().map(|exposure| exposure.koma).max().unwrap_or(0)
     }
 
-    /// Koma that repeat the drawing before them.
+    /// Number of koma that repeat the drawing before them.
     pub fn held_koma(&self) -> usize {
         self.length() - self.exposures.len()
     }
 }
 
 impl Sheet {
-    /// A sheet of some layers, whose drawings carry the body.
+    /// Creates a sheet of these layers, with the default motion of root and feet.
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
         let (root, feet) = (RootMotion::default(), Feet::default());
         Self { clock, layers, root, feet, lines: vec![] }
     }
 
-    /// Checks that every exposure shows a drawing that its layer has, for a koma at least, that no
-    /// layer has more than a million koma, that no joint is of two, and that what is spoken is so on the sheet.
+    /// Checks that each exposure lasts at least one koma and shows a drawing of its layer, that all layers together
+    /// have at most a million koma, that no joint belongs to two layers, and that the spoken lines fit the sheet.
     ///
     /// # Errors
-    /// [`Error::Sheet`] naming the first layer or line of which that is not so.
+    ///
+    /// [`Error::Sheet`] naming the first layer or line that fails.
     pub fn check(&self) -> Result<(), Error> {
         self.layers.iter().try_fold(0, |before, layer| layer.check(before))?;
         let mut layer_of = HashMap::new();
@@ -313,22 +313,23 @@ impl Sheet {
         self.check_lines()
     }
 
-    /// The first layer, to which every joint belongs that no other names.
+    /// Returns the first layer, which owns every joint that no other layer names.
     ///
     /// # Errors
-    /// [`Error::Sheet`] as [`Sheet::check`], and when there is no such layer or it has no koma.
+    ///
+    /// [`Error::Sheet`] as in [`Sheet::check`], and if there is no layer or the first has no koma.
     pub fn first_layer(&self) -> Result<&Layer, Error> {
         self.check()?;
         let layer = self.layers.first().filter(|layer| !layer.exposures.is_empty());
         layer.ok_or_else(|| Error::sheet("the sheet is empty: its first layer has no koma"))
     }
 
-    /// Koma of the sheet: that of its longest layer.
+    /// Number of koma in the sheet: those of its longest layer.
     pub fn length(&self) -> usize {
         self.layers.iter().map(Layer::length).max().unwrap_or(0)
     }
 
-    /// The sheet of a clip on ones (1コマ打ち): a drawing a koma, no keys searched. The first and the
+    /// Creates a sheet of a clip on ones (1コマ打ち): one drawing per koma, without a search for keys. The first and the
     /// last drawing are ends.
     pub fn on_ones(clock: Clock, koma: usize) -> Self {
         let drawing = |at| Drawing {

@@ -1,4 +1,4 @@
-//! **Measure** (測る): how fast each joint moves, smoothed, and where its speed turns.
+//! **Measure** (測る): measures how fast each joint moves, smooths the speeds, and finds where they turn.
 
 mod low_pass;
 mod speed;
@@ -19,15 +19,15 @@ pub use turns::{Drawn, Reading, Side, Steady, Turn, TurnFinder, TurnKind};
 pub struct Signals {
     /// Frames × joints: a joint is a column, contiguous in memory.
     pub values: DMatrix<f64>,
-    /// What the values count.
+    /// Quantity and unit of the values.
     pub unit: Quantity,
     /// Frames a second.
     pub rate: FrameRate,
-    /// The number of the first row in the file.
+    /// Number of the first row's frame in the file.
     pub first: Frame,
 }
 
-/// What a signal counts.
+/// The quantity that a signal measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Radians a second; degrees a second for people.
@@ -39,7 +39,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The factor from the value in code to the value for people.
+    /// Returns the factor from the value in code to the value for people.
     pub fn for_people(self) -> f64 {
         match self {
             Self::Angle => 180.0 / std::f64::consts::PI,
@@ -47,7 +47,7 @@ impl Quantity {
         }
     }
 
-    /// How people write it.
+    /// Returns the unit as people write it.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Angle => "°/s",
@@ -68,14 +68,14 @@ impl Signals {
         self.values.ncols()
     }
 
-    /// One joint's values, frame after frame.
+    /// Returns one joint's values, frame by frame.
     pub fn joint(&self, joint: JointId) -> &[f64] {
         let frames = self.frames();
         &self.values.as_slice()[joint.0 * frames..(joint.0 + 1) * frames]
     }
 
-    /// The joints by how much they carry through the world, the most first: the length of what hangs on
-    /// them times their mean speed.
+    /// Returns the joints by how much they carry through the world, the most first: the length of the bones below them
+    /// times their mean speed.
     pub fn movers_first(&self, skeleton: &Skeleton) -> Vec<JointId> {
         let carried = |(joint, reach): (usize, f64)| {
             let joint = JointId(joint);

@@ -1,16 +1,16 @@
-//! **Targets** (目標): what a sheet is to be, instead of the knobs that make it so.
+//! **Targets** (目標): goals for the sheet, from which the settings are found.
 //!
-//! [`meet`] finds the settings by search, writes them into a recipe, and says what stood in the way.
-//! The same clip, recipe and targets give the same settings; with them the clip gives the same sheet
-//! again without any target.
+//! [`meet`] searches for the settings, writes them into a recipe, and reports what stood in the way. The search is
+//! deterministic: the same clip, recipe and targets give the same settings, and those settings reproduce the sheet
+//! without any target.
 
 mod drawings;
 mod error;
 mod gaits;
 mod genga;
+mod key_count_search;
 mod ladder;
 mod reasons;
-mod room;
 
 use std::fmt;
 
@@ -20,51 +20,51 @@ use crate::keys::Layers;
 use crate::pipeline::{Breakdown, Engine};
 use crate::recipe::Recipe;
 use crate::sheet::{Layer, Role};
-pub(crate) use room::with_found;
+pub use key_count_search::with_found;
 
-/// What a sheet is to be.
+/// A goal for the sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target {
-    /// So many genga on the sheet, found ones, pins, ends of rests and of contacts together; the clip's two ends do
-    /// not count.
+    /// Number of genga on the sheet, counting found keys, pins, and ends of rests and contacts, but not the clip's two
+    /// ends.
     Keys(usize),
-    /// Drawings on the sheet over its seconds: above 0, and at most a drawing a koma.
+    /// Drawings per second of the sheet: above 0, and at most one per koma.
     DrawingsPerSecond(f64),
-    /// Few keys with which the body, slerped from key to key, is nowhere further off than so many %
-    /// of its height, above 0: at the worst koma, root mean square over its points.
+    /// Largest error in % of body height, above 0, met with few keys. The error is that of the body slerped from key to
+    /// key, at the worst koma, as a root mean square over its points.
     MaxError(f64),
 }
 
-/// Settings that come as near to some targets as they can.
+/// Settings that come as near to the targets as possible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Met {
-    /// The recipe, with nothing changed that did not need to be.
+    /// The recipe; only settings that had to change differ.
     pub recipe: Recipe,
-    /// What became of each target, in the order in which they were met.
+    /// The outcomes of the targets, in the order they were met.
     pub outcomes: Vec<Outcome>,
 }
 
-/// What became of a target.
+/// The outcome of a target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// What was asked for.
+    /// The requested target.
     pub target: Target,
-    /// What the sheet has, in the same unit.
+    /// The value that the sheet reaches, in the target's unit.
     pub reached: f64,
-    /// Why it is not what was asked for; none where it is, or as near as whole drawings allow.
+    /// Why the target was missed; `None` if it is met, or as nearly as whole drawings allow.
     pub shortfall: Option<String>,
 }
 
-/// How often keys and drawings are settled in turn: where drawings may stand decides which keys have room.
+/// Rounds of settling keys and drawings in turn: where drawings may stand decides which keys have room.
 const MOST_ROUNDS: usize = 4;
 
-/// Finds settings with which the sheet is what the targets say, or as near to it as can be.
+/// Finds settings with which the sheet meets the targets, or comes as near as possible.
 ///
-/// Keys are settled first, then drawings: a number of drawings never changes keys that a target asked
-/// for. A recipe that meets a number of keys or drawings already is left as it is.
+/// Keys are settled before drawings: a number of drawings never changes keys that a target asked for. A recipe that
+/// already meets a number of keys or drawings is left unchanged.
 ///
 /// # Errors
-/// [`Error::Setting`] named as the target when it can never be met or contradicts another, and those of
+/// [`Error::Setting`] named after the target when it can never be met or contradicts another. Otherwise as for
 /// [`Engine::run`].
 ///
 /// ```
@@ -131,7 +131,7 @@ fn check(targets: &[Target], recipe: &Recipe) -> Result<(), Error> {
 }
 
 impl Met {
-    /// Settles keys, then drawings.
+    /// Settles the keys, then the drawings.
     fn settle_all(
         &mut self,
         engine: &mut Engine,
@@ -167,7 +167,7 @@ impl Met {
         Ok(())
     }
 
-    /// Whether the keys are still what they were before drawings were settled.
+    /// Whether settling the drawings left the keys unchanged.
     fn keys_hold(&self, engine: &mut Engine, edits: &Edits) -> Result<bool, Error> {
         for outcome in &self.outcomes {
             let now = match outcome.target {
@@ -189,7 +189,7 @@ impl Met {
 }
 
 impl Target {
-    /// The name by which it is asked for.
+    /// Returns the option name of the target.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Keys(_) => "keys",
@@ -199,7 +199,7 @@ impl Target {
     }
 }
 
-/// What was asked for and reached, in a sentence.
+/// Describes the requested and the reached value in a sentence.
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let reached = self.reached;
@@ -222,12 +222,12 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// The layer that targets are about.
+/// Returns the layer that targets apply to.
 fn layer<'a>(breakdown: &Breakdown<'a>) -> &'a Layer {
     &breakdown.sheet.layers[0]
 }
 
-/// Genga on the sheet but the first and the last drawing, which are there whatever is chosen.
+/// Counts the genga on the sheet without the first and last drawing, which are always there.
 fn between(breakdown: &Breakdown<'_>) -> usize {
     layer(breakdown).count(Role::Genga)
 }

@@ -1,9 +1,9 @@
 //! The two clocks, and the only conversions between them.
 //!
-//! A **frame** is an instant of the source clip, a **koma** (コマ) is a slot of the sheet, 1/24 s.
-//! F frames last (F − 1)/rate; T koma last T/24 s. A frame always carries the number it has in the
-//! file, also after a lead-in or a trim; koma count from 0 in code and from 1 on paper.
-//! Only frames have a type of their own: koma index what stands on each of them.
+//! A **frame** is an instant of the source clip; a **koma** (コマ) is a slot of the sheet, 1/24 s. F frames last (F −
+//! 1)/rate; T koma last T/24 s. A frame always keeps its number from the file, even after a lead-in or a trim. Koma
+//! count from 0 in code and from 1 on paper. Only frames have a type of their own: koma serve as plain indices into
+//! per-koma data.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -14,37 +14,38 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::knob::{Kind, Range, Setting, as_word, by_word};
 
-/// Koma a second, unless the recipe says otherwise: film, and so TV animation.
+/// Default koma per second: the rate of film, and therefore of TV animation.
 pub const KOMA_RATE: f64 = 24.0;
 
-/// Rates that files mean when they write a rounded frame time, in frames a second.
-pub(crate) const USUAL_RATES: [f64; 15] = [
+/// Usual frame rates, in frames per second, that a rounded frame time in a file stands for.
+pub const USUAL_RATES: [f64; 15] = [
     23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 72.0, 90.0, 100.0, 119.88, 120.0,
     240.0,
 ];
 
-/// How far from a usual rate still means that rate: `.0083333` is 120.0005 frames a second, while
-/// 29.97 and 30 differ by 0.1 %.
+/// Largest relative distance from a usual rate at which that rate is meant: `.0083333` is 120.0005 frames per second,
+/// while 29.97 and 30 differ by 0.1 %.
 const SNAP: f64 = 0.0005;
 
-/// The usual rate that frames a second mean, within 0.05 %.
+/// Returns the usual rate within 0.05 % of `fps`, if there is one.
 pub(crate) fn usual_rate(fps: f64) -> Option<f64> {
     USUAL_RATES.into_iter().find(|usual| (fps - usual).abs() < SNAP * usual)
 }
 
-/// Frames a second that a rate can be; beyond them a file lies.
+/// Valid frame rates, in frames per second. A file with a rate outside them is wrong.
 const RATES: RangeInclusive<f64> = 1e-3..=1e6;
 
-/// Frames a second, from 0.001 to 1,000,000.
+/// A frame rate in frames per second, from 0.001 to 1,000,000.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct FrameRate(f64);
 
 impl FrameRate {
-    /// A rate in frames a second.
+    /// Creates a rate from frames per second.
     ///
     /// # Errors
-    /// [`Error::Setting`] outside that range.
+    ///
+    /// [`Error::Setting`] if it is outside 0.001 to 1,000,000.
     pub fn new(fps: f64) -> Result<Self, Error> {
         if RATES.contains(&fps) {
             return Ok(Self(fps));
@@ -54,27 +55,28 @@ impl FrameRate {
         Err(Error::setting("rate", message))
     }
 
-    /// The rate meant by a frame time in seconds: within 0.05 % of a usual rate it is that rate,
-    /// so that `.0083333` is exactly 120.
+    /// Creates a rate from a frame time in seconds. A rate within 0.05 % of a usual one becomes that one, so that
+    /// `.0083333` is exactly 120.
     ///
     /// # Errors
-    /// [`Error::Setting`] where that is no [`FrameRate`].
+    ///
+    /// [`Error::Setting`] if it is no valid [`FrameRate`].
     pub fn from_frame_time(seconds: f64) -> Result<Self, Error> {
         let fps = Self::new(1.0 / seconds)?;
         Ok(usual_rate(fps.0).map_or(fps, Self))
     }
 
-    /// Frames a second.
+    /// Frames per second.
     pub fn fps(self) -> f64 {
         self.0
     }
 
-    /// The number of koma that hold `frames` instants: ⌊(F − 1) · 24 / rate⌋ + 1, and 0 for no frame.
+    /// Number of koma that hold `frames` instants: ⌊(F − 1) · 24 / rate⌋ + 1, or 0 if there is no frame.
     pub fn koma_from_frames(self, frames: usize, koma_rate: f64) -> usize {
         if frames == 0 {
             return 0;
         }
-        // A hair is added so that 5/120 · 24, which is 1, does not fall to 0.999….
+        // The small addend keeps 5/120 · 24, which is exactly 1, from being rounded to 0.999….
         ((frames - 1) as f64 * koma_rate / self.0 + 1e-9).floor() as usize + 1
     }
 }
@@ -93,14 +95,14 @@ impl From<FrameRate> for f64 {
     }
 }
 
-/// As people write it: four places at the most.
+/// Formats the rate with at most four decimal places.
 impl fmt::Display for FrameRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         ((self.0 * 1e4).round() / 1e4).fmt(f)
     }
 }
 
-/// A source frame by the number it has in the file, from 0.
+/// A source frame, identified by its number in the file, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Frame(pub usize);
@@ -111,26 +113,26 @@ impl fmt::Display for Frame {
     }
 }
 
-/// Where the koma of a sheet stand in the source: place = first frame + koma · rate / 24.
+/// Maps the koma of a sheet to places in the source: place = first frame + koma · rate / 24.
 ///
 /// A *place* is an instant of the source as a fractional frame number.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
-    /// The source frame that koma 0 shows.
+    /// Source frame that koma 0 shows.
     pub first: Frame,
-    /// Frames a second of the source.
+    /// Frames per second of the source.
     pub frame_rate: FrameRate,
-    /// Koma a second of the sheet.
+    /// Koma per second of the sheet.
     pub koma_rate: f64,
 }
 
 impl Clock {
-    /// The place of a koma.
+    /// Returns the place of a koma.
     pub fn place_from_koma(&self, koma: usize) -> f64 {
         self.first.0 as f64 + koma as f64 * self.frame_rate.fps() / self.koma_rate
     }
 
-    /// The koma nearest to a place: ⌊time · 24 + ½⌋, and 0 for what lies before the first frame.
+    /// Returns the koma nearest to a place: ⌊time · 24 + ½⌋, or 0 before the first frame.
     ///
     /// ```
     /// use genga::time::{Clock, Frame, FrameRate};
@@ -145,12 +147,12 @@ impl Clock {
         (koma + 0.5).floor().max(0.0) as usize
     }
 
-    /// The koma nearest to a source frame, as [`koma_from_place`](Self::koma_from_place) has it.
+    /// Returns the koma nearest to a source frame, rounded as in [`koma_from_place`](Self::koma_from_place).
     pub fn koma_from_frame(&self, frame: Frame) -> usize {
         self.koma_from_place(frame.0 as f64)
     }
 
-    /// The source frame nearest to a koma. The clip may end before it.
+    /// Returns the source frame nearest to a koma. It may lie beyond the end of the clip.
     ///
     /// ```
     /// use genga::time::{Clock, Frame, FrameRate};
@@ -163,28 +165,28 @@ impl Clock {
         Frame(self.place_from_koma(koma).round() as usize)
     }
 
-    /// Source frames in one koma.
+    /// Number of source frames in one koma.
     pub fn frames_in_koma(&self) -> f64 {
         self.frame_rate.fps() / self.koma_rate
     }
 
-    /// Seconds from the clip's frame 0 to a place.
+    /// Returns the seconds from the clip's frame 0 to a place.
     pub fn seconds_from_place(&self, place: f64) -> f64 {
         place / self.frame_rate.fps()
     }
 }
 
-/// A length of time: source frames (`20`) or seconds (`0.2s`), so that one recipe serves every rate.
+/// A duration in source frames (`20`) or in seconds (`0.2s`). Seconds let one recipe serve every frame rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Span {
-    /// Source frames.
+    /// A number of source frames.
     Frames(f64),
-    /// Seconds.
+    /// A number of seconds.
     Seconds(f64),
 }
 
 impl Span {
-    /// The length in source frames, not rounded.
+    /// Returns the duration in source frames, not rounded.
     pub fn frames(self, rate: FrameRate) -> f64 {
         match self {
             Self::Frames(frames) => frames,
@@ -192,12 +194,12 @@ impl Span {
         }
     }
 
-    /// The length in whole source frames, at least 1.
+    /// Returns the duration in whole source frames, at least 1.
     pub fn whole_frames(self, rate: FrameRate) -> usize {
         self.frames(rate).round().max(1.0) as usize
     }
 
-    /// Whether the length is finite and not below 0.
+    /// Whether the duration is finite and not negative.
     pub fn is_length(self) -> bool {
         let (Self::Frames(length) | Self::Seconds(length)) = self;
         length.is_finite() && length >= 0.0

@@ -1,4 +1,4 @@
-//! The sample motions of `data/`: as made, as the papers' tables say, and as a body can move.
+//! The sample motions of `data/` are as made, match the papers' tables, and move as a body can.
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test")]
 
@@ -18,7 +18,7 @@ use make_samples::score::{Score, Side};
 
 const FLOOR_TOLERANCE: f64 = 2.0;
 const SLIDE_TOLERANCE: f64 = 3.0;
-/// Degrees a second: above the shoulder of these throws, below a joint that jumps.
+/// Degrees per second: above the shoulder of these throws, below a joint that jumps.
 const FASTEST_TURN: f64 = 1_800.0;
 
 fn data(file: &str) -> PathBuf {
@@ -193,7 +193,7 @@ impl Moment<'_> {
     }
 }
 
-/// Shows every frame of every committed file.
+/// Calls `look` with every frame of every committed file.
 fn each_pose(mut look: impl FnMut(&Score, &Moment)) {
     for score in make_samples::actions::all() {
         let clip = clip(&text(&score));
@@ -208,7 +208,7 @@ fn each_pose(mut look: impl FnMut(&Score, &Moment)) {
     }
 }
 
-/// Reads what `bvh_text.rs` writes, and nothing else.
+/// Reads the output of `bvh_text.rs`, and nothing else.
 fn clip(text: &str) -> Clip {
     let mut words = text.split_whitespace();
     let mut skeleton = Skeleton::default();

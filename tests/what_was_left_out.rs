@@ -1,5 +1,5 @@
-//! Says after all other tests which of them looked at fewer real clips than they should, and which went without a program
-//! by others.
+//! Runs after all other tests. Reports which of them looked at fewer real clips than they should, and which went
+//! without a third-party program.
 
 #![allow(clippy::print_stdout, reason = "it says what was left out")]
 
@@ -9,7 +9,7 @@ use std::fs;
 mod real;
 
 fn main() {
-    // A list of tests, as some runners ask for it first, is none here.
+    // This is no test harness: it has no tests to list, as some runners ask first.
     if std::env::args().any(|word| word == "--list") {
         return;
     }
@@ -42,7 +42,7 @@ fn main() {
     println!(
         "LEFT OUT: {} tests looked at fewer real clips than they should, {whole} of them at none of {}.\n\
          Their names are in {}.\n\
-         To run them too: put the BVH files that docs/evidence.md names into a folder, and name it by GENGA_CLIPS.",
+         To run them too: put the BVH files that docs/lab/evidence.md names into a folder, and name it by GENGA_CLIPS.",
         clips.len(),
         real::NAMES.len(),
         list.display(),

@@ -1,7 +1,7 @@
-"""Finds the key drawings of the selected joints in Maya, and leaves those poses alone.
+"""Finds the key drawings of the selected joints in Maya, and keeps only those poses.
 
-The joints are sampled over the playback range as the rig poses them, genga finds the keys and times them, and
-genga_sheet applies the timesheet. That keys what has keys: joints that a control rig drives have to be baked first.
+It samples the joints over the playback range as the rig poses them. genga finds and times the keys, and
+genga_sheet applies the timesheet. Only joints with keys are keyed, so bake joints that a control rig drives first.
 
 mayapy needs genga and NumPy: `mayapy -m pip install genga-0.1.0-….whl`. Select the root joint, then run in the
 script editor (Python):
@@ -9,9 +9,9 @@ script editor (Python):
     import genga_keys
     genga_keys.find_keys(keys={"per_second": 4}, spacing={"on": 2})
 
-Settings are those of a recipe, by name. Undo takes it back in one step.
+Settings have the names of a recipe. One undo reverts it.
 
-Checked against a stand-in for maya.cmds, not yet in Maya itself.
+Tested with a mock of maya.cmds, not yet in Maya itself.
 """
 
 import json
@@ -22,7 +22,7 @@ import genga_sheet
 def find_keys(nodes=None, start=1, **settings):
     """Finds the keys of `nodes` and all joints below them, by default the selection, and applies the timesheet.
 
-    `start` is the frame that the first koma gets. Gives what genga found: a `genga.Result`.
+    `start` is the frame of the first koma. Returns a `genga.Result`.
     """
     from maya import cmds
 
@@ -43,12 +43,12 @@ def with_genga():
     try:
         import genga
     except ImportError:
-        raise RuntimeError("mayapy has no genga yet: mayapy -m pip install the wheel, then start Maya again") from None
+        raise RuntimeError("genga is not installed: run mayapy -m pip install with its wheel, then restart Maya") from None
     return genga
 
 
 def joints_of(cmds, nodes):
-    """The joints of one skeleton by their full paths, parents first."""
+    """Returns the joints of one skeleton by full path, parents first."""
     found = []
     for node in nodes or []:
         below = cmds.listRelatives(node, allDescendents=True, fullPath=True, type="joint") or []
@@ -59,12 +59,12 @@ def joints_of(cmds, nodes):
     found.sort(key=lambda path: path.count("|"))
     strange = [path for path, parent in zip(found[1:], parents_of(found)[1:]) if parent < 0]
     if strange:
-        raise RuntimeError(f"{strange[0]} does not hang on {found[0]}: select the root of one skeleton")
+        raise RuntimeError(f"{strange[0]} is not below {found[0]}: select the root of one skeleton")
     return found
 
 
 def parents_of(paths):
-    """The place of the nearest joint above each, -1 for the root; groups between joints are passed over."""
+    """Returns the index of each joint's nearest joint above, -1 for the root. Skips groups between joints."""
     place = {path: at for at, path in enumerate(paths)}
 
     def above(path):
@@ -78,13 +78,13 @@ def parents_of(paths):
 
 
 def arrays(paths, worlds):
-    """What genga.Clip takes, from the world matrices of every frame: F lists of J lists of 16 numbers, as Maya has them.
+    """Builds the arguments of genga.Clip from world matrices: F lists of J lists of 16 numbers, in Maya's order.
 
-    Scale is left out, and a bone is as long as it is on the first frame.
+    Removes scale. Bones have their length on the first frame.
     """
     import numpy as np
 
-    # A point is a row in Maya and stands before its matrix.
+    # Maya multiplies row vectors by matrices from the left.
     matrices = np.asarray(worlds, float).reshape(len(worlds), len(paths), 4, 4)
     places = matrices[:, :, 3, :3]
     axes = matrices[:, :, :3, :3]
@@ -97,13 +97,13 @@ def arrays(paths, worlds):
             local[:, joint] = np.swapaxes(turned[:, parent], -1, -2) @ turned[:, joint]
             offsets[joint] = (places[0, joint] - places[0, parent]) @ turned[0, parent]
     names = [path.rpartition("|")[2] for path in paths]
-    # Two nodes may have one name in Maya, at different places.
+    # In Maya two nodes under different parents may have the same name.
     names = [name if names.count(name) == 1 else path.strip("|") for name, path in zip(names, paths)]
     return dict(names=names, parents=parents, offsets=offsets, rotations=quaternions(local), root=places[:, 0].copy())
 
 
 def quaternions(matrices):
-    """Of rotations (…, 3, 3) the quaternions x, y, z, w: the eigenvector of Bar-Itzhack, which no angle spoils."""
+    """Converts rotations (…, 3, 3) to quaternions x, y, z, w by Bar-Itzhack's eigenvector, stable at any angle."""
     import numpy as np
 
     m = np.moveaxis(matrices, (-2, -1), (0, 1))

@@ -1,16 +1,16 @@
-"""Applies a timesheet of genga (sheet.json) to animated nodes in Maya.
+"""Applies a genga timesheet (sheet.json) to animated nodes in Maya.
 
-Of the motion only the poses on the sheet stay, as keys with stepped tangents on the sheet's koma, 24 a
-second. Inbetweens that are blends of two keys are blended on the shortest arc.
+Keeps only the poses on the sheet, as keys with stepped tangents on the sheet's koma, 24 per second. Blends
+inbetweens that lie between two keys on the shortest arc.
 
 Select the root of the skeleton that plays the take, then run in the script editor (Python):
 
     import genga_sheet
     genga_sheet.apply("/path/to/sheet.json")
 
-The keys of the selected nodes and all below them are replaced: undo takes it back in one step.
+It replaces the keys of the selected nodes and all nodes below them. One undo reverts it.
 
-Checked against a stand-in for maya.cmds, not yet in Maya itself.
+Tested with a mock of maya.cmds, not yet in Maya itself.
 """
 
 import json
@@ -18,18 +18,18 @@ import math
 
 SCHEMA = "genga-sheet-1"
 TIME_UNITS = {"game": 15, "film": 24, "pal": 25, "ntsc": 30, "show": 48, "palf": 50, "ntscf": 60}
-# Units that a scene may have and a sheet never asks for, in units a second.
+# Units that a scene may have but a sheet never uses, in units per second.
 OTHER_UNITS = {"hour": 1 / 3600, "min": 1 / 60, "sec": 1, "millisec": 1000}
-# By Maya's number of a rotate order: the axes in the order in which they are turned about.
+# Axes in the order of rotation, by Maya's number of the rotate order.
 ROTATE_ORDERS = ("xyz", "yzx", "zxy", "xzy", "yxz", "zyx")
 
 
 def apply(path, nodes=None, first_frame=0.0, start=1, layer=""):
-    """Applies the sheet at `path` to `nodes` and what hangs on them; by default the selection.
+    """Applies the sheet at `path` to `nodes`, by default the selection, and all nodes below them.
 
-    `first_frame` is the Maya frame on which source frame 0 lies, at the scene's rate before the call;
-    `start` the frame that the first koma gets; `layer` the sheet's layer by name, by default its first.
-    Gives the number of drawings.
+    `first_frame` is the Maya frame of source frame 0, at the scene's rate before the call. `start` is the frame
+    of the first koma. `layer` is the name of the sheet's layer, by default its first.
+    Returns the number of drawings.
     """
     from maya import cmds
 
@@ -41,13 +41,13 @@ def apply(path, nodes=None, first_frame=0.0, start=1, layer=""):
 
 
 def lay(cmds, sheet, nodes, first_frame, start):
-    """Lays a layer of a sheet on nodes and what hangs on them, in one step of undo."""
+    """Applies a layer of a sheet to nodes and all nodes below them, as one undo step."""
     cmds.undoInfo(openChunk=True, chunkName="genga timesheet")
     try:
         step = scene_rate(cmds) / sheet["source_fps"]
         tracks = [track for node in with_children(cmds, nodes) for track in tracks_of(cmds, node)]
         if not tracks:
-            raise RuntimeError("neither the nodes nor what hangs on them have keys")
+            raise RuntimeError("neither the nodes nor the nodes below them have keys")
         keys = sample(tracks, sheet["exposures"], lambda place: first_frame + place * step)
         cmds.currentUnit(time=unit_name(sheet["fps"]), updateAnimation=False)
         for track, poses in keys:
@@ -60,22 +60,22 @@ def lay(cmds, sheet, nodes, first_frame, start):
 
 
 def read(path, layer_name=""):
-    """A layer of the sheet at `path`, as `layer_of` gives it."""
+    """Reads a layer of the sheet at `path`, in the form of `layer_of`."""
     with open(path, encoding="utf-8-sig") as file:
         sheet = json.load(file)
     if not isinstance(sheet, dict) or sheet.get("schema") != SCHEMA:
-        raise ValueError(f"{path} is no timesheet of genga ({SCHEMA})")
+        raise ValueError(f"{path} is not a genga timesheet ({SCHEMA})")
     return layer_of(sheet, layer_name)
 
 
 def layer_of(sheet, layer_name=""):
-    """A layer of a sheet: fps, source_fps, length in koma, and exposures as (first koma, source).
+    """Returns a layer as fps, source_fps, length in koma, and exposures (first koma, source).
 
-    A source is one place in the take, or (place, place, share) for a blend of two.
+    A source is a place in the take, or (place, place, share) for a blend of two.
     """
     layers = {layer["name"]: layer for layer in reversed(sheet["layers"])}
     if layer_name and layer_name not in layers:
-        raise ValueError(f"no layer {layer_name}; there are {', '.join(layers)}")
+        raise ValueError(f"no layer {layer_name}; the sheet has {', '.join(layers)}")
     if not layers:
         raise ValueError("the sheet has no layer")
     layer = layers[layer_name] if layer_name else sheet["layers"][0]
@@ -87,33 +87,33 @@ def layer_of(sheet, layer_name=""):
         exposures.append((koma, (*blend, drawing["share"]) if blend else drawing["frame"]))
         koma += exposure["koma"]
     if not exposures:
-        raise ValueError(f"layer {layer['name']} shows no drawing")
+        raise ValueError(f"layer {layer['name']} has no drawing")
     source_fps = sheet["clip"]["frame_rate"]
     return {"fps": sheet["fps"], "source_fps": source_fps, "length": koma, "exposures": exposures}
 
 
 def scene_rate(cmds):
-    """Frames a second of the scene."""
+    """Returns the scene's frames per second."""
     unit = cmds.currentUnit(query=True, time=True)
     known = {**TIME_UNITS, **OTHER_UNITS}
     if unit in known:
         return known[unit]
-    # "120fps", "23.976fps", and "29.97df" with dropped frame numbers.
+    # "120fps", "23.976fps", and "29.97df" (drop frame).
     number = unit.replace("fps", "").replace("df", "")
     try:
         return float(number)
     except ValueError:
-        raise RuntimeError(f"the scene's time unit is {unit}, whose frames a second are not known") from None
+        raise RuntimeError(f"the scene's time unit {unit} has no known rate in frames per second") from None
 
 
 def unit_name(fps):
-    """Maya's word for a rate."""
+    """Returns Maya's name for a rate."""
     named = {rate: name for name, rate in TIME_UNITS.items()}
     return named.get(fps, f"{fps:g}fps")
 
 
 def with_children(cmds, nodes):
-    """The nodes and all transforms below them, each once."""
+    """Returns the nodes and all transforms below them, each once."""
     found = []
     for node in nodes:
         below = cmds.listRelatives(node, allDescendents=True, fullPath=True, type="transform")
@@ -122,7 +122,7 @@ def with_children(cmds, nodes):
 
 
 class Track:
-    """One attribute of a node, or the three of its rotation together."""
+    """One attribute of a node, or its three rotation attributes together."""
 
     def __init__(self, cmds, node, attributes, order=None):
         self.names = [f"{node}.{attribute}" for attribute in attributes]
@@ -130,7 +130,7 @@ class Track:
         self.value = lambda time: tuple(cmds.getAttr(name, time=time) for name in self.names)
 
     def blend(self, before, after, share, near):
-        """Between two values: straight, or on the shortest arc for a rotation."""
+        """Blends two values: linearly, or on the shortest arc for a rotation."""
         if before == after:
             return before
         if self.order is None:
@@ -139,7 +139,7 @@ class Track:
         return angles_of(slerp(*ends, share), self.order, near)
 
     def write(self, cmds, poses, times):
-        """Keys with stepped tangents in the place of all that there were."""
+        """Replaces all keys by keys with stepped tangents."""
         for axis, name in enumerate(self.names):
             cmds.cutKey(name, clear=True)
             for pose, time in zip(poses, times):
@@ -148,7 +148,7 @@ class Track:
 
 
 def tracks_of(cmds, node):
-    """What is animated on a node. A rotation with a key on any axis is taken whole."""
+    """Yields the animated tracks of a node. A rotation with a key on any axis is one track."""
     attributes = cmds.listAttr(node, keyable=True, scalar=True) or []
     keyed = [name for name in attributes if cmds.keyframe(f"{node}.{name}", query=True, keyframeCount=True)]
     turns = ["rotateX", "rotateY", "rotateZ"]
@@ -158,7 +158,7 @@ def tracks_of(cmds, node):
 
 
 def sample(tracks, exposures, time_of):
-    """The values of every track at every exposure, taken before anything is changed."""
+    """Samples every track at every exposure, before anything changes."""
     return [(track, sampled(track, exposures, time_of)) for track in tracks]
 
 
@@ -183,7 +183,7 @@ def sampled(track, exposures, time_of):
 
 
 def product(p, q):
-    """Of two quaternions (x, y, z, w): first q turns, then p."""
+    """Multiplies two quaternions (x, y, z, w): q rotates first, then p."""
     (a, b, c, d), (x, y, z, w) = p, q
     return (
         d * x + a * w + b * z - c * y,
@@ -194,7 +194,7 @@ def product(p, q):
 
 
 def quaternion(angles, order):
-    """From rotateX, rotateY, rotateZ in degrees."""
+    """Converts rotateX, rotateY, rotateZ in degrees to a quaternion."""
     turned = (0.0, 0.0, 0.0, 1.0)
     for axis in order:
         half = math.radians(angles["xyz".index(axis)]) / 2
@@ -205,7 +205,7 @@ def quaternion(angles, order):
 
 
 def slerp(p, q, share):
-    """On the shortest arc from p to q."""
+    """Interpolates from p to q on the shortest arc."""
     dot = sum(a * b for a, b in zip(p, q))
     if dot < 0.0:
         dot, q = -dot, tuple(-value for value in q)
@@ -220,14 +220,14 @@ def slerp(p, q, share):
 
 
 def angles_of(rotation, order, near):
-    """rotateX, rotateY, rotateZ in degrees of a quaternion: those nearest to the angles `near`."""
+    """Converts a quaternion to rotateX, rotateY, rotateZ in degrees, nearest to the angles `near`."""
     i, j, k = ("xyz".index(axis) for axis in order)
     sign = 1.0 if (i + 1) % 3 == j else -1.0
     entry = lambda row, column: entry_of(rotation, row, column)
     sine = max(-1.0, min(1.0, -sign * entry(k, i)))
     middle = math.degrees(math.asin(sine))
     if abs(sine) > 1.0 - 1e-12:
-        # Gimbal lock: the last angle stays where it was, and the first does what is left.
+        # Gimbal lock: keeps the last angle, and rotates the rest by the first.
         last = [0.0, 0.0, 0.0]
         last[k] = -near[k]
         left = product(quaternion(last, order), rotation)
@@ -245,12 +245,12 @@ def rotated(rotation, vector):
 
 
 def entry_of(rotation, row, column):
-    """Of its matrix."""
+    """Returns an entry of the rotation's matrix."""
     return rotated(rotation, [float(column == at) for at in range(3)])[row]
 
 
 def nearest(choices, near):
-    """Of triples of angles the nearest, each angle by whole turns."""
+    """Returns the nearest of some triples of angles, each unwound by whole turns."""
 
     def unwound(choice):
         return tuple(choice[axis] - 360.0 * round((choice[axis] - near[axis]) / 360.0) for axis in range(3))

@@ -1,7 +1,7 @@
-"""The keys of many clips on a Ray cluster: python genga_ray.py OUT.csv CLIP.bvh...
+"""Finds the keys of many clips on a Ray cluster: python genga_ray.py OUT.csv CLIP.bvh...
 
-From a program of your own: table(clips), where a clip is a dict of arrays, what genga.Clip(**clip) takes. The table is a
-dict of columns, in the order of the clips; pandas.DataFrame(table) takes it as it is. A broken clip is a row of `errors`.
+From your own program, call table(clips). A clip is a path, or a dict of arrays for genga.Clip(**clip). The table is a
+dict of columns, in the order of the clips; pandas.DataFrame(table) accepts it. A broken clip has an entry in `errors`.
 """
 
 import csv
@@ -13,13 +13,13 @@ import ray
 
 import genga
 
-# A task should take some seconds: Ray's own cost is some milliseconds each.
+# A task should take some seconds, because Ray's overhead per task is some milliseconds.
 CLIPS_A_TASK = 64
 
 
 @ray.remote
 def keys_of(clips, settings):
-    """The keys of some clips, each a path or a dict of arrays; a clip that cannot be read gives its error."""
+    """Returns the keys of each clip (a path or a dict of arrays), or its error message."""
     found = []
     for clip in clips:
         try:
@@ -31,7 +31,7 @@ def keys_of(clips, settings):
 
 
 def table(clips, **settings):
-    """Gives the keys of all clips as columns, behind `clip`, the place in the list, and the errors by place."""
+    """Returns the keys of all clips as columns, first `clip`, the index in the list, and the errors by index."""
     parts = [clips[at : at + CLIPS_A_TASK] for at in range(0, len(clips), CLIPS_A_TASK)]
     found = [one for part in ray.get([keys_of.remote(part, settings) for part in parts]) for one in part]
     errors = {at: one for at, one in enumerate(found) if isinstance(one, str)}
@@ -45,7 +45,7 @@ def table(clips, **settings):
 
 if __name__ == "__main__":
     out, *paths = sys.argv[1:]
-    # Paths of files that all machines see.
+    # All machines must see these files.
     columns, errors = table([os.path.abspath(path) for path in paths])
     for at, error in errors.items():
         print(f"{paths[at]}: {error}", file=sys.stderr)

@@ -1,4 +1,4 @@
-//! A motion of any length, made here: a bench needs no file.
+//! A synthetic motion of any length, so that a benchmark needs no file.
 
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use genga::time::{Frame, FrameRate};
@@ -6,7 +6,7 @@ use glam::DVec3;
 
 pub(crate) const JOINTS: usize = 31;
 
-/// Five limbs that swing at rates of their own, at 120 frames a second.
+/// A clip at 120 frames per second in which five limbs swing at different rates.
 pub(crate) fn swinging(frames: usize) -> Clip {
     let rotations = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
     let joint = |joint: usize| Joint {

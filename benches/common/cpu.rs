@@ -1,12 +1,12 @@
-//! The time that a thread works, without the time that it waits for others.
+//! CPU time of a thread, without the time that it waits.
 
 use std::fs;
 use std::thread;
 use std::time::Instant;
 
-/// Nanoseconds that this thread has run; those since `begin` where the system does not tell.
+/// Nanoseconds that this thread has run, or wall time since `begin` if the system does not report it.
 pub(crate) fn nanos(begin: Instant) -> f64 {
-    // The system brings its account up to date when a thread yields, and otherwise a few times a second.
+    // Linux updates its account when a thread yields, and otherwise only a few times a second.
     thread::yield_now();
     let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
     let ran = told.as_deref().and_then(|text| text.split(' ').next()?.parse().ok());

@@ -1,4 +1,4 @@
-//! Small files that ask for much memory, and a pipe without end. Each is opened and run in a process of its own.
+//! Small files that ask for much memory, and an endless pipe. Each is opened and run in a process of its own.
 
 use std::env;
 use std::fs::File;
@@ -16,16 +16,17 @@ use crate::memory;
 
 const MIB: f64 = 1_048_576.0;
 
-/// What a run may take beyond 16 times its values, and what a pipe may bring: `docs/reliability.md`.
+/// Bytes that a run may take in addition to 16 times the size of its values. A pipe may bring as many:
+/// `docs/lab/reliability.md`.
 const BOUND: f64 = 1024.0 * MIB;
 
-/// The file's own lines, the process's own pages.
+/// Allowance for the file's own lines and the process's own pages.
 const BESIDE: f64 = 4.0 * MIB;
 
-/// A root that moves, with so many joints that cannot, in so many rows of so many seconds.
+/// A moving root: name, number of joints without channels, number of rows, seconds per row.
 type Body = (&'static str, usize, usize, &'static str);
 
-/// What is refused, and about the most of its kind that is not.
+/// Pairs of a refused file and one near the largest of its kind that is accepted.
 const BODIES: [Body; 6] = [
     ("2,000 joints without channels, 20,000 rows", 2000, 20_000, "0.01"),
     ("2,000 joints without channels, 5,000 rows", 2000, 5000, "0.01"),
@@ -35,7 +36,7 @@ const BODIES: [Body; 6] = [
     ("400,000 joints, a flat list", 400_000, 2, "0.01"),
 ];
 
-/// What a process of its own prints: bytes of memory, of values, and the outcome.
+/// Prints the result of a child process: bytes of memory, of values, and the outcome.
 pub(crate) fn one(path: &Path) {
     let before = memory::now();
     let mut values = 0;
@@ -50,7 +51,7 @@ pub(crate) fn one(path: &Path) {
     println!("{}\t{values}\t{outcome}", memory::peak() - before);
 }
 
-/// A row a file; fails where one takes more than its bound.
+/// Prints a row per file. Panics if one takes more than its bound.
 pub(crate) fn table() {
     println!("| file | size | memory | bound | outcome |\n| --- | --- | --- | --- | --- |");
     let folder = tempfile::tempdir().unwrap();
@@ -64,7 +65,7 @@ pub(crate) fn table() {
     let (end, mut pipe) = std::io::pipe().unwrap();
     let feeder = std::thread::spawn(move || {
         let rows = "0.5 1 2\n".repeat(8192);
-        // Until nobody reads any more.
+        // Writes until the reader closes the pipe.
         while pipe.write_all(rows.as_bytes()).is_ok() {}
     });
     kept &= row("rows from a pipe without end", "–", &process(Path::new("/dev/stdin"), end.into()));
@@ -88,7 +89,7 @@ fn process(path: &Path, input: Stdio) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Whether the bound is kept.
+/// Prints a row. Returns whether the bound is kept.
 fn row(name: &str, size: &str, said: &str) -> bool {
     let words: Vec<&str> = said.trim_end().splitn(3, '\t').collect();
     let number = |at: usize| words[at].parse::<f64>().unwrap();

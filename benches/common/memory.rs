@@ -2,18 +2,18 @@
 
 use std::fs;
 
-/// Bytes that it has now; from here on its peak is counted anew.
+/// Returns the bytes in use now and resets the peak.
 pub(crate) fn now() -> usize {
     fs::write("/proc/self/clear_refs", "5").unwrap();
     status("VmRSS:")
 }
 
-/// The most bytes that it had since then.
+/// Returns the peak in bytes since the last reset.
 pub(crate) fn peak() -> usize {
     status("VmHWM:")
 }
 
-/// A line of /proc/self/status, in bytes.
+/// Reads a line of /proc/self/status, in bytes.
 fn status(name: &str) -> usize {
     let text = fs::read_to_string("/proc/self/status").unwrap();
     let line = text.lines().find_map(|line| line.strip_prefix(name)).unwrap();

@@ -1,4 +1,4 @@
-//! One file with everything in it (一枚のページ): a page that is opened from a disk may read no file beside it.
+//! Builds one file with everything in it (一枚のページ), because a page opened from a disk may not read files beside it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,27 +12,27 @@ use wasm_bindgen_cli_support::Bindgen;
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The page without its program.
 const PAGE: &str = include_str!("page.html");
-/// Small rather than soon: it is done once.
+/// Compression level: small rather than fast, since it runs once.
 const LEVEL: u8 = 10;
-/// Bytes of the packed program at the most: nobody should wait for it long.
+/// Largest size of the packed program in bytes, so that nobody waits long for it.
 const MOST: usize = 8_000_000;
 
-/// Builds the page into a folder, and gives its place.
+/// Builds the page into a folder, and returns its path.
 pub(super) fn page(folder: &Path, is_quick: bool) -> Result<PathBuf, String> {
     let compiled = compile(is_quick)?;
     let (glue, program) = bind(&compiled)?;
     let packed = compress_to_vec_zlib(&program, LEVEL);
     if !is_quick && packed.len() > MOST {
-        return Err(format!("the program has {} bytes packed, more than {MOST}", packed.len()));
+        return Err(format!("the packed program has {} bytes, more than {MOST}", packed.len()));
     }
     let text =
         PAGE.replace("/* glue */", &glue).replace("<!-- program -->", &STANDARD.encode(&packed));
     let page = folder.join("index.html");
     let put = || fs::create_dir_all(folder).and_then(|()| fs::write(&page, &text));
-    put().map_err(of(&page))?;
+    put().map_err(failed_at(&page))?;
     let kb = |bytes: usize| bytes.div_ceil(1000);
     println!(
-        "{}: {} KB; its program {} KB, packed {} KB",
+        "{}: {} KB; program {} KB, packed {} KB",
         page.display(),
         kb(text.len()),
         kb(program.len()),
@@ -50,18 +50,18 @@ fn compile(is_quick: bool) -> Result<PathBuf, String> {
     let mut cargo = Command::new(cargo);
     cargo.current_dir(repository).args(["build", "--locked", "--package", "genga-browser"]);
     cargo.args(["--lib", "--target", TARGET, "--profile", profile]);
-    // Several numbers at once, as every browser has it that can run the page.
+    // SIMD: every browser that can run the page has it.
     cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-C target-feature=+simd128");
     let ended = cargo.status().map_err(|error| format!("cargo: {error}"))?;
     if !ended.success() {
-        return Err(format!("the page's program was not compiled (rustup target add {TARGET})"));
+        return Err(format!("compiling the page failed (try rustup target add {TARGET})"));
     }
     let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let target = repository.join(target.unwrap_or_else(|| "target".into()));
     Ok(target.join(TARGET).join(folder).join("genga_browser.wasm"))
 }
 
-/// What joins program and page, as a script, and the program that it joins.
+/// Returns the script that joins program and page, and the program that it joins.
 fn bind(compiled: &Path) -> Result<(String, Vec<u8>), String> {
     let wrong = |error| format!("{}: {error:#}", compiled.display());
     let mut bindgen = Bindgen::new();
@@ -71,6 +71,6 @@ fn bind(compiled: &Path) -> Result<(String, Vec<u8>), String> {
     Ok((bound.js().to_owned(), bound.wasm_mut().emit_wasm()))
 }
 
-fn of(path: &Path) -> impl Fn(std::io::Error) -> String {
+fn failed_at(path: &Path) -> impl Fn(std::io::Error) -> String {
     move |error| format!("{}: {error}", path.display())
 }

@@ -1,13 +1,13 @@
-//! Files as a page has them (ページの机): a person gives them, the browser's storage keeps what is written, and what is
-//! saved or exported is given back as a download. Nothing is sent anywhere.
+//! Files on a page (ページの机): a person gives them, the browser's storage keeps what is written, and saved or exported
+//! files are returned as downloads. Nothing is sent anywhere.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use eframe::egui::Context;
-use genga::deliver::{ClipMark, Run};
-use genga::studio::{Desk, Export, Exported, Opened};
+use genga_files::{ClipMark, Run};
+use genga_studio::{Export, Exported, Host, Opened};
 
 use super::clip::Read;
 use super::{clip, export, page, worker};
@@ -15,23 +15,23 @@ use super::{clip, export, page, worker};
 /// The files of a page.
 #[derive(Clone)]
 pub(crate) struct Table {
-    /// To be woken when a file has come.
+    /// Repainted when a file has come.
     context: Context,
     files: Arc<Mutex<Files>>,
 }
 
-/// What a person gave.
+/// The files that a person gave.
 #[derive(Default)]
 struct Files {
     by_name: BTreeMap<PathBuf, Result<Vec<u8>, String>>,
-    /// Those that nobody has opened yet.
+    /// Files that have not been opened yet.
     new: Vec<PathBuf>,
-    /// By what the clips are known again that were opened.
+    /// Marks that identify the opened clips.
     marks: BTreeMap<PathBuf, ClipMark>,
 }
 
 impl Files {
-    /// The bytes of a file that somebody gave.
+    /// The bytes of a given file.
     fn bytes(&self, path: &Path) -> Result<&[u8], String> {
         let why = match self.by_name.get(path) {
             Some(Ok(bytes)) => return Ok(bytes),
@@ -41,7 +41,8 @@ impl Files {
         Err(format!("{}: {why}", path.display()))
     }
 
-    /// Under what the browser keeps a file. Clips of one name and another motion have nothing in common.
+    /// The storage key of a file. It contains the motion's digest, so that clips of the same name with different
+    /// motions share nothing.
     fn key(&self, path: &Path) -> String {
         let name = file_name(path);
         let is_beside = |clip: &Path| {
@@ -58,7 +59,7 @@ impl Table {
         Self { context, files: Arc::default() }
     }
 
-    /// Puts down a file with its bytes, or with why it could not be read.
+    /// Adds a file with its bytes, or with the error of reading it.
     pub(crate) fn arrive(&self, name: PathBuf, bytes: Result<Vec<u8>, String>) {
         let mut files = self.files();
         files.by_name.insert(name.clone(), bytes);
@@ -66,7 +67,7 @@ impl Table {
         self.context.request_repaint();
     }
 
-    /// The files that came since this was asked last.
+    /// Takes the files that came since the last call.
     pub(crate) fn arrived(&self) -> Vec<PathBuf> {
         std::mem::take(&mut self.files().new)
     }
@@ -76,11 +77,11 @@ impl Table {
     }
 }
 
-impl Desk for Table {
+impl Host for Table {
     fn open(&self, clip: &Path) -> Result<Opened, String> {
         let mut files = self.files();
         let name = file_name(clip);
-        let Read { clip: read, mark, notes } = Read::of(&name, files.bytes(clip)?)?;
+        let Read { clip: read, mark, notes } = Read::new(&name, files.bytes(clip)?)?;
         files.marks.insert(clip.to_owned(), mark);
         Ok(Opened { clip: read, notes })
     }
@@ -101,7 +102,7 @@ impl Desk for Table {
         text.map(Some).map_err(|error| format!("{}: {error}", path.display()))
     }
 
-    /// Both kept for the next visit and given to the person: the browser may forget it.
+    /// Keeps the file for the next visit and also downloads it, because the browser may forget it.
     fn write(&self, path: &Path, text: &str) -> Result<(), String> {
         self.keep(path, text)?;
         self.files().by_name.remove(path);
@@ -116,7 +117,7 @@ impl Desk for Table {
         page::storage()?.remove_item(&self.files().key(path)).map_err(page::said)
     }
 
-    /// On a worker, beside the page. Where there is none, here and now.
+    /// Exports on a worker, or on this thread if there is none.
     fn export(
         &self,
         folder: &Path,
@@ -139,7 +140,7 @@ impl Desk for Table {
     }
 
     fn note(&self, name: &str, text: &str) {
-        // How a person likes to work is worth no word.
+        // A preference that cannot be kept is not worth an error.
         drop(page::storage().map(|storage| storage.set_item(&note(name), text)));
     }
 
@@ -158,7 +159,7 @@ impl Desk for Table {
     }
 }
 
-/// Under what the browser keeps a note.
+/// The storage key of a note.
 fn note(name: &str) -> String {
     format!("genga-note/{name}")
 }

@@ -1,12 +1,12 @@
-//! Everything that a run writes (書き出し), as one archive: file by file the same bytes as the program's.
+//! Everything that a run writes (書き出し), as one archive. Each file has the same bytes as the program's.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use genga::deliver::{ClipMark, FORMATS, Format, Manifest, Report, Run, zip};
-use genga::studio::Export;
+use genga_files::{ClipMark, FORMATS, Format, Manifest, Report, Run, zip};
+use genga_studio::Export;
 
-/// The archive of a folder, and the names of its files.
+/// Returns the archive of a folder, and the names of its files.
 pub(crate) fn archive(
     folder: &str,
     export: &Export<'_>,
@@ -17,7 +17,7 @@ pub(crate) fn archive(
     let name = export.clip.file_stem().unwrap_or_default().to_string_lossy();
     let run = Run { name: &name, clip, breakdown, recipe, edits };
     let mut files = Files::default();
-    let mut report = Report::of(breakdown, export.notes.to_vec());
+    let mut report = Report::new(breakdown, export.notes.to_vec());
     let names = Run::FORMATS.iter().chain(export.formats).copied();
     let formats = Format::find_all(names).map_err(said)?;
     run.with_cut(|cut| {
@@ -46,7 +46,7 @@ pub(crate) fn archive(
     files.packed(folder).map_err(said)
 }
 
-/// The names of formats in a text, as the formats themselves have them.
+/// Looks up the formats that a text names, separated by spaces.
 pub(crate) fn names(text: &str) -> Vec<&'static str> {
     let is_meant = |name: &&str| text.split(' ').any(|word| word == *name);
     FORMATS.iter().map(|format| format.name).filter(is_meant).collect()
@@ -65,7 +65,7 @@ impl Files {
         self.0.iter().map(|(name, bytes)| (name.clone(), Manifest::digest(bytes))).collect()
     }
 
-    /// All of them in a folder of an archive.
+    /// Packs all files into a folder of an archive.
     fn packed(self, folder: &str) -> std::io::Result<(Vec<u8>, Vec<String>)> {
         let (names, bytes): (Vec<_>, Vec<_>) = self.0.into_iter().unzip();
         let places: Vec<String> = names.iter().map(|name| format!("{folder}/{name}")).collect();

@@ -1,16 +1,16 @@
-//! The studio as a page of a browser: what a window of the system does elsewhere.
+//! The studio as a web page, in place of a native window.
 //!
 //! ```text
 //! shell     the page's canvas, with the studio in it
-//! desk      files as a page has them: given by hand, kept in the browser's storage, given back as downloads
+//! desk      files on a page: given by hand, kept in the browser's storage, returned as downloads
 //! clip      a clip, from the bytes of a file
 //! export    the files of a run, as one archive
-//! worker    an export beside the page
-//! page      what is asked of the browser
-//! places    what is on screen, for whoever asks by name
+//! worker    an export on a worker
+//! page      calls to the browser
+//! places    the named parts of the screen, for programs
 //! ```
 //!
-//! `main.rs` is no part of it: it builds the page.
+//! `main.rs`, which builds the page, does not belong to it.
 
 #![cfg(target_family = "wasm")]
 
@@ -32,7 +32,7 @@ use shell::Shell;
 /// Starts the studio on a canvas.
 ///
 /// # Errors
-/// Why nothing can be drawn there.
+/// An error if the canvas cannot be drawn on.
 #[wasm_bindgen]
 pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     let make = |context: &eframe::CreationContext<'_>| {

@@ -1,4 +1,4 @@
-//! Builds the studio as a page, a file that any browser opens, and shows it where asked to.
+//! Builds the studio as a page, one file that any browser opens, and serves it if asked to.
 
 #[cfg(not(target_family = "wasm"))]
 mod build;
@@ -24,12 +24,12 @@ mod program {
     const USAGE: &str =
         "usage: cargo run -p genga-browser -- [--out FOLDER] [--quick] [--serve] [--port N]
 
-  --out FOLDER   where index.html is put [default: dist/browser]
-  --quick        compiled in half the time, to be tried and not to be handed on
-  --serve        shows the page on this machine alone, until Ctrl-C
-  --port N       where it is shown [default: 8124; 0: any that is free]";
+  --out FOLDER   folder for index.html [default: dist/browser]
+  --quick        compile in half the time, for testing only
+  --serve        serve the page to this machine only, until Ctrl-C
+  --port N       port for --serve [default: 8124; 0: any free port]";
 
-    /// What is asked for.
+    /// The command line.
     struct Asked {
         out: PathBuf,
         is_quick: bool,
@@ -37,7 +37,7 @@ mod program {
     }
 
     impl Asked {
-        fn of(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
+        fn new(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
             let mut asked = Self { out: "dist/browser".into(), is_quick: false, port: None };
             while let Some(word) = words.next() {
                 match &*word {
@@ -56,7 +56,7 @@ mod program {
     }
 
     fn run() -> Result<(), String> {
-        let asked = Asked::of(env::args().skip(1))?;
+        let asked = Asked::new(env::args().skip(1))?;
         let page = build::page(&asked.out, asked.is_quick)?;
         asked.port.map_or(Ok(()), |port| serve::serve(&page, port))
     }

@@ -1,6 +1,6 @@
-//! What is asked of the browser. Where it refuses, it says why in its own words.
+//! Calls to the browser. Errors have the browser's own messages.
 
-use genga::motion::file::FORMATS;
+use genga_read::FORMATS;
 use js_sys::{Array, Uint8Array};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -9,7 +9,7 @@ use web_sys::{
     Blob, BlobPropertyBag, Document, File, HtmlAnchorElement, HtmlInputElement, Storage, Url,
 };
 
-/// Whether a person reads a language, by its code.
+/// Whether the browser's language has the given code.
 pub(crate) fn speaks(code: &str) -> bool {
     let language = web_sys::window().and_then(|window| window.navigator().language());
     language.is_some_and(|language| language.starts_with(code))
@@ -21,14 +21,14 @@ pub(crate) fn set_title(title: &str) {
     }
 }
 
-/// What the browser keeps from one visit to the next.
+/// The storage that the browser keeps from one visit to the next.
 pub(crate) fn storage() -> Result<Storage, String> {
-    let window = web_sys::window().ok_or("there is no page")?;
+    let window = web_sys::window().ok_or("the page has no window")?;
     let storage = window.local_storage().map_err(said)?;
-    storage.ok_or_else(|| "this browser keeps nothing for this page".into())
+    storage.ok_or_else(|| "this browser gives this page no storage".into())
 }
 
-/// Lets a person choose files; each is handed on with its bytes when it was read.
+/// Lets a person choose files. Each is passed on with its bytes once it was read.
 pub(crate) fn choose(take: impl Fn(String, Result<Vec<u8>, String>) + Clone + 'static) {
     let Some(input) = make::<HtmlInputElement>("input") else { return };
     input.set_type("file");
@@ -54,14 +54,14 @@ async fn bytes(file: &File) -> Result<Vec<u8>, String> {
     buffer.map(|buffer| Uint8Array::new(&buffer).to_vec()).map_err(said)
 }
 
-/// Gives a file to the person, as a download.
+/// Hands a file to the person as a download.
 pub(crate) fn give(name: &str, bytes: &[u8]) -> Result<(), String> {
     let parts = Array::of1(&Uint8Array::from(bytes));
     let kind = BlobPropertyBag::new();
     kind.set_type("application/octet-stream");
     let blob = Blob::new_with_u8_array_sequence_and_options(&parts, &kind).map_err(said)?;
     let address = Url::create_object_url_with_blob(&blob).map_err(said)?;
-    let link = make::<HtmlAnchorElement>("a").ok_or("the page can make no link")?;
+    let link = make::<HtmlAnchorElement>("a").ok_or("the page cannot create a link")?;
     link.set_href(&address);
     link.set_download(name);
     link.click();
@@ -77,8 +77,8 @@ fn document() -> Option<Document> {
     web_sys::window()?.document()
 }
 
-/// What the browser says of a failure.
+/// The browser's message for a failure.
 pub(crate) fn said(error: JsValue) -> String {
     let message = error.dyn_ref::<js_sys::Error>().map(|error| String::from(error.message()));
-    message.unwrap_or_else(|| "the browser refuses".into())
+    message.unwrap_or_else(|| "unknown browser error".into())
 }

@@ -1,4 +1,4 @@
-//! What is on screen, by its names (画面の部品): a canvas has no elements of which a program could ask.
+//! Lists the named parts of the screen (画面の部品): a canvas has no elements that a program could query.
 
 use std::cell::RefCell;
 
@@ -8,11 +8,11 @@ use js_sys::Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 thread_local! {
-    /// Of the studio on this page, and what it drew last.
+    /// The context of the studio on this page, and the tree it drew last.
     static SEEN: RefCell<Option<(Context, Option<TreeUpdate>)>> = const { RefCell::new(None) };
 }
 
-/// Looks on. What a screen reader would have is made once somebody asks for it.
+/// A plugin that observes the output. The accessibility tree is built only once somebody asks for it.
 pub(crate) struct Places;
 
 impl Plugin for Places {
@@ -31,8 +31,8 @@ impl Plugin for Places {
     }
 }
 
-/// Every part that is drawn and has a name: `[name, role, left, top, width, height]` in the page's pixels. The
-/// first call gives none: from then on they are written down.
+/// Returns every drawn part that has a name, as `[name, role, left, top, width, height]` in the page's pixels. The
+/// first call returns an empty list and turns the recording on.
 #[wasm_bindgen]
 pub fn places() -> Array {
     SEEN.with_borrow(|seen| {

@@ -1,11 +1,11 @@
-//! Shows the page to browsers of this machine (ループバック).
+//! Serves the page to browsers on this machine (ループバック).
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::Path;
 
-/// Answers until the program is ended.
+/// Answers requests until the program is ended.
 pub(super) fn serve(page: &Path, port: u16) -> Result<(), String> {
     let text = fs::read(page).map_err(|error| format!("{}: {error}", page.display()))?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port));
@@ -13,13 +13,13 @@ pub(super) fn serve(page: &Path, port: u16) -> Result<(), String> {
     let at = listener.local_addr().map_err(|error| error.to_string())?;
     println!("http://{at}/");
     for asked in listener.incoming().flatten() {
-        // Whoever hangs up has what they wanted.
+        // A client that hangs up early is no error.
         drop(answer(asked, &text));
     }
     Ok(())
 }
 
-/// Gives the page to whoever asks for it, and nothing else.
+/// Answers a request with the page, or with 404 for any other path.
 fn answer(mut asked: TcpStream, page: &[u8]) -> std::io::Result<()> {
     let mut lines = BufReader::new(asked.try_clone()?).lines();
     let first = lines.next().transpose()?.unwrap_or_default();

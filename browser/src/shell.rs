@@ -1,15 +1,15 @@
-//! The canvas of the page, and the files that come to it.
+//! The canvas of the page, and files dropped on it.
 
 use std::sync::Arc;
 
 use eframe::egui::{Context, RawInput, Ui};
-use genga::studio::{Language, Studio};
+use genga_studio::{Language, Studio};
 
 use super::desk::Table;
 use super::page;
 use super::places::Places;
 
-/// The studio, and what the page was last called.
+/// The studio, the table for its files, and the title that the page shows now.
 pub(crate) struct Shell {
     studio: Studio,
     table: Arc<Table>,
@@ -30,7 +30,7 @@ impl Shell {
 }
 
 impl eframe::App for Shell {
-    /// Files that were dropped are read first: only then they are on the table.
+    /// Reads dropped files first; they reach the table once their bytes are there.
     fn raw_input_hook(&mut self, _: &Context, input: &mut RawInput) {
         for file in input.dropped_files.drain(..) {
             let table = Arc::clone(&self.table);

@@ -1,13 +1,13 @@
-//! An export on a worker (ワーカー): the same program once more, beside the page, so that the page goes on meanwhile.
+//! Runs an export on a worker (ワーカー): a second instance of the program, so that the page stays responsive.
 
 use std::cell::RefCell;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use genga::deliver::Settings;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::studio::{Export, Pending};
+use genga_files::Settings;
+use genga_studio::{Export, Pending};
 use js_sys::{Array, Function, Uint8Array};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -18,30 +18,31 @@ use super::{clip, export, page};
 
 #[wasm_bindgen]
 extern "C" {
-    /// Of `page.html`: has a worker call [`archive`], and hears what comes of it. Gives what ends the worker.
+    /// Defined in `page.html`: lets a worker call [`archive`] and passes its messages to `hear`. Returns a function
+    /// that ends the worker.
     #[wasm_bindgen(catch)]
     fn elsewhere(job: &Array, hear: &Closure<dyn FnMut(JsValue)>) -> Result<Function, JsValue>;
 }
 
-/// An archive and the names of the files in it, or why there is none.
+/// An archive and the names of the files in it, or an error message.
 type Made = Result<(Vec<u8>, Vec<String>), String>;
 
 /// A worker at work.
 struct Job {
     end: Function,
-    /// The worker speaks to it until it ends.
+    /// Kept alive because the worker calls it until it ends.
     _hears: Closure<dyn FnMut(JsValue)>,
-    /// What is being written.
+    /// The format being written.
     at: String,
     made: Option<Made>,
 }
 
 thread_local! {
-    /// One export is written at a time.
+    /// The current export; there is only one at a time.
     static JOB: RefCell<Option<Job>> = const { RefCell::new(None) };
 }
 
-/// Begins an export of a file's bytes. None where a page gets no worker.
+/// Begins an export of a file's bytes. `None` if the page gets no worker.
 pub(crate) fn begin(
     folder: &str,
     file: &str,
@@ -70,7 +71,7 @@ pub(crate) fn begin(
     }))
 }
 
-/// What became of the worker; nothing while it works.
+/// Polls the worker. `None` while it works.
 fn look(stop: &AtomicBool, tell: &dyn Fn(&str)) -> Option<Made> {
     let made = JOB.with_borrow_mut(|job| match job {
         Some(job) if stop.load(Ordering::Relaxed) => {
@@ -80,16 +81,16 @@ fn look(stop: &AtomicBool, tell: &dyn Fn(&str)) -> Option<Made> {
             tell(&job.at);
             job.made.take()
         }
-        None => Some(Err("nobody is writing it".into())),
+        None => Some(Err("no export is running".into())),
     })?;
     if let Some(job) = JOB.take() {
-        // A worker that has said its last word may be gone already.
+        // A worker that has sent its last message may be gone already.
         drop(job.end.call0(&JsValue::NULL));
     }
     Some(made)
 }
 
-/// Takes what the worker says: what it is at, what it made, or why it could not.
+/// Handles a message of the worker: its progress, its result, or its error.
 fn hear(said: JsValue) {
     let said: Array = said.unchecked_into();
     let text = |at| said.get(at).as_string().unwrap_or_default();
@@ -107,10 +108,10 @@ fn hear(said: JsValue) {
     });
 }
 
-/// In the worker: everything that a run writes, as `[archive, names of its files]`.
+/// Runs in the worker: returns everything that a run writes, as `[archive, names of its files]`.
 ///
 /// # Errors
-/// Why there is no such archive, as a sentence.
+/// A sentence that says why there is no archive.
 #[wasm_bindgen]
 pub fn archive(
     folder: &str,
@@ -121,7 +122,7 @@ pub fn archive(
     settings: &str,
     tell: &Function,
 ) -> Result<Array, JsValue> {
-    // A format's name is worth no word where nobody hears it.
+    // Progress is not worth an error if nobody hears it.
     let tell = |name: &str| drop(tell.call1(&JsValue::NULL, &name.into()));
     let (archive, names) = archived(folder, file, bytes, [recipe, formats, settings], &tell)?;
     Ok(Array::of2(&Uint8Array::from(&*archive), &names.join(" ").into()))
@@ -135,7 +136,7 @@ fn archived(
     tell: &dyn Fn(&str),
 ) -> Made {
     let said = |error: genga::Error| error.to_string();
-    let Read { clip, mark, notes } = Read::of(file, bytes)?;
+    let Read { clip, mark, notes } = Read::new(file, bytes)?;
     let (clip, notes) = clip::cleaned(file, clip, notes)?;
     let (recipe, edits) = Recipe::parse(recipe).map_err(said)?;
     let formats: Vec<&'static str> = export::names(formats);

@@ -1,4 +1,4 @@
-//! The five actions.
+//! The actions of all samples.
 
 mod kick;
 mod pitch;

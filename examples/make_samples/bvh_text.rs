@@ -1,10 +1,10 @@
-//! The text of a BVH file: hierarchy, then one row a frame, four decimals.
+//! Writes the text of a BVH file: the hierarchy, then one row per frame with four decimals.
 
 use glam::DVec3;
 
 use super::skeleton::BONES;
 
-/// A file of rows with six channels of the root and three of every other joint.
+/// Writes a file whose rows have six channels for the root and three for every other joint.
 pub(crate) fn text(fps: f64, rows: &[Vec<f64>]) -> String {
     let mut text = String::from("HIERARCHY\n");
     joint(&mut text, 0, 0);
@@ -42,9 +42,9 @@ fn offset(text: &mut String, DVec3 { x, y, z }: DVec3) {
     *text += &format!("OFFSET {} {} {}\n", number(x), number(y), number(z));
 }
 
-/// Four decimals: what is left of a difference between two sine functions is rounded away.
+/// Formats a number with four decimals, which rounds away differences between two implementations of sine.
 fn number(value: f64) -> String {
-    // Adding 0 makes −0 a 0, also where a small negative number is rounded to it.
+    // Adding 0 turns −0 into 0, also if a small negative number was rounded to it.
     let rounded = (value * 1e4).round() / 1e4 + 0.0;
     format!("{rounded:.4}")
 }

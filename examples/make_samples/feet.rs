@@ -1,4 +1,4 @@
-//! Legs: feet that stand where they were put, step from place to place, or swing freely.
+//! Solves the legs: feet that stand where they were put, step from place to place, or swing freely.
 
 use glam::{DQuat, DVec3};
 
@@ -8,7 +8,7 @@ use super::score::{Plant, Score, Side};
 use super::skeleton::{BALL_HEIGHT, BONES, HIPS, LEGS};
 use super::track::ease;
 
-/// Where a foot is to be: the ball's place, which way it points, how far the heel is lifted.
+/// Target of a foot: the position of its ball, its direction, the lift of its heel.
 struct Foot {
     ball: DVec3,
     yaw: f64,
@@ -27,9 +27,9 @@ impl<'a> Feet<'a> {
         Self { score, steps: [of(Side::L), of(Side::R)] }
     }
 
-    /// Rotations of thigh, shank, foot and toes against their parents, the hips being set.
+    /// Computes the rotations of thigh, shank, foot and toes relative to their parents. The hips must be set.
     ///
-    /// `heel` and turn add to the standing foot, `free` and `knee` are the leg's own angles.
+    /// `heel` and `turn` add to the standing foot; `free` and `knee` are the leg's own angles.
     pub(crate) fn leg(
         &self,
         body: &Body,
@@ -65,7 +65,7 @@ impl<'a> Feet<'a> {
         let u = (time - stand.to) / (goal.from - stand.to);
         let mut ball = place(stand).lerp(place(goal), along);
         ball.y += goal.lift * 16.0 * (u * (1.0 - u)).powi(2);
-        // The heel leaves first and, on a long step, comes down first.
+        // The heel leaves first and, on a long step, lands first.
         let length = (place(stand).distance(place(goal)) / 50.0).min(1.0);
         let (early, late) = (bump(u / 0.7), bump((u - 0.5) / 0.5));
         let yaw = stand.yaw + (goal.yaw - stand.yaw) * along;
@@ -78,14 +78,14 @@ fn bump(u: f64) -> f64 {
     libm::sin(std::f64::consts::PI * u.clamp(0.0, 1.0)).powi(2)
 }
 
-/// A leg by its own angles.
+/// Computes a leg from its own angles.
 fn swung(side: Side, free: [f64; 3], [bend, ankle, toes]: [f64; 3]) -> [DQuat; 4] {
     let thigh = limb::thigh(free);
     let thigh = if side == Side::L { thigh } else { limb::mirrored(thigh) };
     [thigh, limb::about_x(bend), limb::about_x(-ankle), limb::about_x(-toes)]
 }
 
-/// A leg that puts its foot where it is to be. When that is too far, the heel comes up.
+/// Computes a leg that places its foot at the target. If that is too far, the heel is lifted.
 fn stood(body: &Body, side: Side, mut foot: Foot) -> [DQuat; 4] {
     let [thigh, shank, ankle, toes] = LEGS[side as usize];
     let hip = body.places[HIPS] + body.world[HIPS] * BONES[thigh].offset;
@@ -103,7 +103,7 @@ fn stood(body: &Body, side: Side, mut foot: Foot) -> [DQuat; 4] {
     }
     let into_hips = body.world[HIPS].inverse();
     let (target, turned) = (into_hips * target(foot.heel), into_hips * turned(foot.heel));
-    // The knee goes where the toes point, and a little where the hips face.
+    // The knee points where the toes do, and a little where the hips face.
     let pole = turned * limb::about_x(-foot.heel) * DVec3::Z + 0.25 * DVec3::Z;
     let [thigh, shank] = limb::reach_with_leg(target, pole, bones);
     // Toes stay flat on the floor while the heel is up.

@@ -1,8 +1,8 @@
-//! Angles of arms and legs as people name them, and two bones that reach for a point.
+//! Rotations of arms and legs from named angles, and two-bone inverse kinematics.
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Hips, spine, neck: bend forward, lean to the left, turn to the left.
+/// Rotation of hips, spine or neck: bend forward, lean to the left, turn to the left.
 pub(crate) fn torso([bend, lean, turn]: [f64; 3]) -> DQuat {
     about_y(turn) * about_x(bend) * about_z(-lean)
 }
@@ -19,37 +19,37 @@ pub(crate) fn about_z(degrees: f64) -> DQuat {
     DQuat::from_rotation_z(degrees.to_radians())
 }
 
-/// The same turn on the other side of the body.
+/// Mirrors a rotation to the other side of the body.
 pub(crate) fn mirrored(turn: DQuat) -> DQuat {
     DQuat::from_xyzw(turn.x, -turn.y, -turn.z, turn.w)
 }
 
-/// Left upper arm against its collar, from azimuth, elevation and external rotation.
+/// Rotation of the left upper arm relative to its collar, from azimuth, elevation and external rotation.
 pub(crate) fn upper_arm([azimuth, elevation, external]: [f64; 3]) -> DQuat {
-    // The last turn brings the arm from hanging (where the angles start) to out (where it rests).
+    // The last rotation brings the arm from hanging (zero of the angles) to the rest pose, out to the side.
     about_y(-azimuth) * about_z(elevation) * about_y(external) * about_z(-90.0)
 }
 
-/// Left forearm from elbow bend and roll.
+/// Rotation of the left forearm from elbow bend and roll.
 pub(crate) fn forearm(bend: f64, roll: f64) -> DQuat {
     about_y(-bend) * about_x(roll)
 }
 
-/// Left thigh from bend forward, spread and outward turn.
+/// Rotation of the left thigh from bend forward, spread and outward turn.
 pub(crate) fn thigh([bend, spread, outward]: [f64; 3]) -> DQuat {
     about_x(-bend) * about_z(spread) * about_y(outward)
 }
 
-/// A left arm that reaches from its shoulder to `target`, elbow towards `pole`: the upper arm's
-/// rotation and the bend of the elbow in degrees.
+/// Solves a left arm that reaches from its shoulder to `target`, elbow towards `pole`. Returns the upper arm's rotation
+/// and the bend of the elbow in degrees.
 pub(crate) fn reach_with_arm(target: DVec3, pole: DVec3, bones: [f64; 2]) -> (DQuat, f64) {
     let (elbow, hinge, bend) = reach(target, pole, bones);
     let along = elbow.normalize();
     (DQuat::from_mat3(&DMat3::from_cols(along, hinge, along.cross(hinge))), bend)
 }
 
-/// A leg that reaches from its hip to `target`, knee towards `pole`: the rotations of thigh and
-/// shank, both against the frame that `target` is given in.
+/// Solves a leg that reaches from its hip to `target`, knee towards `pole`. Returns the rotations of thigh and shank,
+/// both relative to the frame of `target`.
 pub(crate) fn reach_with_leg(target: DVec3, pole: DVec3, bones: [f64; 2]) -> [DQuat; 2] {
     let (knee, hinge, bend) = reach(target, pole, bones);
     let (x, y) = (-hinge, -knee.normalize());
@@ -57,7 +57,8 @@ pub(crate) fn reach_with_leg(target: DVec3, pole: DVec3, bones: [f64; 2]) -> [DQ
     [thigh, thigh * about_x(bend)]
 }
 
-/// The middle joint, the hinge axis (`target` × `pole`) and the bend in degrees.
+/// Solves two bones. Returns the position of the middle joint, the hinge axis (`target` × `pole`) and the bend in
+/// degrees.
 fn reach(target: DVec3, pole: DVec3, [upper, lower]: [f64; 2]) -> (DVec3, DVec3, f64) {
     let longest = 0.9995 * (upper + lower);
     let distance = target.length().clamp(0.2 * longest, longest);

@@ -1,7 +1,7 @@
-//! Makes the sample motions of `data/`: five actions of one performer, written down as key poses.
+//! Makes the sample motions of `data/`: five actions of one performer, defined by key poses.
 //!
-//! `cargo run --example make_samples` writes them, with `--check` it proves that the files there
-//! are what it would write. The bytes are the same on every run.
+//! `cargo run --example make_samples` writes them; `--check` proves that the existing files are identical. The bytes
+//! are the same on every run.
 
 #![allow(clippy::print_stdout, reason = "a program that reports to a person")]
 
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     for score in actions::all() {
         let performance = Performance::new(&score);
         let text = file(&score, &performance);
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(score.file);
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data").join(score.file);
         if check {
             if std::fs::read_to_string(&path).is_ok_and(|found| found == text) {
                 println!("{}: as made", score.file);
@@ -47,7 +47,7 @@ fn main() -> ExitCode {
     code
 }
 
-/// The text of a sample's file.
+/// Returns the text of a sample's file.
 pub(crate) fn file(score: &Score, performance: &Performance) -> String {
     bvh_text::text(score.fps, &performance.rows())
 }
@@ -68,13 +68,13 @@ fn describe(score: &Score, performance: &Performance) {
     }
 }
 
-/// The named poses, each after the number of its nearest frame.
+/// Lists the named poses, each after the number of its nearest frame.
 pub(crate) fn timeline(score: &Score) -> String {
     let pose = |key: &Key| format!("{} {}", (key.at * score.fps).round(), key.name);
     score.keys.iter().map(pose).collect::<Vec<_>>().join(" · ")
 }
 
-/// The greatest speed of a point in metres a second, taken at 100 fps, and the frame where it is.
+/// Returns the peak speed of a point in metres per second, sampled at 100 fps, and the frame of the peak.
 fn peak(score: &Score, performance: &Performance, point: impl Fn(&Body) -> DVec3) -> (f64, f64) {
     let mut before = point(&performance.body(0.0));
     let mut peak = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! What capture adds to a motion: small, band-limited unrest, the same on every run.
+//! The noise of capture: small, band-limited unrest, identical on every run.
 
 use std::f64::consts::TAU;
 
@@ -14,21 +14,21 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Even over `from..to`.
+    /// Uniform over `from..to`.
     fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * ((self.next() >> 11) as f64 / (1u64 << 53) as f64)
     }
 }
 
-/// A sum of sines at random places of a band.
+/// A sum of sines at random frequencies within a band.
 pub(crate) struct Noise {
     /// Amplitude, frequency in turns a second, phase in radians.
     sines: Vec<[f64; 3]>,
 }
 
 impl Noise {
-    /// Unrest as marker capture has it: `rms` in 1 to 8 Hz and a quarter of that above, up to 15 Hz
-    /// or what the rate can carry.
+    /// Noise as in marker capture: `rms` from 1 to 8 Hz and a quarter of that above, up to 15 Hz or what the rate can
+    /// carry.
     pub(crate) fn capture(random: &mut Random, rms: f64, fps: f64) -> Self {
         let mut noise = Self::band(random, rms, 1.0, 8.0, 9);
         noise
@@ -37,10 +37,10 @@ impl Noise {
         noise
     }
 
-    /// Unrest of one band, hertz.
+    /// Noise in one band, in hertz.
     pub(crate) fn band(random: &mut Random, rms: f64, from: f64, to: f64, count: usize) -> Self {
         let amplitude = rms * (2.0 / count as f64).sqrt();
-        // One sine in each equal part of the band: no seed leaves half of the band empty.
+        // One sine in each equal part of the band, so that no seed leaves half of the band empty.
         let part = (to - from) / count as f64;
         let sine = |at: usize| {
             let begin = from + part * at as f64;

@@ -1,5 +1,5 @@
-//! From a score to the rows of a file: the key poses in between, feet on the floor, hands together,
-//! eyes on the ball, breath and unrest.
+//! Computes the rows of a file from a score: interpolates between key poses, keeps feet on the floor and hands
+//! together, turns the eyes to the ball, and adds breath and unrest.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -13,17 +13,17 @@ use super::score::{Part, SIDES, Score, Side, Window};
 use super::skeleton::{ARMS, BONES, CHEST, HIPS, LEGS, NECK, SPINE};
 use super::track::{Track, ease};
 
-/// How many seconds a part is behind the hips: movement runs outwards along the body.
+/// Seconds by which a part lags behind the hips: movement runs outwards along the body.
 const SPINE_LAG: [f64; 3] = [0.006, 0.012, 0.018];
 const COLLAR_LAG: f64 = 0.018;
 const ARM_LAG: f64 = 0.02;
 const ELBOW_LAG: f64 = 0.028;
 const WRIST_LAG: f64 = 0.036;
-/// Each spine joint's share of the trunk's angles, and each neck joint's of the head's.
+/// Each spine joint's share of the trunk's angles, and each neck joint's share of the head's.
 const SPINE_SHARE: [f64; 3] = [0.25, 0.35, 0.4];
 const NECK_SHARE: [f64; 3] = [0.3, 0.3, 0.4];
 
-/// A body at one instant: rotations against the parent and in the world, places in centimetres.
+/// A body at one instant: rotations relative to the parent and in the world, positions in centimetres.
 pub(crate) struct Body {
     pub(crate) root: DVec3,
     pub(crate) local: [DQuat; 23],
@@ -41,7 +41,7 @@ impl Body {
         }
     }
 
-    /// Sets a joint and finds where it is; its parent must have been set.
+    /// Sets a joint's rotation and computes its position. Its parent must have been set.
     pub(crate) fn set(&mut self, joint: usize, local: DQuat) {
         self.local[joint] = local;
         (self.world[joint], self.places[joint]) = match BONES[joint].parent {
@@ -52,13 +52,13 @@ impl Body {
         };
     }
 
-    /// Where the End Site of a joint is.
+    /// Position of a joint's End Site.
     pub(crate) fn tip(&self, joint: usize) -> DVec3 {
         self.places[joint] + self.world[joint] * BONES[joint].tip.unwrap_or(DVec3::ZERO)
     }
 }
 
-/// A score made ready to be asked for any instant.
+/// A score prepared for evaluation at any instant.
 pub(crate) struct Performance<'a> {
     score: &'a Score,
     tracks: BTreeMap<Part, Track>,
@@ -113,7 +113,7 @@ impl<'a> Performance<'a> {
         body
     }
 
-    /// Sets a joint, with its unrest.
+    /// Sets a joint, with unrest added to its rotation.
     fn set(&self, body: &mut Body, joint: usize, local: DQuat, time: f64) {
         let unrest = [0, 1, 2].map(|axis| self.noise[joint][axis].at(time).to_radians());
         body.set(joint, local * DQuat::from_scaled_axis(DVec3::from_array(unrest)));
@@ -129,7 +129,7 @@ impl<'a> Performance<'a> {
 
     fn set_arm(&self, body: &mut Body, side: Side, time: f64) {
         let joints = ARMS[side as usize];
-        // Everything below is a left arm; a right one is its mirror image.
+        // The angles below are those of a left arm; a right one is its mirror image.
         let own = |turn: DQuat| if side == Side::L { turn } else { limb::mirrored(turn) };
         let [raised, forward, _] = self.value(Part::Collar(side), time - COLLAR_LAG);
         let collar = limb::about_y(-forward) * limb::about_z(raised + 0.8 * breath(time));
@@ -153,7 +153,7 @@ impl<'a> Performance<'a> {
         }
         self.set(body, joints[1], own(upper), time);
         self.set(body, joints[2], own(limb::forearm(bend, roll)), time);
-        // Hands that hold on to something point forward and up from the chest, as far as a wrist bends.
+        // Hands that grip something point forward and up from the chest, as far as a wrist bends.
         let fingers = if side == Side::L { DVec3::X } else { DVec3::NEG_X };
         let forward = body.world[CHEST] * DVec3::new(0.0, 0.6, 0.8);
         let held = DQuat::from_rotation_arc(fingers, body.world[joints[2]].inverse() * forward);
@@ -161,7 +161,7 @@ impl<'a> Performance<'a> {
         self.set(body, joints[3], held * own(limb::about_z(-wrist)), time);
     }
 
-    /// Turns the neck so that the eyes meet what they look at, as far as a neck goes.
+    /// Turns the neck so that the eyes point at the gaze target, as far as a neck turns.
     fn set_head(&self, body: &mut Body, time: f64) {
         let neck = body.places[CHEST] + body.world[CHEST] * BONES[NECK[0]].offset;
         let eyes = neck + DVec3::new(0.0, 15.0, 0.0);
@@ -177,7 +177,7 @@ impl<'a> Performance<'a> {
         }
     }
 
-    /// The rows of the file: the root's place, then Z, X and Y rotation of every joint, degrees.
+    /// The rows of the file: the root's position, then the Z, X and Y rotation of every joint in degrees.
     pub(crate) fn rows(&self) -> Vec<Vec<f64>> {
         let mut before = [[0.0; 3]; 23];
         let mut row = |frame: usize| {
@@ -193,23 +193,23 @@ impl<'a> Performance<'a> {
     }
 }
 
-/// How much of a window counts at a time, 0 to 1.
+/// Weight of a window at a time, 0 to 1.
 pub(crate) fn share(window: &Window, time: f64) -> f64 {
     let Window { from, to, ease_in, ease_out } = *window;
     ease(time, from, from + ease_in) * (1.0 - ease(time, to - ease_out, to))
 }
 
-/// Chest and shoulders rise and fall: −1 to 1.
+/// Rise and fall of chest and shoulders, −1 to 1.
 fn breath(time: f64) -> f64 {
     libm::sin(TAU * 0.31 * time)
 }
 
-/// Follows an angle, but ever less as it nears a limit, degrees.
+/// Follows an angle, but ever less as it nears a limit, in degrees.
 fn soft_limit(angle: f64, limit: f64) -> f64 {
     limit * libm::tanh(angle / limit)
 }
 
-/// Degrees rms of a joint's unrest: more towards the ends of the body.
+/// Root mean square of a joint's unrest in degrees: larger towards the ends of the body.
 fn unrest_of(joint: usize) -> f64 {
     match BONES[joint].name {
         "Hips" | "Spine" | "Spine1" | "Spine2" => 0.1,
@@ -220,7 +220,7 @@ fn unrest_of(joint: usize) -> f64 {
     }
 }
 
-/// A part that no key sets.
+/// The value of a part that no key sets.
 fn at_ease(part: Part) -> [f64; 3] {
     match part {
         Part::Root => [0.0, 91.0, 0.0],
@@ -232,7 +232,7 @@ fn at_ease(part: Part) -> [f64; 3] {
     }
 }
 
-/// The Z, X and Y angles of a rotation, in degrees: of all that mean it, the nearest to `before`.
+/// The Z, X and Y angles of a rotation in degrees: of all equivalent ones those nearest to `before`.
 fn zxy_near(turn: DQuat, before: [f64; 3]) -> [f64; 3] {
     let (x, y, z) = (turn * DVec3::X, turn * DVec3::Y, turn * DVec3::Z);
     let first = [libm::atan2(-y.x, y.y), libm::asin(y.z.clamp(-1.0, 1.0)), libm::atan2(-x.z, z.z)];

@@ -1,4 +1,4 @@
-//! How an action is written down: named key poses, footsteps, and when hands are together.
+//! The notation of an action: named key poses, footsteps, and times at which the hands are together.
 
 /// A side of the body.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -9,18 +9,18 @@ pub(crate) enum Side {
 
 pub(crate) const SIDES: [Side; 2] = [Side::L, Side::R];
 
-/// A part of the body that a key pose may set to three numbers; degrees unless said otherwise.
+/// A part of the body that a key pose may set to three numbers, in degrees unless stated otherwise.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
-    /// Where the hips are: x, y, z in centimetres of the world.
+    /// Position of the hips: x, y, z in centimetres of the world.
     Root,
     /// Hips: bend forward, lean to the left, turn to the left.
     Hips,
     /// The three spine joints together: bend forward, lean to the left, turn to the left.
     Trunk,
-    /// What the eyes look at: x, y, z in centimetres of the world.
+    /// Point that the eyes look at: x, y, z in centimetres of the world.
     Gaze,
-    /// Where hands that are together are: x, y, z in centimetres from the chest, as it faces.
+    /// Position of joined hands: x, y, z in centimetres from the chest, in the chest's frame.
     Grip,
     /// Collar: raised, forward, unused.
     Collar(Side),
@@ -37,7 +37,7 @@ pub(crate) enum Part {
     Foot(Side),
 }
 
-/// A named key pose: the parts it sets; what it does not mention moves on between its neighbours.
+/// A named key pose: the parts it sets. Other parts are interpolated between neighbouring keys.
 pub(crate) struct Key {
     pub(crate) name: &'static str,
     /// Seconds from the start.
@@ -49,8 +49,8 @@ pub(crate) fn key<const N: usize>(name: &'static str, at: f64, set: [(Part, [f64
     Key { name, at, set: set.to_vec() }
 }
 
-/// A foot that stands: from when to when, where its ball is on the floor, which way it points.
-/// Between two of them the foot steps, `lift` centimetres high on its way here.
+/// A standing foot: from when to when, where its ball is on the floor, which way it points. Between two of them the
+/// foot steps, `lift` centimetres high on its way here.
 #[derive(Clone, Copy)]
 pub(crate) struct Plant {
     pub(crate) side: Side,
@@ -72,8 +72,8 @@ pub(crate) const fn plant(
     Plant { side, from, to, ball, yaw, lift }
 }
 
-/// A time in which a leg swings by its own angles (or hands hold on to each other): eased in over
-/// `ease_in` seconds after `from`, out over `ease_out` before `to`.
+/// A time in which a leg swings by its own angles (or hands grip each other): eased in over `ease_in` seconds after
+/// `from`, and out over `ease_out` before `to`.
 #[derive(Clone, Copy)]
 pub(crate) struct Window {
     pub(crate) from: f64,
@@ -94,8 +94,8 @@ pub(crate) struct Score {
     pub(crate) seed: u64,
     pub(crate) keys: Vec<Key>,
     pub(crate) plants: Vec<Plant>,
-    /// When a leg swings freely.
+    /// Times at which a leg swings freely.
     pub(crate) swings: Vec<(Side, Window)>,
-    /// When the hands are together.
+    /// Times at which the hands are together.
     pub(crate) grips: Vec<Window>,
 }

@@ -1,4 +1,4 @@
-//! The one performer of all samples: 23 joints, 170 cm, arms out to the sides at rest, facing +Z.
+//! The skeleton of all samples: 23 joints, 170 cm tall, arms out to the sides at rest, facing +Z.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ pub(crate) struct Bone {
     pub(crate) name: &'static str,
     pub(crate) parent: Option<usize>,
     pub(crate) offset: DVec3,
-    /// The End Site, on joints that nothing hangs on.
+    /// Position of the End Site, on leaf joints.
     pub(crate) tip: Option<DVec3>,
 }
 
@@ -32,7 +32,7 @@ pub(crate) const ARMS: [[usize; 4]; 2] = [[12, 13, 14, 15], [16, 17, 18, 19]];
 /// Height of the ball of the foot (the toe joint) when it stands flat.
 pub(crate) const BALL_HEIGHT: f64 = 2.0;
 
-/// Parents before children.
+/// All bones, parents before children.
 pub(crate) const BONES: [Bone; 23] = [
     Bone { name: "Hips", parent: None, offset: DVec3::new(0.0, 92.5, 0.0), tip: None },
     bone("LeftUpLeg", 0, [9.0, -4.0, 0.0]),

@@ -1,9 +1,9 @@
-//! A value over time, through the keys that mention it.
+//! Interpolates a value over time between the keys that set it.
 
-/// Three numbers over time: minimum-jerk pieces between keys.
+/// Three values over time: minimum-jerk pieces between keys.
 ///
-/// Between two rests a piece is the minimum-jerk curve of human reaching; at a key that is passed
-/// through, the slope is the harmonic mean of its sides, so a value never overshoots a key.
+/// Between two rests a piece is the minimum-jerk curve of human reaching. At a key that is passed through, the slope is
+/// the harmonic mean of the slopes on both sides, so a value never overshoots a key.
 #[derive(Default)]
 pub(crate) struct Track {
     times: Vec<f64>,
@@ -12,7 +12,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// A track through keys in order of time.
+    /// Builds a track through keys in order of time.
     pub(crate) fn new(keys: &[(f64, [f64; 3])]) -> Self {
         let times: Vec<f64> = keys.iter().map(|key| key.0).collect();
         let values: Vec<[f64; 3]> = keys.iter().map(|key| key.1).collect();
@@ -30,7 +30,7 @@ impl Track {
         Self { times, values, slopes }
     }
 
-    /// The value at a time; before the first key and after the last it rests.
+    /// The value at a time; constant before the first key and after the last.
     pub(crate) fn at(&self, time: f64) -> [f64; 3] {
         let next = self.times.partition_point(|&at| at <= time);
         if next == 0 {
@@ -53,7 +53,7 @@ impl Track {
     }
 }
 
-/// From one value and slope to another in unit time, without acceleration at either end.
+/// Interpolates from one value and slope to another in unit time, without acceleration at either end.
 fn quintic(from: f64, from_slope: f64, to: f64, to_slope: f64, u: f64) -> f64 {
     let rise = to - from;
     let (u3, u4, u5) = (u * u * u, u * u * u * u, u * u * u * u * u);
@@ -63,7 +63,7 @@ fn quintic(from: f64, from_slope: f64, to: f64, to_slope: f64, u: f64) -> f64 {
         + (6.0 * rise - 3.0 * from_slope - 3.0 * to_slope) * u5
 }
 
-/// From 0 to 1 over `from..to`, the minimum-jerk way.
+/// Rises from 0 to 1 over `from..to` along a minimum-jerk curve.
 pub(crate) fn ease(time: f64, from: f64, to: f64) -> f64 {
     quintic(0.0, 0.0, 1.0, 0.0, ((time - from) / (to - from)).clamp(0.0, 1.0))
 }

@@ -1,4 +1,4 @@
-//! The chain: what the first paper and then the second give that neither gives alone.
+//! The chain: the effect of both papers together, which neither has alone.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::part::Part;
 use crate::table::{Table, number, percent, spread};
 use crate::takes::Take;
 
-/// Ways to a sheet.
+/// The ways to make a sheet.
 const WAYS: [&str; 5] = [
     "on ones",
     "first paper alone",
@@ -21,26 +21,25 @@ const WAYS: [&str; 5] = [
     "chain",
 ];
 
-/// What a sheet looks like, in figures.
+/// The figures of a sheet.
 struct Look {
     drawings_per_second: f64,
     longest_hold: usize,
-    /// Koma that repeat the one before, of all.
+    /// Share of koma that repeat the one before.
     held: f64,
-    /// Distances from each drawing to the next as squared distances of all joints: the largest and the
-    /// middle one, in times those of the source on ones.
+    /// Largest and median distance from each drawing to the next, as squared distances of all joints, relative to the
+    /// source on ones.
     peak: f64,
     median: f64,
-    /// Genga of the first paper whose source place is drawn, of all.
+    /// Share of the first paper's genga whose source place is drawn.
     genga_drawn: f64,
 }
 
-/// The tables.
+/// Makes the tables.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     let looks = takes.iter().map(looks).collect::<Outcome<Vec<_>>>()?;
     let mut part = Part::default();
     part.table("chain", medians(&looks));
-    part.table("chain-clips", clips(takes, &looks));
     let larger = looks.iter().filter(|[.., second, _, chain]| chain.peak > second.peak).count();
     part.number("chain.larger", larger);
     part.number("chain.clips", looks.len());
@@ -52,8 +51,6 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
             }
         };
         tell("drawings", figures(|look| look.drawings_per_second), 1);
-        tell("hold", figures(|look| look.longest_hold as f64), 0);
-        tell("held", figures(|look| 100.0 * look.held), 0);
         tell("peak", figures(|look| look.peak), 1);
         tell("step", figures(|look| look.median), 1);
         tell("genga", figures(|look| 100.0 * look.genga_drawn), 0);
@@ -61,15 +58,15 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     Ok(part)
 }
 
-/// One look a way.
+/// Computes a look for each way.
 fn looks(take: &Take) -> Outcome<[Look; 5]> {
     let clip = &take.clip;
     let run = take.default();
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
     let ones_layer = &ones.layers[0];
-    let stills = Stills::of(clip, ones_layer);
-    // Koma-dori asked for all that the chain has left out, naka-nashi included.
+    let stills = Stills::from_layer(clip, ones_layer);
+    // Koma-dori is asked for as many as the chain leaves out, naka-nashi included.
     let left_out = koma - run.sheet.layers[0].drawings.len();
     let second = Omission::default().apply(ones_layer, &stills, 1)?;
     let koma_dori = Amount::Count(left_out - second.report.naka_nashi.done);
@@ -77,7 +74,7 @@ fn looks(take: &Take) -> Outcome<[Look; 5]> {
     let genga = genga(&run.spaced.layers[0]);
     let [peak, median] = steps(&stills);
     let look = |layer: &Layer| {
-        let [own_peak, own_median] = steps(&Stills::of(clip, layer));
+        let [own_peak, own_median] = steps(&Stills::from_layer(clip, layer));
         Look {
             drawings_per_second: layer.drawings.len() as f64 * KOMA_RATE / layer.length() as f64,
             longest_hold: layer.longest_hold(),
@@ -97,7 +94,7 @@ fn genga(layer: &Layer) -> Vec<f64> {
     genga.map(|drawing| drawing.source.place()).collect()
 }
 
-/// The share of the genga whose koma of the source is one of the drawings'.
+/// The share of the genga whose koma of the source is drawn.
 fn genga_drawn(clip: &Clip, genga: &[f64], layer: &Layer) -> f64 {
     let clock = clip.clock(KOMA_RATE);
     let drawn: BTreeSet<usize> = layer
@@ -109,13 +106,13 @@ fn genga_drawn(clip: &Clip, genga: &[f64], layer: &Layer) -> f64 {
     there.count() as f64 / genga.len() as f64
 }
 
-/// The largest and the middle distance from a drawing to the next.
+/// The largest and the median distance from a drawing to the next.
 fn steps(stills: &Stills) -> [f64; 2] {
     let steps = spread((1..stills.len()).map(|at| stills.ssd(at - 1, at)));
     [steps[2], steps[1]]
 }
 
-/// A row a way, medians over the clips.
+/// A table with one row per way, medians over the clips.
 fn medians(looks: &[[Look; 5]]) -> Table {
     let mut table = Table::new(&[
         "way",
@@ -136,32 +133,6 @@ fn medians(looks: &[[Look; 5]]) -> Table {
             number(median(|look| look.peak), 1),
             number(median(|look| look.median), 1),
             percent(median(|look| look.genga_drawn)),
-        ]);
-    }
-    table
-}
-
-/// A row a clip; in a cell the first paper alone, the second alone, the chain.
-fn clips(takes: &[Take], looks: &[[Look; 5]]) -> Table {
-    let mut table = Table::new(&[
-        "clip",
-        ">drawings/s",
-        ">longest hold",
-        ">koma held",
-        ">largest step, times",
-        ">middle step, times",
-        ">genga drawn",
-    ]);
-    for (take, looks) in takes.iter().zip(looks) {
-        let cell = |of: &dyn Fn(&Look) -> String| [1, 2, 4].map(|at| of(&looks[at])).join(" / ");
-        table.row(&[
-            take.name.clone(),
-            cell(&|look| number(look.drawings_per_second, 1)),
-            cell(&|look| look.longest_hold.to_string()),
-            cell(&|look| percent(look.held)),
-            cell(&|look| number(look.peak, 1)),
-            cell(&|look| number(look.median, 1)),
-            cell(&|look| percent(look.genga_drawn)),
         ]);
     }
     table

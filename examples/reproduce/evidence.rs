@@ -1,4 +1,4 @@
-//! `docs/evidence.md`: how good the keys of the defaults are on real clips.
+//! `docs/lab/evidence.md`: the quality of the default keys on real clips.
 
 mod actions;
 mod events;
@@ -14,24 +14,23 @@ use crate::part::Part;
 use crate::takes::Take;
 use crate::{Outcome, root, windows};
 
-/// What needs no clip.
+/// Results that need no clip.
 pub(crate) fn from_samples() -> Outcome<Part> {
     let mut part = Part::default();
     part.text("people", people::table());
     Ok(part)
 }
 
-/// All that is of real clips.
+/// Results from the real clips.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
-    let events = events::read(&root().join("docs/evidence/events.csv"))?;
-    let marks = events::read(&root().join("docs/evidence/timing.csv"))?;
+    let events = events::read(&root().join("docs/lab/evidence/events.csv"))?;
+    let marks = events::read(&root().join("docs/lab/evidence/timing.csv"))?;
     let mut part = Part::default();
     for (name, text) in [
         ("timing", timing::table(takes, &marks)?),
         ("rates", rates::table(takes)),
         ("merges", rates::merges(takes, &events)?),
         ("hits", events::summary(takes, &events)?),
-        ("events", events::lists(takes, &events)?),
         ("rests", events::rests(takes, &events)?),
         ("actions", actions::table(takes)),
         ("rigs", rigs::table(takes)?),

@@ -14,11 +14,11 @@ use crate::part::Part;
 use crate::takes::{Take, named};
 use crate::windows::window;
 
-/// Koma of a window of a real clip: about as long as the paper's actions, which have 88 to 129.
+/// Length in koma of a window of a real clip, similar to the paper's actions, which have 88 to 129.
 const KOMA: usize = 96;
 
-/// The real clips in which somebody acts: not those in which they walk, run, climb or stand, and of
-/// one take in two rigs the first.
+/// The real clips with an action: without walks, runs, climbs and standing, and with only the first of two rigs of one
+/// take.
 const ACTIONS: [&str; 10] = [
     "cmu-02_04-jump-balance",
     "cmu-02_05-punch-strike",
@@ -32,19 +32,19 @@ const ACTIONS: [&str; 10] = [
     "rokoko-jesse-dance",
 ];
 
-/// A window by the name of its clip.
+/// A window of a clip, with the clip's name.
 struct Window<'a> {
     name: &'a str,
     ones: Ones,
 }
 
 impl<'a> Window<'a> {
-    fn of(take: &'a Take) -> Outcome<Self> {
-        Ok(Self { name: &take.name, ones: Ones::of(window(&take.clip, KOMA)?) })
+    fn new(take: &'a Take) -> Outcome<Self> {
+        Ok(Self { name: &take.name, ones: Ones::new(window(&take.clip, KOMA)?) })
     }
 }
 
-/// What the samples show.
+/// Results from the samples.
 pub(crate) fn from_samples() -> Outcome<Part> {
     let mut part = Part::default();
     table_1::add(&mut part)?;
@@ -55,10 +55,10 @@ pub(crate) fn from_samples() -> Outcome<Part> {
     Ok(part)
 }
 
-/// What the real clips show.
+/// Results from the real clips.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
-    let all = takes.iter().map(Window::of).collect::<Outcome<Vec<_>>>()?;
-    let actions = ACTIONS.iter().map(|name| Window::of(named(takes, name)?));
+    let all = takes.iter().map(Window::new).collect::<Outcome<Vec<_>>>()?;
+    let actions = ACTIONS.iter().map(|name| Window::new(named(takes, name)?));
     let actions = actions.collect::<Outcome<Vec<_>>>()?;
     let mut part = Part::default();
     part.number("km.window", KOMA);

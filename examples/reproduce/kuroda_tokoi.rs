@@ -13,7 +13,7 @@ use crate::Outcome;
 use crate::part::Part;
 use crate::takes::Take;
 
-/// What the samples show.
+/// Results from the samples.
 pub(crate) fn from_samples() -> Outcome<Part> {
     let mut part = Part::default();
     wrist::add(&mut part)?;
@@ -24,7 +24,7 @@ pub(crate) fn from_samples() -> Outcome<Part> {
     Ok(part)
 }
 
-/// What the real clips show.
+/// Results from the real clips.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     let mut part = Part::default();
     walk::add(&mut part, takes)?;

@@ -1,10 +1,9 @@
-//! Makes the tables, pictures and numbers of three pages: `docs/reproduction.md`, both papers beside
-//! what this program gives, `docs/evidence.md`, how good its keys are on real clips, and
-//! `docs/quality.md`, its keys beside those of other methods.
+//! Makes the tables, pictures and numbers of three pages: `docs/lab/reproduction.md` compares both papers with this
+//! program, `docs/lab/evidence.md` shows how good its keys are on real clips, and `docs/lab/quality.md` compares its keys with
+//! those of other methods.
 //!
-//! `cargo run --release --example reproduce` writes them, with `-- --check` it writes nothing and
-//! proves that what is there is what it would write: the same bytes on every run, but for the tables
-//! of times.
+//! `cargo run --release --example reproduce` writes them. With `-- --check` it writes nothing and proves that the files
+//! are what it would write: the bytes are the same on every run, except for tables of times.
 
 #![allow(clippy::print_stdout, reason = "a program that reports to a person")]
 
@@ -35,21 +34,21 @@ use std::process::ExitCode;
 use crate::part::Part;
 use crate::takes::Take;
 
-/// Whatever goes wrong is told to a person and ends the program.
+/// The result of a fallible step; an error is printed and ends the program.
 pub(crate) type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// Makes a part of a page from the samples of `data/`.
 type FromSamples = fn() -> Outcome<Part>;
 
-/// Makes a part of a page from the real clips; it stays as it stands where they are not.
+/// Makes a part of a page from the real clips. If the clips are missing, the part is left as it is.
 type FromTakes = fn(&[Take]) -> Outcome<Part>;
 
-/// A page of `docs`, with a folder of its name for its pictures.
+/// A page of `docs`. Its pictures are in a folder of the same name.
 struct Page {
     name: &'static str,
     from_samples: &'static [FromSamples],
     from_takes: &'static [FromTakes],
-    /// Whether each number of the prose has to be a made one.
+    /// Whether every number in the prose must be a made one.
     is_bound: bool,
 }
 
@@ -86,9 +85,9 @@ fn main() -> ExitCode {
     }
 }
 
-/// Writes what differs, or only says so. Whether all is well.
+/// Writes the files that differ, or with `check` only reports them. Returns whether all is well.
 fn run(check: bool) -> Outcome<bool> {
-    // Of an unoptimised build they would say nothing.
+    // Times of an unoptimised build would be meaningless.
     let times = !check && !cfg!(debug_assertions);
     let takes = takes::all()?;
     if takes.is_empty() {
@@ -115,9 +114,9 @@ fn run(check: bool) -> Outcome<bool> {
 }
 
 impl Page {
-    /// The page and its pictures, each with its text.
+    /// Returns the page and its pictures, each as path and text.
     fn files(&self, takes: &[Take], times: bool) -> Outcome<Vec<(PathBuf, String)>> {
-        let docs = root().join("docs");
+        let docs = root().join("docs/lab");
         let part = self.made(takes)?;
         let path = docs.join(format!("{}.md", self.name));
         let text =
@@ -153,7 +152,7 @@ impl Page {
     }
 }
 
-/// The project's folder.
+/// The repository's root folder.
 pub(crate) fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }

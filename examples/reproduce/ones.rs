@@ -1,5 +1,4 @@
-//! A clip with a drawing a koma, and what omission alone makes of it: the second paper without the
-//! first.
+//! A clip with one drawing per koma, and omission alone applied to it: the second paper without the first.
 
 use genga::motion::Clip;
 use genga::sheet::Sheet;
@@ -12,21 +11,21 @@ use crate::Outcome;
 pub(crate) struct Ones {
     pub(crate) clip: Clip,
     pub(crate) sheet: Sheet,
-    /// Where the body is on each koma.
+    /// The body on each koma.
     pub(crate) stills: Stills,
 }
 
-/// What omission left of it.
+/// The result of omission.
 pub(crate) struct Done {
     pub(crate) sheet: Sheet,
     pub(crate) report: OmissionReport,
-    /// What each koma shows, as the koma of the source.
+    /// The koma of the source that each koma shows.
     pub(crate) shown: Vec<usize>,
     /// The largest SSD from koma to koma.
     pub(crate) peak: f64,
 }
 
-/// Omission by counts, the rest as it is by default.
+/// Omission by counts, with defaults otherwise.
 pub(crate) fn counts(naka_nashi: usize, koma_dori: usize) -> Omission {
     Omission {
         naka_nashi: Amount::Count(naka_nashi),
@@ -36,10 +35,10 @@ pub(crate) fn counts(naka_nashi: usize, koma_dori: usize) -> Omission {
 }
 
 impl Ones {
-    pub(crate) fn of(clip: Clip) -> Self {
+    pub(crate) fn new(clip: Clip) -> Self {
         let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
         let sheet = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
-        let stills = Stills::of(&clip, &sheet.layers[0]);
+        let stills = Stills::from_layer(&clip, &sheet.layers[0]);
         Self { clip, sheet, stills }
     }
 
@@ -47,7 +46,7 @@ impl Ones {
         self.stills.len()
     }
 
-    /// SSD into each koma of what is shown; 0 into the first.
+    /// SSD into each koma of what is shown; 0 for the first.
     pub(crate) fn steps(&self, shown: &[usize]) -> Vec<f64> {
         let step = |pair: &[usize]| self.stills.ssd(pair[0], pair[1]);
         [0.0].into_iter().chain(shown.windows(2).map(step)).collect()
@@ -78,13 +77,13 @@ impl Done {
         koma
     }
 
-    /// The most neighbours among the koma that naka-nashi left out.
+    /// The longest run of neighbouring koma that naka-nashi left out.
     pub(crate) fn adjacent(&self) -> usize {
         let runs = self.left_out();
         runs.chunk_by(|a, b| a + 1 == *b).map(<[usize]>::len).max().unwrap_or(0)
     }
 
-    /// Koma that repeat the one before.
+    /// Number of koma that repeat the one before.
     pub(crate) fn held(&self) -> usize {
         self.sheet.layers[0].held_koma()
     }

@@ -1,4 +1,4 @@
-//! A page of prose by hand, filled with what was made: tables between markers, numbers before theirs.
+//! Fills a hand-written page with results: tables between markers, numbers before their markers.
 
 use crate::Outcome;
 use crate::part::Part;
@@ -6,8 +6,8 @@ use crate::part::Part;
 const END: &str = "<!-- end -->";
 const NUMBER: &str = "<!--=";
 
-/// The page with each of its tables and numbers as they were made. A table with times keeps those
-/// that stand there unless `times` are to be renewed.
+/// Returns the page with each of its tables and numbers filled in. A table with times is kept as it is in the page
+/// unless `times` asks to renew it.
 pub(crate) fn filled(page: &str, part: &Part, times: bool) -> Outcome<String> {
     let mut page = page.to_owned();
     for (name, table) in &part.tables {
@@ -29,7 +29,7 @@ pub(crate) fn filled(page: &str, part: &Part, times: bool) -> Outcome<String> {
     numbered(&page, part)
 }
 
-/// Checks that each marker of the page has something that was made: for when everything was.
+/// Checks that each marker of the page has a result. Only useful once everything was made.
 pub(crate) fn all_is_made(page: &str, part: &Part) -> Outcome<()> {
     let names = [("made", &part.tables), ("measured", &part.measured)];
     for (word, made) in names {
@@ -50,7 +50,7 @@ pub(crate) fn all_is_made(page: &str, part: &Part) -> Outcome<()> {
     Ok(())
 }
 
-/// The page with new text after a marker, up to the next [`END`].
+/// Replaces the text between a marker and the next [`END`].
 fn between(page: &str, marker: &str, make: impl Fn(&str) -> Outcome<String>) -> Outcome<String> {
     let (before, rest) =
         page.split_once(marker).ok_or_else(|| format!("the page has no {marker}"))?;
@@ -64,7 +64,7 @@ fn first_column(table: &str) -> Vec<&str> {
     table.lines().filter_map(|line| line.split('|').nth(1)).map(str::trim).collect()
 }
 
-/// Every number that a marker follows, as it was made.
+/// Replaces every number that stands before a marker.
 fn numbered(page: &str, part: &Part) -> Outcome<String> {
     let mut pieces = page.split(NUMBER);
     let mut text = pieces.next().unwrap_or_default().to_owned();
@@ -80,18 +80,18 @@ fn numbered(page: &str, part: &Part) -> Outcome<String> {
     Ok(text)
 }
 
-/// Where the last word of a text begins.
+/// Index at which the last word of a text begins.
 fn begin_of_word(text: &str) -> usize {
     text.rfind(|c: char| c.is_whitespace() || "([*|".contains(c))
         .map_or(0, |at| at + text[at..].chars().next().map_or(0, char::len_utf8))
 }
 
-/// The words of the prose that hold a digit and are neither made nor one of the names that have one
-/// (Table 1, Fig. 3, §3.4, `code`, a link): a number by hand, which nothing would check.
+/// Finds words of the prose that contain a digit but are neither made nor part of a name (Table 1, Fig. 3, §3.4,
+/// `code`, a link): numbers written by hand, which nothing would check.
 pub(crate) fn loose_numbers(page: &str) -> Vec<String> {
     let prose = without(page, "<!-- made: ", END);
     let prose = without(&prose, "<!-- measured: ", END);
-    // Files that are not kept were looked at once.
+    // Numbers about files that are not kept were checked once, by hand.
     let prose = without(&prose, "<!-- by hand -->", END);
     let prose = without(&without(&prose, "```", "```"), "`", "`");
     let prose = without(&prose, "](", ")");
@@ -112,7 +112,7 @@ pub(crate) fn loose_numbers(page: &str) -> Vec<String> {
     loose
 }
 
-/// The text without what stands from `begin` to the next `end`.
+/// Removes the text from `begin` to the next `end`, everywhere.
 fn without(text: &str, begin: &str, end: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;

@@ -1,4 +1,4 @@
-//! What one part of the program gives to a page: tables, pictures, and numbers for the prose.
+//! The results of one part of the program for a page: tables, pictures, and numbers for the prose.
 
 use std::fmt::Display;
 
@@ -7,13 +7,13 @@ use crate::table::Table;
 /// Tables, pictures and numbers by name.
 #[derive(Default)]
 pub(crate) struct Part {
-    /// Tables: Markdown that stands between `<!-- made: NAME -->` and `<!-- end -->`.
+    /// Tables: Markdown between `<!-- made: NAME -->` and `<!-- end -->`.
     pub(crate) tables: Vec<(String, String)>,
-    /// Tables with times, which are other on each machine and each run.
+    /// Tables with times, which differ on each machine and each run.
     pub(crate) measured: Vec<(String, String)>,
-    /// Pictures by the name of their file, in the page's folder.
+    /// Pictures by file name, in the page's folder.
     pub(crate) pictures: Vec<(String, String)>,
-    /// Numbers of the prose: what stands before `<!--=NAME-->`.
+    /// Numbers of the prose, which stand before `<!--=NAME-->`.
     pub(crate) numbers: Vec<(String, String)>,
 }
 
@@ -23,12 +23,12 @@ impl Part {
         self.text(name, table.text());
     }
 
-    /// Adds Markdown that is not one table.
+    /// Adds Markdown that is not a single table.
     pub(crate) fn text(&mut self, name: &str, text: String) {
         self.tables.push((name.into(), text));
     }
 
-    /// Adds a table with times. Its first column alone has to be the same again.
+    /// Adds a table with times. A check compares only its first column.
     pub(crate) fn measured(&mut self, name: &str, table: Table) {
         self.measured.push((name.into(), table.text()));
     }
@@ -38,12 +38,12 @@ impl Part {
         self.pictures.push((format!("{name}.svg"), svg));
     }
 
-    /// Adds a number of the prose.
+    /// Adds a number for the prose.
     pub(crate) fn number(&mut self, name: &str, value: impl Display) {
         self.numbers.push((name.into(), value.to_string()));
     }
 
-    /// Adds all that another part has.
+    /// Adds all results of another part.
     pub(crate) fn join(&mut self, other: Self) {
         self.tables.extend(other.tables);
         self.measured.extend(other.measured);

@@ -1,9 +1,9 @@
-//! `docs/quality.md`: the program's keys beside other methods, and its sheets beside their sources.
+//! `docs/lab/quality.md`: compares the program's keys with other methods, and its sheets with their sources.
 
 use std::slice::from_ref;
 
-use genga::quality::{Compare, Comparison, Evaluation, Method, Row};
 use genga::signal::{ContactFinder, Limb};
+use genga_lab::quality::{Compare, Comparison, Evaluation, Method, Row};
 
 use crate::Outcome;
 use crate::on_screen;
@@ -11,11 +11,10 @@ use crate::part::Part;
 use crate::table::{Table, number, spread};
 use crate::takes::Take;
 
-/// What is asked of the mean error at an equal number of keys, as a multiple of the least there is.
+/// Target for the mean error at an equal number of keys, as a multiple of the optimum.
 const ASKED: f64 = 1.25;
 
-/// With double as many keys the worst koma should not be more than so many times as far off as the
-/// least there is with as many as found.
+/// Target for the worst koma with double as many keys, as a multiple of the optimum with as many keys as found.
 const GAP: f64 = 1.25;
 
 /// A clip and its comparison.
@@ -24,35 +23,30 @@ struct Judged<'a> {
     found: Comparison,
 }
 
-/// A measure of a row by name.
+/// A named measure of a row.
 type Measure = (&'static str, fn(&Row) -> Option<f64>);
 
-/// What each table of clips shows.
-const MEASURES: [Measure; 6] = [
+/// The measures of the summary.
+const MEASURES: [Measure; 5] = [
     ("mean-error", |row| row.mean_ratio),
     ("worst-error", |row| row.worst_ratio),
     ("hits", |row| row.hits),
     ("by-chance", |row| row.by_chance),
-    ("off", |row| row.off),
     ("steady", |row| row.steady),
 ];
 
-/// The whole page.
+/// Makes the whole page.
 pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
-    let compare = Compare { times: true, ..Compare::default() };
     let judge = |take| {
         let take: &Take = take;
-        Ok(Judged { take, found: compare.run(take.clip.clone())? })
+        Ok(Judged { take, found: Compare::default().run(take.clip.clone())? })
     };
     let judged = takes.iter().map(judge).collect::<Outcome<Vec<_>>>()?;
     let mut part = Part::default();
     part.table("counts", counts(&judged));
-    for (name, measure) in MEASURES {
-        part.table(name, by_clip(&judged, measure));
-    }
+    part.table("mean-error", mean_errors(&judged));
     part.table("summary", summary(&judged));
     part.table("paces", paces(&judged));
-    part.measured("times", times(&judged));
     part.table("sheets", sheets(takes)?);
     on_screen::add(takes, &mut part)?;
     part.text("blind", list(takes.iter().filter_map(blind)));
@@ -61,20 +55,20 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     Ok(part)
 }
 
-/// The rows of a method at half the number of keys that the recipe finds (0), at that number (1) and at
-/// double (2), each with its clip.
+/// Returns the rows of a method at half the number of keys that the recipe finds (`which` 0), at that number (1) and at
+/// double (2).
 fn rows<'a>(
     judged: &'a [Judged<'a>],
     method: Method,
     which: usize,
-) -> impl Iterator<Item = (&'a str, &'a Row)> {
+) -> impl Iterator<Item = &'a Row> {
     judged.iter().filter_map(move |clip| {
         let count = *clip.found.counts().get(which)?;
-        Some((clip.take.name.as_str(), clip.found.row(method, count)?))
+        clip.found.row(method, count)
     })
 }
 
-/// How many keys there are, and the error of the program's own.
+/// A table of the number of keys and the error of the program's own.
 fn counts(judged: &[Judged<'_>]) -> Table {
     let header = [
         "clip",
@@ -85,7 +79,6 @@ fn counts(judged: &[Judged<'_>]) -> Table {
         ">worst error",
         ">least mean",
         ">least worst",
-        ">extrema",
     ];
     let mut table = Table::new(&header);
     for clip in judged {
@@ -103,38 +96,29 @@ fn counts(judged: &[Judged<'_>]) -> Table {
             error(Method::Own, |row| row.worst),
             error(Method::OptimalMean, |row| row.mean),
             error(Method::OptimalWorst, |row| row.worst),
-            found.extrema.to_string(),
         ]);
     }
     table
 }
 
-/// A measure of every clip and method at as many keys as the recipe finds.
-fn by_clip(judged: &[Judged<'_>], measure: fn(&Row) -> Option<f64>) -> Table {
+/// A table of the mean error for every clip and method, at as many keys as the recipe finds.
+fn mean_errors(judged: &[Judged<'_>]) -> Table {
     let names = Method::ALL.map(|method| format!(">{method}"));
     let header: Vec<&str> = ["clip"].into_iter().chain(names.iter().map(String::as_str)).collect();
     let mut table = Table::new(&header);
     for clip in judged {
-        let cell = |method| {
-            let row = clip.found.row(method, clip.found.own_keys);
-            row.and_then(measure).map_or("–".into(), |value| number(value, 2))
-        };
-        let cells = Method::ALL.map(cell);
+        let cells = Method::ALL.map(|method| {
+            let ratio = as_found(clip, method).and_then(|row| row.mean_ratio);
+            ratio.map_or("–".into(), |ratio| number(ratio, 2))
+        });
         table.row(&[from_ref(&clip.take.name), &cells[..]].concat());
     }
-    let medians = Method::ALL.map(|method| {
-        let row = |clip: &Judged<'_>| clip.found.row(method, clip.found.own_keys).and_then(measure);
-        let values: Vec<f64> = judged.iter().filter_map(row).collect();
-        if values.is_empty() { "–".into() } else { number(spread(values)[1], 2) }
-    });
-    table.row(&[&["median".to_owned()], &medians[..]].concat());
     table
 }
 
-/// Medians over the clips at half, equal and double the number of keys.
+/// A table of medians over the clips at half, equal and double the number of keys.
 fn summary(judged: &[Judged<'_>]) -> Table {
-    let header =
-        ["keys", "method", ">× mean", ">× worst", ">hits", ">by chance", ">off", ">steady"];
+    let header = ["keys", "method", ">× mean", ">× worst", ">hits", ">by chance", ">steady"];
     let mut table = Table::new(&header);
     for (which, keys) in ["half", "as found", "double"].into_iter().enumerate() {
         for method in Method::ALL {
@@ -146,7 +130,7 @@ fn summary(judged: &[Judged<'_>]) -> Table {
     table
 }
 
-/// Keys on threes and on twos, medians over the clips.
+/// A table of keys on threes and on twos, medians over the clips.
 fn paces(judged: &[Judged<'_>]) -> Table {
     let mut table = Table::new(&["keys", ">a second", ">mean error", ">× mean", ">× worst"]);
     for (method, step) in Method::PACES {
@@ -173,39 +157,21 @@ fn median(
     which: usize,
     measure: fn(&Row) -> Option<f64>,
 ) -> Option<f64> {
-    let values: Vec<f64> =
-        rows(judged, method, which).filter_map(|(_, row)| measure(row)).collect();
+    let values: Vec<f64> = rows(judged, method, which).filter_map(measure).collect();
     (!values.is_empty()).then(|| spread(values)[1])
 }
 
-/// Milliseconds of each method, for all counts together.
-fn times(judged: &[Judged<'_>]) -> Table {
-    let mut table = Table::new(&["method", ">least ms", ">median", ">most", ">all clips"]);
-    for method in Method::ALL {
-        let times: Vec<f64> = rows(judged, method, 0).filter_map(|(_, row)| row.ms).collect();
-        let all: f64 = times.iter().sum();
-        let [least, median, most] = spread(times);
-        let cells = [least, median, most, all].map(|ms| number(ms, 1));
-        table.row(&[&[method.word().to_owned()], &cells[..]].concat());
-    }
-    table
-}
-
-/// The measures of the sheets that the defaults make.
+/// A table of the measures of the default sheets.
 fn sheets(takes: &[Take]) -> Outcome<Table> {
     let header = [
         "clip",
         ">drawings/s",
-        ">keys mean",
-        ">worst",
         ">shown mean",
         ">worst",
         ">contacts",
-        ">keys slip mean",
-        ">worst",
+        ">keys slip",
         ">in source",
-        ">shown slip mean",
-        ">worst",
+        ">shown slip",
         ">in source",
         ">pops",
         ">holds",
@@ -213,22 +179,18 @@ fn sheets(takes: &[Take]) -> Outcome<Table> {
     ];
     let mut table = Table::new(&header);
     for take in takes {
-        let found = Evaluation::of(&take.clip, &take.default().sheet, None, 1.0)?;
+        let found = Evaluation::new(&take.clip, &take.default().sheet, None, 1.0)?;
         let two = |value: f64| number(value, 2);
         let some = |value: Option<f64>| value.map_or("–".into(), two);
         table.row(&[
             take.name.clone(),
             number(found.pace.drawings_per_second, 1),
-            two(found.keys.mean),
-            two(found.keys.worst),
             two(found.shown.mean),
             two(found.shown.worst),
             found.shown_slip.contacts.to_string(),
             some(found.keys_slip.mean),
-            some(found.keys_slip.worst),
             some(found.keys_slip.source),
             some(found.shown_slip.mean),
-            some(found.shown_slip.worst),
             some(found.shown_slip.source),
             found.pops.pops.len().to_string(),
             found.pops.holds.to_string(),
@@ -238,10 +200,10 @@ fn sheets(takes: &[Take]) -> Outcome<Table> {
     Ok(table)
 }
 
-/// A clip on which no foot is seen standing for more than so large a share of it.
+/// A clip is blind if no foot is seen standing for more than this share of it.
 const BLIND: f64 = 0.4;
 
-/// A clip on which no foot is seen standing for long, and from where to where.
+/// Describes a clip on which no foot is seen standing for long, with the range; `None` for other clips.
 fn blind(take: &Take) -> Option<String> {
     let clock = take.clip.clock(24.0);
     let koma = clock.frame_rate.koma_from_frames(take.clip.len(), clock.koma_rate);
@@ -264,27 +226,19 @@ fn blind(take: &Take) -> Option<String> {
     })
 }
 
-/// Where the program's own keys lead and where not, and numbers for the prose.
+/// Lists the clips on which the program's own keys lead and those on which they do not, and adds numbers for the prose.
 fn verdicts(judged: &[Judged<'_>], part: &mut Part) {
-    let ratios: Vec<(&str, f64)> = rows(judged, Method::Own, 1)
-        .filter_map(|(clip, row)| Some((clip, row.mean_ratio?)))
-        .collect();
-    let beyond: Vec<_> = ratios.iter().filter(|(_, ratio)| *ratio > ASKED).collect();
+    let ratios = rows(judged, Method::Own, 1).filter_map(|row| row.mean_ratio);
     part.number("asked", number(ASKED, 2));
     part.number("gap", number(GAP, 2));
-    part.number("within", ratios.len() - beyond.len());
-    part.number("ratios", ratios.len());
-    part.text(
-        "beyond",
-        list(beyond.iter().map(|(clip, ratio)| format!("{clip} ({})", number(*ratio, 2)))),
-    );
+    part.number("within", ratios.filter(|ratio| *ratio <= ASKED).count());
     let leads = |clip: &&Judged<'_>| behind(clip).is_none();
     part.number("leads", judged.iter().filter(leads).count());
     part.text("behind", list(judged.iter().filter_map(behind)));
     part.text("even", list(judged.iter().filter_map(even)));
     part.text("gaps", list(judged.iter().filter_map(gap)));
     let searched = |clip: &&Judged<'_>| {
-        let row = clip.found.row(Method::OptimalMean, clip.found.own_keys);
+        let row = as_found(clip, Method::OptimalMean);
         row.is_some_and(|row| row.steady.is_some())
     };
     part.number("searched", judged.iter().filter(searched).count());
@@ -305,7 +259,7 @@ fn as_found<'a>(clip: &'a Judged<'_>, method: Method) -> Option<&'a Row> {
     clip.found.row(method, clip.found.own_keys)
 }
 
-/// A clip on which another method hits more of the moments at which the body turns, and how many.
+/// Describes a clip on which another method hits more of the moments at which the body turns; `None` for other clips.
 fn behind(clip: &Judged<'_>) -> Option<String> {
     let own = as_found(clip, Method::Own)?.hits?;
     let others = Method::ALL.into_iter().filter_map(|method| {
@@ -316,7 +270,7 @@ fn behind(clip: &Judged<'_>) -> Option<String> {
     Some(format!("{name} ({} against {} of {method})", number(own, 2), number(hits, 2)))
 }
 
-/// A clip on which keys at even distances do as well as the program's own or better, and by what.
+/// Describes a clip on which evenly spaced keys do as well as the program's own or better; `None` for other clips.
 fn even(clip: &Judged<'_>) -> Option<String> {
     let [own, even] = [Method::Own, Method::Uniform].map(|method| as_found(clip, method));
     let (own, even) = (own?, even?);
@@ -338,8 +292,8 @@ fn even(clip: &Judged<'_>) -> Option<String> {
     (!words.is_empty()).then(|| format!("{}: {}", clip.take.name, words.join(", ")))
 }
 
-/// A clip whose worst koma stays far off however many keys are asked for: with twice as many it is no
-/// better than so many times the least there is with as many as found.
+/// Describes a clip whose worst koma stays far off however many keys are asked for: with twice as many keys it still
+/// exceeds [`GAP`] times the optimum with as many as found.
 fn gap(clip: &Judged<'_>) -> Option<String> {
     let found = &clip.found;
     let double = *found.counts().get(2)?;

@@ -1,4 +1,4 @@
-//! The synthetic clips of `data/`, which stand for captures that are not public.
+//! The synthetic clips of `data/`, which stand in for captures that are not public.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use genga::motion::{Clip, bvh};
 
 use crate::{Outcome, root};
 
-/// The clip `data/NAME.bvh`.
+/// Reads the clip `data/NAME.bvh`.
 pub(crate) fn clip(name: &str) -> Outcome<Clip> {
     let path = root().join(format!("data/{name}.bvh"));
     let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());

@@ -6,7 +6,7 @@ use std::fmt::Write;
 pub(crate) struct Table(String);
 
 impl Table {
-    /// A table with a header; a name that begins with `>` makes a column of numbers.
+    /// Begins a table with a header; a name that begins with `>` makes a column of numbers.
     pub(crate) fn new(header: &[&str]) -> Self {
         let names: Vec<String> =
             header.iter().map(|name| name.trim_start_matches('>').to_owned()).collect();
@@ -22,25 +22,25 @@ impl Table {
         writeln!(self.0, "| {} |", cells.join(" | ")).expect("a String takes everything");
     }
 
-    /// The text, each line ended.
+    /// The text; each line ends with a newline.
     pub(crate) fn text(self) -> String {
         self.0
     }
 }
 
-/// A number to so many places, −0 as 0.
+/// Formats a number with the given decimals; −0 as 0.
 pub(crate) fn number(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
     let is_zero = text.trim_matches(['-', '0', '.']).is_empty();
     if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
-/// A share in whole %.
+/// Formats a share in whole %.
 pub(crate) fn percent(share: f64) -> String {
     format!("{} %", number(100.0 * share, 0))
 }
 
-/// A distance with its sign, so that early and late can be told apart.
+/// Formats a distance with its sign, so that early and late can be told apart.
 pub(crate) fn signed(value: i64) -> String {
     match value {
         0 => "0".into(),
@@ -49,7 +49,7 @@ pub(crate) fn signed(value: i64) -> String {
     }
 }
 
-/// Smallest, middle (of an even number the mean of both) and largest.
+/// Smallest, median (mean of both middle values of an even number) and largest.
 pub(crate) fn spread(values: impl IntoIterator<Item = f64>) -> [f64; 3] {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);

@@ -2,30 +2,31 @@
 
 use std::fs;
 
-use genga::deliver::{self, Report};
 use genga::edits::Edits;
 use genga::keys::Actions;
+use genga::motion::clean::Cleaning;
 use genga::motion::{Clip, bvh};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::{Role, Sheet};
+use genga_files::Report;
 
 use crate::{Outcome, real};
 
 /// All merges, the default among them.
-pub(crate) const MERGES: [&str; 4] = ["vote", "sum", "union", "body"];
+pub(crate) const MERGES: [&str; 3] = ["vote", "union", "body"];
 
-/// A clip and what the chain makes of it.
+/// A clip and the chain's results for it.
 pub(crate) struct Take {
     pub(crate) name: String,
     pub(crate) clip: Clip,
-    /// Frames of an inserted pose that were left out.
+    /// Frames of a removed lead-in pose.
     pub(crate) lead_in: usize,
-    /// One of each merge, everything else as it is by default.
+    /// One run per merge, with defaults otherwise.
     pub(crate) runs: Vec<Run>,
 }
 
-/// What one recipe makes of a clip.
+/// The results of one recipe for a clip.
 pub(crate) struct Run {
     pub(crate) merge: &'static str,
     pub(crate) report: Report,
@@ -40,16 +41,16 @@ pub(crate) struct Run {
 /// A drawing on the sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shown {
-    /// Koma, from 0.
+    /// First koma on the sheet, from 0.
     pub(crate) koma: usize,
     /// Source place.
     pub(crate) place: f64,
-    /// The koma nearest to its place: a drawing of two koma may begin on the one before.
+    /// Koma nearest to the source place. A drawing of two koma may begin on the one before.
     pub(crate) moment: usize,
     pub(crate) role: Role,
 }
 
-/// The real clips, by name; none where one of them is missing, for tables are of all.
+/// Reads and runs all real clips, in order of name. Empty if one of them is missing, because the tables cover all.
 pub(crate) fn all() -> Outcome<Vec<Take>> {
     let folder = real::folder();
     let paths = real::NAMES.map(|name| folder.join(name).with_extension("bvh"));
@@ -60,24 +61,24 @@ pub(crate) fn all() -> Outcome<Vec<Take>> {
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let bytes = fs::read(path).map_err(|error| failed(&error))?;
-        Take::of(name, &bytes).map_err(|error| failed(&error).into())
+        Take::new(name, &bytes).map_err(|error| failed(&error).into())
     };
     paths.iter().map(take).collect()
 }
 
-/// The clip of that name.
+/// Finds a clip by name.
 pub(crate) fn named<'a>(takes: &'a [Take], name: &str) -> Outcome<&'a Take> {
     let found = takes.iter().find(|take| take.name == name);
     found.ok_or_else(|| format!("{name} is not in the list of clips").into())
 }
 
 impl Take {
-    fn of(name: String, bytes: &[u8]) -> Outcome<Self> {
+    fn new(name: String, bytes: &[u8]) -> Outcome<Self> {
         let read = bvh::read(bytes)?.clip;
-        let (clip, _) = bvh::Cleaning::default().of(read)?;
+        let (clip, _) = Cleaning::default().apply(read)?;
         let lead_in = clip.first().0;
         let mut engine = Engine::new(clip.clone())?;
-        let run = |merge| Run::of(&mut engine, merge);
+        let run = |merge| Run::new(&mut engine, merge);
         let runs = MERGES.into_iter().map(run).collect::<Outcome<_>>()?;
         Ok(Self { name, clip, lead_in, runs })
     }
@@ -88,28 +89,28 @@ impl Take {
         self.merged(&merge)
     }
 
-    /// The run with that merge.
+    /// The run with the given merge.
     pub(crate) fn merged(&self, merge: &str) -> &Run {
         self.runs.iter().find(|run| run.merge == merge).expect("all merges were run")
     }
 }
 
 impl Run {
-    fn of(engine: &mut Engine, merge: &'static str) -> Outcome<Self> {
+    fn new(engine: &mut Engine, merge: &'static str) -> Outcome<Self> {
         let mut recipe = Recipe::default();
         recipe.set("keys.merge", merge)?;
         if merge != Recipe::default().get("keys.merge")? {
-            // No turn is cheaper there: about as many keys as the default has.
+            // This merge has no cheaper turns; the price gives about as many keys as the default.
             recipe.set("keys.min_price", "3")?;
         }
         let breakdown = engine.run(&recipe, &Edits::default())?;
         Ok(Self {
             merge,
-            report: Report::of(&breakdown, Vec::new()),
+            report: Report::new(&breakdown, Vec::new()),
             actions: breakdown.actions.clone(),
             spaced: breakdown.spaced.clone(),
             sheet: breakdown.sheet.clone(),
-            limited_bvh: deliver::limited_bvh(breakdown.clip, breakdown.sheet)?,
+            limited_bvh: genga_files::limited_bvh(breakdown.clip, breakdown.sheet)?,
             omitted: breakdown
                 .first_layer()
                 .omission

@@ -1,5 +1,5 @@
-//! Writes VMD files and beside each what was meant by it, as JSON, so that a reader by others can be
-//! held against it: `cargo run --example vmd_meant -- FOLDER CLIP.bvh…`.
+//! Writes VMD files, and beside each a JSON file with its intended content, to test other VMD readers: `cargo run
+//! --example vmd_meant -- FOLDER CLIP.bvh…`.
 
 #![allow(clippy::print_stdout, reason = "a program that reports to a person")]
 
@@ -7,11 +7,12 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use genga::deliver::Vmd;
 use genga::edits::Edits;
 use genga::motion::bvh;
+use genga::motion::clean::Cleaning;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
+use genga_files::Vmd;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args_os().skip(1).map(PathBuf::from);
@@ -22,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn write(folder: &Path, path: &Path) -> Result<(), Box<dyn Error>> {
     let name = path.file_stem().unwrap_or_default();
-    let (clip, _) = bvh::Cleaning::default().of(bvh::read(&fs::read(path)?)?.clip)?;
+    let (clip, _) = Cleaning::default().apply(bvh::read(&fs::read(path)?)?.clip)?;
     let mut engine = Engine::new(clip)?;
     let breakdown = engine.run_once(&Recipe::default(), &Edits::default())?;
     let made = Vmd::default().make(breakdown.clip, breakdown.sheet)?;

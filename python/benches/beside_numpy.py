@@ -1,9 +1,9 @@
-"""Arrays to result, beside a plain NumPy version of the first paper's six cells and beside the program.
+"""Times genga from arrays to result, a plain NumPy version of the first paper's six cells, and the program.
 
     python beside_numpy.py [CLIP.bvh [PROGRAM]]     Markdown on stdout
 
-One process, one clip. Each round runs every row once, after a round to warm up; a ratio is taken within a round and the
-median of those is given. What is compared is compared first: the six cells have the same counts.
+Runs in one process on one clip. After a warm-up round, each round runs every row once. Ratios are taken within a round;
+their median is printed. First it checks that both versions find the same counts in the six cells.
 """
 
 import os
@@ -18,12 +18,12 @@ import genga
 
 ROUNDS = int(os.environ.get("ROUNDS", "15"))
 WIDTHS, PERSISTENCES = (10, 20, 30), (5, 10)
-# The dead band that the counts of the paper imply, in radians a second and second; and what is rounding.
+# The dead band that the paper's counts imply, in radians per second squared; and the tolerance for rounding.
 BAND, DUST = np.radians(300.0), 1e-9
 
 
 def speeds(rotations, rate):
-    """How fast each joint turns: the angle of q₁⁻¹q₂, the first row as the second."""
+    """Computes how fast each joint turns: the angle of q₁⁻¹q₂. The first row equals the second."""
     a, b = rotations[:-1], rotations[1:]
     w = np.sum(a * b, axis=-1)
     xyz = a[..., 3:] * b[..., :3] - b[..., 3:] * a[..., :3] - np.cross(a[..., :3], b[..., :3])
@@ -32,7 +32,7 @@ def speeds(rotations, rate):
 
 
 def smoothed(signal, width):
-    """The moving average of an even width, the ends mirrored: two half frames at its edges."""
+    """Computes a moving average of even width, with mirrored ends and half weights at both edges."""
     half = width // 2
     padded = np.pad(signal, ((half + 1, half), (0, 0)), mode="symmetric")
     sums = np.cumsum(padded, axis=0)
@@ -41,7 +41,7 @@ def smoothed(signal, width):
 
 
 def keys(filtered, rate, persistence):
-    """The sign pattern around each frame, and the M frames after it all faster."""
+    """Finds frames with the sign pattern of a key, after which all M frames are faster."""
     floor = DUST * np.abs(filtered).max()
     change = np.diff(filtered, axis=0)
     band = max(BAND / rate, floor)
@@ -56,7 +56,7 @@ def keys(filtered, rate, persistence):
 
 
 def six_cells(rotations, rate):
-    """Of each width and persistence: distinct key frames, and keys summed over the joints."""
+    """Counts distinct key frames, and keys summed over the joints, for each width and persistence."""
     speed, cells = speeds(rotations, rate), []
     for width in WIDTHS:
         filtered = smoothed(speed, width)
@@ -77,7 +77,7 @@ def main():
     wanted = list(zip(table["union"].astype(int).tolist(), table["total"].astype(int).tolist()))
     found = six_cells(rotations, rate)
     if found != wanted:
-        sys.exit(f"not the same: NumPy has {found}, genga {wanted}")
+        sys.exit(f"the counts differ: NumPy has {found}, genga {wanted}")
 
     rows = {
         "NumPy, arrays → six cells": lambda: six_cells(rotations, rate),

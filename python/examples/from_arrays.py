@@ -1,4 +1,4 @@
-"""A clip from arrays, as they come from SMPL, FBX or a game engine: python from_arrays.py."""
+"""Builds a clip from arrays, as SMPL, FBX or a game engine provides them: python from_arrays.py."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ names = ["Hips", "Spine", "Head", "UpperArm", "ForeArm"]
 parents = [-1, 0, 1, 1, 3]
 offsets = np.array([[0, 0, 0], [0, 40, 0], [0, 30, 0], [20, 25, 0], [30, 0, 0]], float)
 
-# An arm that waves about Z, its forearm behind it: quaternions x, y, z, w.
+# An arm waves about Z, and its forearm follows late. Quaternions are x, y, z, w.
 rotations = np.zeros((FRAMES, len(names), 4))
 rotations[..., 3] = 1.0
 time = np.arange(FRAMES) / RATE

@@ -1,7 +1,8 @@
-"""Keys of a take as JSON, whatever reads its FBX: python keys_of_fbx.py TAKE.npz KEYS.json.
+"""Writes the keys of a take as JSON, from any FBX reader: python keys_of_fbx.py TAKE.npz KEYS.json.
 
-Any reader gives world matrices: EvaluateGlobalTransform of the FBX SDK, GetMatrix in MotionBuilder, node_to_world of ufbx.
-numpy.savez takes them: names (J), parents (J; -1 for the root, parents first), matrices (F, J, 4, 4; a point is a column), rate.
+Every reader has world matrices: EvaluateGlobalTransform in the FBX SDK, GetMatrix in MotionBuilder, node_to_world in
+ufbx. Save them with numpy.savez: names (J), parents (J; -1 for the root, parents first), matrices (F, J, 4, 4; for
+column vectors), rate.
 """
 
 import json
@@ -13,7 +14,7 @@ import genga
 
 
 def quaternions(m):
-    """Of rotations (…, 3, 3): x, y, z, w, by the eigenvector of Bar-Itzhack."""
+    """Converts rotation matrices (…, 3, 3) to quaternions x, y, z, w by Bar-Itzhack's eigenvector."""
     k = np.empty((*m.shape[:-2], 4, 4))
     for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         k[..., a, a] = m[..., a, a] - m[..., b, b] - m[..., c, c]
@@ -25,7 +26,7 @@ def quaternions(m):
 
 take = np.load(sys.argv[1])
 parents, places, axes = take["parents"], take["matrices"][..., :3, 3], take["matrices"][..., :3, :3]
-world = axes / np.linalg.norm(axes, axis=-2, keepdims=True)  # without scale
+world = axes / np.linalg.norm(axes, axis=-2, keepdims=True)  # removes scale
 local, offsets = world.copy(), np.zeros((len(parents), 3))
 for joint, parent in enumerate(parents):
     if parent >= 0:

@@ -1,6 +1,6 @@
-"""The keys of many clips in one table: python keys_of_many.py OUT.csv CLIP.bvh...
+"""Writes the keys of many clips into one table: python keys_of_many.py OUT.csv CLIP.bvh...
 
-The table is a dict of columns; pandas.DataFrame(table) and polars.DataFrame(table) take it as it is.
+The table is a dict of columns; pandas.DataFrame(table) and polars.DataFrame(table) accept it.
 """
 
 import csv
@@ -17,7 +17,7 @@ for path in paths:
         clip = genga.read(path)
         keys = genga.run(clip).keys
     except genga.Error as error:
-        # One broken file does not end the work.
+        # Skips a broken file.
         print(error, file=sys.stderr)
         continue
     seconds = keys["frame"] / clip.rate

@@ -1,6 +1,6 @@
-"""Table 1 of the first paper for any clip, as a plot: python table_1.py [CLIP.bvh [PLOT.png]].
+"""Plots Table 1 of the first paper for any clip: python table_1.py [CLIP.bvh [PLOT.png]].
 
-Without matplotlib the table alone is printed.
+Without matplotlib it only prints the table.
 """
 
 import sys

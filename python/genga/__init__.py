@@ -5,9 +5,9 @@
 >>> result = genga.run(clip, keys={"min_price": 15}, pins=[30])
 >>> result.keys["frame"]
 
-Shapes are told by F frames, J joints and K koma (コマ). Angles are in degrees in settings and in radians a second
-in `Result.speeds`; lengths are in the unit of the file. Frames carry their number in the file, from 0; rows of
-arrays begin at the clip's first frame, so that row r is frame `clip.first + r`. Koma count from 0.
+Array shapes use F frames, J joints and K koma (コマ). Settings are in degrees, `Result.speeds` in radians per second,
+lengths in the unit of the file. A frame has its number in the file, from 0. Arrays begin at the clip's first frame, so
+row r is frame `clip.first + r`. Koma count from 0.
 """
 
 from collections.abc import MutableMapping as _MutableMapping

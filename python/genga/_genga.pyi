@@ -88,7 +88,7 @@ class Clip:
 
 @final
 class Recipe:
-    """Every setting of the chain, and a person's corrections: a mapping."""
+    """All settings of the chain, and a person's corrections: a mapping."""
 
     def __new__(cls, **settings: Any) -> Recipe: ...
     @classmethod
@@ -119,7 +119,7 @@ class Recipe:
 
 @final
 class Sheet:
-    """The timesheet: which drawing stands on which koma."""
+    """The timesheet: which drawing is shown on which koma."""
 
     @property
     def rate(self) -> float: ...
@@ -132,7 +132,7 @@ class Sheet:
 
 @final
 class Result:
-    """What was found in a clip."""
+    """The result of a run."""
 
     @property
     def sheet(self) -> Sheet: ...

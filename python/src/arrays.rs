@@ -1,4 +1,4 @@
-//! Clips from arrays, and arrays of clips.
+//! Converts arrays to clips, and clips to arrays.
 
 use genga::Error;
 use genga::glam::{DQuat, DVec3};
@@ -7,15 +7,15 @@ use genga::motion::{
 };
 use genga::time::{Frame, FrameRate};
 
-/// How every joint turns in a clip from arrays: the order that most programs write.
+/// Rotation channels of every joint in a clip from arrays, in the order that most programs write.
 const TURNS: [Channel; 3] =
     [Channel::Rotation(Axis::Z), Channel::Rotation(Axis::X), Channel::Rotation(Axis::Y)];
 
-/// Where a root is, or a joint that travels against its parent.
+/// Position channels of a root, or of a joint that travels relative to its parent.
 const PLACE: [Channel; 3] =
     [Channel::Position(Axis::X), Channel::Position(Axis::Y), Channel::Position(Axis::Z)];
 
-/// What a clip is made of; arrays are flat, the last index fastest.
+/// The content of a clip. Arrays are flat, the last index fastest.
 pub struct Arrays<'a> {
     pub names: Vec<String>,
     pub parents: Vec<Option<usize>>,
@@ -24,23 +24,23 @@ pub struct Arrays<'a> {
     /// Frames × joints × 4, xyzw.
     pub rotations: &'a [f64],
     pub places: Places<'a>,
-    /// Joints × 3, where the bone of a joint ends; not a number where that is left open.
+    /// Joints × 3: the end of each joint's bone, NaN if unknown.
     pub tips: Option<&'a [f64]>,
     pub frames: usize,
     pub rate: f64,
 }
 
-/// Where joints are against their parents.
+/// Positions of joints relative to their parents.
 #[derive(Clone, Copy)]
 pub enum Places<'a> {
-    /// Frames × 3: the roots move, the others keep their offsets.
+    /// Frames × 3: positions of the roots; other joints keep their offsets.
     Root(&'a [f64]),
     /// Frames × joints × 3.
     Each(&'a [f64]),
 }
 
 impl Places<'_> {
-    fn of(&self, frame: usize, joints: usize, index: usize) -> &[f64] {
+    fn row(&self, frame: usize, joints: usize, index: usize) -> &[f64] {
         match self {
             Self::Root(flat) => &flat[3 * frame..3 * frame + 3],
             Self::Each(flat) => &flat[3 * (frame * joints + index)..][..3],
@@ -49,20 +49,20 @@ impl Places<'_> {
 }
 
 impl Arrays<'_> {
-    /// The clip: its angles run on past ±180°, so that speeds have no jumps.
+    /// Builds the clip. Its angles continue past ±180°, so that speeds have no jumps.
     pub fn clip(&self) -> Result<Clip, Error> {
         let skeleton = Skeleton { joints: self.joints()? };
         let (joints, channels) = (skeleton.len(), skeleton.channels());
         let mut values = vec![0.0; self.frames * channels];
         for frame in 0..self.frames {
             if frame > 0 {
-                // What stood there before is what the angles are to be near.
+                // Copies the previous row, because the new angles are chosen nearest to it.
                 values.copy_within((frame - 1) * channels..frame * channels, frame * channels);
             }
             let row = &mut values[frame * channels..(frame + 1) * channels];
             for (index, joint) in skeleton.joints.iter().enumerate() {
                 if joint.channels.len() > TURNS.len() {
-                    let place = self.places.of(frame, joints, index);
+                    let place = self.places.row(frame, joints, index);
                     row[joint.first_channel..joint.first_channel + 3].copy_from_slice(place);
                 }
                 let at = 4 * (frame * joints + index);
@@ -74,11 +74,12 @@ impl Arrays<'_> {
 
     fn rotation(&self, at: usize, frame: usize, joint: &Joint) -> Result<DQuat, Error> {
         let rotation = DQuat::from_slice(&self.rotations[at..at + 4]);
-        // A length far from 1 is a slip: wxyz in place of xyzw has length 1 too, but a zero has not.
+        // A length far from 1 is a mistake, such as a zero quaternion. Swapped wxyz has length 1 too and is not
+        // detected.
         match (rotation.length() - 1.0).abs() < 1e-2 {
             true => Ok(rotation.normalize()),
             false => Err(Error::clip(format!(
-                "frame {frame}: the rotation of {} has length {}, a unit quaternion (x, y, z, w) has 1",
+                "frame {frame}: the rotation of {} has length {}; a unit quaternion (x, y, z, w) has length 1",
                 joint.name,
                 rotation.length()
             ))),
@@ -91,7 +92,7 @@ impl Arrays<'_> {
             let parent = self.parents[index];
             if parent.is_some_and(|parent| parent >= index) {
                 return Err(Error::clip(format!(
-                    "{name} comes before its parent: parents come first, and a root has -1"
+                    "{name} comes before its parent: list parents first, and give a root -1"
                 )));
             }
             let channels = match parent.is_none() || self.travels(index) {
@@ -112,13 +113,13 @@ impl Arrays<'_> {
         self.names.iter().enumerate().map(joint).collect()
     }
 
-    /// Whether a joint leaves its offset in any frame by what can be seen beside the skeleton.
+    /// Whether a joint visibly leaves its offset in any frame, relative to the skeleton's size.
     fn travels(&self, index: usize) -> bool {
         let offset = DVec3::from_slice(&self.offsets[3 * index..]);
         let longest = self.offsets.chunks_exact(3).map(|offset| DVec3::from_slice(offset).length());
         let seen = 1e-4 * longest.fold(0.0, f64::max);
         let is_off = |frame| {
-            let place = DVec3::from_slice(self.places.of(frame, self.names.len(), index));
+            let place = DVec3::from_slice(self.places.row(frame, self.names.len(), index));
             (place - offset).length() > seen
         };
         matches!(self.places, Places::Each(_)) && (0..self.frames).any(is_off)
@@ -130,7 +131,7 @@ impl Arrays<'_> {
     }
 }
 
-/// Frames × joints × 4, xyzw: the rotation of each joint against its parent.
+/// Frames × joints × 4, xyzw: the rotation of each joint relative to its parent.
 pub fn rotations(clip: &Clip) -> Vec<f64> {
     let mut flat = Vec::with_capacity(clip.len() * clip.skeleton().len() * 4);
     let mut pose = Pose::rest(clip.skeleton());
@@ -141,7 +142,7 @@ pub fn rotations(clip: &Clip) -> Vec<f64> {
     flat
 }
 
-/// Frames × joints × 3: where each joint is in the world.
+/// Frames × joints × 3: the position of each joint in the world.
 pub fn positions(clip: &Clip) -> Vec<f64> {
     let mut flat = Vec::with_capacity(clip.len() * clip.skeleton().len() * 3);
     let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));

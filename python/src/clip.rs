@@ -1,11 +1,13 @@
-//! Motion: read from a file, or made of arrays.
+//! Motion: read from a file, or built from arrays.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use genga::Warning;
-use genga::motion::{Clip as Motion, bvh, file};
+use genga::motion::clean::Cleaning;
+use genga::motion::{Clip as Motion, bvh};
 use genga::time::FrameRate;
+use genga_read as file;
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
 };
@@ -19,11 +21,12 @@ use crate::work;
 
 /// A motion clip of F frames and J joints.
 ///
-/// From arrays: `names` of the joints, `parents` (-1 for a root; parents come first), `offsets` (J, 3) from the
-/// parent, `rotations` (F, J, 4) against the parent as unit quaternions x, y, z, w, `root` (F, 3) where the roots are,
-/// `rate` in frames a second. In place of `root`, `translations` (F, J, 3) say where every joint is against its parent,
-/// for rigs whose hips travel against a root on the floor. `tips` (J, 3) say where the bones of the joints end, NaN where
-/// that is left open: soles and hands are found by them. Float64 arrays in C order are read where they are; of others NumPy makes a copy first.
+/// From arrays: `names` of the joints; `parents`, -1 for a root, parents first; `offsets` (J, 3) from the parent at
+/// rest; `rotations` (F, J, 4) relative to the parent, as unit quaternions x, y, z, w; `root` (F, 3), the positions of
+/// the roots; `rate` in frames per second. `translations` (F, J, 3) replaces `root`: it holds the position of every
+/// joint relative to its parent, for rigs whose hips move relative to a root on the floor. `tips` (J, 3) holds the end
+/// of each joint's bone, NaN if unknown; soles and hands are found from it. Float64 arrays in C order are read in
+/// place; NumPy copies all others first.
 #[pyclass(frozen, module = "genga")]
 pub struct Clip {
     pub motion: Arc<Motion>,
@@ -35,12 +38,12 @@ pub struct Clip {
 }
 
 impl Clip {
-    /// A clip of that file.
+    /// Wraps the motion of a file.
     pub fn new(motion: Arc<Motion>, file: String, warnings: Vec<Warning>) -> Self {
         Self { motion, file, warnings, rotations: PyOnceLock::new(), positions: PyOnceLock::new() }
     }
 
-    /// The name of its cut: that of the file without the ending.
+    /// The name of the clip's cut: its file name without the extension.
     pub fn cut(&self) -> String {
         let stem = Path::new(&self.file).file_stem();
         stem.map_or("cut".into(), |stem| stem.to_string_lossy().into_owned())
@@ -53,20 +56,20 @@ impl Clip {
         width: usize,
     ) -> PyResult<Py<PyArray3<f64>>> {
         let shape = [self.motion.len(), self.motion.skeleton().len(), width];
-        // NumPy takes the vector over.
+        // NumPy takes ownership of the vector.
         let cube: Bound<'py, PyArray3<f64>> = PyArray1::from_vec(py, flat).reshape(shape)?;
         read_only(py, cube.as_any())?;
         Ok(cube.unbind())
     }
 }
 
-/// Numbers in C order: the array itself where it has them so, else a copy.
+/// Returns the array as C-ordered float64: itself if it already is, else a copy.
 fn floats<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
     let numpy = array.py().import("numpy")?;
     Ok(numpy.call_method1("ascontiguousarray", (array, "float64"))?.extract()?)
 }
 
-/// An array that is kept for the next call is not to be written into.
+/// Makes an array that is kept for later calls read-only.
 fn read_only(py: Python<'_>, array: &Bound<'_, PyAny>) -> PyResult<()> {
     let flags = PyDict::new(py);
     flags.set_item("write", false)?;
@@ -93,7 +96,7 @@ impl Clip {
         let (Some(places), true) =
             (root.or(translations), root.is_none() || translations.is_none())
         else {
-            let message = "root says where the roots are, translations where every joint is: give one of them";
+            let message = "root and translations both set the positions: give one of them";
             return Err(asked_wrongly(py, message));
         };
         let [offsets, rotations, places] = [floats(offsets)?, floats(rotations)?, floats(places)?];
@@ -114,7 +117,7 @@ impl Clip {
         ];
         if let Some((what, is, asked)) = shapes.into_iter().find(|(_, is, asked)| is != asked) {
             let message = format!(
-                "{what} has the shape {is:?}: {joints} names and {frames} frames of rotations need {asked:?}"
+                "{what} has the shape {is:?}; {joints} names and {frames} frames of rotations need {asked:?}"
             );
             return Err(asked_wrongly(py, message));
         }
@@ -135,13 +138,13 @@ impl Clip {
         Ok(Self::new(Arc::new(motion), format!("{name}.bvh"), Vec::new()))
     }
 
-    /// The names of the joints, J of them; parents come first.
+    /// Names of the J joints, parents first.
     #[getter]
     fn names(&self) -> Vec<String> {
         self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()
     }
 
-    /// The parent of each joint, -1 for a root: int64 (J,).
+    /// Index of each joint's parent, -1 for a root: int64 (J,).
     #[getter]
     fn parents<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         let joints = self.motion.skeleton().joints.iter();
@@ -151,7 +154,7 @@ impl Clip {
         )
     }
 
-    /// Where each joint is against its parent at rest, in the unit of the file: float64 (J, 3).
+    /// Rest position of each joint relative to its parent, in the unit of the file: float64 (J, 3).
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let joints = &self.motion.skeleton().joints;
@@ -159,35 +162,35 @@ impl Clip {
         PyArray1::from_vec(py, flat).reshape([joints.len(), 3])
     }
 
-    /// How each joint is turned against its parent: float64 (F, J, 4), unit quaternions x, y, z, w. Made at the first
-    /// call and kept, read-only.
+    /// Rotation of each joint relative to its parent: float64 (F, J, 4), unit quaternions x, y, z, w. Computed on first
+    /// access, then cached and read-only.
     #[getter]
     fn rotations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let make = || self.cube(py, py.detach(|| arrays::rotations(&self.motion)), 4);
         Ok(self.rotations.get_or_try_init(py, make)?.bind(py).clone())
     }
 
-    /// Where each joint is in the world, in the unit of the file: float64 (F, J, 3). Made at the first call and kept,
-    /// read-only.
+    /// World position of each joint, in the unit of the file: float64 (F, J, 3). Computed on first access, then cached
+    /// and read-only.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let make = || self.cube(py, py.detach(|| arrays::positions(&self.motion)), 3);
         Ok(self.positions.get_or_try_init(py, make)?.bind(py).clone())
     }
 
-    /// Frames a second.
+    /// Frames per second.
     #[getter]
     fn rate(&self) -> f64 {
         self.motion.rate().fps()
     }
 
-    /// The number of the first frame in the file: a T-pose in front of the motion is left out.
+    /// Number of the clip's first frame in the file. It is above 0 if a T-pose before the motion was removed.
     #[getter]
     fn first(&self) -> usize {
         self.motion.first().0
     }
 
-    /// What a person should know: a dict each with `code`, `message`, `line` and `column`.
+    /// Warnings about the clip: dicts with `code`, `message`, `line` and `column`.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let of_one = |warning: &Warning| {
@@ -221,17 +224,17 @@ impl Clip {
     }
 }
 
-/// What is read, a file or its bytes.
+/// The argument of `read`: a path or the file's bytes.
 #[derive(FromPyObject)]
 pub enum Given<'py> {
     Bytes(Bound<'py, PyBytes>),
     Path(PathBuf),
 }
 
-/// Reads a motion file of any format, from a path or from its bytes, as the program does. A T-pose put in front of the motion or behind it
-/// is left out unless `keep_lead_in`. Single frames that fly off are replaced, and ends at which the tracker comes from
-/// the origin are left out, unless `keep_glitches`. `trim=(A, B)` keeps the frames A up to but not including B. `fps`,
-/// `root`, `take`, `repair` and `strict` are those of the program.
+/// Reads a motion file of any supported format, from a path or from its bytes, as the program does. Removes a T-pose
+/// before or after the motion unless `keep_lead_in`. Unless `keep_glitches`, replaces single frames that fly off, and
+/// removes ends in which the tracker comes from the origin. `trim=(A, B)` keeps frames A to B, without B. `fps`,
+/// `root`, `take`, `repair` and `strict` are the program's options.
 #[pyfunction]
 #[pyo3(signature = (source, *, name=None, fps=None, root=None, take=None, repair=false, strict=false, keep_lead_in=false, keep_glitches=false, trim=None))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
@@ -253,7 +256,7 @@ pub fn read(
     let options = file::Options { strict, repair, fps, root, take, ..file::Options::default() };
     let (path, bytes) = match source {
         Given::Path(path) => (Some(path), Vec::new()),
-        // They are copied: the work goes on without the lock that keeps them in their place.
+        // The bytes are copied, because the work goes on without the lock that keeps them alive.
         Given::Bytes(bytes) => (None, bytes.as_bytes().to_vec()),
     };
     let file =
@@ -268,7 +271,7 @@ pub fn read(
     Ok(Clip::new(Arc::new(motion), file, warnings))
 }
 
-/// The part of a file that is worked on.
+/// Applies lead-in and glitch removal and the trim.
 fn part(
     read: file::Read,
     (keep_lead_in, keep_glitches): (bool, bool),
@@ -276,7 +279,7 @@ fn part(
 ) -> Result<(Motion, Vec<Warning>), genga::Error> {
     let file::Read { clip, mut warnings, .. } = read;
     let trim = trim.map(|(begin, end)| begin..end);
-    let (clip, notes) = bvh::Cleaning { keep_lead_in, keep_glitches, trim }.of(clip)?;
+    let (clip, notes) = Cleaning { keep_lead_in, keep_glitches, trim }.apply(clip)?;
     warnings.extend(notes);
     clip.check_size()?;
     Ok((clip, warnings))

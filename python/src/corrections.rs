@@ -8,8 +8,8 @@ use pyo3::types::PyTuple;
 use crate::error::raised;
 use crate::words::word;
 
-/// What somebody asks for besides the corrections of the recipe. Each is a frame, a tuple, or text as the program
-/// takes it: `42:contact@0.5`.
+/// Corrections given as arguments, besides those of the recipe. Each is a frame, a tuple, or text as in the program:
+/// `42:contact@0.5`.
 #[derive(FromPyObject, Default)]
 pub struct Corrections<'py> {
     /// Frames that are keys whatever is found.
@@ -18,14 +18,14 @@ pub struct Corrections<'py> {
     pub forbid: Vec<Bound<'py, PyAny>>,
     /// Keys drawn at another frame.
     pub moves: Vec<Bound<'py, PyAny>>,
-    /// Koma for which drawings stay.
+    /// Numbers of koma for which drawings stay.
     pub holds: Vec<Bound<'py, PyAny>>,
     /// Whether pins and moves are the only keys.
     pub only_pins: bool,
 }
 
 impl Corrections<'_> {
-    /// Adds them to those that there are.
+    /// Adds them to the existing corrections.
     pub fn add_to(&self, py: Python<'_>, edits: &mut Edits) -> PyResult<()> {
         let parsed = |error: Error| raised(py, error);
         for pin in &self.pins {
@@ -49,7 +49,7 @@ impl Corrections<'_> {
     }
 }
 
-/// A tuple as the program writes it.
+/// Joins a tuple into the program's notation.
 fn joined(value: &Bound<'_, PyAny>, between: &str) -> PyResult<String> {
     match value.cast::<PyTuple>() {
         Ok(parts) => {

@@ -1,4 +1,4 @@
-//! Errors of the library as exceptions.
+//! Converts errors of the library to exceptions.
 
 use std::ffi::CString;
 use std::path::Path;
@@ -11,20 +11,20 @@ create_exception!(
     genga,
     Error,
     PyValueError,
-    "What is wrong, where, and the way out. `file`, `line` and `column` (from 1) are None where there is no such place."
+    "An error, with the way to fix it. `file`, `line` and `column` (from 1) say where; each may be None."
 );
 
-/// The exception of an error that no file is at fault of.
+/// Builds the exception of an error that no file caused.
 pub fn raised(py: Python<'_>, error: genga::Error) -> PyErr {
     raised_of(py, error, None)
 }
 
-/// The exception of an error; `file` is the one that was read.
+/// Builds the exception of an error; `file` is the one that was read.
 pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> PyErr {
     if let genga::Error::Io { path, source } = &error {
         let path = path.display().to_string();
         return match source.raw_os_error() {
-            // Python makes FileNotFoundError and its like of the number.
+            // Python picks the subclass, such as FileNotFoundError, by the number.
             Some(number) => PyOSError::new_err((number, source.to_string(), path)),
             None => PyOSError::new_err(error.to_string()),
         };
@@ -33,10 +33,7 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     let file = file.filter(|_| {
         matches!(
             error,
-            genga::Error::Bvh { .. }
-                | genga::Error::Motion { .. }
-                | genga::Error::Clip { .. }
-                | genga::Error::Recipe { .. }
+            genga::Error::Motion { .. } | genga::Error::Clip { .. } | genga::Error::Recipe { .. }
         )
     });
     let file = file.map(|file| file.display().to_string());
@@ -54,13 +51,13 @@ pub fn raised_of(py: Python<'_>, error: genga::Error, file: Option<&Path>) -> Py
     }
 }
 
-/// Tells a person of something as Python warns, under the caller's line.
+/// Issues a Python warning at the caller's line.
 pub fn warned(py: Python<'_>, message: impl ToString) -> PyResult<()> {
     let message = CString::new(message.to_string().replace('\0', " "))?;
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)
 }
 
-/// An error of what was asked for, in the words of Python.
+/// Builds the exception of a wrong argument.
 pub fn asked_wrongly(py: Python<'_>, message: impl Into<String>) -> PyErr {
     raised(py, genga::Error::clip(message))
 }

@@ -1,18 +1,18 @@
-//! Sheets in every format.
+//! Writes sheets in every format.
 
-use genga::deliver::sheet_json::MadeWith;
-use genga::deliver::{Cut, FORMATS, Format, Settings};
 use genga::edits::Edits;
 use genga::error::Warning;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
+use genga_files::sheet_json::MadeWith;
+use genga_files::{Cut, FORMATS, Format, Settings};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Files by their names, in their order; `/` in a name makes a folder.
+/// Named files in order; `/` in a name makes a folder.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// What a sheet is handed over with.
+/// The data around a sheet that its files need.
 pub struct Handed<'a> {
     pub cut: &'a str,
     pub file: &'a str,
@@ -21,8 +21,8 @@ pub struct Handed<'a> {
 }
 
 impl Handed<'_> {
-    /// The files of some formats, as the program writes them, and what a person should know of them. Between two files
-    /// `go_on` is asked, whose error ends it.
+    /// Returns the files of some formats, identical to the program's, and warnings about them. `go_on` is called
+    /// between files; its error ends the writing.
     pub fn files(
         &self,
         breakdown: &Breakdown<'_>,
@@ -38,7 +38,7 @@ impl Handed<'_> {
             sheet: breakdown.sheet,
             spaced: Some(breakdown.spaced),
             splits: &breakdown.actions.koma(breakdown.clock),
-            made_with: Some(&MadeWith::of(self.recipe, self.edits, breakdown.sheet)),
+            made_with: Some(&MadeWith::new(self.recipe, self.edits, breakdown.sheet)),
         };
         let (mut files, mut notes) = (Files::new(), Vec::new());
         for format in formats {
@@ -52,7 +52,7 @@ impl Handed<'_> {
     }
 }
 
-/// The formats there are: a dict each with `name`, `help`, `japanese` and `files`.
+/// Lists all formats: dicts with `name`, `help`, `japanese` and `files`.
 #[pyfunction]
 pub fn formats<'py>(py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let of_one = |format: &Format| {

@@ -1,12 +1,12 @@
-//! Recipes varied, sheets judged, methods beside one another.
+//! Studies of settings, judgements of sheets, comparisons of methods.
 
 use std::sync::atomic::Ordering;
 
-use genga::deliver::sheet_json;
 use genga::pipeline::Budget;
-use genga::quality::{Compare, Evaluation, Row};
-use genga::study::{Axis, Grid, Measure, Noise, Study, table_1_recipe};
 use genga::time::Frame;
+use genga_files::sheet_json;
+use genga_lab::quality::{Compare, Evaluation, Row};
+use genga_lab::study::{Axis, Grid, Measure, Noise, Study, table_1_recipe};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -19,10 +19,10 @@ use crate::table::{Column, plain, table};
 use crate::words::word;
 use crate::work;
 
-/// Varies one or two settings and counts in each cell. `x` and `y` are a name and its values:
-/// `("filter.width", "10..60:5")` or `("filter.width", [10, 20, 30])`; without both it is Table 1 of the first paper,
-/// by its own recipe. Returns a dict of columns, a row a cell: both settings (words), then a column each of `measures`
-/// (`genga study --help` lists them).
+/// Varies one or two settings and measures the result for each combination. `x` and `y` are a name with its values:
+/// `("filter.width", "10..60:5")` or `("filter.width", [10, 20, 30])`. Without both, computes Table 1 of the first
+/// paper, with the paper's settings. Returns a dict of columns with one row per combination: both settings (text), then
+/// one column for each of `measures` (`genga study --help` lists them).
 #[pyfunction]
 #[pyo3(signature = (clip, recipe=None, *, x=None, y=None, measures=None, **settings))]
 pub fn study<'py>(
@@ -64,18 +64,18 @@ pub fn study<'py>(
     }
 }
 
-/// The settings of a recipe; that its corrections do not count here is told.
+/// Returns the settings of a recipe, and warns that its corrections do not count here.
 fn settings_alone(py: Python<'_>, recipe: Recipe) -> PyResult<genga::recipe::Recipe> {
     if recipe.edits != genga::edits::Edits::default() {
         warned(
             py,
-            "the recipe's corrections (pins, moves, holds, …) do not count here: its settings alone are compared",
+            "the recipe's corrections (pins, moves, holds, …) are ignored here: only its settings are compared",
         )?;
     }
     Ok(recipe.recipe)
 }
 
-/// An axis: values as the program takes them, or a list.
+/// Parses an axis: values as the program takes them, or a list.
 fn axis(py: Python<'_>, (name, values): (String, Bound<'_, PyAny>)) -> PyResult<Axis> {
     let words = match values.extract::<String>() {
         Ok(words) => words,
@@ -103,9 +103,9 @@ fn columns<'py>(py: Python<'py>, grid: &Grid) -> PyResult<Bound<'py, PyDict>> {
     Ok(made)
 }
 
-/// Judges a sheet (the text of a `sheet.json`, or the dict of `Result.to_json()`) beside its clip. `reference` are frames
-/// of keys by somebody else; a key within `tolerance` koma of one counts as the same. Returns nested dicts, as
-/// `genga eval --json` writes them: errors in % of body height.
+/// Evaluates a sheet (the text of a `sheet.json`, or the dict of `Result.to_json()`) against its clip. `reference` are
+/// key frames that somebody else chose; a key within `tolerance` koma of one counts as the same. Returns nested dicts
+/// like the output of `genga eval --json`. Errors are in % of body height.
 #[pyfunction]
 #[pyo3(signature = (clip, sheet, *, reference=None, tolerance=1.0))]
 pub fn evaluate<'py>(
@@ -128,16 +128,16 @@ pub fn evaluate<'py>(
         let file = sheet_json::read(&text)?;
         let (source, notes) = file.fit((*motion).clone())?;
         let drawn = file.drawn(&source)?.unwrap_or(source);
-        Ok((Evaluation::of(&drawn, &file.sheet, reference.as_deref(), tolerance)?, notes))
+        Ok((Evaluation::new(&drawn, &file.sheet, reference.as_deref(), tolerance)?, notes))
     })?;
     let (evaluation, notes) = made.map_err(|error| raised(py, error))?;
     notes.iter().try_for_each(|note| warned(py, note))?;
     plain(py, &evaluation)
 }
 
-/// Chooses as many keys by several methods, and judges each. `keys` are how many, both ends apart; `noise` in degrees is
-/// put on every rotation for the column `steady`. Returns a dict of columns, a row a method and count: errors in % of
-/// body height, NaN for what there is not.
+/// Chooses the same number of keys by several methods, and evaluates each. `keys` lists the numbers of keys, without
+/// both ends. `noise`, in degrees, is added to every rotation for the column `steady`. Returns a dict of columns with
+/// one row per method and number. Errors are in % of body height; missing values are NaN.
 #[pyfunction]
 #[pyo3(signature = (clip, recipe=None, *, keys=vec![], noise=0.1, **settings))]
 pub fn compare<'py>(

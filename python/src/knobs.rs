@@ -1,4 +1,4 @@
-//! What is said of each setting, as a panel needs it: what it takes, its ranges, its default, help in two languages.
+//! Describes each setting as a panel needs it: accepted values, range, default, help in two languages.
 
 use genga::recipe::{KNOBS, Kind, Knob, Recipe, Who};
 use pyo3::prelude::*;
@@ -6,18 +6,17 @@ use pyo3::types::PyDict;
 
 use crate::words::value;
 
-/// The settings there are, those of an animator first: a dict each.
+/// Lists all settings as dicts, those for animators first.
 ///
-/// `name`; `japanese`, its name in Japanese; `help` and `japanese_help`, a sentence or two; `who` turns it (animator,
-/// researcher); `default`; `unit` (empty where it counts in nothing); `takes`, what it takes in words.
+/// `name`; `japanese`, its Japanese name; `help` and `japanese_help`, a sentence or two; `who` uses it (animator,
+/// researcher); `default`; `unit`, empty if it has none; `takes`, a description of the accepted values.
 ///
-/// `kind` is number, span (source frames, or seconds as "0.2s"), amount (a count, or a share as "4%"), on (koma a
-/// drawing, 2 or "1-3"), band (a number, or a share as "5%"), seen_from (a side, or a camera's place), choice, flag or
-/// text. `choices` are the words of a choice.
+/// `kind` is number, span (source frames, or seconds as "0.2s"), amount (a count, or a share as "4%"), on (koma per
+/// drawing, 2 or "1-3"), or_auto (a number, or "auto"), band (a number, or a share as "5%"), seen_from (a side, or a
+/// camera position), choice, flag or text. `choices` lists the words of a choice.
 ///
-/// `least` and `most` are the ends of what it may be (floats, `inf` where there is no end; None where it is no number
-/// and no span). `slider` is the part of it that makes sense on a slider, a pair, for a number. `whole` numbers have no
-/// fraction; what is `optional` may be None.
+/// `least` and `most` are the limits of a number or span (floats, `inf` if unlimited), else None. `slider` is a useful
+/// range for a number's slider, a pair, else None. A `whole` number has no fraction. An `optional` setting may be None.
 #[pyfunction]
 pub fn knobs(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let defaults = Recipe::default();

@@ -1,6 +1,7 @@
 //! The Python package of genga: its library, with NumPy arrays at both ends.
 //!
-//! The binding is thin. Each file puts one thing of the library into Python's manners and decides nothing.
+//! The binding is thin: each file adapts one part of the library to Python's conventions, and makes no decisions of its
+//! own.
 
 mod arrays;
 mod clip;
@@ -18,7 +19,7 @@ mod work;
 
 use pyo3::prelude::*;
 
-/// What `genga/__init__.py` hands on.
+/// The native module that `genga/__init__.py` re-exports.
 #[pymodule]
 fn _genga(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -10,8 +10,8 @@ use crate::corrections::Corrections;
 use crate::error::raised;
 use crate::words::{settings, value, word};
 
-/// Every setting of the chain, and a person's corrections. A mapping by the names of the recipe file
-/// (`"filter.width"`); values that are not given are the defaults. A value outside its range raises `genga.Error`.
+/// All settings of the chain, and a person's corrections. A mapping whose keys are the names in the recipe file
+/// (`"filter.width"`). Settings that are not given have their defaults. A value outside its range raises `genga.Error`.
 #[pyclass(module = "genga", from_py_object)]
 #[derive(Clone, Default)]
 pub struct Recipe {
@@ -20,7 +20,7 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    /// The same with settings by their names.
+    /// Applies settings by name.
     pub fn with(mut self, py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         for (name, word) in settings(asked)? {
             self.recipe.set(&name, &word).map_err(|error| raised(py, error))?;
@@ -46,14 +46,14 @@ impl Recipe {
         Self::default().with(py, settings)
     }
 
-    /// A recipe file's text, TOML. Errors carry line and column.
+    /// Parses the text of a recipe file (TOML). Errors have line and column.
     #[classmethod]
     fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
         let (recipe, edits) = Settings::parse(text).map_err(|error| raised(py, error))?;
         Ok(Self { recipe, edits })
     }
 
-    /// Adds corrections, each as `genga.run` takes it.
+    /// Adds corrections, in the notation of `genga.run`.
     #[pyo3(signature = (*, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false))]
     fn correct<'py>(
         &mut self,
@@ -67,12 +67,12 @@ impl Recipe {
         Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut self.edits)
     }
 
-    /// The recipe file, as the program writes it.
+    /// Returns the recipe file as the program writes it.
     fn to_toml(&self) -> String {
         self.recipe.write(&self.edits)
     }
 
-    /// A copy that changes by itself.
+    /// Returns an independent copy.
     fn copy(&self) -> Self {
         self.clone()
     }
@@ -102,14 +102,14 @@ impl Recipe {
         self.recipe.set(name, &word(value)?).map_err(|error| raised(py, error))
     }
 
-    /// Takes a setting back to its default.
+    /// Resets a setting to its default.
     fn __delitem__(&mut self, py: Python<'_>, name: &str) -> PyResult<()> {
         self.get_word(name)?;
         let default = Settings::default().get(name).unwrap_or("none".into());
         self.recipe.set(name, &default).map_err(|error| raised(py, error))
     }
 
-    /// The value of a setting, or the other where there is no such setting.
+    /// Returns the value of a setting, or `default` if there is no such setting.
     #[pyo3(signature = (name, default=None))]
     fn get(&self, py: Python<'_>, name: &str, default: Option<Py<PyAny>>) -> PyResult<Py<PyAny>> {
         match self.get_word(name) {
@@ -131,7 +131,7 @@ impl Recipe {
         self.recipe.settings().into_iter().map(pair).collect()
     }
 
-    /// Sets what is named: `update(filter={"width": 20})`, `update({"filter.width": 20})`.
+    /// Sets several settings: `update(filter={"width": 20})`, `update({"filter.width": 20})`.
     #[pyo3(signature = (other=None, **settings))]
     fn update(
         &mut self,

@@ -1,15 +1,15 @@
-//! A run: the sheet, and everything that led to it.
+//! A run: the sheet and all intermediate results.
 
 use std::fs;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
-use genga::deliver::{Format, Report, Settings, limited};
 use genga::keys::Key;
 use genga::pipeline::{Breakdown, Engine, LayerBreakdown};
 use genga::sheet::{Drawing, Layer};
 use genga::signal::{Signals, Turn, TurnKind};
 use genga::target::{Outcome, Target, meet};
+use genga_files::{Format, Report, Settings, limited};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -25,10 +25,10 @@ use crate::targets::{targets as targets_of, told};
 use crate::words::settings;
 use crate::work;
 
-/// What was found in a clip. Each attribute is made when it is asked for.
+/// The result of a run. Each attribute is computed on access.
 #[pyclass(frozen, module = "genga")]
 pub struct Result {
-    /// What was made, stage by stage: to run it again with the same settings makes nothing.
+    /// The cached stages: running again with the same settings computes nothing.
     engine: Mutex<Engine>,
     settings: Recipe,
     outcomes: Vec<Outcome>,
@@ -36,21 +36,21 @@ pub struct Result {
     file: String,
 }
 
-/// The timesheet (タイムシート): which drawing stands on which koma.
+/// The timesheet (タイムシート): which drawing is shown on which koma.
 #[pyclass(frozen, get_all, module = "genga")]
 pub struct Sheet {
-    /// Koma a second.
+    /// Koma per second.
     rate: f64,
-    /// Koma of the sheet, K.
+    /// Length of the sheet in koma, K.
     koma: usize,
-    /// A row a drawing: `layer`, `drawing` (its number in the layer, from 0), `place` (source frame, fractional),
+    /// One row per drawing: `layer`, `drawing` (its number in the layer, from 0), `place` (source frame, fractional),
     /// `role` (genga, inbetween, end), `reason`, `strength`, `price` (% of body height), `why`.
     drawings: Py<PyDict>,
-    /// A row an exposure: `layer`, `begin` (koma from 0), `koma` (how many), `drawing`.
+    /// One row per exposure: `layer`, `begin` (koma from 0), `koma` (length), `drawing`.
     exposures: Py<PyDict>,
 }
 
-/// What a run begins with.
+/// The input of a run.
 struct Begun {
     engine: Engine,
     settings: Recipe,
@@ -78,11 +78,12 @@ impl Begun {
     }
 }
 
-/// Finds the key drawings of a clip and times them. Settings are those of the recipe, by name: `keys={"min_price": 15}`,
-/// `keys__min_price=15` and `**{"keys.min_price": 15}` are the same. `pins` are frames that are keys whatever is found
-/// (42, (42, "contact"), "42:contact@0.5"), `forbid` frames near which none is (42, "120..140"), `moves` (from, to),
-/// `holds` (frame, koma). `targets` are what the sheet is to be, `{"keys": 9}`, `{"drawings_per_second": 6}` or
-/// `{"max_error": 8}` (% of body height): settings are searched for that make it so. `name` is the name of the cut.
+/// Finds the key drawings of a clip and times them. Settings have the recipe's names: `keys={"min_price": 15}`,
+/// `keys__min_price=15` and `**{"keys.min_price": 15}` are the same. `pins` are frames that are always keys (42,
+/// (42, "contact"), "42:contact@0.5"); `forbid` are frames without a key nearby (42, "120..140"); `moves` are pairs
+/// (from, to), `holds` pairs (frame, koma). `targets` are wanted properties of the sheet, `{"keys": 9}`,
+/// `{"drawings_per_second": 6}` or `{"max_error": 8}` (% of body height), for which genga searches settings. `name` is
+/// the name of the cut.
 #[pyfunction]
 #[pyo3(signature = (clip, recipe=None, *, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false, targets=None, name=None, **settings))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
@@ -112,7 +113,7 @@ pub fn run<'py>(
 }
 
 impl Result {
-    /// Looks into the run. The lock of Python is free meanwhile.
+    /// Passes the breakdown to `at`, with Python's lock released.
     fn look<T: Send>(
         &self,
         py: Python<'_>,
@@ -123,8 +124,7 @@ impl Result {
             let mut engine = self.engine.lock().ok()?;
             Some(engine.run(recipe, edits).and_then(|breakdown| at(&breakdown)))
         });
-        let looked =
-            looked.ok_or_else(|| PyRuntimeError::new_err("an earlier look at it failed"))?;
+        let looked = looked.ok_or_else(|| PyRuntimeError::new_err("an earlier access failed"))?;
         looked.map_err(|error| raised(py, error))
     }
 
@@ -144,10 +144,10 @@ impl Result {
         let handed = Handed { cut: &self.cut, file: &self.file, recipe, edits };
         let mut interrupt = None;
         let go_on = || {
-            // Of Ctrl-C the caller's thread alone is told, and this is that thread.
+            // Ctrl-C reaches only the caller's thread, which is this one.
             Python::attach(|py| py.check_signals()).map_err(|error| {
                 interrupt = Some(error);
-                genga::Error::clip("ended by Ctrl-C")
+                genga::Error::clip("interrupted by Ctrl-C")
             })
         };
         let files = self.look(py, |breakdown| handed.files(breakdown, (&formats, &own), go_on));
@@ -176,7 +176,7 @@ impl Result {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let signals = self.look(py, |breakdown| Ok(of(breakdown)))?;
         let (frames, joints) = (signals.frames(), signals.joints());
-        // One copy, of what the run keeps; a joint is contiguous, so that the array is in Fortran's order.
+        // A single copy of the run's data. Each joint is contiguous, so the array is in Fortran order.
         let flat: Vec<f64> = signals.values.data.into();
         PyArray1::from_vec(py, flat).reshape([joints, frames])?.transpose()
     }
@@ -187,7 +187,7 @@ macro_rules! hand_over {
         #[pymethods]
         impl Result {$(
             #[doc = $what]
-            #[doc = " A dict of file names and bytes; settings are those of the program's `--with`."]
+            #[doc = " Returns a dict from file names to bytes; settings are those of the program's `--with`."]
             #[pyo3(signature = (**settings))]
             fn $name<'py>(&self, py: Python<'py>, settings: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
                 self.dict(py, $format, settings)
@@ -197,29 +197,29 @@ macro_rules! hand_over {
 }
 
 hand_over! {
-    to_json "json" "The sheet itself, to edit by hand and deliver again.",
-    to_csv "csv" "Tables of the keys, of every drawing and of every koma.",
-    to_remap "remap" "The timing alone, for a rig that plays the same take.",
-    to_bvh "bvh" "The motion stepped: a row a koma, holds repeated.",
-    to_bvh_keys "bvh-keys" "The key drawings as poses: a row a genga.",
+    to_json "json" "The sheet as JSON, which can be edited and read again.",
+    to_csv "csv" "Tables of keys, drawings and koma.",
+    to_remap "remap" "The timing only, for a rig that plays the same take.",
+    to_bvh "bvh" "The stepped motion: one row per koma, holds repeated.",
+    to_bvh_keys "bvh-keys" "The key drawings as poses: one row per genga.",
     to_xdts "xdts" "Timesheets for drawing programs.",
     to_tdts "tdts" "Both timesheets in one file.",
-    to_sts "sts" "The timesheet as older programs read it.",
-    to_columns "columns" "The timesheet as a table, a column a layer and a row a koma.",
+    to_sts "sts" "The timesheet for older programs.",
+    to_columns "columns" "The timesheet as a table: one column per layer, one row per koma.",
     to_ae "ae" "Time remapping to paste into After Effects.",
-    to_xsheet "xsheet" "The timesheet on paper: HTML, and a page each as SVG.",
-    to_vmd "vmd" "The motion for MikuMikuDance, and which joint became which bone.",
-    to_glb "glb" "The motion stepped, with bones to see and the role of every drawing.",
-    to_vrma "vrma" "The motion stepped for VRM avatars.",
-    to_bars "bars" "Picture: a bar a drawing over koma.",
-    to_poses "poses" "Picture: genga and ends as poses in a row.",
-    to_strip "strip" "Picture: source above, result below, koma by koma.",
+    to_xsheet "xsheet" "The timesheet on paper: HTML, and each page as SVG.",
+    to_vmd "vmd" "The motion for MikuMikuDance, and a list of joints and bones.",
+    to_glb "glb" "The stepped motion as GLB, with visible bones and each drawing's role.",
+    to_vrma "vrma" "The stepped motion for VRM avatars.",
+    to_bars "bars" "Picture: one bar per drawing, over koma.",
+    to_poses "poses" "Picture: the poses of genga and ends in a row.",
+    to_strip "strip" "Picture: source above result, koma by koma.",
     to_contact "contact" "Picture: contact sheet of the genga.",
-    to_onion "onion" "Picture: the drawings from each genga to the next through each other.",
+    to_onion "onion" "Picture: the drawings from each genga to the next, overlaid.",
     to_flipbook "flipbook" "A page to play and step through in any browser.",
-    to_preview "preview" "Source beside result, moving: GIF.",
-    to_images "images" "A picture a drawing, numbered as the sheet, to draw over: PNG.",
-    to_cut "cut" "A folder as a cut is handed on: timesheets, and each column's pictures under the numbers of its cells.",
+    to_preview "preview" "Animated GIF: source beside result.",
+    to_images "images" "One PNG per drawing, numbered as on the sheet, to draw over.",
+    to_cut "cut" "A cut folder: timesheets, and each column's pictures named by cel number.",
 }
 
 #[pymethods]
@@ -236,8 +236,8 @@ impl Result {
         })
     }
 
-    /// The keys that were found, a row each: `layer`, `frame`, `strength` (0 to 1), `price` (% of body height that the
-    /// body would be off without it, infinite for what stays whatever it saves), `reason`, `name`, `joints`.
+    /// The keys, one row each: `layer`, `frame`, `strength` (0 to 1), `price` (the error without the key, in % of body
+    /// height; infinite for a key that always stays), `reason`, `name`, `joints`.
     #[getter]
     fn keys<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = self.look(py, |breakdown| Ok(key_rows(breakdown)))?;
@@ -256,7 +256,7 @@ impl Result {
         )
     }
 
-    /// The turns of single joints, a row each: `joint` (its number), `frame`, `kind` (key, wall), `confirmed_for` (frames).
+    /// Turns of single joints, one row each: `joint` (index), `frame`, `kind` (key, wall), `confirmed_for` (frames).
     #[getter]
     fn turns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let turns = self.look(py, |breakdown| Ok(breakdown.turns.to_vec()))?;
@@ -275,27 +275,27 @@ impl Result {
         )
     }
 
-    /// How fast each joint is: float64 (F, J), radians a second, or units a second where displacement is measured.
+    /// Speed of each joint: float64 (F, J), radians per second, or units per second if displacement is measured.
     #[getter]
     fn speeds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.matrix(py, |breakdown| breakdown.speed.clone())
     }
 
-    /// The same, smoothed.
+    /// The smoothed speeds: float64 (F, J), in the unit of `speeds`.
     #[getter]
     fn filtered<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.matrix(py, |breakdown| breakdown.filtered.clone())
     }
 
-    /// The motion stepped, as a clip of the sheet's rate: a frame a koma, so that its arrays are (K, J, …). It is what
-    /// `limited.bvh` has.
+    /// The stepped motion, as a clip at the sheet's rate: one frame per koma, so its arrays are (K, J, …). It equals
+    /// `limited.bvh`.
     #[getter]
     fn limited(&self, py: Python<'_>) -> PyResult<Clip> {
         let motion = self.look(py, |breakdown| limited(breakdown.clip, breakdown.sheet))?;
         Ok(Clip::new(Arc::new(motion), format!("{}_limited.bvh", self.cut), Vec::new()))
     }
 
-    /// Why each drawing of the sheet is there, in words: a list in the order of `sheet.drawings`.
+    /// The reason for each drawing, as text: a list in the order of `sheet.drawings`.
     #[getter]
     fn why(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let of_all = |breakdown: &Breakdown<'_>| {
@@ -308,7 +308,7 @@ impl Result {
     /// The figures of `report.json`.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let report = self.look(py, |breakdown| Ok(Report::of(breakdown, Vec::new())))?;
+        let report = self.look(py, |breakdown| Ok(Report::new(breakdown, Vec::new())))?;
         plain(py, &report)
     }
 
@@ -318,15 +318,15 @@ impl Result {
         self.settings.clone()
     }
 
-    /// What became of each target: a dict each with `target`, `asked`, `reached`, `why` (None where it was met) and
-    /// `words`.
+    /// The outcome of each target: dicts with `target`, `asked`, `reached`, `why` (None if it was met) and `words`, a
+    /// sentence.
     #[getter]
     fn outcomes<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         self.outcomes.iter().map(|outcome| told(py, outcome)).collect()
     }
 
-    /// Runs the clip again, beginning with the first stage that changes. A recipe takes the place of settings and
-    /// corrections of this run, settings come on top.
+    /// Runs the clip again, beginning with the first stage that changes. `recipe` replaces this run's settings and
+    /// corrections; `settings` are then applied to it.
     #[pyo3(signature = (recipe=None, *, targets=None, **settings))]
     fn again(
         &self,
@@ -337,14 +337,13 @@ impl Result {
     ) -> PyResult<Self> {
         let asked = recipe.unwrap_or_else(|| self.settings.clone()).with(py, settings)?;
         let engine = py.detach(|| self.engine.lock().map(|engine| engine.clone()).ok());
-        let engine =
-            engine.ok_or_else(|| PyRuntimeError::new_err("an earlier look at it failed"))?;
+        let engine = engine.ok_or_else(|| PyRuntimeError::new_err("an earlier access failed"))?;
         let (cut, file) = (self.cut.clone(), self.file.clone());
         let targets = targets_of(py, targets)?;
         Begun { engine, settings: asked, targets, cut, file }.done(py)
     }
 
-    /// Writes the files of some formats into a folder, which is made; returns their paths.
+    /// Writes files of the given formats into a folder, which it creates. Returns their paths.
     #[pyo3(signature = (folder, *formats, **settings))]
     fn write(
         &self,
@@ -372,7 +371,7 @@ impl Result {
     }
 }
 
-/// A key with the words that need the clip.
+/// A key and the texts that need the clip.
 struct KeyRow {
     layer: String,
     key: Key,

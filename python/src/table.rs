@@ -4,28 +4,28 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// A column: a value a row.
+/// A column with one value per row.
 pub enum Column {
     /// Whole numbers.
     Whole(Vec<i64>),
-    /// Numbers; NaN where there is none.
+    /// Numbers; NaN if missing.
     Number(Vec<f64>),
-    /// Words; empty where there is none.
+    /// Words; empty if missing.
     Words(Vec<String>),
 }
 
 impl Column {
-    /// Whole numbers of what counts from 0.
+    /// Builds a column of whole numbers from counts.
     pub fn counts(values: impl IntoIterator<Item = usize>) -> Self {
         Self::Whole(values.into_iter().map(|value| value as i64).collect())
     }
 
-    /// Numbers.
+    /// Builds a column of numbers.
     pub fn numbers(values: impl IntoIterator<Item = f64>) -> Self {
         Self::Number(values.into_iter().collect())
     }
 
-    /// Words.
+    /// Builds a column of words.
     pub fn words<T: Into<String>>(values: impl IntoIterator<Item = T>) -> Self {
         Self::Words(values.into_iter().map(Into::into).collect())
     }
@@ -34,7 +34,7 @@ impl Column {
         match self {
             Self::Whole(values) => Ok(PyArray1::from_vec(py, values).into_any()),
             Self::Number(values) => Ok(PyArray1::from_vec(py, values).into_any()),
-            // NumPy's words are as wide as the longest: it copies them.
+            // NumPy strings have a fixed width, so they are copied.
             Self::Words(values) => {
                 let words = values.into_iter().collect::<Vec<_>>();
                 py.import("numpy")?.call_method1("array", (words, "U"))
@@ -43,7 +43,7 @@ impl Column {
     }
 }
 
-/// A dict of columns, in their order.
+/// Builds a dict of columns, in their order.
 pub fn table<'py, const N: usize>(
     py: Python<'py>,
     columns: [(&str, Column); N],
@@ -55,7 +55,7 @@ pub fn table<'py, const N: usize>(
     Ok(table)
 }
 
-/// What can be written as JSON, as dicts and lists.
+/// Converts serializable data to Python dicts and lists.
 pub fn plain<'py>(py: Python<'py>, value: &impl serde::Serialize) -> PyResult<Bound<'py, PyAny>> {
     let text = serde_json::to_string(value)
         .map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))?;

@@ -1,4 +1,4 @@
-//! Targets: what a sheet is to be, in place of the settings that make it so.
+//! Targets: wanted properties of a sheet, in place of the settings that produce them.
 
 use genga::Error;
 use genga::target::{Outcome, Target};
@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 
 use crate::error::raised;
 
-/// Targets by their names: `{"keys": 9, "drawings_per_second": 6}`; one that is None is not asked for.
+/// Parses targets by name: `{"keys": 9, "drawings_per_second": 6}`. A target of None is ignored.
 pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<Target>> {
     let mut found = Vec::new();
     for (name, value) in asked.into_iter().flatten() {
@@ -19,8 +19,7 @@ pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Ve
             "drawings_per_second" => Target::DrawingsPerSecond(value.extract()?),
             "max_error" => Target::MaxError(value.extract()?),
             other => {
-                let message =
-                    "there is no such target; there are keys, drawings_per_second and max_error";
+                let message = "there is no such target: use keys, drawings_per_second or max_error";
                 return Err(raised(py, Error::setting(other, message)));
             }
         });
@@ -28,7 +27,8 @@ pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Ve
     Ok(found)
 }
 
-/// What became of a target: `target`, `asked`, `reached`, `why` (None where it was met), and `words` for a person.
+/// Describes the outcome of a target: `target`, `asked`, `reached`, `why` (None if it was met), and `words` for a
+/// person.
 pub fn told<'py>(py: Python<'py>, outcome: &Outcome) -> PyResult<Bound<'py, PyDict>> {
     let (name, asked) = match outcome.target {
         Target::Keys(count) => ("keys", count as f64),

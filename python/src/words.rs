@@ -1,10 +1,10 @@
-//! Values of Python as the words that settings take, and back.
+//! Converts Python values to the words that settings take, and back.
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 
-/// A value in the words of a recipe: `0.2s`, `true`, `none`, `[{ name = "A", joints = ["Hips"] }]`.
+/// Converts a value to a recipe's word: `0.2s`, `true`, `none`, `[{ name = "A", joints = ["Hips"] }]`.
 pub fn word(value: &Bound<'_, PyAny>) -> PyResult<String> {
     match value.cast::<PyString>() {
         Ok(text) => Ok(text.to_cow()?.into_owned()),
@@ -12,7 +12,7 @@ pub fn word(value: &Bound<'_, PyAny>) -> PyResult<String> {
     }
 }
 
-/// The same as TOML writes it, in which text has quotes.
+/// Converts a value to TOML, with quotes around text.
 fn written(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if value.is_none() {
         return Ok("none".into());
@@ -40,7 +40,7 @@ fn written(value: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(value.str()?.to_cow()?.into_owned())
 }
 
-/// A word as Python has it: a number, True, None, or the text itself.
+/// Converts a word to a Python value: a number, True, None, or the text itself.
 pub fn value(py: Python<'_>, word: &str) -> PyResult<Py<PyAny>> {
     Ok(match word {
         "none" => py.None(),
@@ -53,8 +53,8 @@ pub fn value(py: Python<'_>, word: &str) -> PyResult<Py<PyAny>> {
     })
 }
 
-/// Settings by their names: `filter={"width": "0.2s"}`, `filter__width="0.2s"` and `**{"filter.width": "0.2s"}` are the
-/// same.
+/// Collects settings by name: `filter={"width": "0.2s"}`, `filter__width="0.2s"` and `**{"filter.width": "0.2s"}` are
+/// equivalent.
 pub fn settings(asked: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)>> {
     let mut found = Vec::new();
     if let Some(asked) = asked {
@@ -70,7 +70,7 @@ fn collect(
 ) -> PyResult<()> {
     for (name, value) in asked {
         let own = name.extract::<String>()?;
-        // A joint may be called as it likes.
+        // A joint's name may contain `__`.
         let own = if section.starts_with("keys.weights") { own } else { own.replace("__", ".") };
         let name = if section.is_empty() { own } else { format!("{section}.{own}") };
         match value.cast::<PyDict>() {

@@ -1,4 +1,4 @@
-//! Long work beside Python: without its lock, and ended by Ctrl-C.
+//! Long work started from Python: it releases the lock, and Ctrl-C ends it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -8,11 +8,11 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-/// How often it is looked whether somebody wants to end it.
+/// Interval at which Ctrl-C is checked.
 const LOOK: Duration = Duration::from_millis(30);
 
-/// Does work on a thread of its own, while other threads of Python run. `KeyboardInterrupt` comes out at once; the
-/// work is told by the flag that it is given, and what it has begun is finished and thrown away.
+/// Runs work on a thread of its own, while other Python threads run. `KeyboardInterrupt` is raised at once. The work
+/// learns of it through its flag; its result is then discarded.
 pub fn done<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
@@ -22,7 +22,7 @@ pub fn done<T: Send + 'static>(
     let is_ended = Arc::new(AtomicBool::new(false));
     let told = Arc::clone(&is_ended);
     std::thread::spawn(move || {
-        // Nobody listens any more where it was ended.
+        // After an interrupt nobody receives the result.
         let _ = send.send(work(&told));
     });
     loop {
@@ -37,7 +37,7 @@ pub fn done<T: Send + 'static>(
             }
             _ => {
                 return Err(PyRuntimeError::new_err(
-                    "the work ended without a result: a fault of genga",
+                    "the work ended without a result: this is a bug in genga",
                 ));
             }
         }

@@ -1,4 +1,4 @@
-//! Frames on which no key may be.
+//! Frames at which keys are forbidden.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,11 +6,11 @@ use std::str::FromStr;
 use crate::knob::by_word;
 use crate::time::Frame;
 
-/// Koma round a forbidden frame in which no key is found either: nearer, it would be the same key again.
+/// Koma around a forbidden frame in which no key is found either: any nearer, it would be the same key again.
 const REACH: f64 = 2.0;
 
-/// A frame, or a range of frames, near which no key may be found. Written `150`, `120..140`, `120..` or
-/// `..140`; the last is not in it.
+/// A frame, or a range of frames, near which no key may be found. Written `150`, `120..140`, `120..` or `..140`; the
+/// last frame is excluded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forbidden {
     /// The first frame.
@@ -20,22 +20,22 @@ pub struct Forbidden {
 }
 
 impl Forbidden {
-    /// One frame alone.
+    /// Creates a single forbidden frame.
     pub fn one(frame: Frame) -> Self {
         Self { from: frame, past: Frame(frame.0.saturating_add(1)) }
     }
 
-    /// Whether it is one frame alone.
+    /// Whether this is a single frame.
     pub fn is_one(self) -> bool {
         self == Self::one(self.from)
     }
 
-    /// Whether no key is found at a frame because of it: within two koma, of so many frames each.
+    /// Whether this bans a key at `frame`: within two koma of `koma` frames each.
     pub fn reaches(self, frame: Frame, koma: f64) -> bool {
         self.distance(frame) as f64 <= REACH * koma + 1e-9
     }
 
-    /// Frames from a frame to the nearest that is forbidden; 0 inside.
+    /// Returns the number of frames to the nearest forbidden frame; 0 inside the range.
     pub fn distance(self, frame: Frame) -> usize {
         if frame < self.from {
             self.from.0 - frame.0

@@ -1,4 +1,4 @@
-//! How long a drawing stays on screen when a person decides it.
+//! Drawings whose time on screen a person decides.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,25 +6,25 @@ use super::marks::frame_of;
 use crate::error::Error;
 use crate::time::Frame;
 
-/// How many koma a drawing stays (止め), whatever was left out round it. The drawing that shows the frame
-/// nearest to `frame`, nearer than two koma, has it; where there is none, nothing is held.
+/// The number of koma that a drawing stays (止め), whatever was left out around it. It applies to the drawing that shows
+/// the frame nearest to `frame`, within two koma; if there is none, nothing is held.
 ///
-/// Genga stay on their koma: a hold ends at the next one at the latest, and inbetweens that it covers go. From one
-/// that is shorter than it was, a drawing that was left out there comes back, else the next inbetween begins earlier.
+/// Genga stay on their koma: a hold ends at the next genga at the latest, and removes the inbetweens it covers. After a
+/// hold that shortens a drawing, an omitted drawing comes back, or else the next inbetween begins earlier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hold {
-    /// The source frame that it shows.
+    /// The source frame of the drawing.
     pub frame: Frame,
     /// Koma on screen, 1 or more.
     pub koma: usize,
 }
 
 impl Hold {
-    /// A hold from `42:4`: the drawing of frame 42 stays for 4 koma.
+    /// Parses a hold: `42:4` keeps the drawing of frame 42 for 4 koma.
     ///
     /// # Errors
-    /// [`Error::Edits`] when one of the two is no whole number.
+    /// [`Error::Edits`] when one of the two is not a whole number.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let expected = "FRAME:KOMA, two whole numbers";
         let (frame, koma) = text.split_once(':').unwrap_or((text, ""));

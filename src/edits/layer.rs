@@ -1,4 +1,4 @@
-//! Corrections of one layer alone.
+//! Corrections of a single layer.
 
 use std::collections::BTreeMap;
 
@@ -9,32 +9,32 @@ use crate::error::Error;
 use crate::sheet::is_default;
 use crate::time::Frame;
 
-/// What a person wants of one layer (セル) alone, in the words of [`Edits`].
+/// Corrections of a single layer (セル), as in [`Edits`].
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerEdits {
-    /// Frames that are keys of it.
+    /// Frames that are keys of the layer.
     #[serde(skip_serializing_if = "is_default")]
     pub pins: Vec<Pin>,
-    /// Frames near which it may have no key.
+    /// Frames near which the layer may have no key.
     #[serde(skip_serializing_if = "is_default")]
     pub forbidden: Vec<Forbidden>,
-    /// Keys of it that are drawn elsewhere.
+    /// Keys of the layer that are drawn elsewhere.
     #[serde(skip_serializing_if = "is_default")]
     pub moves: Vec<Move>,
-    /// Frames of its keys that stay.
+    /// Frames of the layer's frozen keys.
     #[serde(skip_serializing_if = "is_default")]
     pub frozen: Vec<Frame>,
 }
 
-/// Whether what is not for one layer is all that is said.
+/// Whether no layer has corrections of its own.
 pub(super) fn say_nothing(layers: &BTreeMap<String, LayerEdits>) -> bool {
     layers.values().all(is_default)
 }
 
 impl Edits {
-    /// What is wanted of the keys of a layer: what is wanted of all, and what of it alone. Holds, splits and
-    /// what is spoken are no matter of keys and not among it.
+    /// Returns the corrections of a layer's keys: those of all layers and its own. Holds, splits and speech do not
+    /// concern keys and are left out.
     pub fn of_layer(&self, name: &str) -> Self {
         let mut edits = self.clone();
         (edits.holds, edits.splits, edits.speech) = (vec![], vec![], vec![]);
@@ -48,7 +48,7 @@ impl Edits {
         edits
     }
 
-    /// The pins of a layer alone, or of all.
+    /// Returns the pins of one layer, or of all.
     pub fn pins_of(&mut self, layer: Option<&str>) -> &mut Vec<Pin> {
         match layer {
             None => &mut self.pins,
@@ -56,7 +56,7 @@ impl Edits {
         }
     }
 
-    /// What is forbidden to a layer alone, or to all.
+    /// Returns the forbidden frames of one layer, or of all.
     pub fn forbidden_of(&mut self, layer: Option<&str>) -> &mut Vec<Forbidden> {
         match layer {
             None => &mut self.forbidden,
@@ -64,7 +64,7 @@ impl Edits {
         }
     }
 
-    /// The moves in a layer alone, or in all.
+    /// Returns the moves in one layer, or in all.
     pub fn moves_of(&mut self, layer: Option<&str>) -> &mut Vec<Move> {
         match layer {
             None => &mut self.moves,
@@ -72,7 +72,7 @@ impl Edits {
         }
     }
 
-    /// The frozen keys of a layer alone, or of all.
+    /// Returns the frozen keys of one layer, or of all.
     pub fn frozen_of(&mut self, layer: Option<&str>) -> &mut Vec<Frame> {
         match layer {
             None => &mut self.frozen,
@@ -80,7 +80,7 @@ impl Edits {
         }
     }
 
-    /// The same without layers of which nothing is said.
+    /// Removes layers without corrections.
     #[must_use]
     pub fn without_empty_layers(mut self) -> Self {
         self.layers.retain(|_, own| !is_default(own));
@@ -91,10 +91,10 @@ impl Edits {
         self.layers.entry(layer.to_owned()).or_default()
     }
 
-    /// Checks that there is a layer for each correction of one.
+    /// Checks that every corrected layer exists.
     ///
     /// # Errors
-    /// [`Error::Edits`] naming the layer that is not there, and those that are.
+    /// [`Error::Edits`] naming the missing layer and the existing ones.
     pub fn check_layers(&self, names: &[&str]) -> Result<(), Error> {
         match self.layers.keys().find(|name| !names.contains(&name.as_str())) {
             None => Ok(()),
@@ -108,8 +108,7 @@ impl Edits {
     }
 }
 
-/// A correction of one layer, `B/150`, as the layer and the rest; a name behind a `:` or an `@` may have
-/// a stroke of its own.
+/// Splits a correction of one layer, `B/150`, into layer and rest. A slash after a `:` or an `@` belongs to a name.
 pub fn layer_of(text: &str) -> (Option<&str>, &str) {
     match text.split_once('/') {
         Some((layer, rest)) if !layer.contains([':', '@']) => (Some(layer.trim()), rest),

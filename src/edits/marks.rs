@@ -1,11 +1,11 @@
-//! Keys that a person sets.
+//! Keys set or moved by a person.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::time::Frame;
 
-/// A key set by a person. It survives everything.
+/// A key set by a person. No later stage removes it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pin {
@@ -14,34 +14,34 @@ pub struct Pin {
     /// A name for the drawing, such as `left-wrist-top`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its own spacing weight, 0 ≤ w < 1; the recipe's where none is given.
+    /// Its own spacing weight, 0 ≤ w < 1; default: the recipe's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
 }
 
-/// A key that is drawn elsewhere than it was found. The chosen key nearest to `from`, nearer than a koma,
-/// stands at `to` instead and survives everything. Where there is none, nothing is moved.
+/// A key drawn elsewhere than it was found. The chosen key nearest to `from`, within a koma, stands at `to` instead,
+/// and no later stage removes it. If there is none, nothing is moved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Move {
-    /// The source frame where it is found.
+    /// The source frame at which the key is found.
     pub from: Frame,
-    /// The source frame that it shows instead.
+    /// The source frame that the key shows instead.
     pub to: Frame,
     /// A name for the drawing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its own spacing weight, as of a [`Pin`].
+    /// Its own spacing weight, as in [`Pin`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
 }
 
 impl Pin {
-    /// A pin from `150`, `150:left-wrist-top`, `150@0.5` or `150:left-wrist-top@0.5`: what stands behind
-    /// an @ is the spacing weight.
+    /// Parses `150`, `150:left-wrist-top`, `150@0.5` or `150:left-wrist-top@0.5`; the number after `@` is the spacing
+    /// weight.
     ///
     /// # Errors
-    /// [`Error::Edits`] when the part in front is not a frame number or that behind is no number.
+    /// [`Error::Edits`] when the frame or the weight is not a number.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let (place, weight) = text.rsplit_once('@').map_or((text, None), |(p, w)| (p, Some(w)));
         let (frame, name) = place.split_once(':').map_or((place, None), |(f, n)| (f, Some(n)));
@@ -53,10 +53,10 @@ impl Pin {
 }
 
 impl Move {
-    /// A move from `41:42`, and a name and a weight behind it as in [`Pin::parse`]: `41:42:contact@0.5`.
+    /// Parses `41:42`, optionally followed by a name and a weight as in [`Pin::parse`]: `41:42:contact@0.5`.
     ///
     /// # Errors
-    /// [`Error::Edits`] when one of the two is not a frame number, and those of [`Pin::parse`].
+    /// [`Error::Edits`] when one of the two is not a frame number. Otherwise as for [`Pin::parse`].
     pub fn parse(text: &str) -> Result<Self, Error> {
         let expected = "FROM:TO, two frame numbers";
         let (from, to) = text.split_once(':').unwrap_or((text, ""));
@@ -67,19 +67,19 @@ impl Move {
         Ok(Self { from, to, name, weight })
     }
 
-    /// The key where it is drawn.
+    /// Returns the key at the place where it is drawn.
     pub fn pin(&self) -> Pin {
         Pin { frame: self.to, name: self.name.clone(), weight: self.weight }
     }
 }
 
-/// A frame's number; `expected` says what `whole` should have been.
+/// Parses a frame number; the error says that `whole` should have been `expected`.
 pub(super) fn frame_of(text: &str, expected: &str, whole: &str) -> Result<Frame, Error> {
     let message = || format!("expected {expected}, found \"{whole}\"");
     text.trim().parse().map(Frame).map_err(|_| Error::Edits { message: message() })
 }
 
-/// A weight is a number here; whether it is one that spacing takes is asked with all the others.
+/// Parses a weight; its range is validated later with all others.
 fn weight_of(text: &str, whole: &str) -> Result<f64, Error> {
     let message = || {
         format!(

@@ -1,10 +1,10 @@
-//! What is spoken (セリフ): a line of a person over a range of the take.
+//! Spoken lines (セリフ) over a range of the take.
 
 use serde::{Deserialize, Serialize};
 
 use super::marks::frame_of;
 use crate::error::Error;
-use crate::plain::is_hidden;
+use crate::sanitize::is_hidden;
 use crate::sheet::SpokenLine;
 use crate::time::{Clock, Frame};
 
@@ -12,23 +12,23 @@ use crate::time::{Clock, Frame};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Speech {
-    /// The source frame with which it begins, numbered as in the file.
+    /// The source frame at which the line begins, numbered as in the file.
     pub from: Frame,
     /// The frame after its last.
     pub past: Frame,
-    /// Who speaks; empty where that is not said.
+    /// The speaker; empty if unnamed.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub speaker: String,
-    /// What is said, on one line.
+    /// The words, on one line.
     pub words: String,
 }
 
 impl Speech {
-    /// A line from `120..210:アキ:えい！` or, where nobody is named, `120..210:えい！`. Frames are those of the source,
-    /// the last one without; words with a colon need a speaker, or an empty one: `120..210::at 10:30`.
+    /// Parses `120..210:アキ:えい！` or, without a speaker, `120..210:えい！`. Frames are source frames, the last one excluded.
+    /// Words with a colon need a speaker, if only an empty one: `120..210::at 10:30`.
     ///
     /// # Errors
-    /// [`Error::Edits`] when there are no two frame numbers, or no words.
+    /// [`Error::Edits`] when the two frame numbers or the words are missing.
     ///
     /// ```
     /// use genga::edits::Speech;
@@ -52,8 +52,8 @@ impl Speech {
         Ok(Self { from, past, speaker, words })
     }
 
-    /// The line over some koma of a sheet of a clip whose last frame is known: from one to the one after its last. A
-    /// clip with fewer frames than koma has no frame for each: then it begins and ends with the nearest.
+    /// Creates a line over a range of koma, the end excluded, on the sheet of a clip whose last frame is `last`. A clip
+    /// with fewer frames than koma lacks a frame for each; the nearest frames are taken.
     pub fn over(
         (from, past): (usize, usize),
         (clock, last, length): (Clock, Frame, usize),
@@ -68,17 +68,17 @@ impl Speech {
         Self { from, past, speaker, words }
     }
 
-    /// On which koma of a sheet it is heard; none for a sheet without any.
+    /// Returns the koma on which the line is heard; `None` for an empty sheet.
     pub fn on_sheet(&self, clock: Clock, last: Frame, length: usize) -> Option<SpokenLine> {
         let begin = clock.koma_from_frame(self.from).min(length.checked_sub(1)?);
-        // What goes on to the clip's last frame goes on to the last koma.
+        // A line that reaches the clip's last frame reaches the last koma.
         let past = if self.past > last { length } else { clock.koma_from_frame(self.past) };
         let koma = past.min(length).saturating_sub(begin).max(1);
         let (speaker, words) = (self.speaker.clone(), self.words.clone());
         Some(SpokenLine { begin, koma, speaker, words })
     }
 
-    /// Why it is no line, if it is none.
+    /// Describes what is wrong with the line, if anything.
     pub(super) fn fault(&self) -> Option<String> {
         let Self { from, past, speaker, words } = self;
         if words.trim().is_empty() {

@@ -14,7 +14,7 @@ fn forbidden(texts: &[&str]) -> Vec<Forbidden> {
     texts.iter().map(|text| text.parse().unwrap()).collect()
 }
 
-/// What is wrong with corrections of a clip of frames 5 to 9; nothing for none.
+/// Validates corrections of a clip of frames 5 to 9 and returns the error; empty if there is none.
 fn said(edits: Edits) -> String {
     let checked = edits.validate(Frame(5), Frame(9));
     checked.err().map_or_else(String::new, |error| error.to_string())
@@ -54,7 +54,7 @@ fn a_move_is_from_one_frame_of_the_clip_to_another_that_is_free() {
     assert!(check(&["6:7@1"], &[], &[]).contains("weight of moved-to frame 7"));
 }
 
-/// Corrections of all layers, and of layer B.
+/// Builds corrections of all layers and of layer B.
 fn with_layer_b(all: &[&str], own: LayerEdits) -> Edits {
     Edits { pins: pins(all), layers: [("B".to_owned(), own)].into(), ..Edits::default() }
 }

@@ -1,8 +1,8 @@
-//! The cartoon animation filter (Wang, Drucker, Agrawala and Cohen 2006): the smoothed second derivative of a
-//! motion is taken off it, so that it goes back before it sets out and beyond where it stops.
+//! The cartoon animation filter (Wang, Drucker, Agrawala and Cohen 2006): subtracts the smoothed second derivative from
+//! a motion, so that it goes back before it sets out and overshoots where it stops.
 //!
-//! The paper filters signals, and angles are none: a joint's rotation is displaced about itself, by what
-//! its angular steps say.
+//! The paper filters scalar signals, which rotations are not: here a joint's rotation is displaced about itself by the
+//! filtered angular steps.
 
 use glam::{DQuat, DVec3};
 
@@ -10,30 +10,30 @@ use super::smooth::Smooth;
 use crate::maths;
 use crate::motion::{Axis, Channel, Clip, Joint, local_rotation, rotation_axes, turn_columns};
 
-/// What a second difference over σ² is multiplied by, so that the swing that gains most grows by the strength: of
-/// u = σω the three boxes let sin³u/u³ through, u² of that is largest where tan u = 3u, at 1.3242, and this is
-/// one over it.
+/// Scales a second difference over σ² so that the swing that gains most grows by the strength. With u = σω the three
+/// boxes let sin³u/u³ through; u² times that is largest where tan u = 3u, at u = 1.3242, and this is the inverse of
+/// that maximum.
 pub(super) const MET_BEST: f64 = 1.4518;
 
-/// The filter at a rate.
+/// The filter at a frame rate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Filter {
     smooth: Smooth,
-    /// What the smoothed second difference is multiplied by, negative.
+    /// The factor of the smoothed second difference, negative.
     gain: f64,
 }
 
 impl Filter {
-    /// The filter of a strength, with the standard deviation of its bell in frames; none where either is 0.
-    pub(super) fn of(strength: f64, sigma: f64) -> Option<Self> {
+    /// Creates the filter from its strength and the standard deviation of its bell in frames; `None` if either is 0.
+    pub(super) fn new(strength: f64, sigma: f64) -> Option<Self> {
         let gain = -MET_BEST * strength * sigma * sigma;
-        (gain != 0.0).then(|| Self { smooth: Smooth::of(sigma), gain })
+        (gain != 0.0).then(|| Self { smooth: Smooth::new(sigma), gain })
     }
 
-    /// The motion with some of its joints exaggerated.
+    /// Exaggerates the given joints of a motion.
     pub(super) fn apply(self, clip: &Clip, joints: &[bool]) -> Clip {
         let mut values: Vec<f64> = clip.rows().flatten().copied().collect();
-        let mut buffers = Buffers::of(clip.len());
+        let mut buffers = Buffers::with_frames(clip.len());
         if clip.len() > 2 {
             let moved = clip.skeleton().joints.iter().zip(joints).filter(|(_, moves)| **moves);
             moved.for_each(|(joint, _)| self.joint(clip, joint, &mut values, &mut buffers));
@@ -49,14 +49,15 @@ impl Filter {
         for (column, channel) in (joint.first_channel..).zip(&joint.channels) {
             match channel {
                 Channel::Rotation(_) if axes.is_some() => {}
-                // Fewer than three axes, or one axis twice, cannot take on every rotation: each goes alone.
+                // Fewer than three axes, or one axis twice, cannot express every rotation, so each column is filtered
+                // alone.
                 Channel::Rotation(_) => self.column(clip, column, wrapped, values, buffers),
                 Channel::Position(_) => self.column(clip, column, |step| step, values, buffers),
             }
         }
     }
 
-    /// A joint that can turn any way.
+    /// Filters a joint that can rotate freely.
     fn rotation(
         self,
         clip: &Clip,
@@ -81,7 +82,7 @@ impl Filter {
         }
     }
 
-    /// A column by itself; `step` is the way between two of its values.
+    /// Filters one column; `step` is the difference between two of its values.
     fn column(
         self,
         clip: &Clip,
@@ -105,23 +106,23 @@ impl Filter {
     }
 }
 
-/// What is used again for each joint.
+/// Buffers reused for each joint.
 struct Buffers {
     rotations: Vec<DQuat>,
-    /// Second differences, frame after frame, of up to three coordinates.
+    /// Second differences of up to three coordinates, frame by frame.
     bends: [Vec<f64>; 3],
     room: Vec<f64>,
 }
 
 impl Buffers {
-    fn of(frames: usize) -> Self {
+    fn with_frames(frames: usize) -> Self {
         let bends = [(); 3].map(|()| vec![0.0; frames]);
         Self { rotations: Vec::with_capacity(frames), bends, room: Vec::new() }
     }
 }
 
-/// The second difference of a rotation on each frame, in the joint's own axes there: the way to the next
-/// frame and the way to the one before, added.
+/// Computes the second difference of a rotation at each frame, in the joint's own axes there: the sum of the turns to
+/// the next frame and to the previous one.
 fn angular_bends(rotations: &[DQuat], bends: &mut [Vec<f64>; 3]) {
     let mut before = DVec3::ZERO;
     for (at, pair) in rotations.windows(2).enumerate() {
@@ -133,16 +134,16 @@ fn angular_bends(rotations: &[DQuat], bends: &mut [Vec<f64>; 3]) {
     bends.iter_mut().for_each(|bend| no_bend_at_the_ends(bend));
 }
 
-/// Beyond its ends a motion goes on as it came, turned about the end: it has no bend there, and the first and
-/// the last pose stay what they are.
+/// Sets the bend at both ends to 0. Beyond its ends a motion continues with odd symmetry, so it has no bend there, and
+/// the first and last pose stay unchanged.
 fn no_bend_at_the_ends(bend: &mut [f64]) {
     let last = bend.len() - 1;
     (bend[0], bend[last]) = (0.0, 0.0);
 }
 
-/// The shortest turn from one rotation to another, in the axes of the first: axis times angle.
+/// Returns the shortest turn from one rotation to another as axis times angle, in the axes of the first.
 fn way(from: DQuat, to: DQuat) -> DVec3 {
-    // Between equals there is none, and rounding must make none.
+    // Equal rotations must give exactly zero despite rounding.
     if from == to {
         return DVec3::ZERO;
     }
@@ -153,7 +154,7 @@ fn way(from: DQuat, to: DQuat) -> DVec3 {
     if sine > 0.0 { axis * (2.0 * maths::atan2(sine, cosine) / sine) } else { DVec3::ZERO }
 }
 
-/// The shortest way between two angles in degrees.
+/// Returns the shortest difference between two angles in degrees.
 fn wrapped(step: f64) -> f64 {
     step - 360.0 * (step / 360.0).round()
 }

@@ -1,34 +1,34 @@
-//! Slow-in and slow-out (スローイン・スローアウト) by a bilateral filter of time, after Kwon and Lee 2011: the times of
-//! poses that are near in time *and* alike are averaged, so that slow poses gather the frames round them.
+//! Slow-in and slow-out (スローイン・スローアウト) by a bilateral filter of time, after Kwon and Lee 2011: averages the times of
+//! poses that are near in time *and* alike, so that slow poses gather the frames around them.
 //!
-//! Only when a pose is shown changes: the way of every joint stays what it was.
+//! Only the timing of poses changes: the path of every joint stays the same.
 
 use rayon::prelude::*;
 
 use crate::maths;
 use crate::motion::{Build, Clip, Joint, local_rotation};
 
-/// How far the window goes, in standard deviations of its bell.
+/// Half-width of the window, in standard deviations of its bell.
 const REACH: f64 = 3.0;
 
-/// Instants that are looked at to each side of a frame at the most: a wider window is looked at in wider steps.
+/// Most instants sampled to each side of a frame; a wider window is sampled in wider steps.
 const LOOKS: usize = 24;
 
-/// How alike two poses have to be to draw one another, as a share of the way that the body goes within the
-/// reach at its own root mean square speed.
+/// How alike two poses must be to attract one another, as a share of the distance that the body goes within the reach
+/// at its root mean square speed.
 const ALIKE: f64 = 1.0 / 3.0;
 
-/// Frames within which a place is the frame itself.
+/// Shift in frames below which a place counts as the frame itself.
 const DUST: f64 = 1e-9;
 
-/// Where in a clip each of its frames is taken from, in frames after the first: never back, the ends where they
-/// were. None where there is nothing to do. `reach` is a standard deviation in frames.
+/// Computes the source time of each frame of a clip, in frames after the first. Times never go back, and the ends stay
+/// in place. `None` if that has no effect. `reach` is a standard deviation in frames.
 pub(super) fn places(clip: &Clip, strength: f64, reach: f64) -> Option<Vec<f64>> {
     if strength == 0.0 || reach == 0.0 || clip.len() < 3 {
         return None;
     }
-    let poses = Poses::of(clip);
-    let window = Window::of(&poses, reach)?;
+    let poses = Poses::new(clip);
+    let window = Window::new(&poses, reach)?;
     let mut drawn: Vec<f64> =
         (0..clip.len()).into_par_iter().map(|frame| window.drawn(frame)).collect();
     never_back(&mut drawn);
@@ -39,19 +39,19 @@ pub(super) fn places(clip: &Clip, strength: f64, reach: f64) -> Option<Vec<f64>>
     Some(drawn.into_iter().enumerate().map(place).collect())
 }
 
-/// Poses as points, one flat row a frame: how far apart two of them are is how far apart the poses are.
+/// Poses as points, one flat row per frame. The distance between two points is the distance between the poses.
 struct Poses {
     coordinates: usize,
     values: Vec<f64>,
 }
 
 impl Poses {
-    /// Of each joint that moves its rotation against its parent, twice the quaternion, times the length of what
-    /// hangs on it: two points are as far apart as the joints' ways, root sum square. Where the body is has
-    /// no part: who walks evenly is to gather in his steps as well.
-    fn of(clip: &Clip) -> Self {
+    /// Takes, for each moving joint, the quaternion of its rotation relative to its parent, times twice the length of
+    /// what hangs on it, so that the distance of two points is the root sum square of the joints' paths. The body's
+    /// position is left out: a steady walk is to gather in its steps as well.
+    fn new(clip: &Clip) -> Self {
         let moving = clip.moving_joints();
-        let members = Build::of(clip).members;
+        let members = Build::new(clip).members;
         let reaches = members.skeleton().reaches();
         let moving = moving.into_iter().enumerate().map(|(at, moves)| moves && members.has(at));
         let joints = clip.skeleton().joints.iter().zip(reaches).zip(moving);
@@ -65,7 +65,7 @@ impl Poses {
         for row in clip.rows() {
             for ((joint, reach), before) in joints.iter().zip(&mut before) {
                 let rotation = local_rotation(joint, row);
-                // Of q and −q the one that goes on from the frame before.
+                // Picks the one of q and −q that continues from the previous frame.
                 *before = if rotation.dot(*before) < 0.0 { -rotation } else { rotation };
                 values.extend((*before * (2.0 * reach)).to_array());
             }
@@ -77,7 +77,7 @@ impl Poses {
         self.values.len().checked_div(self.coordinates).unwrap_or(0)
     }
 
-    /// How far apart the poses of two frames are, squared.
+    /// Returns the squared distance between the poses of two frames.
     fn apart(&self, frame: usize, other: usize) -> f64 {
         let row = |frame: usize| &self.values[frame * self.coordinates..][..self.coordinates];
         let squares = row(frame).iter().zip(row(other)).map(|(a, b)| (a - b) * (a - b));
@@ -85,20 +85,20 @@ impl Poses {
     }
 }
 
-/// What draws a frame.
+/// The weights that attract a frame to its neighbours.
 struct Window<'a> {
     poses: &'a Poses,
-    /// −1/2σ² of the distance between poses.
+    /// The factor −1/2σ² of the squared distance between poses.
     alike: f64,
-    /// The weights of the instants looked at to one side, by time alone.
+    /// The weights of the sampled instants on one side, by time alone.
     near: Vec<f64>,
-    /// Frames from one instant that is looked at to the next.
+    /// Frames between two sampled instants.
     step: usize,
 }
 
 impl<'a> Window<'a> {
-    /// None where nothing moves, or where the window is one frame.
-    fn of(poses: &'a Poses, reach: f64) -> Option<Self> {
+    /// Creates the window; `None` if nothing moves or the window is a single frame.
+    fn new(poses: &'a Poses, reach: f64) -> Option<Self> {
         let steps = poses.frames().saturating_sub(1);
         let way: f64 = (0..steps).map(|frame| poses.apart(frame, frame + 1)).sum();
         let sigma = ALIKE * reach * (way / steps as f64).sqrt();
@@ -112,8 +112,8 @@ impl<'a> Window<'a> {
         Some(Self { poses, alike: -0.5 / (sigma * sigma), near, step })
     }
 
-    /// The mean time of what is near a frame and like it, the frame itself with it. Beyond its ends the clip is
-    /// mirrored, so that it rests on them.
+    /// Returns the mean time of the instants that are near a frame and like it, itself included. The clip is mirrored
+    /// beyond its ends, so that the ends attract no shift.
     fn drawn(&self, frame: usize) -> f64 {
         let last = self.poses.frames() - 1;
         let (mut shift, mut weights) = (0.0, 1.0);
@@ -129,9 +129,9 @@ impl<'a> Window<'a> {
     }
 }
 
-/// The nearest times that never go back (isotonic regression): stretches that would are all shown at their mean.
+/// Finds the nearest times that never go back (isotonic regression): each stretch that would is shown at its mean.
 fn never_back(times: &mut [f64]) {
-    // Each stretch by its sum and its length.
+    // Each stretch as its sum and length.
     let mut stretches: Vec<(f64, usize)> = Vec::with_capacity(times.len());
     for time in times.iter() {
         let (mut sum, mut length) = (*time, 1);
@@ -158,12 +158,12 @@ mod tests {
     use crate::motion::{Axis, Pose};
     use crate::time::Frame;
 
-    /// A chain of two joints that turn any way.
+    /// Builds a chain of two freely rotating joints.
     fn clip(values: &[[f64; 6]]) -> Clip {
         chain([Axis::Z, Axis::X, Axis::Y], values)
     }
 
-    /// The mean time by definition: every frame of the mirrored clip within the window.
+    /// Computes the mean time by definition, over every frame of the mirrored clip within the window.
     fn slow(clip: &Clip, reach: f64) -> Vec<f64> {
         let last = clip.len() as isize - 1;
         let fold = |at: isize| {
@@ -206,8 +206,8 @@ mod tests {
                 [1.0, 0.7, 1.3, 0.4, 2.0, 0.9].map(|pace| 50.0 * (pace * at as f64 * 0.3).sin())
             };
             let clip = clip(&(0..frames).map(row).collect::<Vec<_>>());
-            let poses = Poses::of(&clip);
-            let window = Window::of(&poses, reach).unwrap();
+            let poses = Poses::new(&clip);
+            let window = Window::new(&poses, reach).unwrap();
             assert_eq!(window.step, 1);
             for (frame, slow) in slow(&clip, reach).into_iter().enumerate() {
                 let fast = window.drawn(frame);
@@ -223,8 +223,8 @@ mod tests {
             [way, 0.0, 0.0, if at.is_multiple_of(2) { way } else { way + 360.0 }, 0.0, 0.0]
         };
         let clip = clip(&(0..40).map(row).collect::<Vec<_>>());
-        let poses = Poses::of(&clip);
-        let window = Window::of(&poses, 3.0).unwrap();
+        let poses = Poses::new(&clip);
+        let window = Window::new(&poses, 3.0).unwrap();
         for (frame, slow) in slow(&clip, 3.0).into_iter().enumerate() {
             assert!((window.drawn(frame) - slow).abs() < 1e-6, "{frame}");
         }
@@ -234,8 +234,8 @@ mod tests {
     fn a_wide_window_is_looked_at_in_wide_steps() {
         let row = |at: usize| [30.0 * (at as f64 * 0.01).sin(), 0.0, 0.0, 0.0, 0.0, 0.0];
         let clip = clip(&(0..500).map(row).collect::<Vec<_>>());
-        let poses = Poses::of(&clip);
-        let window = Window::of(&poses, 60.0).unwrap();
+        let poses = Poses::new(&clip);
+        let window = Window::new(&poses, 60.0).unwrap();
         assert_eq!((window.step, window.near.len()), (8, 22));
         for (frame, slow) in slow(&clip, 60.0).into_iter().enumerate() {
             assert!((window.drawn(frame) - slow).abs() < 1.5, "{frame}");
@@ -247,8 +247,8 @@ mod tests {
         let way = |at: usize| [80.0, 40.0, 0.0][if at < 5 { 0 } else { 2 - usize::from(at == 6) }];
         let row = |at: usize| [way(at), 0.0, 0.0, 0.0, 0.0, 0.0];
         let clip = clip(&(0..100).map(row).collect::<Vec<_>>());
-        let poses = Poses::of(&clip);
-        let window = Window::of(&poses, 5.0).unwrap();
+        let poses = Poses::new(&clip);
+        let window = Window::new(&poses, 5.0).unwrap();
         assert!(window.drawn(6) + 0.5 < window.drawn(5), "the rest behind it draws more");
         let places = places(&clip, 1.0, 5.0).unwrap();
         assert!(places.windows(2).all(|pair| pair[0] <= pair[1]), "{places:?}");

@@ -1,22 +1,22 @@
-//! Smoothing with a bell, in the same time whatever its width.
+//! Gaussian-like smoothing whose cost does not depend on its width.
 
-/// What running sums leave of nothing, beside the largest value that went through them.
+/// Rounding residue of the running sums, relative to the largest value that went through them.
 const DUST: f64 = 1e-11;
 
-/// Three moving averages one after the other, which together have exactly the variance that is asked for: an
-/// extended box filter (Gwosdek, Grewenig, Bruhn and Weickert 2011). Their outermost samples count by a part.
+/// Three successive moving averages that together have exactly the requested variance: an extended box filter (Gwosdek,
+/// Grewenig, Bruhn and Weickert 2011). The outermost samples of each box count fractionally.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Smooth {
-    /// Whole samples to each side of the middle.
+    /// Whole samples on each side of the middle.
     reach: usize,
-    /// The weight of the sample beyond them, 0 to 1.
+    /// The weight of the samples just beyond them, 0 to 1.
     rest: f64,
 }
 
 impl Smooth {
-    /// The bell of a standard deviation in samples, above 0.
-    pub(super) fn of(sigma: f64) -> Self {
-        // Of each of the three. A window of r to each side has the variance r(r + 1)/3.
+    /// Creates the filter for a standard deviation in samples, above 0.
+    pub(super) fn new(sigma: f64) -> Self {
+        // The variance of each of the three averages. A window of r samples to each side has the variance r(r + 1)/3.
         let variance = sigma * sigma / 3.0;
         let reach = (((1.0 + 12.0 * variance).sqrt() - 1.0) / 2.0).floor();
         let whole = 2.0 * reach + 1.0;
@@ -26,8 +26,8 @@ impl Smooth {
         Self { reach: reach as usize, rest: rest.clamp(0.0, 1.0) }
     }
 
-    /// Smooths a signal that goes on beyond both ends upside down (… −c −b 0 b c …) and is 0 on them, and
-    /// multiplies it by `gain`. `room` is a buffer.
+    /// Smooths a signal and multiplies it by `gain`. The signal is 0 at both ends and continues beyond them with odd
+    /// symmetry (… −c −b 0 b c …). `room` is a buffer.
     pub(super) fn apply(self, signal: &mut [f64], gain: f64, room: &mut Vec<f64>) {
         let largest = signal.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         if largest == 0.0 {
@@ -36,13 +36,13 @@ impl Smooth {
         for _ in 0..3 {
             self.average(signal, room);
         }
-        // What stands still far from any movement has to go on standing still.
+        // A signal at rest far from any movement must stay exactly at rest.
         for value in signal {
             *value = if value.abs() > DUST * largest { gain * *value } else { 0.0 };
         }
     }
 
-    /// One moving average.
+    /// Computes one moving average.
     fn average(self, signal: &mut [f64], room: &mut Vec<f64>) {
         let (last, beyond) = (signal.len() - 1, self.reach + 1);
         let whole = 2 * self.reach + 1;
@@ -61,7 +61,7 @@ impl Smooth {
     }
 }
 
-/// A signal of two samples or more at a place at or beyond its ends.
+/// Returns a signal of two or more samples at a place at or beyond its ends.
 fn folded(signal: &[f64], at: usize) -> f64 {
     let last = signal.len() - 1;
     match at % (2 * last) {
@@ -72,7 +72,7 @@ fn folded(signal: &[f64], at: usize) -> f64 {
 
 #[cfg(test)]
 impl Smooth {
-    /// The bell as weights, by definition: the box three times convolved with itself.
+    /// Returns the filter's weights by definition: the box convolved three times.
     pub(super) fn bell(self) -> Vec<f64> {
         let mut window = vec![1.0; 2 * self.reach + 3];
         let last = window.len() - 1;
@@ -91,7 +91,7 @@ impl Smooth {
         bell
     }
 
-    /// How much it lets through of a swing of so many radians a sample, in closed form.
+    /// Returns the response at `omega` radians per sample, in closed form.
     pub(super) fn response(self, omega: f64) -> f64 {
         let whole = 2.0 * self.reach as f64 + 1.0;
         let middle = (0.5 * whole * omega).sin() / (0.5 * omega).sin();
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn the_bell_has_the_variance_that_is_asked_for() {
         for sigma in [0.2, 0.5, 1.0, 1.7, 3.0, 12.34, 60.0] {
-            let bell = Smooth::of(sigma).bell();
+            let bell = Smooth::new(sigma).bell();
             let middle = (bell.len() / 2) as f64;
             let sum: f64 = bell.iter().sum();
             let spread = bell.iter().enumerate().map(|(at, w)| w * (at as f64 - middle).powi(2));
@@ -121,7 +121,7 @@ mod tests {
         for (len, sigma) in [(2, 3.0), (3, 0.4), (9, 2.0), (40, 3.3), (40, 25.0), (41, 41.0)] {
             let mut signal: Vec<f64> = (0..len).map(|at| (at as f64 * 1.3).sin() + 0.2).collect();
             (signal[0], signal[len - 1]) = (0.0, 0.0);
-            let bell = Smooth::of(sigma).bell();
+            let bell = Smooth::new(sigma).bell();
             let middle = bell.len() as isize / 2;
             let period = 2 * (len as isize - 1);
             let odd = |at: isize| match at.rem_euclid(period) as usize {
@@ -133,7 +133,7 @@ mod tests {
                 near.map(|(by, w)| 2.0 * w * odd(at as isize + by as isize - middle)).sum()
             };
             let slow: Vec<f64> = (0..len).map(slow).collect();
-            Smooth::of(sigma).apply(&mut signal, 2.0, &mut Vec::new());
+            Smooth::new(sigma).apply(&mut signal, 2.0, &mut Vec::new());
             for (fast, slow) in signal.iter().zip(&slow) {
                 assert!((fast - slow).abs() < 1e-10, "{len} {sigma}: {fast} {slow}");
             }
@@ -144,7 +144,7 @@ mod tests {
     fn what_is_far_from_any_movement_stays_nothing() {
         let mut signal = vec![0.0; 400];
         signal[50..60].copy_from_slice(&[0.1, 0.7, -0.3, 1e3, 0.1, 5.0, -1e3, 0.2, 0.1, 0.3]);
-        Smooth::of(4.0).apply(&mut signal, 1.0, &mut Vec::new());
+        Smooth::new(4.0).apply(&mut signal, 1.0, &mut Vec::new());
         assert!(signal[52] != 0.0);
         assert!(signal[90..].iter().all(|value| *value == 0.0), "{:?}", &signal[90..]);
     }

@@ -1,4 +1,4 @@
-//! What exaggeration does to motions that are known, and to odd ones.
+//! Effects of exaggeration on known motions, and on odd ones.
 
 use std::f64::consts::PI;
 
@@ -33,14 +33,14 @@ fn clip_of(skeleton: Skeleton, fps: f64, values: Vec<f64>) -> Clip {
     Clip::new(skeleton, FrameRate::new(fps).unwrap(), Frame(5), frames, values).unwrap()
 }
 
-/// Two joints that turn any way, the second on the first.
+/// Builds two freely rotating joints, the second on the first.
 pub(super) fn chain(axes: [Axis; 3], values: &[[f64; 6]]) -> Clip {
     let turns = axes.map(Channel::Rotation).to_vec();
     let joints = vec![joint(None, turns.clone(), 0), joint(Some(0), turns, 3)];
     clip_of(Skeleton { joints }, 100.0, values.concat())
 }
 
-/// A joint that is carried along X and turns about Z alone, by one signal.
+/// Builds a joint that moves along X and turns only about Z, both by one signal.
 fn carried(signal: &[f64]) -> Clip {
     let channels = vec![Channel::Position(Axis::X), Channel::Rotation(Axis::Z)];
     let values = signal.iter().flat_map(|value| [*value, *value]).collect();
@@ -66,7 +66,7 @@ fn column(clip: &Clip, column: usize) -> Vec<f64> {
     clip.rows().map(|row| row[column]).collect()
 }
 
-/// The rotation of a joint on each frame.
+/// Returns the rotation of a joint at each frame.
 fn rotations(clip: &Clip, at: usize) -> Vec<DQuat> {
     clip.rows().map(|row| local_rotation(&clip.skeleton().joints[at], row)).collect()
 }
@@ -123,9 +123,9 @@ fn a_swing_grows_by_what_the_filter_lets_through() {
         let swing: Vec<f64> = (0..frames).map(|at| 40.0 * (omega * f64::from(at)).sin()).collect();
         let sigma = 0.5 * width;
         let bend = 4.0 * (0.5 * omega).sin().powi(2) * sigma * sigma;
-        let gain = 1.0 + 0.8 * MET_BEST * bend * Smooth::of(sigma).response(omega);
+        let gain = 1.0 + 0.8 * MET_BEST * bend * Smooth::new(sigma).response(omega);
         let by_columns = cartoon(0.8, width).apply(&carried(&swing)).unwrap();
-        // About an axis of its own, in a rig whose channels know nothing of it.
+        // About an oblique axis, in a rig whose channels are not aligned with it.
         let tilt = DQuat::from_scaled_axis(DVec3::new(0.3, -0.8, 0.5));
         let axis = DVec3::new(1.0, 2.0, -2.0) / 3.0;
         let turned = |degrees: f64| tilt * DQuat::from_axis_angle(axis, degrees.to_radians());
@@ -142,7 +142,7 @@ fn a_swing_grows_by_what_the_filter_lets_through() {
     }
 }
 
-/// A single joint that takes on these rotations.
+/// Builds a single joint with these rotations.
 fn of_rotations(axes: [Axis; 3], rotations: &[DQuat]) -> Clip {
     let joint = joint(None, axes.map(Channel::Rotation).to_vec(), 0);
     let mut values = vec![0.0; 3];
@@ -196,7 +196,7 @@ fn rotations_are_displaced_by_the_definition() {
     };
     let clip = chain(ORDERS[0], &(0..50).map(row).collect::<Vec<_>>());
     let found = cartoon(0.5, 9.0).apply(&clip).unwrap();
-    let bell = Smooth::of(4.5).bell();
+    let bell = Smooth::new(4.5).bell();
     let middle = bell.len() as isize / 2;
     for joint in 0..2 {
         let own = rotations(&clip, joint);
@@ -232,9 +232,9 @@ fn one_axis_runs_on_past_half_a_turn() {
 #[test]
 fn standing_feet_stay_where_they_are_unless_the_whole_body_is_asked_for() {
     let clip = kick();
-    let feet = Landmarks::of(&clip).feet;
+    let feet = Landmarks::new(&clip).feet;
     let soles = |clip: &Clip| -> Vec<DVec3> {
-        let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
+        let (mut poser, mut body) = (Poser::new(clip), Body::new(clip.skeleton()));
         let mut soles = Vec::new();
         for frame in clip.first().0..=clip.last().0 {
             body.place(poser.frame(Frame(frame)));
@@ -301,7 +301,7 @@ fn what_grows_beyond_all_measure_is_refused() {
     assert!(error.contains("which is no motion"), "{error}");
 }
 
-/// Motions of few frames, with jumps of half a turn and stretches that stand still.
+/// Generates motions of few frames, with jumps of half a turn and stretches of stillness.
 fn any_rows() -> impl Strategy<Value = Vec<[f64; 6]>> {
     let value = prop_oneof![
         Just(0.0),

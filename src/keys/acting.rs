@@ -1,8 +1,8 @@
-//! Small acting (小芝居): what single parts of a body do while the body as a whole is quiet.
+//! Small acting (小芝居): single parts of a body that act while the body as a whole is quiet.
 //!
-//! A nod, a gaze or a fist hardly moves the place of any joint, so that by its places the body is at rest. Each part is
-//! therefore asked in its own measure: how far it turns on what carries it. Where a part acts the body does not rest, its
-//! turn counts as a way, and it speaks for the body: nothing else does then.
+//! A nod, a gaze or a fist hardly moves any joint, so by its positions the body is at rest. Each part is therefore
+//! measured on its own scale: how far it turns against its carrier. While a part acts, the body does not rest, and the
+//! part's turn counts as movement. The part then speaks for the body, because no other part moves.
 
 mod parts;
 #[cfg(test)]
@@ -22,23 +22,24 @@ use crate::time::{Clock, Frame};
 pub(super) use parts::Part;
 use parts::{SPAN, parts};
 
-/// The speed below which a body is quiet, in % of its height a second: by its places alone it would be at rest.
+/// Speed below which a body is quiet, in % of body height a second: by its positions alone it would be at rest.
 const QUIET: f64 = 15.0;
 
-/// The speed from which a part may act, likewise: the head of somebody who only stands turns by up to 14° a second.
+/// Speed from which a part may act, in % of body height a second: the head of a person who just stands turns at up to
+/// 14°/s.
 const SLOW: f64 = 4.0;
 
-/// Numbers that say how a part is turned.
+/// Numbers that describe how a part is turned.
 pub(super) const COLUMNS: usize = 3;
 
 /// The parts that act at some time, and when.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Acting {
     acts: Vec<Act>,
-    /// Where instants stand in the clip.
+    /// Times of the instants in the clip.
     clock: Option<Clock>,
-    /// Whether nothing goes far enough to be acting, and the body is quiet all the time: what little its parts do is then
-    /// all there is.
+    /// Whether no movement is large enough to be acting and the body is quiet all the time. The little that its parts
+    /// do is then all there is.
     is_slight: bool,
 }
 
@@ -49,19 +50,19 @@ struct Act {
     stretches: Vec<Stretch>,
 }
 
-/// A while in which a part acts.
+/// A period in which a part acts.
 #[derive(Debug, Clone, PartialEq)]
 struct Stretch {
     /// The first instant.
     from: usize,
-    /// How it is turned at each instant, in % of the body's height.
+    /// How it is turned at each instant, in % of body height.
     ways: Vec<DVec3>,
 }
 
 impl Acting {
-    /// Looks for it where the body is quiet: `speeds` are those of its places into each instant of a clock from the second
-    /// on, in the world or on a screen. `own` is how much each joint counts.
-    pub(super) fn of(
+    /// Finds acting while the body is quiet. `speeds` are those of its positions into each instant of a clock from the
+    /// second on, in the world or on a screen. `own` is the weight of each joint.
+    pub(super) fn new(
         clip: &Clip,
         build: &Build,
         clock: Clock,
@@ -72,7 +73,7 @@ impl Acting {
         let parts = if quiet.is_empty() { Vec::new() } else { parts(build, own, is_world) };
         let mut acts: Vec<Act> =
             parts.into_iter().map(|part| Act { part, stretches: Vec::new() }).collect();
-        let mut poser = LanePoser::of(clip);
+        let mut poser = LanePoser::new(clip);
         for run in &quiet {
             let is_cut = [run.start > 0, run.end < instants];
             let ways = ways(&mut poser, &acts, clock, run.clone(), instants);
@@ -92,24 +93,24 @@ impl Acting {
         Self { acts, clock: Some(clock), is_slight }
     }
 
-    /// How many parts act.
+    /// Number of parts that act.
     pub(super) fn len(&self) -> usize {
         self.acts.len()
     }
 
-    /// Whether nothing goes far enough to be acting, and what little there is counts as all there is.
+    /// Whether no movement is large enough to be acting, so that the little there is counts as all there is.
     pub(super) fn is_slight(&self) -> bool {
         self.is_slight
     }
 
-    /// Whether any part acts from an instant to the next.
+    /// Whether any part acts between an instant and the next.
     pub(super) fn goes_on(&self, instant: usize) -> bool {
         let mut stretches = self.acts.iter().flat_map(|act| &act.stretches);
         !self.is_slight && stretches.any(|own| own.from <= instant && instant < own.last())
     }
 
-    /// Writes how each part is turned into the last columns of some rows, one an instant: what it turns where it does not
-    /// act is not counted.
+    /// Writes how each part is turned into the last columns of some rows, one row an instant. Turns outside its acting
+    /// are left out.
     pub(super) fn write(&self, rows: &mut [f64], columns: usize) {
         let (first, instants) = (columns - COLUMNS * self.len(), rows.len() / columns);
         for (act, own) in self.acts.iter().zip((first..).step_by(COLUMNS)) {
@@ -131,7 +132,7 @@ impl Acting {
         }
     }
 
-    /// The parts with the frames from first to last of each of their stretches.
+    /// Returns the parts, each with its stretches from first to last frame.
     pub(super) fn parts(&self) -> impl Iterator<Item = (&Part, Vec<RangeInclusive<Frame>>)> {
         let frames = |own: &Stretch| {
             let frame = |at| self.clock.map_or(Frame(0), |clock| clock.frame_from_koma(at));
@@ -142,7 +143,7 @@ impl Acting {
 }
 
 impl Act {
-    /// Takes on what of some ways is acting; the first of them is that of an instant.
+    /// Adds the stretches of `ways` in which the part acts. The first of `ways` is at the instant `first`.
     fn take(&mut self, first: usize, ways: &[DVec3], when: Vec<Range<usize>>) {
         let stretch =
             |own: Range<usize>| Stretch { from: first + own.start, ways: ways[own].to_vec() };
@@ -157,17 +158,17 @@ impl Stretch {
     }
 }
 
-/// The stretches in which a body is quiet, by their instants.
+/// Finds the stretches of instants in which a body is quiet.
 fn quiet(speeds: &[f64], instants_a_second: f64) -> Vec<Range<usize>> {
     let speeds = smoothed(speeds, steps(SMOOTH, instants_a_second));
     let mut quiet = runs(speeds.len(), |at| speeds[at] < QUIET);
     quiet.retain(|run| run.len() >= steps(LEAST, instants_a_second));
-    // The speed of a step joins one instant more.
+    // Speeds belong to steps: a run of steps spans one instant more.
     quiet.into_iter().map(|run| run.start..run.end + 1).collect()
 }
 
-/// How each part is turned on what carries it at some instants of so many, from the first of them on: the turns of its joints
-/// together, in the axes of what carries it, which are no matter of the rig.
+/// Computes how each part is turned against its carrier at the instants of a run, relative to the first of them. It
+/// sums the turns of the part's joints in the axes of the carrier, which do not depend on the rig.
 fn ways(
     poser: &mut LanePoser<'_>,
     acts: &[Act],
@@ -195,7 +196,7 @@ fn ways(
     ways
 }
 
-/// How each joint of a part is turned on the one before, and how that one is on what carries all of it.
+/// Returns, for each joint of a part, how the joint before is turned against the carrier, and the joint against that.
 fn bends(pose: &LanePose, lane: usize, part: &Part) -> impl Iterator<Item = [DQuat; 2]> {
     let back = move |joint: usize| pose.rotations[joint].lane(lane).conjugate();
     let rotation = move |joint: usize| pose.rotations[joint].lane(lane);
@@ -204,18 +205,18 @@ fn bends(pose: &LanePose, lane: usize, part: &Part) -> impl Iterator<Item = [DQu
     })
 }
 
-/// A rotation as its axis times its angle in radians, the short way.
+/// Converts a rotation to its axis times its angle in radians, the short way.
 fn vector(turn: DQuat) -> DVec3 {
     let (axis, sine) = (turn.xyz(), turn.xyz().length());
     let angle = 2.0 * maths::atan2(sine, turn.w.abs()).copysign(turn.w);
     if sine > 0.0 { axis * (angle / sine) } else { DVec3::ZERO }
 }
 
-/// When a part acts: it turns faster than one that is held, and far enough. A short stop between two ways is one of the
-/// act. At an end at which the quiet is cut off, what comes to rest with the body, or sets out with it, is a part of the
-/// body's way.
+/// Finds when a part acts: it turns faster than a part that is held, and far enough. A short stop between two movements
+/// belongs to the act. Where the quiet is cut off, movement that settles or sets out with the body is part of the
+/// body's movement.
 fn when(ways: &[DVec3], instants_a_second: f64, [comes, goes]: [bool; 2]) -> Vec<Range<usize>> {
-    // Over a whole koma: what trembles from one half of it to the next is no movement.
+    // Measured over a whole koma: trembling within a koma is no movement.
     let speed = |at: usize| {
         let before = at.saturating_sub(2);
         instants_a_second * ways[before].distance(ways[at]) / (at - before) as f64
@@ -241,7 +242,7 @@ fn when(ways: &[DVec3], instants_a_second: f64, [comes, goes]: [bool; 2]) -> Vec
     acts
 }
 
-/// How far something goes: from where it is furthest from its begin to where it is furthest from there.
+/// Returns how far something goes: from the point furthest from its begin to the point furthest from there.
 fn reach(ways: &[DVec3]) -> f64 {
     let furthest = |from: DVec3| {
         let far = |a: &&DVec3, b: &&DVec3| from.distance(**a).total_cmp(&from.distance(**b));

@@ -1,5 +1,5 @@
-//! Actions (動作): the single movements that a long take consists of, each of which an animator times by
-//! itself. They are no cuts (カット): a cut is what the camera takes in one go, and may show several.
+//! Actions (動作): the single movements of a long take, which an animator times one by one. They are no cuts (カット): a cut
+//! is what the camera takes in one go, and may show several actions.
 
 mod changes;
 mod division;
@@ -18,7 +18,7 @@ pub use finder::ActionFinder;
 pub struct Actions {
     first: Frame,
     past: Frame,
-    /// By frame, no frame twice.
+    /// Sorted by frame, no frame twice.
     splits: Vec<Split>,
 }
 
@@ -29,16 +29,16 @@ pub struct Action {
     pub from: Frame,
     /// The source frame after its last.
     pub past: Frame,
-    /// Why it begins there; none for the first, which begins with the clip.
+    /// Why it begins there; `None` for the first, which begins with the clip.
     pub why: Option<SplitReason>,
 }
 
-/// Where one action ends and the next begins (区切り).
+/// The boundary between one action and the next (区切り).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Split {
     /// The first source frame of the later action.
     pub frame: Frame,
-    /// Why there.
+    /// Why the take is split there.
     pub why: SplitReason,
 }
 
@@ -46,18 +46,18 @@ pub struct Split {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SplitReason {
-    /// It is the middle of a rest (止め).
+    /// The middle of a rest (止め).
     Rest,
     /// The body is slower than before and after (緩み).
     Lull,
     /// Other parts of the body take over the movement (動きの変化).
     Change,
-    /// A person wants it (指定).
+    /// A person asked for it (指定).
     Asked,
 }
 
 impl SplitReason {
-    /// The word for it in files.
+    /// Returns its word in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Rest => "rest",
@@ -69,19 +69,19 @@ impl SplitReason {
 }
 
 impl Actions {
-    /// A clip split at frames inside it, in any order; of two splits at one frame the first counts.
+    /// Splits a clip at frames inside it, in any order; of two splits at one frame the first counts.
     pub(super) fn split(clip: &Clip, mut splits: Vec<Split>) -> Self {
         splits.sort_by_key(|split| split.frame);
         splits.dedup_by_key(|split| split.frame);
         Self { first: clip.first(), past: Frame(clip.first().0 + clip.len()), splits }
     }
 
-    /// Where they part.
+    /// Returns the splits between the actions.
     pub fn splits(&self) -> &[Split] {
         &self.splits
     }
 
-    /// The actions in order; one where the take is not split.
+    /// Returns the actions in order; an unsplit take has a single one.
     pub fn iter(&self) -> impl Iterator<Item = Action> {
         let starts = self.splits.iter().map(|split| (split.frame, Some(split.why)));
         let pasts = self.splits.iter().map(|split| split.frame).chain([self.past]);
@@ -89,7 +89,7 @@ impl Actions {
         [(self.first, None)].into_iter().chain(starts).zip(pasts).map(action)
     }
 
-    /// The koma on which each action after the first begins: the nearest to its frame.
+    /// Returns the koma on which each action after the first begins: the nearest to its frame.
     pub fn koma(&self, clock: Clock) -> Vec<usize> {
         self.splits.iter().map(|split| clock.koma_from_frame(split.frame)).collect()
     }

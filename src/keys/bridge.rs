@@ -1,4 +1,4 @@
-//! How far the body is off, koma after koma, when the poses of two frames are slerped.
+//! Measures how far the body is off, koma by koma, if the poses of two frames are slerped.
 
 mod stances;
 
@@ -13,20 +13,20 @@ use stances::Stances;
 
 /// The error of slerping between any two of some frames, with its buffers.
 ///
-/// Frames are spoken of by their place in the list.
+/// Frames are given by their place in the list.
 #[derive(Clone)]
-pub(crate) struct Bridge<'a> {
+pub struct Bridge<'a> {
     reference: &'a Reference,
     frames: &'a [Frame],
     rig: Rig,
     stances: Stances,
-    /// The way of each joint, [`LANES`] joints together.
+    /// Slerp of each joint, [`LANES`] joints together.
     arcs: Vec<Arc>,
     /// World rotations at the koma of a block.
     rotations: Vec<LaneQuat>,
-    /// Where each joint stands against its parent there.
+    /// Position of each joint against its parent at the koma of a block.
     translations: Vec<LaneVec>,
-    /// Where each point stands in the world there.
+    /// Position of each point in the world at the koma of a block.
     positions: Vec<LaneVec>,
 }
 
@@ -38,16 +38,17 @@ struct Piers {
 }
 
 impl Piers {
-    /// Blocks of the reference in which its koma lie.
+    /// Returns the blocks of the reference that its koma are in.
     fn blocks(&self) -> Range<usize> {
         self.koma.start / LANES..self.koma.end.div_ceil(LANES)
     }
 }
 
 impl<'a> Bridge<'a> {
-    pub(crate) fn new(clip: &Clip, reference: &'a Reference, frames: &'a [Frame]) -> Self {
-        let rig = Rig::of(clip.skeleton());
-        let stances = Stances::of(clip, &rig, frames);
+    /// Creates a bridge for slerps between some frames of a clip.
+    pub fn new(clip: &Clip, reference: &'a Reference, frames: &'a [Frame]) -> Self {
+        let rig = Rig::new(clip.skeleton());
+        let stances = Stances::new(clip, &rig, frames);
         Self {
             reference,
             frames,
@@ -60,9 +61,9 @@ impl<'a> Bridge<'a> {
         }
     }
 
-    /// The error at every koma that lies strictly between two frames, with its number: root mean square
-    /// over the body's points, in % of body height.
-    pub(crate) fn errors(&mut self, from: usize, to: usize, mut each: impl FnMut(usize, f64)) {
+    /// Passes on the number and the error of every koma that lies strictly between two frames: root mean square over
+    /// the body's points, in % of body height.
+    pub fn errors(&mut self, from: usize, to: usize, mut each: impl FnMut(usize, f64)) {
         let piers = self.piers(from, to);
         if piers.koma.is_empty() {
             return;
@@ -90,7 +91,7 @@ impl<'a> Bridge<'a> {
         Piers { from, to, koma }
     }
 
-    /// Finds the way of each joint from one end to the other.
+    /// Computes the slerp of each joint from one end to the other.
     #[inline(always)]
     fn aim(&mut self, piers: &Piers) {
         let ends = self.stances.rotations(piers.from).iter();
@@ -100,8 +101,8 @@ impl<'a> Bridge<'a> {
         }
     }
 
-    /// The mean squared distance from the source at each koma of a block; of koma that lie outside the
-    /// bridge that of the nearest inside.
+    /// Returns the mean squared distance from the source at each koma of a block. Koma outside the bridge get that of
+    /// the nearest inside.
     #[inline(always)]
     fn apart_in(&mut self, block: usize, piers: &Piers) -> Lanes {
         let koma = &piers.koma;
@@ -117,7 +118,7 @@ impl<'a> Bridge<'a> {
         points.apart(self.reference.positions(block), &self.positions)
     }
 
-    /// Puts the joints that have a position of their own some shares of the way along.
+    /// Moves the joints that have a position of their own by some shares of the way.
     #[inline(always)]
     fn move_joints(&mut self, piers: &Piers, shares: Lanes) {
         let ends = self.stances.translations(piers.from).iter();
@@ -128,8 +129,7 @@ impl<'a> Bridge<'a> {
         }
     }
 
-    /// Turns every joint some shares of the way along and places it in the world, both at once: what
-    /// is local is never written down.
+    /// Turns every joint by some shares of its way and places it in the world at once, without storing local rotations.
     #[inline(always)]
     fn turn_joints(&mut self, from: usize, shares: Lanes) {
         let starts = self.stances.rotations(from);
@@ -152,7 +152,7 @@ impl<'a> Bridge<'a> {
     }
 }
 
-/// The rotation of one of a group's joints some shares of its way along.
+/// Returns the rotation of one of a group's joints after some shares of its way.
 #[inline(always)]
 fn along(arc: &Arc, start: &LaneQuat, lane: usize, shares: Lanes) -> LaneQuat {
     let start = LaneQuat::splat(start.lane(lane));

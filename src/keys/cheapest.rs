@@ -1,8 +1,8 @@
-//! The cheapest set (最も安い組): of all sets of keys the one that loses least, each key at a price.
+//! The cheapest set (最も安い組): of all sets of keys, the one that loses least, each key at a price.
 //!
-//! Keys are not taken away one by one: which of two neighbours goes first would hang on a hair, and all
-//! that follows on it. The set is found as a whole, by dynamic programming over the chords between
-//! instants, so that a little noise or another rig of the same body changes little.
+//! Keys are not removed one at a time: tiny differences would decide which of two neighbours goes first, and with it
+//! everything after. The whole set is found at once, by dynamic programming over the chords between instants, so that a
+//! little noise or another rig of the same body changes little.
 
 mod price;
 
@@ -16,79 +16,79 @@ use crate::time::Frame;
 
 use price::LOWEST;
 
-/// Koma without an entry that a row is carried over in one piece: to pass something on to nobody is cheaper than to begin
-/// anew.
+/// Longest gap between entries, in koma, that a row is updated across in one piece. Updating unused slots is cheaper
+/// than starting a new piece.
 const GAP: usize = 16;
 
-/// What may be a key.
+/// A frame that may become a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Entry {
     /// The source frame.
     pub(super) frame: Frame,
-    /// The koma that is nearest to it.
+    /// The koma nearest to it.
     pub(super) koma: usize,
-    /// Pins, ends of rests and of contacts, and the clip's ends are always in the set.
+    /// Whether it is always in the set: pins, ends of rests and contacts, and the clip's ends.
     pub(super) stays: bool,
-    /// What it costs, as a share of the price.
+    /// Its cost, as a share of the price.
     pub(super) cost: f64,
     /// The last koma up to which its pose holds.
     pub(super) holds: usize,
 }
 
-/// Chooses among entries, the first and the last of which are the clip's ends and stay.
+/// Chooses among entries. The first and the last are the clip's ends and stay.
 #[derive(Debug, Clone)]
 pub(super) struct Cheapest<'a> {
     chords: &'a Chords,
-    /// By frame.
+    /// Sorted by frame.
     entries: &'a [Entry],
-    /// Whole frames from one key to the next at least, unless both stay.
+    /// Least whole frames from one key to the next, unless both stay.
     apart: usize,
-    /// The entries that are the first on their koma, those that are the second, and so on.
+    /// Row 0 has the first entry of each koma, row 1 the second, and so on.
     rows: Vec<Row>,
-    /// Where the cost of each entry stands.
+    /// Slot of each entry's cost.
     slots: Vec<usize>,
-    /// How many costs there are.
+    /// Number of slots.
     costs: usize,
 }
 
-/// Entries of different koma. The costs of those that follow each other closely stand as far apart as their koma, so
-/// that they lie beside their losses.
+/// Entries of different koma. Entries at most `GAP` koma apart have slots with the same spacing as their koma, so that
+/// costs and losses line up.
 #[derive(Debug, Clone)]
 struct Row {
-    /// By frame.
+    /// Sorted by frame.
     entries: Vec<usize>,
-    /// Of each the first behind it that does not follow closely.
+    /// For each entry, the place of the first one behind it that is not in the same piece.
     ends: Vec<usize>,
 }
 
-/// The cheapest ways to the entries found so far. What stands before an entry is not kept, but looked up on the way
-/// back: few entries are on it.
+/// The cheapest ways to the entries found so far. Predecessors are not stored but looked up on the way back, because
+/// few entries lie on it.
 #[derive(Debug)]
 struct Ways {
-    /// What the way to an entry costs without the entry itself, by its slot; infinite where none is known.
+    /// Cost of the way to each entry without the entry itself, by slot; infinite if no way is known.
     costs: Vec<f64>,
-    /// Of each row the first behind the entry at hand, and the first behind the next that stays.
+    /// For each row, the place behind the current entry (`next`), and behind the next entry that stays (`stops`).
     next: Vec<usize>,
     stops: Vec<usize>,
-    /// Entries that no known chord leads to, and what stands before each.
+    /// Entries that no known chord leads to, each with its predecessor.
     far: BTreeMap<usize, usize>,
 }
 
 impl Ways {
-    /// Takes the way that costs so much up to its last chord to some others, of which these are the losses, where it is
-    /// the cheaper one.
+    /// Extends a way that costs `cost` by one chord to each of some slots, with these losses, and keeps the cheaper
+    /// way.
     #[inline(always)]
     fn pass_on(&mut self, cost: f64, others: Range<usize>, losses: &[f32]) {
         for (least, loss) in self.costs[others].iter_mut().zip(losses) {
-            // A plain minimum is stored whole: a masked store would be waited for by the next entry.
+            // A plain minimum is stored whole. The next entry would have to wait for a masked store.
             *least = least.min(cost + f64::from(*loss));
         }
     }
 }
 
 impl Row {
-    /// A row of some entries whose costs stand from a slot on; writes where.
-    fn of(own: Vec<usize>, slot: usize, entries: &[Entry], slots: &mut [usize]) -> Self {
+    /// Builds a row of entries whose slots begin at `slot`, and writes their slots.
+    fn new(own: Vec<usize>, slot: usize, entries: &[Entry], slots: &mut [usize]) -> Self {
         let mut ends: Vec<usize> = (1..=own.len()).collect();
         slots[own[0]] = slot;
         for pair in own.windows(2) {
@@ -103,7 +103,7 @@ impl Row {
         Self { entries: own, ends }
     }
 
-    /// The first of it that is none of those up to an entry, from one on that is known to be.
+    /// Returns the first place from `from` on whose entry comes after `entry`.
     fn behind(&self, entry: usize, mut from: usize) -> usize {
         while self.entries.get(from).is_some_and(|own| *own <= entry) {
             from += 1;
@@ -112,16 +112,16 @@ impl Row {
     }
 }
 
-/// A set of entries by their place in the list.
+/// A set of entries, by index.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Set {
     pub(super) kept: Vec<usize>,
-    /// How many fewer are in it than are worth their price; 0 where there is none.
+    /// Number of entries worth their price that the limit kept out.
     pub(super) over_limit: usize,
 }
 
 impl<'a> Cheapest<'a> {
-    /// Among entries in the order of their frames, so many frames apart at least.
+    /// Chooses among entries sorted by frame, at least `apart` frames from each other.
     pub(super) fn among(entries: &'a [Entry], chords: &'a Chords, apart: f64) -> Self {
         let mut ranks: Vec<Vec<usize>> = Vec::new();
         let mut rank = 0;
@@ -136,7 +136,7 @@ impl<'a> Cheapest<'a> {
         let (mut slots, mut slot) = (vec![0; entries.len()], 0);
         let row = |row: Vec<usize>| {
             let last = row[row.len() - 1];
-            let row = Row::of(row, slot, entries, &mut slots);
+            let row = Row::new(row, slot, entries, &mut slots);
             slot = slots[last] + 1;
             row
         };
@@ -144,9 +144,8 @@ impl<'a> Cheapest<'a> {
         Self { chords, entries, apart: apart.ceil() as usize, rows, slots, costs: slot }
     }
 
-    /// The cheapest set in which no more than `most` entries are there of their own, at the least price
-    /// from `price` on at which there are so few; and then as many of the next best as there is room
-    /// for and `price` lets in. At a price of 0 nothing has to be saved, and all are taken that fit.
+    /// Finds the cheapest set with at most `most` found entries, at the least price from `price` on that leaves so few.
+    /// Then adds the next best entries that fit and are worth `price`. At a price of 0, takes every entry that fits.
     pub(super) fn set(&self, price: f64, most: usize) -> Set {
         let free = if price > 0.0 { self.at(price) } else { self.all() };
         let wanted = self.found(&free);
@@ -158,7 +157,7 @@ impl<'a> Cheapest<'a> {
         self.thin(&mut kept, most);
         self.fill(&mut kept, price, most);
         if price == 0.0 && self.found(&kept) < most {
-            // So many fit only where they stand closer than the best of them do.
+            // So many fit only if they stand closer together than the best ones do.
             kept = free;
             self.thin(&mut kept, most);
         }
@@ -166,7 +165,7 @@ impl<'a> Cheapest<'a> {
         Set { kept, over_limit }
     }
 
-    /// What is lost besides if one of a set is left out; infinite for those that stay.
+    /// Returns the extra loss if each entry of a set is left out; infinite for entries that stay.
     pub(super) fn saves(&self, kept: &[usize]) -> Vec<f64> {
         (0..kept.len()).map(|at| self.saves_at(kept, at)).collect()
     }
@@ -188,12 +187,13 @@ impl<'a> Cheapest<'a> {
         self.chords.loss(self.entries[from].koma, self.entries[to].koma)
     }
 
-    /// How many of a set are there because they are worth it.
+    /// Counts the entries of a set that need not stay.
     fn found(&self, kept: &[usize]) -> usize {
         kept.iter().filter(|entry| !self.entries[**entry].stays).count()
     }
 
-    /// Whether both are drawn: the second is no pose that the first holds, but for the clip's end.
+    /// Whether both may be neighbours: far enough apart, and the second pose not held by the first unless it is the
+    /// clip's end.
     fn are_apart(&self, from: usize, to: usize) -> bool {
         let is_end = to + 1 == self.entries.len();
         let [from, to] = [from, to].map(|entry| &self.entries[entry]);
@@ -201,7 +201,7 @@ impl<'a> Cheapest<'a> {
         (from.stays && to.stays) || (is_new && to.frame.0 - from.frame.0 >= self.apart)
     }
 
-    /// As many as fit, from the first on.
+    /// Takes as many entries as fit, from the first on.
     fn all(&self) -> Vec<usize> {
         let mut kept = vec![0];
         let mut staying = 0;
@@ -218,7 +218,7 @@ impl<'a> Cheapest<'a> {
         kept
     }
 
-    /// The cheapest set at a price.
+    /// Finds the cheapest set at a price.
     fn at(&self, price: f64) -> Vec<usize> {
         let ways = wide(
             #[inline(always)]
@@ -232,7 +232,7 @@ impl<'a> Cheapest<'a> {
         kept
     }
 
-    /// The cheapest way to every entry at a price, from the first on.
+    /// Finds the cheapest way from the first entry to every other at a price.
     #[inline(always)]
     fn ways(&self, price: f64) -> Ways {
         let count = self.entries.len();
@@ -258,14 +258,14 @@ impl<'a> Cheapest<'a> {
         ways
     }
 
-    /// What a way costs with the entry on which it ends.
+    /// Returns the cost of a way including its last entry.
     #[inline(always)]
     fn cost(&self, at: usize, price: f64, ways: &Ways) -> f64 {
         let Entry { stays, cost, .. } = self.entries[at];
         ways.costs[self.slots[at]] + if stays { 0.0 } else { price * cost }
     }
 
-    /// What stands before an entry on the cheapest way to it, of equals the nearest.
+    /// Finds the predecessor of an entry on the cheapest way to it; the nearest if several tie.
     fn before(&self, at: usize, price: f64, ways: &Ways) -> usize {
         if let Some(from) = ways.far.get(&at) {
             return *from;
@@ -277,8 +277,8 @@ impl<'a> Cheapest<'a> {
         (0..at).rev().find(is_before).expect("the cheapest way came from somewhere")
     }
 
-    /// Takes out what is there only because no known chord is as long as the way past it: in a rest, or
-    /// where the body hardly moves.
+    /// Removes entries that are in the set only because no known chord is long enough to pass them: in a rest, or where
+    /// the body hardly moves.
     fn join(&self, kept: &mut Vec<usize>, price: f64) {
         let mut saves = self.saves(kept);
         while let Some(at) =
@@ -288,7 +288,7 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// Takes an entry for the one before each of those within reach where that is the cheapest way to them yet. The next
+    /// Makes `from` the predecessor of every entry within reach to which that is the cheapest way yet. The next entry
     /// that stays is not passed over.
     #[inline(always)]
     fn go_on(&self, from: usize, stays_next: usize, price: f64, ways: &mut Ways) {
@@ -310,8 +310,8 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// The way to an entry with nothing within reach that may be a key: from the last that may, or, if it stays,
-    /// from the last that stays, which is further off.
+    /// Finds a way to an entry without a possible predecessor within reach. The way starts at the last possible entry
+    /// before it or, if the entry stays, at the last entry that stays.
     fn reach_far(&self, to: usize, stayed: usize, price: f64, ways: &mut Ways) {
         let is_way = |from: &usize| {
             ways.costs[self.slots[*from]] < f64::INFINITY && self.are_apart(*from, to)
@@ -323,7 +323,7 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// Takes the cheapest away until there are few enough: no chord is long enough for so few.
+    /// Removes the entries that save least until few enough are left. Needed if no chord is long enough for so few.
     fn thin(&self, kept: &mut Vec<usize>, most: usize) {
         let mut saves = self.saves(kept);
         for _ in most..self.found(kept) {
@@ -332,7 +332,7 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// Takes one that does not stay out of a set; what stood before it and after it are neighbours now.
+    /// Removes an entry that need not stay, and updates what its neighbours save.
     fn leave_out(&self, kept: &mut Vec<usize>, saves: &mut Vec<f64>, at: usize) {
         kept.remove(at);
         saves.remove(at);
@@ -340,7 +340,7 @@ impl<'a> Cheapest<'a> {
         saves[at] = self.saves_at(kept, at);
     }
 
-    /// Puts the best of those left out back while there is room and they save what they cost.
+    /// Adds back the best of the entries left out, while there is room and they save what they cost.
     fn fill(&self, kept: &mut Vec<usize>, price: f64, most: usize) {
         while self.found(kept) < most {
             let gaps = kept.windows(2).enumerate();
@@ -355,7 +355,7 @@ impl<'a> Cheapest<'a> {
         }
     }
 
-    /// The entry between two of a set that saves most beyond what it costs, and how much that is.
+    /// Finds the entry between two neighbours that saves most beyond its cost, and that gain.
     fn best_between(&self, from: usize, to: usize, price: f64) -> Option<(usize, f64)> {
         let whole = self.loss(from, to);
         let fits = |at: &usize| self.are_apart(from, *at) && self.are_apart(*at, to);
@@ -368,7 +368,7 @@ impl<'a> Cheapest<'a> {
     }
 }
 
-/// Where least is saved, of equals the first; none in a set of which all stay.
+/// Returns the place that saves least, the first if several tie; `None` if all stay.
 fn least(saves: &[f64]) -> Option<usize> {
     let at = (0..saves.len()).min_by(|a, b| saves[*a].total_cmp(&saves[*b]))?;
     saves[at].is_finite().then_some(at)

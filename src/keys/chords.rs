@@ -1,4 +1,4 @@
-//! Chords (弦): what is lost when the body goes straight from one posture to another.
+//! Chords (弦): the loss if the body goes straight from one posture to another.
 
 use std::array;
 use std::iter::once;
@@ -10,48 +10,49 @@ use crate::motion::lanes::{LANES, Lanes, pieces, wide};
 use crate::motion::{Build, Clip};
 use crate::time::{Clock, Frame};
 
-/// Pairs of koma whose chord is kept of any clip at the most, unless its koma alone are too many: eight megabytes.
+/// Most pairs of koma whose chord is stored, eight megabytes, unless `LEAST_REACH` needs more.
 const PAIRS: usize = 1 << 21;
 
-/// Instants at which the posture is known, in a koma: chords go from koma to koma, rests begin and end between them.
+/// Postures per koma: chords go from koma to koma, but rests begin and end between them.
 pub(super) const INSTANTS: usize = 2;
 
-/// Koma that are looked at of a chord that is not known, at the most: a longer one is not slower.
+/// Most koma sampled on a chord that is not stored, so that a longer one is not slower.
 const LOOKS: usize = 512;
 
-/// Scalar products that are formed side by side.
+/// Scalar products computed side by side.
 const TOGETHER: usize = 4;
 
-/// Seconds from one end of a chord to the other up to which all are known, however long the clip.
+/// Length in seconds up to which all chords are stored, however long the clip.
 const LEAST_REACH: f64 = 2.0;
 
 /// The loss of every chord up to some length.
 ///
-/// What is lost between two koma is the squared distance of the postures between them from the straight way, summed
-/// over koma: %² of the body's height times koma. With a·b known for each pair, all of it comes from running sums, so
-/// that a pair costs one scalar product however long it is.
+/// The loss between two koma is the squared distance of the postures between them from the straight line, summed over
+/// koma: %² of body height times koma. Given a·b for each pair, all of it comes from running sums, so that a pair costs
+/// one scalar product whatever its length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chords {
     postures: Postures,
-    /// Where the instants stand in the clip.
+    /// Times of the instants in the clip.
     clock: Clock,
     koma: usize,
-    /// The most koma from one end of a known chord to the other.
+    /// Most koma from one end of a stored chord to the other.
     pub(super) reach: usize,
-    /// Koma × (reach + 1): the loss from each koma to itself and to the first, second … after it. Seven digits of a
-    /// sum of squares are more than any motion has, and half the memory.
+    /// Koma × (reach + 1): the loss from each koma to itself and to the first, second … after it. Single precision
+    /// halves the memory, and its seven digits are more than any motion has.
     losses: Vec<f32>,
 }
 
 impl Chords {
-    /// The chords of a clip between the koma of its reference, seen from where that is, each known that is no longer than
-    /// `seconds`, 2 or more; infinite for as many as there is memory for. `own` is how much each joint counts beside its
-    /// bones: 0 or more, one of them above.
-    pub fn of(clip: &Clip, reference: &Reference, own: &[f64], seconds: f64) -> Self {
-        Self::of_layer(clip, &Build::of(clip), reference, own, seconds)
+    /// Computes the chords of a clip between the koma of its reference, on the reference's screen. Chords up to
+    /// `seconds` long are stored: 2 or more, or infinite for as many as memory allows. `own` is the weight of each
+    /// joint on top of its bones: 0 or more, at least one above 0.
+    pub fn new(clip: &Clip, reference: &Reference, own: &[f64], seconds: f64) -> Self {
+        Self::of_layer(clip, &Build::new(clip), reference, own, seconds)
     }
 
-    /// The same of a part of the body, which alone moves in `part`; `build` is that of the whole.
+    /// Computes the [chords](Self::new) of a part of the body, which alone moves in `part`. `build` is that of the whole
+    /// body.
     pub(crate) fn of_layer(
         part: &Clip,
         build: &Build,
@@ -62,7 +63,7 @@ impl Chords {
         let koma_rate = reference.clock().koma_rate;
         let clock = part.clock(INSTANTS as f64 * koma_rate);
         let look = (reference.screen(), reference.height());
-        let postures = Postures::of(part, build, clock, look, own);
+        let postures = Postures::new(part, build, clock, look, own);
         let koma = postures.len().div_ceil(INSTANTS);
         let [least, most] = [LEAST_REACH, seconds].map(|s| (s * koma_rate).ceil() as usize);
         let reach = (PAIRS / koma.max(1)).min(most).max(least).min(koma.saturating_sub(1));
@@ -72,18 +73,18 @@ impl Chords {
         chords
     }
 
-    /// The koma nearest to a frame.
+    /// Returns the koma nearest to a frame.
     pub(super) fn koma_of(&self, frame: Frame) -> usize {
         let clock = Clock { koma_rate: self.koma_rate(), ..self.clock };
         clock.koma_from_frame(frame).min(self.koma.saturating_sub(1))
     }
 
-    /// The frame nearest to an instant.
+    /// Returns the frame nearest to an instant.
     pub(super) fn frame(&self, instant: usize) -> Frame {
         self.clock.frame_from_koma(instant)
     }
 
-    /// Where the instants of the postures stand in the clip.
+    /// Returns the times of the instants in the clip.
     pub(super) fn clock(&self) -> Clock {
         self.clock
     }
@@ -93,17 +94,17 @@ impl Chords {
         self.clock.koma_rate / INSTANTS as f64
     }
 
-    /// The body at each instant.
+    /// Returns the body at each instant.
     pub(super) fn postures(&self) -> &Postures {
         &self.postures
     }
 
-    /// What parts do while the body as a whole is quiet.
+    /// Returns the parts that act while the whole body is quiet.
     pub(crate) fn acting(&self) -> &Acting {
         self.postures.acting()
     }
 
-    /// How far parts that act while the body is quiet turn from one koma to another, in % of its height: see
+    /// Returns how far parts that act while the body is quiet turn from one koma to another, in % of body height: see
     /// [`Postures`].
     pub(crate) fn acted(&self, a: usize, b: usize) -> f64 {
         let last = self.koma.saturating_sub(1);
@@ -115,20 +116,20 @@ impl Chords {
         self.postures.len()
     }
 
-    /// The body at a koma.
+    /// Returns the body at a koma.
     #[inline(always)]
     fn row(&self, koma: usize) -> &[f64] {
         self.postures.row(INSTANTS * koma)
     }
 
-    /// What is lost from one koma to itself and to each later one within reach.
+    /// Returns the stored losses from one koma to itself and to each later one within reach.
     #[inline]
     pub(super) fn known(&self, from: usize) -> &[f32] {
         let row = self.reach + 1;
         &self.losses[from * row..(from + 1) * row]
     }
 
-    /// What is lost from one koma to a later one, however far.
+    /// Returns the loss from one koma to a later one, however far.
     #[inline]
     pub(super) fn loss(&self, from: usize, to: usize) -> f64 {
         match self.known(from).get(to - from) {
@@ -137,14 +138,14 @@ impl Chords {
         }
     }
 
-    /// The same from the words, koma by koma; of a long chord every second, third … koma.
+    /// Computes a loss directly, koma by koma; on a long chord at every second, third … koma.
     fn far(&self, from: usize, to: usize) -> f64 {
         let step = (to - from).div_ceil(LOOKS);
         let squares = (from + step..to).step_by(step).map(|koma| self.off(from, koma, to));
         step as f64 * squares.sum::<f64>()
     }
 
-    /// The squared distance of a posture from the straight way between two others, in %².
+    /// Returns the squared distance of a posture from the straight line between two others, in %².
     fn off(&self, from: usize, koma: usize, to: usize) -> f64 {
         let share = (koma - from) as f64 / (to - from) as f64;
         let square = |own: f64, from: f64, to: f64| (own - (from + share * (to - from))).powi(2);
@@ -152,16 +153,16 @@ impl Chords {
         self.row(koma).iter().zip(ends).map(|(own, (from, to))| square(*own, *from, *to)).sum()
     }
 
-    /// Finds every loss within reach. Seen from its begin a chord needs the sums of a·p and of those
-    /// times the distance from a over the postures p inside, and the same seen from its end: the
-    /// former grow with each end, the latter with each begin.
+    /// Computes every loss within reach. For a chord from a to b, it needs the sums of a·p over the postures p inside,
+    /// plain and times the distance from a, and likewise b·p seen from b. The former grow with each end, the latter
+    /// with each begin.
     fn sum_up(&mut self) {
         let (len, reach) = (self.koma, self.reach);
         let rows = self.packed();
         let width = rows.len() / len.max(1);
         let row = |koma: usize| &rows[koma * width..(koma + 1) * width];
         let squares: Vec<f64> = (0..len).map(|koma| dots([row(koma)], row(koma))[0]).collect();
-        let mut sums = Sums::of(&squares, reach);
+        let mut sums = Sums::new(&squares, reach);
         let mut products = vec![0.0; reach];
         for piece in pieces(len).rev() {
             wide(
@@ -178,7 +179,7 @@ impl Chords {
         }
     }
 
-    /// The body at each koma, its row filled up with zeros to whole registers.
+    /// Returns the body at each koma, each row padded with zeros to whole registers.
     fn packed(&self) -> Vec<f64> {
         let width = self.row(0).len().next_multiple_of(LANES);
         let mut rows = vec![0.0; self.koma * width];
@@ -190,22 +191,24 @@ impl Chords {
     }
 }
 
-/// What the chords from one koma need beside their scalar products: running sums, and what hangs on their length alone.
+/// Running sums that the chords from one koma need besides their scalar products, and factors that depend on length
+/// only.
 struct Sums {
-    /// The squares of all koma before each.
+    /// Sum of the squares of all koma before each.
     until: Vec<f64>,
-    /// By how many koma n a chord is long, from 1 on: 1/n, and Σ s² and 2·Σ s·(1 − s) over the shares s of its inside.
+    /// Factors by length n in koma, from 1 on: 1/n, Σ s² (`of_ends`) and 2·Σ s·(1 − s) (`of_both`) over the shares s
+    /// inside.
     per_length: Vec<f64>,
     of_ends: Vec<f64>,
     of_both: Vec<f64>,
-    /// Σ a·p, and Σ times the distance from a, over the inside p of each chord from the koma at hand.
+    /// Σ a·p, and Σ a·p times the distance from a, over the inside p of each chord from the current koma.
     from_begin: [Vec<f64>; 2],
-    /// The same seen from the end of each chord, by the koma of the end.
+    /// Σ b·p, and Σ b·p times the distance from b, over the inside p of each chord, by the koma of its end b.
     from_end: [Vec<f64>; 2],
 }
 
 impl Sums {
-    fn of(squares: &[f64], reach: usize) -> Self {
+    fn new(squares: &[f64], reach: usize) -> Self {
         let add = |sum: &mut f64, square: &f64| {
             *sum += square;
             Some(*sum)
@@ -223,7 +226,8 @@ impl Sums {
         }
     }
 
-    /// The losses of the chords from a koma, the shortest first, by the products of its posture and those of their ends.
+    /// Computes the losses of the chords from a koma, the shortest first, from the products of its posture with their
+    /// ends.
     #[inline(always)]
     fn close(&mut self, from: usize, squares: &[f64], products: &[f64], losses: &mut [f32]) {
         let count = products.len();
@@ -252,7 +256,7 @@ impl Sums {
     }
 }
 
-/// The scalar products of a row and those ahead of it.
+/// Computes the scalar products of a row with the rows ahead of it.
 #[inline(always)]
 fn multiply<'a>(own: &[f64], ahead: impl Fn(usize) -> &'a [f64], products: &mut [f64]) {
     let mut blocks = products.chunks_exact_mut(TOGETHER);
@@ -267,7 +271,7 @@ fn multiply<'a>(own: &[f64], ahead: impl Fn(usize) -> &'a [f64], products: &mut 
     }
 }
 
-/// The scalar products of as many rows with another; each row and sum in registers of its own.
+/// Computes the scalar products of several rows with another, each row and sum in its own registers.
 #[inline(always)]
 fn dots<const ROWS: usize>(rows: [&[f64]; ROWS], other: &[f64]) -> [f64; ROWS] {
     let mut sums = [Lanes::ZERO; ROWS];

@@ -1,25 +1,25 @@
-//! Contacts (接地) as moments for keys: where a foot or a hand comes down, and where it leaves.
+//! Contacts (接地) as moments for keys: a foot or a hand comes down, or leaves.
 
 use crate::knob::choices;
 use crate::motion::{Clip, ContactFinder};
 use crate::time::{Clock, Frame};
 
-/// What the begin and the end of a contact are to the keys of a layer.
+/// How the begin and the end of a contact are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtContacts {
-    /// Moments like all others.
+    /// As moments like all others.
     #[default]
     Off,
-    /// Candidates, also where nothing turns. Where every koma may fill this changes nothing.
+    /// As candidates, also where nothing turns. If every koma may fill, this changes nothing.
     Candidates,
-    /// Keys whatever they save, as the ends of rests are.
+    /// As keys whatever they save, like the ends of rests.
     Keys,
 }
 
 choices!(AtContacts { Off: "off", Candidates: "candidates", Keys: "keys" });
 
-/// The frames on which contacts of joints that have a say begin and end, in order. One that is there at the
-/// sheet's first or last koma only ends or only begins.
+/// Returns the frames on which contacts of joints with a weight begin and end, in order. A contact during the sheet's
+/// first koma only ends, one during the last only begins.
 pub(crate) fn contact_ends(clip: &Clip, clock: Clock, heard: &[f64]) -> Vec<Frame> {
     let last = clip.rate().koma_from_frames(clip.len(), clock.koma_rate).saturating_sub(1);
     let contacts = ContactFinder::default().find(clip, clock).into_iter();

@@ -1,4 +1,4 @@
-//! A person's corrections: pins and what is forbidden among the candidates, moves among the keys.
+//! Applies a person's corrections: pins and forbidden frames to the candidates, moves to the keys.
 
 use crate::edits::{Edits, Move, Pin};
 use crate::keys::merge::is_taken;
@@ -6,9 +6,9 @@ use crate::keys::{Candidates, Key, Origin};
 use crate::motion::Clip;
 use crate::time::Frame;
 
-/// Candidates, what stays of itself (the ends of rests, then of contacts) and pins in order. A pin pushes out
-/// what lies nearer than a koma; what stays pushes out candidates, and the end of a
-/// rest those of contacts; what lies within two koma of a forbidden frame goes. `apart` is one koma in frames.
+/// Returns the candidates, the moments that stay (ends of rests, then of contacts) and the pins, in order. A pin pushes
+/// out everything nearer than a koma. Moments that stay push out candidates, and ends of rests push out those of
+/// contacts. Everything within two koma of a forbidden frame goes, except pins. `apart` is one koma in frames.
 pub(super) fn corrected(
     candidates: &Candidates,
     (rests, contacts): (&[Frame], &[Frame]),
@@ -53,11 +53,11 @@ pub(super) fn corrected(
     keys
 }
 
-/// Moves keys that were chosen, and where a person wants no others leaves theirs alone.
+/// Moves chosen keys and, if a person wants only their own keys, drops the others.
 ///
-/// Only now, so that a nudge changes nothing but the key that is nudged: what was worth a drawing beside
-/// it still is. A move takes the key nearest to where it begins and nearer than a koma, and pushes out
-/// what lies nearer than a koma to where it ends.
+/// Moves come last, so that a nudge changes nothing but the nudged key: the keys beside it are still worth a drawing. A
+/// move takes the key nearest to its begin, nearer than a koma, and pushes out every key nearer than a koma to its end,
+/// unless a person set it.
 pub(super) fn moved(keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
     let mut taken: Vec<(usize, &Move)> = Vec::new();
     for moved in &edits.moves {

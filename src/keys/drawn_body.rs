@@ -1,4 +1,4 @@
-//! The body as drawings show it, beside the source.
+//! The body as drawings show it, compared with the source.
 
 use glam::DVec3;
 
@@ -17,17 +17,17 @@ pub struct DrawnBody<'a> {
 }
 
 impl<'a> DrawnBody<'a> {
-    /// A body of the clip that `reference` was made of, as yet without a pose.
-    pub fn of(clip: &'a Clip, reference: &'a Reference) -> Self {
-        Self { reference, poser: Poser::of(clip), body: Body::new(clip.skeleton()) }
+    /// Creates a body of the clip that `reference` was made of, without a pose yet.
+    pub fn new(clip: &'a Clip, reference: &'a Reference) -> Self {
+        Self { reference, poser: Poser::new(clip), body: Body::new(clip.skeleton()) }
     }
 
-    /// The motion.
+    /// Returns the motion.
     pub fn clip(&self) -> &'a Clip {
         self.poser.clip()
     }
 
-    /// The height of the body in the file's unit: that of the reference.
+    /// Returns the height of the body in the file's unit: that of the reference.
     pub fn height(&self) -> f64 {
         self.reference.height()
     }
@@ -38,22 +38,21 @@ impl<'a> DrawnBody<'a> {
     }
 
     /// Takes on a pose.
-    pub(crate) fn stand(&mut self, pose: &Pose) {
+    pub fn stand(&mut self, pose: &Pose) {
         self.body.place(pose);
     }
 
-    /// Where the joints and the tips of the bones stand in the world, in the file's unit.
+    /// Returns the positions of the joints and the bones' tips in the world, in the file's unit.
     pub fn positions(&self) -> &[DVec3] {
         self.body.points()
     }
 
-    /// Where a point of the body stands in the world, in the file's unit.
+    /// Returns the position of a point of the body in the world, in the file's unit.
     pub fn position(&self, point: Point) -> DVec3 {
         point.position(&self.body)
     }
 
-    /// How far the body is from where the source has it at a koma: root mean square over its points, in
-    /// % of its height.
+    /// Returns how far the body is from the source at a koma: root mean square over its points, in % of body height.
     ///
     /// # Panics
     /// When the source has no such koma.
@@ -61,7 +60,7 @@ impl<'a> DrawnBody<'a> {
         self.reference.off(koma, self.positions())
     }
 
-    /// How far the body is from other positions of the same points, in the same measure.
+    /// Returns how far the body is from other positions of its points: root mean square, in % of body height.
     pub fn apart(&self, positions: &[DVec3]) -> f64 {
         self.reference.way(self.positions().iter().copied(), positions.iter().copied())
     }

@@ -1,4 +1,4 @@
-//! How a body is split into layers (セル分け): groups of joints with keys and a column of their own.
+//! Splits a body into layers (セル分け): groups of joints with their own keys and column.
 
 mod clip;
 mod named;
@@ -25,9 +25,9 @@ pub enum Layers {
     /// Five: trunk with head, left arm, right arm, left leg, right leg. An arm begins at the shoulder, a
     /// leg at the hip.
     Limbs,
-    /// One for each joint that moves. What never moves goes with the joint it hangs on.
+    /// One for each joint that moves. A joint that never moves goes with its parent.
     Joints,
-    /// Those that a person names. A joint that none names is of the first.
+    /// Layers that a person names. The first also takes the joints that no layer names.
     Named(Vec<NamedLayer>),
 }
 
@@ -36,7 +36,7 @@ pub enum Layers {
 pub struct LayerJoints {
     /// The column's name.
     pub name: String,
-    /// Its joints in their order; never none.
+    /// Its joints in skeleton order; never empty.
     pub joints: Vec<JointId>,
 }
 
@@ -44,8 +44,7 @@ impl Layers {
     /// Checks what can be checked without a clip.
     ///
     /// # Errors
-    /// [`Error::Setting`] when a list has no layer, or a layer no joint or a name that is none or
-    /// another's.
+    /// [`Error::Setting`] if a list has no layer, or a layer has no joint, an unusable name or the name of another.
     pub fn validate(&self) -> Result<(), Error> {
         match self {
             Self::Named(layers) => named::validate(layers),
@@ -53,11 +52,11 @@ impl Layers {
         }
     }
 
-    /// The layers of a body: together they have every joint once.
+    /// Splits a body into layers that together have every joint once.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`Layers::validate`]; when a named joint is not there or is of two layers;
-    /// when a body without head, two arms and two legs is to be split into its limbs.
+    /// [`Error::Setting`] as [`Layers::validate`]; if a named joint does not exist or is in two layers; or if a body
+    /// without head, two arms and two legs is to be split into its limbs.
     pub fn split(&self, clip: &Clip) -> Result<Vec<LayerJoints>, Error> {
         self.validate()?;
         let skeleton = clip.skeleton();
@@ -69,10 +68,10 @@ impl Layers {
         }
     }
 
-    /// Layers from a file of their own: `[[layers]]` with `name` and `joints`, as a recipe has them.
+    /// Reads layers from a file of their own: `[[layers]]` with `name` and `joints`, as in a recipe.
     ///
     /// # Errors
-    /// [`Error::Setting`] when the file is no such list, and those of [`Layers::validate`].
+    /// [`Error::Setting`] if the file is no such list, and the errors of [`Layers::validate`].
     pub fn parse(text: &str) -> Result<Self, Error> {
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -87,7 +86,7 @@ impl Layers {
     }
 }
 
-/// Layers A, B, C … from the number of each joint's layer.
+/// Builds the layers A, B, C … from the number of each joint's layer.
 fn layers(layer_of: Vec<usize>) -> Vec<LayerJoints> {
     let layers = layer_of.iter().max().map_or(0, |last| last + 1);
     let joints = |layer: usize| {
@@ -99,9 +98,9 @@ fn layers(layer_of: Vec<usize>) -> Vec<LayerJoints> {
         .collect()
 }
 
-/// Trunk and head 0, the arms 1 and 2, the legs 3 and 4.
+/// Numbers the joints by layer: trunk and head 0, the arms 1 and 2, the legs 3 and 4.
 fn limbs(clip: &Clip) -> Result<Vec<usize>, Error> {
-    let mannequin = Build::of(clip).mannequin.ok_or_else(|| {
+    let mannequin = Build::new(clip).mannequin.ok_or_else(|| {
         let message = "this body has no head, two arms and two legs to be seen by; name the joints of each \
                        layer, layers = [{ name = \"A\", joints = [\"Hips\"] }], or take body";
         Error::setting("layers", message)
@@ -113,7 +112,7 @@ fn limbs(clip: &Clip) -> Result<Vec<usize>, Error> {
     Ok(layer_of)
 }
 
-/// A number for each joint that moves, and for the others that of the joint they hang on.
+/// Numbers the joints that move; the others get the number of their parent.
 fn moving(clip: &Clip) -> Vec<usize> {
     let moves = clip.moving_joints();
     let mut layers = 0;
@@ -144,7 +143,7 @@ impl Setting for Layers {
         }
     }
 
-    /// A word, or what TOML has as a list.
+    /// Reads a word, or a list in TOML.
     fn of_word(word: &str) -> Option<Self> {
         let list = || toml::from_str::<toml::Table>(&format!("list = {word}")).ok()?.remove("list");
         let list = word.starts_with('[').then(list).flatten();
@@ -152,7 +151,7 @@ impl Setting for Layers {
     }
 }
 
-/// What a recipe may write: a word, or a list.
+/// Layers as a recipe writes them: a word, or a list.
 #[derive(Serialize, Deserialize)]
 #[serde(
     untagged,

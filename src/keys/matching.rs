@@ -1,31 +1,29 @@
-//! Which keys of one list are those of another: pairs that lie near each other, each key in one pair
-//! at the most.
+//! Matches the keys of two lists: pairs that lie near each other, each key in at most one pair.
 
 use std::cmp::Reverse;
 
 use crate::time::Frame;
 
-/// Two lists of keys laid on each other (照合).
+/// Two lists of keys matched to each other (照合).
 ///
-/// Of all ways to pair keys that are no further apart than a tolerance, it is one with the most pairs
-/// and among those with the least way between them. The counts that precision, recall and F1 are made
-/// of are its `pairs`, `lost` and `gained`.
+/// Of all ways to pair keys no further apart than a tolerance, it is one with the most pairs and, among those, with the
+/// least total distance. `pairs`, `lost` and `gained` give the counts for precision, recall and F1.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Matching {
-    /// Pairs, by frame: a key of the first list and that of the second.
+    /// Pairs by frame: a key of the first list and its partner in the second.
     pub pairs: Vec<(Frame, Frame)>,
-    /// Keys of the first list alone, by frame.
+    /// Keys without a partner in the first list, by frame.
     pub lost: Vec<Frame>,
-    /// Keys of the second list alone, by frame.
+    /// Keys without a partner in the second list, by frame.
     pub gained: Vec<Frame>,
 }
 
 impl Matching {
-    /// Matches two lists, both sorted by frame, within a tolerance in frames, that included.
+    /// Matches two lists, both sorted by frame, within a tolerance in frames (inclusive).
     ///
-    /// Two pairs that cross may be uncrossed: both stay within the tolerance and the way between them
-    /// grows no longer. So only matchings in order have to be looked at, by dynamic programming; and a
-    /// gap wider than the tolerance cuts the work in two.
+    /// Two pairs that cross may be uncrossed: both stay within the tolerance, and their total distance does not grow.
+    /// So only matchings in order need be looked at, by dynamic programming. A gap wider than the tolerance cuts the
+    /// work in two.
     pub fn between(before: &[Frame], after: &[Frame], tolerance: f64) -> Self {
         debug_assert!(before.is_sorted() && after.is_sorted());
         let mut matching = Self::default();
@@ -38,38 +36,38 @@ impl Matching {
         matching
     }
 
-    /// How many keys both lists have together.
+    /// Number of keys in both lists together.
     pub fn len(&self) -> usize {
         2 * self.pairs.len() + self.lost.len() + self.gained.len()
     }
 
-    /// Whether there is no key in either list.
+    /// Whether both lists are empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Whether every key of each list has its own in the other.
+    /// Whether every key of each list has a partner in the other.
     pub fn is_whole(&self) -> bool {
         self.lost.is_empty() && self.gained.is_empty()
     }
 
-    /// The share of keys of both lists that are in a pair, 0 to 1 (F1); 1 of two empty lists.
+    /// Returns the share of keys of both lists that are in a pair, 0 to 1 (F1); 1 for two empty lists.
     pub fn kept(&self) -> f64 {
         if self.is_empty() { 1.0 } else { (2 * self.pairs.len()) as f64 / self.len() as f64 }
     }
 
-    /// How far each pair's keys are apart, in frames.
+    /// Returns how far the keys of each pair are apart, in frames.
     pub fn moves(&self) -> impl Iterator<Item = usize> + '_ {
         self.pairs.iter().map(|(before, after)| before.0.abs_diff(after.0))
     }
 
-    /// How far a key moves in the mean, in frames; none without a pair.
+    /// Returns how far a key moves on average, in frames; `None` without a pair.
     pub fn mean_move(&self) -> Option<f64> {
         let sum: usize = self.moves().sum();
         (!self.pairs.is_empty()).then(|| sum as f64 / self.pairs.len() as f64)
     }
 
-    /// How far a key moves at the most, in frames; none without a pair.
+    /// Returns how far a key moves at most, in frames; `None` without a pair.
     pub fn largest_move(&self) -> Option<usize> {
         self.moves().max()
     }
@@ -77,7 +75,7 @@ impl Matching {
     /// Adds the best matching of two short lists.
     fn add(&mut self, before: &[Frame], after: &[Frame], tolerance: f64) {
         let wide = after.len() + 1;
-        // The best of all keys from a pair of places on: pairs, and the way between them.
+        // Best matching of the keys from each pair of places on: number of pairs, and their total distance.
         let mut best = vec![(0usize, Reverse(0usize)); (before.len() + 1) * wide];
         let pair = |i: usize, j: usize, best: &[(usize, Reverse<usize>)]| {
             let way = before[i].0.abs_diff(after[j].0);
@@ -109,7 +107,7 @@ impl Matching {
     }
 }
 
-/// How many keys of each list come before the first gap that no pair can bridge; at least one in all.
+/// Counts the keys of each list before the first gap that no pair can bridge; at least one in all.
 fn first_cluster(before: &[Frame], after: &[Frame], tolerance: f64) -> (usize, usize) {
     let (mut i, mut j) = (0, 0);
     let mut last: Option<Frame> = None;
@@ -145,7 +143,7 @@ mod tests {
         Matching::between(&frames(before), &frames(after), tolerance)
     }
 
-    /// The most pairs and the least way, by trying every partner for every key, in any order.
+    /// Finds the most pairs and the least distance by trying every partner for every key, in any order.
     fn by_force(before: &[Frame], after: &[Frame], tolerance: f64) -> (usize, Reverse<usize>) {
         let Some((first, rest)) = before.split_first() else { return (0, Reverse(0)) };
         let mut best = by_force(rest, after, tolerance);
@@ -181,7 +179,7 @@ mod tests {
 
     #[test]
     fn more_pairs_come_before_nearer_ones() {
-        // 12 is nearest to 13, but then 10 would have nobody.
+        // 12 is nearest to 13, but then 10 would have no partner.
         assert_eq!(
             matching(&[10, 13], &[12, 17], 4.0).pairs,
             [(Frame(10), Frame(12)), (Frame(13), Frame(17))]

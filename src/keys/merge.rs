@@ -1,47 +1,41 @@
-//! From the turns of joints to candidates of the layer: the turns of the body, or union, vote and sum of theirs.
+//! Merges the turns of joints into candidates of the layer: the turns of the body, or a union or a vote.
 
-use crate::keys::peaks::strongest_apart;
 use crate::keys::vote::Poll;
-use crate::keys::{AtContacts, BodyTurns, Candidate, Candidates, Choose, Fill, Merge, Wall, sum};
-use crate::signal::{Signals, Turn, TurnFinder, TurnKind};
+use crate::keys::{AtContacts, BodyTurns, Candidate, Candidates, Choose, Fill, Merge, Wall};
+use crate::signal::{Signals, Turn, TurnKind};
 use crate::time::Frame;
 
-/// What is known of the joints when they are merged.
+/// The joints' data that are merged.
 #[derive(Debug, Clone, Copy)]
 pub struct JointTurns<'a> {
     /// The smoothed speeds.
     pub filtered: &'a Signals,
     /// Their turns, one list a joint.
     pub turns: &'a [Vec<Turn>],
-    /// What finds turns: `sum` looks for those of the whole layer.
-    pub finder: &'a TurnFinder,
-    /// The delay of the filter, in frames.
-    pub delay: f64,
-    /// One value a joint, at least 0: see [`weights`](crate::keys::weights).
+    /// One weight a joint, at least 0: see [`weights`](crate::keys::weights).
     pub weights: &'a [f64],
     /// The least distance of two keys, in frames: one koma.
     pub apart: f64,
     /// The turns of the body.
     pub body: &'a BodyTurns,
-    /// Frames on which feet and hands of the layer come down or leave (接地), in order; none where that does
-    /// not count.
+    /// Frames on which feet and hands of the layer come down or leave (接地), in order; empty if contacts do not count.
     pub contacts: &'a [Frame],
 }
 
 impl Choose {
-    /// Whether what may be a key hangs on the turns of single joints.
+    /// Whether the candidates depend on the turns of single joints.
     pub(crate) fn hears_joints(&self) -> bool {
         self.merge != Merge::Body || self.contacts == AtContacts::Candidates
     }
 
-    /// What may be a key of the layer, and its walls.
+    /// Returns the key candidates of the layer, and its walls.
     pub fn candidates(&self, joints: &JointTurns<'_>) -> Candidates {
         if !self.hears_joints() {
             return self.moments(joints.body, joints.apart);
         }
         let mut all = match self.merge {
             Merge::Body => self.all_moments(joints.body, joints.apart),
-            Merge::Union | Merge::Vote | Merge::Sum => self.merged(joints),
+            Merge::Union | Merge::Vote => self.merged(joints),
         };
         if self.contacts == AtContacts::Candidates {
             add_contacts(&mut all.keys, &self.poll(joints), joints);
@@ -50,7 +44,7 @@ impl Choose {
         self.admitted(all, (filtered.first, filtered.frames()), joints.apart)
     }
 
-    /// The same where the turns of single joints have no say.
+    /// Returns the candidates if the turns of single joints do not count.
     pub(crate) fn moments(&self, body: &BodyTurns, apart: f64) -> Candidates {
         let all = self.all_moments(body, apart);
         self.admitted(all, (body.first, body.evidence.len()), apart)
@@ -60,8 +54,8 @@ impl Choose {
         Candidates { keys: moments(body, apart, self.fill), walls: body.walls.clone() }
     }
 
-    /// Those that stand within the clip and are strong enough: on the first and the last koma the clip's ends are shown,
-    /// and no other drawing.
+    /// Keeps the candidates that lie within the clip and are strong enough. The first and the last koma show the clip's
+    /// ends, and no other drawing.
     fn admitted(
         &self,
         Candidates { mut keys, walls }: Candidates,
@@ -77,15 +71,14 @@ impl Choose {
         Candidates { keys, walls }
     }
 
-    /// What the joints say together.
+    /// Merges the turns of the joints.
     fn merged(&self, joints: &JointTurns<'_>) -> Candidates {
         let poll = self.poll(joints);
         let found = |kind| {
-            let votes = || poll.count(joints.turns, kind);
+            let votes = poll.count(joints.turns, kind);
             match self.merge {
-                Merge::Sum => summed(joints, kind),
-                Merge::Vote => poll.elected(&votes()),
-                Merge::Union | Merge::Body => poll.named(joints.turns, kind, &votes()),
+                Merge::Vote => poll.elected(&votes),
+                Merge::Union | Merge::Body => poll.named(joints.turns, kind, &votes),
             }
         };
         let key = |(frame, strength)| Candidate { frame, strength, is_turn: true };
@@ -108,7 +101,7 @@ impl Choose {
     }
 }
 
-/// Adds the ends of contacts that no candidate is nearer to than a koma, with the vote there.
+/// Adds the ends of contacts that are at least a koma from every candidate, with the vote there.
 fn add_contacts(keys: &mut Vec<Candidate>, poll: &Poll<'_>, joints: &JointTurns<'_>) {
     let votes = poll.count(joints.turns, TurnKind::Key);
     for &frame in joints.contacts {
@@ -120,7 +113,7 @@ fn add_contacts(keys: &mut Vec<Candidate>, poll: &Poll<'_>, joints: &JointTurns<
     }
 }
 
-/// Whether one of some moments, in the order of their frames, is nearer to a frame than `apart`.
+/// Whether one of some moments, sorted by frame, is nearer to a frame than `apart`.
 pub(super) fn is_taken<T>(
     moments: &[T],
     frame_of: impl Fn(&T) -> Frame,
@@ -132,8 +125,8 @@ pub(super) fn is_taken<T>(
     beside.any(|moment| (frame_of(moment).0.abs_diff(frame.0) as f64) < apart)
 }
 
-/// The turns of the body and, to fill what lies between them, every koma. What is nearer to a turn than a koma is that
-/// turn, drawn beside its peak.
+/// Returns the turns of the body and, to fill the time between them, every koma. A koma nearer to a turn than `apart`
+/// is that turn, drawn beside its peak.
 fn moments(body: &BodyTurns, apart: f64, fill: Fill) -> Vec<Candidate> {
     let BodyTurns { first, turns, evidence, .. } = body;
     let past = first.0 + evidence.len();
@@ -148,16 +141,4 @@ fn moments(body: &BodyTurns, apart: f64, fill: Fill) -> Vec<Candidate> {
         is_turn: is_taken(turns, |turn| *turn, frame, apart),
     };
     frames.into_iter().map(candidate).collect()
-}
-
-/// The turns of the layer's mean speed, with their prominence.
-fn summed(joints: &JointTurns<'_>, kind: TurnKind) -> Vec<(Frame, f64)> {
-    let mean = sum::mean_speed(joints.filtered, joints.weights);
-    let turns = joints.finder.find(&mean, joints.delay).pop().unwrap_or_default();
-    let margin = (joints.delay.round() as usize).min(mean.frames()) + 1;
-    let mut found = sum::prominences(&mean, &turns, kind, margin);
-    found.retain(|(_, strength)| *strength > 0.0);
-    let rows = found.into_iter().map(|(frame, strength)| (frame.0, strength)).collect();
-    let apart = strongest_apart(rows, joints.apart);
-    apart.into_iter().map(|(frame, strength)| (Frame(frame), strength)).collect()
 }

@@ -1,8 +1,7 @@
-//! Local maxima of a curve, and the strongest of them at a distance from each other.
+//! Finds local maxima of a curve, and the strongest of them at a distance from each other.
 
-/// The middles of the local maxima of `values`: runs that are entered by a rise (or the start) and
-/// left by a fall (or the end). A change of at most `dust` counts as none; a constant curve has no
-/// maximum.
+/// Returns the middles of the local maxima of `values`: runs that are entered by a rise (or the start) and left by a
+/// fall (or the end). A change of at most `dust` counts as none; a constant curve has no maximum.
 pub(super) fn peaks(values: &[f64], dust: f64) -> Vec<usize> {
     let mut peaks = Vec::new();
     let (mut top, mut rising) = (0, true);
@@ -24,12 +23,12 @@ pub(super) fn peaks(values: &[f64], dust: f64) -> Vec<usize> {
     peaks
 }
 
-/// Which of `found` (place, strength) stay when the strongest are taken first and whatever lies
-/// nearer than `distance` to one already taken is dropped; among equals the earlier. By place.
+/// Returns which of `found` (place, strength) stay if the strongest are taken first and every place nearer than
+/// `distance` to one already taken is dropped; of equals the earlier stays. Sorted by place.
 pub(super) fn strongest_apart(mut found: Vec<(usize, f64)>, distance: f64) -> Vec<(usize, f64)> {
     let Some(last) = found.iter().map(|(place, _)| *place).max() else { return found };
     found.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    // A cell is as wide as the distance, so it holds one at the most, and only neighbours are near.
+    // A cell is as wide as the distance, so it holds at most one place, and only neighbouring cells are near.
     let width = distance.max(1.0);
     let cell = |place: usize| (place as f64 / width) as usize + 1;
     let mut cells = vec![None; cell(last) + 2];
@@ -81,7 +80,7 @@ mod tests {
         assert_eq!(strongest_apart(vec![(0, 1.0), (5, 1.0)], 5.0).len(), 2);
     }
 
-    /// The slow way: each against all that are taken.
+    /// The slow way: compares each with all that are taken.
     fn slowly(mut found: Vec<(usize, f64)>, distance: f64) -> Vec<(usize, f64)> {
         found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let mut taken: Vec<(usize, f64)> = Vec::new();

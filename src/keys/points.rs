@@ -1,4 +1,4 @@
-//! The body as points of some weight: what errors and speeds are averaged over.
+//! The body as weighted points, over which errors and speeds are averaged.
 
 use glam::DVec3;
 
@@ -6,30 +6,28 @@ use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::lanes::{LaneQuat, LaneVec, Lanes};
 use crate::motion::{Build, Joint, JointId, Members, Skeleton};
 
-/// The joints of a body and the tips of its End Sites, each with the length of the bone that leads to
-/// it as its weight.
+/// The joints of a body and the tips of its End Sites, each weighted by the length of the bone that leads to it.
 ///
-/// So a mean over points is one over the length of all bones. It does not change when a rig has more
-/// joints along the same spine, or a joint of no length at a hip, and a hand of many short bones counts
-/// as a hand.
+/// A mean over points is therefore a mean over the length of all bones. It stays the same if a rig has more joints
+/// along the same spine, or a joint of no length at a hip, and a hand of many short bones counts as a hand.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Points {
     joints: usize,
-    /// Each tip's joint, and where it lies from there.
+    /// Each tip's joint, and its offset from the joint.
     tips: Vec<(usize, DVec3)>,
-    /// Whether a point is of the body, joints first.
+    /// Whether each point is of the body, joints first.
     is_own: Vec<bool>,
     /// One weight a point, joints first; their sum is 1.
     weights: Vec<f64>,
 }
 
 impl Points {
-    /// The points of a skeleton that are of the body, `own` what each joint and its tips count besides. Without any bone that
-    /// counts they weigh that alone.
+    /// Builds the points of a skeleton; points that are not of the body weigh 0. `own` is the weight of each joint and
+    /// its tips on top of their bones. If no bone counts, it is their only weight.
     ///
-    /// Where no limbs are known, a joint that turns and has nothing at its end has a tip as far away as it is from the joint that
-    /// carries it: in many animals of games a leg is such a joint, and its turn would move nothing.
-    pub(super) fn of(skeleton: &Skeleton, build: &Build, own: &[f64]) -> Self {
+    /// If no limbs are known, a joint that turns and has nothing at its end gets a tip, as far away as the joint is
+    /// from its parent. In many animals of games a leg is such a joint, and its turn would move nothing.
+    pub(super) fn new(skeleton: &Skeleton, build: &Build, own: &[f64]) -> Self {
         let own_skeleton = build.members.skeleton();
         let bare = if build.mannequin.is_none() { bare_ends(own_skeleton) } else { Vec::new() };
         Self::of_members(skeleton, &build.members, bare, own)
@@ -69,25 +67,25 @@ impl Points {
         self.weights.len()
     }
 
-    /// Writes where each point of poses that stand in the world is, in the file's unit.
+    /// Writes the positions of the points for some poses in the world, in the file's unit.
     #[inline(always)]
     pub(super) fn place(&self, pose: &LanePose, positions: &mut [LaneVec]) {
         positions[..self.joints].copy_from_slice(&pose.translations);
         self.place_tips(&pose.rotations, positions);
     }
 
-    /// The body's among one value a point.
+    /// Returns the values of the body's points, of one value a point.
     #[inline(always)]
     pub(super) fn own<'a, T: Copy>(&'a self, values: &'a [T]) -> impl Iterator<Item = T> + 'a {
         values.iter().zip(&self.is_own).filter(|(_, is_own)| **is_own).map(|(value, _)| *value)
     }
 
-    /// What each point weighs, joints first; their sum is 1.
+    /// Returns the weight of each point, joints first; their sum is 1.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// Writes where the tips stand behind where the joints do, whose world rotations these are.
+    /// Writes the positions of the tips after those of the joints, from the joints' world rotations.
     #[inline(always)]
     pub(super) fn place_tips(&self, rotations: &[LaneQuat], positions: &mut [LaneVec]) {
         let (joints, tips) = positions.split_at_mut(self.joints);
@@ -96,18 +94,18 @@ impl Points {
         }
     }
 
-    /// The weighted mean of one value a point.
+    /// Returns the weighted mean of one value a point.
     pub(super) fn mean(&self, values: impl Iterator<Item = f64>) -> f64 {
         values.zip(&self.weights).map(|(value, weight)| value * weight).sum()
     }
 
-    /// The largest of one value a point, of those that count.
+    /// Returns the largest of one value a point, over points with a weight.
     pub(super) fn furthest(&self, values: impl Iterator<Item = f64>) -> f64 {
         let counting = values.zip(&self.weights).filter(|(_, weight)| **weight > 0.0);
         counting.map(|(value, _)| value).fold(0.0, f64::max)
     }
 
-    /// The squared distance of two poses, a weighted mean over the points.
+    /// Returns the squared distance of two poses, a weighted mean over the points.
     #[inline(always)]
     pub(super) fn apart(&self, a: &[LaneVec], b: &[LaneVec]) -> Lanes {
         let mut sum = Lanes::ZERO;
@@ -119,7 +117,7 @@ impl Points {
     }
 }
 
-/// The joints that turn, have no tip, and carry nothing.
+/// Returns the joints that turn, have no tip, and carry nothing.
 fn bare_ends(skeleton: &Skeleton) -> Vec<usize> {
     let carries = skeleton.carriers();
     let is_bare = |(joint, data): &(JointId, &Joint)| {
@@ -188,7 +186,7 @@ mod tests {
             let rate = FrameRate::new(24.0).unwrap();
             let clip = Clip::new(skeleton.clone(), rate, Frame(0), 1, vec![]).unwrap();
             let mut positions = vec![LaneVec::default(); points.len()];
-            let mut poser = LanePoser::of(&clip);
+            let mut poser = LanePoser::new(&clip);
             poser.rows(&[&[]; LANES]);
             points.place(poser.stand(), &mut positions);
             let up = LaneVec::splat(DVec3::Y);

@@ -1,9 +1,9 @@
-//! Postures (姿勢): the body at each half koma as a row of numbers, so that the distance of two rows is
-//! how far two poses are apart.
+//! Postures (姿勢): the body at each half koma as a row of numbers. The distance of two rows is how far two poses are
+//! apart.
 //!
-//! The rows are of the [`Mannequin`] and not of the rig, and turned with the body's heading: on a body
-//! that spins all frames are alike but for the way it faces, and which of them is a key must not hang
-//! on where the room's axes point. On a screen they are what is seen there, and a spin is what it looks like.
+//! Rows describe the [`Mannequin`], not the rig, and turn with the body's heading. On a spinning body all frames are
+//! alike except for the heading, and the choice of keys must not depend on the axes of the room. On a screen, rows
+//! describe what is seen there, and a spin is what it looks like.
 
 mod heading;
 
@@ -20,8 +20,8 @@ use crate::motion::lanes::{LANES, LaneVec, wide};
 use crate::motion::{Axis, Build, Clip, Point, Screen};
 use crate::time::Clock;
 
-/// How far a turn of the body by one radian counts as moved, in heights of the body: half a hip's width
-/// or so. Without it a spin would have no keys of its own, and with much more of it little else.
+/// Movement that a turn of the body by one radian counts as, in body heights: about half a hip's width. Without it a
+/// spin would have no keys of its own, and with much more of it little else would.
 const GIRTH: f64 = 0.075;
 
 /// The body at evenly spaced instants.
@@ -30,18 +30,18 @@ pub(super) struct Postures {
     columns: usize,
     /// Instants × columns, in % of the body's height.
     rows: Vec<f64>,
-    /// What parts do while the body as a whole is quiet.
+    /// Parts that act while the whole body is quiet.
     acting: Acting,
 }
 
 impl Postures {
-    /// The body at each koma of a clock as it is seen on a screen; `height` is the body's in the file's unit,
-    /// and `own` how much each joint counts beside its bones. `build` is that of the whole body.
+    /// Computes the body at each instant of a clock as seen on a screen. `height` is the body's in the file's unit, and
+    /// `own` the weight of each joint on top of its bones. `build` is that of the whole body.
     ///
-    /// The squared distance of two rows is the mean squared way of the points, weighed by their bones,
-    /// plus the squared way of the pelvis and, in the world, of the heading, and of the turns of parts that act while the
-    /// rest is quiet. A body that is no person's is taken by its own points, where they are.
-    pub(super) fn of(
+    /// The squared distance of two rows is the mean squared distance of the points, weighted by their bones, plus the
+    /// squared distance of the pelvis and, in the world, of the heading, and of the turns of parts that act while the
+    /// rest is quiet. A body that is no person's is described by its own points.
+    pub(super) fn new(
         clip: &Clip,
         build: &Build,
         clock: Clock,
@@ -61,9 +61,9 @@ impl Postures {
         postures
     }
 
-    /// Adds what parts do.
+    /// Adds columns for acting parts.
     fn watch(&mut self, clip: &Clip, build: &Build, clock: Clock, own: (&[f64], bool)) {
-        let acting = Acting::of(clip, build, clock, own, &self.speeds(clock.koma_rate));
+        let acting = Acting::new(clip, build, clock, own, &self.speeds(clock.koma_rate));
         if acting.len() > 0 {
             let columns = self.columns + acting::COLUMNS * acting.len();
             let mut rows = vec![0.0; self.len() * columns];
@@ -77,13 +77,13 @@ impl Postures {
         self.acting = acting;
     }
 
-    /// What parts do while the body as a whole is quiet.
+    /// Returns the parts that act while the whole body is quiet.
     pub(super) fn acting(&self) -> &Acting {
         &self.acting
     }
 
-    /// Counts every column from where it is first: a body far from the middle of its world would have
-    /// large numbers, and what they lose in their last digits is movement.
+    /// Subtracts the first row from every row. A body far from the origin would have large numbers, and rounding in
+    /// their last digits would count as movement.
     fn start_at_0(&mut self) {
         let first = self.rows.get(..self.columns).map(<[f64]>::to_vec).unwrap_or_default();
         for row in self.rows.chunks_exact_mut(self.columns.max(1)) {
@@ -96,8 +96,8 @@ impl Postures {
         self.rows.len() / self.columns.max(1)
     }
 
-    /// How fast the posture changes into each instant from the second on, in % of the body's height a
-    /// second: over a whole koma, as what trembles from one half of it to the next is no movement.
+    /// Returns how fast the posture changes into each instant from the second on, in % of body height a second. It is
+    /// measured over a whole koma, because trembling within a koma is no movement.
     pub(super) fn speeds(&self, instants_a_second: f64) -> Vec<f64> {
         let speed = |at: usize| {
             let before = at.saturating_sub(2);
@@ -106,7 +106,8 @@ impl Postures {
         (1..self.len()).map(speed).collect()
     }
 
-    /// How far parts that act turn from one instant to another, in % of the body's height. What is slight is a rest.
+    /// Returns how far acting parts turn from one instant to another, in % of body height; 0 if the acting is slight: a
+    /// rest.
     pub(super) fn acted(&self, a: usize, b: usize) -> f64 {
         if self.acting.len() == 0 || self.acting.is_slight() {
             return 0.0;
@@ -115,18 +116,18 @@ impl Postures {
         apart(&self.row(a)[acts..], &self.row(b)[acts..])
     }
 
-    /// The body at an instant.
+    /// Returns the body at an instant.
     pub(super) fn row(&self, instant: usize) -> &[f64] {
         &self.rows[instant * self.columns..(instant + 1) * self.columns]
     }
 }
 
-/// How far two postures are apart, in % of the body's height.
+/// Returns the distance of two postures, in % of body height.
 pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Pelvis and heading besides the points.
+/// Columns of a posture in the world: points, pelvis and heading.
 const COLUMNS: usize = 3 * POINTS + 3 + 1;
 
 fn of_person(
@@ -157,7 +158,7 @@ fn of_person(
     Postures { columns: COLUMNS, rows, acting: Acting::default() }
 }
 
-/// The points and the pelvis alone: a turn of the body is what is seen of it.
+/// Columns of a posture on a screen: points and pelvis. A turn of the body counts by what is seen of it.
 const COLUMNS_SEEN: usize = 3 * (POINTS + 1);
 
 fn of_person_seen(
@@ -184,17 +185,17 @@ fn of_person_seen(
     Postures { columns: COLUMNS_SEEN, rows, acting: Acting::default() }
 }
 
-/// Where a point of the rig stands in one of some poses.
+/// Returns the position of a point of the rig in one of several poses.
 fn place(pose: &LanePose, lane: usize, point: Point) -> DVec3 {
     let joint = point.joint.0;
     pose.translations[joint].lane(lane) + pose.rotations[joint].lane(lane) * point.offset
 }
 
-/// What a height of the body is worth at each point, in %.
+/// Returns the scale of each point: its part of one body height, in %.
 fn scales(mannequin: &Mannequin, own: &[f64]) -> [f64; POINTS] {
     let joints = mannequin.joints();
     let weights: [f64; POINTS] = array::from_fn(|point| BONES[point] * own[joints[point]]);
-    // Where nothing that a mannequin has counts, all of it does.
+    // If no joint of the mannequin has a weight, every joint counts.
     let weights = if weights.iter().any(|weight| *weight > 0.0) { weights } else { BONES };
     let all: f64 = weights.iter().sum();
     weights.map(|weight| 100.0 * (weight / all).sqrt())
@@ -208,7 +209,7 @@ fn write(stand: &Stand, scales: &[f64; POINTS], up: Axis, row: &mut [f64]) {
     rest[..3].copy_from_slice(&(100.0 * upright(stand.pelvis, up)).to_array());
 }
 
-/// A direction in axes of which Y is up.
+/// Converts a direction to axes with Y up.
 fn upright(way: DVec3, up: Axis) -> DVec3 {
     if up == Axis::Z { DVec3::new(way.x, way.z, -way.y) } else { way }
 }
@@ -221,7 +222,7 @@ fn of_points(
     (screen, height): (&Screen, f64),
     own: &[f64],
 ) -> Postures {
-    let points = Points::of(clip.skeleton(), build, own);
+    let points = Points::new(clip.skeleton(), build, own);
     let columns = 3 * points.len();
     let mut rows = vec![0.0; instants * columns];
     let scale = if height > 0.0 { 100.0 / height } else { 0.0 };
@@ -239,14 +240,14 @@ fn of_points(
     Postures { columns, rows, acting: Acting::default() }
 }
 
-/// Places the body at every koma of a clock: the instant, the poses of its block, and its lane of it.
+/// Poses the body at every koma of a clock, and passes on the instant, the poses of its block, and its lane.
 fn each_pose(
     clip: &Clip,
     clock: Clock,
     instants: usize,
     mut each: impl FnMut(usize, &LanePose, usize),
 ) {
-    let mut poser = LanePoser::of(clip);
+    let mut poser = LanePoser::new(clip);
     for block in 0..instants.div_ceil(LANES) {
         wide(
             #[inline(always)]

@@ -1,16 +1,16 @@
-//! How far off the body is when nothing but some keys is left of a motion.
+//! Measures how far off the body is if only some keys are left of a motion.
 
 use crate::keys::Reference;
 use crate::keys::bridge::Bridge;
 use crate::motion::Clip;
 use crate::time::Frame;
 
-/// What is lost when a motion is made again from some keys alone (復元誤差): the error at each koma
-/// between the source and the slerp from each key to the next.
+/// The loss if a motion is made again from some keys alone (復元誤差): the error at each koma between the source and the
+/// slerp from each key to the next.
 ///
-/// It is the root mean square over the body's points, joints and tips weighed by the bones that lead
-/// to them, so that another rig of the same body has nearly the same; in % of body height. Keys are
-/// chosen by what is near it and quicker, see [`Chords`](crate::keys::Chords).
+/// It is the root mean square over the body's points, joints and tips weighted by the bones that lead to them, so that
+/// another rig of the same body has nearly the same error; in % of body height. The choice of keys uses a similar but
+/// quicker measure, see [`Chords`](crate::keys::Chords).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reconstruction {
     /// The error at each koma of the reference, in % of body height; 0 on a key.
@@ -18,12 +18,12 @@ pub struct Reconstruction {
 }
 
 impl Reconstruction {
-    /// Slerps between neighbours. `keys` are source frames of the clip by number, in any order; the
-    /// clip's first and last frame are always taken with them.
+    /// Slerps between neighbouring keys. `keys` are source frames of the clip, in any order; the clip's first and last
+    /// frame are always added.
     ///
     /// # Panics
     /// When a key is no frame of the clip.
-    pub fn of(clip: &Clip, reference: &Reference, keys: &[Frame]) -> Self {
+    pub fn new(clip: &Clip, reference: &Reference, keys: &[Frame]) -> Self {
         let mut errors = vec![0.0; reference.koma()];
         let frames = with_ends(clip, keys);
         let mut bridge = Bridge::new(clip, reference, &frames);
@@ -33,19 +33,19 @@ impl Reconstruction {
         Self { errors }
     }
 
-    /// The mean over all koma, in % of body height; 0 of none.
+    /// Returns the mean over all koma, in % of body height; 0 if there is none.
     pub fn mean(&self) -> f64 {
         self.errors.iter().sum::<f64>() / self.errors.len().max(1) as f64
     }
 
-    /// The error at the worst koma, in % of body height; 0 of none.
+    /// Returns the error at the worst koma, in % of body height; 0 if there is none.
     pub fn worst(&self) -> f64 {
         self.errors.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// Keys by frame, each once, with the clip's ends.
-pub(crate) fn with_ends(clip: &Clip, keys: &[Frame]) -> Vec<Frame> {
+/// Returns the keys by frame, each once, with the clip's ends.
+pub fn with_ends(clip: &Clip, keys: &[Frame]) -> Vec<Frame> {
     if clip.is_empty() {
         return Vec::new();
     }
@@ -64,8 +64,8 @@ mod tests {
     use crate::motion::{Body, Pose};
     use crate::time::FrameRate;
 
-    /// The same from the words, one koma at a time with single poses. The arm of [`swing`] is straight
-    /// and its two bones equally long: what is off is the hand and the tip.
+    /// Computes the errors directly, one koma at a time with single poses. The arm of [`swing`] is straight with two
+    /// bones of equal length, so that only the hand and the tip are off.
     fn slowly(clip: &Clip, reference: &Reference, keys: &[Frame]) -> Vec<f64> {
         let frames = with_ends(clip, keys);
         let rest = Pose::rest(clip.skeleton());
@@ -99,9 +99,9 @@ mod tests {
             fps in prop_oneof![Just(24.0), Just(30.0), Just(100.0), Just(10.0)],
         ) {
             let clip = swing(&angles).with_rate(FrameRate::new(fps).unwrap());
-            let reference = Reference::of(&clip, clip.clock(24.0));
+            let reference = Reference::new(&clip, clip.clock(24.0));
             let keys: Vec<Frame> = keys.iter().map(|key| Frame(key % angles.len())).collect();
-            let found = Reconstruction::of(&clip, &reference, &keys);
+            let found = Reconstruction::new(&clip, &reference, &keys);
             let slow = slowly(&clip, &reference, &keys);
             prop_assert_eq!(found.errors.len(), slow.len());
             for (fast, slow) in found.errors.iter().zip(&slow) {
@@ -117,10 +117,10 @@ mod tests {
     #[test]
     fn a_key_on_every_frame_loses_nothing() {
         let clip = swing(&[0.0, 30.0, -10.0, 70.0, 20.0]);
-        let reference = Reference::of(&clip, clip.clock(24.0));
+        let reference = Reference::new(&clip, clip.clock(24.0));
         let all: Vec<Frame> = (0..5).map(Frame).collect();
-        assert_eq!(Reconstruction::of(&clip, &reference, &all).errors, [0.0; 5]);
-        let ends = Reconstruction::of(&clip, &reference, &[]);
+        assert_eq!(Reconstruction::new(&clip, &reference, &all).errors, [0.0; 5]);
+        let ends = Reconstruction::new(&clip, &reference, &[]);
         assert!(ends.mean() > 0.0 && ends.worst() > ends.mean(), "{ends:?}");
         assert_eq!([ends.errors[0], ends.errors[4]], [0.0; 2], "the ends are always there");
     }
@@ -130,7 +130,7 @@ mod tests {
         let nothing = Reconstruction { errors: vec![] };
         assert_eq!((nothing.mean(), nothing.worst()), (0.0, 0.0));
         let clip = swing(&[5.0]);
-        let reference = Reference::of(&clip, clip.clock(24.0));
-        assert_eq!(Reconstruction::of(&clip, &reference, &[Frame(0)]).errors, [0.0]);
+        let reference = Reference::new(&clip, clip.clock(24.0));
+        assert_eq!(Reconstruction::new(&clip, &reference, &[Frame(0)]).errors, [0.0]);
     }
 }

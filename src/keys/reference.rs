@@ -1,4 +1,4 @@
-//! The source koma after koma: what the body made again from keys is judged against.
+//! The source motion at every koma, against which a motion made again from keys is judged.
 
 use std::ops::Range;
 
@@ -11,21 +11,21 @@ use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
 use crate::motion::{Build, Clip, Screen};
 use crate::time::{Clock, Frame};
 
-/// So many times as far as the whole body in the mean a single point goes that is as plainly to be seen.
+/// How many times further than the body's mean a single point moves to be as visible.
 const FURTHEST: f64 = 2.5;
 
-/// The source at each koma, computed once: what a reconstruction is measured against.
+/// The source at each koma, computed once: a reconstruction is measured against it.
 ///
-/// A reconstruction is off by what it is off in the world; how fast the body is, and what is lost between two
-/// of its postures, is what is seen of it on [`Reference::on`] a screen.
+/// The error of a reconstruction is measured in the world. The speed of the body, and the loss between two of its
+/// postures, are measured as seen [on a screen](Reference::on).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     clock: Clock,
     koma: usize,
     points: Points,
-    /// Blocks of [`LANES`] koma × points; behind the last koma the last again.
+    /// Blocks of [`LANES`] koma × points. The last koma is repeated to fill its block.
     positions: Vec<LaneVec>,
-    /// Height of the body in the file's unit: see [`Reference::of`].
+    /// Height of the body in the file's unit: see [`Reference::new`].
     height: f64,
     screen: Screen,
 }
@@ -33,25 +33,25 @@ pub struct Reference {
 impl Reference {
     /// Samples the clip at every koma of the clock.
     ///
-    /// The body's height is that of a person with legs as long as these, from hip to ankle. Of a body without limbs it is
-    /// the median over the koma of the longest side of the box round all its points: rest poses are a matter of the rig,
-    /// with arms out, arms down, or all bones along one axis.
-    pub fn of(clip: &Clip, clock: Clock) -> Self {
+    /// The body's height is that of a person with legs of this length, from hip to ankle. For a body without limbs it
+    /// is the median over the koma of the longest side of the box around all its points. Rest poses would depend on the
+    /// rig, with arms out, arms down, or all bones along one axis.
+    pub fn new(clip: &Clip, clock: Clock) -> Self {
         Self::weighted(clip, clock, &vec![1.0; clip.skeleton().len()])
     }
 
-    /// The same where joints do not all count as much as their bones say: `own` has a factor for each, 0 or
-    /// more and one of them above. It does not change the height.
+    /// Samples the clip with `own`, a weight for each joint on top of its bones: 0 or more, one of them above. The
+    /// weights do not change the height.
     pub fn weighted(clip: &Clip, clock: Clock, own: &[f64]) -> Self {
-        Self::of_build(clip, &Build::of(clip), clock, own)
+        Self::of_build(clip, &Build::new(clip), clock, own)
     }
 
-    /// The same of a body that is known.
+    /// Samples a clip whose build is known.
     pub(crate) fn of_build(clip: &Clip, build: &Build, clock: Clock, own: &[f64]) -> Self {
-        let points = Points::of(clip.skeleton(), build, own);
+        let points = Points::new(clip.skeleton(), build, own);
         let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
         let mut positions = vec![LaneVec::default(); koma.div_ceil(LANES) * points.len()];
-        let mut poser = LanePoser::of(clip);
+        let mut poser = LanePoser::new(clip);
         let mut sides = Vec::with_capacity(koma + LANES);
         let mut rows = positions.chunks_exact_mut(points.len().max(1));
         for piece in pieces(rows.len()) {
@@ -69,29 +69,28 @@ impl Reference {
         sides.truncate(koma);
         sides.sort_by(f64::total_cmp);
         let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
-        // A body of one point has no height; what it moves through stands for it.
+        // A body of one point has no height; the box of its whole path stands in.
         let seen = || if median > 0.0 { median } else { whole_side(&positions, &points) };
         let height = build.mannequin.as_ref().map_or_else(seen, Mannequin::height);
         Self { clock, koma, points, positions, height, screen: Screen::WORLD }
     }
 
-    /// The same beside a body of that height, in the file's unit: a part in which little moves has none of
-    /// its own.
+    /// Takes the height of the whole body, in the file's unit: a part in which little moves has none of its own.
     pub(crate) fn beside(self, height: f64) -> Self {
         Self { height, ..self }
     }
 
-    /// The same as it is seen on a screen.
+    /// Sets the screen on which it is seen.
     pub fn on(self, screen: Screen) -> Self {
         Self { screen, ..self }
     }
 
-    /// From where it is seen.
+    /// Returns the screen on which it is seen.
     pub fn screen(&self) -> &Screen {
         &self.screen
     }
 
-    /// Where its koma stand.
+    /// Returns the times of its koma.
     pub fn clock(&self) -> Clock {
         self.clock
     }
@@ -101,29 +100,28 @@ impl Reference {
         self.koma
     }
 
-    /// Seconds that its koma last.
+    /// Returns its duration in seconds.
     pub(super) fn seconds(&self) -> f64 {
         self.koma as f64 / self.clock.koma_rate
     }
 
-    /// The points that positions are of.
+    /// Returns the points whose positions it has.
     pub(super) fn points(&self) -> &Points {
         &self.points
     }
 
-    /// Where every point stands at the [`LANES`] koma of a block.
+    /// Returns the position of every point at the [`LANES`] koma of a block.
     pub(super) fn positions(&self, block: usize) -> &[LaneVec] {
         let points = self.points.len();
         &self.positions[block * points..(block + 1) * points]
     }
 
-    /// The body's height in the file's unit: see [`Reference::of`].
+    /// Returns the body's height in the file's unit: see [`Reference::new`].
     pub fn height(&self) -> f64 {
         self.height
     }
 
-    /// How far the poses of two koma are apart: root mean square over the body's points, in % of its
-    /// height.
+    /// Returns how far the poses of two koma are apart: root mean square over the body's points, in % of body height.
     ///
     /// # Panics
     /// When there is no such koma.
@@ -131,8 +129,8 @@ impl Reference {
         self.way(self.still(a), self.still(b))
     }
 
-    /// How unlike the poses of two koma look: the larger of how far they are [apart](Self::apart) and 0.4 of the way
-    /// of the point of the body that goes furthest. Of one arm that is raised the mean alone says little.
+    /// Returns how unlike the poses of two koma look: the larger of how far they are [apart](Self::apart) and 0.4 of
+    /// the distance of the point that moves furthest. The mean alone hardly shows that one arm is raised.
     ///
     /// # Panics
     /// When there is no such koma.
@@ -145,12 +143,12 @@ impl Reference {
         self.percent(self.points.mean(ways())).max(self.percent(furthest) / FURTHEST)
     }
 
-    /// How far some positions of all points are from the source at a koma, in the same measure.
+    /// Returns how far positions of all points are from the source at a koma: root mean square in % of body height.
     pub(super) fn off(&self, koma: usize, positions: &[DVec3]) -> f64 {
         self.way(self.still(koma), positions.iter().copied())
     }
 
-    /// How far two poses are apart, in the same measure.
+    /// Returns how far two poses are apart: root mean square over the points, in % of body height.
     pub(super) fn way(
         &self,
         from: impl Iterator<Item = DVec3>,
@@ -160,19 +158,19 @@ impl Reference {
         if self.height > 0.0 { self.percent(self.points.mean(squares)) } else { 0.0 }
     }
 
-    /// Where every point stands at a koma.
+    /// Returns the position of every point at a koma.
     fn still(&self, koma: usize) -> impl Iterator<Item = DVec3> {
         self.positions(koma / LANES).iter().map(move |position| position.lane(koma % LANES))
     }
 
-    /// A mean squared distance of points, as its root in % of the body's height.
+    /// Converts a mean squared distance of points to its root in % of body height.
     #[inline(always)]
     pub(super) fn percent(&self, squared: f64) -> f64 {
         100.0 * squared.sqrt() / self.height
     }
 
-    /// How fast the body goes into each koma from the second on, as it is seen, in % of its height a second:
-    /// root mean square over its points.
+    /// Returns how fast the body goes into each koma from the second on, as seen on the screen, in % of body height a
+    /// second: root mean square over its points.
     pub(crate) fn speeds(&self) -> Vec<f64> {
         if self.koma == 0 || self.points.len() == 0 || self.height <= 0.0 {
             return Vec::new();
@@ -197,7 +195,7 @@ impl Reference {
         speeds
     }
 
-    /// The koma whose place lies strictly between two frames.
+    /// Returns the koma whose place lies strictly between two frames.
     pub(super) fn koma_between(&self, from: Frame, to: Frame) -> Range<usize> {
         let per_frame = self.clock.koma_rate / self.clock.frame_rate.fps();
         let koma = |frame: Frame| (frame.0 - self.clock.first.0) as f64 * per_frame;
@@ -207,7 +205,7 @@ impl Reference {
     }
 }
 
-/// The longest side of the box round some points, of each lane by itself.
+/// Returns the longest side of the box around some points, for each lane by itself.
 #[inline(always)]
 fn longest_sides(points: impl Iterator<Item = LaneVec>) -> Lanes {
     let (low, high) = corners(points);
@@ -215,7 +213,7 @@ fn longest_sides(points: impl Iterator<Item = LaneVec>) -> Lanes {
     sides.x.max(sides.y).max(sides.z)
 }
 
-/// The longest side of the box round the points of all lanes.
+/// Returns the longest side of the box around the points of all lanes.
 fn whole_side(positions: &[LaneVec], points: &Points) -> f64 {
     let rows = positions.chunks_exact(points.len().max(1));
     let (low, high) = corners(rows.flat_map(|row| points.own(row)));

@@ -1,6 +1,5 @@
-//! Rests (止め): stretches in which the whole body practically stands still. Both ends of a rest are
-//! keys whatever they save: an animator draws them to hold them, and a slow settling costs so little
-//! that no price would find them.
+//! Rests (止め): stretches in which the whole body practically stands still. Both ends of a rest are keys whatever they
+//! save: an animator draws them to hold them, and a slow settling loses so little that no price would find them.
 
 use std::ops::RangeInclusive;
 
@@ -10,24 +9,24 @@ use crate::keys::stillness::{LEAST, SMOOTH, runs, smoothed, steps};
 use crate::knob::choices;
 use crate::time::Frame;
 
-/// What the begin and the end of a rest are to the keys of a layer.
+/// How the begin and the end of a rest are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtRests {
-    /// Keys whatever they save, and nothing that looks like the key before.
+    /// As keys whatever they save; no other key looks like the key before it.
     #[default]
     Keys,
-    /// Moments like all others, as those within are: a key may look like the one before. On the sheet drawings hold all the
-    /// same.
+    /// As moments like all others, like those within the rest: a key may look like the one before. Drawings on the
+    /// sheet still hold.
     Off,
 }
 
 choices!(AtRests { Keys: "keys", Off: "off" });
 
-/// How far the body may be from the posture that it holds, beside its unrest, in % of its height.
+/// Distance from the held posture that counts as held, beyond the body's unrest, in % of body height.
 const NEAR: f64 = 0.2;
 
-/// Rests by the frames of their begins and ends, both included. One that reaches the sheet's first or last
-/// koma begins or ends there.
+/// Returns the rests from first to last frame, both included. A rest that reaches the sheet's first or last koma begins
+/// or ends there.
 pub(crate) fn rest_frames(
     chords: &Chords,
     rests: &[RangeInclusive<usize>],
@@ -37,35 +36,35 @@ pub(crate) fn rest_frames(
     rests.iter().map(frames).collect()
 }
 
-/// The frames on which rests begin and end. A rest that reaches the sheet's first or last koma only
-/// ends or only begins.
+/// Returns the frames on which rests begin and end. A rest that reaches the sheet's first koma only ends, one that
+/// reaches the last only begins.
 pub(super) fn rest_ends(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<Frame> {
     let last = chords.len().saturating_sub(1);
     let ends = rests.iter().flat_map(|rest| [*rest.start(), *rest.end()]);
     let inner = ends.filter(|end| (1..last).contains(end));
     let mut ends: Vec<Frame> = inner.map(|end| chords.frame(end)).collect();
-    // A short movement may part two rests that are held in nearly one posture.
+    // Two rests that are separated by a short movement may hold nearly the same posture, and share ends.
     ends.sort_unstable();
     ends.dedup();
     ends
 }
 
-/// The instants from the first to the last of each rest: the posture changes by less than `speed`, in %
-/// of the body's height a second, for at least half a second, and no part of the body acts.
+/// Finds the rests from first to last instant: the posture changes by less than `speed`, in % of body height a second,
+/// for at least half a second, and no part of the body acts.
 pub(crate) fn rests(chords: &Chords, speed: f64) -> Vec<RangeInclusive<usize>> {
     let steps = |seconds| steps(seconds, chords.clock().koma_rate);
     let postures = chords.postures();
     let speeds = smoothed(&postures.speeds(chords.clock().koma_rate), steps(SMOOTH));
     let is_still = |at: usize| speeds[at] < speed && !postures.acting().goes_on(at);
     let stills = runs(speeds.len(), is_still).into_iter();
-    // The speed of an instant is that of the step into it: a run of steps joins one instant more.
+    // Speeds belong to the step into an instant: a run of steps spans one instant more.
     let stills = stills.filter(|still| still.len() >= steps(LEAST));
     stills.map(|still| held(postures, still.start, still.end, steps(SMOOTH))).collect()
 }
 
-/// From when until when a body that is still keeps to the posture that it holds, itself as still as it is
-/// well within the rest: by its speed alone a rest that is come to slowly would begin before its posture
-/// is reached, and one after a quick move later. At an end of the clip it lasts.
+/// Finds from when until when a still body keeps its posture, as still as it is well within the rest. Judged by speed
+/// alone, a rest that is reached slowly would begin before its posture, and one after a quick move would begin late. At
+/// an end of the clip the rest lasts.
 fn held(postures: &Postures, begin: usize, end: usize, margin: usize) -> RangeInclusive<usize> {
     let (first, last) = (begin + margin, end - margin);
     let posture = mean(postures, first, last);
@@ -78,7 +77,7 @@ fn held(postures: &Postures, begin: usize, end: usize, margin: usize) -> RangeIn
     (if begin == 0 { 0 } else { from })..=(if is_last { end } else { to })
 }
 
-/// The mean of the postures from one instant to another.
+/// Returns the mean of the postures from one instant to another.
 fn mean(postures: &Postures, first: usize, last: usize) -> Vec<f64> {
     let count = (last + 1 - first) as f64;
     let mut mean = vec![0.0; postures.row(first).len()];

@@ -24,7 +24,7 @@ pub(super) fn swing(angles: &[f64]) -> Clip {
     Clip::new(skeleton, rate, Frame(0), angles.len(), angles.to_vec()).unwrap()
 }
 
-/// Its chords, up to so many seconds long.
+/// Returns the chords of a swing up to so many seconds long.
 pub(super) fn chords(swing: &Clip, seconds: f64) -> Chords {
-    Chords::of(swing, &Reference::of(swing, swing.clock(24.0)), &[1.0; 2], seconds)
+    Chords::new(swing, &Reference::new(swing, swing.clock(24.0)), &[1.0; 2], seconds)
 }

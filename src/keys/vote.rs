@@ -1,28 +1,27 @@
-//! Joints vote for a layer's keys: each turn of a joint speaks for the frames round it.
+//! Lets joints vote for a layer's keys: each turn of a joint speaks for the frames around it.
 
 use crate::keys::peaks::{peaks, strongest_apart};
 use crate::signal::{Turn, TurnKind};
 use crate::time::Frame;
 
-/// The frames that are looked at, and what each joint's word is worth there.
+/// The frames of a vote, and the weight of each joint.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Poll<'a> {
     /// The first frame of the clip.
     pub(super) first: Frame,
     /// Number of frames of the clip.
     pub(super) frames: usize,
-    /// A weight a joint, at least 0.
+    /// One weight a joint, at least 0.
     pub(super) weights: &'a [f64],
-    /// How far a vote carries, in frames.
+    /// Reach of a vote, in frames.
     pub(super) reach: f64,
     /// The least distance of two keys, in frames.
     pub(super) apart: f64,
 }
 
 impl Poll<'_> {
-    /// The vote on each frame as a share of all weight, 0 to 1: the sum over the joints that have any
-    /// turn, each with its weight and the triangular kernel 1 − distance/reach to its nearest turn, so
-    /// that no joint counts twice at one time.
+    /// Counts the vote on each frame as a share of all weight, 0 to 1. Every joint with any turn adds its weight times
+    /// the triangular kernel 1 − distance/reach to its nearest turn, so that no joint counts twice at one time.
     pub(super) fn count(&self, turns: &[Vec<Turn>], kind: TurnKind) -> Vec<f64> {
         let mut votes = vec![0.0; self.frames];
         let mut all_weight = 0.0;
@@ -44,7 +43,7 @@ impl Poll<'_> {
         votes
     }
 
-    /// What a turn says at each distance, from 0 on.
+    /// Returns the vote of a turn at each distance, from 0 on.
     fn kernel(&self) -> Vec<f64> {
         let carries = (self.reach.ceil() as usize).min(self.frames);
         let says = |distance: usize| (1.0 - distance as f64 / self.reach).max(0.0);
@@ -71,14 +70,14 @@ impl Poll<'_> {
         }
     }
 
-    /// The local maxima of a vote at least `apart` from each other, with their share.
+    /// Finds the local maxima of a vote, at least `apart` from each other, with their share.
     pub(super) fn elected(&self, votes: &[f64]) -> Vec<(Frame, f64)> {
-        // A sum of shares is exact to some 1e-16 a joint; a plateau must not crumble over that.
+        // A sum of shares is exact to about 1e-16 a joint; that must not break up a plateau.
         let found = peaks(votes, 1e-12).into_iter().map(|row| (row, votes[row])).collect();
         self.frames_of(strongest_apart(found, self.apart))
     }
 
-    /// Every frame at which any joint has a turn, at least `apart` from each other.
+    /// Returns the frames at which any joint has a turn, at least `apart` from each other.
     pub(super) fn named(
         &self,
         turns: &[Vec<Turn>],

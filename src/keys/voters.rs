@@ -1,16 +1,16 @@
-//! Which joints speak for a key, and what each one's word is worth.
+//! Finds the joints that speak for a key, and the weight of each.
 
 use crate::motion::{Clip, JointId, Skeleton};
 use crate::signal::{Turn, TurnKind};
 use crate::time::Frame;
 
-/// The weight of each joint: how far its rotation carries, the largest set to 1, so that fingers
-/// cannot outvote an arm.
+/// Returns the weight of each joint: how far its rotation carries, the largest set to 1, so that fingers cannot outvote
+/// an arm.
 pub fn weights(clip: &Clip) -> Vec<f64> {
     shares(clip.skeleton())
 }
 
-/// How far each joint of a skeleton reaches, the largest set to 1.
+/// Returns the reach of each joint of a skeleton, the largest set to 1.
 pub(super) fn shares(skeleton: &Skeleton) -> Vec<f64> {
     let mut weights = skeleton.reaches();
     let largest = weights.iter().copied().fold(0.0, f64::max);
@@ -22,7 +22,8 @@ pub(super) fn shares(skeleton: &Skeleton) -> Vec<f64> {
     weights
 }
 
-/// Of each of some frames in order the joints that have a key turn of their own within `reach` frames, the heaviest first.
+/// Returns, for each of some frames in order, the joints that have a key turn within `reach` frames, the heaviest
+/// first.
 pub(super) fn voters(
     turns: &[Vec<Turn>],
     weights: &[f64],

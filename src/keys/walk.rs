@@ -1,4 +1,4 @@
-//! Gaits that walk (歩き): every step of a gait has the same phases, a genga each.
+//! Gaits that walk (歩き): gives every step of a gait the same phases, each with a genga.
 
 use crate::edits::Edits;
 use crate::keys::{Key, Origin};
@@ -7,22 +7,23 @@ use crate::maths::median;
 use crate::motion::{Gait, Step};
 use crate::time::Frame;
 
-/// Koma that each of four phases needs: less is no drawing on twos.
+/// Koma that each phase needs: less leaves no room for a drawing on twos.
 const ROOM: f64 = 2.0;
 
-/// Koma from the bounds of a gait, or from a phase, within which what was found gives way to it: two genga would not fit.
+/// Distance from the bounds of a gait, or from a phase, within which found keys give way, in koma: two genga would not
+/// fit.
 const NEAR: f64 = 2.0;
 
-/// The least distance of two phases in koma: nearer ones are one.
+/// Least distance of two phases in koma; nearer ones are one.
 const ONE: f64 = 1.0;
 
 /// How the genga of the steps of a gait are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtGaits {
-    /// The same phases at the same times.
+    /// The same phases at the same times in every step.
     #[default]
     Steps,
-    /// By what they save, as everywhere.
+    /// By what they save, like all other keys.
     Off,
 }
 
@@ -33,43 +34,43 @@ choices!(AtGaits { Steps: "steps", Off: "off" });
 pub enum Phase {
     /// A foot comes down (接地).
     Contact,
-    /// The body is lowest (沈み), or half-way to the passing where that is at the contact.
+    /// The body is lowest (沈み); half-way to the passing if it is lowest at the contact.
     Down,
     /// The other foot passes (すれ違い).
     Passing,
-    /// The body is highest (伸び), or half-way to the next contact where that is at the passing.
+    /// The body is highest (伸び); half-way to the next contact if it is highest at the passing.
     Up,
 }
 
 /// A gait on the sheet: steps with the same phases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Walk {
-    /// The phases that each step has a genga of, in order. The contact is the first.
+    /// The phases that have a genga in each step, in order. The contact is the first.
     pub phases: Vec<Phase>,
-    /// The instant of each phase, 0 to 1 of the way from contact to contact. It is the median of all steps.
+    /// Instant of each phase, 0 to 1 of the way from contact to contact: the median of all steps.
     pub shares: Vec<f64>,
-    /// Koma of a step: the median of all.
+    /// Length of a step in koma: the median of all steps.
     pub koma: f64,
-    /// Its steps, but for those that a person corrects.
+    /// Its steps, except those that a person corrects.
     pub steps: Vec<WalkStep>,
 }
 
 /// A step on the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WalkStep {
-    /// When its foot comes down, in koma from the sheet's first; below 0 where the clip begins in it.
+    /// Time at which its foot comes down, in koma from the sheet's first; below 0 if the clip begins within the step.
     pub contact: f64,
-    /// When the other foot comes down.
+    /// Time at which the other foot comes down.
     pub next: f64,
-    /// The frame that each phase shows, and last the next contact; none where the clip has none.
+    /// Frame that shows each phase and, last, the next contact; `None` if it lies outside the clip.
     pub frames: Vec<Option<Frame>>,
 }
 
 impl Phase {
-    /// How many there are.
+    /// Number of phases.
     pub const MOST: usize = 4;
 
-    /// Its word in files.
+    /// Returns its word in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Contact => "contact",
@@ -79,7 +80,7 @@ impl Phase {
         }
     }
 
-    /// The phases for which steps of so many koma have room.
+    /// Returns the phases that fit into steps of so many koma.
     fn with_room(koma: f64) -> &'static [Self] {
         match koma {
             koma if koma >= 4.0 * ROOM => &[Self::Contact, Self::Down, Self::Passing, Self::Up],
@@ -89,18 +90,18 @@ impl Phase {
     }
 }
 
-/// Keys that were chosen in a clip, and what a person wants of them.
+/// The keys chosen in a clip, and a person's corrections of them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Choosable<'a> {
     pub(super) keys: &'a [Key],
     pub(super) edits: &'a Edits,
-    /// A koma in frames.
+    /// Frames in a koma.
     pub(super) koma: f64,
     /// The clip's first and last frame, which are no keys.
     pub(super) ends: (Frame, Frame),
 }
 
-/// Gaits as they are drawn, and the phases of steps that a person corrects.
+/// The gaits as drawn, and the phases of steps that a person corrects.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Walks {
     pub(super) regular: Vec<Walk>,
@@ -108,8 +109,8 @@ pub(super) struct Walks {
 }
 
 impl Walks {
-    /// The gaits of a layer on its sheet.
-    pub(super) fn of(gaits: &[Gait], chosen: Choosable<'_>) -> Self {
+    /// Finds the gaits of a layer on its sheet.
+    pub(super) fn new(gaits: &[Gait], chosen: Choosable<'_>) -> Self {
         let mut walks = Self::default();
         for gait in gaits {
             let walk = chosen.walk(gait);
@@ -123,7 +124,7 @@ impl Walks {
         walks
     }
 
-    /// Puts phases that a person moves among the keys, where no other key stands. They were on the sheet before.
+    /// Adds phases that a person moves to the keys, if no other key is near. They were on the sheet before.
     pub(super) fn give(&self, keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
         for moved in &edits.moves {
             let near = |frame: &Frame| (frame.0.abs_diff(moved.from.0) as f64) < apart;
@@ -136,8 +137,8 @@ impl Walks {
         keys.sort_by_key(|key| key.frame);
     }
 
-    /// Puts the phases of regular steps in the place of what was found in them. What a person set stays, and what stands
-    /// nearer to it than a koma, which is `apart` frames, goes.
+    /// Replaces the keys found in regular steps by the steps' phases. Keys that a person set stay, and phases nearer to
+    /// a key than a koma (`apart` frames) are dropped.
     pub(super) fn lay(&self, keys: &mut Vec<Key>, apart: f64) {
         let steps = || self.regular.iter().flat_map(|walk| &walk.steps);
         let turns: Vec<Key> =
@@ -161,7 +162,7 @@ impl Walks {
 }
 
 impl Choosable<'_> {
-    /// A gait with the phases for which its steps have room.
+    /// Builds a gait with the phases that fit into its steps.
     fn walk(&self, gait: &Gait) -> Walk {
         let koma = middle(gait.steps.iter().map(length));
         let phases = Phase::with_room(koma);
@@ -173,7 +174,7 @@ impl Choosable<'_> {
         });
         let is_between = |at: f64, from: f64, to: f64| from + ONE <= at && at <= to - ONE;
         let has_own = (is_between(down, 0.0, passing), is_between(up, passing, koma));
-        // Sooner the drawing before is still on screen, and its pose hardly another.
+        // Any sooner, the drawing before is still on screen, and its pose is nearly the same.
         let behind =
             |at: f64, from: f64, to: f64| at.max((from + ROOM).min(f64::midpoint(from, to)));
         let instant = |step: &Step, phase: Phase| match phase {
@@ -203,7 +204,7 @@ impl Choosable<'_> {
         }
     }
 
-    /// The frames nearest to some instants in koma, or the turns that were found within a koma of them.
+    /// Returns the frame nearest to each instant, given in koma, or a turn found within a koma of it.
     fn frames(&self, instants: impl Iterator<Item = f64>) -> Vec<Option<Frame>> {
         let koma = self.koma;
         let (first, last) = (self.ends.0.0 as f64, self.ends.1.0 as f64);
@@ -222,7 +223,7 @@ impl Choosable<'_> {
         instants.map(frame).collect()
     }
 
-    /// Whether a person corrects a step. Such a step keeps the keys that were found in it.
+    /// Whether a person corrects a step. Such a step keeps the keys found in it.
     fn corrects(&self, step: &WalkStep) -> bool {
         let Edits { pins, moves, forbidden, frozen, only_pins, .. } = self.edits;
         let set = pins.iter().map(|pin| pin.frame);
@@ -230,7 +231,7 @@ impl Choosable<'_> {
         let shown = || step.frames.iter().flatten();
         let is_forbidden =
             shown().any(|frame| forbidden.iter().any(|range| range.reaches(*frame, self.koma)));
-        // Beside the clip's ends a sheet has no room for a genga.
+        // Next to the clip's ends, a sheet has no room for a genga.
         let room = NEAR * self.koma + 1.0;
         let far =
             |frame: &&Frame| (self.ends.1.0 - frame.0).min(frame.0 - self.ends.0.0) as f64 > room;
@@ -241,31 +242,31 @@ impl Choosable<'_> {
 }
 
 impl WalkStep {
-    /// Whether a frame is in it: from its contact on, before the next.
+    /// Whether a frame is in the step: from its contact on, before the next.
     fn has(&self, frame: Frame) -> bool {
         let [from, to] = self.bounds();
         from.is_none_or(|from| from <= frame) && to.is_none_or(|to| frame < to)
     }
 
-    /// Whether a frame is in it, or nearer to it than so many frames.
+    /// Whether a frame is in the step, or nearer to it than `near` frames.
     fn covers(&self, frame: Frame, near: f64) -> bool {
         let [from, to] = self.bounds();
         let is_past = |end: Frame, frame: Frame| (end.0 as f64 - frame.0 as f64) < near;
         from.is_none_or(|from| is_past(from, frame)) && to.is_none_or(|to| is_past(frame, to))
     }
 
-    /// The frames of its contacts.
+    /// Returns the frames of its two contacts.
     fn bounds(&self) -> [Option<Frame>; 2] {
         [self.frames.first().copied().flatten(), self.frames.last().copied().flatten()]
     }
 }
 
-/// Koma from contact to contact.
+/// Returns the koma from contact to contact.
 fn length(step: &Step) -> f64 {
     step.next - step.contact
 }
 
-/// The middle of some values, 0 of none.
+/// Returns the median, 0 of no values.
 fn middle(values: impl Iterator<Item = f64>) -> f64 {
     median(values).unwrap_or(0.0)
 }

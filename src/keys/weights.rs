@@ -1,4 +1,4 @@
-//! How much each joint counts, as a person sets it by name or pattern.
+//! Weights of joints, which a person sets by name or pattern.
 
 use std::collections::BTreeMap;
 
@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, nearest};
 use crate::motion::Skeleton;
 
-/// The largest weight. Sums over the body of larger ones may be more than a number can say.
+/// Largest weight. Sums of larger ones over the body may overflow.
 const MOST: f64 = 1e6;
 
 /// Weights of joints by their names, or by patterns in which `*` stands for any letters and `?` for one.
 ///
-/// Of several that fit a joint its whole name wins, else the pattern with the most letters of its own, of
-/// equals the later in the alphabet. A joint that none fits has 1; 0 has no say, and 1000000 is the most.
+/// If several fit a joint, its whole name wins, then the pattern with the most letters of its own, then the later in
+/// the alphabet. A joint that none fits has weight 1. Weight 0 excludes a joint, and 1000000 is the most.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct JointWeights(pub BTreeMap<String, f64>);
 
 impl JointWeights {
-    /// Whether every joint counts as it is.
+    /// Whether no weight is set.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -27,7 +27,7 @@ impl JointWeights {
     /// Checks the values.
     ///
     /// # Errors
-    /// [`Error::Setting`] naming the first weight that is no number from 0 to 1000000.
+    /// [`Error::Setting`] naming the first weight that is not a number from 0 to 1000000.
     pub fn validate(&self) -> Result<(), Error> {
         match self.0.iter().find(|(_, weight)| !(0.0..=MOST).contains(*weight)) {
             None => Ok(()),
@@ -40,12 +40,12 @@ impl JointWeights {
         }
     }
 
-    /// The weight of each joint.
+    /// Returns the weight of each joint.
     ///
     /// # Errors
-    /// [`Error::Setting`] where a name or pattern fits no joint, with the nearest name there is, and where
-    /// no joint is left that has a say.
-    pub fn of(&self, skeleton: &Skeleton) -> Result<Vec<f64>, Error> {
+    /// [`Error::Setting`] if a name or pattern fits no joint, with the nearest name there is; or if no joint has a
+    /// weight above 0.
+    pub fn resolve(&self, skeleton: &Skeleton) -> Result<Vec<f64>, Error> {
         self.validate()?;
         let names = || skeleton.joints.iter().map(|joint| joint.name.as_str());
         if let Some(pattern) =
@@ -63,28 +63,28 @@ impl JointWeights {
         }
     }
 
-    /// The weight of a joint of that name.
+    /// Returns the weight of a joint with that name.
     fn weight(&self, name: &str) -> f64 {
         let fitting = self.0.iter().filter(|(pattern, _)| fits(pattern, name));
         let own = |pattern: &str| pattern.chars().filter(|letter| !"*?".contains(*letter)).count();
-        // Of equals `max_by_key` takes the last.
+        // `max_by_key` takes the last of equals.
         let best = fitting.max_by_key(|(pattern, _)| (*pattern == name, own(pattern)));
         best.map_or(1.0, |(_, weight)| *weight)
     }
 }
 
-/// The setting as `--set` has it.
+/// Returns the setting's name for `--set`.
 fn knob(name: &str) -> String {
     format!("keys.weights.{name}")
 }
 
-/// Whether a pattern stands for a name; a name that has a `*` or `?` of its own fits itself.
+/// Whether a pattern fits a name. A name with a `*` or `?` of its own fits itself.
 pub(super) fn fits(pattern: &str, name: &str) -> bool {
     pattern == name
         || matches(&pattern.chars().collect::<Vec<_>>(), &name.chars().collect::<Vec<_>>())
 }
 
-/// Letter by letter; where it fails, the last `*` takes one more.
+/// Matches letter by letter. On a mismatch, the last `*` takes one letter more.
 fn matches(pattern: &[char], name: &[char]) -> bool {
     let (mut at, mut letter) = (0, 0);
     let mut star = None;
@@ -136,17 +136,17 @@ mod tests {
         let body = skeleton(&["Hips", "LeftHand", "LeftHandThumb", "RightHand", "left hand"]);
         let set =
             [("*", 0.5), ("*Hand*", 2.0), ("LeftHand", 3.0), ("????", 0.25), ("Left*Thumb", 0.0)];
-        assert_eq!(weights(&set).of(&body).unwrap(), [0.25, 3.0, 0.0, 2.0, 0.5]);
+        assert_eq!(weights(&set).resolve(&body).unwrap(), [0.25, 3.0, 0.0, 2.0, 0.5]);
         assert_eq!(weights(&[("*L*", 2.0), ("L*", 3.0), ("*", 1.0)]).weight("Leg"), 3.0);
-        assert_eq!(weights(&[]).of(&body).unwrap(), [1.0; 5]);
+        assert_eq!(weights(&[]).resolve(&body).unwrap(), [1.0; 5]);
         let odd = skeleton(&["a*b", "acb"]);
-        assert_eq!(weights(&[("a*b", 2.0), ("a?b", 3.0)]).of(&odd).unwrap(), [2.0, 3.0]);
+        assert_eq!(weights(&[("a*b", 2.0), ("a?b", 3.0)]).resolve(&odd).unwrap(), [2.0, 3.0]);
     }
 
     #[test]
     fn what_fits_no_joint_is_said_with_the_nearest_name() {
         let body = skeleton(&["Hips", "LeftHand", "RightHand"]);
-        let error = |set: &[(&str, f64)]| weights(set).of(&body).unwrap_err().to_string();
+        let error = |set: &[(&str, f64)]| weights(set).resolve(&body).unwrap_err().to_string();
         let said = error(&[("LeftHnad", 2.0)]);
         assert_eq!(
             said,
@@ -159,7 +159,7 @@ mod tests {
         }
     }
 
-    /// From the words: each way to read the first letter of the pattern.
+    /// Matches directly, by each way to read the first letter of the pattern.
     fn slowly(pattern: &[char], name: &[char]) -> bool {
         match pattern.split_first() {
             None => name.is_empty(),

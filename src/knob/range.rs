@@ -1,14 +1,14 @@
-//! Which numbers a knob takes.
+//! The valid range of a knob's numbers.
 
 use std::fmt;
 use std::ops::Bound::{self, Excluded, Included, Unbounded};
 use std::ops::RangeBounds;
 
-/// The numbers that a knob takes. Finite ones, but where it says so.
+/// A range of valid numbers; infinity is excluded unless `to` is unbounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     pub(super) from: Bound<f64>,
-    /// Unbounded is infinity too.
+    /// `Unbounded` also admits infinity.
     pub(super) to: Bound<f64>,
 }
 
@@ -16,17 +16,17 @@ impl Range {
     /// 0 or more.
     pub(super) const LENGTH: Self = Self { from: Included(0.0), to: Excluded(f64::INFINITY) };
 
-    /// Where it begins.
+    /// Returns the lower bound.
     pub const fn least(self) -> f64 {
         end(self.from)
     }
 
-    /// Where it ends; infinity where nothing ends it.
+    /// Returns the upper bound; infinity if there is none.
     pub const fn most(self) -> f64 {
         end(self.to)
     }
 
-    /// Whether a number is in it.
+    /// Whether the range contains a number.
     pub fn contains(self, number: f64) -> bool {
         (self.from, self.to).contains(&number)
     }
@@ -39,7 +39,7 @@ const fn end(bound: Bound<f64>) -> f64 {
     }
 }
 
-/// In words, as `2 to 1000` or `0 or more`.
+/// Describes the range in words, as `2 to 1000` or `0 or more`.
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let is_open = matches!(self.from, Excluded(_));

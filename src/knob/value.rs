@@ -1,4 +1,4 @@
-//! What a knob sets: a value that is written as one word, on the command line and in files.
+//! Values of knobs: each is written as one word, on the command line and in files.
 
 use std::fmt::Display;
 use std::str::FromStr;
@@ -8,32 +8,32 @@ use serde::{Deserialize, Deserializer, Serializer};
 
 use super::{Kind, Range, number};
 
-/// A type of values of which each is written as a word.
-pub(crate) trait Setting: Sized {
-    /// The kind of knob that sets one.
+/// A type whose values are each written as one word.
+pub trait Setting: Sized {
+    /// The kind of knob for this type.
     const KIND: Kind;
 
-    /// The word.
+    /// Returns the value as a word.
     fn word(&self) -> String;
 
-    /// The value of a word; none where it is of no value.
+    /// Parses a word; `None` if it is invalid.
     fn of_word(word: &str) -> Option<Self>;
 
-    /// Whether it can be. Most types know that from the word.
+    /// Whether the value is valid. By default, that is whether its word parses back.
     fn is_in(&self, _: Range) -> bool {
         Self::of_word(&self.word()).is_some()
     }
 }
 
-/// One value, whatever its type.
-pub(crate) trait Value {
-    /// As text, which [`Value::take`] takes back.
+/// A knob's value of any type.
+pub trait Value {
+    /// Returns the value as text that [`Value::take`] reads back.
     fn text(&self) -> String;
 
-    /// Takes the value of a text; false, and nothing is changed, where it is of none.
+    /// Sets the value from text. Returns false, and changes nothing, if the text is invalid.
     fn take(&mut self, text: &str) -> bool;
 
-    /// Whether it can be, as a number in a range.
+    /// Whether the value is valid; a number must lie in `range`.
     fn fits(&self, range: Range) -> bool;
 }
 
@@ -51,7 +51,9 @@ impl<T: Setting> Value for T {
     }
 }
 
-/// The word of a [`Setting`] that has `Display` and `FromStr`.
+/// Implements the conversions of a [`Setting`] by `Display` and `FromStr`.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! as_word {
     () => {
         fn word(&self) -> String {
@@ -63,13 +65,12 @@ macro_rules! as_word {
         }
     };
 }
-pub(crate) use as_word;
 
 macro_rules! numbers {
     ($($of:ty, $whole:literal;)+) => {$(
         impl Setting for $of {
             const KIND: Kind = number(0.0, 0.0, $whole);
-            as_word!();
+            $crate::knob::as_word!();
 
             fn is_in(&self, range: Range) -> bool {
                 range.contains(*self as f64)
@@ -105,7 +106,9 @@ impl Setting for String {
     as_word!();
 }
 
-/// Lists the words of an enum, from which it is read and written everywhere: `choices!(Feet { Free: "free", … })`.
+/// Declares the words of an enum, with which it is read and written everywhere: `choices!(Feet { Free: "free", … })`.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! choices {
     ($of:ident { $($choice:ident: $word:literal),+ $(,)? }) => {
         impl std::fmt::Display for $of {
@@ -133,9 +136,10 @@ macro_rules! choices {
         $crate::knob::by_word!($of);
     };
 }
-pub(crate) use choices;
 
-/// Lets a type with `Display` and `FromStr` stand in files: as its word, or where that is one as a number.
+/// Implements serde for a type with `Display` and `FromStr`: a file holds its word, or a number if the word is one.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! by_word {
     ($of:ident) => {
         $crate::knob::by_word!($of, |word, to| to.collect_str(word));
@@ -158,13 +162,9 @@ macro_rules! by_word {
         }
     };
 }
-pub(crate) use by_word;
 
-/// Writes a value as its word, without quotes where it is a number.
-pub(crate) fn word_into<S: Serializer>(
-    value: &impl Display,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
+/// Writes a value as its word, without quotes if the word is a number.
+pub fn word_into<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
     let word = value.to_string();
     match (word.parse(), word.parse()) {
         (Ok(whole), _) => serializer.serialize_u64(whole),
@@ -173,8 +173,8 @@ pub(crate) fn word_into<S: Serializer>(
     }
 }
 
-/// Reads a value from a file, which may write its word as a text or, where that is one, as a number.
-pub(crate) fn word_from<'de, T, D>(deserializer: D) -> Result<T, D::Error>
+/// Reads a value from a file that holds its word as a text or a number.
+pub fn word_from<'de, T, D>(deserializer: D) -> Result<T, D::Error>
 where
     T: FromStr<Err: Display>,
     D: Deserializer<'de>,
@@ -188,7 +188,7 @@ where
     }
     let word = match Word::deserialize(deserializer)? {
         Word::Whole(number) => number.to_string(),
-        // 1.0 is not 1: a share, and no count.
+        // Keeps the decimal point: 1.0 is a share, 1 is a count.
         Word::Number(number) => format!("{number:?}"),
         Word::Text(text) => text,
     };

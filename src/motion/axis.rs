@@ -12,7 +12,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The vector of length 1 along it.
+    /// Returns the unit vector along the axis.
     pub fn unit(self) -> DVec3 {
         match self {
             Self::X => DVec3::X,

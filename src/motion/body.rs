@@ -1,34 +1,34 @@
-//! **Body** (体): what is known of whoever moves in a clip, by bones, names and ground.
+//! **Body** (体): describes the performer of a clip from bones, names and ground contact.
 
 mod accessories;
 mod build;
 mod contact;
+mod description;
 mod gait;
 pub mod landmarks;
-pub(crate) mod lay_figure;
-pub(crate) mod leg;
+pub mod leg;
 mod limbs;
 pub(crate) mod mannequin;
+pub(crate) mod mannequin_parts;
 mod members;
-pub(crate) mod names;
+pub mod names;
 mod role;
 mod side;
 mod stature;
-pub(crate) mod structure;
+pub mod structure;
 mod t_pose;
 mod upright;
-mod words;
 
-pub(crate) use build::Build;
+pub use build::Build;
 pub use contact::{Contact, ContactFinder, Limb};
+pub use description::{BODY_GUESS, Description, PEOPLE, STILL};
 pub use gait::{Gait, Step};
 pub use landmarks::{Foot, Landmarks, Point};
 pub(crate) use landmarks::{above, below};
-pub(crate) use lay_figure::LayFigure;
-pub(crate) use members::Members;
-pub(crate) use members::is_still;
+pub use mannequin_parts::MannequinParts;
+pub use members::Members;
+pub use members::is_still;
 pub use names::BoneMap;
-pub(crate) use side::{BodySide, plain_name};
+pub use side::{BodySide, plain_name};
 pub use stature::{Stature, Unit};
 pub(crate) use t_pose::is_t_pose;
-pub use words::{BODY_GUESS, Description, PEOPLE, STILL};

@@ -20,13 +20,13 @@ use std::sync::OnceLock;
 use crate::error::Error;
 use crate::time::{Clock, Frame, FrameRate};
 
-/// The largest value that a motion may hold: beyond it distances squared and summed could overflow.
+/// Largest absolute value in a motion: beyond it, sums of squared distances could overflow.
 const LARGEST: f64 = 1e12;
 
-/// A motion clip (モーション): the values as written, never turned into anything else, so that a
-/// drawing which is a source frame can be written back as the same numbers.
+/// A motion clip (モーション). The values are kept as written and never converted, so that a drawing of a source frame is
+/// written back as the same numbers.
 ///
-/// Two clips are equal when their values are, whatever is [declared](Declared) of them.
+/// Two clips are equal if their values are; what is [declared](Declared) of them does not count.
 #[derive(Debug, Clone)]
 pub struct Clip {
     skeleton: Skeleton,
@@ -35,7 +35,7 @@ pub struct Clip {
     frames: usize,
     values: Vec<f64>,
     declared: Declared,
-    /// How much each column changes, once that was asked.
+    /// Range of each column, computed on first use.
     ranges: OnceLock<Vec<f64>>,
 }
 
@@ -49,12 +49,13 @@ impl PartialEq for Clip {
 }
 
 impl Clip {
-    /// A clip from a table of `frames` rows, each as wide as the skeleton has channels.
+    /// Creates a clip from a table of `frames` rows, each as wide as the skeleton has channels.
     ///
-    /// `first` is the number that the table's first row has in its file.
+    /// `first` is the number of the table's first row in its file.
     ///
     /// # Errors
-    /// [`Error::Clip`] when the table does not have that shape or holds a value that is not finite.
+    ///
+    /// [`Error::Clip`] if the table does not have that shape or holds a value that is not finite.
     pub fn new(
         skeleton: Skeleton,
         rate: FrameRate,
@@ -77,8 +78,8 @@ impl Clip {
         Ok(Self::of_finite(skeleton, rate, first, frames, values))
     }
 
-    /// A clip from a table known to have that shape and to hold finite values only: a reader that looked
-    /// at each of them need not look again.
+    /// Creates a clip from a table that is known to have that shape and only finite values: a reader that checked
+    /// each value need not check again.
     pub(crate) fn of_finite(
         skeleton: Skeleton,
         rate: FrameRate,
@@ -92,13 +93,13 @@ impl Clip {
         Self { skeleton, rate, first, frames, values, declared, ranges }
     }
 
-    /// Checks that no value is so large that work on it would overflow: none may be beyond 10¹².
+    /// Checks that no value exceeds 10¹², so that computations cannot overflow.
     ///
     /// # Errors
     /// [`Error::Clip`] naming the frame or the joint.
     pub fn check_size(&self) -> Result<(), Error> {
         let channels = self.skeleton.channels();
-        // One look at all of them is cheaper than to stop at the first: none is the rule.
+        // A pass over all values is cheaper than stopping at the first large one: usually there is none.
         if self.values.iter().fold(false, |any, value| any | (value.abs() > LARGEST))
             && let Some(at) = self.values.iter().position(|value| value.abs() > LARGEST)
         {
@@ -118,17 +119,17 @@ impl Clip {
         &self.skeleton
     }
 
-    /// Frames a second.
+    /// Frames per second.
     pub fn rate(&self) -> FrameRate {
         self.rate
     }
 
-    /// The number its first row has in the file.
+    /// Number of the first row in the file.
     pub fn first(&self) -> Frame {
         self.first
     }
 
-    /// The number its last row has in the file; the first for an empty clip.
+    /// Number of the last row in the file; that of the first for an empty clip.
     pub fn last(&self) -> Frame {
         Frame(self.first.0 + self.frames.saturating_sub(1))
     }
@@ -138,38 +139,39 @@ impl Clip {
         self.frames
     }
 
-    /// Whether there is no frame at all.
+    /// Whether the clip is empty.
     pub fn is_empty(&self) -> bool {
         self.frames == 0
     }
 
-    /// Seconds from the first frame to the last: (F − 1)/rate.
+    /// Returns the seconds from the first frame to the last: (F − 1)/rate.
     pub fn seconds(&self) -> f64 {
         self.frames.saturating_sub(1) as f64 / self.rate.fps()
     }
 
-    /// The channel values of a frame, as wide as the skeleton has channels.
+    /// Returns the channel values of a frame, as wide as the skeleton has channels.
     ///
     /// # Panics
-    /// When the frame is not in the clip.
+    ///
+    /// If the clip lacks the frame.
     pub fn row(&self, frame: Frame) -> &[f64] {
         let channels = self.skeleton.channels();
         let row = frame.0 - self.first.0;
         &self.values[row * channels..(row + 1) * channels]
     }
 
-    /// All rows in order, each as wide as the skeleton has channels.
+    /// Returns all rows in order, each as wide as the skeleton has channels.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         let channels = self.skeleton.channels();
         (0..self.frames).map(move |row| &self.values[row * channels..(row + 1) * channels])
     }
 
-    /// Whether a frame is part of the clip.
+    /// Whether the clip contains a frame.
     pub fn contains(&self, frame: Frame) -> bool {
         (self.first.0..self.first.0 + self.frames).contains(&frame.0)
     }
 
-    /// Which joints move: those with a channel whose value changes.
+    /// Finds the joints that move: those with a channel whose value changes.
     pub(crate) fn moving_joints(&self) -> Vec<bool> {
         let changes = self.changing_channels();
         let columns = |joint: &Joint| {
@@ -179,7 +181,7 @@ impl Clip {
         self.skeleton.joints.iter().map(|joint| changes[columns(joint)].contains(&true)).collect()
     }
 
-    /// Which joints turn at all: one of their rotations is not the same in every row.
+    /// Finds the joints that turn: those with a rotation channel whose value changes.
     pub(crate) fn turning_joints(&self) -> Vec<bool> {
         let changes = self.changing_channels();
         let turns = |joint: &Joint| {
@@ -191,19 +193,19 @@ impl Clip {
         self.skeleton.joints.iter().map(turns).collect()
     }
 
-    /// Which columns of the table are not the same in every row.
+    /// Finds the columns of the table whose value changes.
     pub(crate) fn changing_channels(&self) -> Vec<bool> {
         self.ranges().iter().map(|range| *range > 0.0).collect()
     }
 
-    /// From the least to the largest value of each column of the table; 0 without a frame.
+    /// Returns the range of each column, its largest value minus its smallest; 0 if there is no frame.
     pub(crate) fn ranges(&self) -> &[f64] {
         self.ranges.get_or_init(|| {
             let first = self.rows().next().map_or_else(Vec::new, <[f64]>::to_vec);
             let (mut lows, mut highs) = (first.clone(), first);
             for row in self.rows() {
                 for ((low, high), value) in lows.iter_mut().zip(&mut highs).zip(row) {
-                    // No value is a nan, and a plain choice takes several at once.
+                    // No value is NaN, and the compiler vectorizes a plain comparison.
                     *low = if value < low { *value } else { *low };
                     *high = if value > high { *value } else { *high };
                 }
@@ -214,7 +216,7 @@ impl Clip {
         })
     }
 
-    /// The same motion of some joints, all others as they are in the first frame.
+    /// Returns a copy in which only the joints in `moves` move; the others keep their pose of the first frame.
     pub(crate) fn with_others_still(&self, moves: &[bool]) -> Self {
         let mut clip = Self { ranges: OnceLock::new(), ..self.clone() };
         let Some(first) = self.rows().next() else { return clip };
@@ -228,7 +230,7 @@ impl Clip {
         clip
     }
 
-    /// The clock of a sheet of this clip: koma 0 shows its first frame.
+    /// Returns the clock of a sheet of this clip: koma 0 shows its first frame.
     ///
     /// ```
     /// let clip = genga::motion::bvh::open("data/kuroda-pitch.bvh".as_ref())?.clip;
@@ -240,10 +242,11 @@ impl Clip {
         Clock { first: self.first, frame_rate: self.rate, koma_rate }
     }
 
-    /// The frames `begin..end` alone, by their numbers in the file. They keep those numbers.
+    /// Keeps only the frames `begin..end`, numbered as in the file. They keep their numbers.
     ///
     /// # Errors
-    /// [`Error::Clip`] when a bound lies outside the clip or the part would be empty.
+    ///
+    /// [`Error::Clip`] if a bound lies outside the clip or the range is empty.
     pub fn trimmed(mut self, begin: Frame, end: Frame) -> Result<Self, Error> {
         let (first, past) = (self.first.0, self.first.0 + self.frames);
         if begin.0 < first || end.0 > past || begin >= end {
@@ -260,29 +263,30 @@ impl Clip {
         Ok(self)
     }
 
-    /// The same joints and frames with other values, a row of them as wide as before.
+    /// Returns a clip with the same joints and frames but other values, in rows as wide as before.
     ///
     /// # Panics
-    /// When there are more or fewer values.
-    pub(crate) fn with_values(&self, values: Vec<f64>) -> Self {
+    ///
+    /// If the number of values differs.
+    pub fn with_values(&self, values: Vec<f64>) -> Self {
         assert_eq!(values.len(), self.values.len(), "as many values as before");
         let new =
             Self::of_finite(self.skeleton.clone(), self.rate, self.first, self.frames, values);
         new.with_declared(self.declared)
     }
 
-    /// What is said of it besides its values.
+    /// Facts about the motion that a file or a person declares.
     pub fn declared(&self) -> Declared {
         self.declared
     }
 
-    /// The same clip, of which that is said.
+    /// Replaces the declared facts.
     pub fn with_declared(mut self, declared: Declared) -> Self {
         self.declared = declared;
         self
     }
 
-    /// The same clip at another rate; the frames stay.
+    /// Replaces the frame rate; the frames stay.
     pub fn with_rate(mut self, rate: FrameRate) -> Self {
         self.rate = rate;
         self

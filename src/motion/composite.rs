@@ -1,5 +1,4 @@
-//! The cels of a sheet laid on one another (合成): one body, each joint in the pose of its own layer's
-//! drawing.
+//! Composites the cels of a sheet (合成) into one body: each joint takes the pose of its own layer's drawing.
 
 mod feet;
 mod flat;
@@ -18,45 +17,45 @@ use crate::sheet::{Drawing, Exposure, Feet, Layer, RootMotion, Sheet, Source};
 use crate::time::Clock;
 
 use feet::{FootHold, HeldFeet};
-pub(crate) use poser::CompositePoser;
-pub(crate) use rows::CompositeRows;
+pub use poser::CompositePoser;
+pub use rows::CompositeRows;
 
-/// The cels of a sheet laid on one another, without the motion that they are poses of: what may be kept while
-/// the sheet stays.
+/// The composited cels of a sheet, without the clip they are posed from. They can be kept as long as the sheet stays.
 #[derive(Debug, Clone)]
-pub(crate) struct Cels {
+pub struct Cels {
     clock: Clock,
     layer: Layer,
-    /// For each drawing what its layers show: one source for each layer that has joints.
+    /// Sources of each drawing, one per layer with joints.
     drawings: Vec<Vec<Source>>,
-    /// Which layer each joint is of, counted without layers that have none.
+    /// Layer of each joint, counted without layers that have no joint.
     layer_of: Vec<usize>,
-    /// Joints whose place is the source's on every koma.
+    /// Joints that take their position from the source on every koma.
     travellers: Vec<usize>,
-    /// Feet that stay where they stand, where they are to.
+    /// Feet that stay in place while they stand, if the sheet holds feet.
     feet: Option<Arc<HeldFeet>>,
 }
 
 impl Cels {
-    /// Lays the layers of a sheet on one another. What no layer names, or one that shows nothing, is of
-    /// the first; a layer that ends before the others stays on its last drawing.
+    /// Composites the layers of a sheet. Joints that no layer names, or whose layer shows nothing, belong to the
+    /// first layer. A layer that ends before the others holds its last drawing.
     ///
     /// # Errors
-    /// [`Error::Sheet`] as [`Sheet::first_layer`], and for a joint that the clip does not have.
-    pub(crate) fn of(clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
+    ///
+    /// [`Error::Sheet`] as in [`Sheet::first_layer`], and for a joint that the clip does not have.
+    pub fn new(clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
         let feet = match sheet.feet {
             Feet::Free => None,
-            Feet::Held => HeldFeet::of(clip, sheet.clock).map(Arc::new),
+            Feet::Held => HeldFeet::new(clip, sheet.clock).map(Arc::new),
         };
         Self::on(clip, sheet, feet)
     }
 
-    /// The same for another sheet of the same motion, whose feet stand where they stood.
+    /// Composites another sheet of the same motion and keeps the held feet already found.
     ///
     /// # Errors
-    /// Those of [`Cels::of`].
-    #[cfg(feature = "panels")]
-    pub(crate) fn again(&self, clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
+    ///
+    /// As in [`Cels::new`].
+    pub fn again(&self, clip: &Clip, sheet: &Sheet) -> Result<Self, Error> {
         Self::on(clip, sheet, self.feet.clone())
     }
 
@@ -84,22 +83,22 @@ impl Cels {
         Ok(Self { clock: sheet.clock, layer, drawings, layer_of, travellers, feet })
     }
 
-    /// All layers as one.
-    pub(crate) fn layer(&self) -> &Layer {
+    /// Returns all layers merged into one.
+    pub fn layer(&self) -> &Layer {
         &self.layer
     }
 
-    /// Whether the body goes on through the room while a drawing is held.
-    pub(crate) fn slides(&self) -> bool {
+    /// Whether the body travels on while a drawing is held.
+    pub fn slides(&self) -> bool {
         !self.travellers.is_empty()
     }
 
-    /// What a joint shows in a drawing.
-    pub(crate) fn source(&self, drawing: usize, joint: usize) -> Source {
+    /// Returns the source of a joint in a drawing.
+    pub fn source(&self, drawing: usize, joint: usize) -> Source {
         self.drawings[drawing][self.layer_of[joint]]
     }
 
-    /// Where the koma stands in the source.
+    /// Returns the place of a koma in the source.
     fn place(&self, koma: usize) -> f64 {
         self.clock.place_from_koma(koma)
     }
@@ -110,12 +109,12 @@ impl Cels {
     }
 }
 
-/// What is on screen of all layers together, as one column of drawings.
+/// All layers on screen together, as one column of drawings.
 ///
-/// Of a single layer it is that layer. Of several it has a drawing wherever one of them has a new one;
-/// it is a genga where one of theirs is, and shows its place and reasons.
+/// A single layer is used as it is. Several layers give a drawing wherever one of them has a new one. It is a genga
+/// if one of theirs is, and takes that drawing's place and reasons.
 #[derive(Debug, Clone)]
-pub(crate) struct Composite<'a> {
+pub struct Composite<'a> {
     clip: &'a Clip,
     cels: Cow<'a, Cels>,
 }
@@ -129,57 +128,60 @@ impl Deref for Composite<'_> {
 }
 
 impl<'a> Composite<'a> {
-    /// The layers of a sheet laid on one another, as [`Cels::of`] does.
+    /// Composites the layers of a sheet, as in [`Cels::new`].
     ///
     /// # Errors
-    /// Those of [`Cels::of`].
-    pub(crate) fn of(clip: &'a Clip, sheet: &Sheet) -> Result<Self, Error> {
-        Ok(Self { clip, cels: Cow::Owned(Cels::of(clip, sheet)?) })
+    ///
+    /// As in [`Cels::new`].
+    pub fn new(clip: &'a Clip, sheet: &Sheet) -> Result<Self, Error> {
+        Ok(Self { clip, cels: Cow::Owned(Cels::new(clip, sheet)?) })
     }
 
-    /// Cels that were laid before, of this motion.
-    #[cfg(feature = "panels")]
-    pub(crate) fn with(clip: &'a Clip, cels: &'a Cels) -> Self {
+    /// Uses cels that were composited before from this clip.
+    pub fn with(clip: &'a Clip, cels: &'a Cels) -> Self {
         Self { clip, cels: Cow::Borrowed(cels) }
     }
 
-    /// The motion.
-    pub(crate) fn clip(&self) -> &'a Clip {
+    /// The motion clip.
+    pub fn clip(&self) -> &'a Clip {
         self.clip
     }
 
-    /// The koma on which each drawing is first on screen; of one that never is, where its own place is.
-    pub(crate) fn first_koma(&self) -> Vec<usize> {
+    /// Returns the first koma of each drawing on screen. A drawing that is never shown gets the koma of its own
+    /// place.
+    pub fn first_koma(&self) -> Vec<usize> {
         let own = |drawing: &Drawing| self.clock.koma_from_place(drawing.source.place());
         let mut first: Vec<usize> = self.layer.drawings.iter().map(own).collect();
         let shown: Vec<(usize, Exposure)> = self.layer.timed().collect();
-        // From the last to the first: what is shown earlier has the last word.
+        // In reverse order, so that the earliest exposure is written last.
         shown.iter().rev().for_each(|(begin, exposure)| first[exposure.drawing] = *begin);
         first
     }
 
-    /// Joints whose place is the source's on every koma.
-    pub(crate) fn travellers(&self) -> &[usize] {
+    /// Joints that take their position from the source on every koma.
+    pub fn travellers(&self) -> &[usize] {
         &self.travellers
     }
 
-    /// Joints that turn while a drawing is held: the legs of feet that stay while the body goes on.
-    pub(crate) fn steppers(&self) -> Vec<usize> {
+    /// Joints that turn while a drawing is held: the legs of feet that stay while the body travels on.
+    pub fn steppers(&self) -> Vec<usize> {
         let feet = self.feet.iter().filter(|_| self.slides());
         feet.flat_map(|feet| feet.joints()).collect()
     }
 
-    /// What holds the feet of its poses, where they are held.
+    /// Returns the foot hold for its poses, if the sheet holds feet.
     fn foot_hold(&self) -> Option<FootHold<'_>> {
-        self.feet.as_deref().map(|feet| FootHold::of(feet, self.clip))
+        self.feet.as_deref().map(|feet| FootHold::new(feet, self.clip))
     }
 }
 
-/// The layer of each joint: what no layer names, or one that shows nothing, is of the first.
+/// Returns the layer of each joint. Joints that no layer names, or whose layer shows nothing, belong to the first
+/// layer.
 ///
 /// # Errors
-/// [`Error::Sheet`] for a joint that is not there.
-pub(crate) fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>, Error> {
+///
+/// [`Error::Sheet`] for a joint that the skeleton does not have.
+pub fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>, Error> {
     let mut layer_of = vec![0; skeleton.len()];
     for (at, layer) in sheet.layers.iter().enumerate() {
         for name in &layer.joints {
@@ -198,8 +200,8 @@ pub(crate) fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>,
     Ok(layer_of)
 }
 
-/// The joints that carry the body through the room: those whose place changes and that hang on none such.
-/// Usually it is the root; some rigs have a still joint above the one that travels.
+/// Finds the joints that carry the body through the room: those that change position and hang on no other such joint.
+/// Usually this is the root; some rigs have a still joint above the one that travels.
 fn travellers(clip: &Clip) -> Vec<usize> {
     let changes = clip.changing_channels();
     let mut carried: Vec<bool> = Vec::with_capacity(clip.skeleton().len());
@@ -216,7 +218,7 @@ fn travellers(clip: &Clip) -> Vec<usize> {
     travellers
 }
 
-/// Whether a channel says where a joint is.
+/// Whether a channel is a position channel.
 fn is_position(channel: Channel) -> bool {
     matches!(channel, Channel::Position(_))
 }

@@ -1,7 +1,7 @@
-//! Several numbers side by side, so that the compiler works on them with one instruction: lanes are
-//! frames, koma, drawings or joints, whichever stand next to each other.
+//! Groups of numbers that the compiler processes with one instruction (SIMD). Lanes hold frames, koma, drawings or
+//! joints, whichever are adjacent.
 //!
-//! Plain arrays and plain loops: a lane's result does not depend on what the other lanes hold.
+//! Uses plain arrays and plain loops. The result of a lane does not depend on the other lanes.
 
 mod euler;
 mod quat;
@@ -11,63 +11,63 @@ mod wide;
 use std::array;
 use std::ops::{Add, Mul, Sub};
 
-pub(crate) use euler::ThreeAxes;
-pub(crate) use quat::{Arc, LaneQuat, LaneVec};
+pub use euler::ThreeAxes;
+pub use quat::{Arc, LaneQuat, LaneVec};
 #[cfg(test)]
 pub(crate) use wide::narrow::narrow;
-pub(crate) use wide::{pieces, wide};
+pub use wide::{pieces, wide};
 
-/// Numbers side by side: one register of most processors, two of the oldest.
-pub(crate) const LANES: usize = 4;
+/// Number of lanes: one register of most processors, two of the oldest.
+pub const LANES: usize = 4;
 
-/// A number a lane.
+/// One number per lane.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Lanes(pub(crate) [f64; LANES]);
+pub struct Lanes(pub [f64; LANES]);
 
 impl Lanes {
-    pub(crate) const ZERO: Self = Self([0.0; LANES]);
-    pub(crate) const ONE: Self = Self([1.0; LANES]);
+    pub const ZERO: Self = Self([0.0; LANES]);
+    pub const ONE: Self = Self([1.0; LANES]);
 
     #[inline(always)]
-    pub(crate) fn splat(value: f64) -> Self {
+    pub fn splat(value: f64) -> Self {
         Self([value; LANES])
     }
 
     #[inline(always)]
-    pub(crate) fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
+    pub fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
         Self(array::from_fn(value))
     }
 
     #[inline(always)]
-    pub(crate) fn map(self, of: impl Fn(f64) -> f64) -> Self {
+    pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
         Self::from_fn(|lane| of(self.0[lane]))
     }
 
     #[inline(always)]
-    pub(crate) fn with(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+    pub fn with(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self::from_fn(|lane| of(self.0[lane], other.0[lane]))
     }
 
     #[inline(always)]
-    pub(crate) fn sqrt(self) -> Self {
+    pub fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
-    /// The lesser of each lane; plain comparisons, as no lane is ever NaN.
+    /// Returns the lesser of each lane. Plain comparisons suffice, as no lane is ever NaN.
     #[inline(always)]
-    pub(crate) fn min(self, other: Self) -> Self {
+    pub fn min(self, other: Self) -> Self {
         self.with(other, |a, b| if b < a { b } else { a })
     }
 
-    /// The greater of each lane.
+    /// Returns the greater of each lane.
     #[inline(always)]
-    pub(crate) fn max(self, other: Self) -> Self {
+    pub fn max(self, other: Self) -> Self {
         self.with(other, |a, b| if b > a { b } else { a })
     }
 
-    /// Each lane takes what the one before it holds, the first takes `first`.
+    /// Shifts the values by one lane towards the end and puts `first` into the first lane.
     #[inline(always)]
-    pub(crate) fn shifted(self, first: f64) -> Self {
+    pub fn shifted(self, first: f64) -> Self {
         Self::from_fn(|lane| if lane == 0 { first } else { self.0[lane - 1] })
     }
 }

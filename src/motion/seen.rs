@@ -1,9 +1,9 @@
-//! **Seen** (画面): from where a body is looked at, and what of it is seen there.
+//! **Seen** (画面): the camera that looks at a body, and its screen.
 
 mod camera;
 mod screen;
-pub(crate) mod view;
+pub mod view;
 
 pub use camera::Camera;
-pub(in crate::motion) use screen::looks;
+pub use screen::looks;
 pub use screen::{Eye, Screen, SeenFrom};

@@ -1,43 +1,43 @@
-//! What a run takes of the memory, worked out before it takes any.
+//! Estimates the memory of a run before it starts.
 
 use crate::error::Error;
 use crate::motion::{Clip, GIB, bytes_in_words};
 use crate::sheet::MOST_KOMA;
 
-/// Bytes of a joint in a frame: its angles as quaternions, its speeds before and after the filter, and where they turn.
+/// Bytes per joint and frame: angles as quaternions, speeds before and after the filter, and turns.
 const POSE: f64 = 64.0;
-/// Bytes of a joint on a koma: where it stands, and the sums by which stretches of keys are judged.
+/// Bytes per joint and koma: its position, and the sums by which spans between keys are judged.
 const STAND: f64 = 104.0;
-/// Bytes of a koma, however few joints there are.
+/// Bytes per koma, independent of the number of joints.
 const KOMA: f64 = 1100.0;
-/// Bytes of a joint: its name, its place in the body.
+/// Bytes per joint: its name and place in the body.
 const JOINT: f64 = 2000.0;
-/// How many times the values of a clip are there, the clip itself among them.
+/// Number of copies of the clip's values, including the clip itself.
 const COPIES: f64 = 3.0;
 
-/// What any clip may take.
+/// Bytes allowed for any clip.
 const ANY: f64 = GIB;
-/// And how many times its values beyond that. A body whose joints all move takes 7 times at 24 frames a second and 12
-/// times at 10; joints without channels take memory and bring no values.
+/// Further allowance, as a multiple of the clip's values. A body whose joints all move takes 7 times at 24 frames per
+/// second and 12 times at 10. Joints without channels take memory but add no values.
 const TIMES: f64 = 16.0;
 
 /// The most memory that a run may take (メモリの上限).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
-    /// In bytes; default none: 1 GiB and 16 times the values of the clip.
+    /// In bytes. Default: 1 GiB plus 16 times the values of the clip.
     pub bytes: Option<f64>,
 }
 
 impl Budget {
-    /// So many GiB.
+    /// Creates a budget in GiB.
     pub fn gib(gib: f64) -> Self {
         Self { bytes: Some(gib * GIB) }
     }
 
-    /// Checks that a run of the clip keeps within it, on a sheet of so many koma a second.
+    /// Checks that a run of the clip at `koma_rate` koma per second stays within the budget.
     ///
     /// # Errors
-    /// [`Error::Clip`] with the numbers and the way out, for more memory or more koma than a sheet has.
+    /// [`Error::Clip`] with the numbers and a remedy, when the run needs more memory or more koma than a sheet has.
     pub fn check(self, clip: &Clip, koma_rate: f64) -> Result<(), Error> {
         let (joints, frames) = (clip.skeleton().len(), clip.len());
         let koma = clip.rate().koma_from_frames(frames, koma_rate);
@@ -65,12 +65,12 @@ impl Budget {
     }
 }
 
-/// About the bytes that a run takes, of a clip with so many bytes of values.
+/// Estimates the bytes that a run takes; `values` are the bytes of the clip's values.
 fn need([joints, frames, koma]: [f64; 3], values: f64) -> f64 {
     joints * (POSE * frames + STAND * koma + JOINT) + KOMA * koma + COPIES * values
 }
 
-/// The bytes that it may take where nobody says how many.
+/// Returns the bytes allowed by default.
 fn allowed(values: f64) -> f64 {
     ANY + TIMES * values
 }
@@ -85,7 +85,7 @@ mod tests {
     use crate::pipeline::Engine;
     use crate::recipe::Recipe;
 
-    /// A root that moves, with so many joints that cannot, in rows of so many seconds.
+    /// Builds a clip with a moving root and `joints` rigid joints; `seconds` is the frame time.
     fn clip(joints: usize, frames: usize, seconds: &str) -> Clip {
         let mut text = "HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 1 Xposition ".to_owned();
         (0..joints).for_each(|joint| text += &format!("JOINT j{joint} {{ OFFSET 0 1 0 }} "));
@@ -136,7 +136,7 @@ mod tests {
             less.starts_with("100 joints in 1000 frames and on 1000 koma take about 17 MiB"),
             "{less}"
         );
-        // Where both are the same to two digits.
+        // Need and limit are equal to two digits here.
         let [joints, frames] = [100.0, 1000.0];
         let need = need([joints, frames, frames], 8.0 * frames);
         let hardly = said(body(), Budget { bytes: Some(need - 1.0) });

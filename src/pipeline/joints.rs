@@ -1,4 +1,4 @@
-//! The stages of every joint: its speeds smoothed, and where they turn.
+//! The per-joint stages: smoothing the speeds and finding their turns.
 
 use std::sync::Arc;
 
@@ -12,13 +12,13 @@ use crate::time::Span;
 #[derive(Debug, Clone, Default)]
 pub(super) struct JointStages {
     pub(super) filtered: Stage<LowPass, Signals>,
-    /// The turns whatever the persistence, and those that it confirms.
+    /// The turns at any persistence, and (in `turns`) those that the persistence confirms.
     pub(super) turning: Stage<(TurnFinder, f64), Vec<Vec<Turn>>>,
     pub(super) turns: Stage<TurnFinder, Vec<Vec<Turn>>>,
 }
 
 impl JointStages {
-    /// Smooths the speeds and finds where they turn.
+    /// Smooths the speeds and finds their turns.
     pub(super) fn turn(
         &mut self,
         clip: Of<'_, Arc<Clip>>,
@@ -27,7 +27,7 @@ impl JointStages {
     ) {
         let speed = (speed,);
         self.filtered.make(speed, recipe.filter.clone(), |(speed,), filter| filter.apply(&speed));
-        // A candidate knows for how long it is confirmed: another persistence needs no new search.
+        // A candidate stores for how long it holds, so another persistence needs no new search.
         let search = TurnFinder { persistence: Span::Frames(0.0), ..recipe.turns.clone() };
         let settings = (search, recipe.filter.delay(clip.rate()));
         let filtered = self.filtered.output();
@@ -40,7 +40,7 @@ impl JointStages {
         });
     }
 
-    /// Drops what only another run would use.
+    /// Drops outputs that only a further run would use.
     pub(super) fn forget(&mut self) {
         self.turning.forget();
     }

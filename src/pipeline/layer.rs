@@ -1,10 +1,10 @@
-//! The stages of one layer (セル): from the turns of its joints to its column of the sheet.
+//! The stages of one layer (セル), from the turns of its joints to its column of the sheet.
 
 use std::ops::{Deref, Range, RangeInclusive};
 
 use super::moving::Moving;
 use super::stage::{Before, Of, Stage};
-use super::voices::{Finding, Voices, joints};
+use super::voters::{Voices, joints};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{
@@ -21,7 +21,7 @@ use crate::timing::{
     self, Course, Omission, OmissionReport, Omitted, Pace, Spaced, Spacing, Stills,
 };
 
-/// The whole body that moves, with what was measured of its joints.
+/// The whole moving body with the measurements of its joints.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured<'a> {
     pub(super) moving: Moving<'a>,
@@ -40,84 +40,86 @@ impl<'a> Deref for Measured<'a> {
 /// The stages of one layer, each with its last output.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LayerStages {
-    /// The motion of its joints, and how much each counts.
+    /// The motion of the layer's joints, and the weight of each.
     motion: Stage<(LayerJoints, JointWeights), LayerClip>,
-    /// What the layer is judged beside: rate, height of the body, screen.
+    /// The yardstick for the layer: rate, height of the body, screen.
     reference: Stage<(f64, Option<f64>, Screen), Reference>,
-    /// What is lost from any koma to another, up to a span in seconds.
+    /// The loss between any two koma, up to a span in seconds.
     chords: Stage<f64, Chords>,
-    /// Which poses are one on the sheet, by how far the body may get from a drawing.
+    /// Which poses look the same on the sheet, given how far the body may get from a drawing.
     alike: Stage<f64, Alike>,
-    /// The instants from begin to end of each rest.
+    /// The first and last instant of each rest.
     rests: Stage<f64, Vec<RangeInclusive<usize>>>,
-    /// The turns of joints that have a say, and the weight of each one's vote.
+    /// The turns of the joints that vote, and the weight of each vote.
     voices: Stage<(), Voices>,
-    /// Its gaits, where their steps are to have the same phases, at koma a second.
+    /// The layer's gaits, if their steps are to share the same phases, at a rate in koma per second.
     gaits: Stage<(bool, f64), Vec<Gait>>,
-    /// When feet and hands of the layer come down or leave, where that counts.
+    /// The frames at which the layer's feet and hands land or leave, if contacts count.
     contacts: Stage<(keys::AtContacts, f64), Vec<Frame>>,
-    /// How all that moves in the layer moves, how suddenly it changes that and how much of it is drawn, how fast it is,
-    /// and when it turns as a whole.
+    /// How the layer's moving parts move, and the stages made from it: crispness, how much of it counts as drawn,
+    /// speeds, and (in `body`) the turns of the layer as a whole.
     tracks: Stage<Screen, Tracks>,
     crispness: Stage<(), f64>,
     drawn: Stage<(Drawn, Option<f64>), f64>,
     speeds: Stage<LowPass, BodySpeeds>,
-    /// Persistence and the least distance of two turns, in frames.
+    /// The persistence and the least distance between two turns, in frames.
     body: Stage<(f64, f64), BodyTurns>,
-    /// What may be a key, before a person and the sheet have their say, and after.
-    candidates: Stage<(Choose, Finding), Candidates>,
+    /// The candidates for keys, at least that many frames apart; then (`free`, `around`) the choice without and with corrections.
+    candidates: Stage<(Choose, f64), Candidates>,
     free: Choosing,
     around: Choosing,
-    /// The keys with corrections, each in its own neighbourhood or all chosen again; before any is moved.
+    /// The keys without and with corrections, each correction in its own neighbourhood or all keys chosen again; before
+    /// any key is moved.
     corrected: Stage<(Choose, Edits, f64, f64), [Chosen; 2]>,
-    /// The clip's ends are a setting of it.
-    keys: Stage<(Choose, Edits, Finding, (Frame, Frame)), LayerKeys>,
+    /// The settings include the clip's first and last frame.
+    keys: Stage<(Choose, Edits, f64, (Frame, Frame)), LayerKeys>,
     spaced: Stage<(Spacing, LayerJoints), Spaced>,
     stills: Stage<(), Stills>,
     omitted: Stage<(Omission, Course), Omitted>,
 }
 
-/// A choice of keys, before a person has a say or after.
+/// A choice of keys, with or without a person's corrections.
 #[derive(Debug, Clone, Default)]
 struct Choosing {
-    /// What may be a key, by frame.
+    /// The eligible keys, by frame.
     eligible: Stage<(Choose, Edits, Spacing, f64), Vec<Key>>,
-    /// What was picked: not made again where all that changed is how strong its keys are.
+    /// The picked keys; not made again if only the strength of keys changed.
     picked: Stage<Choice, Picked>,
     chosen: Stage<(), Chosen>,
 }
 
-/// What was found and decided for one layer.
+/// Results for one layer.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerBreakdown<'a> {
-    /// How suddenly it changes its velocities, 0 as a capture does to 1 for nothing but kinks.
+    /// How abruptly the layer changes its velocities, from 0 (like captured motion) to 1 (kinks only).
     pub crispness: f64,
-    /// How much of it counts as drawn, 0 to 1: by its crispness, or as the recipe says.
+    /// How much of the layer counts as drawn, 0 to 1: derived from its crispness, or set by the recipe.
     pub drawn: f64,
-    /// When it turns as a whole.
+    /// The turns of the layer as a whole.
     pub body: &'a BodyTurns,
-    /// What may be a key, before it was asked what it is worth.
+    /// The candidates for keys, before they are valued.
     pub candidates: &'a Candidates,
     /// Keys and walls.
     pub keys: &'a LayerKeys,
-    /// The keys that a person corrects: those that are found without any correction, or that are frozen.
+    /// The keys that corrections apply to: those found without any correction, or the frozen ones.
     pub uncorrected: &'a [Key],
-    /// Inbetweens that were asked for and did not fit.
+    /// Number of requested inbetweens that did not fit.
     pub did_not_fit: usize,
-    /// The koma of its gaits, from the first contact to the last, in which nothing is left out.
+    /// The koma of the layer's gaits, from first to last contact. Omission leaves them alone.
     pub gaits: &'a [Range<usize>],
-    /// The layer before anything was left out.
+    /// The layer before omission.
     pub spaced: &'a Layer,
-    /// Where all joints stand in its drawings; none after [`Engine::run_once`](super::Engine::run_once), which forgets it.
+    /// Positions of all joints in its drawings; `None` after [`Engine::run_once`](super::Engine::run_once),
+    /// which drops them.
     pub stills: Option<&'a Stills>,
     /// The layer on the sheet.
     pub layer: &'a Layer,
-    /// What was left out, and what could not be.
+    /// The drawings left out, and those that could not be.
     pub omission: &'a OmissionReport,
 }
 
 impl LayerStages {
-    /// Takes on the joints of the layer.
+    /// Sets the joints of the layer.
     pub(super) fn take(
         &mut self,
         moving: &Moving<'_>,
@@ -127,11 +129,12 @@ impl LayerStages {
         let settings = (joints.clone(), weights.clone());
         let inputs = (moving.clip, moving.build);
         self.motion.try_make(inputs, settings, |(clip, build), (joints, weights)| {
-            LayerClip::of(&clip, joints, &build.members, weights)
+            LayerClip::new(&clip, joints, &build.members, weights)
         })
     }
 
-    /// Finds of the keys what does not wait for the turns of single joints: where those have no say, all but who turns.
+    /// Runs the stages of the key search that do not need single joints' turns. If joints have no vote, that is
+    /// everything but the list of joints that turn.
     pub(super) fn find_alone(&mut self, moving: &Moving<'_>, recipe: &Recipe, edits: &Edits) {
         self.compare(moving, recipe);
         self.touch(moving, recipe);
@@ -153,7 +156,7 @@ impl LayerStages {
         self.draw(measured, recipe, edits);
     }
 
-    /// What the layer is judged beside.
+    /// Builds the yardstick for the layer.
     fn refer(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         let settings = (recipe.rate, moving.height, moving.screen);
         let inputs = (self.motion.output(), moving.build);
@@ -168,7 +171,7 @@ impl LayerStages {
         });
     }
 
-    /// What is lost from any koma to another, and where nothing is.
+    /// Computes the loss between any two koma, and where there is none.
     pub(super) fn compare(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.refer(moving, recipe);
         let inputs = (self.motion.output(), moving.build, self.reference.output());
@@ -177,23 +180,23 @@ impl LayerStages {
         });
         let inputs = (self.reference.output(), self.chords.output());
         self.alike.make(inputs, recipe.spacing.drift, |(reference, chords), drift| {
-            let pace = Pace::of(&reference).with_acting(&chords);
+            let pace = Pace::new(&reference).with_acting(&chords);
             timing::alike(&pace, *drift)
         });
         let chords = (self.chords.output(),);
         self.rests.make(chords, recipe.keys.rest, |(chords,), rest| keys::rests(&chords, *rest));
     }
 
-    /// Who of the joints has a say.
+    /// Determines which joints vote.
     fn hear(&mut self, measured: &Measured<'_>) {
         let motion = self.motion.output();
         self.voices.make((measured.clip, motion, measured.turns), (), |inputs, ()| {
             let (clip, motion, turns) = inputs;
-            Voices::of(&clip, &motion, &turns)
+            Voices::new(&clip, &motion, &turns)
         });
     }
 
-    /// The ends of contacts, which are not looked for where they do not count.
+    /// Finds the ends of contacts, unless they do not count.
     fn touch(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         let motion = self.motion.output();
         let settings = (recipe.keys.contacts, recipe.rate);
@@ -205,7 +208,7 @@ impl LayerStages {
         });
     }
 
-    /// How all that moves in the layer moves.
+    /// Computes how the moving parts of the layer move.
     pub(super) fn follow(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.compare(moving, recipe);
         let (reference, chords) = (self.reference.output(), self.chords.output());
@@ -214,11 +217,11 @@ impl LayerStages {
             let LayerClip { clip, judged, heard, .. } = motion.value();
             let (height, acting) = (reference.height(), chords.value().acting());
             let build = build.value();
-            Tracks::of(&LayerMotion { clip, build, heard, judged, screen, height, acting })
+            Tracks::new(&LayerMotion { clip, build, heard, judged, screen, height, acting })
         });
     }
 
-    /// The turns of the layer as a whole.
+    /// Finds the turns of the layer as a whole.
     fn turn(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.follow(moving, recipe);
         let (tracks, rate) = ((self.tracks.output(),), moving.clip.rate());
@@ -226,7 +229,7 @@ impl LayerStages {
         let crispness = (self.crispness.output(),);
         let settings = (recipe.turns.drawn, moving.crispness);
         self.drawn.make(crispness, settings, |(own,), (drawn, whole)| {
-            // A toe or a finger may be still and leap in any capture.
+            // The body's crispness is the upper bound, since a toe or a finger may be still and leap in any capture.
             let crispness = whole.map_or(*own, |whole| own.min(whole));
             drawn.share(keys::drawn(crispness))
         });
@@ -241,10 +244,10 @@ impl LayerStages {
         });
     }
 
-    /// What may be a key; `heard` are the joints where they have a say.
+    /// Gathers the candidates for keys; `heard` are the joints, if they vote.
     fn gather(&mut self, moving: &Moving<'_>, heard: Option<&Measured<'_>>, recipe: &Recipe) {
-        let finding = Finding::of(moving, recipe);
-        // Price, rests and limit choose among candidates and do not change them.
+        let apart = moving.apart(recipe);
+        // Price, rests and limit only choose among the candidates, so they are neutralised here.
         let merging = Choose {
             min_price: 0.0,
             rest: 0.0,
@@ -253,19 +256,19 @@ impl LayerStages {
             per_second: f64::INFINITY,
             ..recipe.keys.clone()
         };
-        let (body, settings) = (self.body.output(), (merging, finding));
+        let (body, settings) = (self.body.output(), (merging, apart));
         let Some(Measured { filtered, turns, .. }) = heard else {
-            return self.candidates.make((body,), settings, |(body,), (choose, finding)| {
-                choose.moments(&body, finding.apart)
-            });
+            return self
+                .candidates
+                .make((body,), settings, |(body,), (choose, apart)| choose.moments(&body, *apart));
         };
         let known = (*filtered, *turns, self.voices.output(), body, self.contacts.output());
-        self.candidates.make(known, settings, |known, (choose, finding)| {
-            choose.candidates(&joints(known, finding))
+        self.candidates.make(known, settings, |known, (choose, apart)| {
+            choose.candidates(&joints(known, *apart))
         });
     }
 
-    /// The gaits of a layer that has both legs.
+    /// Finds the gaits of a layer that contains both legs.
     fn walk(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         let inputs = (moving.clip, moving.build, self.motion.output());
         let settings = (recipe.keys.walks(), recipe.rate);
@@ -273,13 +276,13 @@ impl LayerStages {
             let legs = build.mannequin.as_ref().map(|body| body.legs().concat());
             let has_legs = |joints: Vec<usize>| joints.iter().all(|joint| motion.moves[*joint]);
             match *walks && legs.is_some_and(has_legs) {
-                true => Gait::of(&clip, &build, clip.clock(*rate)),
+                true => Gait::find_all(&clip, &build, clip.clock(*rate)),
                 false => Vec::new(),
             }
         });
     }
 
-    /// The keys among it, with who turns on each.
+    /// Selects the keys among the candidates, each with the joints that turn there.
     fn draw(&mut self, measured: &Measured<'_>, recipe: &Recipe, edits: &Edits) {
         self.walk(measured, recipe);
         let turns = measured.turns;
@@ -293,28 +296,28 @@ impl LayerStages {
             self.gaits.output(),
         );
         let ends = (measured.clip.first(), measured.clip.last());
-        let finding = Finding::of(measured, recipe);
-        let settings = (recipe.keys.clone(), edits.clone(), finding, ends);
-        self.keys.make(inputs, settings, |inputs, (choose, edits, finding, ends)| {
+        let apart = measured.apart(recipe);
+        let settings = (recipe.keys.clone(), edits.clone(), apart, ends);
+        self.keys.make(inputs, settings, |inputs, (choose, edits, apart, ends)| {
             let (chords, rests, corrected, candidates, turns, voices, gaits) = inputs;
             let heard = (voices.turns(turns.value()), &voices.weights[..]);
             let still = (chords.value(), &rests[..]);
             let picked =
                 Picks { chosen: &corrected[1], walls: &candidates.walls, gaits: gaits.value() };
-            choose.drawn(still, picked, heard, (*ends, edits, finding.apart))
+            choose.drawn(still, picked, heard, (*ends, edits, *apart))
         });
     }
 
-    /// The keys without corrections, and with them: chosen again in the neighbourhood of each, or all of them.
+    /// Chooses the keys without corrections and with them: anew around each correction, or all of them.
     fn correct(&mut self, moving: &Moving<'_>, recipe: &Recipe, edits: &Edits, koma: f64) {
         let (pins, forbidden) = (edits.pins.clone(), edits.forbidden.clone());
-        // Moves come later: what may be a key does not hang on them.
+        // Moves are applied later; eligibility does not depend on them.
         let asked = Edits { pins, forbidden, ..Edits::default() };
         let mut free = std::mem::take(&mut self.free);
         self.admit(&mut free, moving, recipe, Edits::default(), koma);
         self.pick(&mut free, moving, recipe, koma);
         self.free = free;
-        // Which choice is taken hangs on the corrections alone, by which the result is kept too.
+        // The choice depends only on the corrections, which are part of the key of the cached result.
         let is_other = !asked.is_empty();
         if is_other {
             let mut around = std::mem::take(&mut self.around);
@@ -352,7 +355,7 @@ impl LayerStages {
         });
     }
 
-    /// What may be a key beside what a person asks for and where the sheet has room.
+    /// Finds the eligible keys, given a person's corrections and the room on the sheet.
     fn admit(
         &self,
         choosing: &mut Choosing,
@@ -365,7 +368,7 @@ impl LayerStages {
         let (candidates, contacts) = (self.candidates.output(), self.contacts.output());
         let reference = self.reference.output();
         let inputs = (moving.clip, chords, rests, candidates, contacts, reference);
-        // How long a drawing stays and what still counts as rest is all that keys hang on of spacing.
+        // Of the spacing, keys depend only on how long a drawing stays and what counts as rest.
         let Spacing { on, drift, .. } = recipe.spacing;
         let room = Spacing { on, drift, ..Spacing::default() };
         let settings = (recipe.keys.clone(), edits, room, koma);
@@ -377,28 +380,28 @@ impl LayerStages {
                 keys::AtRests::Keys => keys::rest_frames(&chords, &rests),
                 keys::AtRests::Off => Vec::new(),
             };
-            let pace = Pace::of(&reference).with_acting(&chords);
+            let pace = Pace::new(&reference).with_acting(&chords);
             let room = spacing.room(&held, reference.clock(), reference.koma(), &pace);
             keys.retain(|key| !key.origin.is_found() || room(key.frame));
             keys
         });
     }
 
-    /// Which of them are drawn.
+    /// Picks the keys among the eligible ones.
     fn pick(&self, choosing: &mut Choosing, moving: &Moving<'_>, recipe: &Recipe, koma: f64) {
         let (chords, reference) = (self.chords.output(), self.reference.output());
         let alike = self.alike.output().value();
         let judges = Judges { reference: reference.value(), chords: chords.value(), alike };
-        // Keys stand as far apart as a drawing stays, or the sheet would have no room for both.
+        // Keys are at least as far apart as a drawing stays, or the sheet would lack room for both.
         let apart = recipe.spacing.on.stay() as f64 * koma;
         let eligible = choosing.eligible.output();
         let choice = recipe.keys.choice(&moving.clip, judges, &eligible, apart);
         choosing.picked.make((chords,), choice, |(chords,), choice| choice.pick(&chords));
         let inputs = (choosing.eligible.output(), choosing.picked.output());
-        choosing.chosen.make(inputs, (), |(keys, picked), ()| Chosen::of(keys.value(), &picked));
+        choosing.chosen.make(inputs, (), |(keys, picked), ()| Chosen::new(keys.value(), &picked));
     }
 
-    /// The column, before and after omission; `later` are the koma on which actions begin after the first.
+    /// Times the column before and after omission; `later` are the koma at which all actions but the first begin.
     pub(super) fn time(
         &mut self,
         measured: &Measured<'_>,
@@ -410,7 +413,7 @@ impl LayerStages {
         let inputs = (measured.clip, self.keys.output(), reference, chords);
         let settings = (recipe.spacing.clone(), joints.clone());
         self.spaced.make(inputs, settings, |(clip, keys, reference, chords), (spacing, joints)| {
-            let (skeleton, pace) = (clip.skeleton(), Pace::of(&reference).with_acting(&chords));
+            let (skeleton, pace) = (clip.skeleton(), Pace::new(&reference).with_acting(&chords));
             let koma = clip.rate().koma_from_frames(clip.len(), reference.clock().koma_rate);
             named(spacing.place(&keys, skeleton, reference.clock(), koma, &pace), joints, skeleton)
         });
@@ -438,7 +441,7 @@ impl LayerStages {
         })
     }
 
-    /// Drops what only another run would use, and what is large.
+    /// Drops large outputs and those that only a further run would use.
     pub(super) fn forget(&mut self) {
         self.motion.forget();
         self.reference.forget();
@@ -466,40 +469,40 @@ impl LayerStages {
         }
     }
 
-    /// What is lost from any instant to another.
+    /// Returns the loss between any two instants.
     pub(super) fn chords(&self) -> Of<'_, Chords> {
         self.chords.output()
     }
 
-    /// Its turns as a whole, its keys, and those before corrections.
+    /// Returns the turns of the layer as a whole, its keys, and the keys before corrections.
     pub(super) fn keys(&self) -> (&BodyTurns, &LayerKeys, &[Key]) {
         let before = &self.corrected.output().value()[0].keys;
         (self.body.output().value(), self.keys.output().value(), before)
     }
 
-    /// The layer before and after omission.
+    /// Returns the layer before and after omission.
     pub(super) fn timed(&self) -> (Of<'_, Spaced>, Of<'_, Omitted>) {
         (self.spaced.output(), self.omitted.output())
     }
 
-    /// Runs its stages up to its turns as a whole.
+    /// Runs the stages up to the turns of the layer as a whole.
     pub(super) fn find_body_turns(&mut self, moving: &Moving<'_>, recipe: &Recipe) {
         self.turn(moving, recipe);
     }
 
-    /// Its turns as a whole.
+    /// Returns the turns of the layer as a whole.
     pub(super) fn body_turns(&self) -> &BodyTurns {
         self.body.output().value()
     }
 
-    /// How far off the layer is when nothing but its keys is left.
+    /// Measures how far the layer deviates if only its keys remain.
     pub(super) fn reconstruction(&self) -> Reconstruction {
         let keys: Vec<Frame> = self.keys.output().keys.iter().map(|key| key.frame).collect();
-        Reconstruction::of(&self.motion.output().clip, &self.reference.output(), &keys)
+        Reconstruction::new(&self.motion.output().clip, &self.reference.output(), &keys)
     }
 }
 
-/// A column under the name of its layer. A layer that is the whole body need not name its joints.
+/// Names a column after its layer. A layer that is the whole body need not list its joints.
 fn named(mut spaced: Spaced, joints: &LayerJoints, skeleton: &Skeleton) -> Spaced {
     spaced.layer.name.clone_from(&joints.name);
     if !joints.is_whole(skeleton) {

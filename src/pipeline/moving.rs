@@ -1,4 +1,4 @@
-//! The whole body that moves, the same for all layers: as it is drawn, from where it is seen, how it is built.
+//! The moving body, shared by all layers: the drawn motion, the camera, and the body's build.
 
 use std::sync::Arc;
 
@@ -13,41 +13,41 @@ use crate::time::Clock;
 /// The stages of the whole body, each with its last output.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MovingStages {
-    /// The motion that is drawn, and how it was exaggerated; the clip itself where it was not.
+    /// The drawn motion with its exaggeration; the clip itself if there is none.
     drawn: Stage<Option<Exaggerate>, Arc<Clip>>,
-    /// From where movement is seen.
+    /// The camera.
     screen: Stage<SeenFrom, Screen>,
     build: Stage<(), Build>,
-    /// How high it stands, beside which its layers are judged.
+    /// The standing height, by which the layers are judged.
     height: Stage<Clock, f64>,
-    /// How suddenly it changes its velocities: its layers are no crisper.
+    /// The crispness of the body, which bounds that of its layers.
     crispness: Stage<Screen, f64>,
 }
 
-/// What they made last.
+/// The last outputs of [`MovingStages`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moving<'a> {
     pub(super) clip: Of<'a, Arc<Clip>>,
     pub(super) build: Of<'a, Build>,
-    /// The body's height in the file's unit, for a layer that is not all of it.
+    /// The body's height in the file's unit, for a layer that is only a part of it.
     pub(super) height: Option<f64>,
-    /// The crispness of the body, likewise.
+    /// The body's crispness, for a layer that is only a part of it.
     pub(super) crispness: Option<f64>,
-    /// From where it is seen.
+    /// The screen of the camera.
     pub(super) screen: Screen,
 }
 
 impl Moving<'_> {
-    /// The least distance of two keys in frames: a koma.
+    /// Returns the least distance between two keys in frames: one koma.
     pub(super) fn apart(&self, recipe: &Recipe) -> f64 {
         self.clip.clock(recipe.rate).frames_in_koma()
     }
 }
 
 impl MovingStages {
-    /// Exaggerates the motion where the recipe asks for it.
+    /// Exaggerates the motion if the recipe asks for it.
     pub(super) fn exaggerate(&mut self, clip: &Arc<Clip>, recipe: &Recipe) -> Result<(), Error> {
-        // What is off is off whatever its other settings.
+        // A disabled exaggeration must not invalidate the cache.
         let settings = (!recipe.exaggerate.is_off()).then(|| recipe.exaggerate.clone());
         self.drawn.try_make((Of::given(clip),), settings, |(clip,), settings| match settings {
             None => Ok(Arc::clone(&clip)),
@@ -55,14 +55,14 @@ impl MovingStages {
         })
     }
 
-    /// Looks at the motion that is drawn.
+    /// Computes the screen and the body's build.
     pub(super) fn see(&mut self, from: SeenFrom) {
         let clip = self.drawn.output();
-        self.screen.make((clip,), from, |(clip,), from| Screen::of(*from, &clip));
-        self.build.make((clip,), (), |(clip,), ()| Build::of(&clip));
+        self.screen.make((clip,), from, |(clip,), from| Screen::new(*from, &clip));
+        self.build.make((clip,), (), |(clip,), ()| Build::new(&clip));
     }
 
-    /// Measures how high the body stands and how crisp its motion is.
+    /// Measures the body's standing height and its crispness.
     pub(super) fn stand(&mut self, clock: Clock) {
         let inputs = (self.drawn.output(), self.build.output());
         self.height.make(inputs, clock, |(clip, build), clock| {
@@ -75,17 +75,17 @@ impl MovingStages {
         });
     }
 
-    /// The motion that is drawn.
+    /// Returns the drawn motion.
     pub(super) fn drawn(&self) -> Of<'_, Arc<Clip>> {
         self.drawn.output()
     }
 
-    /// From where it is seen.
+    /// Returns the screen of the camera.
     pub(super) fn screen(&self) -> Of<'_, Screen> {
         self.screen.output()
     }
 
-    /// What a layer is made of; `is_split` where it is one of several.
+    /// Returns the outputs that a layer is made from; `is_split` if it is one of several.
     pub(super) fn outputs(&self, is_split: bool) -> Moving<'_> {
         Moving {
             clip: self.drawn.output(),

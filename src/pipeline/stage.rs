@@ -1,19 +1,19 @@
-//! A stage of the chain: its last output, and what it was made of.
+//! A stage of the chain: its last output, with the inputs and settings that made it.
 //!
-//! A stage is made by a function that captures nothing: all it sees are outputs of other stages and its
-//! settings, and those are what its output is kept by. So no input can be forgotten.
+//! A stage is made by a function that captures nothing. It sees only the outputs of other stages and its settings,
+//! which are exactly what the cached output is keyed by, so no input can be forgotten.
 
 use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::error::Error;
 
-/// Which of its outputs a stage holds, so that the next stage knows whether it has used that one. A
-/// run may end after any stage: whether a stage did something *in this run* would not tell.
+/// The generation of a stage's output, by which a later stage knows whether it has already used it. A run may end after
+/// any stage, so a flag "made in this run" would not suffice.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Made(u64);
 
-/// The output of a stage, and which one it is.
+/// The output of a stage with its generation.
 #[derive(Debug)]
 pub(super) struct Of<'a, T> {
     made: Made,
@@ -21,7 +21,7 @@ pub(super) struct Of<'a, T> {
 }
 
 impl<'a, T> Of<'a, T> {
-    /// What was given and never changes.
+    /// Wraps a value that never changes.
     pub(super) fn given(value: &'a T) -> Self {
         Self { made: Made(0), value }
     }
@@ -47,7 +47,7 @@ impl<T> Deref for Of<'_, T> {
     }
 }
 
-/// Outputs that a stage is made of.
+/// The outputs that a stage takes as inputs.
 pub(super) trait Inputs {
     fn made(&self) -> Vec<Made>;
 }
@@ -72,24 +72,24 @@ inputs!(A B C D E);
 inputs!(A B C D E F);
 inputs!(A B C D E F G);
 
-/// As many as there are layers.
+/// One input per layer.
 impl<T: Inputs> Inputs for Vec<T> {
     fn made(&self) -> Vec<Made> {
         self.iter().flat_map(Inputs::made).collect()
     }
 }
 
-/// A stage's last output with the inputs and the settings that made it.
+/// The last output of a stage, with the inputs and the settings that made it.
 #[derive(Debug)]
 pub(super) struct Stage<Settings, Output> {
     last: Option<Arc<Last<Settings, Output>>>,
     made: Made,
 }
 
-/// What a stage made last, to be used for what it makes now.
+/// The previous output of a stage, to be reused for the next one.
 pub(super) struct Before<Output> {
     pub(super) output: Output,
-    /// Of each input whether it is the one that made it.
+    /// For each input, whether it is unchanged since.
     pub(super) same: Vec<bool>,
 }
 
@@ -113,7 +113,7 @@ impl<Settings, Output> Default for Stage<Settings, Output> {
 }
 
 impl<Settings: PartialEq, Output> Stage<Settings, Output> {
-    /// Makes the output again if its inputs or its settings changed.
+    /// Makes the output again if the inputs or settings changed.
     pub(super) fn make<I: Inputs>(
         &mut self,
         inputs: I,
@@ -127,8 +127,8 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
         }
     }
 
-    /// The same for a stage whose output is large: its last is handed on to be written over or used, if nobody else has
-    /// it.
+    /// Like [`Stage::make`], for a large output: `make` receives the previous one to overwrite or reuse, unless it is
+    /// shared.
     pub(super) fn make_over<I: Inputs>(
         &mut self,
         inputs: I,
@@ -147,7 +147,7 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
         }
     }
 
-    /// The same for a stage that can fail.
+    /// Like [`Stage::make`], for a function that can fail.
     pub(super) fn try_make<I: Inputs>(
         &mut self,
         inputs: I,
@@ -156,7 +156,7 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
     ) -> Result<(), Error> {
         let made = inputs.made();
         if !self.is_fresh(&made, &settings) {
-            // Forgotten first: should `make` fail, a later run must not take the old output for the new.
+            // Drops the old output first: if `make` fails, a later run must not mistake it for the new one.
             self.last = None;
             let output = make(inputs, &settings)?;
             self.keep(made, settings, output);
@@ -174,20 +174,20 @@ impl<Settings: PartialEq, Output> Stage<Settings, Output> {
         self.made = Made(self.made.0 + 1);
     }
 
-    /// Drops the output; asked for again, it is made again.
+    /// Drops the output; the next run makes it again.
     pub(super) fn forget(&mut self) {
         self.last = None;
     }
 
-    /// The last output; none where it was forgotten or never made.
+    /// Returns the last output; `None` if it was dropped or never made.
     pub(super) fn last(&self) -> Option<&Output> {
         self.last.as_deref().map(|last| &last.output)
     }
 
-    /// The last output.
+    /// Returns the last output.
     ///
     /// # Panics
-    /// Unless the stage was made.
+    /// Panics if the stage was not made.
     pub(super) fn output(&self) -> Of<'_, Output> {
         let last = self.last.as_deref().expect("the stage was made before its output is asked for");
         Of { made: self.made, value: &last.output }

@@ -1,4 +1,4 @@
-//! An engine that has run before gives what a fresh one gives; corrections hold.
+//! A reused engine gives the results of a fresh one, and corrections hold.
 
 mod local;
 pub(crate) mod walking;
@@ -16,14 +16,14 @@ use crate::recipe::{KNOBS, Kind, Knob};
 use crate::sheet::{Role, Source};
 use crate::timing::{OmissionReport, On};
 
-/// The made pitch, its hundred frames round the throw: 24 frames a second, 23 joints.
+/// The synthetic pitch, cut to a hundred frames around the throw: 24 frames per second, 23 joints.
 fn pitch() -> Clip {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/pitch.bvh");
     let clip = bvh::read(&std::fs::read(path).unwrap()).unwrap().clip;
     clip.trimmed(Frame(20), Frame(120)).unwrap()
 }
 
-/// Values of every knob that the default is not, and the default itself.
+/// Returns values of a knob that differ from its default, and the default itself.
 fn values(knob: &Knob) -> Vec<String> {
     let mut values = match knob.kind {
         Kind::Number { min, max, whole, optional } => {
@@ -50,14 +50,14 @@ fn values(knob: &Knob) -> Vec<String> {
     values
 }
 
-/// A recipe with some settings changed.
+/// Builds a recipe with some settings changed.
 fn recipe(settings: &[(&str, &str)]) -> Recipe {
     let mut recipe = Recipe::default();
     settings.iter().for_each(|(name, value)| recipe.set(name, value).unwrap());
     recipe
 }
 
-/// What two runs are compared by: everything that is made.
+/// The outputs by which two runs are compared.
 #[derive(Debug, PartialEq)]
 struct Result {
     clip: Clip,
@@ -65,7 +65,7 @@ struct Result {
     filtered: Signals,
     turns: Vec<Vec<Turn>>,
     keys: LayerKeys,
-    /// Of each layer what might have been a key, its keys, what did not fit, and what was left out.
+    /// For each layer: candidates, keys, the number that did not fit, and the omissions.
     layers: Vec<(Candidates, LayerKeys, usize, OmissionReport)>,
     sheets: [Sheet; 2],
 }
@@ -91,7 +91,7 @@ fn fresh(clip: &Clip, recipe: &Recipe, edits: &Edits) -> Result {
     run(&mut Engine::new(clip.clone()).unwrap(), recipe, edits)
 }
 
-/// Every knob at every value, in an order that looks random and is always the same.
+/// Returns every knob at every value, in a shuffled but fixed order.
 fn changes(seed: u64) -> Vec<(&'static Knob, String)> {
     let mut changes: Vec<_> =
         KNOBS.iter().flat_map(|knob| values(knob).into_iter().map(move |v| (knob, v))).collect();
@@ -139,7 +139,7 @@ fn knobs_that_stay_changed_and_corrections_that_come_and_go_give_what_a_fresh_en
     let clip = pitch();
     let mut engine = Engine::new(clip.clone()).unwrap();
     let mut recipe = Recipe::default();
-    // Settings that stay changed make a run slow.
+    // Accumulated changes make a run slow.
     let steps = if is_full() { usize::MAX } else { 40 };
     for (step, (knob, value)) in changes(2).into_iter().enumerate().take(steps) {
         recipe.set(knob.name, &value).unwrap();
@@ -264,7 +264,7 @@ fn a_recipe_or_correction_that_is_refused_changes_nothing_afterwards() {
 
 #[test]
 fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
-    // A knob that nothing reads would pass every comparison with a fresh engine.
+    // Comparing with a fresh engine would not reveal a knob that nothing reads.
     let clip = pitch();
     let mut unread: Vec<&str> = KNOBS.iter().map(|knob| knob.name).collect();
     let (mut engine, none) = (Engine::new(clip).unwrap(), Edits::default());
@@ -289,7 +289,7 @@ fn every_knob_makes_a_difference_to_what_is_made_or_to_how() {
             })
         });
     }
-    // Nobody walks in a pitch.
+    // The pitch contains no walking.
     assert_eq!(unread, ["keys.gaits"], "no sheet ever changed with them");
     let mut engine = Engine::new(walking::clip()).unwrap();
     let mut walked = |word: &str| {
@@ -458,7 +458,7 @@ fn what_all_joints_weigh_is_nothing_and_what_one_weighs_is_something() {
         }
         engine.run(&recipe, &Edits::default()).unwrap().first_layer().keys.clone()
     };
-    for merge in ["body", "union", "vote", "sum"] {
+    for merge in ["body", "union", "vote"] {
         let plain = keys(merge, &[]);
         assert_eq!(keys(merge, &[("*", "2")]), plain, "{merge}");
         assert_ne!(keys(merge, &[("*Foot", "8")]), plain, "{merge}");
@@ -482,7 +482,7 @@ fn a_joint_without_a_say_is_nobody_s_reason() {
     for key in made.first_layer().keys.keys.iter().filter(|key| key.origin.is_found()) {
         assert!(!key.voters.is_empty() && !key.voters.iter().any(mute), "{key:?}");
     }
-    // What every joint does is still known.
+    // The turns of every joint are still known.
     let turns = engine.find_keys(&recipe, &Edits::default()).unwrap().turns;
     assert!(turns.iter().filter(|turns| !turns.is_empty()).count() > 8);
     let error = recipe.set("keys.weights.*Foot*", "none").and_then(|()| {
@@ -492,7 +492,7 @@ fn a_joint_without_a_say_is_nobody_s_reason() {
     assert!(error.unwrap_err().to_string().contains("every joint has 0"));
 }
 
-/// A recipe with some knobs turned to anything.
+/// Generates recipes with some knobs at arbitrary values.
 fn any_recipe() -> impl Strategy<Value = Recipe> {
     let turn = (prop::sample::select(KNOBS), any::<prop::sample::Index>());
     prop::collection::vec(turn, 0..8).prop_map(|turns| {

@@ -1,4 +1,4 @@
-//! The recipe as a file (ファイル): TOML with a comment for every knob, and a person's corrections beside it.
+//! Recipe files (ファイル): TOML with a comment for every knob, and a person's corrections beside them.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -13,30 +13,30 @@ use super::{Footage, Knob, Recipe, Who};
 use crate::edits::Edits;
 use crate::error::Error;
 
-/// The section of the knobs that nobody draws with, by their whole names. A file may have them in their own sections too.
+/// The section of the researchers' knobs, keyed by their full names. A file may also keep them in their own sections.
 const STUDIES: &str = "studies";
 
-/// What a written recipe says of it.
+/// The comment above that section in a written recipe.
 const ABOUT_STUDIES: &str =
     "\n# For studies (研究用): nothing here is of use to somebody who draws.";
 
-/// The section of the weights of joints, and the knob behind which it is written: a table in a section comes after
-/// its values.
+/// The section of the joints' weights, and the knob after which it is written. TOML requires a table within a section
+/// to follow the section's values.
 const WEIGHTS: &str = "keys.weights";
 const LAST_OF_KEYS: &str = "keys.per_second";
 
-/// What a written recipe says of them.
+/// The comment above the weights in a written recipe.
 const ABOUT_WEIGHTS: &str = "\
 # 部位の重み — How much joints count, by name or by pattern (* any letters, ? one): 0 has no say, 2 counts
 # twice; a joint that none fits has 1. A whole name goes before a pattern, more letters before fewer.
 ";
 
 impl Recipe {
-    /// A recipe and corrections from TOML. Settings that are not named keep their defaults.
+    /// Reads a recipe and corrections from TOML. Settings that are absent keep their defaults.
     ///
     /// # Errors
-    /// [`Error::Recipe`] with line and column when it is no TOML, names a setting that does not exist, names
-    /// one twice, or gives one a value that it does not take.
+    /// [`Error::Recipe`] with line and column when the text is not TOML, names an unknown setting, names one twice, or
+    /// gives one a value that it does not accept.
     ///
     /// ```
     /// use genga::recipe::Recipe;
@@ -49,25 +49,24 @@ impl Recipe {
         Self::default().overlaid(text)
     }
 
-    /// [`Recipe::parse`] on top of this recipe: settings that are not named keep its values.
+    /// Like [`Recipe::parse`], on top of this recipe: absent settings keep its values.
     ///
     /// # Errors
-    /// Those of [`Recipe::parse`].
+    /// As for [`Recipe::parse`].
     pub fn overlaid(&self, text: &str) -> Result<(Self, Edits), Error> {
         let not_read = |error| not_read(text, error);
         let mut table = DeTable::parse(text).map_err(not_read)?.into_inner();
         let edits =
             table.remove("edits").map(|edits| Edits::deserialize(edits.into_deserializer()));
         let edits = edits.transpose().map_err(not_read)?.unwrap_or_default();
-        // It is for the studio, and what is wrong with it is said all the same.
+        // Footage is for the studio alone; parsing it here reports its errors all the same.
         take_footage(text, &mut table)?;
         let mut file = File { text, recipe: self.clone(), named: BTreeSet::new() };
         file.take("", &table)?;
         Ok((file.recipe, edits))
     }
 
-    /// The recipe with a comment for every knob, and the corrections, as TOML that
-    /// [`Recipe::parse`] reads back.
+    /// Writes the recipe, with a comment for every knob, and the corrections as TOML that [`Recipe::parse`] reads back.
     pub fn write(&self, edits: &Edits) -> String {
         let mut text = String::from(
             "# A genga recipe: every setting of the chain. What is not named keeps its default.\n\
@@ -103,7 +102,7 @@ impl Recipe {
         text
     }
 
-    /// The weights of joints; an example where there are none.
+    /// Writes the weights of joints, or a commented example if there are none.
     fn written_weights(&self) -> String {
         let weights = &self.keys.weights;
         if weights.is_empty() {
@@ -114,7 +113,7 @@ impl Recipe {
     }
 }
 
-/// What a file says under `[footage]`.
+/// Reads the `[footage]` section of a file.
 pub(super) fn footage(text: &str) -> Result<Footage, Error> {
     let mut table = DeTable::parse(text).map_err(|error| not_read(text, error))?.into_inner();
     take_footage(text, &mut table)
@@ -133,7 +132,7 @@ fn take_footage(text: &str, table: &mut DeTable<'_>) -> Result<Footage, Error> {
     }
 }
 
-/// A word as TOML has it: a number, a list or true without quotes.
+/// Formats a word as TOML: numbers, lists and booleans without quotes.
 fn written(word: &str) -> String {
     let is_plain =
         word.starts_with('[') || word.parse::<f64>().is_ok() || word.parse::<bool>().is_ok();
@@ -145,7 +144,7 @@ struct Corrections<'a> {
     edits: &'a Edits,
 }
 
-/// A file that is read: its settings are set one by one, by their names.
+/// A file being read: its settings are set one by one, by name.
 struct File<'a> {
     text: &'a str,
     recipe: Recipe,
@@ -153,7 +152,7 @@ struct File<'a> {
 }
 
 impl File<'_> {
-    /// Takes a table whose settings have that name in front of theirs.
+    /// Sets all settings in a table whose names start with `section`.
     fn take(&mut self, section: &str, table: &DeTable<'_>) -> Result<(), Error> {
         for (key, value) in table {
             let own = key.get_ref().as_ref();
@@ -193,24 +192,24 @@ impl File<'_> {
     }
 }
 
-/// Whether a setting has that name.
+/// Whether a setting of this name exists.
 fn is_known(name: &str) -> bool {
     name.starts_with(WEIGHTS) || Knob::find(name).is_ok()
 }
 
-/// Whether settings have that name in front of theirs.
+/// Whether this name is a section that holds settings.
 fn is_section(name: &str) -> bool {
     name == WEIGHTS || KNOBS.iter().any(|knob| knob.path().0 == Some(name))
 }
 
-/// Line and column of a place in a text, from 1.
+/// Returns line and column of a place in a text, counted from 1.
 fn line_and_column(text: &str, place: Range<usize>) -> (usize, usize) {
     let before = &text[..place.start.min(text.len())];
     let begin = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before.len() - begin + 1)
 }
 
-/// What the reader of TOML says, in one line.
+/// Converts an error of the TOML reader, cut to its first line.
 fn not_read(text: &str, error: toml::de::Error) -> Error {
     Error::Recipe {
         place: error.span().map(|place| line_and_column(text, place)),

@@ -1,5 +1,5 @@
-//! What was recorded beside the motion (参考): pictures and sound. The studio shows and plays them; nothing of it
-//! changes a drawing.
+//! Reference footage (参考) recorded beside the motion: pictures and sound. The studio shows and plays them; they never
+//! change a drawing.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,28 +8,28 @@ use crate::error::Error;
 use crate::sheet::is_default;
 use crate::time::KOMA_RATE;
 
-/// Pictures a second that can be meant.
+/// Accepted picture rates, per second.
 const RATES: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
-/// Koma that an offset may have: as many as a sheet.
+/// Largest offset in koma: the length of the longest sheet.
 const FARTHEST: i64 = 1_000_000;
 
-/// Pictures and sound beside a take. Files are named from the clip's folder, or with their whole paths.
+/// Pictures and sound beside a take. File names are relative to the clip's folder, or absolute.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Footage {
-    /// A folder of pictures, one picture of a numbered sequence, or a video; empty for none.
+    /// A folder of pictures, one picture of a numbered sequence, or a video. Empty if there are none.
     #[serde(skip_serializing_if = "is_default")]
     pub pictures: String,
-    /// Pictures a second; default 24. A video is taken apart into 24 a second.
+    /// Pictures per second; default 24. A video is split into 24 per second.
     #[serde(skip_serializing_if = "is_usual")]
     pub fps: f64,
-    /// The koma, from 0, with which the first picture comes; below 0 when some came before the motion began.
+    /// The koma, from 0, at which the first picture appears; negative if recording began before the motion.
     #[serde(skip_serializing_if = "is_default")]
     pub offset: i64,
-    /// A WAV file; empty for none.
+    /// A WAV file. Empty if there is none.
     #[serde(skip_serializing_if = "is_default")]
     pub sound: String,
-    /// The koma, from 0, with which the sound begins; below 0 when it began before the motion.
+    /// The koma, from 0, at which the sound begins; negative if it began before the motion.
     #[serde(skip_serializing_if = "is_default")]
     pub sound_offset: i64,
 }
@@ -46,17 +46,17 @@ fn is_usual(fps: &f64) -> bool {
 }
 
 impl Footage {
-    /// The endings of pictures, in small letters.
+    /// Extensions of picture files, in lower case.
     pub const PICTURES: [&str; 3] = ["png", "jpg", "jpeg"];
-    /// Those of videos.
+    /// Extensions of video files.
     pub const VIDEOS: [&str; 6] = ["mp4", "mov", "m4v", "webm", "mkv", "avi"];
-    /// Those of sounds.
+    /// Extensions of sound files.
     pub const SOUNDS: [&str; 1] = ["wav"];
 
-    /// What a recipe file says of it under `[footage]`; nothing where it says nothing.
+    /// Reads the `[footage]` section of a recipe file; the default if there is none.
     ///
     /// # Errors
-    /// [`Error::Recipe`] with line and column for what is no TOML, and for what footage cannot be.
+    /// [`Error::Recipe`] with line and column when the text is not TOML or a value is out of range.
     ///
     /// ```
     /// use genga::recipe::{Footage, Recipe};
@@ -70,7 +70,7 @@ impl Footage {
         file::footage(text)
     }
 
-    /// The section of a recipe file; empty for none.
+    /// Writes the section of a recipe file; empty for the default.
     pub fn write(&self) -> String {
         if *self == Self::default() {
             return String::new();
@@ -82,7 +82,7 @@ impl Footage {
         )
     }
 
-    /// Which picture is seen with a koma, from 0; none before the first.
+    /// Returns the index of the picture shown at a koma, both from 0; `None` before the first.
     ///
     /// ```
     /// use genga::recipe::Footage;
@@ -92,16 +92,16 @@ impl Footage {
     /// ```
     pub fn picture(&self, koma: usize, koma_rate: f64) -> Option<usize> {
         let gone = koma as i64 - self.offset;
-        // A hair is added so that 4/24 · 30, which is 5, does not fall to 4.999….
+        // The epsilon keeps 4/24 · 30 = 5 from rounding down to 4.999….
         (gone >= 0).then(|| (gone as f64 * self.fps / koma_rate + 1e-9).floor() as usize)
     }
 
-    /// The second of the sound that is heard with a koma, or a part of one; below 0 before it begins.
+    /// Returns the second of the sound heard at a koma, which may be fractional; negative before the sound begins.
     pub fn second(&self, koma: f64, koma_rate: f64) -> f64 {
         (koma - self.sound_offset as f64) / koma_rate
     }
 
-    /// Why it cannot be, if it cannot.
+    /// Describes the first invalid value, if there is one.
     pub(super) fn fault(&self) -> Option<String> {
         let Self { fps, offset, sound_offset, .. } = self;
         if !RATES.contains(fps) {

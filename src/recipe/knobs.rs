@@ -8,7 +8,7 @@ use crate::recipe::Recipe;
 use crate::signal::{LowPass, Speed, TurnFinder};
 use crate::timing::{Omission, Spacing};
 
-/// Section by section, in the order of the chain.
+/// The knobs section by section, in the order of the chain.
 const SECTIONS: [&[Knob]; 9] = [
     Recipe::KNOBS,
     Exaggerate::KNOBS,
@@ -21,7 +21,7 @@ const SECTIONS: [&[Knob]; 9] = [
     Omission::KNOBS,
 ];
 
-/// Every knob, in the order of the chain: those of an animator, then those of studies.
+/// Every knob in the order of the chain: the animators' first, then the researchers'.
 pub const KNOBS: &[Knob] = &in_order::<{ count() }>();
 
 const fn count() -> usize {
@@ -33,7 +33,7 @@ const fn count() -> usize {
     count
 }
 
-/// A constant has no iterators.
+/// Sorts the knobs into that order with loops, as a `const fn` cannot use iterators.
 const fn in_order<const COUNT: usize>() -> [Knob; COUNT] {
     let mut knobs = [Recipe::KNOBS[0]; COUNT];
     let (mut place, mut pass) = (0, 0);
@@ -57,7 +57,7 @@ const fn in_order<const COUNT: usize>() -> [Knob; COUNT] {
 }
 
 impl Knob {
-    /// The knob of that name.
+    /// Finds the knob called `name`.
     ///
     /// # Errors
     /// [`Error::Setting`] with the nearest name when there is none.
@@ -65,15 +65,15 @@ impl Knob {
         KNOBS.iter().find(|knob| knob.name == name).ok_or_else(|| unknown(name))
     }
 
-    /// Help, Japanese name and what it takes, as lines for a comment.
+    /// Returns help, Japanese name and accepted values as lines of a comment.
     pub(super) fn comment(&self) -> String {
         format!("{} — {}\n{}", self.japanese, self.help, self.takes())
     }
 }
 
-/// That there is no knob of that name, and which is meant.
+/// Returns the error for an unknown setting, with the nearest name as a hint.
 pub(super) fn unknown(name: &str) -> Error {
-    // A table and no knob.
+    // `keys.weights` is a table of weights.
     if name.starts_with("keys.weight") {
         let message =
             "there is no such setting; how much a joint counts is set by keys.weights.JOINT=2";

@@ -1,4 +1,4 @@
-//! What is spoken (セリフ), in the S column of the sheet.
+//! Spoken lines (セリフ), the S column of the sheet.
 
 use std::fmt;
 
@@ -7,22 +7,22 @@ use serde::{Deserialize, Serialize};
 use super::Sheet;
 use crate::error::Error;
 
-/// A spoken line (セリフ), of the S column.
+/// A spoken line (セリフ) in the S column.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a spoken line {\"begin\", \"koma\", \"words\"}")]
 pub struct SpokenLine {
-    /// The koma on which it begins, from 0.
+    /// First koma, counted from 0.
     pub begin: usize,
-    /// For how many koma it is heard, at least 1.
+    /// Duration in koma, at least 1.
     pub koma: usize,
-    /// Who speaks; empty where that is not said.
+    /// Name of the speaker; empty if unknown.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub speaker: String,
-    /// What is said.
+    /// The spoken text.
     pub words: String,
 }
 
-/// Who says what, as it is written in the language of the words: `Ken: no`, アキ「えい！」.
+/// Formats speaker and text in the style of the text's language: `Ken: no`, アキ「えい！」.
 impl fmt::Display for SpokenLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { speaker, words, .. } = self;
@@ -36,13 +36,13 @@ impl fmt::Display for SpokenLine {
 }
 
 impl SpokenLine {
-    /// The koma after its last.
+    /// Returns the koma after the last one of the line.
     pub fn past(&self) -> usize {
         self.begin.saturating_add(self.koma)
     }
 
-    /// For each of some lines the column it stands in, from 0: those that are heard at once stand side by side.
-    /// The lines are in the order in which they begin.
+    /// Assigns each line a column, counted from 0, so that simultaneous lines are side by side. The lines must be
+    /// sorted by their first koma.
     ///
     /// ```
     /// use genga::sheet::SpokenLine;
@@ -65,7 +65,7 @@ impl SpokenLine {
 }
 
 impl Sheet {
-    /// Checks what is spoken on it.
+    /// Checks that each line has koma and text, ends within the sheet, and begins no earlier than the line before.
     pub(super) fn check_lines(&self) -> Result<(), Error> {
         let length = self.length();
         for line in &self.lines {
@@ -91,8 +91,8 @@ impl Sheet {
         }
     }
 
-    /// The same with lines of a sheet of another length: what lies beyond this one is cut off.
-    pub(crate) fn with_lines(mut self, lines: &[SpokenLine]) -> Self {
+    /// Replaces the lines of the sheet, cutting off whatever lies beyond its end.
+    pub fn with_lines(mut self, lines: &[SpokenLine]) -> Self {
         let length = self.length();
         let heard = lines.iter().filter(|line| line.begin < length);
         let cut = |line: &SpokenLine| SpokenLine {

@@ -1,4 +1,5 @@
-//! Why a drawing is on the sheet (理由): what makes it a genga, who turns there, what was done round it.
+//! Why a drawing is on the sheet (理由): what makes it a genga, which joints turn there, and how the stages changed its
+//! timing.
 
 use std::fmt;
 use std::ops::Deref;
@@ -8,21 +9,21 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::is_default;
 
-/// What makes a drawing a genga.
+/// The reason why a drawing is a genga.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// The body turns (変わり目).
     Turn,
-    /// It does not turn, but would go astray without a drawing (補い).
+    /// The body does not turn, but would stray from its path without a drawing (補い).
     Fill,
     /// A rest (止め) begins or ends.
     Rest,
     /// A contact (接地) begins or ends.
     Contact,
-    /// A step of a gait has it, as all others have (歩み).
+    /// Every step of the gait has this phase (歩み).
     Step,
-    /// A person wants it (固定).
+    /// A person pinned it (固定).
     Pin,
 }
 
@@ -31,7 +32,7 @@ impl Reason {
     pub const ALL: [Self; 6] =
         [Self::Turn, Self::Fill, Self::Rest, Self::Contact, Self::Step, Self::Pin];
 
-    /// Its word in files.
+    /// Returns the word used in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Turn => "turn",
@@ -43,7 +44,7 @@ impl Reason {
         }
     }
 
-    /// Its Japanese word.
+    /// Returns the Japanese word.
     pub fn japanese(self) -> &'static str {
         match self {
             Self::Turn => "変わり目",
@@ -56,7 +57,7 @@ impl Reason {
     }
 }
 
-/// Names that many drawings have in common: a copy of a sheet does not copy them.
+/// Names shared by many drawings. Cloning a sheet does not copy them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Names(Arc<[Arc<str>]>);
 
@@ -86,45 +87,45 @@ impl<'de> Deserialize<'de> for Names {
     }
 }
 
-/// Why a drawing is on the sheet, and what was done round it.
+/// Why a drawing is on the sheet, and how the stages changed its timing.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Why {
-    /// Names of the joints that have a turn of their own here.
+    /// Names of the joints that turn at this drawing.
     #[serde(skip_serializing_if = "is_default")]
     pub voters: Names,
-    /// Set by a person, with the name they gave it (empty when they gave none).
+    /// Name of the pin, if a person set one here; empty if they gave it no name.
     #[serde(skip_serializing_if = "is_default")]
     pub pinned: Option<String>,
-    /// The source frame near which the key was found that a person put here.
+    /// Source frame near which the key was found, if a person moved it.
     #[serde(skip_serializing_if = "is_default")]
     pub moved_from: Option<usize>,
-    /// What makes it a genga; none for other drawings.
+    /// Reason why it is a genga; `None` for other drawings.
     #[serde(skip_serializing_if = "is_default")]
     pub reason: Option<Reason>,
-    /// How much of a turn the genga is, 0 to 1 (what joints say together where `keys.merge` is not `body`);
-    /// none for inbetweens.
+    /// Strength of the turn at this genga, 0 to 1 (all joints together unless `keys.merge` is `body`); `None` for
+    /// inbetweens.
     #[serde(skip_serializing_if = "is_default")]
     pub strength: Option<f64>,
-    /// What the key saves, in % of body height: how far the body would be off without it; none for
+    /// Error that the key saves, in % of body height: how far the body would be off without it. `None` for
     /// inbetweens.
     #[serde(skip_serializing_if = "is_default")]
     pub price: Option<f64>,
-    /// Koma that naka-nashi gave to it.
+    /// Number of koma added by naka-nashi.
     #[serde(skip_serializing_if = "is_default")]
     pub lengthened: usize,
-    /// Drawings just before it that naka-nashi left out.
+    /// Number of drawings just before it that naka-nashi left out.
     #[serde(skip_serializing_if = "is_default")]
     pub omitted_before: usize,
-    /// Drawings after it that koma-dori, or a person's hold, replaced by it.
+    /// Number of drawings after it that koma-dori, or a person's hold, replaced by it.
     #[serde(skip_serializing_if = "is_default")]
     pub held_for: usize,
-    /// Whether a person set how long it stays.
+    /// Whether a person set its duration.
     #[serde(skip_serializing_if = "is_default")]
     pub hold_set: bool,
 }
 
-/// In words, for the reason columns.
+/// Formats the reasons in words for the reason columns.
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut reasons = Vec::new();

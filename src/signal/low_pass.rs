@@ -1,9 +1,8 @@
-//! Smoothing of speeds, zero-phase, over all joints [KT11 §3.2]: `box` as a running sum, the others in
-//! the frequency domain.
+//! Smooths speeds, zero-phase, over all joints [KT11 §3.2]: `box` as a running sum, the others in the frequency domain.
 
 mod fourier;
 mod moving;
-mod real;
+mod portable_float;
 mod response;
 mod spectrum;
 
@@ -21,7 +20,7 @@ pub use spectrum::Spectrum;
 /// The kinds of low-pass filter. The paper names none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FilterKind {
-    /// Moving average over a window W frames wide, whose edges let as much noise into the acceleration at an odd width as
+    /// Moving average over a window W frames wide. Its edges let as much noise into the acceleration at an odd width as
     /// at an even one.
     #[default]
     Box,
@@ -41,16 +40,16 @@ choices!(FilterKind {
     Butterworth: "butterworth"
 });
 
-/// Low-pass filter (ローパスフィルタ) of speeds [KT11 §3.2]: no shift in time, gain 1 for what is
-/// steady, as many frames out as in; beyond its ends the clip is mirrored (… c b a | a b c …).
+/// Low-pass filter (ローパスフィルタ) of speeds [KT11 §3.2]: no shift in time, gain 1 for steady speeds, as many frames out as
+/// in; beyond its ends the clip is mirrored (… c b a | a b c …).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LowPass {
     /// The kind; `box` by default.
     pub kind: FilterKind,
-    /// The paper's filter range W, in source frames or seconds, 0 or more; 0.15 s by default. Of 0 it
-    /// is no filter (up to 1 frame for `gaussian`, up to 2 for `ideal` and `butterworth`, as no sampled motion has a
-    /// shorter period). Raised, it takes away short movements and the accents of fast ones.
+    /// Width of the filter: the paper's filter range W, in source frames or seconds, 0 or more; 0.15 s by default. A
+    /// width of 0 does not filter (nor up to 1 frame for `gaussian`, up to 2 for `ideal` and `butterworth`, as no
+    /// sampled motion has a shorter period). Raised, it removes short movements and the accents of fast ones.
     pub width: Span,
 }
 
@@ -61,18 +60,22 @@ impl Default for LowPass {
 }
 
 knobs!(filter::LowPass {
-    kind: knob("ローパスフィルタ", "How the speeds are smoothed.", "速さをならす方法。")
-        .for_studies(),
+    kind: knob(
+        "ローパスフィルタ",
+        "Kind of low-pass filter that smooths the speeds.",
+        "速さをならすローパスフィルタの種類。",
+    )
+    .for_studies(),
     width: knob(
         "フィルタの適用範囲",
-        "How wide the smoothing is. Wider finds fewer turns, so fewer genga, and blurs quick \
-         double actions.",
-        "ならす幅。広いほど原画は減り、素早い二段の動きはぼやける。",
+        "Width of the smoothing filter. Higher values find fewer turns, so fewer genga, and blur \
+         quick double actions.",
+        "速さをならすフィルタの幅。広いほど原画は減り、素早い二段の動きはぼやける。",
     ),
 });
 
 impl LowPass {
-    /// Whether the settings can be used.
+    /// Checks the settings.
     ///
     /// # Errors
     /// [`Error::Setting`] named `filter.width` unless the width is finite and not below 0.
@@ -80,14 +83,13 @@ impl LowPass {
         self.check()
     }
 
-    /// The filtered signals; those that went into the spectrum, untouched, where the width is no
-    /// filter.
+    /// Returns the filtered signals, or the unfiltered ones if the width does not filter.
     ///
     /// ```
     /// use genga::signal::{LowPass, Spectrum, Speed};
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
-    /// let spectrum = Spectrum::of(&Speed::default().measure(&clip)?);
+    /// let spectrum = Spectrum::new(&Speed::default().measure(&clip)?);
     /// let smooth = LowPass::default().apply(&spectrum);
     /// assert_eq!(smooth.frames(), clip.len());
     /// assert!(smooth.values.max() < spectrum.unfiltered().values.max());
@@ -104,7 +106,8 @@ impl LowPass {
         }
     }
 
-    /// Hands on the filtered columns, so many at a time and one behind the other; there must be a multiple of them.
+    /// Passes on the filtered columns, `COLUMNS` at a time, one behind the other. Their number must be a multiple of
+    /// `COLUMNS`.
     pub(crate) fn each<const COLUMNS: usize>(
         &self,
         spectrum: &Spectrum,
@@ -127,13 +130,13 @@ impl LowPass {
         }
     }
 
-    /// The window of a moving average that is narrower than the clip.
+    /// Returns the window of a moving average, if it is narrower than the clip.
     fn window(&self, width: f64, frames: usize) -> Option<Window> {
         (self.kind == FilterKind::Box).then(|| Window::within(width, frames))?
     }
 
-    /// How much of a steady stretch the filter eats at each of its ends, in frames: W/2 for `box`, W/3
-    /// for the other kinds, 0 where the width is no filter.
+    /// Returns how much of a steady stretch the filter consumes at each end, in frames: W/2 for `box`, W/3 for the
+    /// other kinds, 0 if the width does not filter.
     ///
     /// The box reaches W/2 to each side; a dead band gives some of that back. Measured at 120 frames a
     /// second on stops from 100, 200 and 400 °/s within 0.1, 0.2 and 0.4 s, straight and eased, with a
@@ -148,7 +151,7 @@ impl LowPass {
         self.filtering_width(rate).map_or(0.0, |width| share * width)
     }
 
-    /// The width in frames, if it is one that filters.
+    /// Returns the width in frames, if it filters.
     fn filtering_width(&self, rate: FrameRate) -> Option<f64> {
         let narrowest = match self.kind {
             FilterKind::Box => 0.0,

@@ -1,4 +1,4 @@
-//! How fast each joint moves [KT11 §3.1].
+//! Measures how fast each joint moves [KT11 §3.1].
 
 mod steps;
 
@@ -17,7 +17,7 @@ use crate::time::Frame;
 
 use steps::{BLOCK, JointSteps, PARTS, block};
 
-/// What of the motion is measured.
+/// The property of the motion that is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Measure {
     /// Angular speed (角速度) of the local rotation, rad/s: the paper's measure. Blind to a joint that
@@ -29,8 +29,8 @@ pub enum Measure {
     Displacement,
     /// Rotation and displacement, each divided by its root mean square over all frames and joints, then added.
     Combined,
-    /// Signed change per second of the joint's own rotation angle, rad/s: for studies. It reads 0
-    /// where the axis turns at a constant angle, and jumps in sign where the angle passes half a turn.
+    /// Signed change per second of the joint's own rotation angle, rad/s: for studies. It reads 0 while the axis turns
+    /// at a constant angle, and its sign jumps where the angle passes half a turn.
     Angle,
 }
 
@@ -45,12 +45,12 @@ choices!(Measure {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Speed {
-    /// What is measured; `rotation` by default.
+    /// The measure; `rotation` by default.
     pub measure: Measure,
 }
 
 impl Measure {
-    /// Whether it is of ways, which depend on from where they are seen.
+    /// Whether it measures displacements, which depend on the camera.
     pub fn is_seen(self) -> bool {
         matches!(self, Self::Displacement | Self::Combined)
     }
@@ -59,16 +59,17 @@ impl Measure {
 knobs!(speed::Speed {
     measure: knob(
         "速さの測り方",
-        "How fast a joint is: its rotation against its parent, its way through the world (or on \
-         the screen), both, or the signed change of its own rotation angle.",
-        "部位の速さの測り方。親に対する回転、空間での移動、その両方、\
-         または自身の回転角の符号つき変化。",
+        "How the speed of a joint is measured: its rotation against its parent (rotation), its \
+         displacement in the world or on the screen (displacement), both (combined), or the signed \
+         change of its own rotation angle (angle).",
+        "部位の速さの測り方。親に対する回転（rotation）、空間または画面での移動（displacement）、\
+         その両方（combined）、自身の回転角の符号つき変化（angle）。",
     )
     .for_studies(),
 });
 
 impl Speed {
-    /// Whether the settings can be used; there is none here that could be wrong.
+    /// Checks the settings; no setting here can be wrong.
     ///
     /// # Errors
     /// None today.
@@ -76,10 +77,10 @@ impl Speed {
         self.check()
     }
 
-    /// Speeds of a clip in the world: see [`Speed::measure_on`].
+    /// Measures the speeds of a clip in the world: see [`Speed::measure_on`].
     ///
     /// # Errors
-    /// Those of [`Speed::measure_on`].
+    /// The errors of [`Speed::measure_on`].
     ///
     /// ```
     /// use genga::signal::Speed;
@@ -95,13 +96,13 @@ impl Speed {
         self.measure_on(clip, &Screen::WORLD)
     }
 
-    /// Speeds of a clip, frames × joints; displacements are those on the screen.
+    /// Measures the speeds of a clip, frames × joints; displacements are those on the screen.
     ///
     /// Row k is the step *into* frame k, so the first row repeats the second. A clip of one frame has
     /// speed 0.
     ///
     /// # Errors
-    /// [`Error::Clip`] when values of the clip are so large that a speed is not finite.
+    /// [`Error::Clip`] if values of the clip are so large that a speed is not finite.
     pub fn measure_on(&self, clip: &Clip, screen: &Screen) -> Result<Signals, Error> {
         self.validate()?;
         let (mut values, unit) = match self.measure {
@@ -121,19 +122,19 @@ impl Speed {
     }
 }
 
-/// A matrix of the clip's shape with row 0 left at 0.
+/// Returns a matrix of zeros in the clip's shape.
 fn still(clip: &Clip) -> DMatrix<f64> {
     let (frames, joints) = (clip.len(), clip.skeleton().len());
     DMatrix::from_vec(frames, joints, vec![0.0; frames * joints])
 }
 
-/// Several frames at once, joint by joint: the quaternions live no longer than their step.
+/// Measures several frames at once, joint by joint, so that quaternions live no longer than their step.
 fn rotation(clip: &Clip) -> DMatrix<f64> {
     let mut values = still(clip);
-    let (rig, frames) = (Rig::of(clip.skeleton()), clip.len());
+    let (rig, frames) = (Rig::new(clip.skeleton()), clip.len());
     let rows: Vec<&[f64]> = clip.rows().collect();
     let Some(first) = rows.first() else { return values };
-    let mut joints = JointSteps::of(&rig, first);
+    let mut joints = JointSteps::prepare(&rig, first);
     let per_second = Lanes::splat(clip.rate().fps());
     let mut steps = [Lanes::ZERO; PARTS];
     for begin in (0..frames).step_by(BLOCK) {
@@ -155,7 +156,7 @@ fn rotation(clip: &Clip) -> DMatrix<f64> {
     values
 }
 
-/// The angle of a rotation in radians, 0 to π, the same for q and −q.
+/// Returns the angle of a rotation in radians, 0 to π, the same for q and −q.
 fn angle_of(q: DQuat) -> f64 {
     2.0 * maths::atan2(q.xyz().length(), q.w.abs())
 }
@@ -163,7 +164,7 @@ fn angle_of(q: DQuat) -> f64 {
 fn displacement(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     let (fps, skeleton) = (clip.rate().fps(), clip.skeleton());
     let mut values = still(clip);
-    let (mut poser, mut body) = (Poser::of(clip), Body::new(skeleton));
+    let (mut poser, mut body) = (Poser::new(clip), Body::new(skeleton));
     let mut before = vec![DVec3::ZERO; skeleton.len()];
     let mut now = before.clone();
     for row in 0..clip.len() {
@@ -180,7 +181,7 @@ fn displacement(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     values
 }
 
-/// One root mean square for all joints of a measure, so that a joint that hardly moves stays small
+/// Adds both measures. Each has one root mean square for all joints, so that a joint that hardly moves stays small
 /// beside one that does.
 fn combined(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     let mut values = in_own_rms(rotation(clip));
@@ -188,7 +189,7 @@ fn combined(clip: &Clip, screen: &Screen) -> DMatrix<f64> {
     values
 }
 
-/// Divided by the root mean square over the steps between frames; what never moves stays 0.
+/// Divides values by their root mean square over the steps between frames; values that are all 0 stay 0.
 fn in_own_rms(values: DMatrix<f64>) -> DMatrix<f64> {
     let steps = values.nrows().saturating_sub(1) * values.ncols();
     let rms = values.norm() / (steps as f64).sqrt();

@@ -1,9 +1,9 @@
-//! Keys and walls of one joint: where its speed turns [KT11 §3.3, §3.4].
+//! Finds keys and walls of one joint: where its speed turns [KT11 §3.3, §3.4].
 
 mod drawn;
 mod event;
 mod literal;
-mod persistence;
+mod run_lengths;
 mod steady;
 
 use std::cmp::Ordering;
@@ -18,14 +18,14 @@ use crate::signal::Signals;
 use crate::time::{Frame, Span};
 
 pub use drawn::Drawn;
-use persistence::Persistence;
+use run_lengths::Persistence;
 pub use steady::Steady;
 
-/// A change below this share of the clip's largest filtered speed is rounding: without it a Fourier
-/// filter makes turns on joints that do not move.
+/// Share of the clip's largest filtered speed below which a change is rounding. Without it a Fourier filter makes turns
+/// on joints that do not move.
 const DUST: f64 = 1e-9;
 
-/// What a turn is.
+/// The kind of a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TurnKind {
     /// Key (原画): a movement starts or ends, or is slowest.
@@ -53,14 +53,14 @@ pub enum Reading {
     /// (動き終わり) count as much as starts.
     #[default]
     Event,
-    /// The paper's words: the signs around one frame, and the M frames after it. Drops most ends of
-    /// movements; for studies of Table 1.
+    /// By the paper's words: the signs around one frame, and the M frames after it. Drops most ends of movements; for
+    /// studies of Table 1.
     Literal,
 }
 
 choices!(Reading { Event: "event", Literal: "literal" });
 
-/// Which frames confirm a candidate of the `literal` reading; `event` does not ask.
+/// The frames that confirm a candidate of the `literal` reading; `event` ignores this setting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
     /// The M frames after a key are all faster than it (a wall: slower): the words of [KT11 §3.3].
@@ -82,16 +82,16 @@ choices!(Side { After: "after", Both: "both", Rising: "rising" });
 pub struct TurnFinder {
     /// How the rule is read; `event` by default.
     pub reading: Reading,
-    /// What counts as a steady speed; 100 °/s² by default. Raised, slow starts and ends go, and gentle
-    /// motion has no keys at all.
+    /// Largest acceleration that counts as a steady speed; 100 °/s² by default. Raised, slow starts and ends go, and
+    /// gentle motion has no keys at all.
     pub steady: Steady,
-    /// The paper's M, for how long a turn must last, in source frames or seconds; 0.1 s by default, at
-    /// least one frame. Raised, short pauses and quick back-and-forth movements go.
+    /// The paper's M: how long a turn must last, in source frames or seconds; 0.1 s by default, at least one frame.
+    /// Raised, short pauses and quick back-and-forth movements go.
     pub persistence: Span,
-    /// Which frames confirm a candidate of the `literal` reading; `after` by default.
+    /// The frames that confirm a candidate of the `literal` reading; `after` by default.
     pub side: Side,
-    /// How much of the clip is drawn: the turns of the body are then asked for with a narrower filter and a shorter
-    /// persistence. `auto` by default. Turns of single joints do not ask for it.
+    /// How much of the clip is drawn: turns of the body are then found with a narrower filter and a shorter
+    /// persistence. `auto` by default. Turns of single joints ignore it.
     pub drawn: Drawn,
 }
 
@@ -110,59 +110,58 @@ impl Default for TurnFinder {
 knobs!(turns::TurnFinder {
     reading: knob(
         "読み方",
-        "What a turn is: every rest and slowing has its end and its start (event), or the first \
-         paper to the letter (literal), which loses the ends of movements.",
-        "動きの変わり目の読み方。止まりや減速ごとに終わりと始まりを取る (event) \
-         か、第一論文の文言どおり (literal) で、この場合は動き終わりが失われる。",
+        "How turns are defined. event: the end and the start of every rest and slowing. literal: \
+         the first paper word for word, which loses the ends of movements.",
+        "動きの変わり目の定義。eventは、止まりや減速ごとに終わりと始まりを取る。\
+         literalは第一論文の文言どおりで、動き終わりが失われる。",
     )
     .for_studies(),
     steady: knob(
         "定速とみなす加速度",
-        "Accelerations of a joint up to this count as none. Raised, slow joints turn less often. \
-         Turns of the body do not ask for it.",
-        "部位のこの加速度までは等速とみなす。上げると、ゆっくりした部位の変わり目がなくなる。\
+        "Largest acceleration of a joint that counts as steady speed. Higher values find fewer \
+         turns of slow joints. Turns of the whole body ignore this setting.",
+        "等速とみなす部位の加速度の上限。上げると、ゆっくりした部位の変わり目がなくなる。\
          全身の変わり目には効かない。",
     )
     .unit("°/s², or a share of the joint's own 95th percentile (\"5%\")")
     .for_studies(),
     persistence: knob(
         "連続フレーム数",
-        "How long before and after a turn the body must be faster. Longer finds fewer turns, and \
-         short pauses and quick back-and-forth movements go.",
-        "変わり目の前後でどれだけの間より速ければ数えるか。長いほど変わり目は減り、\
+        "How long the body must be faster before and after a turn. Longer values find fewer turns: \
+         short pauses and quick back-and-forth movements disappear.",
+        "変わり目の前後で、体がより速い状態が続くべき長さ。長いほど変わり目は減り、\
          短い間や素早い往復は消える。",
     ),
     side: knob(
         "連続を見る側",
-        "Where it must last, in the literal reading: after the turn, on both sides of it, or after \
-         it with every step rising.",
-        "literal \
-         のとき、どちら側で続けばよいか。変わり目の後、前後の両方、または後で毎フレーム速くなり続けること。",
+        "Frames that the literal reading checks for persistence: after the turn (after), on both \
+         sides of it (both), or after it with every step faster than the last (rising).",
+        "literalで連続を確かめる側。変わり目の後（after）、前後の両方（both）、\
+         または後で毎フレーム速くなり続けること（rising）。",
     )
     .for_studies(),
     drawn: knob(
         "手付けの度合い",
-        "How much of the motion was keyed by hand, with straight inbetweens: from 0 for a capture, \
-         whose speeds are smoothed, to 1 for keys whose turns are sharp. auto looks how sharp they \
-         are. Turns of joints do not ask for it.",
-        "手付けで直線的に補間された動きの度合い。0はキャプチャーで速さをならして見る。\
-         1は手付けで、鋭い変わり目をそのまま見る。autoは変わり目の鋭さから決める。\
-         部位の変わり目には効かない。",
+        "How much of the motion was keyed by hand with straight inbetweens: from 0 for a capture, \
+         whose speeds are smoothed, to 1 for hand-made keys, whose turns are sharp. auto measures \
+         how sharp the turns are. Turns of joints ignore this setting.",
+        "手付けで直線的に補間された動きの度合い。0はキャプチャーで、速さをならす。1は手付けで、\
+         鋭い変わり目をそのまま使う。autoは変わり目の鋭さから決める。部位の変わり目には効かない。",
     )
     .at_most(1.0),
 });
 
 impl TurnFinder {
-    /// Whether the settings can be used.
+    /// Checks the settings.
     ///
     /// # Errors
-    /// [`Error::Setting`] named `turns.steady` or `turns.persistence`, for what is not finite or below
-    /// 0, or a share above 100 %.
+    /// [`Error::Setting`] named `turns.steady` or `turns.persistence`, if a value is not finite or below 0, or a share
+    /// is above 100 %.
     pub fn validate(&self) -> Result<(), Error> {
         self.check()
     }
 
-    /// The confirmed turns, one list a joint (a column), by frame.
+    /// Finds the confirmed turns, one list a joint (a column), by frame.
     ///
     /// `delay` is [`LowPass::delay`](crate::signal::LowPass::delay) of the filter the signals went
     /// through, in frames; the `event` reading undoes it.
@@ -172,7 +171,7 @@ impl TurnFinder {
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
     /// let filter = LowPass::default();
-    /// let smooth = filter.apply(&Spectrum::of(&Speed::default().measure(&clip)?));
+    /// let smooth = filter.apply(&Spectrum::new(&Speed::default().measure(&clip)?));
     /// let turns = TurnFinder::default().find(&smooth, filter.delay(clip.rate()));
     /// assert_eq!(turns.len(), clip.skeleton().len(), "a list a joint");
     /// assert_eq!(turns[0][0].frame.0, 12, "the first turn of the hips");
@@ -182,8 +181,8 @@ impl TurnFinder {
         self.confirmed(&self.candidates(filtered, delay), filtered)
     }
 
-    /// Those of [`candidates`](Self::candidates) that M confirms: what [`find`](Self::find) gives,
-    /// without a new search.
+    /// Keeps those [`candidates`](Self::candidates) that M confirms: the result of [`find`](Self::find) without a new
+    /// search.
     pub fn confirmed(&self, candidates: &[Vec<Turn>], filtered: &Signals) -> Vec<Vec<Turn>> {
         let persistence = self.persistence_frames(filtered);
         let is_confirmed = |turn: &&Turn| turn.confirmed_for >= persistence;
@@ -191,7 +190,7 @@ impl TurnFinder {
         candidates.iter().map(of_joint).collect()
     }
 
-    /// Every turn, whatever M: `find` keeps those with `confirmed_for` of at least
+    /// Finds every turn, whatever M. `find` keeps those with `confirmed_for` of at least
     /// [`persistence_frames`](Self::persistence_frames), so that another M needs no new search.
     pub fn candidates(&self, filtered: &Signals, delay: f64) -> Vec<Vec<Turn>> {
         let frames = filtered.frames();
@@ -209,8 +208,8 @@ impl TurnFinder {
         joints.map(turns).collect()
     }
 
-    /// Of each step of some joints, from its row to the next, whether it is steady (等速): what the dead band
-    /// takes for no acceleration. One fewer than there are frames, a list a joint.
+    /// Returns whether each step of some joints, from its row to the next, is steady (等速): no acceleration beyond the
+    /// dead band. One list a joint, one step fewer than there are frames.
     pub fn steady_steps(&self, filtered: &Signals, joints: &[JointId]) -> Vec<Vec<bool>> {
         if filtered.frames() < 2 || joints.is_empty() {
             return vec![vec![]; joints.len()];
@@ -223,8 +222,8 @@ impl TurnFinder {
         joints.iter().map(steps).collect()
     }
 
-    /// M in whole frames; in the `event` reading no more than the clip has, as frames beyond the clip
-    /// do not count against a turn there.
+    /// Returns M in whole frames. In the `event` reading it is at most the clip's length, as frames beyond the clip do
+    /// not count against a turn.
     pub fn persistence_frames(&self, filtered: &Signals) -> usize {
         let persistence = self.persistence.whole_frames(filtered.rate);
         match self.reading {
@@ -234,7 +233,7 @@ impl TurnFinder {
     }
 }
 
-/// The largest size of a value, 0 for none; some side by side, as each waits for the last.
+/// Returns the largest size of a value, 0 if there is none. Lanes run side by side, as each size waits for the last.
 fn largest(values: &[f64]) -> f64 {
     let (chunks, rest) = values.as_chunks::<LANES>();
     let size = |values: &[f64; LANES]| Lanes(*values).map(f64::abs);
@@ -242,20 +241,20 @@ fn largest(values: &[f64]) -> f64 {
     most.0.iter().chain(rest).fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
-/// One joint after another, with the buffers they share. Rows count from 0 here.
+/// A scan of one joint after another, with shared buffers. Rows count from 0 here.
 struct Scan<'a> {
     finder: &'a TurnFinder,
     /// Frames a second.
     fps: f64,
-    /// From the signal's unit to the unit of an absolute `steady`.
+    /// Factor from the signal's unit to the unit of an absolute `steady`.
     for_people: f64,
-    /// The largest change that is rounding.
+    /// Largest change that is rounding.
     floor: f64,
     /// The filter's delay in whole frames.
     delay: usize,
     first: Frame,
     frames: usize,
-    /// Of each step, from its row to the next: slowing, steady, speeding.
+    /// For each step from its row to the next: slowing, steady or speeding.
     signs: Vec<Ordering>,
     persistence: Persistence,
     sizes: Vec<f64>,
@@ -301,7 +300,7 @@ impl<'a> Scan<'a> {
     fn read_signs(&mut self, speeds: &[f64]) {
         let band = self.finder.steady.step(speeds, self.fps, self.for_people, &mut self.sizes);
         let band = if band > self.floor { band } else { self.floor };
-        // Both comparisons always, so that no step waits for a guess.
+        // Both comparisons are always made, so that no step waits for a branch prediction.
         let sign = |(before, after): (&f64, &f64)| {
             let change = after - before;
             u8::from(change > band).cmp(&u8::from(change < -band))
@@ -310,7 +309,7 @@ impl<'a> Scan<'a> {
         self.signs.extend(speeds.iter().zip(&speeds[1..]).map(sign));
     }
 
-    /// A turn at a row, which is brought inside the clip's first and last frame.
+    /// Returns a turn at a row, moved inside the clip's first and last frame.
     fn turn(&self, row: usize, kind: TurnKind, confirmed_for: usize) -> Turn {
         let row = row.clamp(1, self.frames - 2);
         Turn { frame: Frame(self.first.0 + row), kind, confirmed_for }

@@ -1,10 +1,10 @@
-//! A number of drawings a second: koma-dori gives single ones, and the other settings of the sheet where
-//! its range ends.
+//! The target of a number of drawings per second. Koma-dori adjusts it drawing by drawing; beyond its range other
+//! settings of the sheet change.
 
 use std::ops::Range;
 
 use super::ladder::{denser, sparser, sparser_to_threes};
-use super::{Outcome, Target, between, layer, room};
+use super::{Outcome, Target, between, key_count_search, layer};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::pipeline::Engine;
@@ -12,46 +12,47 @@ use crate::recipe::Recipe;
 use crate::sheet::{Drawing, Reason};
 use crate::timing::{Amount, On, Spacing};
 
-/// Nearer than this no whole number of drawings comes.
+/// Smallest error in drawings that whole drawings can guarantee.
 const EXACT: f64 = 0.5 + 1e-9;
 
-/// Further off than this, a person is told.
+/// Error in drawings above which a person is told.
 const NEAR: f64 = 1.0 + 1e-9;
 
-/// Corrections of the count of koma-dori. One is enough where naka-nashi goes first.
+/// Corrections of koma-dori's count. One is enough if naka-nashi goes first.
 const MOST_CORRECTIONS: usize = 16;
 
-/// What naka-nashi may leave out of an action by a share; fewer are tried where it has to give way.
+/// Most drawings per action that naka-nashi leaves out by a share; fewer are tried if it has to give way.
 const MOST_SPARED: usize = 6;
 
-/// Of the drawings that are asked for so many are genga at the most, where keys may go: two thirds. With more there are
-/// no inbetweens left to take away, and the slow ones are held too long for the fast.
+/// Largest share of genga among the requested drawings, if keys may go: two thirds. With more, no inbetweens are left
+/// to take away, and slow drawings are held too long at the expense of fast ones.
 const MOST_GENGA: f64 = 2.0 / 3.0;
 
-/// Of the drawings that are asked for at least so many stay found genga, where there are as many: a quarter. Rather
-/// the spacing gives way: a denser one would leave the sheet without the genga of the method.
+/// Smallest share of found genga among the requested drawings, if there are as many: a quarter. The spacing gives way
+/// first, as a denser one would leave the sheet without the method's genga.
 const FEWEST_GENGA: f64 = 0.25;
 
-/// How often the number of found keys is corrected for it.
+/// Corrections of the number of found keys to meet that share.
 const MOST_THINNED: usize = 16;
 
-/// How far the body may go while a drawing of a range stays, at the most, in % of its height: all are as slow as it lets them.
+/// Largest distance in % of body height that the body may go while a drawing stays; at this value every drawing is as
+/// slow as its range allows.
 const LONGEST_STEP: f64 = 100.0;
 
-/// Halvings of the span up to there: two steps that are nearer to each other part nothing.
+/// Bisection steps up to that distance; nearer ones are indistinguishable.
 const STEPS: usize = 10;
 
-/// A movement that is small whatever it is, in % of body height: a number of drawings is a person's wish.
+/// A movement threshold above every movement, in % of body height: a requested number of drawings takes precedence.
 const ANY_MOVEMENT: f64 = 1000.0;
 
-/// So many drawings a second.
+/// A number of drawings per second.
 pub(super) struct Goal {
     pub(super) per_second: f64,
-    /// Whether keys may go for it.
+    /// Whether keys may be dropped to reach it.
     pub(super) keys_are_free: bool,
 }
 
-/// Settings, and by how many drawings their sheet has too many.
+/// Settings, and how many drawings too many their sheet has.
 #[derive(Clone)]
 struct Found {
     recipe: Recipe,
@@ -65,7 +66,7 @@ struct Search<'a> {
 }
 
 impl Goal {
-    /// Settings whose sheet has so many drawings a second, or as near as it gets.
+    /// Finds settings whose sheet has the requested drawings per second, or as near as possible.
     pub(super) fn meet(
         &self,
         engine: &mut Engine,
@@ -76,7 +77,7 @@ impl Goal {
         let as_it_is = search.look(recipe)?.0;
         let is_met = as_it_is.is_exact() && !(self.keys_are_free && search.too_many(recipe)? > 0);
         let mut found = if is_met { as_it_is } else { self.search(&mut search, recipe)? };
-        // On another rung of spacing other keys have room, and there may be too many of them again.
+        // Another rung of spacing gives room to other keys, so there may again be too many.
         for _ in 0..MOST_THINNED {
             if !self.keys_are_free || search.too_many(&found.recipe)? == 0 {
                 break;
@@ -101,7 +102,7 @@ impl Goal {
         Ok((found.recipe, Outcome { target, reached: drawings as f64 / seconds, shortfall }))
     }
 
-    /// The settings nearest to the recipe; a fixed number of inbetweens gives way where no number does.
+    /// Finds the settings nearest to the recipe; a fixed number of inbetweens is given up if no koma-dori suffices.
     fn search(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
         let found = self.descend(search, recipe)?;
         if found.excess.abs() <= NEAR || recipe.spacing.inbetweens.is_none() {
@@ -112,8 +113,8 @@ impl Goal {
         Ok(found.or(self.descend(search, &free)?))
     }
 
-    /// No more keys than leave room for inbetweens first; then koma-dori; then the spacing, and the koma-dori for
-    /// it; then naka-nashi, or keys.
+    /// Tries in order: keys reduced to leave room for inbetweens; koma-dori; the spacing, with koma-dori for it; then
+    /// naka-nashi or fewer keys.
     fn descend(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
         let recipe = if self.keys_are_free { &search.thinned(recipe)? } else { recipe };
         let held = search.hold(recipe)?;
@@ -137,14 +138,14 @@ impl Found {
         self.excess.abs() <= EXACT
     }
 
-    /// The nearer of two, of equals this one.
+    /// Returns the nearer of two results; `self` on a tie.
     fn or(self, other: Self) -> Self {
         if other.excess.abs() < self.excess.abs() { other } else { self }
     }
 }
 
 impl Search<'_> {
-    /// By how many drawings a recipe gives too many, and how many koma-dori took.
+    /// Runs a recipe. Returns how many drawings too many it gives, and how many koma-dori took.
     fn look(&mut self, recipe: &Recipe) -> Result<(Found, usize), Error> {
         let breakdown = self.engine.run(recipe, self.edits)?;
         let drawings = layer(&breakdown).shown().count() as f64;
@@ -154,19 +155,19 @@ impl Search<'_> {
         Ok((Found { recipe: recipe.clone(), excess }, done))
     }
 
-    /// The count of koma-dori with which a recipe comes nearest.
+    /// Finds the count of koma-dori with which a recipe comes nearest.
     ///
-    /// Koma-dori goes drawing by drawing, and another count takes more or fewer steps on the same way. So
-    /// where naka-nashi has gone before, a drawing more is a drawing less on the sheet, and the first
-    /// correction is right or as far as it goes. Where naka-nashi comes after it may take other drawings
-    /// then; the corrections go on, and the nearest is kept.
+    /// Koma-dori goes drawing by drawing, and a different count takes more or fewer steps on the same way. If
+    /// naka-nashi ran before, one more step is one drawing less on the sheet, and the first correction is exact or as
+    /// far as it goes. If naka-nashi runs after, it may then take other drawings; the corrections go on, and the
+    /// nearest result is kept.
     fn hold(&mut self, recipe: &Recipe) -> Result<Found, Error> {
         let mut count = 0;
         let mut best: Option<Found> = None;
         for _ in 0..MOST_CORRECTIONS {
             let (found, done) = self.look(&with_koma_dori(recipe, count))?;
             let excess = found.excess;
-            // What could not be done is not asked for either.
+            // Do not ask for more than could be done.
             let found = Found { recipe: with_koma_dori(recipe, count.min(done)), excess };
             let next = (done as f64 + excess.round()).max(0.0) as usize;
             let is_exact = found.is_exact();
@@ -182,14 +183,14 @@ impl Search<'_> {
         Ok(best.expect("it was looked at once"))
     }
 
-    /// The same with so many found keys.
+    /// Like [`Self::hold`], with a given number of found keys.
     fn hold_with(&mut self, recipe: &Recipe, count: usize) -> Result<Found, Error> {
-        let recipe = room::with_found(self.engine, recipe, self.edits, count)?;
+        let recipe = key_count_search::with_found(self.engine, recipe, self.edits, count)?;
         self.hold(&recipe)
     }
 
-    /// Rung after rung of spacing until there are too few drawings, or too many where there were too few; the nearest of
-    /// all. Where that lies between two rungs, naka-nashi leaves fewer out on the one that has too few.
+    /// Climbs the rungs of spacing until the excess of drawings changes sign, and returns the nearest result. If the
+    /// target lies between two rungs, naka-nashi leaves out fewer on the one with too few drawings.
     fn climb_and_spare(
         &mut self,
         from: Found,
@@ -215,7 +216,7 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// On a rung of a range that has too many drawings each stays longer: the body may go further meanwhile.
+    /// Holds each drawing longer on a rung with a range of koma, by allowing the body to go further meanwhile.
     fn stretch(&mut self, from: Found) -> Result<Found, Error> {
         let mut recipe = from.recipe.clone();
         let mut best = from;
@@ -235,7 +236,7 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// More drawings than there are with no koma-dori: denser spacing, and then no naka-nashi.
+    /// Adds drawings once koma-dori is at 0: denser spacing, then no naka-nashi.
     fn more(&mut self, from: Found) -> Result<Found, Error> {
         let dense = self.climb_and_spare(from, denser)?;
         if dense.excess >= -EXACT {
@@ -247,20 +248,20 @@ impl Search<'_> {
         if whole.excess >= -EXACT {
             return Ok(dense.or(whole));
         }
-        // Only rests are left in which there could be more.
+        // Only rests can still take more drawings.
         recipe.spacing.drift = 0.0;
         let moving = self.hold(&recipe)?;
         if moving.excess >= -EXACT {
             return Ok(dense.or(whole).or(moving));
         }
-        // A range of koma may have been dense enough while rests were held.
+        // A range of koma may have sufficed while rests were held.
         recipe.spacing.on = On::every(1);
         let on_ones = self.hold(&recipe)?;
         Ok(dense.or(whole).or(moving).or(on_ones))
     }
 
-    /// By how many genga a recipe has more than leave room for inbetweens among so many drawings, gaits apart; none where
-    /// all that could go are gone.
+    /// Counts the surplus genga that leave no room for inbetweens among the requested drawings, outside gaits; 0 if
+    /// none of them can go.
     fn too_many(&mut self, recipe: &Recipe) -> Result<usize, Error> {
         let breakdown = self.engine.run(recipe, self.edits)?;
         let first = breakdown.first_layer();
@@ -271,10 +272,10 @@ impl Search<'_> {
         let is_step = |drawing: &&Drawing| drawing.why.reason == Some(Reason::Step);
         let steps = layer(&breakdown).drawings.iter().filter(is_step).count();
         let too_many = between(&breakdown).saturating_sub(steps + room);
-        Ok(too_many.min(room::found(self.engine, recipe, self.edits)?))
+        Ok(too_many.min(key_count_search::found(self.engine, recipe, self.edits)?))
     }
 
-    /// A recipe with no more found keys than leave room for inbetweens: their price rises until so few are worth it.
+    /// Reduces the found keys to a number that leaves room for inbetweens, by raising their price.
     fn thinned(&mut self, recipe: &Recipe) -> Result<Recipe, Error> {
         let mut thinned = recipe.clone();
         for _ in 0..MOST_THINNED {
@@ -282,14 +283,15 @@ impl Search<'_> {
             if too_many == 0 {
                 break;
             }
-            let found = room::found(self.engine, &thinned, self.edits)?;
-            thinned = room::with_found(self.engine, recipe, self.edits, found - too_many)?;
+            let found = key_count_search::found(self.engine, &thinned, self.edits)?;
+            thinned =
+                key_count_search::with_found(self.engine, recipe, self.edits, found - too_many)?;
         }
         Ok(thinned)
     }
 
-    /// Between two rungs of spacing: on the sparser one naka-nashi leaves fewer out of each action, and
-    /// koma-dori takes what is too much then.
+    /// Reaches a count between two rungs of spacing: naka-nashi leaves fewer out of each action on the sparser one, and
+    /// koma-dori takes the rest.
     fn spare(&mut self, from: Found) -> Result<Found, Error> {
         let mut recipe = from.recipe.clone();
         let mut best = from;
@@ -304,11 +306,10 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// Fewer drawings than there are with all keys on threes: fewer keys, on the first rung on which there
-    /// are few enough drawings with the fewest keys. A hold has its bound, so on a denser one there are
-    /// too many, unless still more keys go.
+    /// Reaches fewer drawings than all keys on threes give, by dropping keys on the first rung that suffices with the
+    /// fewest keys. A denser rung would have too many drawings, as holds are bounded, unless still more keys go.
     fn fewer(&mut self, from: Found) -> Result<Found, Error> {
-        let found = room::found(self.engine, &from.recipe, self.edits)?;
+        let found = key_count_search::found(self.engine, &from.recipe, self.edits)?;
         let least = self.fewest_found(&from.recipe, found)?;
         let mut best = from.clone();
         let rungs = std::iter::successors(Some(from.recipe.spacing.clone()), sparser);
@@ -324,15 +325,15 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// Of so many found keys how many stay at least, so that a quarter of the drawings that are asked for are genga: one
-    /// that is like the drawing on screen is none.
+    /// Returns how many of the found keys must stay so that a quarter of the requested drawings are genga. A key that
+    /// looks like the drawing on screen adds none.
     fn fewest_found(&mut self, recipe: &Recipe, found: usize) -> Result<usize, Error> {
         let breakdown = self.engine.run(recipe, self.edits)?;
         let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
         let wanted = (FEWEST_GENGA * self.per_second * seconds).ceil() as usize;
         let mut count = wanted.min(found);
         while count < found {
-            let recipe = room::with_found(self.engine, recipe, self.edits, count)?;
+            let recipe = key_count_search::with_found(self.engine, recipe, self.edits, count)?;
             let drawn = between(&self.engine.run(&recipe, self.edits)?);
             if drawn >= wanted {
                 break;
@@ -342,10 +343,10 @@ impl Search<'_> {
         Ok(count.min(found))
     }
 
-    /// The most keys with which there are few enough drawings: from the start of the span on, fewer than its end.
+    /// Finds the most keys within the range that still give few enough drawings.
     ///
-    /// Fewer keys are not always fewer drawings, since inbetweens come where a key was. So the bisection is
-    /// a search and no proof: what it gives was looked at, that no more keys would do is not certain.
+    /// Fewer keys do not always give fewer drawings, as an inbetween may replace a key. So the bisection is a
+    /// heuristic: the result was verified, but more keys might also suffice.
     fn with_most_keys(
         &mut self,
         mut best: Found,
@@ -376,7 +377,7 @@ fn with_koma_dori(recipe: &Recipe, count: usize) -> Recipe {
     recipe
 }
 
-/// A setting as a person would write it.
+/// Rounds a setting to what a person would write.
 fn rounded(value: f64) -> f64 {
     (100.0 * value).round() / 100.0
 }

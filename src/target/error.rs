@@ -1,6 +1,6 @@
-//! A largest error: few keys with which the body is nowhere further off.
+//! The target of a largest error: few keys that keep the body's error below it.
 
-use super::{Outcome, Target, reasons, room};
+use super::{Outcome, Target, key_count_search, reasons};
 use crate::edits::{Edits, Forbidden};
 use crate::error::Error;
 use crate::keys::{Fill, Merge, Rank};
@@ -8,17 +8,17 @@ use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 use crate::time::Frame;
 
-/// The highest price that is tried, in % of body height.
+/// The highest price tried, in % of body height.
 const HIGHEST: f64 = 100.0;
 
-/// Each price, and each number of keys, is so many times the one before.
+/// Ratio of neighbouring prices, and of neighbouring numbers of keys.
 const STEP: f64 = 1.09;
 
-/// Settings with few keys that put the body nowhere further off than `most`, in % of its height; where
-/// none will do, with the fewest that put it further off on the fewest koma.
+/// Finds settings with few keys that keep the error at or below `most`, in % of body height. If there are none, returns
+/// those with the fewest keys among those with the fewest koma beyond it.
 ///
-/// A key more may well put the body further off somewhere, so no bisection would be sure: settings are
-/// tried from few keys to many in even steps, and the first that will do is the answer.
+/// The error is not monotonic: one more key may increase it somewhere, so bisection is unsafe. Settings are tried in
+/// even steps from few keys to many, and the first that suffices is returned.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -54,15 +54,15 @@ pub(super) fn meet(
     Ok((recipe, Outcome { target: Target::MaxError(most), reached, shortfall }))
 }
 
-/// The prices that are tried, down to none.
+/// Returns the prices to try, down to 0.
 pub(super) fn prices() -> impl Iterator<Item = f64> {
     let prices = std::iter::successors(Some(HIGHEST), |price| Some(price / STEP));
-    // Three digits are enough to part two rungs, and a person reads them.
+    // Three decimals tell two rungs apart and stay readable.
     let rounded = prices.map(|price| (1000.0 * price).round() / 1000.0);
     rounded.take_while(|price| *price > 0.05).chain([0.0])
 }
 
-/// Settings from few keys to all.
+/// Returns the settings from few keys to all.
 fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Recipe>, Error> {
     let mut all = recipe.clone();
     all.keys.per_second = f64::INFINITY;
@@ -74,11 +74,11 @@ fn rungs(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Reci
         };
         return Ok(prices().map(priced).collect());
     }
-    let most = room::found(engine, &all, edits)?;
+    let most = key_count_search::found(engine, &all, edits)?;
     let more = |count: &usize| Some((count + 1).max((*count as f64 * STEP) as usize));
     let counts = std::iter::successors(Some(0), more).take_while(|count| *count < most);
     let rungs: Result<Vec<_>, _> =
-        counts.map(|count| room::with_found(engine, recipe, edits, count)).collect();
+        counts.map(|count| key_count_search::with_found(engine, recipe, edits, count)).collect();
     Ok(rungs?.into_iter().chain([all]).collect())
 }
 
@@ -86,7 +86,7 @@ fn keys(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<Vec<Frame
     Ok(engine.find_keys(recipe, edits)?.keys.keys.iter().map(|key| key.frame).collect())
 }
 
-/// Why some koma are further off, the worst of them near a frame, and what helps.
+/// Explains why some koma exceed the error, names the worst frame, and suggests a remedy.
 fn too_far(recipe: &Recipe, edits: &Edits, worst: Frame) -> String {
     let why = if let Some(why) = reasons::settled(edits) {
         format!("it is further off: {why}")

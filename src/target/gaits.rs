@@ -1,4 +1,4 @@
-//! Targets that the steps of gaits stand in the way of: then these give way.
+//! Targets that gaits prevent: the steps of the gaits give way.
 
 use super::{Outcome, Target};
 use crate::edits::Edits;
@@ -7,7 +7,7 @@ use crate::keys::AtGaits;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
-/// Meets a target. Where gaits keep a sheet from it, it is met without them if that comes nearer.
+/// Meets a target. If gaits prevent that, tries without them and takes whichever result comes nearer.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -18,7 +18,7 @@ pub(super) fn meet(
     let breakdown = engine.run(&met.0, edits)?;
     let has_gaits = breakdown.layers().any(|layer| !layer.keys.gaits.is_empty());
     let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
-    // No whole number of drawings is nearer than half a drawing.
+    // A whole number of drawings can be off by up to half a drawing.
     let near = match met.1.target {
         Target::DrawingsPerSecond(_) => 0.5 / seconds + 1e-9,
         Target::Keys(_) | Target::MaxError(_) => 0.0,
@@ -33,7 +33,7 @@ pub(super) fn meet(
     Ok(if excess(&other.1) < excess(&met.1) { other } else { met })
 }
 
-/// How far an outcome is from what was asked for: in genga, in drawings a second, or in % of body height too much.
+/// Returns how far an outcome misses its target: in genga, in drawings per second, or as excess in % of body height.
 fn excess(Outcome { target, reached, .. }: &Outcome) -> f64 {
     match *target {
         Target::Keys(asked) => (reached - asked as f64).abs(),

@@ -1,8 +1,8 @@
-//! A number of genga: how many keys there is room for.
+//! The target of a number of genga.
 
 use std::cmp::Ordering;
 
-use super::{Outcome, Target, between, layer, reasons, room};
+use super::{Outcome, Target, between, key_count_search, layer, reasons};
 use crate::edits::Edits;
 use crate::error::Error;
 use crate::keys::{AtRests, Fill, Merge, Rank};
@@ -10,13 +10,13 @@ use crate::motion::is_still;
 use crate::pipeline::Engine;
 use crate::recipe::Recipe;
 
-/// Settings that are looked at: a found key more is nearly always a genga more.
+/// Most settings tried: one more found key is nearly always one more genga.
 const MOST_LOOKS: usize = 16;
 
-/// Settings with which the sheet has `count` genga, first and last drawing among them, or as near as it gets.
+/// Finds settings with which the sheet has `count` genga, including first and last drawing, or as near as possible.
 ///
-/// A found key more is a genga more on the sheet or, where it falls on the koma of a pin or of an end,
-/// none. So the number of found keys is corrected by what is missing until it is right.
+/// One more found key is one more genga, or none if it falls on the koma of a pin or of an end. So the number of found
+/// keys is corrected by the difference until it is right.
 pub(super) fn meet(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -36,13 +36,13 @@ pub(super) fn meet(
         let why = "nothing moves in the clip, and all genga would be one";
         return Ok((recipe.clone(), outcome(there, Some(why.into()))));
     }
-    // A number that is asked for wins over rests: they hold on the sheet, but their ends are moments like others.
+    // A requested number takes precedence over rests: they are still held, but their ends compete like other moments.
     let mut free = recipe.clone();
     free.keys.at_rests = AtRests::Off;
     let there = genga(engine, &free, edits)?;
     let Looked { reached, mut recipe, over } = look(engine, &free, edits, (count, there))?;
     if reached == count && recipe.keys.rank == Rank::Price {
-        let priced = room::by_price(engine, &recipe, edits)?;
+        let priced = key_count_search::by_price(engine, &recipe, edits)?;
         if genga(engine, &priced, edits)? == count {
             recipe = priced;
         }
@@ -62,15 +62,15 @@ pub(super) fn meet(
     Ok((recipe, outcome(reached, shortfall)))
 }
 
-/// The nearest to a number of genga that was found.
+/// The nearest result found for a number of genga.
 struct Looked {
     reached: usize,
     recipe: Recipe,
-    /// A number beyond the one that is asked for, where that was met on the way.
+    /// A number beyond the target, if one was met on the way.
     over: Option<usize>,
 }
 
-/// Looks for the number of found keys with which there are so many genga, from those that there are.
+/// Searches for the number of found keys that gives `count` genga, starting from `there`.
 fn look(
     engine: &mut Engine,
     recipe: &Recipe,
@@ -78,17 +78,17 @@ fn look(
     (count, there): (usize, usize),
 ) -> Result<Looked, Error> {
     let mut best = Looked { reached: there, recipe: recipe.clone(), over: None };
-    let (mut wanted, mut now) = (room::found(engine, recipe, edits)?, there);
+    let (mut wanted, mut now) = (key_count_search::found(engine, recipe, edits)?, there);
     for _ in 0..MOST_LOOKS {
         let next = (wanted + count).saturating_sub(now);
         if best.reached == count || next == wanted {
             break;
         }
         wanted = next;
-        let tried = room::with_found(engine, recipe, edits, wanted)?;
+        let tried = key_count_search::with_found(engine, recipe, edits, wanted)?;
         now = genga(engine, &tried, edits)?;
         let over = best.over.or((now > count).then_some(now));
-        let is_all = room::found(engine, &tried, edits)? < wanted;
+        let is_all = key_count_search::found(engine, &tried, edits)? < wanted;
         if now.abs_diff(count) < best.reached.abs_diff(count) {
             best = Looked { reached: now, recipe: tried, over };
         }
@@ -100,7 +100,7 @@ fn look(
     Ok(best)
 }
 
-/// How many genga the sheet of a recipe has.
+/// Counts the genga on the sheet of a recipe.
 fn genga(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> Result<usize, Error> {
     Ok(layer(&engine.run(recipe, edits)?).genga())
 }

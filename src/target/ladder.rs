@@ -1,19 +1,20 @@
-//! The rungs of spacing: the next settings with more drawings, or with fewer.
+//! The ladder of spacing: the next settings with more drawings or with fewer.
 
 use crate::timing::{On, Spacing};
 
-/// On threes: two drawings' time is the bound of a hold, and one of eight koma, as on fours, stops a movement. So
-/// rather keys go.
+/// The slowest rung before keys go: on threes. A hold lasts up to two drawings' time, and one of eight koma, as on
+/// fours, would stop a movement.
 const SLOWEST: usize = 3;
 
-/// More inbetweens between any two keys than this nobody asks for by number.
+/// The largest number of inbetweens between two keys that the ladder tries.
 const MOST_INBETWEENS: usize = 24;
 
 /// Koma between drawings at which the ladder ends.
 const LONGEST: usize = 1000;
 
-/// Spacing with more drawings: the upper end of a range comes down to the lower, and from twos it opens again to ones
-/// where the body is fast; of a fixed number of inbetweens one more. None where there is a drawing every koma.
+/// Returns the spacing with more drawings: the upper end of a range comes down to the lower, and from twos the range
+/// opens to ones where the body is fast. A fixed number of inbetweens grows by one. `None` if there is a drawing on
+/// every koma.
 pub(super) fn denser(spacing: &Spacing) -> Option<Spacing> {
     let Spacing { on, inbetweens, .. } = *spacing;
     let (on, inbetweens) = match inbetweens {
@@ -26,16 +27,16 @@ pub(super) fn denser(spacing: &Spacing) -> Option<Spacing> {
     Some(Spacing { on, inbetweens, ..spacing.clone() })
 }
 
-/// Spacing with fewer drawings: the lower end of a range goes up to the upper, and up to threes it opens again to
-/// slower ones; of a fixed number of inbetweens one less. None where no more can go.
+/// Returns the spacing with fewer drawings: the lower end of a range goes up to the upper, and up to threes the range
+/// opens to slower ones. A fixed number of inbetweens shrinks by one. `None` if no more can go.
 pub(super) fn sparser(spacing: &Spacing) -> Option<Spacing> {
     let Spacing { on, inbetweens, .. } = *spacing;
     let (on, inbetweens) = match inbetweens {
         Some(count) => (on, Some(count.checked_sub(1)?)),
         None if on.least < on.most => (On { least: on.least + 1, ..on }, None),
         None if on.most < SLOWEST => (On { most: on.most + 1, ..on }, None),
-        // By a quarter at a time: two drawings' time is the bound of a hold, so what koma-dori reaches on
-        // neighbouring rungs overlaps.
+        // By a quarter at a time: a hold lasts up to two drawings' time, so the counts that koma-dori reaches on
+        // neighbouring rungs overlap.
         None if on.most < LONGEST => {
             (On::every((on.most + (on.most / 4).max(1)).min(LONGEST)), None)
         }
@@ -44,7 +45,7 @@ pub(super) fn sparser(spacing: &Spacing) -> Option<Spacing> {
     Some(Spacing { on, inbetweens, ..spacing.clone() })
 }
 
-/// The same, but no slower than on threes.
+/// Like [`sparser`], but stops at threes.
 pub(super) fn sparser_to_threes(spacing: &Spacing) -> Option<Spacing> {
     sparser(spacing).filter(|next| next.inbetweens.is_some() || next.on.most <= SLOWEST)
 }
@@ -57,7 +58,7 @@ mod tests {
         Spacing { on: on.parse().unwrap(), inbetweens, ..Spacing::default() }
     }
 
-    /// All rungs from a spacing on.
+    /// Returns all rungs that follow a spacing.
     fn rungs(from: Spacing, next: fn(&Spacing) -> Option<Spacing>) -> Vec<String> {
         let rungs = std::iter::successors(Some(from), next);
         let words = rungs.map(|rung| match rung.inbetweens {

@@ -1,17 +1,17 @@
-//! Why the keys of a target are not other ones, in words.
+//! Explanations of why the keys cannot match a target.
 
 use crate::edits::Edits;
 use crate::keys::{Key, Origin};
 use crate::recipe::Recipe;
 
-/// Why there are no found keys where a person wants none.
+/// Why no keys are found when only pins may be keys.
 const ONLY_PINS: &str =
     "only_pins wants no keys but pins and moved ones; --only-pins=false lets others be found";
 
-/// Why the keys are those of a sheet before.
+/// Why the keys are those of an earlier sheet.
 const FROZEN: &str = "the keys are frozen; without --freeze others are found";
 
-/// Why no other keys are found at all, where a person wants that.
+/// Explains why no other keys are found at all, if corrections fix the keys.
 pub(super) fn settled(edits: &Edits) -> Option<&'static str> {
     match edits {
         _ if edits.only_pins => Some(ONLY_PINS),
@@ -20,7 +20,7 @@ pub(super) fn settled(edits: &Edits) -> Option<&'static str> {
     }
 }
 
-/// What keeps the turns of joints from being keys, behind a word for them; empty where nothing does.
+/// Describes the limits that keep turns of joints from becoming keys, as words to append; empty if there are none.
 pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {
     let weak = recipe.keys.min_strength > 0.0;
     let limits = [
@@ -30,7 +30,8 @@ pub(super) fn limits(recipe: &Recipe, edits: &Edits) -> String {
     limits.into_iter().filter(|(limits, _)| *limits).map(|(_, words)| words).collect()
 }
 
-/// Why no key of these goes, none of which was found: so many genga stand between the first and the last.
+/// Explains why none of these keys can go, none of which was found; `between` is the number of genga between first and
+/// last.
 pub(super) fn staying(between: usize, keys: &[Key]) -> String {
     let any = |is: fn(Origin) -> bool| keys.iter().any(|key| is(key.origin));
     let rests = any(|origin| origin == Origin::Rest);
@@ -61,7 +62,7 @@ pub(super) fn staying(between: usize, keys: &[Key]) -> String {
     }
 }
 
-/// `a, b and c`.
+/// Joins words as `a, b and c`.
 fn listed(words: &[&str]) -> String {
     match words {
         [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),

@@ -9,7 +9,7 @@ use crate::pipeline::tests::walking;
 use crate::time::{Frame, FrameRate};
 use crate::timing::On;
 
-/// A made motion of `data/`.
+/// Opens a synthetic motion of `data/`.
 fn sample(name: &str) -> Clip {
     let path = format!("{}/data/{name}.bvh", env!("CARGO_MANIFEST_DIR"));
     bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
@@ -19,14 +19,14 @@ fn engine(name: &str) -> Engine {
     Engine::new(sample(name)).unwrap()
 }
 
-/// What the sheet of a recipe has: genga with both ends, drawings, and seconds.
+/// Returns the figures of a recipe's sheet: genga with both ends, drawings, and seconds.
 fn figures(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> (usize, usize, f64) {
     let breakdown = engine.run(recipe, edits).unwrap();
     let seconds = breakdown.sheet.length() as f64 / breakdown.clock.koma_rate;
     (layer(&breakdown).genga(), layer(&breakdown).shown().count(), seconds)
 }
 
-/// The fewest and the most genga that any price and number a second gives.
+/// Returns the fewest and the most genga that any price and limit per second give.
 fn bounds(engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> (usize, usize) {
     let bound = |min_price, per_second| {
         let keys = Choose { min_price, per_second, at_rests: AtRests::Off, ..recipe.keys.clone() };
@@ -130,7 +130,7 @@ fn the_frame_that_is_furthest_off_may_be_forbidden() {
     let worst = worst_of(&free);
     let pinned = Edits { pins: vec![Pin::parse(&worst).unwrap()], ..Edits::default() };
     assert_ne!(worst_of(&said(&pinned)), worst, "it helps");
-    // Where there are only pins, what is forbidden changes no key.
+    // With pins alone, forbidden frames change no key.
     let alone = Edits { only_pins: true, ..pinned };
     let worst = worst_of(&said(&alone));
     let forbidden = said(&Edits { forbidden: vec![worst.parse().unwrap()], ..alone });
@@ -160,8 +160,8 @@ fn drawings_never_cost_keys_that_were_asked_for() {
     assert!(said.contains("24 genga are wanted"), "{said}");
 }
 
-/// The same motions, and twice and three times as fast: so that genga are most of what fits. Of few drawings a
-/// quarter stay genga, where the method has as many.
+/// The same motions, also two and three times as fast, so that genga are most of what fits. With few drawings a quarter
+/// stay genga, if the method has as many.
 #[test]
 fn genga_go_first_where_they_leave_no_room_for_inbetweens() {
     let edits = Edits::default();
@@ -195,7 +195,7 @@ fn genga_go_first_where_they_leave_no_room_for_inbetweens() {
     }
 }
 
-/// A rate that is met by genga nearly alone is met in another way.
+/// A rate that only a sheet of almost nothing but genga meets is met in another way.
 #[test]
 fn a_rate_that_genga_alone_have_is_no_rate_that_is_met() {
     let edits = Edits::default();
@@ -272,7 +272,7 @@ fn the_smallest_clips_have_targets_too() {
     }
 }
 
-/// Koma on which the body is further off than `most` with the keys of a recipe.
+/// Counts the koma at which the body is further off than `most` with the keys of a recipe.
 fn beyond(most: f64, engine: &mut Engine, recipe: &Recipe, edits: &Edits) -> usize {
     let rebuilt = engine.reconstruction(recipe, edits).unwrap();
     rebuilt.errors.into_iter().filter(|error| *error > most).count()
@@ -306,18 +306,18 @@ proptest! {
         let recipe = Recipe::default();
         let met = meet(&mut engine, &recipe, &edits, &[Target::MaxError(most)]).unwrap();
         let outcome = &met.outcomes[0];
-        let found = room::found(&mut engine, &met.recipe, &edits).unwrap();
+        let found = key_count_search::found(&mut engine, &met.recipe, &edits).unwrap();
         let worst = engine.reconstruction(&met.recipe, &edits).unwrap().worst();
         prop_assert_eq!(outcome.reached, worst);
         prop_assert_eq!(outcome.shortfall.is_none(), worst <= most, "{}", outcome);
         let least = beyond(most, &mut engine, &met.recipe, &edits);
         prop_assert_eq!(least == 0, worst <= most);
-        // No higher price of those that are tried does.
+        // No higher price among those tried suffices.
         for price in error::prices() {
             let mut other = recipe.clone();
             other.keys.per_second = f64::INFINITY;
             other.keys.min_price = price;
-            let sparse = room::found(&mut engine, &other, &edits).unwrap() < found;
+            let sparse = key_count_search::found(&mut engine, &other, &edits).unwrap() < found;
             prop_assert!(!sparse || beyond(most, &mut engine, &other, &edits) >= least, "{}", price);
         }
         let again = meet(&mut engine, &met.recipe, &edits, &[Target::MaxError(most)]).unwrap();
@@ -354,16 +354,16 @@ proptest! {
         prop_assert_eq!(outcome.reached, drawings as f64 / seconds);
         let excess = drawings as f64 - per_second * seconds;
         prop_assert_eq!(outcome.shortfall.is_none(), excess.abs() <= 1.0 + 1e-9, "{}", outcome);
-        // There is always a way to more, and to fewer until only what stays is left.
+        // More drawings are always possible, and fewer until only those that must stay are left.
         prop_assert!(excess > -1.0 - 1e-9, "{}", outcome);
         if outcome.shortfall.is_some() {
             let breakdown = engine.run(&met.recipe, &edits).unwrap();
             prop_assert_eq!(layer(&breakdown).count(Role::Inbetween), 0, "{}", outcome);
         }
-        // What could not be held is not asked for either.
+        // Holds that could not be done are not asked for.
         let held = &engine.run(&met.recipe, &edits).unwrap().first_layer().omission.koma_dori;
         prop_assert!(met.recipe.omission.koma_dori == recipe.omission.koma_dori || held.asked == held.done);
-        // The recipe alone says it all, and is not changed for what it gives.
+        // The recipe alone reproduces the result, and meeting the target again does not change it.
         let again = meet(&mut engine, &met.recipe, &edits, &targets).unwrap();
         prop_assert!(again.recipe == met.recipe || excess.abs() > 0.5, "{}", outcome);
         let written = met.recipe.write(&edits);
@@ -394,7 +394,7 @@ proptest! {
         let wanted = count.clamp(fewest, most);
         prop_assert_eq!(figures(&mut engine, &met.recipe, &edits).0, wanted);
         prop_assert_eq!(met.outcomes[0].shortfall.is_none(), wanted == count);
-        // Pins that change their neighbourhood alone take the place of found keys after the choice: the whole is counted.
+        // Pins that change only their neighbourhood replace found keys after the choice; the total counts.
         let edits = Edits { pins: around, ..Edits::default() };
         let met = meet(&mut engine, &recipe, &edits, &[Target::Keys(count)]).unwrap();
         let reached = figures(&mut engine, &met.recipe, &edits).0;

@@ -1,30 +1,30 @@
-//! How many: a plain count, or a share of what there is.
+//! An amount: a plain count, or a share of a whole.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::knob::{Kind, Setting, as_word, by_word};
 
-/// How many drawings or koma: a count (`4`) or a share (`4%`, `0.04`, `1/3`), so that one recipe
-/// serves clips of every length.
+/// A number of drawings or koma: a count (`4`) or a share (`4%`, `0.04`, `1/3`), so that one recipe serves clips of
+/// every length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Amount {
-    /// So many.
+    /// A fixed number.
     Count(usize),
-    /// A part of the whole, 0 to 1.
+    /// A share of the whole, 0 to 1.
     Share(f64),
 }
 
 impl Amount {
-    /// How many that is of `whole`, a share rounded to the nearest.
-    pub fn of(self, whole: usize) -> usize {
+    /// Returns the count out of `whole`; a share is rounded to the nearest.
+    pub fn resolve(self, whole: usize) -> usize {
         match self {
             Self::Count(count) => count,
             Self::Share(share) => (share * whole as f64).round() as usize,
         }
     }
 
-    /// Whether a share lies in 0 to 1; every count is an amount.
+    /// Whether the amount is valid: a share must lie in 0 to 1, every count is valid.
     pub fn is_amount(self) -> bool {
         match self {
             Self::Count(_) => true,
@@ -39,7 +39,7 @@ impl fmt::Display for Amount {
             Self::Count(count) => return write!(f, "{count}"),
             Self::Share(share) => share,
         };
-        // People write 4% and 1/3: those come back as written, everything else as a number.
+        // People write 4% and 1/3, so these are printed as written; everything else is printed as a number.
         let percent = (share * 1e8).round() / 1e6;
         if percent / 100.0 == share {
             return write!(f, "{percent}%");
@@ -138,9 +138,9 @@ mod tests {
 
     #[test]
     fn a_share_is_rounded_and_a_count_is_not_bound_by_the_whole() {
-        assert_eq!(Amount::Share(1.0 / 3.0).of(125), 42);
-        assert_eq!(Amount::Share(0.04).of(129), 5);
-        assert_eq!(Amount::Share(0.5).of(0), 0);
-        assert_eq!(Amount::Count(9).of(4), 9);
+        assert_eq!(Amount::Share(1.0 / 3.0).resolve(125), 42);
+        assert_eq!(Amount::Share(0.04).resolve(129), 5);
+        assert_eq!(Amount::Share(0.5).resolve(0), 0);
+        assert_eq!(Amount::Count(9).resolve(4), 9);
     }
 }

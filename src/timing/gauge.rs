@@ -1,14 +1,13 @@
-//! The spacing gauge (ツメ指示): where the drawings between two keys stand on the way from one to the
-//! other.
+//! The spacing gauge (ツメ指示): the positions of the drawings between two keys along the path from one to the other.
 
 use crate::motion::{Clip, JointId};
 use crate::sheet::{Layer, Role};
 use crate::timing::Stills;
 
-/// A gap at an end that is smaller than this share of the mean gap is packed (詰め).
+/// A gap at an end counts as packed (詰め) if it is smaller than this share of the mean gap.
 const PACKED: f64 = 0.75;
 
-/// Fractions an animator writes on a gauge.
+/// The fractions that an animator writes on a gauge.
 const FRACTIONS: [(f64, &str); 13] = [
     (0.0, "0"),
     (0.125, "1/8"),
@@ -25,18 +24,18 @@ const FRACTIONS: [(f64, &str); 13] = [
     (1.0, "1"),
 ];
 
-/// The gauge of two kept drawings that follow each other.
+/// The gauge between two consecutive kept drawings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gauge {
-    /// The exposure of the first, as an index into [`Layer::exposures`].
+    /// The exposure of the first drawing, as an index into [`Layer::exposures`].
     pub first: usize,
-    /// The joint of the layer that travels furthest between the two: the gauge is measured along its path.
+    /// The joint of the layer that travels furthest between the two; the gauge is measured along its path.
     pub joint: JointId,
-    /// How far each exposure from the first to the second has come, from 0 to 1, never falling.
+    /// The share of the path covered at each exposure from the first to the second, from 0 to 1, never falling.
     pub shares: Vec<f64>,
 }
 
-/// Where the drawings of a gauge are packed: where they lie close, the motion is slow.
+/// The packing of a gauge's drawings: the motion is slow where they lie close.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Packing {
     /// Even spacing (均等割り).
@@ -50,12 +49,12 @@ pub enum Packing {
 }
 
 impl Gauge {
-    /// The gauges of a layer by time; none for two keys between which nothing moves.
+    /// Returns the gauges of a layer by time, without those between keys with no movement.
     ///
     /// # Panics
     /// When the layer shows a drawing that it does not have.
-    pub fn of(clip: &Clip, layer: &Layer) -> Vec<Self> {
-        let stills = Stills::of(clip, layer);
+    pub fn from_layer(clip: &Clip, layer: &Layer) -> Vec<Self> {
+        let stills = Stills::from_layer(clip, layer);
         let joints = own_joints(clip, layer);
         let drawings: Vec<usize> = layer.exposures.iter().map(|shown| shown.drawing).collect();
         let kept: Vec<usize> = (0..drawings.len())
@@ -75,13 +74,13 @@ impl Gauge {
             .collect()
     }
 
-    /// The shares of the drawings between the two.
+    /// Returns the shares of the drawings between the two.
     pub fn between(&self) -> &[f64] {
         &self.shares[1..self.shares.len() - 1]
     }
 
-    /// Where its drawings are packed, by the first and the last third of its gaps against the mean gap;
-    /// none where nothing lies between the two.
+    /// Returns the packing, from the first and the last third of the gaps compared with the mean gap; `None` if nothing
+    /// lies between the two.
     pub fn packing(&self) -> Option<Packing> {
         let gaps = self.shares.len() - 1;
         if gaps < 2 {
@@ -101,7 +100,7 @@ impl Gauge {
 }
 
 impl Packing {
-    /// The word of the field.
+    /// Returns the Japanese term.
     pub fn japanese(self) -> &'static str {
         match self {
             Self::Even => "均等",
@@ -111,7 +110,7 @@ impl Packing {
         }
     }
 
-    /// The word and, since it is a false friend, what it means.
+    /// Returns the term and its meaning, since the term is a false friend.
     pub fn english(self) -> &'static str {
         match self {
             Self::Even => "even",
@@ -122,21 +121,21 @@ impl Packing {
     }
 }
 
-/// The nearest fraction that an animator writes: halves, thirds, quarters, sixths, eighths.
+/// Returns the nearest fraction that an animator writes: halves, thirds, quarters, sixths, eighths.
 pub fn fraction(share: f64) -> &'static str {
     let apart = |fraction: &&(f64, &str)| (fraction.0 - share).abs();
     let nearest = FRACTIONS.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
     nearest.map_or("", |fraction| fraction.1)
 }
 
-/// The joints that a layer names, all where it names none.
+/// Returns the joints that a layer names; all if it names none.
 fn own_joints(clip: &Clip, layer: &Layer) -> Vec<usize> {
     let joints = clip.skeleton().joints.iter().enumerate();
     let is_own = |name: &String| layer.joints.is_empty() || layer.joints.contains(name);
     joints.filter(|(_, data)| is_own(&data.name)).map(|(joint, _)| joint).collect()
 }
 
-/// The joint with the longest path over some drawings, and that length; none where nothing moves.
+/// Returns the joint with the longest path over some drawings, and its length; `None` if nothing moves.
 fn furthest(stills: &Stills, path: &[usize], joints: &[usize]) -> Option<(usize, f64)> {
     let way = |joint: &usize| (*joint, steps(stills, path, *joint).sum::<f64>());
     joints

@@ -1,30 +1,30 @@
-//! Holds (止め) that a person sets, after everything else was left out.
+//! A person's holds (止め), applied after all omission.
 
 use std::cmp::Ordering;
 
 use crate::edits::Hold;
 use crate::sheet::{Drawing, Exposure, Layer};
 use crate::time::Clock;
-use crate::timing::on::STAY;
+use crate::timing::koma_per_drawing::STAY;
 
-/// How near a drawing has to be to the frame of its hold, in koma.
+/// How close a drawing must be to the frame of its hold, in koma.
 const NEAR: f64 = 2.0;
 
-/// The layer with the holds of a person: every one as [`Hold`] says.
+/// Applies a person's holds to a layer, each as [`Hold`] says.
 ///
-/// `layer` shows each drawing once, in order, and its drawings are some of those of `spaced`, the layer before anything
-/// was left out; so are those of the result, which is as long and has its kept drawings on the same koma.
+/// `layer` shows each drawing once, in order, and its drawings are a subset of those of `spaced`, the layer before
+/// omission. The same holds for the result, which keeps the length and the koma of kept drawings.
 pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -> Layer {
     if holds.is_empty() {
         return layer.clone();
     }
-    let mut row = Row::of(layer, spaced);
+    let mut row = Row::new(layer, spaced);
     for hold in holds {
         if let Some(index) = row.nearest(hold.frame.0 as f64, clock) {
             row.drawings[index].asked = Some(hold.koma.max(1));
         }
     }
-    // From the first on: what a hold takes from the next drawing, that one's own hold gets back.
+    // From the first on, so that what a hold takes from the next drawing is restored by that drawing's own hold.
     let mut index = 0;
     while index < row.drawings.len() {
         if let Some(koma) = row.drawings[index].asked {
@@ -35,8 +35,8 @@ pub fn with_holds(layer: &Layer, spaced: &Layer, holds: &[Hold], clock: Clock) -
     row.into_layer(layer)
 }
 
-/// For how many koma the drawing of a person's hold stays on a layer that has been through [`with_holds`]; none where no
-/// drawing is near the frame of the hold.
+/// Returns how many koma the drawing of a hold stays on a layer that went through [`with_holds`]; `None` if no drawing
+/// is close to the frame of the hold.
 pub fn held_for(layer: &Layer, hold: Hold, clock: Clock) -> Option<usize> {
     let frame = hold.frame.0 as f64;
     let away = |shown: &Exposure| (layer.drawings[shown.drawing].source.place() - frame).abs();
@@ -46,22 +46,22 @@ pub fn held_for(layer: &Layer, hold: Hold, clock: Clock) -> Option<usize> {
     (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest.koma)
 }
 
-/// A drawing on screen.
+/// A drawing with its exposure.
 struct OnScreen {
     drawing: Drawing,
     koma: usize,
-    /// For how many koma a person wants it.
+    /// The number of koma that a person wants.
     asked: Option<usize>,
 }
 
-/// The drawings of a layer in their order.
+/// The drawings of a layer in order.
 struct Row<'a> {
     drawings: Vec<OnScreen>,
     spaced: &'a Layer,
 }
 
 impl<'a> Row<'a> {
-    fn of(layer: &Layer, spaced: &'a Layer) -> Self {
+    fn new(layer: &Layer, spaced: &'a Layer) -> Self {
         let on_screen = |shown: &Exposure| OnScreen {
             drawing: layer.drawings[shown.drawing].clone(),
             koma: shown.koma,
@@ -74,21 +74,21 @@ impl<'a> Row<'a> {
         self.drawings[index].drawing.source.place()
     }
 
-    /// The drawing nearest to a place; none where there is none near it.
+    /// Returns the drawing nearest to a place; `None` if none is close.
     fn nearest(&self, place: f64, clock: Clock) -> Option<usize> {
         let away = |index: usize| (self.place(index) - place).abs();
         let nearest = (0..self.drawings.len()).min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
         (away(nearest) < NEAR * clock.frames_in_koma()).then_some(nearest)
     }
 
-    /// The next drawing that stays on its koma; the number of drawings at the end.
+    /// Returns the next drawing that stays on its koma; the number of drawings if there is none.
     fn next_kept(&self, index: usize) -> usize {
         let after = self.drawings.iter().skip(index + 1);
         let is_kept = |shown: &OnScreen| shown.drawing.role.is_kept();
         index + 1 + after.take_while(|shown| !is_kept(shown)).count()
     }
 
-    /// Holds a drawing for so many koma.
+    /// Holds a drawing for `koma` koma.
     fn hold(&mut self, index: usize, koma: usize) {
         let why = &mut self.drawings[index].drawing.why;
         (why.hold_set, why.lengthened) = (true, 0);
@@ -99,7 +99,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Takes koma from the inbetweens after it, as far as there are any.
+    /// Takes koma from the inbetweens after the drawing, as far as there are any.
     fn lengthen(&mut self, index: usize, koma: usize) {
         let mut missing = koma - self.drawings[index].koma;
         while missing > 0 && self.next_kept(index) > index + 1 {
@@ -117,17 +117,17 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Covers the inbetween after a drawing with it.
+    /// Replaces the inbetween after a drawing by a longer hold.
     fn cover(&mut self, index: usize) -> usize {
         let OnScreen { koma, drawing, .. } = self.drawings.remove(index + 1);
-        // What was left out round a covered drawing is under the hold too.
+        // Drawings left out around a covered drawing are now under the hold as well.
         self.drawings[index].drawing.why.held_for +=
             drawing.why.omitted_before + 1 + drawing.why.held_for;
         koma
     }
 
-    /// Sees to it that the inbetween after a drawing stays for as long as drawings do there: by koma of those behind
-    /// it that have more, else the next takes its place, and where there is none the hold lasts up to the genga.
+    /// Makes the inbetween after a drawing stay as long as drawings do there. It takes koma from longer inbetweens
+    /// behind it; failing that, the next one takes its place, and if there is none, the hold lasts up to the genga.
     fn let_stay(&mut self, index: usize) {
         let least = self.least(index);
         for behind in index + 2..self.next_kept(index) {
@@ -143,8 +143,8 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// For how many koma drawings stay at the least between the two genga round a drawing: two, unless some were
-    /// spaced for one there.
+    /// Returns the fewest koma that drawings stay between the two genga around a drawing: two, unless some were spaced
+    /// for one there.
     fn least(&self, index: usize) -> usize {
         let is_kept = |shown: &&OnScreen| shown.drawing.role.is_kept();
         let opener = self.drawings[..=index].iter().rev().find(is_kept);
@@ -157,7 +157,7 @@ impl<'a> Row<'a> {
         own.chain(inbetweens).map(|shown| shown.koma).min().unwrap_or(1).min(STAY)
     }
 
-    /// Gives koma to a drawing that was left out after it, else to the next inbetween.
+    /// Gives the freed koma to a drawing that was left out after this one, or else to the next inbetween.
     fn shorten(&mut self, index: usize, koma: usize) {
         let freed = self.drawings[index].koma - koma;
         let left_out = self.left_out(index, koma).filter(|_| freed >= self.least(index));
@@ -171,8 +171,8 @@ impl<'a> Row<'a> {
         self.drawings[index].koma = koma;
     }
 
-    /// Of the drawings that were left out after one the nearest in time to what its hold gives free, and which of
-    /// them it is.
+    /// Finds, among the drawings left out after one, the one nearest in time to the freed koma, and its number among
+    /// them.
     fn left_out(&self, index: usize, koma: usize) -> Option<(usize, Drawing)> {
         let begin: usize = self.drawings[..index].iter().map(|shown| shown.koma).sum();
         let (from, to) =
@@ -185,7 +185,7 @@ impl<'a> Row<'a> {
         nearest.map(|(at, (_, shown))| (at, self.spaced.drawings[shown.drawing].clone()))
     }
 
-    /// Puts a drawing back behind another, and shares out what was said of those that were left out between.
+    /// Puts a drawing back behind another, and splits the counts of omitted drawings between them.
     fn come_back(&mut self, index: usize, at: usize, mut back: OnScreen) {
         let held = self.drawings[index].drawing.why.held_for;
         let all = held + self.drawings[index + 1].drawing.why.omitted_before;
@@ -207,7 +207,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Places nearer than this, in frames, are one.
+/// Places closer than this, in frames, are equal.
 const SAME: f64 = 1e-6;
 
 #[cfg(test)]

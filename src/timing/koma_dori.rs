@@ -1,19 +1,18 @@
-//! Koma-dori (コマ撮り): holding a drawing instead of showing a small movement (KKMFT §3.3,
-//! Algorithm 2).
+//! Koma-dori (コマ撮り): holding a drawing in place of a small movement (KKMFT §3.3, Algorithm 2).
 
+use crate::timing::drawing_list::{Link, Strip};
 use crate::timing::report::Shortfall;
-use crate::timing::strip::{Link, Strip};
 use crate::timing::tournament::{OUT, Tournament};
 
-/// What the stage did.
+/// The result of the stage.
 #[derive(Default)]
 pub(super) struct Replaced {
-    /// Drawings that are gone, in the order they went.
+    /// The removed drawings, in the order they went.
     pub(super) gone: Vec<usize>,
     pub(super) shortfall: Option<Shortfall>,
 }
 
-/// Replaces `count` drawings by the one before them, the smallest movements first, none with an SSD above `small`.
+/// Replaces `count` drawings by the one before them, the smallest movements first; none with an SSD above `small`.
 pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
     let mut replaced = Replaced::default();
     let mut refused = false;
@@ -32,7 +31,7 @@ pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
         }
         smallest.set(drawing, OUT);
         let Link { before, after, koma, .. } = strip.links[drawing];
-        // For good: the one before only grows, and so does what stands before it.
+        // The refusal is final: the drawing before only grows, and so does the distance to it.
         if strip.links[before].koma + koma > strip.bound {
             refused = true;
             continue;
@@ -46,7 +45,7 @@ pub(super) fn run(count: usize, small: f64, strip: &mut Strip<'_>) -> Replaced {
     replaced
 }
 
-/// `refused`: whether a hold would have grown too long.
+/// Explains why no more were replaced; `refused` says whether a hold would have grown too long.
 fn why_not_more(strip: &Strip<'_>, refused: bool) -> Shortfall {
     match strip.links.iter().any(|link| link.koma > 0 && !link.kept) {
         false => Shortfall::NoneLeft,
@@ -55,8 +54,8 @@ fn why_not_more(strip: &Strip<'_>, refused: bool) -> Shortfall {
     }
 }
 
-/// SSD to the drawing before. Kept drawings stay, and replacing one that is itself held longer would
-/// only shift the hold.
+/// Returns the SSD to the drawing before. Kept drawings stay, and replacing one that is itself held longer would only
+/// shift the hold.
 fn smallness(link: &Link) -> f64 {
     let out = link.kept || link.koma == 0 || link.given > 0 || link.held_for > 0;
     if out { OUT } else { link.step }

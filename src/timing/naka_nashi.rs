@@ -2,45 +2,45 @@
 
 use std::ops::Range;
 
+use crate::timing::drawing_list::Strip;
 use crate::timing::report::Shortfall;
-use crate::timing::strip::Strip;
 use crate::timing::tournament::{OUT, Tournament};
 
-/// How the stage is to run.
+/// The rules of the stage.
 pub(super) struct NakaNashi {
-    /// What is to be left out of each action.
+    /// How much to leave out of each action.
     pub(super) quotas: Vec<Quota>,
-    /// Whether the koma that get free are given to other drawings.
+    /// Whether the freed koma are given to other drawings.
     pub(super) keep_length: bool,
-    /// Whether all are chosen by the distances at the beginning.
+    /// Whether all drawings are chosen by the initial distances.
     pub(super) all_at_once: bool,
 }
 
-/// How much is to be left out of an action.
+/// How much to leave out of an action.
 pub(super) struct Quota {
     /// The drawings of the action.
     pub(super) drawings: Range<usize>,
-    /// Drawings to leave out; koma on a sheet on ones without genga.
+    /// Number of drawings to leave out; of koma, on a sheet on ones without genga.
     pub(super) count: usize,
-    /// How far the body goes from drawing to drawing in its middle.
+    /// The median step of the action's drawings.
     pub(super) usual: f64,
-    /// The SSD from which a movement is markedly fast.
+    /// The SSD from which on a movement is markedly fast.
     pub(super) fast: f64,
 }
 
-/// What the stage did.
+/// The result of the stage.
 #[derive(Default)]
 pub(super) struct Taken {
     pub(super) done: usize,
-    /// Drawings that are gone, in the order they went.
+    /// The removed drawings, in the order they went.
     pub(super) gone: Vec<usize>,
-    /// Koma given to other drawings.
+    /// Number of koma given to other drawings.
     pub(super) given: usize,
     pub(super) shortfall: Option<Shortfall>,
 }
 
 impl NakaNashi {
-    /// How many drawings are asked for in all actions together.
+    /// Returns the number of drawings to leave out of all actions together.
     pub(super) fn count(&self) -> usize {
         self.quotas.iter().fold(0, |sum, quota| sum.saturating_add(quota.count))
     }
@@ -65,15 +65,15 @@ impl NakaNashi {
 struct Stage<'a, 'b> {
     rules: &'a NakaNashi,
     strip: &'a mut Strip<'b>,
-    /// Inbetweens that may go by −SSD to the one before.
+    /// Inbetweens that may go, by −SSD to the one before.
     fastest: Tournament,
-    /// Drawings that may be lengthened by SSD to the one after.
+    /// Drawings that may be lengthened, by SSD to the one after.
     slowest: Tournament,
-    /// Koma that the drawings of each interval can still take.
+    /// Number of koma that the drawings of each interval can still take.
     room: Vec<usize>,
-    /// Koma of each interval that got free and are not given away yet.
+    /// Number of koma freed in each interval and not given away yet.
     owed: Vec<usize>,
-    /// Inbetweens that were found not to fit: the room of an interval only shrinks.
+    /// Inbetweens that did not fit. They never will, as the room of an interval only shrinks.
     barred: Vec<bool>,
     taken: Taken,
 }
@@ -102,7 +102,7 @@ impl<'a, 'b> Stage<'a, 'b> {
         }
     }
 
-    /// Leaves out of an action what is asked for, or as much as can go.
+    /// Leaves out what is asked of an action, or as much as can go.
     fn fill(&mut self, quota: &Quota) {
         let enough = self.taken.done.saturating_add(quota.count);
         while self.taken.done < enough {
@@ -115,7 +115,7 @@ impl<'a, 'b> Stage<'a, 'b> {
                     continue;
                 }
             };
-            // Of several actions the first says why.
+            // Of several actions, the first gives the reason.
             self.taken.shortfall.get_or_insert(shortfall);
             break;
         }
@@ -138,12 +138,12 @@ impl<'a, 'b> Stage<'a, 'b> {
         }
     }
 
-    /// Whether a drawing only loses a koma.
+    /// Whether a drawing loses a koma and stays.
     fn stays(&self, drawing: usize) -> bool {
         self.strip.by_koma && self.strip.links[drawing].koma > 1
     }
 
-    /// Whether the koma that a drawing sets free find room in its interval.
+    /// Whether the koma freed by a drawing find room in its interval.
     fn fits(&self, drawing: usize) -> bool {
         let link = &self.strip.links[drawing];
         let others = self.room[link.interval] - self.strip.room(drawing);
@@ -170,7 +170,7 @@ impl<'a, 'b> Stage<'a, 'b> {
         1
     }
 
-    /// Takes a whole drawing out.
+    /// Removes a whole drawing.
     fn omit(&mut self, drawing: usize) -> usize {
         let link = &self.strip.links[drawing];
         let (before, after) = (link.before, link.after);
@@ -216,7 +216,7 @@ impl<'a, 'b> Stage<'a, 'b> {
     }
 }
 
-/// SSD to the drawing after, by which the next koma is given; out when it can take none.
+/// Returns the SSD to the next drawing, by which the next koma is given; [`OUT`] if the drawing can take none.
 fn slowness(strip: &Strip<'_>, drawing: usize) -> f64 {
     let link = &strip.links[drawing];
     if strip.room(drawing) == 0 {
@@ -224,7 +224,7 @@ fn slowness(strip: &Strip<'_>, drawing: usize) -> f64 {
     }
     match strip.links.get(link.after) {
         None => OUT,
-        // Koma by koma the frame after a held one is its own copy.
+        // Koma by koma, the frame after a held one is its own copy.
         Some(_) if strip.by_koma && link.koma > 1 => 0.0,
         Some(next) => next.step,
     }

@@ -7,53 +7,51 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::knob::{Knobs, choices, knob, knobs};
 use crate::sheet::Layer;
+use crate::timing::drawing_list::Strip;
 use crate::timing::naka_nashi::{NakaNashi, Quota};
 use crate::timing::report::{Gone, OmissionReport, Shortfall, StageReport};
-use crate::timing::strip::Strip;
 use crate::timing::{Amount, On, Stills, koma_dori};
 
 #[cfg(test)]
 mod tests;
 
-/// A share for naka-nashi gives at most this many an action: beyond 4 to 6 it no longer reads as one
+/// Most drawings per action that naka-nashi leaves out by a share: beyond 4 to 6 an action no longer reads as one
 /// movement (KKMFT §4). A plain count is not capped.
 const MOST_BY_SHARE: usize = 6;
 
-/// Which drawings are left out, and how long the others may stay for it (KKMFT §3).
+/// Settings of omission: which drawings are left out, and how long the others may stay (KKMFT §3).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Omission {
-    /// Naka-nashi (中無し): inbetweens left out of each action where its movement is fastest; a share is
-    /// of the action's koma and gives 6 at most. Default 4%. Raised, the movement jumps and no longer
-    /// reads as one.
+    /// Naka-nashi (中無し): inbetweens left out of each action where its movement is fastest. A share is of the action's
+    /// koma and gives 6 at most. Default 4%. Higher values make the movement jump, so that it no longer reads as one.
     pub naka_nashi: Amount,
-    /// Koma-dori (コマ撮り): inbetweens replaced by the drawing before them where the movement is
-    /// smallest; a share is of the inbetweens there are when it begins. Default 1/3. Raised, small
-    /// movement is lost.
+    /// Koma-dori (コマ撮り): inbetweens replaced by the drawing before them where the movement is smallest. A share is of
+    /// the inbetweens present when the stage begins. Default 1/3. Higher values lose small movement.
     pub koma_dori: Amount,
-    /// What is markedly fast (著しく速い), so that naka-nashi may leave it out: so many times the movement from drawing to
-    /// drawing in the middle of its action (the median); 0 or more, default 2, 0 for anything that moves. It does not
-    /// count on ones without genga. Lowered, evenly fast movements lose drawings.
+    /// Threshold of markedly fast movement (著しく速い), which naka-nashi may leave out: a multiple of the median movement
+    /// between drawings of its action; 0 or more, default 2; 0 admits anything that moves. It does not apply on ones
+    /// without genga. Lower values take drawings from evenly fast movements.
     pub fast: f64,
-    /// What is a small movement (微小な動き), so that koma-dori may hold the drawing before it: so far at the most a joint
-    /// goes (root mean square), in % of body height; 0 or more, default 3.3. It does not count on ones without genga.
-    /// Raised, drawings are held in the midst of a movement.
+    /// Threshold of small movement (微小な動き), which koma-dori may hold: how far a joint goes at most (root mean square),
+    /// in % of body height; 0 or more, default 3.3. It does not apply on ones without genga. Higher values hold
+    /// drawings in the midst of a movement.
     pub small: f64,
-    /// Koma that koma-dori may let an exposure grow to, 1 or more; never below twice the sheet's fewest koma a drawing.
-    /// Default 4. Raised, the body stands still; lowered, less can be left out.
+    /// Most koma that koma-dori may let an exposure grow to, 1 or more; never below twice the sheet's fewest koma per
+    /// drawing. Default 4. Higher values let the body stand still; lower values leave less out.
     pub max_hold: usize,
-    /// Whether koma freed by naka-nashi are given to the drawing from which the movement starts, so that the length
-    /// stays and what it arrives at stays on its koma. Default true; without it the layer gets shorter.
+    /// Whether the koma freed by naka-nashi go to the drawing from which the movement starts, so that the length and
+    /// the koma of the drawing it arrives at stay the same. Default true; otherwise the layer gets shorter.
     pub keep_length: bool,
-    /// Whether naka-nashi chooses all drawings by the distances at its beginning (KKMFT §3.4), for
-    /// comparison. Default false; with it the omissions scatter and the speed is hardly stressed.
+    /// Whether naka-nashi chooses all drawings by the initial distances (KKMFT §3.4), for comparison. Default false; if
+    /// true, the omissions scatter and hardly stress the speed.
     pub all_at_once: bool,
-    /// Which of the two goes first. Default naka-nashi. KKMFT §3.4 sees no great difference; the other order shows much the same
-    /// drawings at other times.
+    /// The stage that goes first. Default: naka-nashi. KKMFT §3.4 sees no great difference; the other order shows much
+    /// the same drawings at other times.
     pub order: Order,
 }
 
-/// Which of the two stages goes first.
+/// The order of the two stages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Order {
     /// Naka-nashi, then koma-dori, as in the paper.
@@ -65,16 +63,16 @@ pub enum Order {
 
 choices!(Order { NakaNashiFirst: "naka_nashi_first", KomaDoriFirst: "koma_dori_first" });
 
-/// What is known of a motion beside its drawings.
+/// Facts about a motion beyond its drawings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
-    /// For how many koma the sheet has a drawing.
+    /// Koma per drawing of the sheet.
     pub on: On,
-    /// The koma on which each action but the first begins, in order.
+    /// The koma at which all actions but the first begin, in order.
     pub later: Vec<usize>,
-    /// Koma of gaits (歩き), in which no drawing is left out or held: each step would be another.
+    /// Koma of gaits (歩き). No drawing in them is left out or held, as each step would differ.
     pub gaits: Vec<Range<usize>>,
-    /// The height of the body in the file's unit; infinite where it is not known, and every movement is small.
+    /// Height of the body in the file's unit; infinite if unknown, so that every movement counts as small.
     pub height: f64,
 }
 
@@ -84,12 +82,12 @@ impl Default for Course {
     }
 }
 
-/// A layer with drawings left out, and what was done to it.
+/// A layer after omission, with a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Omitted {
-    /// The drawings that are left, numbered anew.
+    /// The remaining drawings, renumbered.
     pub layer: Layer,
-    /// What was done.
+    /// The report.
     pub report: OmissionReport,
 }
 
@@ -111,61 +109,65 @@ impl Default for Omission {
 knobs!(omission::Omission {
     naka_nashi: knob(
         "中無し",
-        "How many inbetweens of the fastest movement are left out of each action (naka-nashi). \
-         More than about 6 in one and it jumps.",
-        "動作ごとに、いちばん速い動きの中割りを何枚抜くか（中無し）。\
+        "Inbetweens left out of each action where its movement is fastest (naka-nashi). More than \
+         about 6 in one action make it jump.",
+        "動作ごとに、いちばん速い動きから抜く中割りの枚数（中無し）。\
          一つの動作で6枚ほどを超えると飛んで見える。",
     )
     .unit("drawings an action, or a share of its koma (at most 6)"),
     koma_dori: knob(
         "コマ撮り",
-        "How many inbetweens of the slowest movement are held over (koma-dori). More stills small \
-         movements.",
-        "いちばん遅い動きの中割りを何枚止めに変えるか（コマ撮り）。多いほど小さな動きが止まる。",
+        "Inbetweens replaced by holding the drawing before them, where the movement is slowest \
+         (koma-dori). Higher values freeze small movements.",
+        "いちばん遅い動きで、前の絵の止めに変える中割りの枚数（コマ撮り）。\
+         多いほど小さな動きが止まる。",
     )
     .unit("drawings, or a share of the inbetweens"),
     fast: knob(
         "著しく速い動き",
-        "How many times as far as usual in its action the body must go from drawing to drawing for \
-         naka-nashi to leave one out. 0 is anything that moves.",
-        "中無しで抜いてよい速さ。絵から絵への動きが、その動作のふつう（中央値）の何倍以上か。0なら動きがあれば抜く。",
+        "How fast a movement must be for naka-nashi to leave a drawing out: its step from drawing \
+         to drawing, as a multiple of the median in its action. 0 allows any movement.",
+        "中無しで抜いてよい速さ。絵から絵への動きが、その動作の中央値の何倍以上か。\
+         0なら動きがあれば抜く。",
     )
     .unit("times the median")
     .slider(0.0, 6.0),
     small: knob(
         "微小な動き",
-        "How far a joint may go in the mean from the drawing before for koma-dori to hold that one. \
-         More holds drawings in the midst of movements.",
-        "コマ撮りで止めてよい動きの大きさ（部位の平均）。大きいほど動きの途中でも止まる。",
+        "Largest movement from the drawing before that koma-dori may replace by a hold, as the \
+         root mean square over the joints. Higher values hold drawings in the middle of movements.",
+        "コマ撮りで止めてよい動きの大きさ（部位の二乗平均の平方根）。大きいほど動きの途中でも止まる。",
     )
     .unit("% of body height")
     .slider(0.0, 20.0),
     max_hold: knob(
         "最長の止め",
-        "How long koma-dori may let a drawing stay, though never less than two drawings' time (4 \
-         koma on twos). Longer freezes the body.",
-        "コマ撮りで一枚をどこまで長く見せてよいか。\
-         ただし絵二枚分（2コマ打ちなら4コマ）を下回らない。長いほど体が固まる。",
+        "Longest hold that koma-dori may make, but at least the time of two drawings (4 koma on \
+         twos). Higher values freeze the body.",
+        "コマ撮りで作る止めの長さの上限。ただし絵二枚分（2コマ打ちなら4コマ）を下回らない。\
+         長いほど体が固まる。",
     )
     .unit("koma")
     .at_least(1.0)
     .slider(1.0, 12.0),
     keep_length: knob(
         "尺を保つ",
-        "Whether the koma of left-out drawings are given to their neighbours.",
-        "抜いた絵のコマを前後の絵に渡し、尺を保つかどうか。",
+        "Whether the koma of left-out drawings go to their neighbours, so that the length stays \
+         the same.",
+        "抜いた絵のコマを前後の絵に渡し、尺を保つか。",
     ),
     all_at_once: knob(
         "一度に抜く",
-        "Leave out the fastest drawings all at once instead of one by one: weaker, for comparison.",
-        "速い絵を一枚ずつでなく一度に抜く。効果は弱く、比較のためのもの。",
+        "Whether the fastest drawings are left out all at once instead of one by one. The effect \
+         is weaker; for comparison.",
+        "速い絵を一枚ずつでなく一度に抜くか。効果は弱く、比較のためのもの。",
     )
     .for_studies(),
     order: knob(
         "順番",
-        "Which of naka-nashi and koma-dori comes first. The other order shows much the same \
+        "Which comes first, naka-nashi or koma-dori. The other order shows nearly the same \
          drawings at other times.",
-        "中無しとコマ撮りのどちらを先にするか。変えると、出る絵はおおむね同じで、\
+        "中無しとコマ撮りのどちらを先にするか。順番を変えても、出る絵はほぼ同じで、\
          出る時刻が変わる。",
     )
     .for_studies(),
@@ -180,10 +182,10 @@ impl Omission {
         self.check()
     }
 
-    /// [`Omission::apply_to`] where the whole layer is one action, and no movement too large to be small.
+    /// Like [`Omission::apply_to`], with the whole layer as one action, and every movement counted as small.
     ///
     /// # Errors
-    /// Those of [`Omission::apply_to`].
+    /// As for [`Omission::apply_to`].
     ///
     /// ```
     /// use genga::sheet::Sheet;
@@ -193,7 +195,7 @@ impl Omission {
     /// let sheet = Sheet::on_ones(clip.clock(24.0), clip.len());
     /// let layer = &sheet.layers[0];
     /// let omission = Omission { naka_nashi: Amount::Count(4), ..Omission::default() };
-    /// let left = omission.apply(layer, &Stills::of(&clip, layer), 1)?.layer;
+    /// let left = omission.apply(layer, &Stills::from_layer(&clip, layer), 1)?.layer;
     /// assert_eq!((left.length(), left.drawings.len()), (92, 59));
     /// # Ok::<(), genga::Error>(())
     /// ```
@@ -201,15 +203,16 @@ impl Omission {
         self.apply_to(layer, stills, &Course { on: On::every(on), ..Course::default() })
     }
 
-    /// Leaves drawings of a layer out: genga, pinned and end drawings stay. With `keep_length` they stay on their koma
-    /// too, but for fills, which lie in transit, and in gaits all drawings do. Naka-nashi goes through the actions one by one.
+    /// Leaves drawings of a layer out. Genga, pinned and end drawings stay; in gaits, all drawings do. With
+    /// `keep_length` they also keep their koma, except for fills, which lie in transit. Naka-nashi handles the actions
+    /// one by one.
     ///
-    /// `stills` are the positions of the layer's drawings. On ones without genga naka-nashi is Algorithm 1 koma for koma,
-    /// but that the first and the last drawing stay, and what is fast or small does not count.
+    /// `stills` are the positions of the layer's drawings. On ones without genga, naka-nashi is Algorithm 1 koma for
+    /// koma, except that the first and the last drawing stay, and the thresholds of fast and small do not apply.
     ///
     /// # Errors
-    /// [`Error::Setting`] when a setting cannot be; [`Error::Clip`] unless the layer shows each of its
-    /// drawings once, in order, there is a still for each, and the actions begin in order.
+    /// [`Error::Setting`] when a setting is invalid; [`Error::Clip`] unless the layer shows each of its drawings once,
+    /// in order, there is a still for each, and the actions begin in order.
     pub fn apply_to(
         &self,
         layer: &Layer,
@@ -257,7 +260,7 @@ impl Omission {
         };
     }
 
-    /// What naka-nashi leaves out of each action: a drawing belongs to the one in which it begins.
+    /// Computes how much naka-nashi leaves out of each action; a drawing belongs to the action in which it begins.
     fn quotas(&self, layer: &Layer, course: &Course, strip: &Strip<'_>) -> Vec<Quota> {
         let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
         let length = layer.length();
@@ -276,11 +279,11 @@ impl Omission {
         bounds.windows(2).map(quota).collect()
     }
 
-    /// Drawings that naka-nashi leaves out of an action of so many koma.
+    /// Returns the number of drawings that naka-nashi leaves out of an action of `koma` koma.
     fn count_in(&self, koma: usize) -> usize {
         match self.naka_nashi {
             Amount::Count(count) => count,
-            share => share.of(koma).min(MOST_BY_SHARE),
+            share => share.resolve(koma).min(MOST_BY_SHARE),
         }
     }
 
@@ -291,7 +294,7 @@ impl Omission {
         strip: &mut Strip<'_>,
         report: &mut OmissionReport,
     ) {
-        let count = self.koma_dori.of(strip.inbetweens());
+        let count = self.koma_dori.resolve(strip.inbetweens());
         let small = self.small / 100.0 * course.height;
         let small = match strip.by_koma {
             true => f64::INFINITY,
@@ -307,12 +310,12 @@ impl Omission {
     }
 }
 
-/// Why less was done than asked for; a share is the most that may go.
+/// Keeps the reason for doing less only if a count was asked for; a share is an upper bound.
 fn unmet(asked: Amount, why: Option<Shortfall>) -> Option<Shortfall> {
     why.filter(|_| matches!(asked, Amount::Count(_)))
 }
 
-/// Drawings by their index, with their places and koma in the layer they stood in.
+/// Describes drawings, given by index, with their places and koma in their layer.
 fn named(layer: &Layer, drawings: &[usize]) -> Vec<Gone> {
     if drawings.is_empty() {
         return Vec::new();

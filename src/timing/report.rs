@@ -1,35 +1,35 @@
-//! What the omission stages did, and why not more.
+//! Reports of the omission stages: what they did, and why not more.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What the two stages did.
+/// The report of both stages.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OmissionReport {
-    /// Naka-nashi: its `gone` were left out.
+    /// Naka-nashi: its `gone` drawings were left out.
     pub naka_nashi: StageReport,
-    /// Koma-dori: its `gone` were replaced by the drawing before them.
+    /// Koma-dori: its `gone` drawings were replaced by the one before them.
     pub koma_dori: StageReport,
-    /// Koma that naka-nashi gave to other drawings.
+    /// Number of koma that naka-nashi gave to other drawings.
     pub lengthened: usize,
 }
 
-/// What one stage did.
+/// The report of one stage.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StageReport {
-    /// How many were asked for.
+    /// The requested number.
     pub asked: usize,
-    /// How many were done: drawings, or koma for naka-nashi on ones without genga, where a held
-    /// drawing may lose a koma and stay.
+    /// The number done: of drawings, or of koma for naka-nashi on ones without genga, where a held drawing may lose a
+    /// koma and stay.
     pub done: usize,
-    /// Drawings that are no longer on the sheet, in the order they went.
+    /// The removed drawings, in the order they went.
     pub gone: Vec<Gone>,
-    /// Why fewer were done than asked for.
+    /// Why fewer were done than requested.
     pub shortfall: Option<Shortfall>,
 }
 
-/// A drawing that is no longer on the sheet.
+/// A drawing removed from the sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gone {
     /// Its index in the layer before the omission.
@@ -41,7 +41,7 @@ pub struct Gone {
 }
 
 impl OmissionReport {
-    /// A sentence for each stage that did less than it was asked for.
+    /// Returns a sentence for each stage that did less than requested.
     pub fn shortfalls(&self) -> impl Iterator<Item = String> {
         let stages = [("naka-nashi", &self.naka_nashi), ("koma-dori", &self.koma_dori)];
         stages.into_iter().filter_map(|(name, stage)| {
@@ -51,21 +51,21 @@ impl OmissionReport {
     }
 }
 
-/// Why a stage did less than it was asked for.
+/// Why a stage did less than requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shortfall {
     /// No inbetween is left that could go.
     NoneLeft,
-    /// Every inbetween that is left is a hold already.
+    /// Every remaining inbetween is a hold already.
     AllHolds,
-    /// Nothing moves between the drawings that could go and the ones before them.
+    /// The drawings that could go do not differ from the ones before them.
     NoMotion,
-    /// The drawings round those that could go cannot be held any longer.
+    /// The drawings around those that could go cannot be held any longer.
     NoRoom,
-    /// No movement that is left is markedly faster than the others of its action.
+    /// No remaining movement is markedly faster than the others of its action.
     NoneFast,
-    /// No movement that is left is small.
+    /// No remaining movement is small.
     NoneSmall,
 }
 

@@ -1,4 +1,4 @@
-//! Where every joint stands in each drawing, computed once, and how far apart two drawings are.
+//! Stills: the positions of all joints in each drawing, computed once, and the distance between two drawings.
 
 use std::array;
 
@@ -10,40 +10,40 @@ use crate::motion::lanes::{LANES, Lanes, wide};
 use crate::motion::{Clip, Screen};
 use crate::sheet::{Layer, Source};
 
-/// Drawings that are posed one after the other.
+/// Number of drawings that are posed in sequence by one worker.
 const PIECE: usize = 32 * LANES;
 
-/// Coordinates side by side, so that a distance is computed several at a time.
+/// Coordinates side by side, so that distances are computed several at a time.
 type Row = [Lanes; 2];
 
-/// Where the joints are in a layer's drawings (静止画), in the world or on a screen, in the file's unit:
-/// what the omission stages measure movement by, over the whole body.
+/// The joints' positions in a layer's drawings (静止画), in the world or on a screen, in the file's unit. The omission
+/// stages measure movement over the whole body by them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stills {
     joints: usize,
     drawings: usize,
-    /// Of what each drawing is a still; of none that was [pushed](Self::push).
+    /// The source of each drawing; empty for drawings that were [pushed](Self::push).
     sources: Vec<Source>,
-    /// Drawing after drawing x, y, z of each joint, each drawing padded with zeros to whole rows.
+    /// x, y, z of each joint, drawing by drawing, each drawing padded with zeros to whole rows.
     coordinates: Vec<Row>,
 }
 
 impl Stills {
-    /// Stills of drawings of `joints` joints each, yet without a drawing.
+    /// Creates stills of `joints` joints each, without a drawing.
     pub fn new(joints: usize) -> Self {
         Self { joints, drawings: 0, sources: Vec::new(), coordinates: Vec::new() }
     }
 
-    /// [`Stills::on`] no screen, but in the world.
+    /// Like [`Stills::on`], in the world instead of on a screen.
     ///
     /// # Panics
     /// When there is a drawing but the clip has no frame.
-    pub fn of(clip: &Clip, layer: &Layer) -> Self {
+    pub fn from_layer(clip: &Clip, layer: &Layer) -> Self {
         Self::on(clip, layer, &Screen::WORLD)
     }
 
-    /// The positions of each drawing of a layer, in its order, sampled at its place in the clip; a
-    /// blend of two keys is placed as a blend.
+    /// Computes the positions of each drawing of a layer, in its order, sampled at its place in the clip. A blend of
+    /// two keys is posed as a blend.
     ///
     /// # Panics
     /// When there is a drawing but the clip has no frame.
@@ -51,8 +51,8 @@ impl Stills {
         Self::posed(clip, sources(layer), screen)
     }
 
-    /// The same where those of another layer are there already, of the same clip on the same screen: what is drawn in
-    /// both is not posed again.
+    /// Like [`Stills::on`], reusing these stills of another layer of the same clip on the same screen: a drawing in
+    /// both layers is not posed again.
     pub(crate) fn again(self, clip: &Clip, layer: &Layer, screen: &Screen) -> Self {
         let (sources, mut at) = (sources(layer), 0);
         let known = |source: &Source| {
@@ -78,10 +78,10 @@ impl Stills {
         let mut stills = Self { drawings: sources.len(), ..Self::new(clip.skeleton().len()) };
         let width = stills.width();
         stills.coordinates = vec![Row::default(); width * sources.len()];
-        // Each piece has a poser of its own; who poses it makes no difference.
+        // Each piece has its own poser, so the result does not depend on the thread.
         let pieces = stills.coordinates.par_chunks_mut((width * PIECE).max(1));
         pieces.zip(sources.par_chunks(PIECE)).for_each(|(rows, sources)| {
-            let mut poser = LanePoser::of(clip);
+            let mut poser = LanePoser::new(clip);
             let rows = rows.chunks_mut(width * LANES);
             rows.zip(sources.chunks(LANES)).for_each(|(rows, sources)| {
                 let last = sources.len() - 1;
@@ -105,7 +105,7 @@ impl Stills {
     /// Adds a drawing.
     ///
     /// # Panics
-    /// Unless there is one position a joint.
+    /// Unless there is one position per joint.
     pub fn push(&mut self, positions: &[DVec3]) {
         assert_eq!(positions.len(), self.joints, "a drawing has one position a joint");
         self.add(positions.iter().copied());
@@ -118,7 +118,7 @@ impl Stills {
         self.drawings += 1;
     }
 
-    /// Number of drawings.
+    /// Returns the number of drawings.
     pub fn len(&self) -> usize {
         self.drawings
     }
@@ -128,8 +128,8 @@ impl Stills {
         self.drawings == 0
     }
 
-    /// How far two drawings are apart (KKMFT §3.1): the sum over the joints of the squared distance
-    /// between their positions, in the file's unit squared. The order of summation is fixed.
+    /// Returns the distance between two drawings (KKMFT §3.1): the sum over the joints of the squared distance between
+    /// their positions, in the file's unit squared. The order of summation is fixed.
     ///
     /// # Panics
     /// When there is no such drawing.
@@ -144,12 +144,12 @@ impl Stills {
         sums.iter().flat_map(|sum| sum.0).sum()
     }
 
-    /// Number of joints.
+    /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.joints
     }
 
-    /// Where a joint stands in a drawing, in the file's unit.
+    /// Returns the position of a joint in a drawing, in the file's unit.
     ///
     /// # Panics
     /// When there is no such drawing or joint.
@@ -169,12 +169,12 @@ impl Stills {
     }
 }
 
-/// Of what the drawings of a layer are stills, in its order.
+/// Returns the sources of a layer's drawings, in its order.
 fn sources(layer: &Layer) -> Vec<Source> {
     layer.drawings.iter().map(|drawing| drawing.source).collect()
 }
 
-/// Writes where the joints are into the row of a drawing.
+/// Writes the joints' positions into the row of a drawing.
 fn write(row: &mut [Row], positions: impl Iterator<Item = DVec3>) {
     let values = row.iter_mut().flatten().flat_map(|lanes| &mut lanes.0);
     let coordinates = positions.flat_map(|position| position.to_array());
@@ -188,7 +188,7 @@ mod tests {
     use crate::sheet::{Drawing, Role, Why};
     use crate::time::{Frame, FrameRate};
 
-    /// A root that walks along x and an arm of length 1 that turns about z.
+    /// Builds a root that walks along x with an arm of length 1 that turns about z.
     fn arm(rows: &[[f64; 2]]) -> Clip {
         let joint = |parent, offset, channel, first_channel| Joint {
             name: "joint".into(),
@@ -233,12 +233,12 @@ mod tests {
             key(5.0, 7.0, 0.5),
             key(5.0, 6.0, 0.5),
         ];
-        let stills = Stills::of(&clip, &layer(&sources));
+        let stills = Stills::from_layer(&clip, &layer(&sources));
         assert_eq!(stills.len(), 5);
         let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
         // Root and elbow move by 1; the tip goes from (0, 1) to (0, 0).
         near(stills.ssd(0, 1), 3.0);
-        // Half way: root and elbow by 0.5, the tip from (0, 1) to (0.5 − sin 45°, cos 45°).
+        // Half way: root and elbow move by 0.5, the tip from (0, 1) to (0.5 − sin 45°, cos 45°).
         let half = 0.5_f64.sqrt();
         near(stills.ssd(0, 2), 0.5 + (0.5 - half).powi(2) + (1.0 - half).powi(2));
         near(stills.ssd(0, 3), 2.0 + (1.0 - half).powi(2) + (1.0 - half).powi(2));
@@ -258,8 +258,8 @@ mod tests {
         for [one, other] in
             layers.each_ref().map(|one| layers.each_ref().map(|other| [one, other])).concat()
         {
-            let again = Stills::of(&clip, one).again(&clip, other, &Screen::WORLD);
-            assert_eq!(again, Stills::of(&clip, other));
+            let again = Stills::from_layer(&clip, one).again(&clip, other, &Screen::WORLD);
+            assert_eq!(again, Stills::from_layer(&clip, other));
         }
     }
 
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn a_layer_without_drawings_has_no_stills() {
-        let stills = Stills::of(&arm(&[]), &layer(&[]));
+        let stills = Stills::from_layer(&arm(&[]), &layer(&[]));
         assert!(stills.is_empty());
     }
 }

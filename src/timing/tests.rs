@@ -1,4 +1,4 @@
-//! A law of all stages together: on twos and threes nothing stays for one koma, unless a person asked for it.
+//! A law of all stages together: on twos and threes no drawing stays for one koma, unless a person asked for it.
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ use crate::motion::Skeleton;
 use crate::sheet::Layer;
 use crate::time::{Clock, Frame, FrameRate};
 
-/// Frames of the clips, 30 a second.
+/// Frames of the clips, at 30 per second.
 const FRAMES: usize = 150;
 
 fn clock() -> Clock {
@@ -38,7 +38,7 @@ fn origin() -> impl Strategy<Value = Origin> {
 }
 
 prop_compose! {
-    /// Keys as near as a frame, walls and rests anywhere; of two pins on one koma the first.
+    /// Generates keys as close as one frame, with walls and rests anywhere; of two pins on one koma, keeps the first.
     fn layer()(
         keys in prop::collection::btree_map(0..FRAMES, (0.0..9.0, origin()), 0..60),
         walls in prop::collection::btree_set(0..FRAMES, 0..9),
@@ -86,7 +86,7 @@ prop_compose! {
     }
 }
 
-/// Stills of a layer whose drawings lie anywhere on a line.
+/// Builds stills of a layer whose drawings lie anywhere on a line.
 fn stills(layer: &Layer, places: &[f64]) -> Stills {
     let mut stills = Stills::new(1);
     let places = places.iter().cycle().take(layer.drawings.len());
@@ -96,7 +96,7 @@ fn stills(layer: &Layer, places: &[f64]) -> Stills {
 
 const NONE: [usize; 0] = [];
 
-/// The koma of drawings that stay for one without a reason; `may` says of the place of which.
+/// Returns the koma of drawings that stay for one koma without a reason; `may` says at which places that is allowed.
 fn twitches(layer: &Layer, may: impl Fn(f64) -> bool) -> Vec<usize> {
     let shown: Vec<_> = layer.timed().collect();
     let drawing = |at: usize| &layer.drawings[shown[at].1.drawing];
@@ -127,7 +127,7 @@ proptest! {
         let spacing = Spacing { on, inbetweens, drift, ..Spacing::default() };
         let pace = Pace::of_steps(steps.into_iter());
         let spaced = spacing.place(&keys, &Skeleton::default(), clock(), length(), &pace).layer;
-        // In a range what is fast enough is on ones, and the end by the koma before.
+        // In a range, fast drawings are on ones; the koma before decides for the end.
         let last = length() - 1;
         let is_fast = |koma: usize| on.from(koma.min(last - 1), &pace, spacing.step) == 1;
         let fast: Vec<f64> = spaced

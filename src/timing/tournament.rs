@@ -1,11 +1,11 @@
-//! A winner tree: the least of many values, of all or of a range, while single values change.
+//! A winner tree: the least of many values, over all or over a range, while single values change.
 
 use std::ops::Range;
 
-/// The value of an entry that takes no part.
+/// The value of an excluded entry.
 pub(super) const OUT: f64 = f64::INFINITY;
 
-/// The least of many values in O(log n) a change or question; of equal values, the earliest.
+/// The least of many values, in O(log n) per change or query; of equal values, the earliest.
 ///
 /// A complete binary tree in one flat table: node `i` has the children `2i` and `2i + 1` and holds
 /// the lesser of their values; the entries are its leaves, padded to a power of two with [`OUT`].
@@ -15,7 +15,7 @@ pub(super) struct Tournament {
 }
 
 impl Tournament {
-    /// A tree of these values.
+    /// Builds a tree of values.
     pub(super) fn new(values: impl ExactSizeIterator<Item = f64>) -> Self {
         let leaves = values.len().next_power_of_two();
         let mut least = vec![OUT; 2 * leaves];
@@ -42,15 +42,15 @@ impl Tournament {
         }
     }
 
-    /// The entry with the least value, and that value; none when all are [`OUT`].
+    /// Returns the entry with the least value, and that value; `None` if all are [`OUT`].
     pub(super) fn best(&self) -> Option<(usize, f64)> {
         self.winner(1)
     }
 
-    /// The same among the entries of a range.
+    /// Like [`Self::best`], among the entries of a range.
     pub(super) fn best_in(&self, range: Range<usize>) -> Option<(usize, f64)> {
         let (mut from, mut past) = (self.leaves + range.start, self.leaves + range.end);
-        // The range is a row of whole subtrees: one row is met rising on its left, one on its right.
+        // The range is a row of whole subtrees, taken from its left and right end on the way up.
         let (mut left, mut right) = (None, None);
         while from < past {
             if from % 2 == 1 {
@@ -67,7 +67,7 @@ impl Tournament {
         self.winner(self.earlier(left, right)?)
     }
 
-    /// Of two nodes the one with the lesser value, on a tie the first.
+    /// Returns the node with the lesser value; the first on a tie.
     fn earlier(&self, first: Option<usize>, second: Option<usize>) -> Option<usize> {
         match (first, second) {
             (Some(a), Some(b)) => Some(if self.least[b] < self.least[a] { b } else { a }),
@@ -75,7 +75,7 @@ impl Tournament {
         }
     }
 
-    /// The first entry below a node that holds the node's value.
+    /// Returns the first entry below a node that holds the node's value.
     fn winner(&self, mut node: usize) -> Option<(usize, f64)> {
         let value = self.least[node];
         if value == OUT {

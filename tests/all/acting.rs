@@ -1,4 +1,4 @@
-//! What is small but meant: a nod, a gaze, a fist and a wave of the hand of somebody who else stands still.
+//! Small but deliberate movement: a nod, a gaze, a fist and a wave of the hand of somebody who otherwise stands still.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -9,14 +9,14 @@ use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::target::{Target, meet};
 
-/// Frames a second, and of a clip.
+/// Frames per second, and frames of a clip.
 const FPS: f64 = 30.0;
 const FRAMES: usize = 91;
 
-/// A joint with the one that carries it, its offset and its tip.
+/// A joint: name, parent, offset and tip.
 type Bone = (&'static str, &'static str, [f64; 3], Option<[f64; 3]>);
 
-/// Somebody with eyes, and a hand of one finger.
+/// A body with eyes, and a hand with one finger.
 const BONES: [Bone; 23] = [
     ("Hips", "", [0.0; 3], None),
     ("Spine", "Hips", [0.0, 15.0, 0.0], None),
@@ -43,7 +43,7 @@ const BONES: [Bone; 23] = [
     ("Jaw", "Head", [0.0, 2.0, 4.0], Some([0.0, -3.0, 5.0])),
 ];
 
-/// Writes a joint and all that it carries.
+/// Writes a joint and its descendants.
 fn write(bvh: &mut String, name: &str, order: &mut Vec<&'static str>) {
     let (own, parent, [x, y, z], tip) = BONES.into_iter().find(|bone| bone.0 == name).unwrap();
     order.push(own);
@@ -65,7 +65,7 @@ fn write(bvh: &mut String, name: &str, order: &mut Vec<&'static str>) {
     bvh.push_str("}\n");
 }
 
-/// Somebody whose joints turn by so many degrees about X at each second, and else stand.
+/// A standing body whose joints turn about X by `turn` degrees, given the joint and the second.
 fn standing(turn: impl Fn(&str, f64) -> f64) -> Clip {
     let (mut bvh, mut order) = (String::from("HIERARCHY\n"), Vec::new());
     write(&mut bvh, "Hips", &mut order);
@@ -80,12 +80,12 @@ fn standing(turn: impl Fn(&str, f64) -> f64) -> Clip {
     bvh::read(bvh.as_bytes()).unwrap().clip
 }
 
-/// To and fro once a second, from −1 to 1, furthest at a quarter and at three quarters.
+/// Oscillates once per second between −1 and 1, with extremes at a quarter and at three quarters.
 fn to_and_fro(second: f64) -> f64 {
     (TAU * second).sin()
 }
 
-/// The frames of genga with settings, and how many koma the longest drawing stays.
+/// The frames of the genga with some settings, and the koma of the longest exposure.
 fn drawn(clip: &Clip, settings: &[(&str, &str)], count: Option<usize>) -> (Vec<usize>, usize) {
     let mut recipe = Recipe::default();
     for (name, value) in settings {
@@ -106,7 +106,7 @@ fn drawn(clip: &Clip, settings: &[(&str, &str)], count: Option<usize>) -> (Vec<u
 
 #[test]
 fn what_single_parts_act_has_genga_at_its_extremes() {
-    // A part, how far it goes to each side, and what is too little to be acting.
+    // Joints, amplitude to each side, and an amplitude too small to be acting.
     let parts: [(&[&str], f64, f64); 8] = [
         (&["Head"], 20.0, 5.0),
         (&["Neck", "Head"], 20.0, 2.0),

@@ -1,23 +1,23 @@
-//! A long take is split into its actions: by the built program, and on every real clip.
+//! A long take is split into its actions: with the built program, and on every real clip.
 
 use genga::edits::Edits;
 use genga::keys::{Matching, SplitReason};
 use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::study::Noise;
 use genga::time::Frame;
+use genga_lab::study::Noise;
 
 use crate::clips::{self, sample};
 use crate::one_motion::every_other_frame;
 use crate::rerig::Rerig;
 
-/// The frames of a clip, one after the other.
+/// The frames of a clip in order.
 fn rows(clip: &Clip) -> Vec<&[f64]> {
     clip.rows().collect()
 }
 
-/// Clips of one skeleton, one after the other.
+/// Concatenates clips of one skeleton.
 fn joined(clips: &[&Clip]) -> Clip {
     let values: Vec<f64> = clips.iter().flat_map(|clip| rows(clip).concat()).collect();
     let frames = clips.iter().map(|clip| clip.len()).sum();
@@ -25,7 +25,7 @@ fn joined(clips: &[&Clip]) -> Clip {
     Clip::new(skeleton, rate, Frame(0), frames, values).unwrap()
 }
 
-/// A kick, a stand of a second and a quarter, a stroke of tennis: 24 frames a second.
+/// A kick, a stand of 1.25 seconds, and a tennis stroke, at 24 frames per second.
 pub(crate) fn kick_and_tennis() -> Clip {
     let (kick, tennis) = (sample("kick.bvh"), sample("tennis.bvh"));
     let last = kick.clone().trimmed(kick.last(), Frame(kick.len())).unwrap();
@@ -33,7 +33,7 @@ pub(crate) fn kick_and_tennis() -> Clip {
     joined(&[&kick, &stand, &tennis])
 }
 
-/// Where the defaults split a clip.
+/// The splits of a clip with the defaults.
 fn splits(clip: &Clip) -> Vec<(f64, SplitReason)> {
     let mut engine = Engine::new(clip.clone()).unwrap();
     let actions = engine.find_actions(&Recipe::default(), &Edits::default()).unwrap();
@@ -62,13 +62,13 @@ fn seconds(clip: &Clip) -> Vec<f64> {
     splits(clip).into_iter().map(|(at, _)| at).collect()
 }
 
-/// What is found on each of the real clips, by their names.
+/// Applies `find` to each of the real clips, by name.
 fn on_real_clips(find: impl Fn(&Clip) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
     let of = |path: std::path::PathBuf| (clips::name(&path), find(&clips::read(&path)));
     clips::all().into_iter().map(of).collect()
 }
 
-/// How far the splits of all real clips agree within a koma with those that are found otherwise (F1).
+/// Checks that the splits of all real clips agree within a koma with those found by `otherwise` (F1).
 fn agree_on_real_clips(least: f64, otherwise: impl Fn(&Clip) -> Vec<f64>) {
     clips::with_all(|_| agree(least, otherwise));
 }
@@ -107,7 +107,7 @@ fn long_takes_are_split_and_single_movements_are_not() {
 
 #[test]
 fn the_karateka_s_kicks_part_in_the_stance_between_them() {
-    // Where an eye sees rests and the begins of kicks: docs/evidence/events.csv.
+    // Rests and begins of kicks as marked by eye: docs/lab/evidence/events.csv.
     clips::with(["cmu-135_04-front-kick"], |[kicks]| {
         let found = seconds(&clips::read(&kicks));
         let frames: Vec<f64> = found.iter().map(|at| 5.0 + 120.0 * at).collect();
@@ -129,7 +129,7 @@ fn a_little_noise_parts_a_take_at_the_same_places() {
 #[test]
 fn another_rig_parts_a_take_at_the_same_places() {
     let rerig = Rerig { first_order: 4, other_axes: true, scale: 2.54 };
-    agree_on_real_clips(1.0, |clip| seconds(&rerig.of(clip)));
+    agree_on_real_clips(1.0, |clip| seconds(&rerig.apply(clip)));
 }
 
 #[test]
@@ -155,8 +155,8 @@ fn a_walk_and_a_dance_that_are_joined_part_within_a_second_of_where_they_meet() 
 }
 
 fn parts_where_they_meet(walk: &Clip, dance: &Clip) {
-    // The dance begins where the walk ends, and the body takes 0.4 s to get into it: a step in one frame
-    // would be faster than all else.
+    // The dance begins where the walk ends, and the body takes 0.4 s to get into it: a step in one frame would be
+    // faster than everything else.
     let (end, begin) = (walk.row(walk.last()), dance.row(dance.first()));
     let way = |column: usize| match column {
         0..3 => 0.0,
@@ -181,7 +181,6 @@ fn parts_where_they_meet(walk: &Clip, dance: &Clip) {
     assert!(found.iter().any(|(at, _)| (at - met).abs() < 1.0), "{found:?}, met at {met}");
 }
 
-#[cfg(feature = "cli")]
 mod by_the_program {
     use std::fs;
 
@@ -190,7 +189,7 @@ mod by_the_program {
     use super::*;
     use crate::program::{Place, column};
 
-    /// A place with the take in it.
+    /// A place that contains the take.
     fn place() -> Place {
         let place = Place::new();
         fs::write(place.path("take.bvh"), bvh::write(&kick_and_tennis())).unwrap();
@@ -201,7 +200,7 @@ mod by_the_program {
         fs::read_to_string(place.path(file)).unwrap()
     }
 
-    /// The rows of a BVH as they are written.
+    /// The motion rows of a BVH as text.
     fn motion(text: &str) -> Vec<&str> {
         let (_, motion) = text.split_once("Frame Time:").unwrap();
         motion.lines().skip(1).collect()

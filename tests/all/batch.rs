@@ -1,4 +1,4 @@
-//! Many clips at once: whatever happens on the way, the end result is that of one undisturbed batch.
+//! Many clips at once: whatever happens on the way, the result is that of one undisturbed batch.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,7 +6,8 @@ use std::fs;
 use crate::folders::all;
 use crate::program::{Place, text};
 
-/// A library: the sample clips, folders with clips of one name, broken clips, and files that are none.
+/// Makes a library: the sample clips, folders with clips of the same name, broken clips, and files that are no clips.
+/// Returns the number of clips.
 pub(crate) fn library(place: &Place) -> usize {
     let samples = ["kick", "tennis", "pitch"];
     let mut count = 0;
@@ -32,7 +33,7 @@ pub(crate) fn library(place: &Place) -> usize {
     count
 }
 
-/// All that is the same whenever and in whatever order it is made.
+/// The files that must not depend on when and in which order they are made.
 pub(crate) fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> {
     let mut files = all(&place.path(folder));
     files.retain(|name, _| name != "times.csv" && !name.ends_with(".jsonl"));
@@ -65,7 +66,7 @@ fn a_library_is_a_row_and_a_folder_a_clip_and_the_broken_do_not_end_it() {
             && files.contains_key("clips/c/kick.bvh/kick_genga_ts.xdts")
     );
     assert!(!files.keys().any(|name| name.contains("broken") || name.contains("notes")));
-    // A clip of it is what a run of it gives.
+    // A clip of a batch is identical to a run of it.
     place.done("run data/kick.bvh --out one");
     assert_eq!(files["clips/a/kick.bvh/sheet.json"], place.files("one")["sheet.json"]);
     let own = text(&place.files("one")["keys.csv"]);
@@ -99,7 +100,7 @@ fn what_is_finished_is_not_done_again_and_what_changed_is() {
     fs::copy(crate::clips::here("data/kick.bvh"), place.path("lib/broken/empty.bvh")).unwrap();
     code(&place, "batch lib --out out");
     assert!(place.path("out/clips/broken/empty.bvh/sheet.json").exists());
-    // Another list: what is known of its clips stays known.
+    // With another list, known clips stay known.
     fs::remove_file(place.path("lib/a/kick.bvh")).unwrap();
     code(&place, "batch lib --out out");
     code(&place, "batch lib --out again");
@@ -125,7 +126,7 @@ fn what_a_person_changed_is_kept_and_is_a_row() {
     assert_ne!(fs::read_to_string(&sheet).unwrap(), "mine");
 }
 
-/// Begins a batch twenty times and kills it; after each fifth time it has lost something besides.
+/// Begins a batch twenty times and kills it. Every fifth time, `lose` removes something as well.
 #[cfg(unix)]
 pub(crate) fn killed_again_and_again(place: &Place, args: &str, lose: impl Fn()) {
     for at in 0..20_u64 {

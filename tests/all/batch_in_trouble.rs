@@ -1,4 +1,4 @@
-//! What happens to a large library: odd lists and names, a full disk, clips that come and go, two batches in one folder.
+//! Trouble with large libraries: odd lists and names, a full disk, clips that come and go, two batches in one folder.
 
 use std::fs;
 
@@ -109,7 +109,7 @@ fn a_clip_that_is_lost_is_a_row_and_comes_back() {
     let list = place.genga("batch lib/a --out out --list").stdout;
     fs::write(place.path("list.txt"), list).unwrap();
     code(&place, "batch @list.txt --out whole");
-    // One is gone between the list and its turn, one is another motion, and then both are back.
+    // One clip disappears between the list and its turn, one becomes another motion, and then both are back.
     let (moved, good) = (place.path("moved.bvh"), fs::read(&tennis).unwrap());
     fs::rename(&kick, &moved).unwrap();
     fs::copy(&moved, &tennis).unwrap();
@@ -123,7 +123,7 @@ fn a_clip_that_is_lost_is_a_row_and_comes_back() {
     assert_eq!(results(&place, "out"), results(&place, "whole"));
 }
 
-/// A limit for the size of a file is a disk that is full for the largest: the journal, what is packed, or a model.
+/// A file size limit acts as a full disk for the largest file: the journal, the archive, or a model.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_stops_a_batch_and_the_next_ends_as_if_undisturbed() {

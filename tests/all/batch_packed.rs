@@ -1,4 +1,4 @@
-//! One archive in place of a folder a clip: the same files, the same bytes whatever happens on the way.
+//! One archive instead of a folder per clip: the same files, and the same bytes whatever happens on the way.
 
 use std::fs;
 
@@ -77,7 +77,7 @@ fn killed_at_any_time_and_begun_again_it_is_the_same_archive() {
     let args = "batch lib --out killed --deliver json,bars --pack";
     killed_again_and_again(&place, args, || {
         fs::remove_file(place.path("killed/clips.zip")).ok();
-        // Half an entry, as a crash leaves it.
+        // Leaves half an entry, as a crash does.
         let spool = place.path("killed/clips.spool");
         if let Ok(bytes) = fs::read(&spool) {
             fs::write(&spool, &bytes[..bytes.len() * 2 / 3]).unwrap();

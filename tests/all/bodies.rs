@@ -1,17 +1,17 @@
-//! Who moves is who counts: what a rig has besides the body changes no key, wherever it stands.
+//! Only the body counts: other parts of a rig change no key, wherever they are.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use genga::edits::Edits;
 use genga::keys::{Key, Layers};
-use genga::motion::file::Options;
 use genga::motion::{
     Axis, BoneMap, Channel, Clip, Description, Joint, JointId, Landmarks, Skeleton, Stature,
     local_rotation, local_translation, set_local_rotation,
 };
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
+use genga_read::Options;
 use glam::{DQuat, DVec3};
 
 use crate::cases::is_full;
@@ -23,7 +23,7 @@ fn keys(clip: &Clip) -> Vec<Key> {
     engine.find_keys(&Recipe::default(), &Edits::default()).unwrap().keys.keys.clone()
 }
 
-/// Holds each clip against what is made of it: the same keys, of the same price, for the same reason.
+/// Checks that each clip and a changed version of it have the same keys, with the same price and reason.
 fn keeps_every_key(changes: impl Fn(&Clip) -> Clip) {
     each_clip(|name, clip| {
         let (own, others) = (keys(clip), keys(&changes(clip)));
@@ -44,7 +44,7 @@ fn frames(keys: &[Key]) -> Vec<usize> {
 
 fn each_clip(of: impl Fn(&str, &Clip)) {
     let samples = ["kick", "pitch", "swing", "tennis", "kuroda-pitch"];
-    // Where there are real clips these say as much.
+    // With real clips at hand, one sample is enough.
     for sample in &samples[..if is_full() { 5 } else { 1 }] {
         of(sample, &clips::sample(&format!("{sample}.bvh")));
     }
@@ -55,12 +55,12 @@ fn each_clip(of: impl Fn(&str, &Clip)) {
     more.filter(|(_, clip)| is_known(clip)).for_each(|(name, clip)| of(&name, &clip));
 }
 
-/// Whether nothing of a body is a guess: what is one may be guessed otherwise of another rig.
+/// Whether no part of the body is guessed: a guess may differ in another rig.
 fn is_known(clip: &Clip) -> bool {
     Description::notes(clip).iter().all(|note| note.code != "W_BODY_GUESS")
 }
 
-/// A clip with joints before all others, on the last of which hangs what had no parent.
+/// Puts a chain of joints before all others; the former roots hang on its last joint.
 fn on(clip: &Clip, carriers: &[(&str, DVec3)]) -> Clip {
     let count = carriers.len();
     let joint = |(at, (name, offset)): (usize, &(&str, DVec3))| Joint {
@@ -82,7 +82,7 @@ fn on(clip: &Clip, carriers: &[(&str, DVec3)]) -> Clip {
     Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap()
 }
 
-/// The whole take elsewhere.
+/// Moves the whole take elsewhere.
 fn moved(clip: &Clip, way: DVec3) -> Clip {
     let mut rows: Vec<f64> = clip.rows().flatten().copied().collect();
     let width = clip.skeleton().channels();
@@ -113,7 +113,7 @@ fn a_take_that_begins_elsewhere_has_the_same_keys() {
     keeps_every_key(|clip| moved(clip, DVec3::new(-250.0, 0.0, 400.0)));
 }
 
-/// A clip with a chain of joints that hangs on one of its own, each turned by some degrees at a frame.
+/// Hangs a chain of joints on one of the clip's joints; `turned` gives each one's degrees at a frame.
 fn hung(
     clip: &Clip,
     on: JointId,
@@ -141,12 +141,12 @@ fn hung(
     Clip::new(Skeleton { joints }, clip.rate(), clip.first(), clip.len(), rows).unwrap()
 }
 
-/// The height of a body, roughly.
+/// The approximate height of a body.
 fn height(clip: &Clip) -> f64 {
-    genga::motion::Landmarks::of(clip).height
+    genga::motion::Landmarks::new(clip).height
 }
 
-/// Joints on which something is hung: a few, or in the full check all.
+/// Joints on which something is hung: a few, or all in the full check.
 fn places(clip: &Clip) -> Vec<JointId> {
     let every = if is_full() { 1 } else { 1 + clip.skeleton().len() / 4 };
     (0..clip.skeleton().len()).step_by(every).map(JointId).collect()
@@ -170,7 +170,7 @@ fn static_joints_at_all_ends_change_no_key() {
     });
 }
 
-/// Everything that is hung on some joint of a clip, one after the other.
+/// Checks that hanging something on several joints of a clip, cumulatively, changes no key.
 fn hanging_changes_no_key(hang: impl Fn(&Clip, JointId) -> Clip) {
     keeps_every_key(|clip| {
         places(clip).into_iter().fold(clip.clone(), |clip, place| hang(&clip, place))
@@ -205,7 +205,7 @@ fn a_prop_changes_no_key() {
     });
 }
 
-/// A clip whose root is turned in the world, as where a program has written another axis up there alone.
+/// Turns the root of a clip in the world, as some programs do to write another up axis.
 fn turned(clip: &Clip, turn: DQuat) -> Clip {
     let width = clip.skeleton().channels();
     let mut rows: Vec<f64> = clip.rows().flatten().copied().collect();
@@ -227,13 +227,13 @@ fn turned(clip: &Clip, turn: DQuat) -> Clip {
 #[test]
 fn z_up_in_the_root_alone_changes_no_key() {
     keeps_every_key(|clip| {
-        // Some files are so already.
-        let (from, other) = match Stature::of(clip).up {
+        // Some files already have the other axis up.
+        let (from, other) = match Stature::new(clip).up {
             Axis::Z => (-FRAC_PI_2, Axis::Y),
             _ => (FRAC_PI_2, Axis::Z),
         };
         let turned = turned(clip, DQuat::from_rotation_x(from));
-        assert_eq!(Stature::of(&turned).up, other);
+        assert_eq!(Stature::new(&turned).up, other);
         turned
     });
 }
@@ -241,7 +241,7 @@ fn z_up_in_the_root_alone_changes_no_key() {
 #[test]
 fn a_turn_about_the_vertical_changes_no_key() {
     keeps_every_key(|clip| {
-        let up = if Stature::of(clip).up == Axis::Z { DVec3::Z } else { DVec3::Y };
+        let up = if Stature::new(clip).up == Axis::Z { DVec3::Z } else { DVec3::Y };
         turned(clip, DQuat::from_axis_angle(up, 2.1))
     });
 }
@@ -249,7 +249,7 @@ fn a_turn_about_the_vertical_changes_no_key() {
 #[test]
 fn somebody_who_lies_all_the_time_keeps_the_axis_of_the_rest_pose() {
     let lying = turned(&clips::sample("kick.bvh"), DQuat::from_rotation_z(FRAC_PI_2));
-    assert_eq!(Stature::of(&lying).up, Axis::Y);
+    assert_eq!(Stature::new(&lying).up, Axis::Y);
 }
 
 #[test]
@@ -270,8 +270,8 @@ fn a_layer_of_hair_alone_has_keys_of_its_own() {
     assert!(turns(0) > 5 && turns(1) > 5, "{} and {}", turns(0), turns(1));
 }
 
-/// Two of a body in one file, each with its own letter before all names: the second moves, and the first stays as it is in
-/// the first frame, or moves too and 4 m away.
+/// Puts two copies of a body into one file, each with its own letter before all names. The second moves; the first
+/// keeps the pose of its first frame, or moves too, 4 m away.
 fn two_people(clip: &Clip, is_first_still: bool) -> Clip {
     let own = clip.skeleton();
     let (count, width) = (own.len(), own.channels());
@@ -298,7 +298,7 @@ fn of_two_people_the_keys_are_those_of_one_and_it_is_said() {
     for is_first_still in [true, false] {
         keeps_every_key(|clip| {
             let both = two_people(clip, is_first_still);
-            let notes = Description::of(&both).notes;
+            let notes = Description::new(&both).notes;
             let root = &clip.skeleton().joints[0].name;
             let (whose, other) = if is_first_still { ("B", "A") } else { ("A", "B") };
             let said =
@@ -312,7 +312,7 @@ fn of_two_people_the_keys_are_those_of_one_and_it_is_said() {
 #[test]
 fn limbs_are_those_that_names_give_whatever_else_hangs_there() {
     let clip = clips::sample("kick.bvh");
-    let lines = |clip: &Clip| Description::of(clip).lines;
+    let lines = |clip: &Clip| Description::new(clip).lines;
     let own = lines(&clip);
     let told = |part: &str| own.iter().find(|(own, _)| *own == part).unwrap().1.clone();
     assert_eq!(told("head"), "Head, by name");
@@ -336,16 +336,16 @@ fn what_only_the_shape_says_is_a_guess_that_is_said() {
     let rows = clip.rows().flatten().copied().collect();
     let skeleton = Skeleton { joints: joints.collect() };
     let nameless = Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap();
-    let notes = Description::of(&nameless).notes;
+    let notes = Description::new(&nameless).notes;
     assert_eq!((notes.len(), notes[0].code), (1, "W_BODY_GUESS"));
     assert!(
         notes[0].message.contains("its shape alone says head, left arm, right arm"),
         "{notes:?}"
     );
-    assert_eq!(Description::of(&clip).notes, []);
+    assert_eq!(Description::new(&clip).notes, []);
 }
 
-/// A clip with its joints in another order: those that hang on one joint the other way round.
+/// Reorders the joints of a clip: the children of each joint are reversed.
 fn reordered(clip: &Clip) -> Clip {
     let own = clip.skeleton();
     let mut open: Vec<usize> =
@@ -382,7 +382,7 @@ fn joints_in_another_order_change_no_key() {
     keeps_every_key(reordered);
 }
 
-/// A clip as in a mirror, left and right exchanged.
+/// Mirrors a clip, with left and right exchanged.
 fn mirrored(clip: &Clip) -> Clip {
     let across = DVec3::new(-1.0, 1.0, 1.0);
     let mut skeleton = clip.skeleton().clone();
@@ -407,7 +407,7 @@ fn mirrored(clip: &Clip) -> Clip {
     Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap()
 }
 
-/// The name of the other side.
+/// The name of the joint on the other side.
 fn exchanged(name: &str) -> String {
     let sides = [
         ("Left", "Right"),
@@ -437,7 +437,7 @@ fn a_mirrored_take_has_the_same_keys() {
     keeps_every_key(mirrored);
 }
 
-/// Of each bone of MMD the joints that make it, in every dialect of the table.
+/// For each MMD bone, its joints in one dialect of the table.
 type Dialect = BTreeMap<String, Vec<String>>;
 
 fn dialects() -> Vec<Dialect> {
@@ -465,7 +465,7 @@ fn dialects() -> Vec<Dialect> {
     table["dialect"].as_array().unwrap().iter().map(dialect).collect()
 }
 
-/// A clip whose joints have the names of another dialect, as far as that names them.
+/// Renames the joints of a clip to another dialect, as far as that has names for them.
 fn renamed(clip: &Clip, from: &Dialect, to: &Dialect) -> Clip {
     let mut skeleton = clip.skeleton().clone();
     for (bone, joints) in from {
@@ -491,20 +491,20 @@ fn names_of_another_dialect_move_no_key_by_more_than_a_frame() {
     };
     let others: Vec<&Dialect> =
         dialects.iter().filter(|dialect| dialect.contains_key("左手首")).collect();
-    // One after the other for each clip, all of them in the full check.
+    // A different one for each clip, in turn.
     let next = std::cell::Cell::new(0);
     each_clip(|name, clip| {
         let own = dialects.iter().max_by_key(|dialect| named(clip, dialect)).unwrap();
         next.set(next.get() + 1);
-        // Limbs that are known by words are in no dialect.
+        // No dialect has limbs that are recognized by words.
         if named(clip, own) < 12 {
             return;
         }
         let other = others[(5 * next.get()) % others.len()];
         let changed = renamed(clip, own, other);
-        let limb = |clip: &Clip| Description::of(clip).lines[3].1.clone();
+        let limb = |clip: &Clip| Description::new(clip).lines[3].1.clone();
         assert!(limb(&changed).ends_with("by names"), "{}", limb(&changed));
-        // Which joints of a finger that never move are points at its end is a matter of what they are called.
+        // Names decide which still joints at the end of a finger count as end points, so frames may differ by one.
         let (own, others) = (frames(&keys(clip)), frames(&keys(&changed)));
         let is_near = own.iter().zip(&others).all(|(one, two)| one.abs_diff(*two) <= 1);
         assert!(own.len() == others.len() && is_near, "{name}: {own:?} {others:?}");
@@ -520,10 +520,10 @@ fn a_head_that_ends_in_its_joint_is_the_head_and_not_the_neck() {
     skeleton.joints[head.0].end_sites.clear();
     let rows = clip.rows().flatten().copied().collect();
     let topless = Clip::new(skeleton, clip.rate(), clip.first(), clip.len(), rows).unwrap();
-    assert_eq!(Landmarks::of(&topless).head.map(|head| head.joint), Some(head));
+    assert_eq!(Landmarks::new(&topless).head.map(|head| head.joint), Some(head));
 }
 
-/// An animal of which each leg is one long bone, and nothing has a name.
+/// An animal whose legs are each one long bone, without meaningful names.
 fn animal() -> Clip {
     let mut joints = Vec::new();
     let mut add = |parent: Option<usize>, offset: DVec3| {
@@ -561,7 +561,7 @@ fn animal() -> Clip {
 #[test]
 fn the_long_legs_of_an_animal_are_no_helpers() {
     let animal = animal();
-    let lines = Description::of(&animal).lines;
+    let lines = Description::new(&animal).lines;
     assert!(lines.iter().all(|(what, _)| *what != "not body"), "{lines:?}");
     assert!(keys(&animal).len() > 4, "{:?}", frames(&keys(&animal)));
 }
@@ -600,8 +600,8 @@ fn what_a_table_of_bones_says_goes_before_names() {
     let table =
         BoneMap::parse("[bones]\n\"左ひじ\" = \"LeftHand\"\n\"左手首\" = \"LeftForeArm\"\n");
     let wrong = Options { bones: Some(table.unwrap()), ..Options::default() };
-    let left_arm = |clip: &Clip| Description::of(clip).lines[3].clone();
-    // A hand does not carry its forearm: that is no limb, and names stay.
+    let left_arm = |clip: &Clip| Description::new(clip).lines[3].clone();
+    // A hand does not carry its forearm, so this is no limb, and the names decide.
     assert_eq!(left_arm(&wrong.open(&text).unwrap().clip), left_arm(&clip));
     let table = BoneMap::parse("[bones]\n\"左腕\" = \"LeftShoulder\"\n").unwrap();
     let said = Options { bones: Some(table), ..Options::default() }.open(&text).unwrap().clip;

@@ -1,18 +1,18 @@
-//! Contacts as moments for keys, and feet that stay where they stand.
+//! Contacts as moments for keys, and feet that stay planted.
 
-use genga::deliver::{keys_bvh, limited_bvh};
 use genga::edits::Edits;
 use genga::keys::Origin;
 use genga::motion::{Clip, ContactFinder};
 use genga::pipeline::Engine;
-use genga::quality::Evaluation;
 use genga::recipe::Recipe;
 use genga::sheet::{Feet, Reason, Sheet};
 use genga::time::Frame;
+use genga_files::{keys_bvh, limited_bvh};
+use genga_lab::quality::Evaluation;
 
 use crate::clips;
 
-/// The frames on which contacts begin and end, but for those at an end of the clip.
+/// The frames on which contacts begin and end, without those at an end of the clip.
 fn ends(clip: &Clip) -> Vec<Frame> {
     let clock = clip.clock(24.0);
     let last = clip.rate().koma_from_frames(clip.len(), 24.0) - 1;
@@ -35,7 +35,7 @@ fn is_near(clip: &Clip, frame: Frame, others: impl IntoIterator<Item = Frame>) -
 
 #[test]
 fn where_a_foot_comes_down_or_leaves_is_a_key_if_it_is_to_be() {
-    // On twos a contact gives way to the end of a rest a koma beside it.
+    // On twos, a contact gives way to the end of a rest a koma beside it.
     let on_ones = [("keys.contacts", "keys"), ("spacing.on", "1")];
     let clip = clips::sample("kick.bvh");
     let ends = ends(&clip);
@@ -76,19 +76,19 @@ fn as_candidates_contacts_count_where_joints_name_the_moments_and_nowhere_else()
         (frames, made.sheet.clone())
     };
     assert_eq!(candidates("body", "off"), candidates("body", "candidates"));
-    for merge in ["union", "vote", "sum"] {
+    for merge in ["union", "vote"] {
         let (before, after) = (candidates(merge, "off").0, candidates(merge, "candidates").0);
         assert!(before.iter().all(|frame| after.contains(frame)), "{merge}");
         assert!(ends.iter().all(|end| is_near(&clip, *end, after.iter().copied())), "{merge}");
         assert!(after.is_sorted());
     }
-    let (before, after) = (candidates("sum", "off").0, candidates("sum", "candidates").0);
+    let (before, after) = (candidates("vote", "off").0, candidates("vote", "candidates").0);
     assert!(after.len() > before.len(), "not all were there");
 }
 
-/// How far feet slide on screen and how far the body is off, in the mean.
+/// Mean foot slip on screen, and mean error of the body.
 fn judged(clip: &Clip, sheet: &Sheet) -> (Option<f64>, f64) {
-    let found = Evaluation::of(clip, sheet, None, 1.0).unwrap();
+    let found = Evaluation::new(clip, sheet, None, 1.0).unwrap();
     (found.shown_slip.mean, found.shown.mean)
 }
 

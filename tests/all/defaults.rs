@@ -1,4 +1,4 @@
-//! The page of the method states default, words and range of every setting, once and as the program has it.
+//! Checks that the method page states default, words and range of every setting, once and as in the program.
 
 use std::fs;
 
@@ -6,10 +6,10 @@ use genga::recipe::{KNOBS, Kind, Recipe};
 
 use crate::clips::here;
 
-/// How a table of settings begins; the other tables of the page are of something else.
+/// Header of a table of settings, which distinguishes it from the page's other tables.
 const HEADER: &str = "| setting | default | takes |";
 
-/// What is wrong with the settings of a page, one line each.
+/// Lists what is wrong with the settings of a page, one a line.
 fn mistakes(page: &str) -> Vec<String> {
     let rows = rows(page);
     let recipe = Recipe::default();
@@ -30,7 +30,7 @@ fn mistakes(page: &str) -> Vec<String> {
         let range = knob.range.to_string();
         let is_said = match knob.kind {
             Kind::Number { .. } => takes.contains(&range),
-            // A span is 0 or more where nothing else is said.
+            // A span is 0 or more unless the page says otherwise.
             Kind::Span => takes.contains(&range) || range == "0 or more",
             _ => true,
         };
@@ -47,19 +47,19 @@ fn mistakes(page: &str) -> Vec<String> {
     found
 }
 
-/// Name, default and what it takes, of each row of the tables of settings.
+/// Name, default and accepted values in each row of the tables of settings.
 fn rows(page: &str) -> Vec<[String; 3]> {
     let mut rows = Vec::new();
     let mut lines = page.lines();
     while lines.any(|line| line.trim() == HEADER) {
-        // The rule under the header comes first.
+        // The separator line under the header comes first.
         let table = lines.by_ref().skip(1).take_while(|line| line.starts_with('|'));
         rows.extend(table.map(row));
     }
     rows
 }
 
-/// Name and default stand between backticks, and neither has a bar.
+/// Splits a row into cells. Name and default are in backticks, and neither contains a bar.
 fn row(line: &str) -> [String; 3] {
     let mut cells = line.trim_start_matches('|').splitn(3, '|');
     let mut cell = || cells.next().unwrap_or_default().trim();

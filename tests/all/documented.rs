@@ -1,8 +1,8 @@
-//! What can be asked for is in the docs.
+//! Every format and setting is in the docs.
 
 use std::fs;
 
-use genga::deliver::{FORMATS, Settings};
+use genga_files::{FORMATS, Settings};
 
 use crate::clips::here;
 

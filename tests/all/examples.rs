@@ -1,6 +1,6 @@
-//! The examples for newcomers, each run by the command of its first line, and what it prints.
+//! Runs the examples for newcomers with the command of their first line, and checks their output.
 //!
-//! `INSTA_UPDATE=always cargo test --test all examples` takes what they print now.
+//! `INSTA_UPDATE=always cargo test --test all examples` accepts their current output.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use std::process::Command;
 
 use crate::clips::here;
 
-/// Lines that a newcomer reads without a break.
+/// Most lines of an example, so that a newcomer reads it without a break.
 const MOST_LINES: usize = 40;
 
-/// What stands in `examples` as one file.
+/// The examples that consist of a single file.
 fn examples() -> Vec<PathBuf> {
     let entries = fs::read_dir(here("examples")).unwrap();
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -24,12 +24,12 @@ fn name(path: &Path) -> &str {
     path.file_stem().unwrap().to_str().unwrap()
 }
 
-/// The words of the first command that a text names.
+/// The words of the first command in backticks.
 fn command(text: &str) -> Vec<&str> {
     text.split('`').nth(1).unwrap_or_default().split(' ').collect()
 }
 
-/// What a command of cargo prints, in the build that is being tested: of the same profile and features, beside it.
+/// Output of a cargo command in a build with the tested profile and features, in the same target folder.
 fn printed(words: &[&str], temporary: &Path) -> String {
     let [verb, rest @ ..] = words else { panic!("a command has a verb") };
     let mut cargo = Command::new(env!("CARGO"));
@@ -37,11 +37,8 @@ fn printed(words: &[&str], temporary: &Path) -> String {
     if !cfg!(debug_assertions) {
         cargo.arg("--release");
     }
-    if !cfg!(feature = "cli") {
-        cargo.arg("--no-default-features");
-    }
     cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap());
-    // What an example writes goes where nobody looks, on every system.
+    // Files that an example writes go to a temporary folder, on every system.
     cargo.envs(["TMPDIR", "TMP", "TEMP"].map(|name| (name, temporary)));
     let output = cargo.output().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);

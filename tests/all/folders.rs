@@ -1,16 +1,16 @@
-//! A results folder is one run: what of it is a person's stays, what is not goes, and all of it comes together.
+//! A results folder is one run: a person's files stay, outdated ones go, and new ones come together.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use genga::deliver::Manifest;
+use genga_files::Manifest;
 
 use crate::cases::is_full;
 use crate::clips::here;
 use crate::program::{Place, column, text};
 
-/// Every file of a folder and of those in it, by its path.
+/// Every file of a folder and its subfolders, by path.
 pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -38,7 +38,7 @@ fn change(place: &Place, name: &str) -> Vec<u8> {
     changed
 }
 
-/// What the manifest of a folder lists is what is there, byte by byte.
+/// Checks that the manifest of a folder lists exactly the files that are there, byte by byte.
 fn check_manifest(place: &Place, folder: &str) {
     let mut files = all(&place.path(folder));
     let text = String::from_utf8(files.remove("manifest.json").unwrap()).unwrap();
@@ -81,7 +81,7 @@ fn what_a_person_changed_is_kept_and_named() {
     assert_eq!(fs::read(place.path("a/images/sketch.png")).unwrap(), b"mine");
 }
 
-/// Such a folder may have come from anyone: what it lists must not reach into another.
+/// A folder may come from anyone: its manifest must not reach into another folder.
 #[cfg(unix)]
 #[test]
 fn what_a_link_leads_to_is_not_removed() {
@@ -119,7 +119,7 @@ fn nothing_that_a_person_changed_is_written_over_unless_forced() {
         assert_ne!(fs::read(place.path(&file)).unwrap(), changed);
         assert_eq!(fs::read(place.path(&file)).unwrap(), written);
     }
-    // Deliver spares them as well, and so do files of which nothing is known.
+    // Deliver spares changed files as well, and unknown ones too.
     change(&place, "a/keys.csv");
     let said = place.refused(2, "deliver a/sheet.json data/kick.bvh --to csv");
     assert!(said.contains("a/keys.csv") && said.contains("--force"), "{said}");
@@ -158,7 +158,7 @@ fn a_folder_of_another_clip_is_refused() {
     let said = place.refused(2, "deliver walk-genga/sheet.json data/pitch.bvh --to csv");
     assert!(said.contains("is of another clip, walk.bvh"), "{said}");
     assert_eq!(all(&place.path("walk-genga")), before);
-    // A part of the clip is of the same clip.
+    // A part of the clip belongs to the same clip.
     place.done("run a/walk.bvh --trim 10..60");
     place.done("run b/walk.bvh --force");
     check_manifest(&place, "walk-genga");
@@ -180,7 +180,7 @@ fn a_delivery_adds_to_the_run() {
     place.done("run data/kick.bvh --out a");
     place.done("deliver a/sheet.json data/kick.bvh --to xdts,images");
     check_manifest(&place, "a");
-    // The next run knows what was delivered.
+    // The next run knows the files that were delivered.
     place.done("run data/kick.bvh --keys 8 --out a");
     assert!(!place.path("a/kick_genga_ts.xdts").exists());
     check_manifest(&place, "a");
@@ -216,7 +216,7 @@ fn a_forbidden_frame_without_a_key_near_it_is_said() {
     assert!(said.contains(note), "{said}");
 }
 
-/// Names of a folder, hidden ones too.
+/// Names in a folder, hidden ones too.
 #[cfg(unix)]
 fn names(folder: &Path) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap();
@@ -248,7 +248,7 @@ fn a_run_that_is_stopped_leaves_the_old_files_or_the_new_and_nothing_else() {
         child.wait().unwrap();
         let is_half = |name: &String| name.ends_with(".tmp");
         if signal == "KILL" {
-            // The next run clears what nobody could.
+            // The next run cleans up after a killed one.
             place.done(&format!("{run} {folder}"));
         }
         let top = names(&place.path("."));

@@ -1,6 +1,6 @@
-//! What fuzzing checks, without fuzzing: every seed, every file that once broke something, and each cut short.
+//! The checks of fuzzing without fuzzing: on every seed and every file that once broke something, whole and cut short.
 //!
-//! `tests/fuzz/run` looks for more, and measures memory.
+//! `tests/fuzz/run` searches further and measures memory.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ mod read;
 #[path = "../fuzz/targets/vmd.rs"]
 mod vmd;
 
-/// Memory is counted by an allocator, of which a program has one: here it is not.
+/// Stand-in without measurement: counting memory needs an allocator, of which a program has only one.
 mod measure {
     #[allow(dead_code, reason = "what counts reads it")]
     pub(super) struct Bound {
@@ -38,7 +38,7 @@ mod measure {
     }
 }
 
-/// Files of a folder, sorted.
+/// The files of a folder, sorted.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let paths = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
@@ -48,7 +48,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Checks them whole, cut short in eight places, and with a byte changed in each.
+/// Checks files whole, cut short in eight places, and with a byte changed in each.
 fn check_each(paths: &[PathBuf], check: impl Fn(&[u8])) {
     for path in paths {
         let whole = fs::read(path).unwrap();
@@ -73,7 +73,7 @@ fn found() -> Vec<PathBuf> {
     found
 }
 
-/// Of files that have CR in them too, which the fuzzer does not compare.
+/// Checks files that contain CR too, which the fuzzer does not compare.
 #[test]
 fn lines_may_end_in_cr_as_well_as_in_lf() {
     let told = |bytes: &[u8]| {
@@ -97,7 +97,7 @@ fn the_chain() {
     check_each(&[here("data/swing.bvh")], |bytes| chain::check(&two_rows(bytes)));
 }
 
-/// A motion of its first two rows: a body as people have, in few bytes.
+/// Cuts a motion to its first two rows: a realistic body in few bytes.
 fn two_rows(bytes: &[u8]) -> Vec<u8> {
     let text = String::from_utf8_lossy(bytes);
     let mut rows = None;

@@ -1,4 +1,4 @@
-//! Gaits and the phases of their steps, and clips that have none.
+//! Gaits and the phases of their steps, and clips without gaits.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,8 +9,8 @@ use genga::motion::{Clip, Gait, Step};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::{Layer, Reason};
-use genga::study::Noise;
 use genga::time::Frame;
+use genga_lab::study::Noise;
 
 use crate::clips;
 use crate::one_motion::every_other_frame;
@@ -18,22 +18,22 @@ use crate::rerig::Rerig;
 
 const WALKS: [&str; 2] = ["cmu-07_01-walk", "cmu-09_01-run"];
 
-/// How far phases may be from each other in clips of one motion, in koma.
+/// Largest distance in koma between the phases of clips of one motion.
 const NEAR: f64 = 0.5;
 
 fn gaits(clip: &Clip) -> Vec<Gait> {
     Gait::find(clip, clip.clock(24.0))
 }
 
-/// What is called how of a step.
+/// The phases of a step by name.
 fn phases(step: &Step) -> [(&'static str, f64); 4] {
     let Step { contact, down, passing, up, .. } = *step;
     [("contact", contact), ("down", down), ("passing", passing), ("up", up)]
 }
 
-/// How far a gait's phases are from where an eye sees them, in koma: the marks of `docs/evidence/events.csv`.
+/// Distances in koma of a gait's phases from the marks of `docs/lab/evidence/events.csv`, made by eye.
 fn off_marks(name: &str, clip: &Clip) -> Vec<f64> {
-    let marks = fs::read_to_string(clips::here("docs/evidence/events.csv")).unwrap();
+    let marks = fs::read_to_string(clips::here("docs/lab/evidence/events.csv")).unwrap();
     let marks = marks.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let marks = marks.filter(|mark| mark[..2] == [name, "gait"]);
     let gaits = gaits(clip);
@@ -82,7 +82,7 @@ fn who_walks_or_runs_has_a_gait_and_nobody_else() {
     }
 }
 
-/// Holds the phases of walk and run against those of what is made of them, `later` koma later.
+/// Checks that the phases of walk and run agree with those of clips made from them, which are `later` koma late.
 fn agree(later: f64, made: impl Fn(&Clip) -> Clip) {
     clips::with(WALKS, |paths| {
         for path in paths {
@@ -91,7 +91,7 @@ fn agree(later: f64, made: impl Fn(&Clip) -> Clip) {
             let steps: Vec<&Step> = one.iter().flat_map(|gait| &gait.steps).collect();
             let others: Vec<&Step> = other.iter().flat_map(|gait| &gait.steps).collect();
             assert!(!others.is_empty() && others.len() + later as usize >= steps.len());
-            // A step that is cut off is as others are.
+            // Ignores a step that is cut off, whose contact is a guess.
             for step in others.iter().filter(|step| step.contact > 0.0) {
                 let near = |own: &&&Step| (own.passing - step.passing - later).abs() <= NEAR;
                 let own = steps.iter().find(near).expect("it is a step of both");
@@ -108,7 +108,7 @@ fn another_rate_noise_and_another_rig_move_no_phase() {
     agree(0.0, every_other_frame);
     agree(0.0, |clip| Noise { degrees: 0.1, seed: 1 }.on(clip));
     let rerig = Rerig { first_order: 4, other_axes: true, scale: 2.54 };
-    agree(0.0, |clip| rerig.of(clip));
+    agree(0.0, |clip| rerig.apply(clip));
 }
 
 #[test]
@@ -122,10 +122,10 @@ fn a_clip_that_begins_a_koma_later_has_its_phases_a_koma_earlier() {
 /// Clips with gaits: a walk, a run, and walks among much else.
 const GAITS: [&str; 3] = ["cmu-07_01-walk", "cmu-09_01-run", "cmu-01_06-playground-long"];
 
-/// A sheet, and its steps that are not cut: the koma of each and of what it shows.
+/// A sheet and its whole steps.
 struct Walked {
     layer: Layer,
-    /// Of each gait the koma from contact to contact.
+    /// Per gait, the koma from contact to contact.
     steps: Vec<Vec<(usize, usize)>>,
 }
 
@@ -134,7 +134,7 @@ fn walked(clip: Clip, edits: &Edits) -> Walked {
     let breakdown = engine.run(&Recipe::default(), edits).unwrap();
     let first = breakdown.first_layer();
     let koma = |instant: f64| (instant + 1e-6).floor() as usize;
-    // A genga nearer than that to the last drawing gives way to it.
+    // A genga closer than that to the last drawing gives way to it.
     let last = first.layer.length() as f64 - 3.0;
     let steps = first.keys.gaits.iter().map(|walk| {
         let whole = walk.steps.iter().filter(|step| step.contact >= 2.0 && step.next < last);
@@ -143,13 +143,13 @@ fn walked(clip: Clip, edits: &Edits) -> Walked {
     Walked { layer: first.layer.clone(), steps: steps.collect() }
 }
 
-/// For how long each drawing from one koma up to another stays.
+/// Koma of each exposure that begins within a range.
 fn exposures(layer: &Layer, (from, to): (usize, usize)) -> Vec<usize> {
     let inside = layer.timed().filter(|(begin, _)| (from..to).contains(begin));
     inside.map(|(_, exposure)| exposure.koma).collect()
 }
 
-/// The same of each phase, inbetweens and all.
+/// Koma of each phase within a range, inbetweens included.
 fn phases_shown(layer: &Layer, (from, to): (usize, usize)) -> Vec<usize> {
     let is_step = |drawing: usize| layer.drawings[drawing].why.reason == Some(Reason::Step);
     let steps = layer.timed().filter(|(_, exposure)| is_step(exposure.drawing));
@@ -196,7 +196,7 @@ fn passings_are_drawn() {
         let layer = &breakdown.sheet.layers[0];
         let genga = layer.drawings.iter().filter(|drawing| drawing.role.is_kept());
         let places: Vec<f64> = genga.map(|drawing| drawing.source.place()).collect();
-        let marks = fs::read_to_string(clips::here("docs/evidence/events.csv")).unwrap();
+        let marks = fs::read_to_string(clips::here("docs/lab/evidence/events.csv")).unwrap();
         let is_passing = |mark: &Vec<&str>| {
             mark[0] == "cmu-07_01-walk"
                 && ["gait", "second-eye"].contains(&mark[1])

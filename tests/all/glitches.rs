@@ -1,11 +1,11 @@
-//! What no body did is found by every command: single frames that fly off, a tracker at the origin. A body that never
-//! moves gets one drawing.
+//! Every command finds impossible motion: single frames that fly off, a tracker at the origin. A body that never moves
+//! gets one drawing.
 
 use std::fs;
-use std::path::Path;
 
 use genga::edits::Edits;
-use genga::motion::bvh::{glitches, read};
+use genga::motion::bvh::read;
+use genga::motion::clean::glitches;
 use genga::motion::{Channel, Clip};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -16,11 +16,11 @@ use crate::cases::cases;
 use crate::program::{Place, column, text};
 
 fn kick() -> Clip {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/kick.bvh");
+    let file = crate::clips::here("data/kick.bvh");
     read(&fs::read(file).unwrap()).unwrap().clip
 }
 
-/// A clip with some of its values moved: row, column, by how much.
+/// Changes some values of a clip, given as row, column and difference.
 fn thrown(clip: &Clip, off: &[(usize, usize, f64)]) -> Clip {
     let width = clip.skeleton().channels();
     let mut values: Vec<f64> = clip.rows().flatten().copied().collect();
@@ -30,7 +30,7 @@ fn thrown(clip: &Clip, off: &[(usize, usize, f64)]) -> Clip {
     Clip::new(clip.skeleton().clone(), clip.rate(), clip.first(), clip.len(), values).unwrap()
 }
 
-/// The columns that turn a joint.
+/// The columns of joint rotations.
 fn turning(clip: &Clip) -> Vec<usize> {
     let joints = clip.skeleton().joints.iter();
     let of = |joint: &genga::motion::Joint| {
@@ -43,7 +43,7 @@ fn turning(clip: &Clip) -> Vec<usize> {
     joints.flat_map(of).collect()
 }
 
-/// The joint that a column drives.
+/// The joint that a column belongs to.
 fn joint_of(clip: &Clip, column: usize) -> &genga::motion::Joint {
     let is_of = |joint: &&genga::motion::Joint| {
         (joint.first_channel..joint.first_channel + joint.channels.len()).contains(&column)
@@ -64,8 +64,8 @@ fn a_frame_that_flies_off_is_replaced_with_a_note_unless_it_is_to_be_kept() {
     assert!(!kept.contains("W_GLITCH"), "{kept}");
     let (mended, kept) = (place.path("mended/limited.bvh"), place.path("kept/limited.bvh"));
     assert_ne!(fs::read(&mended).unwrap(), fs::read(kept).unwrap());
-    // The genga are those of the kick without a fault. Halfway between its neighbours a body is not where it was: one
-    // near there may go to the frame beside.
+    // The genga are those of the kick without a fault. A repaired frame halfway between its neighbours is not the
+    // original pose, so a genga near it may move by a frame.
     let frames = |clip: &str| -> Vec<f64> {
         let frames = column(&place.done(&format!("keys {clip}")), "source_frame");
         frames.iter().map(|frame| frame.parse().unwrap()).collect()
@@ -73,7 +73,7 @@ fn a_frame_that_flies_off_is_replaced_with_a_note_unless_it_is_to_be_kept() {
     let (found, sound) = (frames("off.bvh"), frames("data/kick.bvh"));
     assert_eq!(found.len(), sound.len());
     assert!(found.iter().zip(&sound).all(|(a, b)| (a - b).abs() <= 1.0), "{found:?} {sound:?}");
-    // A sheet is delivered onto the same motion.
+    // Delivering a sheet uses the same repaired motion.
     let made = fs::read(&mended).unwrap();
     fs::remove_file(&mended).unwrap();
     place.done("deliver mended/sheet.json off.bvh --to bvh");
@@ -111,7 +111,7 @@ fn ends_at_which_the_tracker_is_at_the_origin_are_left_out_unless_they_are_to_be
     assert_eq!(bytes("again/limited.bvh"), bytes("cleaned/limited.bvh"));
 }
 
-/// A body that never moves needs one drawing. The end is a row of its own in every table.
+/// A body that never moves needs one drawing. The end is a separate row in every table.
 #[test]
 fn a_body_that_never_moves_gets_one_drawing() {
     for fps in [24.0, 30.0, 60.0, 120.0] {
@@ -125,7 +125,7 @@ fn a_body_that_never_moves_gets_one_drawing() {
     }
 }
 
-/// Three seconds of the kick's first pose, in which every joint trembles by so many degrees.
+/// Three seconds of the kick's first pose, in which every joint trembles with the given amplitude in degrees.
 fn still(fps: f64, tremble: f64) -> Clip {
     let clip = kick();
     let frames = (3.0 * fps) as usize;
@@ -147,8 +147,8 @@ fn still(fps: f64, tremble: f64) -> Clip {
 proptest! {
     #![proptest_config(cases(8, 64))]
 
-    /// Any joint thrown out of a sound clip for a frame is found, in that frame alone, and what is sound stays as it is.
-    /// Around it the joint turns less than a sixth of the way out.
+    /// Any joint thrown out of a sound clip for a frame is found, in that frame alone, and the sound frames stay as
+    /// they are. Around it the joint turns less than a sixth of the throw.
     #[test]
     fn frames_that_are_thrown_are_found_and_no_others(
         rows in prop::collection::btree_set(1_usize..8, 1..4),
@@ -177,7 +177,7 @@ proptest! {
         }
     }
 
-    /// However fast a joint goes from pose to pose, held or not, it does not fly off.
+    /// However fast a joint goes from pose to pose, held or not, it is no glitch.
     #[test]
     fn what_goes_somewhere_or_stays_there_is_no_glitch(
         row in 12_usize..70,

@@ -1,4 +1,4 @@
-//! Names of joints, cuts and files that a spreadsheet would run or a terminal would obey.
+//! Names of joints, cuts and files that a spreadsheet would run as a formula or a terminal would obey.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::program::{Place, text};
 const RUN: &str = "=cmd|'/C-calc'!A0";
 const TURNED: &str = "+\u{202e}gnorts\u{1b}[2J";
 
-/// The kick with two joints of such names, in a file of such a name.
+/// The kick with two joints of hostile names, in a file with one.
 fn clip(place: &Place) -> String {
     let kick = fs::read_to_string(here("data/kick.bvh")).unwrap();
     let text = kick.replace("JOINT LeftArm\n", &format!("JOINT {RUN}\n"));

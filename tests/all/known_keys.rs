@@ -1,4 +1,4 @@
-//! Clips with a pose on every frame, made from a few known keys: the keys are found again.
+//! Keys are found again in clips with a pose on every frame that were made from a few known keys.
 
 mod made;
 
@@ -13,7 +13,7 @@ use genga::time::Frame;
 use crate::clips;
 use made::{FRAMES, keyed, made, noise_of};
 
-/// How far the keys that are found agree with those that a clip was made from, within a koma (F1).
+/// Agreement (F1, within a koma) of the keys found with those that the clip was made from.
 fn found_again(clip: &Clip, keys: &[Frame], recipe: &Recipe) -> f64 {
     let mut engine = Engine::new(clip.clone()).unwrap();
     let edits = Edits::default();
@@ -39,7 +39,7 @@ fn keys_that_a_clip_was_made_from_are_found_again() {
     }
     shares.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mean = shares.iter().map(|(share, _)| share).sum::<f64>() / shares.len() as f64;
-    // Noise hides some keys where a clip is known as drawn, and is smoothed less.
+    // Noise hides some keys of a clip that is recognized as drawn, and smoothed less.
     assert!(mean >= 0.86, "{mean:.3}: {shares:.2?}");
 }
 

@@ -1,20 +1,20 @@
-//! Layers with timing of their own and a root on ones, through the program and on real clips.
+//! Layers with their own timing and a root on ones, through the program and on real clips.
 
 use std::collections::BTreeSet;
 use std::fs;
 
-use genga::deliver::limited_bvh;
 use genga::edits::Edits;
 use genga::motion::{Axis, Channel, Clip, bvh};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::{RootMotion, Sheet};
 use genga::time::Frame;
+use genga_files::limited_bvh;
 
 use crate::clips;
 use crate::program::{Place, column, text};
 
-/// The sheet of a clip by the default recipe with some settings changed.
+/// The sheet of a clip with the default recipe and some changed settings.
 fn sheet(clip: &Clip, settings: &[(&str, &str)]) -> Sheet {
     let mut recipe = Recipe::default();
     settings.iter().for_each(|(name, value)| recipe.set(name, value).unwrap());
@@ -22,7 +22,7 @@ fn sheet(clip: &Clip, settings: &[(&str, &str)]) -> Sheet {
     engine.run_once(&recipe, &Edits::default()).unwrap().sheet.clone()
 }
 
-/// What a sheet shows, a row a koma.
+/// The poses of a sheet, one row per koma.
 fn shown(clip: &Clip, sheet: &Sheet) -> Clip {
     bvh::read(limited_bvh(clip, sheet).unwrap().as_bytes()).unwrap().clip
 }
@@ -181,7 +181,7 @@ fn keys_of_one_column_come_back_to_their_layer() {
         rows.map(second).collect::<Vec<_>>()
     });
     assert_eq!(a.len(), b.len());
-    // One that is found may come when the body has arrived; a pin stands on its koma.
+    // A found key may come once the body has arrived; a pin is on its koma.
     let is_near = |(a, b): (&f64, &f64)| (0.0..=4.0 / 24.0).contains(&(b - a));
     assert!(a.iter().zip(&b).all(is_near), "{a:?} {b:?}");
 }

@@ -1,21 +1,22 @@
-//! The same lead-in in every dialect, and at every rate a clip is cut down to.
+//! The same lead-in is found in every dialect, and at every rate that a clip is reduced to.
 
 use std::fs;
 
-use genga::motion::bvh::{self, LeadIn};
+use genga::motion::bvh;
+use genga::motion::clean::LeadIn;
 use genga::motion::{Axis, Channel, Clip, Joint, Skeleton};
 use genga::time::{Frame, FrameRate};
 
 use crate::clips;
 use crate::rerig::Rerig;
 
-/// Every n-th frame is kept.
+/// Strides: every n-th frame is kept.
 const STRIDES: [usize; 7] = [1, 2, 3, 4, 5, 6, 8];
 
-/// Frames that are found when every n-th frame is kept, n as in [`STRIDES`].
+/// Lead-in frames found with each stride of [`STRIDES`].
 ///
-/// At 120 frames a second the way out of some inserted poses takes four frames. What is left of it at a
-/// lower rate is no farther from the motion than the motion's own steps, and stays where it says `<`.
+/// At 120 frames per second, the way out of some inserted poses takes four frames. At a lower rate its remainder is no
+/// farther from the motion than the motion's own steps, and stays where the table has `<`.
 #[rustfmt::skip]
 const FOUND: [(&str, [usize; 7]); 15] = [
     //                          120 60 40 30 24 20 15 frames a second (100, 50, 33 … of 100)
@@ -36,7 +37,7 @@ const FOUND: [(&str, [usize; 7]); 15] = [
     ("threejs-pirouette",           [4, 2, /*<2*/ 1, 1, 1, 1, 1]),
 ];
 
-/// The start of each clip, as its file has it: the lead-in is still there.
+/// The start of each clip as in its file, lead-in included.
 fn starts() -> Vec<(String, Clip)> {
     let start = |path: std::path::PathBuf| {
         let clip = bvh::read(&fs::read(&path).unwrap()).unwrap().clip;
@@ -46,7 +47,7 @@ fn starts() -> Vec<(String, Clip)> {
     clips::all().into_iter().map(start).collect()
 }
 
-/// Every n-th frame, at the rate that this makes.
+/// Keeps every n-th frame, and divides the rate by n.
 fn every(clip: &Clip, stride: usize) -> Clip {
     let rows: Vec<&[f64]> = clip.rows().step_by(stride).collect();
     let rate = FrameRate::new(clip.rate().fps() / stride as f64).unwrap();
@@ -57,7 +58,7 @@ fn found(clip: &Clip) -> usize {
     LeadIn::find(clip).map_or(0, |lead_in| lead_in.len())
 }
 
-/// The clip with a position of every joint in every row, as some programs write it; without End Sites.
+/// Adds position channels to every joint, as some programs write them, and removes End Sites.
 fn with_positions_everywhere(clip: &Clip) -> Clip {
     let mut first_channel = 0;
     let mut joint = |joint: &Joint| {
@@ -121,7 +122,7 @@ fn every_dialect_has_the_same_lead_in() {
                 (3, true, 39.37),
                 (5, true, 0.3),
             ] {
-                let other = Rerig { first_order, other_axes, scale }.of(&clip);
+                let other = Rerig { first_order, other_axes, scale }.apply(&clip);
                 let at = format!("{name}, every {stride}, order {first_order}, scale {scale}");
                 assert_eq!(found(&other), expected, "{at}");
                 assert_eq!(found(&with_positions_everywhere(&other)), expected, "{at}, positions");

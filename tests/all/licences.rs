@@ -1,7 +1,7 @@
-//! Every package that genga is built of, on any system and with any feature, has a licence that goes with ours and
-//! comes from a registry of crates alone.
+//! Every package that genga depends on, on any system and with any feature, has a licence compatible with ours and
+//! comes from a crate registry.
 //!
-//! Cargo fetches what other systems need before it can answer, so this one is left to `.ci/full`.
+//! Cargo fetches packages of other systems before it can answer, so this test only runs in `.ci/full`.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::clips::here;
 
-/// Licences that ask for no more than to be named; those of fonts allow them to be built in.
+/// Licences that only require attribution; those of fonts allow embedding.
 const ALLOWED: [&str; 14] = [
     "0BSD",
     "Apache-2.0",
@@ -27,11 +27,11 @@ const ALLOWED: [&str; 14] = [
     "Zlib",
 ];
 
-/// How a source begins that is a registry; neither a repository nor a folder.
+/// Prefix of a source that is a registry and not a repository or a folder.
 const REGISTRY: &str = "registry+";
 
-/// Whether an SPDX expression can be fulfilled by allowed licences: `AND` binds before `OR`, and older packages write
-/// `/` for `OR`.
+/// Whether allowed licences can satisfy an SPDX expression. `AND` binds tighter than `OR`, and older packages write `/`
+/// for `OR`.
 fn is_allowed(expression: &str) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let mut words = spaced.split_whitespace().peekable();
@@ -68,7 +68,7 @@ fn one(words: Words<'_, '_>) -> bool {
     ALLOWED.contains(&&*licence)
 }
 
-/// What is wrong with a package; nothing where all is well.
+/// Describes what is wrong with a package. `None` if it is fine.
 fn fault(package: &Value) -> Option<String> {
     let of = |field: &str| package[field].as_str().unwrap_or("none").to_owned();
     let name = format!("{} {}", of("name"), of("version"));

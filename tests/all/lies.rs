@@ -1,5 +1,5 @@
-//! Files that say what is not so end in an error or in the motion that is there, and neither takes long
-//! nor much memory: how long and how much is measured by `cargo bench -p genga-benches --bench lies`.
+//! Reads files that lie about their content. Each gives an error or the motion that is really there, in little time and
+//! memory. `cargo bench -p genga-benches --bench lies` measures time and memory.
 
 use genga::motion::bvh;
 

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use crate::clips::here;
 
-/// Folders without pages of the repository.
+/// Folders that contain no pages of the repository.
 const PASSED_OVER: [&str; 1] = ["target"];
 
-/// The Markdown files of the repository, by their path in it.
+/// The Markdown files of the repository, by path.
 fn pages() -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![PathBuf::new()];
@@ -30,7 +30,7 @@ fn pages() -> Vec<PathBuf> {
     found
 }
 
-/// The lines of a page outside of its fenced blocks, numbered from 1.
+/// The lines of a page outside fenced blocks, numbered from 1.
 fn prose(page: &str) -> Vec<(usize, &str)> {
     let mut inside = false;
     let lines = (1..).zip(page.lines());
@@ -42,7 +42,7 @@ fn prose(page: &str) -> Vec<(usize, &str)> {
     outside.collect()
 }
 
-/// The anchors of a page: what a heading is called in a link. Of two headings of one name the second gets `-1`.
+/// The anchors of a page, as used in links. The second of two headings with the same name gets `-1`.
 fn anchors(page: &str) -> BTreeSet<String> {
     let mut times: BTreeMap<String, usize> = BTreeMap::new();
     let mut found = BTreeSet::new();
@@ -60,26 +60,26 @@ fn anchors(page: &str) -> BTreeSet<String> {
     found
 }
 
-/// A heading as the anchor of a link: letters, digits, `-` and `_` stay, in small letters; a blank becomes `-`.
+/// Converts a heading to an anchor: letters, digits, `-` and `_` are kept in lowercase, spaces become `-`.
 fn anchor(heading: &str) -> String {
     let stays = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
     let small = heading.chars().filter(stays).flat_map(char::to_lowercase);
     small.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
 }
 
-/// Where the links and pictures of a line lead to.
+/// The targets of a line's links and pictures.
 fn links(line: &str) -> Vec<&str> {
     let after = line.split("](").skip(1);
     after.filter_map(|rest| rest.split_once(')')).map(|(target, _)| target).collect()
 }
 
-/// A path as links write it, with `/` on every system.
+/// Writes a path as links do, with `/` on every system.
 fn written(path: &Path) -> String {
     let parts = path.iter().map(|part| part.to_string_lossy());
     parts.collect::<Vec<_>>().join("/")
 }
 
-/// What is wrong with the links of a page, one line each.
+/// Lists the broken links of a page, one a line.
 fn broken(path: &Path, page: &str, read: impl Fn(&Path) -> Option<String>) -> Vec<String> {
     let mut wrong = Vec::new();
     for (number, line) in prose(page) {
@@ -103,7 +103,7 @@ fn broken(path: &Path, page: &str, read: impl Fn(&Path) -> Option<String>) -> Ve
     wrong
 }
 
-/// The text of a file or folder of the repository; of what is no text, nothing but that it is there.
+/// The text of a file in the repository; empty for a folder or a file that is not text. `None` if it does not exist.
 fn read(path: &Path) -> Option<String> {
     let whole = here("").join(path);
     whole.exists().then(|| fs::read_to_string(whole).unwrap_or_default())

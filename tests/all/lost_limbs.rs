@@ -1,11 +1,11 @@
-//! An arm or a leg that a file will not move is said on the first line.
+//! An arm or a leg that a file will not move is reported on the first line.
 
 use std::fs;
 
 use crate::clips::here;
 use crate::program::{Place, text};
 
-/// The names of a motion's joints made nonsense.
+/// Replaces the joint names of a motion by nonsense.
 fn nonsense(bvh: &str) -> String {
     let mut at = 0;
     let line = |line: &str| {
@@ -18,7 +18,7 @@ fn nonsense(bvh: &str) -> String {
     bvh.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// A trunk on two legs.
+/// A motion of a trunk on two legs.
 fn without_arms() -> String {
     let joint = |name: &str, offset: &str, inside: &str| {
         format!(

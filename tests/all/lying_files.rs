@@ -1,20 +1,20 @@
-//! Files that say what is not so, of whatever size: see the tests in `lies.rs` and `benches/lies.rs`.
+//! Files of any size that lie about their content, for the tests in `lies.rs` and `benches/lies.rs`.
 
-/// What should become of such a file.
+/// The expected outcome of a lying file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// It is refused.
+    /// The file is refused.
     Refused,
-    /// It is odd, and a motion.
+    /// The file is odd but read as a motion.
     Read,
 }
 
-/// A kind of file: its name, what becomes of it, and how one of about so many bytes is made.
+/// A kind of file: its name, its outcome, and a function that makes one of about the given size.
 pub(crate) type Lie = (&'static str, Outcome, fn(usize) -> Vec<u8>);
 
 use Outcome::{Read, Refused};
 
-/// All of them.
+/// All lies.
 pub(crate) const LIES: [Lie; 21] = [
     ("`Frames: 1e12`, one row after another", Read, |size| {
         motion("1000000000000", "1 2 3\n", size)
@@ -57,7 +57,7 @@ pub(crate) const LIES: [Lie; 21] = [
     }),
 ];
 
-/// `text` again and again, whole, up to about so many bytes.
+/// Repeats `text` up to about the given size.
 fn repeated(text: &str, size: usize) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(size + size / 8 + 4096);
     append(&mut bytes, text, size);
@@ -70,7 +70,7 @@ fn append(bytes: &mut Vec<u8>, text: &str, size: usize) {
     }
 }
 
-/// A root that goes on with `first`, then `text` again and again, then `last`.
+/// Makes a file with a root that goes on with `first`, then `text` repeated, then `last`.
 fn file(first: &str, text: &str, last: &str, size: usize) -> Vec<u8> {
     let mut bytes = repeated("", size);
     bytes.extend_from_slice(b"HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\n");

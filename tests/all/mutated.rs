@@ -1,5 +1,5 @@
-//! Real files with anything changed: no panic, an error has a place in the file, and what is read is
-//! written and read back unchanged.
+//! Changes real files at random places. Reading them never panics, every error has a place in the file, and a clip that
+//! is read stays the same when it is written and read back.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -11,7 +11,7 @@ use proptest::sample::Index;
 use crate::cases::cases;
 use crate::clips;
 
-/// The hierarchy and the first rows of every clip at hand, with the number of frames put right.
+/// The hierarchy and the first rows of every clip at hand, with the number of frames corrected.
 static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let samples = ["kick", "pitch", "swing", "tennis"];
     let samples = samples.map(|name| clips::here(&format!("data/{name}.bvh")));
@@ -29,7 +29,7 @@ fn cut(bytes: &[u8]) -> Vec<u8> {
     lines.concat()
 }
 
-/// Words that stand where a number or a keyword should.
+/// Words put in place of a number or a keyword.
 const ODD: &[&str] = &[
     "nan",
     "-nan",
@@ -85,7 +85,7 @@ const ODD: &[&str] = &[
     "HIERARCHY",
 ];
 
-/// One change of a file. Places are taken of what is there.
+/// One change of a file. Indices are relative to its content.
 #[derive(Debug, Clone)]
 enum Change {
     Flip(Index, u8),

@@ -1,4 +1,4 @@
-//! One motion, one set of keys: they follow the motion and not the rig, the rate or the noise.
+//! One motion has one set of keys: they follow the motion and not the rig, the rate or the noise.
 
 use std::path::PathBuf;
 
@@ -7,21 +7,21 @@ use genga::keys::{AtGaits, Matching};
 use genga::motion::{Clip, EndSite, Joint, JointId, Landmarks, Skeleton};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::study::Noise;
 use genga::time::{Frame, FrameRate};
+use genga_lab::study::Noise;
 use glam::DVec3;
 
 use crate::clips;
 use crate::rerig::Rerig;
 
-/// Hundredths of a koma: fine enough to compare keys of clips of different rates.
+/// Hundredths of a koma: fine enough to compare keys of clips with different rates.
 const FINE: f64 = 100.0;
 
-/// Where the default recipe's keys are at a price, in hundredths of a koma.
+/// Positions of the default recipe's keys at a price, in hundredths of a koma.
 fn keys(clip: &Clip, min_price: f64) -> Vec<Frame> {
     let mut recipe = Recipe::default();
     recipe.keys.min_price = min_price;
-    // The choice alone: a gait comes after it, and is there or not.
+    // Only the choice of keys: gaits come after it, and may be found or not.
     recipe.keys.gaits = AtGaits::Off;
     let mut engine = Engine::new(clip.clone()).unwrap();
     let layer = engine.find_keys(&recipe, &Edits::default()).unwrap().keys;
@@ -29,8 +29,8 @@ fn keys(clip: &Clip, min_price: f64) -> Vec<Frame> {
     layer.keys.iter().map(|key| Frame(fine(key.frame).round() as usize)).collect()
 }
 
-/// How far the keys of two clips agree within a koma (F1), as far as both have frames; they are of one take if the first
-/// frame of the other is behind that of the one.
+/// Agreement of the keys of two clips within a koma (F1), over their common frames. The first frame numbers align clips
+/// cut from one take.
 fn agreement(clip: &Clip, other: &Clip) -> f64 {
     let [one, two] = [clip, other].map(|clip| keys(clip, Recipe::default().keys.min_price));
     let later = other.first().0.saturating_sub(clip.first().0) as f64 / clip.rate().fps();
@@ -40,8 +40,8 @@ fn agreement(clip: &Clip, other: &Clip) -> f64 {
     Matching::between(&one, &two, FINE + 1.0).kept()
 }
 
-/// How far the keys of the real clips agree with those of what is made of them, in the mean; the names of those
-/// that agree least are in the message where it is too little.
+/// Checks the mean agreement of the keys of real clips with those of clips made from them. On failure, the message
+/// names the clips that agree least.
 fn agree_on_real_clips(least: f64, other: impl Fn(&Clip) -> Clip) {
     clips::with_all(|paths| {
         let found = |path: &PathBuf| {
@@ -55,7 +55,7 @@ fn agree_on_real_clips(least: f64, other: impl Fn(&Clip) -> Clip) {
     });
 }
 
-/// How far keys agree at the least in the mean over all clips: at half the rate, under noise, and behind a cut.
+/// Least mean agreement over all clips: at half the rate, under noise, and after a cut.
 const LEAST: [f64; 3] = [0.97, 0.96, 0.97];
 
 #[test]
@@ -67,7 +67,7 @@ fn the_same_take_in_two_rigs_has_the_same_keys() {
 }
 
 fn two_rigs_have_the_same_keys(one: &Clip, other: &Clip) {
-    // Both were cut from one take and number its frames alike.
+    // Both were cut from one take and share its frame numbers.
     let later = FINE * (other.first().0 - one.first().0) as f64 * 24.0 / one.rate().fps();
     let agreement = |price: f64| {
         let shift = |frame: &Frame| Frame(frame.0 + later.round() as usize);
@@ -88,13 +88,13 @@ fn joints_more_on_every_bone_change_no_key() {
 
 #[test]
 fn fingers_move_few_keys() {
-    agree_on_real_clips(0.9, |clip| with_joints(clip, &Fingers::of(clip)));
+    agree_on_real_clips(0.9, |clip| with_joints(clip, &Fingers::new(clip)));
 }
 
 #[test]
 fn another_rest_pose_order_and_unit_move_no_key() {
     let rerig = Rerig { first_order: 4, other_axes: true, scale: 2.54 };
-    agree_on_real_clips(1.0, |clip| rerig.of(clip));
+    agree_on_real_clips(1.0, |clip| rerig.apply(clip));
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn a_little_noise_moves_few_keys() {
     agree_on_real_clips(LEAST[1], |clip| Noise { degrees: 0.1, seed: 1 }.on(clip));
 }
 
-/// The clip at half its rate, or as it is where that would be less than a frame a koma.
+/// The clip at half its rate, or unchanged if that would be less than a frame per koma.
 pub(crate) fn every_other_frame(clip: &Clip) -> Clip {
     let fps = clip.rate().fps() / 2.0;
     if fps < 24.0 {
@@ -126,11 +126,11 @@ pub(crate) fn every_other_frame(clip: &Clip) -> Clip {
     Clip::new(clip.skeleton().clone(), rate, Frame(0), clip.len().div_ceil(2), rows).unwrap()
 }
 
-/// Joints without channels that another rig of the same body has.
+/// Extra joints without channels in another rig of the same body.
 trait More {
-    /// Whether the bone to a joint has one in its middle.
+    /// Whether the bone that ends at this joint is split by a joint in its middle.
     fn halves(&self, joint: JointId) -> bool;
-    /// What hangs on a joint besides: chains of bones, from the joint on.
+    /// Extra chains of bones that hang on a joint, from the joint on.
     fn hang(&self, joint: JointId) -> Vec<[DVec3; 3]>;
 }
 
@@ -153,8 +153,8 @@ struct Fingers {
 }
 
 impl Fingers {
-    fn of(clip: &Clip) -> Self {
-        let landmarks = Landmarks::of(clip);
+    fn new(clip: &Clip) -> Self {
+        let landmarks = Landmarks::new(clip);
         let wrists = landmarks.wrists.iter().map(|wrist| wrist.joint).collect();
         Self { wrists, length: 0.03 * landmarks.height }
     }
@@ -177,7 +177,7 @@ impl More for Fingers {
     }
 }
 
-/// The clip in a rig that has more joints; the others move as they did.
+/// Converts the clip to a rig with more joints; the others move as before.
 fn with_joints(clip: &Clip, more: &impl More) -> Clip {
     let mut joints: Vec<Joint> = Vec::new();
     let mut places = Vec::new();

@@ -1,27 +1,27 @@
-//! What the pages for newcomers name is there.
+//! Checks that everything named on the pages for newcomers exists.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use genga::deliver::FORMATS;
 use genga::recipe::Knob;
+use genga_files::FORMATS;
 
 use crate::clips::here;
 
 const PAGES: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
 
-/// What a run writes besides its formats.
+/// Files of a run that belong to no format.
 const OWN: [&str; 4] = ["speed.svg", "recipe.toml", "report.json", "manifest.json"];
 
-/// Words of a page that are set as code, blocks without their marks.
+/// Words of a page in code spans and code blocks.
 fn coded(page: &str) -> BTreeSet<&str> {
     let spans = page.split('`').skip(1).step_by(2);
     let blocks = page.split("```").skip(1).step_by(2);
     spans.chain(blocks).flat_map(str::split_whitespace).collect()
 }
 
-/// Whether a word is a path of the repository: not one of what cargo makes, nor one beside it.
+/// Whether a word is a path in the repository, but not one made by cargo.
 fn is_path(word: &str) -> bool {
     let is_name = |c: char| c.is_alphanumeric() || "_-./".contains(c);
     let is_outside = word.starts_with("..") || word.starts_with("target/");
@@ -29,21 +29,21 @@ fn is_path(word: &str) -> bool {
     is_file && !is_outside && word.chars().all(is_name)
 }
 
-/// Whether a word is a name of the code.
+/// Whether a word is a Rust identifier or path.
 fn is_name(word: &str) -> bool {
     let is_letter = |c: char| c.is_alphanumeric() || "_:".contains(c);
     let is_camel = word.starts_with(char::is_uppercase) && word.contains(char::is_lowercase);
     word.chars().all(is_letter) && (is_camel || word.contains("::"))
 }
 
-/// Whether a word is a knob, or a file that a run writes.
+/// Whether a word looks like a knob, or a file that a run writes.
 fn is_dotted(word: &str) -> bool {
     let is_plain =
         |part: &str| !part.is_empty() && part.chars().all(|c| c.is_ascii_lowercase() || c == '_');
     word.split_once('.').is_some_and(|(section, field)| is_plain(section) && is_plain(field))
 }
 
-/// What is wrong with a page, one line each; `code` is all of `src`.
+/// Lists names on a page that do not exist, one a line; `code` is all of `src` and `crates`.
 fn missing(page: &str, code: &str) -> Vec<String> {
     let links = page.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     let links = links.map(|link| link.split('#').next().unwrap_or_default());
@@ -62,7 +62,7 @@ fn missing(page: &str, code: &str) -> Vec<String> {
     words.into_iter().filter(is_missing).chain(paths).map(String::from).collect()
 }
 
-/// All of the code in a folder.
+/// Returns all code in a folder as text.
 fn code(folder: &Path) -> String {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let text = |path: std::path::PathBuf| match path.is_dir() {
@@ -74,7 +74,7 @@ fn code(folder: &Path) -> String {
 
 #[test]
 fn what_the_pages_for_newcomers_name_is_there() {
-    let code = code(&here("src"));
+    let code = code(&here("src")) + &code(&here("crates"));
     for name in PAGES {
         let page = fs::read_to_string(here(name)).unwrap();
         let paths = coded(&page).into_iter().filter(|word| is_path(word)).count();

@@ -14,7 +14,7 @@ use crate::clips::{here, sample};
 
 pub(crate) const SAMPLES: [&str; 5] = ["pitch", "kick", "tennis", "swing", "kuroda-pitch"];
 
-/// What a run writes, and how each file begins.
+/// The files of a run, and the beginning of each.
 const FILES: [(&str, &str); 13] = [
     (
         "drawings.csv",
@@ -55,7 +55,7 @@ const SUBCOMMANDS: [&str; 15] = [
     "man",
 ];
 
-/// A folder of its own for each test; the program runs in it.
+/// A folder for a single test, in which the program runs.
 pub(crate) struct Place(TempDir);
 
 impl Place {
@@ -77,7 +77,7 @@ impl Place {
         self.command(&words(args)).output().unwrap()
     }
 
-    /// Runs it with bytes on stdin.
+    /// Runs the program with bytes on stdin.
     pub(crate) fn fed(&self, args: &str, bytes: &[u8]) -> Output {
         let mut command = self.command(&words(args));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -86,21 +86,21 @@ impl Place {
         child.wait_with_output().unwrap()
     }
 
-    /// Begins to run it, quietly.
+    /// Starts the program without waiting, with its output discarded.
     #[cfg(unix)]
     pub(crate) fn begun(&self, args: &str) -> std::process::Child {
         let mut command = self.command(&words(args));
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     }
 
-    /// Runs it, sees it succeed, and gives stdout.
+    /// Runs the program, checks that it succeeds, and returns stdout.
     pub(crate) fn done(&self, args: &str) -> String {
         let output = self.genga(args);
         assert_eq!(output.status.code(), Some(0), "genga {args}: {}", text(&output.stderr));
         text(&output.stdout)
     }
 
-    /// Runs it, sees it fail with this code and nothing on stdout, and gives the one line it says.
+    /// Runs the program, checks that it fails with this code and an empty stdout, and returns stderr.
     pub(crate) fn refused(&self, code: i32, args: &str) -> String {
         let output = self.genga(args);
         let said = text(&output.stderr);
@@ -109,7 +109,7 @@ impl Place {
         said
     }
 
-    /// Every file of a folder by its name.
+    /// Every file of a folder, by name.
     pub(crate) fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
         let entries = fs::read_dir(self.path(folder)).unwrap();
@@ -118,7 +118,7 @@ impl Place {
     }
 }
 
-/// Words of a command line; `data/` means that of the repository.
+/// Splits a command line into words; `data/` means the repository's.
 fn words(args: &str) -> Vec<String> {
     let data = here("data").to_string_lossy().into_owned() + "/";
     let word = |word: &str| match word.strip_prefix("data/") {
@@ -132,7 +132,7 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A column of a CSV table.
+/// Returns a column of a CSV table.
 pub(crate) fn column(table: &str, name: &str) -> Vec<String> {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let at = reader.headers().unwrap().iter().position(|header| header == name).unwrap();
@@ -196,7 +196,7 @@ fn the_same_input_gives_the_same_bytes() {
     for name in ["pitch", "kuroda-pitch"] {
         let place = Place::new();
         for again in ["a", "b"] {
-            place.done(&format!("run data/{name}.bvh --out {again} --set keys.merge=sum"));
+            place.done(&format!("run data/{name}.bvh --out {again} --set keys.merge=vote"));
             let omit = format!("omit data/{name}.bvh --out {again}/o.bvh --sheet {again}/o.csv");
             let omit = format!("{omit} --plot {again}/o.svg");
             place.done(&omit);
@@ -220,7 +220,7 @@ fn keys_are_a_table_of_the_body_or_of_every_joint() {
         let table = place.done(&format!("keys data/{name}.bvh"));
         assert!(column(&table, "cut").iter().all(|cut| cut == name));
         let roles = column(&table, "role");
-        // Where the last genga holds up to the end there is no other.
+        // If the last genga holds up to the end, there is no other end.
         assert_eq!(roles[0], "end");
         assert!(["end", "genga"].contains(&roles[roles.len() - 1].as_str()), "{roles:?}");
         let joints = place.done(&format!("keys data/{name}.bvh --per-joint"));
@@ -320,7 +320,7 @@ fn inspect_draws_the_skeleton_and_never_over_the_clip() {
     for joint in &clip.skeleton().joints {
         assert!(picture.contains(&format!(">{}</text>", joint.name)), "{}", joint.name);
     }
-    // A name that a picture may have.
+    // A clip may have a picture's name.
     fs::copy(here("data/kick.bvh"), place.path("k.svg")).unwrap();
     place.refused(2, "inspect k.svg --plot k.svg");
     assert_eq!(read(&place.path("k.svg")), fs::read_to_string(here("data/kick.bvh")).unwrap());
@@ -588,7 +588,7 @@ fn an_inserted_t_pose_is_left_out_with_a_note_unless_it_is_to_be_kept() {
     assert_eq!(first("-q"), ("2".into(), String::new()));
     place.done("run t.bvh --out o");
     assert!(read(&place.path("o/report.json")).contains("W_LEAD_IN"));
-    // What is left is the pitch, two frames later in its file.
+    // The remaining motion is the pitch, two frames later in its file.
     let (with, without) = (place.done("keys t.bvh"), place.done("keys data/pitch.bvh"));
     let later = |cell: &String| (cell.parse::<f64>().unwrap() + 2.0).to_string();
     let without: Vec<String> = column(&without, "source_frame").iter().map(later).collect();
@@ -610,7 +610,7 @@ fn the_written_recipe_gives_the_same_results_again() {
         let row = |line: &str| line.contains(&format!(",genga,{frame},")) && line.contains(why);
         assert!(sheet.lines().any(row), "frame {frame} is not pinned in\n{sheet}");
     }
-    // --set goes over the file.
+    // --set overrides the file.
     let over = "--recipe a/recipe.toml --set spacing.on=1";
     place.done(&format!("run data/pitch.bvh --out d {over}"));
     assert!(read(&place.path("d/recipe.toml")).contains("\non = 1\n"));
@@ -644,7 +644,7 @@ fn a_reader_that_has_enough_is_no_failure() {
         assert!(said.ends_with("code 0\n"), "{args}: {said}");
         assert!(!said.contains("panic"), "{args}: {said}");
         assert_eq!(output.stdout.len(), 1, "{args}");
-        // The reader is gone before the first byte.
+        // The reader closes the pipe before the first byte.
         let script = format!(
             "( sleep 0.1; '{}' {args}; echo \"code $?\" >&2 ) | true",
             env!("CARGO_BIN_EXE_genga")
@@ -657,7 +657,7 @@ fn a_reader_that_has_enough_is_no_failure() {
 #[test]
 fn what_cannot_be_written_leaves_nothing_half_written() {
     let place = Place::new();
-    // A folder stands where a file of the run should go.
+    // A folder blocks the place of one of the run's files.
     fs::create_dir_all(place.path("o/limited.bvh/taken")).unwrap();
     let said = place.refused(1, "run data/kick.bvh --out o");
     assert!(said.contains("limited.bvh"), "{said}");
@@ -666,7 +666,7 @@ fn what_cannot_be_written_leaves_nothing_half_written() {
     for (file, bytes) in place.files("o") {
         assert!(whole.get(&file) == Some(&bytes), "o/{file} is not what it should be");
     }
-    // What stood there before stays whole when the new one cannot be made.
+    // An existing file stays whole if the new one cannot be made.
     fs::write(place.path("keep.bvh"), "old").unwrap();
     place.refused(1, "omit none.bvh --out keep.bvh");
     assert_eq!(read(&place.path("keep.bvh")), "old");
@@ -796,7 +796,7 @@ fn a_sheet_edited_by_hand_is_delivered_as_it_is() {
     assert!(fs::read(place.path("sheet.json")).unwrap() == sheet);
 }
 
-/// Writes a sheet again with its first drawing held for a koma only.
+/// Edits a sheet so that its first drawing is held for one koma only.
 fn edit(sheet: &Path) -> Vec<u8> {
     let text = read(sheet);
     let (head, held) = text.split_once("\"koma\": ").unwrap();
@@ -831,7 +831,7 @@ fn nothing_is_written_over_a_sheet_that_was_edited() {
         assert!(said.contains("--out") && said.matches('\n').count() == 1, "{said}");
         assert!(place.files("a") == before, "{args}");
     }
-    // What was edited stays so where it is delivered; one that is as it was made gives way to it.
+    // An edited sheet stays edited when delivered, and replaces one that was not edited.
     place.done("deliver a/sheet.json data/kick.bvh --out b --to json");
     assert!(fs::read(place.path("b/sheet.json")).unwrap() == edited);
     place.refused(2, "run data/kick.bvh --out b");
@@ -868,7 +868,7 @@ fn what_is_read_is_not_written_over() {
         assert!(said.contains(&format!("this is the {what} itself")), "{said}");
         assert_eq!(place.files("o").len(), 2);
     }
-    // A recipe that is tuned in its place keeps its comments.
+    // A recipe that is tuned in place keeps its comments.
     fs::write(place.path("o/recipe.toml"), "[spacing]\non = 3 # mine\n").unwrap();
     let said = text(&place.genga("run data/kick.bvh --out o --recipe o/recipe.toml").stderr);
     assert!(said.contains("recipe.toml is the recipe that was given"), "{said}");
@@ -891,13 +891,13 @@ fn a_recipe_tuned_in_its_place_loses_neither_comments_nor_corrections() {
     assert!(tuned.contains("[[edits.pins]]\nframe = 42\nname = \"contact\"\n"), "{tuned}");
     place.done("run data/kick.bvh --out b --recipe a/recipe.toml");
     assert!(place.files("a") == place.files("b"), "and the settings that --keys found");
-    // With a comment it is somebody's own.
+    // A comment makes it a person's own text.
     let own = tuned.replace("frame = 42", "frame = 42 # the foot");
     fs::write(place.path("a/recipe.toml"), &own).unwrap();
     let said = text(&place.genga(&again.replace("--pin 42:contact", "--pin 60")).stderr);
     assert!(said.contains("corrections and settings that this run adds are not in it"), "{said}");
     assert_eq!(read(&place.path("a/recipe.toml")), own);
-    // The way out that is named.
+    // The way out that the message names.
     place.done("run data/kick.bvh --out c --recipe a/recipe.toml --pin 60");
     assert!(read(&place.path("c/recipe.toml")).contains("frame = 60"));
 }
@@ -905,7 +905,7 @@ fn a_recipe_tuned_in_its_place_loses_neither_comments_nor_corrections() {
 #[test]
 fn all_goes_without_what_cannot_be_made_and_says_so() {
     let place = Place::new();
-    // A stick that swings: neither names nor shape have a bone of it.
+    // A swinging stick: neither its names nor its shape match any bone.
     let mut bvh = String::from(
         "HIERARCHY\nROOT q0\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT q1\n{\nOFFSET 0 50 0\n\
          CHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 50 0\n}\n}\n}\nMOTION\nFrames: 12\n\
@@ -945,7 +945,7 @@ fn pictures_of_a_long_sheet_show_its_beginning_and_say_so() {
     assert!(said.contains("flipbook shows the first 10 of 92 koma"), "{said}");
     assert!(place.path("o/strip-2.svg").exists() && !place.path("o/strip-5.svg").exists());
     assert!(read(&place.path("o/flipbook.html")).contains("\"koma\":10,"));
-    // Pages of an earlier sheet go; those of which nothing is known stay and are named.
+    // Known pages of an earlier sheet are removed; unknown ones stay and are named.
     fs::write(place.path("o/strip-9.svg"), "mine").unwrap();
     let less = "run data/kick.bvh --deliver strip --with strip.most=8 --out o";
     let said = text(&place.genga(less).stderr);
@@ -1086,7 +1086,7 @@ fn a_folder_that_cannot_be_written_leaves_nothing_half_written() {
         place.refused(1, &format!("run data/kick.bvh --out {out}"));
     }
     assert_eq!(read(&place.path("file")), "mine");
-    // One of several files cannot be put there: none is.
+    // If one of several files cannot be placed, none is.
     fs::create_dir_all(place.path("o/remap.csv")).unwrap();
     let said = place.refused(1, "deliver a/sheet.json data/kick.bvh --to all --out o");
     assert!(said.contains("remap.csv: is a folder"), "{said}");
@@ -1170,7 +1170,7 @@ fn the_motion_for_mmd_says_which_joints_it_leaves_out_and_takes_a_table_of_bones
     assert!(said.contains("--bones: ") && said.contains("2:1: there is no bone 左うで"), "{said}");
 }
 
-/// A PMD of some bones, each on the one before it.
+/// Makes a PMD with some bones, each the child of the one before.
 fn pmd(bones: &[(&str, [f32; 3])]) -> Vec<u8> {
     let name = |text: &str| {
         let mut field = encoding_rs::SHIFT_JIS.encode(text).0.into_owned();
@@ -1211,7 +1211,7 @@ fn the_motion_for_mmd_fits_the_model_whose_file_is_given() {
     assert_eq!(driven, bones.iter().map(|(bone, _)| *bone).collect());
     let motion = fs::read(place.path("a/kick.vmd")).unwrap();
     assert_eq!(encoding_rs::SHIFT_JIS.decode(&motion[30..34]).0, "人形");
-    // A name alone is a name.
+    // A name without a model file is used as it is.
     place.done(&run("vmd.model=doll"));
     assert!(fs::read(place.path("a/kick.vmd")).unwrap()[30..].starts_with(b"doll\0"));
     let mut file = pmd(&bones);

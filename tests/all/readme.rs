@@ -1,21 +1,22 @@
-//! What README and guide show is what the program does: each of their commands is run as a reader runs it.
+//! Checks that README and guide show what the program does: each of their commands is run as by a reader.
 //!
 //! All blocks of a page are run from top to bottom in one folder with `data/` in it.
 //!
-//! - `console`: a line `$ command` is run. What follows it is what the program says, to the letter. A `…` stands
-//!   for a number that is another one on each run.
+//! - `console`: a line `$ command` is run. The lines after it are the program's exact output, in which `…` stands for a
+//!   number that differs on each run.
 //! - `sh`: each line is run and has to succeed.
-//! - below `<!-- file: NAME -->`: the block is written into that file.
-//! - `rust`: each line stands in a test below.
+//! - below `<!-- file: NAME -->`: the block is written to that file.
+//! - `rust`: each line occurs in a test below.
 //!
-//! `GENGA_PAGES=write cargo test --test all readme` writes what the program says into the pages.
+//! `GENGA_PAGES=write cargo test --test all readme` writes the program's output into the pages.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use genga::{edits::Edits, motion::bvh, pipeline::Engine, recipe::Recipe};
+use genga::motion::{bvh, clean::Cleaning};
+use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
 
 use crate::clips::here;
 
@@ -27,14 +28,14 @@ mod reader;
 use page::{Block, Piece, bare, commands, page, pieces};
 use reader::{TESTS, UNINSTALLED, place, said};
 
-/// The pages, each beside its translation.
+/// The pages, each with its translation.
 const PAGES: [[&str; 2]; 2] =
     [["README.md", "README.ja.md"], ["docs/guide.md", "docs/guide.ja.md"]];
 
-/// What the program says to a command.
+/// Runs a command and returns its output.
 type Say<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
 
-/// Whether a line is as shown, where each `…` may be any number.
+/// Whether a line matches the shown one, in which each `…` may be any number.
 fn is_as_shown(line: &str, shown: &str) -> bool {
     let mut pieces = shown.split('…');
     let Some(rest) = pieces.next().and_then(|begin| line.strip_prefix(begin)) else {
@@ -48,7 +49,7 @@ fn is_as_shown(line: &str, shown: &str) -> bool {
     after == Some("")
 }
 
-/// A block of commands with what they say now. A shown line stays while it is as said.
+/// Fills a block of commands with their output. A shown line is kept if it still matches.
 fn answered(block: &Block, say: Say<'_>) -> Result<String, String> {
     let mut text = String::new();
     let mut lines = block.lines.iter().peekable();
@@ -69,13 +70,13 @@ fn answered(block: &Block, say: Say<'_>) -> Result<String, String> {
     Ok(text)
 }
 
-/// The page with everything as the program says it now.
+/// Returns the page with the program's current output.
 fn made(page: &str) -> Result<String, String> {
     let place = place();
     made_in(place.path(), page, &mut |command| said(command, place.path()))
 }
 
-/// A page and its translation. Both have the same commands in one order, so each is run once.
+/// Fills a page and its translation. Both have the same commands in the same order, so each is run once.
 fn made_both([page, translation]: [&str; 2]) -> Result<[String; 2], String> {
     let place = place();
     let mut answers = Vec::new();
@@ -126,7 +127,7 @@ fn are_of_the_test(block: &Block) -> Result<(), String> {
     missing.map_or(Ok(()), |line| Err(format!("{line}: no test has this line")))
 }
 
-/// The first line in which a page differs from what it has to be; nothing where it does not.
+/// Describes the first line in which a page differs from what it should be. Empty if there is none.
 fn difference(name: &str, shown: &str, made: &str) -> String {
     if shown == made {
         return String::new();
@@ -244,8 +245,9 @@ fn pictures_of_the_documentation_are_those_that_the_program_draws() {
 
 #[test]
 fn the_library_does_what_the_guide_shows() -> Result<(), Box<dyn std::error::Error>> {
+    std::env::set_current_dir(here(""))?;
     let read = bvh::read(&std::fs::read("data/kick.bvh")?)?;
-    let (clip, _notes) = bvh::Cleaning::default().of(read.clip)?;
+    let (clip, _notes) = Cleaning::default().apply(read.clip)?;
     let mut engine = Engine::new(clip)?;
     let result = engine.run(&Recipe::default(), &Edits::default())?;
     #[allow(clippy::print_stdout, reason = "as the guide shows it")]

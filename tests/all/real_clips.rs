@@ -1,8 +1,7 @@
-//! The default recipe gives a sheet an animator can use on every real clip.
+//! The default recipe gives a usable sheet on every real clip.
 
 use std::path::Path;
 
-use genga::deliver::{Report, limited_bvh};
 use genga::edits::Edits;
 use genga::keys::Reference;
 use genga::motion::{Clip, bvh};
@@ -10,11 +9,12 @@ use genga::pipeline::{Breakdown, Engine};
 use genga::recipe::Recipe;
 use genga::sheet::{Exposure, Layer, Reason, Role, Source};
 use genga::time::Frame;
+use genga_files::{Report, limited_bvh};
 
 use crate::clips;
 
-/// Runs the default recipe on every real clip; gives the file, the clip as read with its lead-in, and
-/// the breakdown.
+/// Runs the default recipe on every real clip, and passes the file name, the clip as read with its lead-in, and the
+/// breakdown.
 fn each(look: impl Fn(&str, &Clip, &Breakdown)) {
     for path in clips::all() {
         let name = clips::name(&path);
@@ -24,12 +24,12 @@ fn each(look: impl Fn(&str, &Clip, &Breakdown)) {
     }
 }
 
-/// How unlike a drawing the body gets while it holds, in % of its height; and koma for which a drawing stays beside that,
-/// for what naka-nashi gave it, or because it and the one behind are small movements.
+/// Largest distance of the body from a held drawing, in % of its height; and number of koma that a drawing may stay
+/// beyond it, because of naka-nashi or because it and the next are small movements.
 const ALIKE: f64 = 3.3;
 const BESIDE: usize = 7;
 
-/// Drawings a second where the body moves; and of what is held for long when it begins, and whether it is like the body
+/// Drawings per second where the body moves. And for every long hold, its begin and whether the body stays like it
 /// meanwhile.
 fn moving(breakdown: &Breakdown<'_>) -> (f64, Vec<(usize, bool)>) {
     let koma = |frame: &Frame| breakdown.clock.koma_from_frame(*frame);
@@ -40,7 +40,7 @@ fn moving(breakdown: &Breakdown<'_>) -> (f64, Vec<(usize, bool)>) {
     let layer = &breakdown.sheet.layers[0];
     let drawings = layer.timed().filter(|(begin, _)| !is_still(*begin)).count();
     let koma = (0..layer.length()).filter(|koma| !is_still(*koma)).count();
-    let reference = Reference::of(breakdown.clip, breakdown.clock);
+    let reference = Reference::new(breakdown.clip, breakdown.clock);
     let is_alike = |begin: usize, shown: &Exposure| {
         let place = layer.drawings[shown.drawing].source.place();
         let own = breakdown.clock.koma_from_place(place).min(reference.koma() - 1);
@@ -69,7 +69,7 @@ fn kept(layer: &Layer) -> Vec<(usize, f64, Role)> {
 #[test]
 fn the_defaults_give_a_usual_number_of_genga_and_drawings() {
     each(|name, _, breakdown| {
-        let report = Report::of(breakdown, vec![]);
+        let report = Report::new(breakdown, vec![]);
         let (genga, drawings) = (report.genga_per_second, report.drawings_per_second);
         let figures = format!("{name}: {genga:.2} genga, {drawings:.2} drawings a second");
         assert!((1.5..=11.0).contains(&genga), "{figures}");
@@ -86,7 +86,7 @@ fn the_defaults_give_a_usual_number_of_genga_and_drawings() {
 #[test]
 fn no_genga_is_moved_deleted_or_replaced() {
     each(|name, _, breakdown| {
-        // The steps of a gait have a rhythm of their own.
+        // The steps of a gait have their own rhythm.
         let steps = breakdown.spaced.layers[0].drawings.iter();
         let steps = steps.filter(|drawing| drawing.why.reason == Some(Reason::Step));
         let steps: Vec<f64> = steps.map(|drawing| drawing.source.place()).collect();
@@ -150,7 +150,7 @@ fn limited_motion_read_back_holds_where_the_sheet_holds() {
             if let Source::At(place) = layer.drawings[*drawing].source
                 && place.fract() == 0.0
             {
-                // By the number it has in the file as read, lead-in and all.
+                // Frame numbers are those of the file, lead-in included.
                 let source = whole.row(Frame(place as usize));
                 assert_eq!(limited.row(Frame(koma)), source, "{name}, koma {koma}");
             }

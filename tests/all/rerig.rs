@@ -24,18 +24,18 @@ const ORDERS: [[Axis; 3]; 6] = [
     [Axis::Z, Axis::Y, Axis::X],
 ];
 
-/// What is changed of a rig; the motion in the world stays.
+/// Changes to a rig that leave the motion in the world as it is.
 pub(crate) struct Rerig {
     /// Joint j gets the order `orders[(j + first_order) % 6]`.
     pub(crate) first_order: usize,
     /// Whether the rest pose of every bone is turned.
     pub(crate) other_axes: bool,
-    /// World units a unit of the file.
+    /// World units per unit of the file.
     pub(crate) scale: f64,
 }
 
 impl Rerig {
-    /// How far the rest axes of each joint are turned. A joint that cannot turn keeps to its parent's.
+    /// Rotations of each joint's rest axes. A joint without rotation channels keeps its parent's.
     fn turns(&self, skeleton: &Skeleton) -> Vec<DQuat> {
         let mut turns: Vec<DQuat> = Vec::with_capacity(skeleton.len());
         for (at, joint) in skeleton.joints.iter().enumerate() {
@@ -53,8 +53,8 @@ impl Rerig {
         turns
     }
 
-    /// The clip in the other rig, as its file would be read.
-    pub(crate) fn of(&self, clip: &Clip) -> Clip {
+    /// Converts the clip to the other rig, as read from its file.
+    pub(crate) fn apply(&self, clip: &Clip) -> Clip {
         let old = clip.skeleton();
         let turns = self.turns(old);
         let parent_turn = |joint: &Joint| {
@@ -70,7 +70,7 @@ impl Rerig {
                 channels.extend(self.order(at).map(Channel::Rotation));
             }
             if has(|channel| matches!(channel, Channel::Position(_))) {
-                // Sometimes before the rotations, sometimes after them.
+                // Before the rotations for some joints, after them for others.
                 let begin = if at % 2 == 0 { 0 } else { channels.len() };
                 channels.splice(begin..begin, positions);
             }
@@ -103,7 +103,7 @@ impl Rerig {
                 }));
             }
         }
-        // Numbers in the file begin with 0; so the lead-in is put back as repeats of the first frame.
+        // Frame numbers in a file begin with 0, so the lead-in is restored as repeats of the first frame.
         let first = skeleton.channels();
         let lead = values[..first].repeat(clip.first().0);
         let frames = clip.len() + clip.first().0;
@@ -120,7 +120,7 @@ impl Rerig {
     }
 }
 
-/// The angles in degrees whose product about `order`, left to right, is the rotation.
+/// Angles in degrees whose product about `order`, left to right, is the rotation.
 fn angles(rotation: DQuat, order: [Axis; 3]) -> [f64; 3] {
     let matrix = DMat3::from_quat(rotation);
     let [i, j, k] = order.map(|axis| axis as usize);
@@ -134,7 +134,7 @@ fn angles(rotation: DQuat, order: [Axis; 3]) -> [f64; 3] {
 
 /// World positions of all joints in all frames.
 fn world(clip: &Clip) -> Vec<DVec3> {
-    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
+    let (mut poser, mut body) = (Poser::new(clip), Body::new(clip.skeleton()));
     let mut all = Vec::new();
     for frame in clip.first().0..=clip.last().0 {
         body.place(poser.frame(Frame(frame)));
@@ -152,7 +152,7 @@ fn stands_where_it_stood(clip: &Clip, other: &Clip, scale: f64, name: &str) {
     assert!(far < 1e-9, "{name}: a joint stands {far} from where it stood");
 }
 
-/// What an animator sees of a sheet: places, exposures, roles, and who turns where.
+/// The visible content of a sheet: places, exposures, roles, and turning joints.
 #[derive(Debug, PartialEq)]
 struct Seen {
     place: f64,
@@ -199,7 +199,7 @@ fn gives_the_same_sheet(clip: &Clip, name: &str, recipe: &Recipe) {
         (5, true, 39.37),
     ] {
         let rerig = Rerig { first_order, other_axes, scale };
-        let other = rerig.of(clip);
+        let other = rerig.apply(clip);
         stands_where_it_stood(clip, &other, scale, name);
         let found = sheet(&other);
         assert_eq!(found.0, expected.0, "{name}, order {first_order}, scale {scale}: keys");
@@ -218,7 +218,7 @@ fn the_made_pitch_keeps_its_sheet_in_other_rigs() {
 fn the_other_merges_measures_and_readings_do_not_depend_on_the_rig_either() {
     let clip = clips::sample("pitch.bvh");
     for (name, value) in [
-        ("keys.merge", "sum"),
+        ("keys.merge", "vote"),
         ("keys.merge", "union"),
         ("keys.rank", "strength"),
         ("speed.measure", "displacement"),
@@ -228,7 +228,7 @@ fn the_other_merges_measures_and_readings_do_not_depend_on_the_rig_either() {
         ("filter.kind", "butterworth"),
         ("spacing.source", "blend"),
     ] {
-        // A displacement is in the file's unit, and so is its dead band: there the share is needed.
+        // Displacement and its dead band are in the file's unit, so there the dead band must be a share.
         let mut recipe = Recipe::default();
         recipe.set("turns.steady", if name == "speed.measure" { "5%" } else { "100" }).unwrap();
         recipe.set(name, value).unwrap();

@@ -1,17 +1,18 @@
-//! One take in another format: the same keys.
+//! A take in another format has the same keys.
 
 use std::path::PathBuf;
 
-use genga::deliver::{Vmd, VmdBones, limited_bvh};
 use genga::edits::Edits;
-use genga::motion::{Clip, file};
+use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::Sheet;
+use genga_files::{Vmd, VmdBones, limited_bvh};
+use genga_read as file;
 
 use crate::clips;
 
-/// Takes of half a minute at most, of every dialect at hand but that whose spine lies elsewhere.
+/// Takes of half a minute at most, of every dialect at hand except the one whose spine is elsewhere.
 const TAKES: [&str; 10] = [
     "cmu-02_04-jump-balance",
     "cmu-05_11-dance-pirouette",
@@ -35,7 +36,7 @@ fn keys(clip: Clip) -> Vec<f64> {
     kept.map(|drawing| (drawing.source.place() - first) * in_koma).collect()
 }
 
-/// F1 of two sorted lists whose members belong together within a koma, one to one.
+/// F1 of two sorted lists, matching members one to one within a koma.
 fn f1(a: &[f64], b: &[f64]) -> f64 {
     let (mut at, mut other, mut both) = (0, 0, 0);
     while let (Some(x), Some(y)) = (a.get(at), b.get(other)) {
@@ -50,27 +51,27 @@ fn f1(a: &[f64], b: &[f64]) -> f64 {
     2.0 * f64::from(both) / (a.len() + b.len()) as f64
 }
 
-/// The take on every frame of MMD's, 30 a second.
+/// A sheet with every frame of MMD, 30 per second.
 fn on_thirties(clip: &Clip) -> Sheet {
     let frames = (clip.seconds() * 30.0).floor() as usize + 1;
     Sheet::on_ones(clip.clock(30.0), frames)
 }
 
-/// The same as a VMD for a model with the semi-standard bones, read again without the model.
+/// Converts a clip to VMD for a model with the semi-standard bones, and reads it again without the model.
 fn through_vmd(clip: &Clip) -> Clip {
     let vmd = Vmd { bones: VmdBones::Semi, ..Vmd::default() };
     let bytes = vmd.make(clip, &on_thirties(clip)).unwrap().motion.bytes().unwrap();
     file::Options::default().read(&bytes).unwrap().clip
 }
 
-/// The same as a BVH.
+/// Converts a clip to BVH and reads it again.
 fn through_bvh(clip: &Clip) -> Clip {
     let text = limited_bvh(clip, &on_thirties(clip)).unwrap();
     file::Options::default().read(text.as_bytes()).unwrap().clip
 }
 
-/// MMD has 30 frames a second. That alone moves a key of a take at 120 here and there, so the VMD is held against the BVH
-/// of the same frames; what both together cost is printed too.
+/// MMD has 30 frames per second. That alone moves some keys of a take at 120, so the VMD is compared with the BVH of
+/// the same frames. The total loss of both is printed too.
 #[test]
 fn a_take_as_vmd_has_the_keys_of_its_bvh() {
     clips::with(TAKES, |paths| have_the_keys_of_their_bvh(&paths));

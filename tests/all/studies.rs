@@ -51,7 +51,7 @@ fn the_short_options_take_lists_and_ranges() {
     assert_eq!(column(&table, "filter.width"), ["0.2s", "7"]);
     let short = place.done("study data/kick.bvh --filter-width 4..8:2 --persistence 2..3:1");
     assert_eq!(column(&short, "filter.width"), ["4", "4", "6", "6", "8", "8"]);
-    // The long ones start from the recipe of a run, so that is given too.
+    // The long options start from the recipe of a run, so the recipe of Table 1 is given too.
     fs::write(place.path("table-1.toml"), place.done("recipe --study")).unwrap();
     let long = "study data/kick.bvh --recipe table-1.toml --x filter.width=4,6,8 --y turns.persistence=2,3";
     assert_eq!(place.done(long), short);
@@ -77,7 +77,7 @@ fn any_setting_is_an_axis_and_what_it_changes_is_counted() {
         header("--measure total,held_koma --show union"),
         "clip,filter.width,turns.persistence,total,held_koma,union"
     );
-    // A cell is what a run with those settings says.
+    // A cell equals a run with those settings.
     let table = place.done("study data/kick.bvh --x spacing.on=2,3 --measure drawings,held_koma");
     for (at, on) in ["2", "3"].into_iter().enumerate() {
         place.done(&format!("run data/kick.bvh --set spacing.on={on} --out run{on}"));
@@ -177,7 +177,7 @@ fn several_clips_stand_one_under_the_other_under_names_that_tell_them_apart() {
     fs::copy(place.path("kick.bvh"), place.path("other/kick.bvh")).unwrap();
     let table = place.done("study kick.bvh other/kick.bvh --x filter.width=3 --measure union");
     assert_eq!(column(&table, "clip"), ["kick.bvh", "other/kick.bvh"]);
-    // A clip that cannot be read is named, and nothing is begun.
+    // A clip that cannot be read is named, and no work begins.
     let said = place.refused(1, "study kick.bvh none.bvh -o s.csv");
     assert!(said.starts_with("genga: none.bvh: "), "{said}");
     assert!(!place.path("s.csv").exists());
@@ -194,13 +194,13 @@ fn stability_compares_cells_and_names_the_plateau() {
         "clip,filter.width,turns.persistence,union,genga,kept,mean_move,largest_move\n"
     ));
     assert!(numbers(&table, "kept").iter().all(|kept| (0.0..=1.0).contains(kept)));
-    // A koma is a frame in this clip: no key that moved further is the same.
+    // A koma is a frame in this clip, and a key that moved further counts as another.
     assert!(numbers(&table, "largest_move").iter().all(|frames| *frames <= 1.0));
     let lines: Vec<&str> = said.lines().collect();
     assert_eq!((lines.len(), lines[3]), (4, "files       h.svg"), "{said}");
     assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");
-    // The recipe's own 0.15 s are 3.6 frames here, so the cell of 4 and 2.
+    // The recipe's own 0.15 s are 3.6 frames here, so the nearest cell is 4 and 2.
     assert!(
         lines[1].contains("filter.width 1 to 2, ") && lines[1].ends_with("stand beside it"),
         "{said}"
@@ -215,20 +215,20 @@ fn stability_compares_cells_and_names_the_plateau() {
     {
         assert!(heat.contains(words), "{words}");
     }
-    // What is compared is drawn.
+    // The compared measure is drawn.
     assert!(heat.contains("Genga"));
-    // A move in the mean is no longer than the longest.
+    // The mean move is no longer than the longest.
     let moves = numbers(&table, "mean_move").into_iter().zip(numbers(&table, "largest_move"));
     assert!(moves.clone().all(|(mean, most)| mean <= most && (mean > 0.0) == (most > 0.0)));
     assert!(numbers(&table, "kept").iter().any(|kept| *kept < 1.0));
-    // No way at all is allowed, so no key has gone any.
+    // With a tolerance of 0 no key may have moved.
     let exact = place.done(&format!("{args} --stability --tolerance 0 -q"));
     assert!(numbers(&exact, "largest_move").iter().all(|frames| *frames == 0.0));
-    // Without it nothing is said, and the keys are the same.
+    // Without --stability nothing is printed, and the keys are the same.
     let plain = place.genga(args);
     assert_eq!(text(&plain.stderr), "");
     assert_eq!(numbers(&text(&plain.stdout), "genga"), numbers(&table, "genga"));
-    // The region that is named has one number of keys.
+    // The named region has a constant number of keys.
     let (columns, rows) =
         lines[1].split_once("filter.width ").unwrap().1.split_once(", turns.persistence ").unwrap();
     let ends = |text: &str| -> (f64, f64) {
@@ -244,7 +244,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     let held: Vec<f64> = cells
         .zip(numbers(&table, "genga"))
         .filter(|((x, y), keys)| {
-            // The ends of rests may be no drawings.
+            // The ends of rests need not be drawings.
             let is_named = (left..=right).contains(x) && (low..=high).contains(y);
             is_named && (count..=count + 2.0).contains(keys)
         })
@@ -264,7 +264,7 @@ fn plateaus_are_named_of_each_clip_and_of_all() {
     let begins: Vec<&str> =
         said.lines().skip(1).map(|line| line.split(':').next().unwrap()).collect();
     assert_eq!(begins, ["kick", "kick", "pitch", "pitch", "all clips", "all clips"], "{said}");
-    // That of a clip is what it is alone; that of all has the keys of both.
+    // A clip's lines are the same as for it alone; the line of all covers the keys of both.
     let alone = text(&place.genga(&format!("study data/pitch.bvh {axis}")).stderr);
     let lines = |said: &str, from: usize| -> Vec<String> {
         said.lines().skip(from).take(2).map(str::to_owned).collect()
@@ -294,7 +294,7 @@ fn what_is_asked_wrongly_is_said_before_any_work() {
         ("--plot s.jpg", "--plot: a picture is .svg, .pdf or .png"),
         ("--heat s.gif", "--heat: a picture is .svg, .pdf or .png"),
     ] {
-        // A clip that is not there would be what is said, were it looked at first.
+        // If the clip were read first, the message would be about the missing clip.
         let said = place.refused(2, &format!("study none.bvh -o s.csv {args}"));
         assert!(said.contains(says), "{args}: {said}");
         assert!(!place.path("s.csv").exists(), "{args}");

@@ -9,7 +9,7 @@ use genga::target::{Met, Target, meet};
 
 use crate::clips;
 
-/// Every real clip, and those of `data/` where there are no others.
+/// Passes every real clip and some of `data/`, so that there are clips in any case.
 fn each(look: impl Fn(&str, &mut Engine)) {
     let mut paths = clips::all();
     paths.extend(["kick", "pitch"].map(|name| clips::here(&format!("data/{name}.bvh"))));
@@ -22,14 +22,14 @@ fn met(engine: &mut Engine, targets: &[Target]) -> Met {
     meet(engine, &Recipe::default(), &Edits::default(), targets).unwrap()
 }
 
-/// The default but for the koma that drawings stay: on ones keys may stand a koma apart.
+/// The default recipe with other exposures: on ones, keys may be a koma apart.
 fn on(koma: &str) -> Recipe {
     let mut recipe = Recipe::default();
     recipe.set("spacing.on", koma).unwrap();
     recipe
 }
 
-/// Genga with both ends and drawings on the sheet of a recipe, and its seconds.
+/// Number of genga with both ends, number of drawings on the sheet, and its seconds.
 fn figures(engine: &mut Engine, recipe: &Recipe) -> (usize, usize, f64) {
     let breakdown = engine.run(recipe, &Edits::default()).unwrap();
     let layer = &breakdown.sheet.layers[0];
@@ -131,7 +131,7 @@ fn genga_go_before_anything_that_moves_is_held_for_eight_koma() {
             let met = met(engine, &[Target::DrawingsPerSecond(rate)]);
             let breakdown = engine.run(&met.recipe, &Edits::default()).unwrap();
             let layer = &breakdown.sheet.layers[0];
-            let reference = Reference::of(breakdown.clip, breakdown.clock);
+            let reference = Reference::new(breakdown.clip, breakdown.clock);
             let moving = |(begin, shown): (usize, Exposure)| {
                 let place = layer.drawings[shown.drawing].source.place();
                 let own = breakdown.clock.koma_from_place(place).min(reference.koma() - 1);

@@ -1,4 +1,4 @@
-//! Sheets for programs and for paper as the program writes them, and keys that a person marked there.
+//! Sheets for programs and for paper as written by the program, and keys that a person marked on them.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ fn kick() -> String {
     here("data/kick.bvh").to_string_lossy().into_owned()
 }
 
-/// A folder with what `run` delivers of the kick.
+/// A folder with the files that `run` delivers for the kick.
 fn delivered(more: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let kick = kick();
@@ -53,7 +53,7 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
         let output = genga(folder.path(), &[&["keys", &kick], more].concat());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let table = String::from_utf8(output.stdout).unwrap();
-        // Column, koma and source frame.
+        // Column, koma and source frame of a row.
         let number = |row: &csv::StringRecord, at: usize| row[at].parse::<usize>().unwrap();
         let row = |row: csv::StringRecord| (row[1].to_owned(), number(&row, 6), number(&row, 9));
         let mut reader = csv::Reader::from_reader(table.as_bytes());
@@ -63,7 +63,7 @@ fn keys_marked_on_a_sheet_come_back_as_pins() {
     let (own, ..) = keys(&[]);
     for file in ["out/kick_genga_ts.xdts", "out/kick_douga_ts.xdts"] {
         let (back, table, said) = keys(&[&["--pin-from", file], &alone[..]].concat());
-        // A found key may come before its own koma, of which the sheet does not say.
+        // A found key may be drawn before its own koma, which the sheet does not record.
         let is_same = |(a, b): (&(String, usize, usize), &(String, usize, usize))| {
             a.0 == b.0 && a.1.abs_diff(b.1) <= 2 && a.2.abs_diff(b.2) <= 8
         };
@@ -135,7 +135,8 @@ fn a_timesheet_that_was_edited_lays_its_timing_on_the_motion() {
     for file in ["limited.bvh", "sheet.csv", "keys.csv"] {
         assert_eq!(text(&format!("same/{file}")), text(&format!("out/{file}")), "{file}");
     }
-    // As from a program: one line, the members in another order, drawing 3 left out, drawing 5 once more on koma 88.
+    // As another program writes it: on one line, members in another order, without drawing 3, and with drawing 5 again
+    // on koma 88.
     let (signature, json) = text("out/kick_douga_ts.xdts")
         .split_once('\n')
         .map(|(a, b)| (a.to_owned(), b.to_owned()))
@@ -160,7 +161,7 @@ fn a_timesheet_that_was_edited_lays_its_timing_on_the_motion() {
         expected[87..].iter().position(|drawing| *drawing != expected[87]).map_or(92, |at| 87 + at);
     expected[87..end].fill(5);
     assert_eq!(drawings("back/sheet.csv"), expected);
-    // The pose of each koma is that of its drawing in the file of the whole run.
+    // The pose of each koma is that of its drawing in the whole run's file.
     let rows = |file: &str| -> Vec<String> {
         text(file)
             .lines()
@@ -175,7 +176,7 @@ fn a_timesheet_that_was_edited_lays_its_timing_on_the_motion() {
     for (koma, drawing) in expected.iter().enumerate() {
         assert_eq!(after[koma], before[first(*drawing)], "koma {koma}");
     }
-    // In a cut folder the sheet of the run stands two folders above.
+    // From a cut folder, the run's sheet is two folders above.
     deliver("out/kick/douga/kick_douga_ts.xdts", "cut", &[]);
     let said = refused(folder.path(), &["deliver", "edited.xdts", &kick, "--to", "bvh"]);
     assert!(said.contains("no sheet.json is beside it") && said.contains("--drawings"), "{said}");

@@ -1,16 +1,16 @@
-//! The smallest clips with any recipe: a clear error or a sensible sheet, never a panic.
+//! The smallest clips with any recipe give a clear error or a sensible sheet, never a panic.
 
 use crate::cases::cases;
-use genga::deliver::{self, Drawings, Report, Rows};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin};
 use genga::motion::{Axis, Channel, Clip, EndSite, Joint, JointId, Skeleton};
 use genga::pipeline::Budget;
 use genga::pipeline::{Breakdown, Engine};
-use genga::plot::{PoseRow, SheetPlot, SpeedPlot, XSheet};
 use genga::recipe::{KNOBS, Kind, Recipe};
 use genga::sheet::Role;
-use genga::study::{Measure, Study};
 use genga::time::{Frame, FrameRate, Span};
+use genga_files::{Drawings, Report, Rows};
+use genga_lab::study::{Measure, Study};
+use genga_plot::{PoseRow, SheetPlot, SpeedPlot, XSheet};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -80,7 +80,7 @@ fn any_setting() -> impl Strategy<Value = (String, String)> {
     })
 }
 
-/// The recipe of these settings; what is refused is left as it was.
+/// The recipe with these settings; refused values are skipped.
 fn recipe(settings: &[(String, String)]) -> Recipe {
     let mut recipe = Recipe::default();
     for (name, value) in settings {
@@ -109,21 +109,21 @@ fn is_sensible(breakdown: &Breakdown, recipe: &Recipe) {
     }
 }
 
-/// Everything that is handed over or shown.
+/// Writes and draws every output.
 fn hand_over(breakdown: &Breakdown) {
     let Breakdown { clip, spaced, sheet, speed, filtered, turns, .. } = *breakdown;
     for rows in [Rows::All, Rows::Keys] {
         Drawings { cut: "tiny".into(), rows }.write(clip, sheet).unwrap();
     }
-    deliver::sheet_csv(sheet).unwrap();
-    deliver::remap_csv(sheet).unwrap();
-    deliver::turns_csv(clip.skeleton(), filtered, turns).unwrap();
-    deliver::xdts::Xdts::default().write(sheet, "tiny").unwrap();
-    deliver::xsheet(&XSheet::default(), "tiny", clip, sheet).unwrap();
-    let limited = deliver::limited_bvh(clip, sheet).unwrap();
+    genga_files::sheet_csv(sheet).unwrap();
+    genga_files::remap_csv(sheet).unwrap();
+    genga_files::turns_csv(clip.skeleton(), filtered, turns).unwrap();
+    genga_files::xdts::Xdts::default().write(sheet, "tiny").unwrap();
+    genga_files::xsheet(&XSheet::default(), "tiny", clip, sheet).unwrap();
+    let limited = genga_files::limited_bvh(clip, sheet).unwrap();
     let read = genga::motion::bvh::read(limited.as_bytes()).unwrap();
     assert_eq!(read.clip.len(), sheet.length());
-    let report = Report::of(breakdown, vec![]);
+    let report = Report::new(breakdown, vec![]);
     assert!(report.genga_per_second.is_finite() && report.drawings_per_second.is_finite());
     let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
     let keys: Vec<Frame> = breakdown.first_layer().keys.keys.iter().map(|key| key.frame).collect();

@@ -131,10 +131,10 @@ def check_refusals():
     thing = take()
     played = thing.animation_data.action
     refused("seems to be another take", lambda: apply(OTHER))
-    refused("source frame 0 is said to lie on 5", lambda: apply(first_frame=5))
+    refused("source frame 0 is set to 5", lambda: apply(first_frame=5))
     assert thing.animation_data.action is played and len(bpy.data.actions) == 1, "nothing was done"
     assert apply(OTHER, anyway=True) == {"FINISHED"}
-    refused("is on a sheet already", apply)
+    refused("is already stepped", apply)
     thing.animation_data.action = None
     refused("has no action", apply)
     thing.animation_data_clear()

@@ -122,7 +122,7 @@ class Poses(unittest.TestCase):
     def test_what_is_no_pose_is_refused(self):
         flat = np.eye(3)[None, None].copy()
         flat[0, 0, :, 1] = 0.0
-        with self.assertRaisesRegex(refused.Refused, "scaled to nothing"):
+        with self.assertRaisesRegex(refused.Refused, "scaled to zero"):
             motion.turns(flat)
         with self.assertRaisesRegex(refused.Refused, "no numbers"):
             motion.turns(flat * np.nan)

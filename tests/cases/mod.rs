@@ -1,5 +1,7 @@
 //! How many cases a heavy property test takes.
 
+#![allow(dead_code, reason = "no test program needs all of it")]
+
 /// Whether all cases are to be tried.
 pub(crate) fn is_full() -> bool {
     std::env::var("GENGA_CASES").is_ok_and(|word| word == "all")

@@ -11,7 +11,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::thread;
 
-/// The clips that `docs/evidence.md` describes. Other files of the folder are not looked at.
+/// The clips that `docs/lab/evidence.md` describes. Other files of the folder are not looked at.
 pub(crate) const NAMES: [&str; 15] = [
     "cmu-01_06-playground-long",
     "cmu-02_04-jump-balance",
@@ -30,10 +30,17 @@ pub(crate) const NAMES: [&str; 15] = [
     "threejs-pirouette",
 ];
 
+/// The root of the repository, whichever of its packages has these tests.
+pub(crate) fn repository() -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let is_root = |folder: &&Path| folder.join("data/kick.bvh").is_file();
+    package.ancestors().find(is_root).expect("a package lies in the repository").to_owned()
+}
+
 /// The folder of the clips: `GENGA_CLIPS`, or `../shared/data/bvh` beside the repository.
 pub(crate) fn folder() -> PathBuf {
     let Some(named) = env::var_os("GENGA_CLIPS") else {
-        return Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/bvh");
+        return repository().join("../shared/data/bvh");
     };
     let folder = PathBuf::from(named);
     assert!(folder.is_dir(), "GENGA_CLIPS names {}, which is no folder", folder.display());

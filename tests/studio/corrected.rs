@@ -1,12 +1,12 @@
-//! Keys by hand: on the keyboard, on the sheet, over the curves.
+//! Corrections of keys: by the keyboard, on the sheet, over the curves.
 
 use egui::{Key, Modifiers, pos2};
 use egui_kittest::kittest::Queryable;
 use genga::time::Frame;
 
-use crate::table::Table;
+use crate::harness::Table;
 
-/// The height of a koma on the sheet.
+/// Height of a koma on the sheet in points.
 const ROW: f32 = 17.0;
 
 impl Table {
@@ -25,7 +25,7 @@ fn a_key_is_set_and_taken_back_on_the_keyboard() {
     table.go(43);
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.pins(), [42], "koma 43 shows frame 42");
-    table.harness.get_by_label("Take back: locked 42");
+    table.harness.get_by_label("Remove: pinned 42");
     table.tap(Modifiers::NONE, Key::K);
     assert!(table.edits().is_empty());
     table.tap(Modifiers::COMMAND, Key::Z);
@@ -46,7 +46,7 @@ fn a_found_key_is_locked_moved_and_forbidden_on_the_keyboard() {
     assert!(table.edits().is_empty(), "it is where it was");
     table.tap(Modifiers::NONE, Key::K);
     assert_eq!(table.edits().forbidden.len(), 1);
-    table.harness.get_by_label_contains("Take back: no genga").click();
+    table.harness.get_by_label_contains("Remove: no genga").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }
@@ -148,7 +148,7 @@ fn a_hold_is_made_longer_and_shorter_by_its_end_in_one_step() {
     let mut table = Table::with_kick();
     let sheet = table.canvas("Timesheet");
     let line = |koma: usize| pos2(sheet.min.x + 92.0, sheet.min.y + ROW * koma as f32);
-    // The first drawing is on screen for ten koma, and inbetweens follow.
+    // The first drawing stays for ten koma; inbetweens follow.
     table.drag(line(10), line(7));
     let holds = |table: &Table| -> Vec<(usize, usize)> {
         table.edits().holds.iter().map(|hold| (hold.frame.0, hold.koma)).collect()
@@ -158,7 +158,7 @@ fn a_hold_is_made_longer_and_shorter_by_its_end_in_one_step() {
     assert_eq!(holds(&table), [(0, 2)]);
     table.tap(Modifiers::COMMAND, Key::Z);
     assert_eq!(holds(&table), [(0, 7)], "a drag is one step");
-    table.harness.get_by_label("Back to the hold that was found").click();
+    table.harness.get_by_label("Reset the hold").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }
@@ -174,7 +174,7 @@ fn a_hold_is_set_on_the_keyboard_and_survives_another_recipe() {
     table.harness.get_by_label("On threes").click();
     table.harness.run();
     table.harness.get_by_label("held 0: 11 koma");
-    table.harness.get_by_label("Take back: held 0: 11 koma").click();
+    table.harness.get_by_label("Remove: held 0: 11 koma").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }
@@ -191,7 +191,7 @@ fn an_inbetween_is_pulled_towards_its_genga() {
     let curves = table.canvas("Speed curves");
     let (left, right) = (curves.min.x + 52.0, curves.max.x - 12.0);
     let at = |place: f64| pos2(left + (right - left) * (place / 91.0) as f32, curves.min.y + 25.0);
-    // The last inbetween before the first genga, on frame 15: koma 13 of 15, drawn towards it by 0.3.
+    // The last inbetween before the first genga at frame 15 stands on koma 13 of 15, pulled towards it by 0.3.
     let place = 15.0 - 2.0 * (1.0 - own);
     table.drag(at(place), at(14.2));
     let [pin] = &table.edits().pins[..] else { panic!("{:?}", table.edits()) };

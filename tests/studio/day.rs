@@ -1,6 +1,6 @@
-//! A day's work on one take: a minute of motion in two columns, with a sound and a reference sequence, loaded, tuned,
-//! pinned, held, spoken, exported and opened again. Each of ten steps leaves a picture to look at, in
-//! `target/tmp/day`; `tests/others/studio/day` makes them alone.
+//! A day's work on one take: a minute of motion in two columns, with a sound and a reference sequence. It is loaded,
+//! tuned, pinned, held, spoken, exported and opened again. Each of ten steps leaves a picture in `target/tmp/day`;
+//! `tests/others/studio/day` makes only these.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,29 +8,29 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers, Theme};
 use egui_kittest::kittest::Queryable;
-use genga::deliver::{sheet_json, xdts};
 use genga::sheet::SpokenLine;
-use genga::studio::Language;
+use genga_files::{sheet_json, xdts};
+use genga_studio::Language;
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg;
 
-use crate::beside::beats;
+use crate::footage::beats;
+use crate::harness::{Table, sample};
 use crate::pictures::pixmap;
 use crate::real;
-use crate::table::{Table, sample};
 
 const SECONDS: usize = 60;
-/// Pictures a second of the reference, which are not those of the sheet.
+/// Pictures per second of the reference, on purpose not the rate of the sheet.
 const FPS: usize = 12;
 
-/// The clips that are joined: captured ones where they are, else a sample again and again.
+/// The clips to join: captured ones if available, else one sample repeated.
 fn clips() -> Vec<PathBuf> {
     let mut clips = vec![sample("pitch.bvh"); 60];
     real::with(["cmu-01_06-playground-long", "cmu-02_07-swordplay"], |real| clips = real.to_vec());
     clips
 }
 
-/// A BVH in its parts: all before the motion, the rate, and the rows.
+/// Splits a BVH into the text before the motion, the rate, and the rows.
 fn parts(clip: &Path) -> (String, f64, Vec<Vec<f64>>) {
     let text = String::from_utf8_lossy(&fs::read(clip).unwrap()).into_owned();
     let (head, motion) = text.split_once("MOTION").unwrap();
@@ -44,7 +44,7 @@ fn parts(clip: &Path) -> (String, f64, Vec<Vec<f64>>) {
     (head.to_owned(), (1.0 / time).round(), rows)
 }
 
-/// A minute of clips of one skeleton, one after the other: each begins where the one before it ended.
+/// Writes a minute of clips of one skeleton, each beginning where the previous one ended.
 fn minute(clip: &Path) {
     let (head, rate, mut joined) = parts(&clips()[0]);
     let count = SECONDS * rate as usize;
@@ -67,7 +67,7 @@ fn minute(clip: &Path) {
     fs::write(clip, text).unwrap();
 }
 
-/// A reference sequence: a ball goes round once a second over a bar that fills in a minute.
+/// Writes a reference sequence: a ball circles once a second above a bar that fills within a minute.
 fn reference(folder: &Path) -> PathBuf {
     fs::create_dir_all(folder).unwrap();
     for at in 0..SECONDS * FPS {
@@ -89,13 +89,13 @@ fn reference(folder: &Path) -> PathBuf {
     folder.join("take_0001.png")
 }
 
-/// Where the pictures are put.
+/// Path of a picture to look at.
 fn shown(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("day").join(name)
 }
 
 impl Table {
-    /// Leaves a picture of the window.
+    /// Saves a picture of the window.
     fn leave(&mut self, name: &str) {
         self.look();
         let picture = pixmap(&self.picture());
@@ -103,7 +103,7 @@ impl Table {
     }
 }
 
-/// The first page of an X-sheet as a picture.
+/// Renders the first page of an X-sheet as a picture.
 fn page(svg: &Path, name: &str) {
     let mut options = usvg::Options::default();
     options.fontdb_mut().load_system_fonts();
@@ -129,7 +129,7 @@ fn a_minute_is_worked_on_from_loading_to_reopening() {
     let sound = place.path().join("minute.wav");
     beats(&sound, SECONDS as u32);
 
-    // Loaded, in Japanese letters too.
+    // Load, with Japanese labels too.
     let mut table = Table::with(&clip, Arc::default(), Language::Japanese, Theme::Light);
     table.tap(Modifiers::NONE, Key::J);
     table.leave("01-loaded.png");
@@ -210,7 +210,7 @@ fn a_minute_is_worked_on_from_loading_to_reopening() {
     again.go(31);
     again.leave("10-reopened.png");
 
-    // What was exported, read again.
+    // Read the exported files again.
     let out = place.path().join("minute-genga");
     let sheet = sheet_json::read(&fs::read(out.join("sheet.json")).unwrap()).unwrap().sheet;
     let [genga, douga] = ["genga", "douga"].map(|side| {

@@ -1,39 +1,39 @@
-//! Files in memory.
+//! A desk with files in memory.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, Weak};
 
-use genga::cli::Disk;
 use genga::edits::Edits;
-use genga::studio::{Desk, Export, Exported, Opened, Pictures, Playing, Waveform};
+use genga_cli::Disk;
+use genga_studio::{Export, Exported, Host, Opened, Pictures, Playing, Waveform};
 
-/// Reads clips from the disk, and has all other files in memory.
+/// Reads clips from the disk, and keeps all other files in memory.
 #[derive(Default)]
 pub(crate) struct Memory {
     pub(crate) files: Mutex<BTreeMap<PathBuf, String>>,
-    /// What every write says instead of writing.
+    /// Whether every write fails as on a full disk.
     pub(crate) is_full: Mutex<bool>,
-    /// An export waits for it.
+    /// Lock that holds up an export.
     pub(crate) is_writing: Mutex<()>,
-    /// The corrections of what was written.
+    /// Corrections of the exports so far.
     pub(crate) exported: Mutex<Vec<Edits>>,
-    /// What is chosen in the next dialog.
+    /// The file chosen in the next dialog.
     pub(crate) chosen: Mutex<Option<PathBuf>>,
-    /// The clips that were opened, the newest first.
+    /// The clips opened so far, newest first.
     pub(crate) opened: Mutex<Vec<PathBuf>>,
-    /// What was noted, by its name.
+    /// Notes by their names.
     pub(crate) notes: Mutex<BTreeMap<String, String>>,
-    /// Sounds that were played: which, from which second on, and whether it is heard still.
+    /// Sounds played so far: the file, the second it began at, and whether it still plays.
     pub(crate) played: Mutex<Vec<(PathBuf, f64, Weak<()>)>>,
-    /// What is said instead of playing.
+    /// Whether playing fails as on a machine without sound.
     pub(crate) is_silent: Mutex<bool>,
-    /// A picture waits for it.
+    /// Lock that holds up the reading of a picture.
     pub(crate) is_reading: Mutex<()>,
     disk: Disk,
 }
 
-/// A sound that nobody hears.
+/// A sound being played, silently.
 struct Heard(#[allow(dead_code, reason = "it is there for as long as it is played")] Arc<()>);
 
 impl Playing for Heard {
@@ -43,13 +43,13 @@ impl Playing for Heard {
 }
 
 impl Memory {
-    /// The text of a file; none where there is none.
+    /// Returns the text of a file. `None` if the file does not exist.
     pub(crate) fn text(&self, path: &Path) -> Option<String> {
         self.files.lock().unwrap().get(path).cloned()
     }
 }
 
-impl Desk for Memory {
+impl Host for Memory {
     fn open(&self, clip: &Path) -> Result<Opened, String> {
         self.disk.open(clip)
     }
@@ -78,8 +78,8 @@ impl Desk for Memory {
         tell: &dyn Fn(&str),
     ) -> Result<Exported, String> {
         drop(self.is_writing.lock().unwrap());
-        if folder == crate::table::sample("kick-genga") {
-            // Nothing is written beside the samples.
+        if folder == crate::harness::sample("kick-genga") {
+            // No files are written beside the samples.
             self.exported.lock().unwrap().push(export.edits.clone());
             return Ok(vec![].into());
         }
@@ -148,7 +148,7 @@ impl Desk for Memory {
 }
 
 impl Memory {
-    /// Puts a file there.
+    /// Writes a file.
     pub(crate) fn write_text(&self, path: &Path, text: &str) {
         self.files.lock().unwrap().insert(path.to_owned(), text.to_owned());
     }

@@ -1,4 +1,4 @@
-//! The keyboard alone: every act of the studio without a mouse, and which control has the keyboard can be seen.
+//! The keyboard alone: every action works without a mouse, and the focused control is visible.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -7,29 +7,29 @@ use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers, Theme};
 use egui_kittest::kittest::{NodeT, Queryable};
 use genga::recipe::Recipe;
-use genga::studio::Language;
+use genga_studio::Language;
 
-use crate::table::{Table, sample};
+use crate::harness::{Table, sample};
 
 impl Table {
     fn strike(&mut self, key: Key) {
         self.tap(Modifiers::NONE, key);
     }
 
-    /// Enters a name, and waits for what it is of.
+    /// Enters a name, and waits until its file is opened.
     fn enter(&mut self) {
         self.harness.key_press(Key::Enter);
         (0..2).for_each(|_| self.harness.step());
         self.wait();
     }
 
-    /// The name of the control that has the keyboard; none where none has it.
+    /// Name of the focused control. `None` if there is none.
     fn focused(&self) -> Option<String> {
         let mut own = self.harness.query_all_by(|node| node.is_focused());
         own.find_map(|node| node.accesskit_node().label())
     }
 
-    /// Goes from control to control until one of that name has the keyboard.
+    /// Presses Tab until a control with this name is focused.
     fn walk_to(&mut self, name: &str) {
         for _ in 0..400 {
             self.strike(Key::Tab);
@@ -40,7 +40,7 @@ impl Table {
         panic!("{name} is not reached");
     }
 
-    /// The part of the window that begins with a control of that name.
+    /// Presses F6 until the part that begins with this control is focused.
     fn part(&mut self, name: &str) {
         for _ in 0..9 {
             self.strike(Key::F6);
@@ -61,7 +61,7 @@ impl Table {
         text.split(' ').next().unwrap().parse().unwrap()
     }
 
-    /// What is drawn, as a number that is another when anything is.
+    /// All points of the drawing, which differ if anything drawn differs.
     fn drawing(&self) -> Vec<egui::Pos2> {
         let mut points = Vec::new();
         for clipped in &self.harness.output().shapes {
@@ -127,7 +127,7 @@ fn a_control_that_gets_the_keyboard_is_scrolled_into_view() {
         table.strike(Key::Space);
     }
     table.walk_to("omission.keep_length");
-    // Scrolling takes some frames.
+    // Scrolling takes a few frames.
     (0..8).for_each(|_| table.harness.step());
     let own = table.harness.get_by_role_and_label(Role::CheckBox, "omission.keep_length").rect();
     assert!(table.harness.ctx.content_rect().contains_rect(own), "{own}");
@@ -317,7 +317,7 @@ fn a_key_is_named_weighted_held_and_forbidden() {
     table.walk_to("Own spacing weight");
     table.strike(Key::Space);
     assert!(table.edits().pins[0].weight.is_some());
-    table.walk_to("Take back: locked");
+    table.walk_to("Remove: pinned");
     table.strike(Key::Space);
     assert!(table.edits().is_empty());
     table.walk_to("No genga here");

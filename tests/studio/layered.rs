@@ -1,12 +1,12 @@
-//! Several columns: each with its own genga, its own pins, and one composite of them all.
+//! Several columns: each has its own genga and pins, and one composite shows them all.
 
 use egui::{Key, Modifiers, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use crate::table::Table;
+use crate::harness::Table;
 
 impl Table {
-    /// A kick in five columns.
+    /// Opens a kick in five columns.
     fn with_limbs() -> Self {
         let mut table = Self::with_kick();
         table.harness.state_mut().turn("layers", "limbs").unwrap();
@@ -14,7 +14,7 @@ impl Table {
         table
     }
 
-    /// The column that is worked on, as the screen reader hears it.
+    /// Name of the selected column, as the screen reader gets it.
     fn column(&self) -> String {
         let sheet = self.harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Timesheet");
         sheet.accesskit_node().value().unwrap().split(' ').next().unwrap().to_owned()
@@ -40,7 +40,7 @@ fn every_column_stands_on_the_sheet_and_has_pins_of_its_own() {
     table.tap(Modifiers::NONE, Key::K);
     assert!(table.edits().layers.keys().eq(["C"]), "{:?}", table.edits());
     assert!(table.edits().pins.is_empty() && table.edits().forbidden.is_empty(), "of no other");
-    table.harness.get_by_label_contains("Take back: C ").click();
+    table.harness.get_by_label_contains("Remove: C ").click();
     table.harness.run();
     assert!(table.edits().is_empty());
 }
@@ -67,7 +67,7 @@ fn a_genga_is_dragged_in_its_own_column() {
     table.harness.get_by_label("Column A").click();
     table.harness.run();
     let sheet = table.canvas("Timesheet");
-    // The middle of B is 34 points right of that of A.
+    // The middle of column B is 34 points to the right of that of A.
     let row = |koma: usize| sheet.min + vec2(126.0, 17.0 * (koma as f32 + 0.5));
     table.drag(row(frame), row(frame + 2));
     let moves = &table.edits().layers["B"].moves;

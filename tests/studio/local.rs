@@ -1,15 +1,15 @@
-//! Local hands: frozen genga, a part found again, genga copied, two sheets of one take.
+//! Local corrections: frozen genga, genga found again in a part, copied genga, two sheets of one take.
 
 use std::sync::Arc;
 
 use egui::{Event, Key, Modifiers, OutputCommand, Theme};
 use egui_kittest::kittest::{NodeT, Queryable};
-use genga::studio::Language;
+use genga_studio::Language;
 
-use crate::table::{Table, sample};
+use crate::harness::{Table, sample};
 
 impl Table {
-    /// The koma of the genga, from 1, as steps of the play head find them.
+    /// The koma of the genga, from 1, found by stepping the play head.
     fn genga(&mut self) -> Vec<usize> {
         let koma = |table: &Table| -> usize {
             let head = table.harness.get_by_label("Play head").accesskit_node().value().unwrap();
@@ -32,7 +32,7 @@ impl Table {
     }
 }
 
-/// A knob that leaves fewer genga.
+/// A knob setting that leaves fewer genga.
 const FEWER: (&str, &str) = ("keys.min_price", "60");
 
 #[test]
@@ -60,7 +60,7 @@ fn a_part_is_found_again_and_the_rest_stays() {
     let mut table = Table::with_kick();
     let before = table.genga();
     table.tap(Modifiers::NONE, Key::Y);
-    table.harness.get_by_label_contains("Mark a part with I and O");
+    table.harness.get_by_label_contains("Mark a range with I and O");
     table.tap(Modifiers::NONE, Key::W);
     table.turn(FEWER.0, FEWER.1);
     table.go(30);
@@ -106,7 +106,7 @@ fn genga_are_copied_from_column_to_column_and_from_take_to_take() {
     assert!(other.edits().pins.iter().any(|pin| pin.frame.0 == 42), "{:?}", other.edits());
     other.harness.input_mut().events.push(Event::Paste("Dear Sir".into()));
     other.harness.run();
-    other.harness.get_by_label_contains("what was copied is no genga");
+    other.harness.get_by_label_contains("the clipboard has no genga");
 }
 
 #[test]

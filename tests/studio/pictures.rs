@@ -1,20 +1,20 @@
-//! What the studio looks like: pictures that are those of the documentation.
+//! Pictures of the studio, the same as in the documentation.
 //!
-//! `GENGA_PICTURES=write cargo test --features studio-tests --test studio` makes them again.
+//! `GENGA_PICTURES=write cargo test --features studio-tests --test studio` writes them anew.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Context, FontData, FontFamily, Key, Theme};
 use egui_kittest::kittest::Queryable;
-use genga::studio::Language;
+use genga_studio::Language;
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::fontdb;
 
-use crate::soft::Picture;
-use crate::table::{Table, sample};
+use crate::harness::{Table, sample};
+use crate::software_renderer::Picture;
 
-/// How far a channel may be off: another processor may round a circle otherwise.
+/// Tolerance of a colour channel. Other processors may round a circle differently.
 const OFF: u8 = 3;
 
 impl Table {
@@ -26,7 +26,7 @@ impl Table {
         let drawn = self.harness.ctx.tessellate(output.shapes.clone(), scale);
         let size = self.harness.ctx.content_rect().size();
         let size = (size.x.round() as usize, size.y.round() as usize);
-        Picture::of((size, scale), &drawn, &self.soft.0.borrow())
+        Picture::new((size, scale), &drawn, &self.soft.0.borrow())
     }
 
     fn press_all(&mut self, keys: &[Key]) {
@@ -35,7 +35,7 @@ impl Table {
     }
 }
 
-/// A picture as it is written.
+/// Converts a picture for writing.
 pub(crate) fn pixmap(picture: &Picture) -> Pixmap {
     let bytes: Vec<u8> = picture.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
     let (width, height) = (picture.width as u32, picture.height as u32);
@@ -44,11 +44,11 @@ pub(crate) fn pixmap(picture: &Picture) -> Pixmap {
     made
 }
 
-/// Compares a picture with the one of the documentation, or makes that again.
+/// Compares a picture with that of the documentation, or writes it anew.
 fn compare(name: &str, picture: &Picture) {
     let made = pixmap(picture);
     let (width, height) = (made.width(), made.height());
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
+    let folder = crate::real::repository().join("docs/pictures");
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("GENGA_PICTURES").is_some_and(|wish| wish == "write") {
         return made.save_png(&path).unwrap();

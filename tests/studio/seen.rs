@@ -1,12 +1,12 @@
-//! Play, step, loop, flip, look from a side.
+//! Playing, stepping, looping, flipping, and looking from a side.
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use crate::table::Table;
+use crate::harness::Table;
 
 impl Table {
-    /// The koma at the play head, from 1, as the screen reader hears it.
+    /// The koma at the play head, from 1, as the screen reader gets it.
     fn koma(&self) -> usize {
         let head = self.harness.get_by_label("Play head");
         let text = head.accesskit_node().value().unwrap();

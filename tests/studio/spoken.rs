@@ -8,11 +8,11 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Theme};
 use egui_kittest::Node;
 use egui_kittest::kittest::Queryable;
-use genga::deliver::xdts;
 use genga::edits::Speech;
-use genga::studio::Language;
+use genga_files::xdts;
+use genga_studio::Language;
 
-use crate::table::{Table, sample};
+use crate::harness::{Table, sample};
 
 impl Table {
     /// The middle of a koma, from 1, in the S column of the sheet.
@@ -21,7 +21,7 @@ impl Table {
         sheet.min + egui::vec2(60.0, 17.0 * (koma as f32 - 0.5))
     }
 
-    /// Draws a hand down the S column, and writes a line.
+    /// Drags down the S column, and writes a line.
     pub(crate) fn say(&mut self, from: usize, to: usize, speaker: &str, words: &str) {
         let (from, to) = (self.speech(from), self.speech(to));
         self.drag(from, to);
@@ -33,7 +33,7 @@ impl Table {
         self.harness.run();
     }
 
-    /// Types into a field in place of what is there.
+    /// Replaces the text of a field.
     pub(crate) fn write(&mut self, field: &str, text: &str) {
         self.field(field).focus();
         self.harness.run();
@@ -42,7 +42,7 @@ impl Table {
         self.harness.run();
     }
 
-    /// The field of a name, for words or for a number, and not what stands beside it.
+    /// The field of a name, for words or for a number, rather than the label beside it.
     pub(crate) fn field<'a>(&'a self, name: &'a str) -> Node<'a> {
         let words = self.harness.query_by_role_and_label(Role::TextInput, name);
         words.unwrap_or_else(|| self.harness.get_by_role_and_label(Role::SpinButton, name))
@@ -60,13 +60,13 @@ fn a_hand_down_the_s_column_marks_a_line_and_a_click_opens_it() {
     assert_eq!(table.lines(), ["4..10:Aki:Yah!"]);
     assert!(table.harness.query_by_label("Write the line").is_none());
     assert_eq!(table.edits().pins, [], "nothing else was touched");
-    // The one who spoke last is offered again.
+    // The last speaker is offered again.
     table.say(13, 14, "", "Ha");
     assert_eq!(table.lines(), ["4..10:Aki:Yah!", "12..14:Aki:Ha"]);
     let at = table.speech(7);
     table.harness.hover_at(at);
     table.harness.drag_at(at);
-    // A press that lasts is no click.
+    // A long press is no click.
     table.harness.step();
     table.harness.drop_at(at);
     table.harness.run();
@@ -101,7 +101,7 @@ fn the_keyboard_alone_writes_a_line_over_the_played_part_and_takes_it_out() {
     assert_eq!(table.lines(), ["2..8:Go"]);
     table.tap(Modifiers::NONE, Key::P);
     open(&mut table);
-    table.harness.get_by_label("Take the line out").click();
+    table.harness.get_by_label("Delete the line").click();
     table.harness.run();
     assert_eq!(table.lines(), [""; 0]);
     open(&mut table);
@@ -110,7 +110,7 @@ fn the_keyboard_alone_writes_a_line_over_the_played_part_and_takes_it_out() {
     assert!(table.harness.query_by_label("Write the line").is_none());
 }
 
-/// The lines of a timesheet that was written, as koma from 1 and the words.
+/// The spoken lines of an exported timesheet: koma from 1, and the words.
 pub(crate) fn lines_of(file: &Path) -> Vec<(usize, usize, String)> {
     let read = xdts::read(&std::fs::read(file).unwrap()).unwrap();
     read.lines.iter().map(|line| (line.begin + 1, line.past(), line.to_string())).collect()

@@ -1,4 +1,4 @@
-"""genga in Blender: finds the key drawings of an armature's take, and puts timesheets onto rigs."""
+"""genga in Blender: finds the key drawings of an armature's take, and applies timesheets to rigs."""
 
 import bpy
 from bpy.props import PointerProperty

@@ -1,4 +1,4 @@
-"""A sheet onto the rig: an action of its own with constant keys on the drawings. The take's action is not touched."""
+"""Applies a sheet to the rig: a separate action with constant keys. The take's action stays unchanged."""
 
 import math
 
@@ -9,12 +9,12 @@ from .legs import Legs
 from .take import BEGINS, OWNER, PLACES, SOURCE, STEPPED, show
 
 
-# Of a frame: rates that are written with few digits are not quite those that are meant.
+# Tolerance in frames, because rates are often written with few digits.
 SAME = 0.01
 
 
 class OnSheet:
-    """The action on a sheet: which it is, what stands where, and what it does not show of the sheet, in sentences."""
+    """The stepped action: the action, its exposures with their frames, and sentences about what it cannot show."""
 
     def __init__(self, action, exposures, frames, left_out):
         self.action = action
@@ -23,7 +23,7 @@ class OnSheet:
 
 
 def apply(thing, take, sampled, sheet, turns):
-    """Puts a sheet of what was sampled onto the rig, which then plays it. `turns` are those of legs that give way."""
+    """Applies a sheet of the sampled take to the rig and plays it. `turns` are the leg rotations for held feet."""
     action, slot = action_for(thing, take)
     target = ensure_curves(action, slot, take.channels())
     legs = Legs(thing, take.channels(), turns)
@@ -43,7 +43,7 @@ def apply(thing, take, sampled, sheet, turns):
 
 
 class Timing:
-    """On which frame of the scene a koma begins: the first that shows it."""
+    """Converts a koma to the first scene frame that shows it."""
 
     def __init__(self, sampled, fps):
         self.start, self.ratio = sampled.start, sampled.rate / fps
@@ -52,13 +52,13 @@ class Timing:
         return self.start + math.ceil(koma * self.ratio - SAME)
 
     def of(self, exposures):
-        """Exposures with their frames; of several on one frame, where the scene has fewer, the last."""
+        """Returns exposures with their frames. If several share a frame, keeps the last."""
         shown = {self.frame(exposure.koma): exposure for exposure in exposures}
         return list(shown.values()), list(shown)
 
 
 def source_of(thing, take, sampled, channels):
-    """Where the values come from: the take's own curves, or what was recorded of a mix."""
+    """Returns the source of the values: the take's curves, or the recorded values of an NLA mix."""
     if take.is_mixed:
         columns = [sampled.channels.index(channel) for channel in channels]
         return stepping.Source.of_rows(thing, channels, sampled.values[:, columns])
@@ -68,25 +68,25 @@ def source_of(thing, take, sampled, channels):
 
 
 def found(thing, take):
-    """The action on a sheet that an earlier run made of this take for this object, or nothing."""
+    """Returns the stepped action that an earlier run made of this take for this object, or None."""
     is_its = lambda action: action.get(OWNER) == thing.name and action.get(SOURCE) == take.action
     return next((action for action in bpy.data.actions if is_its(action)), None)
 
 
 def action_for(thing, take):
-    """The action on a sheet of a take, and its slot where Blender has slots. An action is for one object alone."""
+    """Returns the stepped action of a take, and its slot if Blender has slots. Each object has its own action."""
     action = found(thing, take) or bpy.data.actions.new(f"{take.name} koma")
     action[STEPPED], action[OWNER] = take.name, thing.name
     if take.action:
         action[SOURCE] = take.action
-        # It is saved though nothing plays it.
+        # Saves the take's action even though nothing plays it.
         if take.action.library is None:
             take.action.use_fake_user = True
     return action, slot_of(thing, take, action)
 
 
 def slot_of(thing, take, action):
-    """The slot of an action on a sheet that is the object's, made where it is missing; none before Blender 4.4."""
+    """Returns the object's slot in the stepped action, and creates it if missing. None before Blender 4.4."""
     if not hasattr(action, "slots"):
         return None
     name = take.slot.name_display if take.slot else thing.name
@@ -95,13 +95,13 @@ def slot_of(thing, take, action):
 
 
 def ensure_curves(action, slot, channels):
-    """A curve for each channel, those of an earlier run among them."""
+    """Returns a curve for each channel, and reuses those of an earlier run."""
     there = {(curve.data_path, curve.array_index): curve for curve in stepping.curves(action, slot)}
     return [there.get(channel) or stepping.new_curve(action, slot, channel, group) for channel, group in channels.items()]
 
 
 def note(action, start, exposures, frames):
-    """What the action has to know when the file is opened again, and its genga as markers of its own."""
+    """Stores in the action what is needed after reopening the file, and marks its genga with pose markers."""
     action[BEGINS] = [float(frame) for frame in frames]
     action[PLACES] = [start + exposure.place for exposure in exposures]
     markers = action.pose_markers
@@ -112,13 +112,13 @@ def note(action, start, exposures, frames):
 
 
 def numbered(exposures, frames):
-    """The numbers of the genga, as on the sheet, with their frames."""
+    """Returns the genga's numbers, as on the sheet, with their frames."""
     keys = [frame for exposure, frame in zip(exposures, frames) if exposure.is_key]
     return [(str(at), frame) for at, frame in enumerate(keys, 1)]
 
 
 def play(thing, action, slot):
-    """Lets the object play it, over whatever NLA tracks say."""
+    """Makes the object play the action in place of its NLA tracks."""
     animation = thing.animation_data
     show(thing, action, slot)
     animation.action_blend_type, animation.action_influence = "REPLACE", 1.0

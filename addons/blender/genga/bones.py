@@ -1,4 +1,4 @@
-"""Which bones are looked at: a list in which a person ticks those that are left out."""
+"""The list of bones, in which a person ticks those to leave out."""
 
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Operator, UIList
@@ -6,15 +6,15 @@ from bpy.types import Operator, UIList
 from . import rig, words
 from .turn import OfArmature
 
-LEFT_OUT = BoolProperty(name="Left Out", description="This bone is not looked at; it is keyed all the same")
+LEFT_OUT = BoolProperty(name="Left Out", description="Ignore this bone; it still gets keys")
 
 
 class GENGA_UL_bones(UIList):
-    """The bones of a rig, each with a box to tick; those that are left out anyway are pale."""
+    """The bones of a rig, each with a checkbox. Bones that other settings leave out are greyed out."""
 
     def draw_item(self, context, layout, _data, bone, _icon, _active, _name, _index=0, _flag=0):
         row = layout.row(align=True)
-        # A box stands before its bone.
+        # Shows the checkbox before the bone's name.
         row.use_property_split = False
         row.active = bone.name in self.staying(context.active_object)
         row.prop(bone, "genga_left_out", text="")
@@ -28,15 +28,15 @@ class GENGA_UL_bones(UIList):
 
 
 class GENGA_OT_tick(OfArmature, Operator):
-    """Tick bones in the list of those that are left out"""
+    """Tick bones to leave out"""
 
     bl_idname = "genga.tick"
     bl_label = "Tick"
 
     what: EnumProperty(
         items=(
-            ("SELECTED", "Selected", "The selected bones are left out too"),
-            ("NONE", "None", "No bone is left out by its tick"),
+            ("SELECTED", "Selected", "Also leave out the selected bones"),
+            ("NONE", "None", "Untick all bones"),
         ),
     )
 
@@ -51,13 +51,13 @@ class GENGA_OT_tick(OfArmature, Operator):
 
 
 def is_selected(context, bone):
-    """Whether a bone is selected; since Blender 5.0 its pose is."""
+    """Reports whether a bone is selected. Since Blender 5.0 the pose bone stores this."""
     posed = context.active_object.pose.bones[bone.name]
     return posed.select if hasattr(posed, "select") else bone.select
 
 
 def draw(layout, thing):
-    """The list, and what ticks many at once."""
+    """Draws the list, and buttons that tick several bones at once."""
     layout.template_list("GENGA_UL_bones", "", thing.data, "bones", thing.genga, "bone", rows=4)
     ticks = layout.column(align=True)
     for what, text in (("SELECTED", "Leave Out Selected"), ("NONE", "Leave Out None")):

@@ -1,4 +1,4 @@
-"""What was found, as files: timesheets and all else that genga writes, by its own code."""
+"""Exports the result as timesheets and other files, written by genga itself."""
 
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Operator
@@ -8,17 +8,17 @@ from .refused import Refused, Reported
 
 FORMATS = (
     ("xdts", "XDTS", "Timesheets for drawing programs"),
-    ("xsheet", "X-Sheet", "The timesheet on paper: HTML, and a page each as SVG"),
-    ("csv", "CSV", "Tables of the genga, of every drawing and of every koma"),
-    ("json", "Sheet", "The sheet itself, to edit by hand and deliver again"),
-    ("cut", "Cut Folder", "Both timesheets, and each column's pictures under the numbers of its cells"),
-    ("poses", "Poses", "Picture: the genga as poses in a row"),
+    ("xsheet", "X-Sheet", "The timesheet on paper: HTML, and each page as SVG"),
+    ("csv", "CSV", "Tables of genga, drawings and koma"),
+    ("json", "Sheet", "The sheet as JSON, which can be edited and read again"),
+    ("cut", "Cut Folder", "Both timesheets, and each column's pictures named by cel number"),
+    ("poses", "Poses", "Picture: the poses of the genga in a row"),
     ("flipbook", "Flip-Book", "A page to play and step through in any browser"),
 )
 
 
 class GENGA_OT_export(Reported, Operator):
-    """Write the timesheet that was found into a folder"""
+    """Write the timesheet into a folder"""
 
     bl_idname = "genga.export"
     bl_label = "Export Timesheet"
@@ -45,7 +45,7 @@ class GENGA_OT_export(Reported, Operator):
 
     def run(self, context):
         if not self.formats or not self.directory:
-            raise Refused("choose a folder, and a format at least")
+            raise Refused("choose a folder and at least one format")
         result = findings.of(context.active_object).result
         names = [name for name, *_ in FORMATS if name in self.formats]
         written = result.write(self.directory, *names)

@@ -1,4 +1,4 @@
-"""What genga writes, as far as Blender needs it. Knows nothing of Blender."""
+"""Reads those parts of genga's files that the add-on needs. Independent of Blender."""
 
 import json
 import struct
@@ -9,17 +9,17 @@ SHEET_SCHEMA = "genga-sheet-1"
 
 
 class NotAFile(Refused):
-    """The file is not what it should be."""
+    """The file has the wrong format."""
 
 
 class Exposure:
-    """A drawing and the koma on which it begins, from 0."""
+    """A drawing and its first koma, from 0."""
 
     def __init__(self, koma, drawing):
         self.koma = koma
         self.role = drawing.get("role", "")
         why = drawing.get("why", {})
-        # A rest, and an inbetween that stands for others too.
+        # A rest, or an inbetween that also replaces others.
         self.is_held = why.get("reason") == "rest" or (self.role == "inbetween" and why.get("held_for", 0) > 0)
         if "frame" in drawing:
             self.frame, self.between, self.share = float(drawing["frame"]), None, 0.0
@@ -30,7 +30,7 @@ class Exposure:
 
     @property
     def place(self):
-        """The source frame that it shows; of a blend the one that lies as far between its two."""
+        """The source frame shown. For a blend, the place between its two frames."""
         if self.between is None:
             return self.frame
         before, after = self.between
@@ -38,12 +38,12 @@ class Exposure:
 
     @property
     def is_key(self):
-        """Whether it is a genga, or an end: what has a number in a circle."""
+        """Whether it is a genga or an end, whose number is circled on the sheet."""
         return self.role != "inbetween"
 
 
 class Layer:
-    """A column of the sheet: which joints it draws, and its exposures in order."""
+    """A column of the sheet: its joints, and its exposures in order."""
 
     def __init__(self, layer):
         self.name = layer["name"]
@@ -58,11 +58,11 @@ class Layer:
 
 
 class Sheet:
-    """A sheet.json: its layers, how long it is in koma, and what it knows of the take that it was made of."""
+    """A sheet.json: its layers, its length in koma, and its take."""
 
     def __init__(self, sheet):
         if sheet["schema"] != SHEET_SCHEMA:
-            raise NotAFile(f"the sheet is {sheet['schema']}; this add-on reads {SHEET_SCHEMA}")
+            raise NotAFile(f"the sheet has schema {sheet['schema']}; this add-on reads {SHEET_SCHEMA}")
         clip = sheet["clip"]
         self.fps, self.source_fps = float(sheet["fps"]), float(clip["frame_rate"])
         self.take = str(clip["file"])
@@ -80,13 +80,13 @@ class Sheet:
             with open(path, encoding="utf-8-sig") as file:
                 return cls(json.load(file))
         except (ValueError, KeyError, IndexError, TypeError) as error:
-            raise NotAFile(f"{path} is no timesheet of genga: {error!r}") from error
+            raise NotAFile(f"{path} is not a genga timesheet: {error!r}") from error
 
     def of(self, name):
-        """The layers that are asked for: the one of that name, or all."""
+        """Returns the layer of that name, or all layers."""
         names = [layer.name for layer in self.layers]
         if name and name not in names:
-            raise NotAFile(f"no layer {name}; there are {', '.join(names)}")
+            raise NotAFile(f"no layer {name}; the sheet has {', '.join(names)}")
         return [layer for layer in self.layers if name in ("", layer.name)]
 
 
@@ -95,7 +95,7 @@ def is_number(value):
 
 
 def is_ours(extras):
-    """Whether the extras of an animation have all that the add-on looks at."""
+    """Reports whether an animation's extras have all fields that the add-on needs."""
     if not isinstance(extras, dict) or not isinstance(extras.get("keys"), list):
         return False
     has_rate = is_number(extras.get("fps")) and extras["fps"] > 0
@@ -105,17 +105,17 @@ def is_ours(extras):
 
 
 def glb_animations(path):
-    """Name → extras of every animation that genga wrote into a GLB."""
+    """Returns name and extras of each animation that genga wrote into a GLB."""
     try:
         with open(path, "rb") as file:
             magic, _, _, length, kind = struct.unpack("<4sII I4s", file.read(20))
             if (magic, kind) != (b"glTF", b"JSON"):
-                raise NotAFile(f"{path} is no GLB")
+                raise NotAFile(f"{path} is not a GLB file")
             document = json.loads(file.read(length))
         animations = document.get("animations", [])
         extras = {animation.get("name", ""): animation.get("extras") for animation in animations}
     except (ValueError, AttributeError, TypeError, struct.error) as error:
-        raise NotAFile(f"{path} is no GLB: {error}") from error
+        raise NotAFile(f"{path} is not a GLB file: {error}") from error
     ours = {name: extra for name, extra in extras.items() if is_ours(extra)}
     if not ours:
         raise NotAFile(f"{path} has no animation with genga's roles")

@@ -1,4 +1,4 @@
-"""Find Keys: samples the rig, lets genga find its keys, and puts them into an action of their own."""
+"""Find Keys: samples the rig, runs genga, and writes the keys into a separate action."""
 
 import time
 
@@ -10,12 +10,12 @@ from .run import Finding, Work
 from .sample import Sampling
 from .take import Take
 
-# How long Blender's window stands still at the most, and how often it is looked whether genga is done, in seconds.
+# Longest time that Blender's window is blocked, and interval at which genga's thread is polled, in seconds.
 SLICE, LOOK = 0.05, 0.02
 
 
 class GENGA_OT_find_keys(Reported, Operator):
-    """Find the key drawings of the armature's take, and put them onto constant keys in an action of their own. Esc ends it"""
+    """Find the key drawings of the armature's take, and write them as constant keys into a separate action. Esc cancels"""
 
     bl_idname = "genga.find_keys"
     bl_label = "Find Keys"
@@ -30,7 +30,7 @@ class GENGA_OT_find_keys(Reported, Operator):
         return True
 
     def run(self, context):
-        """All at once, for scripts."""
+        """Runs everything at once, for scripts."""
         sampling = Sampling(context, context.active_object.genga)
         for _ in sampling.steps():
             pass
@@ -42,7 +42,7 @@ class GENGA_OT_find_keys(Reported, Operator):
         return self.reported(lambda: self.begin(context))
 
     def begin(self, context):
-        """A part at a time, so that the window lives and Esc ends it."""
+        """Runs step by step, so that the window responds and Esc cancels."""
         self.sampling = Sampling(context, context.active_object.genga)
         self.steps, self.work = self.sampling.steps(), None
         manager = context.window_manager
@@ -64,7 +64,7 @@ class GENGA_OT_find_keys(Reported, Operator):
         return done
 
     def part(self, context):
-        """Some frames more; when all are there genga's work, and in the end its result."""
+        """Samples more frames. After the last one starts genga, and finally applies its result."""
         if self.work is None:
             until = time.perf_counter() + SLICE
             for row in self.steps:
@@ -78,7 +78,7 @@ class GENGA_OT_find_keys(Reported, Operator):
 
     def tell(self, context, row):
         context.window_manager.progress_update(row)
-        context.workspace.status_text_set(f"genga: frame {row + 1} of {len(self.sampling)}. Esc ends it")
+        context.workspace.status_text_set(f"genga: frame {row + 1} of {len(self.sampling)}. Esc cancels")
 
     def begin_work(self, context, sampling):
         sampled = sampling.sampled()
@@ -91,7 +91,7 @@ class GENGA_OT_find_keys(Reported, Operator):
         self.work.result()
         thing = context.scene.objects.get(self.owner)
         if thing is None:
-            raise Refused(f"{self.owner} is not there any more")
+            raise Refused(f"{self.owner} no longer exists")
         findings.FINDINGS[self.owner] = self.finding
         told, left_out = findings.put(context.scene, thing, Take(thing), self.finding)
         for sentence in left_out:
@@ -100,7 +100,7 @@ class GENGA_OT_find_keys(Reported, Operator):
         return {"FINISHED"}
 
     def end(self, context):
-        """Leaves Blender as it was but for the result."""
+        """Restores Blender's state, except for the result."""
         self.steps.close()
         context.window_manager.event_timer_remove(self.timer)
         context.window_manager.progress_end()

@@ -1,25 +1,25 @@
-"""Whether an action is the take that a sheet was made of, as far as both can tell. Knows nothing of Blender.
+"""Checks whether an action is the take that a sheet was made from. Independent of Blender.
 
-A sheet knows the names of the joints and the length of its take. Two takes of one length on one skeleton cannot be told
-apart by that.
+A sheet stores the joint names and the length of its take. Two takes with the same length and skeleton cannot be
+distinguished.
 """
 
 import re
 
-# More names than this are not listed.
+# Largest number of names listed in a message.
 MOST_NAMES = 5
 
 BONE = re.compile(r'pose\.bones\["((?:[^"\\]|\\.)*)"\]')
 
 
 def plain(name):
-    """A name as importers leave it alone: without what stands before a colon, a number behind, case and marks."""
+    """Normalises a name as importers change it: removes a namespace, a numeric suffix, case and punctuation."""
     name = re.sub(r"\.\d+$", "", name.rpartition(":")[2])
     return "".join(letter for letter in name.casefold() if letter.isalnum())
 
 
 def bone_of(path):
-    """The bone that a curve with this data path moves, or nothing."""
+    """Returns the bone that a data path animates, or None."""
     found = BONE.match(path)
     return re.sub(r"\\(.)", r"\1", found.group(1)) if found else None
 
@@ -30,10 +30,10 @@ def listed(names):
 
 
 def doubts(sheet, bones, keyed, first_frame, step):
-    """Why an action may be another take, in sentences.
+    """Returns sentences about why an action may be another take.
 
-    `bones` are the names of the rig's bones, `keyed` the first and the last frame with a key, `first_frame` where source
-    frame 0 is said to lie and `step` how many frames a source frame takes.
+    `bones` are the names of the rig's bones, `keyed` the first and the last frame with a key, `first_frame` the frame
+    of source frame 0, and `step` the number of frames per source frame.
     """
     there = {plain(bone) for bone in bones}
     missing = [joint for joint in sheet.joints if plain(joint) not in there]
@@ -43,35 +43,35 @@ def doubts(sheet, bones, keyed, first_frame, step):
     begin, end = keyed
     last = first_frame + (sheet.first + sheet.frames - 1) * step
     if abs(begin - first_frame) > 0.5:
-        found.append(f"the action begins on frame {begin:g}, but source frame 0 is said to lie on {first_frame:g}")
+        found.append(f"the action begins on frame {begin:g}, but source frame 0 is set to {first_frame:g}")
     if end < last - 0.5:
-        found.append(f"the action ends on frame {end:g}, but {sheet.take} goes on to {last:g}")
+        found.append(f"the action ends on frame {end:g}, but {sheet.take} lasts until {last:g}")
     if end > last + 0.5:
-        found.append(f"the action goes on to frame {end:g}, but {sheet.take} ends on {last:g} (or was trimmed there)")
+        found.append(f"the action lasts until frame {end:g}, but {sheet.take} ends on {last:g} (or was trimmed)")
     return found
 
 
 def can_hold(sheet):
-    """Whether a rig that plays the take can hold the feet as a sheet has them: where each drawing is one pose of the take."""
+    """Reports whether the rig can hold the sheet's feet: each drawing must be one pose of the take."""
     return sheet.feet_held and len(sheet.layers) == 1 and not sheet.root_on_ones and not sheet.exaggerated
 
 
 def left_out(sheet, holds=False):
-    """What a sheet has that the poses of an action do not show, in sentences. `holds`: feet are held where they can be."""
+    """Returns sentences about what an action cannot show of a sheet. `holds`: whether feet are held if possible."""
     found = []
     if sheet.exaggerated:
-        found.append("the sheet is of an exaggerated motion, the rig plays the plain one")
+        found.append("the sheet shows an exaggerated motion, but the rig plays the original")
     if sheet.root_on_ones:
-        found.append("the sheet has the root on ones, here it stays with its drawings")
+        found.append("the sheet has the root on ones, but here it moves with its drawings")
     if sheet.feet_held and not (holds and can_hold(sheet)):
-        found.append("the sheet holds the feet, here they stay with their drawings")
+        found.append("the sheet holds the feet, but here they move with their drawings")
     return [f"{sentence}; limited.bvh has it" for sentence in found]
 
 
 def by_layer(layers, joints, paths):
-    """For each layer the data paths of its own bones; then the bones that are in none.
+    """Returns the data paths of each layer's bones, and the bones that are in no layer.
 
-    These, and what belongs to no bone, go with the layer of the first joint, which carries the body.
+    Those bones, and paths without a bone, join the layer of the first joint, which carries the body.
     """
     if len(layers) == 1:
         return [list(paths)], []

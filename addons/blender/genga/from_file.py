@@ -1,4 +1,4 @@
-"""What a run of the program left in files: its timesheet onto an action, its stepped GLB with the roles of its keys."""
+"""Reads the program's files: applies a timesheet to an action, and imports a stepped GLB with key roles."""
 
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
@@ -11,24 +11,24 @@ from .take import STEPPED
 
 
 def set_scene(scene, fps, start, koma):
-    """The sheet's rate, and its length as the range that is played."""
+    """Sets the scene to the sheet's rate and length."""
     scene.render.fps = max(1, round(fps))
     scene.render.fps_base = scene.render.fps / fps
     scene.frame_start, scene.frame_end = start, start + koma - 1
 
 
 class Koma(Reported, ImportHelper):
-    """What both operators ask."""
+    """Options of both operators."""
 
     start: IntProperty(
         name="First Koma",
-        description="The frame of the sheet's first koma; at 1 frames are numbered as on paper",
+        description="Frame of the sheet's first koma; 1 numbers frames as on paper",
         default=1,
     )
 
 
 class GENGA_OT_apply_sheet(Operator, Koma):
-    """Keep only the poses on a genga timesheet, as constant keys in a copy of the active object's action"""
+    """Keep only the poses of a genga timesheet, as constant keys in a copy of the active object's action"""
 
     bl_idname = "genga.apply_sheet"
     bl_label = "Apply genga Timesheet"
@@ -38,21 +38,21 @@ class GENGA_OT_apply_sheet(Operator, Koma):
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
     first_frame: IntProperty(
         name="Source Frame 0",
-        description="The frame on which source frame 0 lies; Blender's BVH import puts it on 1",
+        description="Frame of source frame 0; Blender's BVH import puts it on 1",
         default=1,
     )
     scaled: BoolProperty(
         name="Imported with Scale FPS",
-        description="The motion was scaled to the scene's rate when it was imported",
+        description="The import scaled the motion to the scene's rate",
         default=False,
     )
     layer: StringProperty(
         name="Layer",
-        description="One layer of the sheet for all bones; empty puts each layer on its own bones",
+        description="Layer to apply to all bones; if empty, each layer applies to its own bones",
     )
     anyway: BoolProperty(
         name="Apply Anyway",
-        description="Go on though the action seems to be another take, or this one retargeted or trimmed",
+        description="Continue even if the action seems to be another take, or is retargeted or trimmed",
         default=False,
     )
 
@@ -75,7 +75,7 @@ class GENGA_OT_apply_sheet(Operator, Koma):
         stepped = action.copy()
         stepped.name = f"{action.name} koma"
         stepped[STEPPED] = sheet.take
-        # The take itself stays, and is saved though nothing plays it.
+        # Keeps and saves the take even though nothing plays it.
         action.use_fake_user = True
         thing.animation_data.action = stepped
         if slot:
@@ -92,37 +92,37 @@ class GENGA_OT_apply_sheet(Operator, Koma):
         for sentence in fit.left_out(sheet):
             self.report({"WARNING"}, sentence)
         if strangers:
-            text = f"in no layer and with that of the root: {fit.listed(strangers)}"
+            text = f"bones in no layer, moved with the root's: {fit.listed(strangers)}"
             self.report({"WARNING"}, text)
         drawings = sum(len(layer.exposures) for layer in layers)
         self.report({"INFO"}, f"{drawings} drawings on {sheet.length} koma")
         return {"FINISHED"}
 
     def take_of(self, thing):
-        """The action that an object plays, and its slot."""
+        """Returns the action that an object plays, and its slot."""
         animation = thing.animation_data
         action = animation.action if animation else None
         slot = getattr(animation, "action_slot", None)
         if action is None or not stepping.curves(action, slot):
-            raise files.NotAFile(f"{thing.name} has no action: let it play the take first")
+            raise files.NotAFile(f"{thing.name} has no action: assign the take first")
         if STEPPED in action:
-            raise files.NotAFile(f"{action.name} is on a sheet already: let {thing.name} play the take itself")
+            raise files.NotAFile(f"{action.name} is already stepped: assign the take itself to {thing.name}")
         return action, slot
 
     def compare(self, sheet, thing, action, step):
-        """Refuses an action that seems to be another take, or says why it does."""
+        """Raises an error if the action seems to be another take, or warns if Apply Anyway is set."""
         bones = [bone.name for bone in thing.data.bones] if thing.type == "ARMATURE" else []
         found = fit.doubts(sheet, bones, action.curve_frame_range, self.first_frame, step)
         if not found:
             return
         if not self.anyway:
-            raise files.NotAFile(f"this seems to be another take: {'; '.join(found)}. Apply Anyway goes on")
+            raise files.NotAFile(f"this seems to be another take: {'; '.join(found)}. Apply Anyway continues")
         for sentence in found:
             self.report({"WARNING"}, sentence)
 
 
 class GENGA_OT_import_glb(Operator, Koma):
-    """Import genga's GLB with its genga as extremes and its inbetweens as breakdowns"""
+    """Import genga's GLB, with genga as extremes and inbetweens as breakdowns"""
 
     bl_idname = "genga.import_glb"
     bl_label = "Import genga GLB"
@@ -134,11 +134,11 @@ class GENGA_OT_import_glb(Operator, Koma):
     def run(self, context):
         animations = files.glb_animations(self.filepath)
         extras = next(iter(animations.values()))
-        # Before the import: keys land on whole frames only at the sheet's own rate.
+        # Must precede the import: only at the sheet's rate do keys land on whole frames.
         set_scene(context.scene, extras["fps"], self.start, extras["koma"])
         before = set(bpy.data.actions)
         bpy.ops.import_scene.gltf(filepath=self.filepath)
-        # The longest name first: an action is called after its animation, sometimes with more behind it.
+        # Longest name first: an action has its animation's name, sometimes with a suffix.
         names = sorted(animations, key=len, reverse=True)
         for action in set(bpy.data.actions) - before:
             name = next((name for name in names if action.name.startswith(name)), None)

@@ -1,21 +1,21 @@
-"""What an animator turns, kept with the armature and saved with the file."""
+"""Settings for animators, stored in the armature and saved with the file."""
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import PropertyGroup
 
 from . import findings, words
 
-# A name in the panel, what it does, and the knobs it sets on top of the others.
+# Identifier, label, description, and the settings that a preset changes.
 PRESETS = (
-    ("twos", "On Twos", "A drawing every two koma", {"on": "2"}),
-    ("threes", "On Threes", "A drawing every three koma", {"on": "3"}),
-    ("modulated", "Ones to Threes", "As the motion of each interval asks", {"on": "1-3"}),
-    ("snappy", "Snappy", "The middle of a movement snaps", {"snap": 0.5, "naka_nashi": 4.0}),
-    ("soft", "Soft", "Even spacing, nothing left out", {"snap": 0.1, "naka_nashi": 0.0}),
-    ("few", "Few Genga", "Only what saves much", {"rest": "keys.min_price=12"}),
+    ("twos", "On Twos", "One drawing every two koma", {"on": "2"}),
+    ("threes", "On Threes", "One drawing every three koma", {"on": "3"}),
+    ("modulated", "Ones to Threes", "Chosen for the motion of each interval", {"on": "1-3"}),
+    ("snappy", "Snappy", "Faster in the middle of a movement", {"snap": 0.5, "naka_nashi": 4.0}),
+    ("soft", "Soft", "Even spacing, no inbetweens left out", {"snap": 0.1, "naka_nashi": 0.0}),
+    ("few", "Few Genga", "Only genga that prevent a large error", {"rest": "keys.min_price=12"}),
 )
 
-# Whether knobs are being set together, so that nothing runs for each.
+# Whether several settings are being changed together, which must run only once.
 together = False
 
 
@@ -25,7 +25,7 @@ def turned(knobs, context):
 
 
 def set_together(knobs, context, values):
-    """Sets several knobs and runs once."""
+    """Changes several settings and runs once."""
     global together
     together = True
     try:
@@ -37,18 +37,18 @@ def set_together(knobs, context, values):
 
 
 class GengaKnobs(PropertyGroup):
-    """The knobs of an armature."""
+    """The settings of an armature."""
 
     genga: IntProperty(
         name="Genga",
-        description="So many key drawings, first and last among them; 0 is as many as are found",
+        description="Number of key drawings, including first and last; 0 keeps the number found",
         min=0,
         soft_max=60,
         update=turned,
     )
     drawings: FloatProperty(
         name="Per Second",
-        description="So many drawings a second, inbetweens too; 0 is as they are found",
+        description="Drawings per second, including inbetweens; 0 keeps the rate found",
         min=0.0,
         soft_max=12.0,
         precision=1,
@@ -58,13 +58,13 @@ class GengaKnobs(PropertyGroup):
     on: EnumProperty(
         name="On",
         translation_context=words.CONTEXT,
-        description="How many koma a drawing stays between two genga",
+        description="Koma per drawing between two genga",
         items=(
-            ("1", "Ones", "A drawing a koma"),
-            ("2", "Twos", "A drawing every two koma"),
-            ("3", "Threes", "A drawing every three koma"),
-            ("1-3", "Ones to Threes", "Fast on ones, slow on threes, as the motion asks"),
-            ("2-3", "Twos and Threes", "Fast on twos, slow on threes"),
+            ("1", "Ones", "One drawing per koma"),
+            ("2", "Twos", "One drawing every two koma"),
+            ("3", "Threes", "One drawing every three koma"),
+            ("1-3", "Ones to Threes", "Fast motion on ones, slow motion on threes"),
+            ("2-3", "Twos and Threes", "Fast motion on twos, slow motion on threes"),
         ),
         default="2-3",
         update=turned,
@@ -72,7 +72,7 @@ class GengaKnobs(PropertyGroup):
     snap: FloatProperty(
         name="Snap",
         translation_context=words.CONTEXT,
-        description="How far inbetweens crowd towards their genga (spacing)",
+        description="How closely inbetweens crowd towards their genga (spacing)",
         min=0.0,
         max=0.95,
         default=0.3,
@@ -80,7 +80,7 @@ class GengaKnobs(PropertyGroup):
     )
     naka_nashi: FloatProperty(
         name="Naka-nashi",
-        description="How many of the fastest inbetweens are left out, in %",
+        description="Share of inbetweens, the fastest ones, to leave out, in %",
         subtype="PERCENTAGE",
         min=0.0,
         max=100.0,
@@ -90,7 +90,7 @@ class GengaKnobs(PropertyGroup):
     )
     koma_dori: FloatProperty(
         name="Koma-dori",
-        description="How many of the slowest inbetweens are held over, in %",
+        description="Share of inbetweens, the slowest ones, to replace by holds, in %",
         subtype="PERCENTAGE",
         min=0.0,
         max=100.0,
@@ -99,13 +99,13 @@ class GengaKnobs(PropertyGroup):
     )
     feet: BoolProperty(
         name="Feet Held",
-        description="A foot stays on one place for as long as it stands in the take; hip and knee give way",
+        description="Keep a foot in place while it stands in the take; hip and knee adapt",
         update=turned,
     )
     rate: FloatProperty(
         name="Rate",
         translation_context=words.CONTEXT,
-        description="Koma a second of the sheet: 24 in film and television, whatever rate the scene has",
+        description="Koma per second of the sheet, independent of the scene's rate; 24 in film and television",
         min=2.0,
         max=1000.0,
         soft_max=60.0,
@@ -115,12 +115,12 @@ class GengaKnobs(PropertyGroup):
     )
     rest: StringProperty(
         name="More",
-        description="Any other setting of a recipe by its name, such as keys.min_price=8; keys.contacts=keys",
+        description="Other recipe settings by name, such as keys.min_price=8; keys.contacts=keys",
         update=turned,
     )
     live: BoolProperty(
         name="Live",
-        description="Run again as soon as a knob is turned",
+        description="Run again when a setting changes",
         default=True,
     )
     markers: BoolProperty(
@@ -131,36 +131,36 @@ class GengaKnobs(PropertyGroup):
     )
     frames: EnumProperty(
         name="Frames",
-        description="Which part is looked at",
+        description="Range to sample",
         items=(
-            ("TAKE", "Take", "All that the action or the NLA tracks have"),
-            ("SCENE", "Scene", "The scene's range, or that of its preview"),
+            ("TAKE", "Take", "Range of the action or the NLA tracks"),
+            ("SCENE", "Scene", "The scene's range, or its preview range if set"),
         ),
         default="TAKE",
     )
     deforming: BoolProperty(
         name="Deforming Bones Only",
-        description="Leave out controls and mechanisms, where the rig has bones that deform",
+        description="Leave out controls and mechanisms, if the rig has deforming bones",
         default=True,
     )
     leave_out: StringProperty(
         name="Leave Out",
-        description="Bones that are not looked at, by patterns such as *twist*, *hair*; they are keyed all the same",
+        description="Bones to ignore, as patterns such as *twist*, *hair*; they still get keys",
         default="*twist*, *_end, *_end.*, ik_*, *ＩＫ*, 全ての親",
     )
-    bone: IntProperty(options={"HIDDEN"}, description="The row of the list of bones that is chosen")
+    bone: IntProperty(options={"HIDDEN"}, description="Selected row in the list of bones")
     pins: StringProperty(
         name="Pins",
-        description="Frames that are genga whatever is found, such as 12, 40:contact. Keys of the take that are marked as extremes are pinned too",
+        description="Frames that are always genga, such as 12, 40:contact. Keys of the take of type Extreme are also pinned",
         update=turned,
     )
     forbid: StringProperty(
         name="Forbid",
-        description="Frames near which no genga is found, such as 50, 60..66",
+        description="Frames without a genga nearby, such as 50, 60..66",
         update=turned,
     )
     only_pins: BoolProperty(
         name="Only Pins",
-        description="Pins, and keys marked as extremes, are the only genga",
+        description="Use only pins and keys of type Extreme as genga",
         update=turned,
     )

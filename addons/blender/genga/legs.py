@@ -1,15 +1,15 @@
-"""Legs of a rig that give way so that feet stay where they stand."""
+"""Leg rotations of a rig that hold its feet."""
 
 from mathutils import Matrix
 
 from . import fit, stepping
 
-# How many curves a bone's turn takes.
+# Number of curves of a bone's rotation.
 WHOLE = {"rotation_quaternion": 4, "rotation_euler": 3}
 
 
 class Legs:
-    """Which curves are turned, and how; of a rig whose legs do not turn by keys of their own none, and `stuck` names those."""
+    """The curves to rotate, and how. Empty if some legs have no rotation keys of their own; `stuck` lists those."""
 
     def __init__(self, thing, channels, turns):
         keyed = [path for path, _ in channels]
@@ -24,7 +24,7 @@ class Legs:
             self.turns = {}
 
     def drawn(self, source, exposure, pose):
-        """The pose of an exposure, its legs turned."""
+        """Returns the pose of an exposure with its legs rotated."""
         made = list(pose)
         for at, (mode, group) in enumerate(source.groups):
             own = self.turns.get(group[0][0])
@@ -33,15 +33,15 @@ class Legs:
         return made
 
     def left_out(self):
-        """What the rig does not show of them, in sentences."""
+        """Returns sentences about what the rig cannot show."""
         if not self.stuck:
             return []
         names = fit.listed(sorted(self.stuck))
-        return [f"the feet stay with their drawings: no keys of their own turn {names}; limited.bvh holds them"]
+        return [f"the feet move with their drawings: {names} lack rotation keys of their own; limited.bvh holds them"]
 
 
 def path_of(bone):
-    """The data path of what turns a bone, or nothing where its keys alone do not."""
+    """Returns the data path of a bone's rotation, or None if its keys do not fully determine it."""
     is_led = bone.is_in_ik_chain or any(not own.mute and own.influence > 0.0 for own in bone.constraints)
     if is_led or not bone.bone.use_inherit_rotation or bone.rotation_mode == "AXIS_ANGLE":
         return None

@@ -1,4 +1,4 @@
-"""Marks on the timeline: keys that a person marked, frames that are selected, and markers for the genga."""
+"""Marks on the timeline: keys of type Extreme, selected frames, and markers for the genga."""
 
 import bisect
 
@@ -9,7 +9,7 @@ from .take import BEGINS, PLACES, STEPPED
 
 
 def marked(take):
-    """The frames on which the take's own keys are marked as extremes."""
+    """Returns the frames on which the take has keys of type Extreme."""
     if take.action is None:
         return []
     extreme, frames = stepping.number("type", "EXTREME"), set()
@@ -22,7 +22,7 @@ def marked(take):
 
 
 def chosen(context):
-    """The frames of the take that are meant: those of the selected keys, or the current one."""
+    """Returns the take's frames of the selected keys, or the current frame."""
     thing = context.active_object
     animation = thing.animation_data
     action = animation.action if animation else None
@@ -36,7 +36,7 @@ def chosen(context):
 
 
 def of_take(action, frame):
-    """The frame of the take that is shown on a frame: on a sheet that of the drawing."""
+    """Returns the take's frame shown on a frame. In a stepped action it is the drawing's frame."""
     if action is None or STEPPED not in action or BEGINS not in action:
         return frame
     at = bisect.bisect_right(list(action[BEGINS]), frame) - 1
@@ -44,7 +44,7 @@ def of_take(action, frame):
 
 
 def set_markers(scene, thing, numbered):
-    """Markers on the timeline for the genga of an object, in place of its earlier ones."""
+    """Replaces an object's timeline markers by markers for its genga."""
     remove_markers(scene, thing)
     for number, frame in numbered:
         scene.timeline_markers.new(f"{number} {thing.name}", frame=frame)

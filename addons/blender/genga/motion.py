@@ -1,4 +1,4 @@
-"""Poses as matrices into a clip of genga. Knows nothing of Blender."""
+"""Converts poses, as matrices, to a genga clip. Independent of Blender."""
 
 import numpy as np
 
@@ -6,10 +6,10 @@ from .refused import Refused, engine
 
 
 def clip(bones, chosen, poses, rest, rate, name):
-    """A clip of the chosen bones.
+    """Builds a clip of the chosen bones.
 
-    `poses` are where they stand in the world, frames × bones × 4 × 4 in the order of `chosen`, and `rest` is where they
-    stand at rest. A bone that is as at rest is not turned, as in BVH: the body at rest is what genga compares rigs by.
+    `poses` are their world matrices, frames × bones × 4 × 4 in the order of `chosen`. `rest` are their world rest
+    matrices. As in BVH, rotations are relative to the rest pose, because genga compares rigs by the body at rest.
     """
     parents = np.array(chosen.parents)
     unturned = np.swapaxes(turns(rest[:, :3, :3]), -1, -2)
@@ -28,12 +28,12 @@ def clip(bones, chosen, poses, rest, rate, name):
 
 
 def turns(matrices):
-    """The rotations in some matrices: without scale, and without a mirror."""
+    """Extracts rotations from matrices, without scale and mirroring."""
     if not np.isfinite(matrices).all():
-        raise Refused("the pose has values that are no numbers: a constraint or a driver fails")
+        raise Refused("the pose has values that are no numbers: check constraints and drivers")
     lengths = np.linalg.norm(matrices, axis=-2, keepdims=True)
     if (lengths < 1e-9).any():
-        raise Refused("a bone is scaled to nothing: leave it out")
+        raise Refused("a bone is scaled to zero: leave it out")
     made = matrices.astype(np.float64) / lengths
     mirrored = np.linalg.det(made) < 0.0
     made[mirrored] = made[mirrored] * (-1.0, 1.0, 1.0)
@@ -41,7 +41,7 @@ def turns(matrices):
 
 
 def local(parents, rotations):
-    """Each rotation against its parent's; a root's as it is."""
+    """Converts rotations to be relative to the parent's. Roots stay unchanged."""
     made = rotations.copy()
     hang = np.flatnonzero(parents >= 0)
     made[:, hang] = np.swapaxes(rotations[:, parents[hang]], -1, -2) @ rotations[:, hang]
@@ -49,7 +49,7 @@ def local(parents, rotations):
 
 
 def against(parents, rotations, places):
-    """Each place in the axes of its parent; a root's as it is."""
+    """Converts positions to the parent's axes. Roots stay unchanged."""
     places = places.astype(np.float64)
     hang = np.flatnonzero(parents >= 0)
     apart, made = places[:, hang] - places[:, parents[hang]], places.copy()
@@ -58,7 +58,7 @@ def against(parents, rotations, places):
 
 
 def quaternions(matrices):
-    """Rotations as x, y, z, w: by whichever of the four is largest, so that nothing is divided by what is small."""
+    """Converts matrices to quaternions x, y, z, w. Divides by the largest of the four, for precision."""
     m = np.moveaxis(matrices, (-2, -1), (0, 1))
     trace = m[0, 0] + m[1, 1] + m[2, 2]
     squares = np.stack([*(1.0 + 2.0 * m[at, at] - trace for at in range(3)), 1.0 + trace])
@@ -76,7 +76,7 @@ def quaternions(matrices):
 
 
 def tips(bones, chosen, rest):
-    """Where the bones end on which no other hangs; the others are open."""
+    """Returns the ends of bones without children, and NaN for others."""
     ends = np.full((len(chosen.bones), 3), np.nan)
     for row, at in enumerate(chosen.bones):
         if row not in chosen.parents:

@@ -1,4 +1,4 @@
-"""The panel in the sidebars of the 3-D view and of the dope sheet."""
+"""The panels in the sidebars of the 3-D view and the dope sheet."""
 
 from bpy.types import Menu, Panel
 
@@ -16,7 +16,7 @@ class Sidebar:
 
 
 class Keys(Sidebar):
-    """Finding, and what was found."""
+    """Find Keys, and its result."""
 
     bl_label = "Genga"
 
@@ -35,7 +35,7 @@ class Keys(Sidebar):
 
 
 class Knobs(Sidebar):
-    """What an animator turns."""
+    """Settings for animators."""
 
     bl_label = "Knobs"
 
@@ -60,7 +60,7 @@ class Knobs(Sidebar):
 
 
 class Corrections(Sidebar):
-    """Which frames are genga, and which are none."""
+    """Pinned and forbidden frames."""
 
     bl_label = "Corrections"
 
@@ -77,7 +77,7 @@ class Corrections(Sidebar):
 
 
 class Sampled(Sidebar):
-    """What is looked at, and what becomes of it."""
+    """The sampled range and bones, and export."""
 
     bl_label = "Take and Files"
     bl_options = {"DEFAULT_CLOSED"}
@@ -86,7 +86,7 @@ class Sampled(Sidebar):
         layout, own = self.layout, context.active_object.genga
         layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(own, "frames")
-        # Its name needs the whole width.
+        # The label needs the full width.
         whole = layout.column()
         whole.use_property_split = False
         whole.prop(own, "deforming")
@@ -104,7 +104,7 @@ class GENGA_MT_presets(Menu):
 
 
 def wrapped(sentence, width):
-    """A sentence in lines that fit a sidebar."""
+    """Wraps a sentence to the width of a sidebar."""
     lines, most = [""], max(16, width // 8)
     for word in sentence.split():
         if lines[-1] and len(lines[-1]) + 1 + len(word) > most:
@@ -114,7 +114,7 @@ def wrapped(sentence, width):
 
 
 def in_space(part, space):
-    """A part of the panel for one kind of editor."""
+    """Creates a panel for one kind of editor."""
     name = f"GENGA_PT_{part.__name__.lower()}_{space.lower()}"
     return type(name, (part, Panel), {"bl_idname": name, "bl_space_type": space})
 

@@ -1,6 +1,6 @@
-"""A person's corrections: which frames are keys whatever is found, and near which none is. Knows nothing of Blender.
+"""A person's corrections: pinned and forbidden frames. Independent of Blender.
 
-They are written as the program takes them, `40:contact` and `50..60`, with the frames of Blender's timeline.
+They use the program's notation, `40:contact` and `50..60`, with frames of Blender's timeline.
 """
 
 import re
@@ -16,12 +16,12 @@ def words(text):
 
 
 def pins(text, start):
-    """Pins by the frames of the clip; `start` is Blender's frame of the clip's frame 0."""
+    """Converts pins to frames of the clip. `start` is Blender's frame for the clip's frame 0."""
     return [f"{int(found[1]) - start}{(found[2] or '').rstrip()}" for found in read(PIN, text, "a pin", "40:contact")]
 
 
 def forbidden(text, start):
-    """Forbidden frames by those of the clip; the last one of a range is not forbidden."""
+    """Converts forbidden frames to frames of the clip. Ranges exclude their last frame."""
     made = []
     for found in read(FORBIDDEN, text, "a forbidden frame", "50 or 50..60"):
         ends = [str(int(end) - start) for end in found.groups() if end is not None]
@@ -38,23 +38,23 @@ def read(pattern, text, what, such_as):
 
 
 def frames(text):
-    """The frames that are pinned in a text, without names."""
+    """Returns the pinned frames in a text, without names."""
     return {int(found[1]) for found in read(PIN, text, "a pin", "40:contact")}
 
 
 def with_pins(text, more):
-    """A text with pins at more frames; those that are there keep their names."""
+    """Adds pins at more frames to a text. Existing pins keep their names."""
     there = frames(text)
     return joined([*words(text), *(str(frame) for frame in sorted(more) if frame not in there)])
 
 
 def with_forbidden(text, more):
-    """A text with more forbidden frames, runs of them as ranges."""
+    """Adds forbidden frames to a text, runs of them as ranges."""
     return joined([*words(text), *(word for word in runs(more) if word not in map(str.strip, words(text)))])
 
 
 def without(text, gone):
-    """A text without the pins at some frames."""
+    """Removes the pins at some frames from a text."""
     return joined(word for word in words(text) if int(PIN.fullmatch(word)[1]) not in gone)
 
 
@@ -63,7 +63,7 @@ def joined(parts):
 
 
 def runs(numbers):
-    """Numbers as the program takes them: one alone, several in a row as `50..53` up to but not including the last."""
+    """Formats frames in the program's notation: single frames, and runs as `50..53`, which excludes 53."""
     begin = last = None
     made = []
     for number in [*sorted(numbers), None]:

@@ -1,23 +1,23 @@
-"""Errors for a person, and operators that report them in Blender's way. Knows nothing of Blender."""
+"""Errors for users, and operators that report them to Blender. Independent of Blender."""
 
 
 class Refused(Exception):
-    """What is wrong and the way out, in a sentence."""
+    """An error for the user, in a sentence that says how to fix it."""
 
 
 def engine():
-    """The package genga, which the extension carries as a wheel."""
+    """Imports the package genga, which the extension includes as a wheel."""
     try:
         import genga
     except ImportError as error:
         raise Refused(
-            "this add-on came without genga's wheel: install the zip that addons/blender/build makes"
+            "this add-on lacks genga's wheel: install the zip that addons/blender/build makes"
         ) from error
     return genga
 
 
 def kinds():
-    """The errors that are told and are no fault of the add-on."""
+    """Returns the errors to report that are not bugs of the add-on."""
     try:
         return (Refused, OSError, engine().Error)
     except Refused:
@@ -25,7 +25,7 @@ def kinds():
 
 
 class Reported:
-    """An operator whose `run` is told to Blender: what is refused is an error report, never a traceback."""
+    """An operator that reports errors of `run` to Blender, without a traceback."""
 
     def execute(self, context):
         return self.reported(lambda: self.run(context))

@@ -1,6 +1,6 @@
-"""The bones of a rig that a clip is made of, and how they hang on each other. Knows nothing of Blender.
+"""Selects a rig's bones for a clip, and their hierarchy. Independent of Blender.
 
-Any rig has bones that draw nothing: controls, targets, mechanisms. Those that stay hang on the nearest that stays.
+Rigs also have controls, targets and mechanisms. Each selected bone becomes a child of its nearest selected ancestor.
 """
 
 from fnmatch import fnmatchcase
@@ -10,13 +10,13 @@ import numpy as np
 
 from .refused import Refused
 
-# Two bones lie on each other where they begin so near, beside the longest, and point so much the same way.
+# Two bones coincide if their heads are this close, relative to the longest bone, and their directions this similar.
 NEAR = 1e-4
 SAME_WAY = 0.999
 
 
 class Bone(NamedTuple):
-    """A bone at rest, in the axes of its armature; `rest` is its matrix, 4 × 4."""
+    """A bone at rest, in armature space. `rest` is its 4 × 4 matrix."""
 
     name: str
     parent: int
@@ -35,25 +35,25 @@ class Bone(NamedTuple):
 
 
 class Chosen(NamedTuple):
-    """The bones of a clip: their numbers in the rig, parents first, and the parent of each among them, or -1."""
+    """The bones of a clip: their indices in the rig, parents first, and the index of each parent among them, or -1."""
 
     bones: list
     parents: list
 
 
 def choose(bones, deforming, leave_out):
-    """The bones that stay, and how they hang on each other."""
+    """Returns the selected bones and their hierarchy."""
     stays = staying([(bone.name, bone.deforms) for bone in bones], deforming, leave_out)
     stay = [at for at, bone in enumerate(bones) if stays[at] and not bone.is_left_out]
     stay = singles(bones, stay)
     if not stay:
-        raise Refused("no bone is left: leave out fewer, or take those that do not deform too")
+        raise Refused("no bone is left: leave out fewer bones, or include bones that do not deform")
     return in_order(stay, Ancestry(bones, stay).parents())
 
 
 def staying(bones, deforming, leave_out):
-    """Whether each bone stays, of names and whether they deform: those that deform, where it is asked for and any do,
-    without those of some patterns."""
+    """Reports for each bone (name, whether it deforms) whether it stays. If `deforming` and any bone deforms, drops the
+    others. Drops bones that match a pattern of `leave_out`."""
     patterns = [pattern.strip().casefold() for pattern in leave_out.split(",") if pattern.strip()]
     only_deforming = deforming and any(deforms for _, deforms in bones)
     is_named = lambda name: any(fnmatchcase(name.casefold(), pattern) for pattern in patterns)
@@ -61,9 +61,9 @@ def staying(bones, deforming, leave_out):
 
 
 def singles(bones, stay):
-    """Of bones that lie on each other the first: rigs have bones that copy others, such as the D bones of MMD's legs.
+    """Keeps the first of coinciding bones. Rigs have bones that copy others, such as the D bones of MMD's legs.
 
-    One that hangs on the other is none such: a body's first bones often begin in one place.
+    Keeps both if one descends from the other: a body's first bones often begin in one place.
     """
     near = NEAR * max((bone.length for bone in bones), default=0.0)
     heads = np.array([bones[at].head for at in stay]).reshape(-1, 3)
@@ -78,7 +78,7 @@ def singles(bones, stay):
 
 
 def hangs_on(bones, at, other):
-    """Whether a bone hangs on another, however far above."""
+    """Reports whether a bone is another or a descendant of it."""
     while at >= 0:
         if at == other:
             return True
@@ -87,7 +87,7 @@ def hangs_on(bones, at, other):
 
 
 class Ancestry:
-    """Which bone that stays each bone hangs on."""
+    """Finds the parent of each bone among the bones that stay."""
 
     def __init__(self, bones, stay):
         self.bones, self.stay = bones, stay
@@ -101,9 +101,9 @@ class Ancestry:
         return found
 
     def parent(self, at, found):
-        """The nearest ancestor that stays, or the bone that stays on an ancestor.
+        """Returns the nearest ancestor that stays, or a bone that stays and coincides with an ancestor.
 
-        Rigs of controls hang the bones that deform on mechanisms, which lie on other bones that deform.
+        In control rigs, deforming bones are children of mechanism bones that coincide with other deforming bones.
         """
         above = self.bones[at].parent
         while above >= 0:
@@ -122,7 +122,7 @@ class Ancestry:
 
 
 def is_above(at, other, parents):
-    """Whether `at` is an ancestor of `other`, as far as parents are known."""
+    """Reports whether `at` is `other` or a known ancestor of it."""
     while other >= 0:
         if other == at:
             return True
@@ -131,7 +131,7 @@ def is_above(at, other, parents):
 
 
 def in_order(stay, parents):
-    """Parents first, else in the order of the rig."""
+    """Sorts bones so that parents come first, otherwise in the rig's order."""
     order, placed = [], {}
 
     def place(at):

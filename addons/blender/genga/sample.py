@@ -1,4 +1,4 @@
-"""A rig's pose, frame after frame, as it is drawn: constraints, drivers and NLA tracks evaluated."""
+"""Samples a rig's evaluated pose on every frame, with constraints, drivers and NLA tracks."""
 
 import time
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from .take import Take, show
 
 
 class Sampling:
-    """The work of sampling, which `steps` does a frame at a time so that a window can live meanwhile."""
+    """Samples a take. `steps` samples one frame at a time, so that the window responds meanwhile."""
 
     def __init__(self, context, settings):
         self.thing = context.active_object
@@ -22,11 +22,11 @@ class Sampling:
         self.take = Take(self.thing)
         self.start, self.end = frames_of(settings.frames, self.scene, self.take)
         if self.end < self.start:
-            raise Refused("the range has no frame: its end is before its start")
+            raise Refused("the range is empty: its end is before its start")
         self.bones = bones_of(self.thing)
         self.chosen = rig.choose(self.bones, settings.deforming, settings.leave_out)
         self.poses = np.empty((len(self), len(self.chosen.bones), 4, 4), dtype=np.float32)
-        # Of a mix of NLA tracks no curve knows the values.
+        # The values of an NLA mix are in no curve, so they are recorded.
         self.channels = sorted(self.take.channels()) if self.take.is_mixed else []
         self.values = np.empty((len(self), len(self.channels)))
         self.seconds = 0.0
@@ -35,9 +35,9 @@ class Sampling:
         return self.end - self.start + 1
 
     def steps(self):
-        """Samples a frame each time it is asked; the scene is where it was when it ends, or is closed.
+        """Samples one frame per step. Restores the scene's frame when it ends or is closed.
 
-        The take plays meanwhile, also where its sheet is shown.
+        Plays the take meanwhile, even if its sheet is shown.
         """
         frame, part = self.scene.frame_current, self.scene.frame_subframe
         animation = self.thing.animation_data
@@ -58,7 +58,7 @@ class Sampling:
         drawn = self.thing.evaluated_get(self.context.evaluated_depsgraph_get())
         flat = np.empty(16 * len(self.bones), dtype=np.float32)
         drawn.pose.bones.foreach_get("matrix", flat)
-        # Blender keeps columns.
+        # Blender's matrices are column-major.
         own = flat.reshape(-1, 4, 4).transpose(0, 2, 1)[self.chosen.bones]
         self.poses[row] = np.array(drawn.matrix_world, dtype=np.float32) @ own
         for at, (path, index) in enumerate(self.channels):
@@ -66,7 +66,7 @@ class Sampling:
             self.values[row, at] = value[index] if hasattr(value, "__len__") else value
 
     def sampled(self):
-        """What was sampled: plain data, which outlives an undo."""
+        """Returns the sampled take as plain data, which survives an undo."""
         name, rate = bpy.path.clean_name(self.take.name), rate_of(self.scene)
         rest = np.array(self.thing.matrix_world) @ np.stack([self.bones[at].rest for at in self.chosen.bones])
         clip = motion.clip(self.bones, self.chosen, self.poses, rest, rate, name)
@@ -74,8 +74,8 @@ class Sampling:
 
 
 class Sampled(NamedTuple):
-    """A take as it was drawn. `rest` is where each bone of the clip stands in the world at rest, 4 × 4. `channels` and
-    `values`, a row a frame, are there where NLA tracks are mixed."""
+    """A sampled take. `rest` has the 4 × 4 world rest matrix of each bone of the clip. `channels` and `values`, one row
+    per frame, are recorded if NLA tracks are mixed."""
 
     clip: object
     rest: np.ndarray
@@ -88,12 +88,12 @@ class Sampled(NamedTuple):
 
 
 def rate_of(scene):
-    """Frames a second."""
+    """Returns the scene's frames per second."""
     return scene.render.fps / scene.render.fps_base
 
 
 def frames_of(which, scene, take):
-    """The range of the take, or of the scene: that of its preview where there is one."""
+    """Returns the range of the take, or of the scene (its preview range if set)."""
     if which == "TAKE":
         return take.frames()
     if scene.use_preview_range:
@@ -102,7 +102,7 @@ def frames_of(which, scene, take):
 
 
 def bones_of(thing):
-    """The rig at rest, in the order of its pose."""
+    """Returns the rest bones, in the order of the pose bones."""
     numbers = {bone.name: at for at, bone in enumerate(thing.pose.bones)}
 
     def bone_of(posed):

@@ -1,10 +1,10 @@
-"""What an animator turns in the panel, as the settings and targets of genga. Knows nothing of Blender."""
+"""Converts the panel's settings to genga's settings and targets. Independent of Blender."""
 
 from .refused import Refused, engine
 
 
 def share(percent):
-    """A share of the inbetweens as a recipe has it: whole parts such as 1/3 exactly."""
+    """Formats a share of the inbetweens for a recipe. Simple fractions such as 1/3 are exact."""
     for parts in (3, 6, 7, 9):
         taken = percent * parts / 100.0
         if round(taken) and abs(taken - round(taken)) < 1e-4 and not number(percent).is_integer():
@@ -13,7 +13,7 @@ def share(percent):
 
 
 def recipe(knobs, marked, start):
-    """The recipe of the knobs, with the corrections. `marked` are frames that are marked on the rig's own keys."""
+    """Builds the recipe from the settings and corrections. `marked` are frames with keys of type Extreme."""
     from . import pins
 
     made = engine().Recipe()
@@ -38,17 +38,17 @@ def recipe(knobs, marked, start):
 
 
 def number(value):
-    """A number of Blender's, which has single precision, as it was meant: 0.2 and not 0.20000000298."""
+    """Rounds a single-precision number of Blender to the intended value: 0.2, not 0.20000000298."""
     return float(f"{value:.6g}")
 
 
 def targets(knobs):
-    """What the sheet is to be; 0 is as it is found."""
+    """Returns the targets of the sheet. 0 means no target."""
     return {"keys": knobs.genga or None, "drawings_per_second": number(knobs.drawings) or None}
 
 
 def rest(text):
-    """Further settings by their names: `keys.min_price=8; filter.width=0.2s`."""
+    """Parses further settings by name: `keys.min_price=8; filter.width=0.2s`."""
     made = []
     for word in text.replace("\n", ";").split(";"):
         if not word.strip():

@@ -1,4 +1,4 @@
-"""Actions made stepped: a sheet's poses as constant keys, and roles as types of keys."""
+"""Makes actions stepped: writes a sheet's poses as constant keys, and roles as keyframe types."""
 
 from itertools import groupby
 
@@ -9,7 +9,7 @@ KEYFRAME_TYPES = {"genga": "EXTREME", "end": "EXTREME", "inbetween": "BREAKDOWN"
 
 
 def curves(action, slot=None):
-    """The curves of an action; since Blender 4.4 those of one slot, or of all."""
+    """Returns the curves of an action. Since Blender 4.4: of one slot, or of all."""
     if not hasattr(action, "layers"):
         return list(action.fcurves)
     found = []
@@ -22,7 +22,7 @@ def curves(action, slot=None):
 
 
 def new_curve(action, slot, channel, group):
-    """A curve of an action for a channel; since Blender 4.4 in the first layer of a slot."""
+    """Creates a curve for a channel. Since Blender 4.4: in the first layer, for a slot."""
     (path, index), group = channel, {"action_group": group} if group else {}
     if not hasattr(action, "layers"):
         return action.fcurves.new(path, index=index, **group)
@@ -37,9 +37,9 @@ def new_curve(action, slot, channel, group):
 
 
 class Source:
-    """What the take's channels are at a place; angles are turned, the others go straight.
+    """Evaluates the take's channels at a place. Interpolates rotations by slerp, other values linearly.
 
-    `channels` are data paths with their indices, `value` gives one of them at a whole source frame.
+    `channels` are data paths with their indices. `value` returns a channel's value at a whole source frame.
     """
 
     def __init__(self, owner, channels, value):
@@ -50,20 +50,20 @@ class Source:
 
     @classmethod
     def of_curves(cls, owner, action_curves, first_frame, step):
-        """Curves: `first_frame` is where source frame 0 lies, `step` how many Blender frames a source frame takes."""
+        """Reads curves. `first_frame` is the frame of source frame 0, `step` the Blender frames per source frame."""
         by_channel = {(curve.data_path, curve.array_index): curve for curve in action_curves}
         value = lambda channel, frame: by_channel[channel].evaluate(first_frame + frame * step)
         return cls(owner, by_channel, value)
 
     @classmethod
     def of_rows(cls, owner, channels, rows):
-        """Values that were recorded, a row a source frame."""
+        """Reads recorded values, one row per source frame."""
         columns = {channel: at for at, channel in enumerate(channels)}
         last = len(rows) - 1
         return cls(owner, channels, lambda channel, frame: float(rows[min(int(frame), last), columns[channel]]))
 
     def pose(self, exposure, near):
-        """The value of every curve for an exposure; angles are the nearest ones to a pose before."""
+        """Returns the values of all curves for an exposure. Angles are those nearest to the pose before."""
         if exposure.between is None:
             return self._at(exposure.frame, near)
         before, after = (self._at(place, near) for place in exposure.between)
@@ -87,7 +87,7 @@ class Source:
 
 
 def rotation(owner, path):
-    """How a property turns: the order of its angles, QUATERNION, or nothing."""
+    """Returns a property's rotation mode: the order of its angles, QUATERNION, or None."""
     if path.endswith("rotation_quaternion"):
         return "QUATERNION"
     if not path.endswith("rotation_euler"):
@@ -99,7 +99,7 @@ def rotation(owner, path):
 
 
 def blend(mode, before, after, share, near):
-    """Straight for what moves, on the shortest arc for what turns."""
+    """Blends rotations on the shortest arc, other values linearly."""
     if before == after:
         return before
     if mode == "QUATERNION" and len(before) == 4:
@@ -114,7 +114,7 @@ def blend(mode, before, after, share, near):
 
 
 def turned(mode, values, turn):
-    """What a property that turns is after a turn in its own axes."""
+    """Applies a rotation in local axes to a rotation property."""
     if mode == "QUATERNION":
         return list(Quaternion(values).normalized() @ turn)
     angles = Euler(values, mode)
@@ -122,17 +122,17 @@ def turned(mode, values, turn):
 
 
 def type_of(exposure):
-    """The type of key of a drawing."""
+    """Returns the keyframe type of a drawing."""
     return "MOVING_HOLD" if exposure.is_held else KEYFRAME_TYPES.get(exposure.role, "KEYFRAME")
 
 
 def as_taken(_source, _exposure, pose):
-    """A drawing as the take has it."""
+    """Returns a drawing's pose unchanged."""
     return pose
 
 
 def write(target, source, exposures, frames, drawn=as_taken):
-    """Puts the poses of the exposures onto curves, each on its frame, constant until the next. `drawn` says how a pose is drawn."""
+    """Writes the poses of the exposures to curves as constant keys on their frames. `drawn` modifies each pose."""
     rows, near = [], None
     for exposure in exposures:
         near = source.pose(exposure, near)
@@ -146,7 +146,7 @@ def write(target, source, exposures, frames, drawn=as_taken):
 
 
 def put(curve, places, types):
-    """Constant keys in place of all that a curve has: frame and value of each in a row, and their types."""
+    """Replaces a curve's keys and modifiers by constant keys. `places` alternates frame and value."""
     while curve.modifiers:
         curve.modifiers.remove(curve.modifiers[0])
     points = curve.keyframe_points
@@ -159,12 +159,12 @@ def put(curve, places, types):
 
 
 def number(name, word):
-    """The number that Blender has for a word of a key's property."""
+    """Returns Blender's number for an enum value of a key's property."""
     return bpy.types.Keyframe.bl_rna.properties[name].enum_items[word].value
 
 
 def name_roles(action_curves, extras, start):
-    """Keys of an action that came from a GLB: moved so that koma 0 is at `start`, and typed by role."""
+    """Sets keyframe types by role in an action from a GLB, and moves koma 0 to `start`."""
     roles = {key["koma"]: key["role"] for key in extras["keys"]}
     for curve in action_curves:
         for point in curve.keyframe_points:

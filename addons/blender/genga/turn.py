@@ -1,4 +1,4 @@
-"""Small operators of the panel: take or sheet, presets, and the frames that a person marks."""
+"""Small operators of the panel: switch take and sheet, apply presets, mark frames."""
 
 from bpy.props import EnumProperty
 from bpy.types import Operator
@@ -33,19 +33,19 @@ class GENGA_OT_toggle(OfArmature, Operator):
             return {"FINISHED"}
         action = apply.found(thing, take)
         if action is None:
-            raise Refused("there is no sheet of this take: find its keys first")
+            raise Refused("this take has no sheet: find its keys first")
         show(thing, action, apply.slot_of(thing, take, action))
         return {"FINISHED"}
 
 
 def is_on_sheet(thing):
-    """Whether an object plays its drawings."""
+    """Reports whether an object plays a stepped action."""
     animation = thing.animation_data if thing else None
     return bool(animation and animation.action and STEPPED in animation.action)
 
 
 class GENGA_OT_preset(OfArmature, Operator):
-    """Set some knobs at once, on top of the others"""
+    """Change several settings at once, and keep the others"""
 
     bl_idname = "genga.preset"
     bl_label = "Preset"
@@ -66,10 +66,10 @@ class GENGA_OT_mark(OfArmature, Operator):
 
     what: EnumProperty(
         items=(
-            ("PIN", "Pin", "They are genga whatever is found"),
-            ("FORBID", "Forbid", "No genga is found near them"),
-            ("ONLY", "Only These", "They are the only genga"),
-            ("CLEAR", "Clear", "No frame is pinned or forbidden"),
+            ("PIN", "Pin", "Always make the selected frames genga"),
+            ("FORBID", "Forbid", "Find no genga near the selected frames"),
+            ("ONLY", "Only These", "Make only the selected frames genga"),
+            ("CLEAR", "Clear", "Remove all pins and forbidden frames"),
         ),
     )
 

@@ -1,4 +1,4 @@
-//! Soccer kick, right-footed, of a ball that lies at the origin, towards +Z.
+//! A soccer kick, right-footed, of a ball that lies at the origin, towards +Z.
 
 use super::score::Part::{Arm, Elbow, Gaze, Hips, Knee, Leg, Root, Trunk};
 use super::score::Side::{L, R};

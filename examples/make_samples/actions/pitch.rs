@@ -1,16 +1,16 @@
-//! Baseball pitch, right-handed, towards +Z: the omission paper's from the set position, and the
-//! genga paper's with a whole wind-up.
+//! A baseball pitch, right-handed, towards +Z: the omission paper's from the set position, and the genga paper's with a
+//! whole wind-up.
 
 use super::score::Part::{Arm, Collar, Elbow, Foot, Gaze, Grip, Hips, Knee, Leg, Root, Trunk};
 use super::score::Side::{L, R};
 use super::score::{Key, Plant, Score, key, plant, window};
 
-/// The catcher's mitt.
+/// Position of the catcher's mitt.
 const HOME: [f64; 3] = [0.0, 95.0, 1800.0];
-/// Where the feet stand on the rubber, and where the stride and the follow-through put them.
+/// Positions of the feet on the rubber, after the stride and after the follow-through.
 const PIVOT: [f64; 2] = [-13.0, -14.0];
 const STRIDE: [f64; 2] = [-9.0, 112.0];
-/// Where the toes of the back foot have been dragged to when they leave the ground.
+/// Position of the back foot's toes when they leave the ground, after being dragged.
 const DRAG: [f64; 2] = [-12.0, 26.0];
 const FIELDING: [f64; 2] = [-42.0, 116.0];
 
@@ -124,7 +124,7 @@ fn wait_pose(root: [f64; 3]) -> [(super::score::Part, [f64; 3]); 5] {
     ]
 }
 
-/// From the lifted leg on; `t` is when the knee is at its highest.
+/// The keys from the leg lift on; `t` is when the knee is at its highest.
 fn throw(t: f64) -> Vec<Key> {
     let mut keys = vec![
         key(
@@ -210,7 +210,7 @@ fn throw(t: f64) -> Vec<Key> {
     keys
 }
 
-/// The fastest third of a second; `t` is when the striding foot stands.
+/// The fastest third of a second; `t` is when the striding foot lands.
 fn delivery(t: f64) -> [Key; 4] {
     [
         key(
@@ -270,7 +270,7 @@ fn delivery(t: f64) -> [Key; 4] {
     ]
 }
 
-/// Follow-through to rest; `t` is when the striding foot stands.
+/// The follow-through to rest; `t` is when the striding foot lands.
 fn after(t: f64) -> [Key; 5] {
     [
         key(
@@ -344,7 +344,8 @@ fn after(t: f64) -> [Key; 5] {
     ]
 }
 
-/// `left` is where the left foot leaves the ground, `pivot` when the right one stands on the rubber.
+/// The footsteps of a throw: `left` is the left foot's last stand before it, `pivot` the time at which the right foot
+/// stands on the rubber.
 fn throw_steps(t: f64, left: Plant, pivot: f64) -> Vec<Plant> {
     vec![
         left,

@@ -1,10 +1,10 @@
-//! Baseball swing of a right-handed batter; the pitch comes from +Z.
+//! The baseball swing of a right-handed batter; the pitch comes from +Z.
 
 use super::score::Part::{Arm, Collar, Elbow, Foot, Gaze, Grip, Hips, Root, Trunk};
 use super::score::Side::{L, R};
 use super::score::{Key, Score, key, plant, window};
 
-/// The pitcher's hand and the ball as it is met.
+/// Positions of the pitcher's hand and of the ball at impact.
 const PITCHER: [f64; 3] = [-20.0, 150.0, 1800.0];
 const MET: [f64; 3] = [-70.0, 85.0, 45.0];
 

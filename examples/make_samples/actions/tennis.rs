@@ -1,10 +1,10 @@
-//! Tennis forehand, right-handed, towards +Z.
+//! A tennis forehand, right-handed, towards +Z.
 
 use super::score::Part::{Arm, Collar, Elbow, Foot, Gaze, Grip, Hips, Root, Trunk};
 use super::score::Side::{L, R};
 use super::score::{Key, Score, key, plant, window};
 
-/// The opponent, the ball as it comes, and the ball as it is met.
+/// Positions of the opponent, of the ball in flight, and of the ball at impact.
 const NET: [f64; 3] = [0.0, 120.0, 1800.0];
 const COMING: [f64; 3] = [-60.0, 110.0, 400.0];
 const MET: [f64; 3] = [-75.0, 95.0, 75.0];

@@ -1,11 +1,11 @@
-//! The actions that each clip consists of by default.
+//! The actions found in each clip by default.
 
 use genga::keys::SplitReason;
 
 use crate::table::{Table, number};
 use crate::takes::Take;
 
-/// A row a clip.
+/// A table with one row per clip.
 pub(crate) fn table(takes: &[Take]) -> String {
     let mut table = Table::new(&[
         "clip",

@@ -1,6 +1,5 @@
-//! Events that an eye marked in the source, and the genga nearest to them.
+//! Compares events that a person marked in the source with the nearest genga.
 
-use std::fmt::Write;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -11,30 +10,29 @@ use crate::Outcome;
 use crate::table::{Table, percent, signed};
 use crate::takes::{Run, Shown, Take, kept, named};
 
-/// How far a genga may stand from an event, in koma.
+/// Largest distance in koma at which a genga hits an event.
 const NEAR: usize = 1;
 
-/// The sets of which every event is listed.
+/// Sets of moments; other rows are rests.
 const LISTED: [&str; 3] = ["chosen-with", "held-out", "run-second-reading"];
 
-/// An event of `docs/evidence/events.csv`: it is over `from..=to`, source frames.
+/// An event of `docs/lab/evidence/events.csv`, over `from..=to` source frames.
 pub(crate) struct Event {
     pub(crate) clip: String,
     pub(crate) set: String,
     from: usize,
     to: usize,
-    /// What kind of event it is; nothing in the first list.
+    /// Kind of event; empty in the first list.
     pub(crate) kind: String,
-    what: String,
 }
 
-/// How many events of some clips were hit.
+/// Hits of the events of some clips.
 #[derive(Default)]
 pub(crate) struct Score {
     hits: usize,
     hits_with_ends: usize,
     events: usize,
-    /// The share of hits were the events anywhere.
+    /// Expected share of hits if the events were anywhere.
     pub(crate) chance: f64,
 }
 
@@ -49,17 +47,17 @@ impl Score {
 }
 
 impl Event {
-    /// The first and the last koma of the event.
+    /// First and last koma of the event.
     pub(crate) fn koma(&self, clock: &Clock) -> [usize; 2] {
         [self.from, self.to].map(|frame| clock.koma_from_place(frame as f64))
     }
 
-    /// Whether a genga on one of some koma hits it.
+    /// Whether a genga on one of the given koma hits the event.
     pub(crate) fn is_hit_by(&self, genga: &[usize], clock: &Clock) -> bool {
         is_near(genga, self.koma(clock))
     }
 
-    /// The share of some koma, from one up to another, at which an event as long would be hit.
+    /// Share of the koma in a range at which an event of the same length would be hit.
     pub(crate) fn chance_among(&self, genga: &[usize], clock: &Clock, koma: Range<usize>) -> f64 {
         let [from, to] = self.koma(clock);
         let places = koma.start..koma.end.saturating_sub(to - from);
@@ -76,23 +74,23 @@ impl Event {
     }
 }
 
-/// The events of a file, in its order.
+/// Reads the events of a file, in its order.
 pub(crate) fn read(path: &Path) -> Outcome<Vec<Event>> {
     let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let bytes = fs::read(path).map_err(|error| failed(&error))?;
     let mut events = Vec::new();
     for row in csv::Reader::from_reader(bytes.as_slice()).deserialize() {
-        let (clip, set, from, to, kind, what): (String, String, usize, usize, String, String) =
+        let (clip, set, from, to, kind, _what): (String, String, usize, usize, String, String) =
             row.map_err(|error| failed(&error))?;
         if from > to {
             return Err(failed(&format!("{clip}: {from} to {to} is no range")).into());
         }
-        events.push(Event { clip, set, from, to, kind, what });
+        events.push(Event { clip, set, from, to, kind });
     }
     Ok(events)
 }
 
-/// Koma from an event to a genga: below 0 before it, above 0 after it, 0 in it.
+/// Koma from an event to a genga: negative before it, positive after it, 0 within it.
 fn apart(koma: usize, [from, to]: [usize; 2]) -> i64 {
     koma.saturating_sub(to) as i64 - from.saturating_sub(koma) as i64
 }
@@ -110,14 +108,14 @@ fn is_near(genga: &[usize], event: [usize; 2]) -> bool {
     genga.iter().any(|koma| apart(*koma, event).unsigned_abs() <= NEAR as u64)
 }
 
-/// The share of all places in the clip at which an event as long as this one would be hit.
+/// Share of all places in the clip at which an event of the same length would be hit.
 fn chance(run: &Run, genga: &[Shown], [from, to]: [usize; 2]) -> f64 {
     let places = run.sheet.length().saturating_sub(to - from);
     let hits = (0..places).filter(|place| is_hit(genga, [*place, place + to - from])).count();
     hits as f64 / places as f64
 }
 
-/// Clips and sets in the order of the file, the rests apart.
+/// Clips and sets in the order of the file, without the rests.
 fn sets(events: &[Event]) -> Vec<(&str, &str)> {
     let mut sets: Vec<(&str, &str)> = Vec::new();
     for event in events.iter().filter(|event| LISTED.contains(&event.set.as_str())) {
@@ -129,7 +127,7 @@ fn sets(events: &[Event]) -> Vec<(&str, &str)> {
     sets
 }
 
-/// The score of a merge over the events that are asked for.
+/// The score of a merge over the events selected by `asked`.
 pub(crate) fn score(
     takes: &[Take],
     events: &[Event],
@@ -150,7 +148,7 @@ pub(crate) fn score(
     Ok(score)
 }
 
-/// A row a clip and set with the defaults, then both sets as a whole.
+/// A table with one row per clip and set with the defaults, then both sets as a whole.
 pub(crate) fn summary(takes: &[Take], events: &[Event]) -> Outcome<String> {
     let mut table =
         Table::new(&["clip", "set", ">hits", ">share", ">chance", ">hits, ends counted too"]);
@@ -176,29 +174,7 @@ pub(crate) fn summary(takes: &[Take], events: &[Event]) -> Outcome<String> {
     Ok(table.text())
 }
 
-/// For each clip and set every event with the genga nearest to it.
-pub(crate) fn lists(takes: &[Take], events: &[Event]) -> Outcome<String> {
-    let mut text = String::new();
-    for (clip, set) in sets(events) {
-        let run = named(takes, clip)?.default();
-        let genga = run.genga();
-        let header = ["event", ">frame(s)", ">nearest genga's frame", ">koma apart", "hit"];
-        let mut table = Table::new(&header);
-        for event in events.iter().filter(|event| event.clip == clip && event.set == set) {
-            let koma = event.koma(&run.sheet.clock);
-            let (frame, distance) = nearest(&genga, koma)
-                .map_or(("none".into(), "–".into()), |(genga, apart)| {
-                    (genga.place.to_string(), signed(apart))
-                });
-            let hit = if is_hit(&genga, koma) { "yes" } else { "**no**" };
-            table.row(&[event.what.clone(), event.frames(), frame, distance, hit.into()]);
-        }
-        writeln!(text, "### {clip}, {set}\n\n{}", table.text())?;
-    }
-    Ok(text)
-}
-
-/// For each rest the genga or end nearest to its begin and to its end.
+/// A table of the genga or end nearest to the begin and to the end of each rest.
 pub(crate) fn rests(takes: &[Take], events: &[Event]) -> Outcome<String> {
     let mut table = Table::new(&[
         "clip",

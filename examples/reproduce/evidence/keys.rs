@@ -1,4 +1,5 @@
-//! What picks the genga: marks, noise, rigs and known keys at several densities, and what the genga are.
+//! Compares ways to pick the genga (marks, noise, rigs and known keys at several densities), and lists the reasons of
+//! the genga.
 
 use std::collections::BTreeMap;
 
@@ -8,9 +9,9 @@ use genga::motion::Clip;
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga::sheet::Reason;
-use genga::study::Noise;
 use genga::target::{Target, meet};
 use genga::time::Frame;
+use genga_lab::study::Noise;
 
 use crate::Outcome;
 use crate::evidence::events::Event;
@@ -19,16 +20,16 @@ use crate::known;
 use crate::table::{Table, number, percent, spread};
 use crate::takes::Take;
 
-/// Genga a second, in the median of the clips, at which ways to pick are laid side by side.
+/// Median genga per second at which the ways to pick are compared.
 const DENSITIES: [f64; 2] = [4.8, 3.5];
 
-/// Halvings of the span of prices in the search for a density.
+/// Bisection steps in the search for a density.
 const HALVINGS: usize = 12;
 
-/// Frames of the longest clip that is found again under noise.
+/// Longest clip, in frames, whose keys are searched again under noise.
 const LONGEST: usize = 3000;
 
-/// Ways to pick, each by its settings.
+/// Ways to pick, each as settings.
 const WAYS: [(&str, &[(&str, &str)]); 3] = [
     ("turns of the body", &[]),
     ("turns of the body alone", &[("keys.fill", "off")]),
@@ -52,7 +53,7 @@ impl Bench<'_> {
     }
 }
 
-/// The tables by name.
+/// Makes the tables, by name.
 pub(crate) fn tables(takes: &[Take], events: &[Event]) -> Outcome<Vec<(&'static str, String)>> {
     let bench = |take| -> Outcome<Bench<'_>> {
         let take: &Take = take;
@@ -102,7 +103,7 @@ fn recipe_with(settings: &[(&str, &str)]) -> Outcome<Recipe> {
     Ok(recipe)
 }
 
-/// The recipe with a price at which the clips have so many genga a second in the median.
+/// Finds the recipe whose price gives the clips the wanted median genga per second.
 fn at_density(
     benches: &mut [Bench<'_>],
     settings: &[(&str, &str)],
@@ -123,7 +124,7 @@ fn at_density(
     Ok(recipe)
 }
 
-/// A row: a way to pick at a density.
+/// The row of a way to pick at a density.
 fn scored(
     benches: &mut [Bench<'_>],
     events: &[Event],
@@ -157,7 +158,7 @@ fn scored(
     Ok(row)
 }
 
-/// How many events are hit, of how many, and the share by chance.
+/// Number of events hit, number of events, and the expected share by chance.
 fn hits<'a>(
     benches: &[Bench<'_>],
     asked: impl Iterator<Item = &'a Event>,
@@ -189,7 +190,7 @@ fn hits<'a>(
     (hits, count, chance / count.max(1) as f64)
 }
 
-/// The share of keys that stay within a koma when there is noise on the clip, the mean of two seeds.
+/// Share of keys that stay within a koma with noise on the clip, the mean of two seeds.
 fn kept_under_noise(clip: &Clip, keys: &[Key], recipe: &Recipe, degrees: f64) -> Outcome<f64> {
     let own: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
     let mut sum = 0.0;
@@ -202,7 +203,7 @@ fn kept_under_noise(clip: &Clip, keys: &[Key], recipe: &Recipe, degrees: f64) ->
     Ok(sum / 2.0)
 }
 
-/// How far the keys that clips were made from are found again, in the mean over clips and two seeds.
+/// Share of the known keys of synthetic clips that are found again, the mean over clips and two seeds.
 fn known_keys(takes: &[Take], settings: &[(&str, &str)]) -> Outcome<f64> {
     let mut recipe = recipe_with(settings)?;
     recipe.keys.per_second = f64::INFINITY;
@@ -222,7 +223,7 @@ fn known_keys(takes: &[Take], settings: &[(&str, &str)]) -> Outcome<f64> {
     Ok(shares.iter().sum::<f64>() / shares.len() as f64)
 }
 
-/// Hits by kind of event of the second eye, and of the gaits.
+/// A table of hits by kind of event, for the second eye and the gaits.
 fn kinds(
     benches: &mut [Bench<'_>],
     events: &[Event],
@@ -259,7 +260,7 @@ fn kinds(
     Ok(table.text())
 }
 
-/// What the genga of each clip are.
+/// A table of the genga of each clip by reason.
 fn reasons(benches: &mut [Bench<'_>]) -> Outcome<String> {
     let shown = [Reason::Turn, Reason::Fill, Reason::Rest, Reason::Step];
     let names = shown.map(|reason| format!(">{}", reason.word()));
@@ -281,7 +282,7 @@ fn reasons(benches: &mut [Bench<'_>]) -> Outcome<String> {
     Ok(table.text())
 }
 
-/// Turns of the body, genga and fills of all clips by the width of the filter.
+/// A table of turns of the body, genga and fills of all clips by filter width.
 fn widths(benches: &mut [Bench<'_>]) -> Outcome<String> {
     let mut table =
         Table::new(&["`filter.width`", ">turns of the body", ">genga", ">of these fills"]);

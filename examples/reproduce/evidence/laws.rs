@@ -1,4 +1,4 @@
-//! What must never happen on any clip: genga lost, holds that are none, drawings of a lead-in.
+//! Checks what must never happen on any clip: lost genga, false holds, drawings of a lead-in.
 
 use genga::motion::bvh;
 
@@ -6,7 +6,7 @@ use crate::Outcome;
 use crate::table::Table;
 use crate::takes::{Run, Take, kept};
 
-/// A row a clip; every count must be 0.
+/// A table with one row per clip; every count must be 0.
 pub(crate) fn table(takes: &[Take]) -> Outcome<String> {
     let mut table = Table::new(&[
         "clip",
@@ -38,8 +38,8 @@ pub(crate) fn table(takes: &[Take]) -> Outcome<String> {
     Ok(table.text())
 }
 
-/// Koma at which the written motion, read back, repeats its row and the sheet does not hold, or the
-/// other way round; and koma that one of them lacks.
+/// Number of koma at which the written motion, read back, repeats its row while the sheet does not hold, or the other
+/// way round, plus the difference in length.
 fn disagreements(take: &Take, run: &Run) -> Outcome<usize> {
     let back = bvh::read(run.limited_bvh.as_bytes())
         .map_err(|error| format!("{}: limited.bvh: {error}", take.name))?
@@ -52,7 +52,7 @@ fn disagreements(take: &Take, run: &Run) -> Outcome<usize> {
     Ok(wrong + rows.len().abs_diff(drawings.len()))
 }
 
-/// Drawings, kept or left out by naka-nashi, that come from frames before the motion.
+/// Number of drawings, kept or left out by naka-nashi, that come from frames before the motion.
 fn from_lead_in(take: &Take, run: &Run) -> usize {
     let first = take.clip.first().0 as f64;
     let shown = run.sheet.layers[0].drawings.iter().map(|drawing| drawing.source.place());

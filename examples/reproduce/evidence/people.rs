@@ -1,17 +1,17 @@
-//! How many people a blind test needs, by studies that are made up.
+//! Estimates how many people a blind test needs, with simulated studies.
 
-use genga::trial::{Condition, Study, Trial};
+use genga_trial::{Condition, Study, Trial};
 
 use crate::table::{Table, percent};
 
-/// Studies of each kind. A share of 0.9 is then known to 0.02.
+/// Number of studies of each kind. It gives a share of 0.9 to within 0.02.
 const STUDIES: usize = 200;
-/// How often one condition is taken before the other; by the first there is nothing to find.
+/// Probabilities that one condition is preferred over the other. At the first there is nothing to find.
 const CHANCES: [f64; 4] = [0.5, 0.6, 0.65, 0.7];
-/// How far the tastes of persons lie apart, in logits: with 0.5 two persons of three differ by less than that from the middle.
+/// Standard deviation of people's tastes, in logits: with 0.5, two out of three people are within it of the mean.
 const SPREAD: f64 = 0.5;
 
-/// A row a number of persons.
+/// A table with one row per number of people.
 pub(crate) fn table() -> String {
     let chances = CHANCES.map(|chance| format!(">{} in 100", (100.0 * chance).round()));
     let names = [">persons who count"].into_iter().chain(chances.iter().map(String::as_str));

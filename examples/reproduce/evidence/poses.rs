@@ -1,18 +1,18 @@
-//! The genga of a clip as poses in a row.
+//! Draws the genga of a clip as poses in a row.
 
-use genga::plot::PoseRow;
+use genga_plot::PoseRow;
 
 use crate::Outcome;
 use crate::takes::{Take, kept, named};
 
-/// Pictures by name, and the clips they are of.
+/// Picture names and their clips.
 pub(crate) const PICTURES: [(&str, &str); 3] = [
     ("kick", "cmu-11_01-soccer-kick"),
     ("run", "cmu-09_01-run"),
     ("jump", "cmu-02_04-jump-balance"),
 ];
 
-/// The genga and both ends of a clip, numbered together as in the key table.
+/// Draws the genga and both ends of a clip, numbered together as in the key table.
 pub(crate) fn draw(takes: &[Take], clip: &str) -> Outcome<String> {
     let take = named(takes, clip)?;
     let kept = kept(&take.default().sheet);

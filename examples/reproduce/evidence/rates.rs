@@ -1,4 +1,4 @@
-//! How much is drawn: the rates of every clip, and the merges side by side.
+//! Drawing rates of every clip, and of the merges compared.
 
 use crate::Outcome;
 use crate::evidence::events::{self, Event};
@@ -6,7 +6,7 @@ use crate::evidence::rigs;
 use crate::table::{Table, number, percent, spread};
 use crate::takes::{MERGES, Take};
 
-/// A row a clip with the defaults, and the spread below.
+/// A table with one row per clip with the defaults, and the spread at the bottom.
 pub(crate) fn table(takes: &[Take]) -> String {
     let mut table = Table::new(&[
         "clip",
@@ -50,7 +50,7 @@ pub(crate) fn table(takes: &[Take]) -> String {
     format!("{}\n{}", table.text(), spreads.text())
 }
 
-/// A row a merge: events found, rate on all clips, steadiness between two rigs.
+/// A table with one row per merge: events found, rate on all clips, steadiness between two rigs.
 pub(crate) fn merges(takes: &[Take], events: &[Event]) -> Outcome<String> {
     let mut table = Table::new(&[
         "`keys.merge`",

@@ -1,4 +1,4 @@
-//! The same take in two rigs: an animator sees one motion, so the keys should be the same.
+//! Compares one take in two rigs: an animator sees one motion, so the keys should be the same.
 
 use crate::Outcome;
 use crate::table::{Table, number};
@@ -6,7 +6,7 @@ use crate::takes::{MERGES, Take, named};
 
 pub(crate) const RIGS: [&str; 2] = ["cmu-05_11-dance-pirouette", "threejs-pirouette"];
 
-/// F1 of the genga of both rigs for each merge, and how many there are.
+/// A table of the F1 of both rigs' genga for each merge, and their numbers.
 pub(crate) fn table(takes: &[Take]) -> Outcome<String> {
     let mut table = Table::new(&[
         "`keys.merge`",
@@ -34,7 +34,7 @@ pub(crate) fn table(takes: &[Take]) -> Outcome<String> {
     Ok(table.text())
 }
 
-/// 2·pairs / (genga of both rigs), each genga in one pair at most.
+/// F1 = 2·pairs / (genga of both rigs), with each genga in one pair at most.
 pub(crate) fn f1(takes: &[Take], merge: &str, tolerance: f64) -> Outcome<f64> {
     let [first, second] = rigs(takes, merge)?;
     Ok(share(&first, &second, tolerance))
@@ -44,8 +44,7 @@ fn share(first: &[f64], second: &[f64], tolerance: f64) -> f64 {
     2.0 * pairs(first, second, tolerance) as f64 / (first.len() + second.len()) as f64
 }
 
-/// What keys as many and as far apart would reach that have nothing to do with each other: the mean
-/// F1 with the second list turned round by 1, 2, 3 … koma.
+/// The F1 by chance: the mean F1 with the second list rotated by 1, 2, 3 … koma, which keeps its size and gaps.
 fn chance(first: &[f64], second: &[f64], tolerance: f64) -> f64 {
     let past = first.iter().chain(second).copied().fold(0.0, f64::max).floor() + 1.0;
     let turned = |by: usize| {
@@ -56,7 +55,7 @@ fn chance(first: &[f64], second: &[f64], tolerance: f64) -> f64 {
     (1..past as usize).map(turned).sum::<f64>() / (past - 1.0)
 }
 
-/// Source times of the genga of both rigs, in koma from frame 0 of the file.
+/// Source times of both rigs' genga, in koma from frame 0 of the file.
 fn rigs(takes: &[Take], merge: &str) -> Outcome<[Vec<f64>; 2]> {
     let times = |name| {
         let take = named(takes, name)?;
@@ -68,12 +67,12 @@ fn rigs(takes: &[Take], merge: &str) -> Outcome<[Vec<f64>; 2]> {
     first.and_then(|first| Ok([first, second?]))
 }
 
-/// The most pairs no further apart than `tolerance`. Both lists are in order, and then taking the
-/// first that fits is optimal.
+/// Largest number of pairs no further apart than `tolerance`. Both lists are sorted, so taking the first that fits is
+/// optimal.
 fn pairs(first: &[f64], second: &[f64], tolerance: f64) -> usize {
     let (mut a, mut b, mut pairs) = (0, 0, 0);
     while a < first.len() && b < second.len() {
-        // A hair more, so that 5 frames at 120 fps are one koma whatever the rounding.
+        // The epsilon makes 5 frames at 120 fps one koma whatever the rounding.
         if (first[a] - second[b]).abs() <= tolerance + 1e-9 {
             (a, b, pairs) = (a + 1, b + 1, pairs + 1);
         } else if first[a] < second[b] {

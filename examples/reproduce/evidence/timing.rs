@@ -1,4 +1,4 @@
-//! Timing (タイミング): what is held, what is fast, and the marks of an eye that looked at six sources before.
+//! Timing (タイミング): holds, fast passages, and the marks that a person made in six sources beforehand.
 
 use genga::edits::Edits;
 use genga::keys::Reference;
@@ -14,18 +14,18 @@ use crate::takes::{Take, named};
 /// Koma from which on an exposure is a hold.
 const HOLD: usize = 6;
 
-/// How unlike neighbouring genga are that one drawing could show, in % of body height: the program's own `spacing.drift`.
+/// Largest distance, in % of body height, at which neighbouring genga count as alike and one drawing could show both:
+/// the default of `spacing.drift`.
 const ALIKE: f64 = 3.3;
 
-/// What is laid side by side: the defaults, ones besides, and twos without holds, which is what most sheets of
-/// captures are.
+/// The recipes compared: the defaults, the defaults with ones, and twos without holds, as in most sheets of captures.
 const RECIPES: [(&str, &[(&str, &str)]); 3] = [
     ("as it is", &[]),
     ("on ones to threes", &[("spacing.on", "1-3")]),
     ("on twos, nothing held", &[("spacing.on", "2"), ("spacing.drift", "0")]),
 ];
 
-/// What is counted on a sheet, or on several together.
+/// Counts of a sheet, or of several together.
 #[derive(Default, Clone, Copy)]
 struct Counts {
     koma: usize,
@@ -40,12 +40,12 @@ struct Counts {
     marks: usize,
     hits: usize,
     chance: f64,
-    /// The sum of the rank correlations, and of how many clips.
+    /// Sum of the rank correlations, and number of clips in it.
     ranks: f64,
     clips: f64,
 }
 
-/// A drawing on the sheet: its first koma, how many it stays for, the koma of its source place, whether it is a genga.
+/// A drawing on the sheet: its first koma, its length in koma, the koma of its source place, whether it is a genga.
 #[derive(Clone, Copy)]
 struct Shown {
     begin: usize,
@@ -54,7 +54,7 @@ struct Shown {
     is_kept: bool,
 }
 
-/// The table of the marked clips, and of all recipes.
+/// Makes the table of the marked clips, and of all recipes.
 pub(crate) fn table(takes: &[Take], events: &[Event]) -> Outcome<String> {
     let header = [
         "clip, recipe",
@@ -123,7 +123,7 @@ fn cells(name: &str, counts: &Counts) -> Vec<String> {
 fn counted(take: &Take, recipe: &Recipe, events: &[&Event]) -> Outcome<Counts> {
     let mut engine = Engine::new(take.clip.clone())?;
     let sheet = engine.run(recipe, &Edits::default())?.sheet.clone();
-    let reference = Reference::of(&take.clip, sheet.clock);
+    let reference = Reference::new(&take.clip, sheet.clock);
     let shown = shown(&sheet, reference.koma());
     let mut counts = Counts {
         koma: sheet.length(),
@@ -162,7 +162,7 @@ fn shown(sheet: &Sheet, koma: usize) -> Vec<Shown> {
     layer.timed().map(shown).collect()
 }
 
-/// The rank correlation (Spearman) of how long drawings stay and how fast the source is meanwhile.
+/// Rank correlation (Spearman) between the length of exposures and the speed of the source meanwhile.
 fn with_speed(shown: &[Shown], reference: &Reference) -> f64 {
     let last = reference.koma() - 1;
     let step = |koma: usize| if koma == 0 { 0.0 } else { reference.apart(koma - 1, koma) };
@@ -174,7 +174,7 @@ fn with_speed(shown: &[Shown], reference: &Reference) -> f64 {
     correlation(&stays, &ranks(shown.iter().map(speed)))
 }
 
-/// The place of each value among all, of equals the middle one.
+/// Rank of each value, the mean rank on a tie.
 fn ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let below = |own: &f64| values.iter().filter(|other| *other < own).count();
@@ -209,7 +209,7 @@ impl Counts {
         self.clips += other.clips;
     }
 
-    /// Drawings within a marked hold, and the one that covers most of it.
+    /// Adds a marked hold: counts the drawings within it, and checks the length of the one that covers most of it.
     fn add_hold(&mut self, shown: &[Shown], [from, to]: [usize; 2]) {
         let within =
             shown.iter().filter(|shown| shown.begin < to && shown.begin + shown.koma > from + 1);
@@ -223,8 +223,8 @@ impl Counts {
         }
     }
 
-    /// A mark is hit by a genga within a koma; a start, or an end of a movement, where the drawing changes within one: its pose is the
-    /// one that is held.
+    /// Adds a mark. It is hit by a genga within a koma. A start or an end of a movement is hit by a change of drawing
+    /// within a koma, because its pose is the one that is held.
     fn add_mark(
         &mut self,
         shown: &[Shown],

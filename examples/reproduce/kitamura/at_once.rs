@@ -1,4 +1,4 @@
-//! Fig. 3: deleting step by step against deleting all at once, by the first SSD.
+//! Fig. 3: deleting step by step against deleting all at once by the first SSD.
 
 use genga::timing::Omission;
 
@@ -10,26 +10,26 @@ use crate::ones::{Done, Ones, counts};
 use crate::part::Part;
 use crate::table::{Table, number, spread};
 
-/// Drawings to leave out of a real clip; of a sample as many as the paper does.
+/// Number of drawings to leave out of a real clip. For a sample it is the paper's number.
 const LEFT_OUT: usize = 4;
 
-/// The clip that is drawn.
+/// Name of the clip that is drawn.
 const DRAWN: &str = "cmu-11_01-soccer-kick";
 
-/// Its pictures, and the words on them.
+/// Picture names and captions.
 const PICTURES: [(&str, &str); 2] =
     [("fig-3-step-by-step", "kick, step by step"), ("fig-3-all-at-once", "kick, all at once")];
 
-/// The two ways of one clip.
+/// Both ways applied to one clip.
 struct Ways {
     step_by_step: Done,
     all_at_once: Done,
-    /// The largest SSD of the source.
+    /// Largest SSD of the source.
     peak: f64,
 }
 
 impl Ways {
-    fn of(ones: &Ones, naka_nashi: usize) -> Outcome<Self> {
+    fn new(ones: &Ones, naka_nashi: usize) -> Outcome<Self> {
         let step_by_step = counts(naka_nashi, 0);
         let all_at_once = Omission { all_at_once: true, ..step_by_step };
         Ok(Self {
@@ -39,7 +39,7 @@ impl Ways {
         })
     }
 
-    /// How many times the largest SSD grows, of either way.
+    /// Growth of the largest SSD in both ways, as a factor.
     fn growth(&self) -> [f64; 2] {
         [&self.step_by_step, &self.all_at_once].map(|done| done.peak / self.peak)
     }
@@ -48,7 +48,7 @@ impl Ways {
         self.all_at_once.peak > self.step_by_step.peak
     }
 
-    /// The same line of koma of both, two before the first that goes.
+    /// Draws the same line of koma in both ways, beginning two before the first one left out.
     fn draw(&self, part: &mut Part, ones: &Ones) -> Outcome<()> {
         let ways = [&self.step_by_step, &self.all_at_once];
         let first = ways.iter().filter_map(|done| done.left_out().first().copied()).min();
@@ -61,14 +61,11 @@ impl Ways {
 
     fn row(&self, table: &mut Table, name: &str) {
         let [step, once] = self.growth();
-        let (a, b) = (&self.step_by_step, &self.all_at_once);
         table.row(&[
             name.into(),
-            koma(&a.left_out()),
-            a.adjacent().to_string(),
+            koma(&self.step_by_step.left_out()),
             number(step, 1),
-            koma(&b.left_out()),
-            b.adjacent().to_string(),
+            koma(&self.all_at_once.left_out()),
             number(once, 1),
         ]);
     }
@@ -78,15 +75,13 @@ fn table() -> Table {
     Table::new(&[
         "clip",
         ">koma left out step by step",
-        ">most adjacent",
         ">peak SSD, times",
         ">koma left out all at once",
-        ">most adjacent",
         ">peak SSD, times",
     ])
 }
 
-/// Koma for people, from 1, neighbours as a range.
+/// Formats koma for people: from 1, neighbours as a range.
 pub(super) fn koma(koma: &[usize]) -> String {
     let runs = koma.chunk_by(|a, b| a + 1 == *b);
     let text = |run: &[usize]| match run {
@@ -97,12 +92,12 @@ pub(super) fn koma(koma: &[usize]) -> String {
     runs.map(text).collect::<Vec<_>>().join(", ")
 }
 
-/// The four actions.
+/// Compares the ways on the paper's four actions.
 pub(super) fn add_samples(part: &mut Part) -> Outcome<()> {
     let mut table = table();
     let mut larger = 0;
     for action in ACTIONS {
-        let ways = Ways::of(&action.ones()?, action.naka_nashi)?;
+        let ways = Ways::new(&action.ones()?, action.naka_nashi)?;
         larger += usize::from(ways.all_at_once_is_larger());
         ways.row(&mut table, action.name);
     }
@@ -112,12 +107,12 @@ pub(super) fn add_samples(part: &mut Part) -> Outcome<()> {
     Ok(())
 }
 
-/// The real clips, and one of them drawn.
+/// Compares the ways on the real clips, and draws one of them.
 pub(super) fn add(part: &mut Part, windows: &[Window<'_>]) -> Outcome<()> {
     let mut table = table();
     let mut ways = Vec::new();
     for window in windows {
-        let both = Ways::of(&window.ones, LEFT_OUT)?;
+        let both = Ways::new(&window.ones, LEFT_OUT)?;
         both.row(&mut table, window.name);
         if window.name == DRAWN {
             both.draw(part, &window.ones)?;

@@ -1,23 +1,22 @@
-//! Figs 1, 2 and 8: SSD into each koma, which drawings are left out, doubled and held, and the bars of
-//! what has its own drawing.
+//! Figs 1, 2 and 8: SSD into each koma, which drawings are left out, doubled and held, and bars of the koma that have
+//! their own drawing.
 
-use genga::plot::SsdPlot;
+use genga_plot::SsdPlot;
 
 use crate::Outcome;
 use crate::kitamura::at_once::koma;
 use crate::kitamura::table_1::ACTIONS;
 use crate::ones::counts;
 use crate::part::Part;
-use crate::table::{Table, number};
+use crate::table::Table;
 
-/// A picture an action, and where its drawings are.
+/// Makes a picture per action and a table of where its drawings are.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let mut table = Table::new(&[
         "action",
         ">largest SSD into koma",
         ">koma left out",
         ">koma doubled (times)",
-        ">peak SSD, times",
         ">own drawings in the faster half",
         ">in the slower half",
     ]);
@@ -42,7 +41,6 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
             (by_speed[0] + 1).to_string(),
             koma(&done.left_out()),
             doubled.collect::<Vec<_>>().join(", "),
-            number(done.peak / ones.peak(), 1),
             of(fast),
             of(slow),
         ]);

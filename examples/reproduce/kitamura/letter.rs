@@ -1,32 +1,32 @@
-//! Algorithms 1 and 2 to the letter: a list of poses, every distance anew in every round.
+//! Algorithms 1 and 2 taken literally: a list of poses, with every distance recomputed in every round.
 
 use genga::timing::Stills;
 use glam::DVec3;
 
-/// How often a frame may be duplicated, and copied over the next.
+/// Most times that a frame may be duplicated, or copied over the next.
 const MOST: usize = 3;
 
 /// The list that the pseudo-code works on.
 pub(super) struct Frames {
     list: Vec<Frame>,
-    /// Copies of Algorithm 2 that put a frame over its equal.
+    /// Number of Algorithm 2 copies that replaced a frame by an equal one.
     pub(super) idle: usize,
 }
 
 #[derive(Clone)]
 struct Frame {
-    /// The koma of the source that it is of.
+    /// The koma of the source that it shows.
     koma: usize,
     joints: Vec<DVec3>,
-    /// `#DUPLICATED`. A duplicate is not duplicated itself: the paper counts "copies of a frame".
+    /// `#DUPLICATED`. A duplicate is not duplicated again: the paper counts "copies of a frame".
     duplicated: usize,
-    /// `#COPIED`, of the place in the list, as printed.
+    /// `#COPIED`, counted at the index in the list, as printed.
     copied: usize,
 }
 
 impl Frames {
-    /// A frame a koma, of so many joints.
-    pub(super) fn of(stills: &Stills, joints: usize) -> Self {
+    /// Makes one frame per koma, with the given number of joints.
+    pub(super) fn from_stills(stills: &Stills, joints: usize) -> Self {
         let frame = |koma| Frame {
             koma,
             joints: (0..joints).map(|joint| stills.position(koma, joint)).collect(),
@@ -36,7 +36,7 @@ impl Frames {
         Self { list: (0..stills.len()).map(frame).collect(), idle: 0 }
     }
 
-    /// Naka-nashi: the fastest is deleted, the one before the slowest duplicated.
+    /// Naka-nashi: deletes the fastest frame and duplicates the one before the slowest.
     pub(super) fn algorithm_1(&mut self, times: usize) {
         for _ in 0..times {
             let Some(fastest) = argmin(self.ssd().map(|(k, ssd)| (k, -ssd))) else { return };
@@ -49,7 +49,7 @@ impl Frames {
         }
     }
 
-    /// Koma-dori: the one before the slowest is copied over it.
+    /// Koma-dori: copies the frame before the slowest over it.
     pub(super) fn algorithm_2(&mut self, times: usize) {
         for _ in 0..times {
             let free = self.ssd().filter(|(k, _)| self.list[k - 1].copied < MOST);
@@ -63,7 +63,7 @@ impl Frames {
         }
     }
 
-    /// The movement into each frame but the first.
+    /// Movement into each frame but the first.
     fn ssd(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (1..self.list.len()).map(|k| {
             let (before, own) = (&self.list[k - 1].joints, &self.list[k].joints);
@@ -71,13 +71,13 @@ impl Frames {
         })
     }
 
-    /// Frames that repeat the one before.
+    /// Number of frames that repeat the one before.
     pub(super) fn held(&self) -> usize {
         self.list.windows(2).filter(|pair| pair[0].koma == pair[1].koma).count()
     }
 }
 
-/// Of equal values the first.
+/// Index of the smallest value; the first one on a tie.
 fn argmin(values: impl Iterator<Item = (usize, f64)>) -> Option<usize> {
     values.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
 }
@@ -90,17 +90,17 @@ mod tests {
     use crate::samples;
 
     impl Frames {
-        /// What each frame shows, as the koma of the source.
+        /// The koma of the source that each frame shows.
         fn shown(&self) -> Vec<usize> {
             self.list.iter().map(|frame| frame.koma).collect()
         }
     }
 
-    /// One joint at these places on a line.
+    /// Frames of one joint at the given places on a line.
     fn line(places: &[f64]) -> Frames {
         let mut stills = Stills::new(1);
         places.iter().for_each(|x| stills.push(&[DVec3::X * *x]));
-        Frames::of(&stills, 1)
+        Frames::from_stills(&stills, 1)
     }
 
     #[test]
@@ -124,8 +124,8 @@ mod tests {
     #[test]
     fn naka_nashi_is_algorithm_1_on_the_four_actions() {
         for action in ACTIONS {
-            let ones = Ones::of(samples::clip(action.sample).unwrap());
-            let mut frames = Frames::of(&ones.stills, ones.clip.skeleton().len());
+            let ones = Ones::new(samples::clip(action.sample).unwrap());
+            let mut frames = Frames::from_stills(&ones.stills, ones.clip.skeleton().len());
             frames.algorithm_1(action.naka_nashi);
             let done = ones.omit(&counts(action.naka_nashi, 0)).unwrap();
             assert_eq!(frames.shown(), done.shown, "{}", action.name);

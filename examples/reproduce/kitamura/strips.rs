@@ -1,7 +1,7 @@
-//! Figs 4 to 7: the four actions where they are fastest, source above and result below.
+//! Figs 4 to 7: the four actions at their fastest, source above and result below.
 
-use genga::plot::Strip;
 use genga::sheet::{Exposure, Layer, Sheet};
+use genga_plot::Strip;
 
 use crate::Outcome;
 use crate::kitamura::at_once::koma;
@@ -10,19 +10,19 @@ use crate::ones::{Done, Ones, counts};
 use crate::part::Part;
 use crate::table::Table;
 
-/// Koma on a strip, a line of the picture.
+/// Koma in a line of the strip.
 const LINE: usize = 12;
 
 /// A figure of the paper.
 struct Figure {
     name: &'static str,
     picture: &'static str,
-    /// The first deleted frame of its upper row, from 1, and which the paper says they are.
+    /// Index of the first deleted frame in the upper row, from 1, and the deleted frames as the paper states them.
     first: usize,
     deleted: &'static str,
 }
 
-/// In the order of Table 1. In what is said of the kick the last frame is missing.
+/// The figures in the order of Table 1. The paper does not state the last frame of the kick.
 const FIGURES: [Figure; 4] = [
     figure("Fig. 4, pitch", "fig-4-pitch", 3, "3–6"),
     figure("Fig. 5, kick", "fig-5-kick", 2, "2–(not said)"),
@@ -39,8 +39,8 @@ const fn figure(
     Figure { name, picture, first, deleted }
 }
 
-/// The strips, cropped so that the first deletion stands where it does in the paper, and which frames
-/// are left out.
+/// Makes the strips, cropped so that the first deletion is at the same index as in the paper, and the table of frames
+/// left out.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let mut table = Table::new(&[
         "figure",
@@ -69,14 +69,14 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     Ok(())
 }
 
-/// A line of koma, from one on.
+/// Draws a line of koma that begins at `begin`.
 pub(super) fn draw(ones: &Ones, done: &Done, begin: usize, name: &str) -> Outcome<String> {
     let strip = Strip { in_line: LINE, figure_height: 110, ..Strip::default() };
     let pages = strip.draw(name, &ones.clip, &cropped(&done.sheet, begin))?;
     Ok(pages.into_iter().next().ok_or("a strip without a page")?)
 }
 
-/// The line of a sheet that begins on a koma.
+/// Crops a sheet to the line that begins on a koma.
 fn cropped(sheet: &Sheet, begin: usize) -> Sheet {
     let layer = &sheet.layers[0];
     let part = |(at, shown): (usize, Exposure)| {

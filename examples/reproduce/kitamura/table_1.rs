@@ -1,5 +1,5 @@
-//! Table 1: what was asked of the four actions, what was done, how long it took, and what the
-//! pseudo-code to the letter would do.
+//! Table 1: amounts asked for in the four actions, amounts done, times, and the result of the pseudo-code taken
+//! literally.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -14,9 +14,9 @@ use crate::{Outcome, samples};
 
 /// A row of the paper.
 pub(super) struct Action {
-    /// The sample that stands for the capture.
+    /// The sample that stands in for the capture.
     pub(super) sample: &'static str,
-    /// The paper's name.
+    /// The action's name in the paper.
     pub(super) name: &'static str,
     pub(super) koma: usize,
     pub(super) naka_nashi: usize,
@@ -38,9 +38,9 @@ const fn row(sample: &'static str, name: &'static str, figures: [usize; 4]) -> A
 }
 
 impl Action {
-    /// The sample, checked to be as long as the paper's action.
+    /// Reads the sample, and checks that it is as long as the paper's action.
     pub(super) fn ones(&self) -> Outcome<Ones> {
-        let ones = Ones::of(samples::clip(self.sample)?);
+        let ones = Ones::new(samples::clip(self.sample)?);
         let (sample, koma) = (self.sample, self.koma);
         if ones.koma() != koma {
             let found = ones.koma();
@@ -50,22 +50,16 @@ impl Action {
     }
 }
 
-/// The tables.
+/// Makes the tables.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let mut omission = Table::new(&[
         "action",
         ">koma",
         ">N_io done/asked",
         ">N_hf done/asked",
-        ">koma that N_hf holds",
         ">longest hold",
-    ]);
-    let mut letter = Table::new(&[
-        "action",
-        ">N_hf",
-        ">copies to the letter that change nothing",
-        ">koma held to the letter",
-        ">koma held by genga",
+        ">to the letter: koma held",
+        ">copies that change nothing",
     ]);
     let mut times = Table::new(&[
         "action",
@@ -79,33 +73,24 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     for action in ACTIONS {
         let ones = action.ones()?;
         let (naka_nashi, koma_dori) = (action.naka_nashi, action.koma_dori);
-        let first = ones.omit(&counts(naka_nashi, 0))?;
         let done = ones.omit(&counts(naka_nashi, koma_dori))?;
-        let held = done.held() - first.held();
         let report = &done.report;
+        let mut frames = to_the_letter(&ones, &action, false);
+        let held_before = frames.held();
+        frames.algorithm_2(koma_dori);
+        idle.push(frames.idle);
         omission.row(&[
             action.name.into(),
             action.koma.to_string(),
             format!("{}/{}", report.naka_nashi.done, report.naka_nashi.asked),
             format!("{}/{}", report.koma_dori.done, report.koma_dori.asked),
-            held.to_string(),
             done.longest_hold().to_string(),
-        ]);
-        let mut frames = to_the_letter(&ones, &action, false);
-        let held_before = frames.held();
-        frames.algorithm_2(koma_dori);
-        idle.push(frames.idle);
-        letter.row(&[
-            action.name.into(),
-            koma_dori.to_string(),
-            frames.idle.to_string(),
             (frames.held() - held_before).to_string(),
-            held.to_string(),
+            frames.idle.to_string(),
         ]);
         times.row(&times_of(&action, &ones));
     }
     part.table("table-1-omission", omission);
-    part.table("letter", letter);
     part.measured("table-1-times", times);
     part.number("km.letter.pitch", idle[0]);
     part.number("km.pitch.holds", ACTIONS[0].koma_dori);
@@ -118,7 +103,7 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
 }
 
 fn to_the_letter(ones: &Ones, action: &Action, both: bool) -> Frames {
-    let mut frames = Frames::of(&ones.stills, ones.clip.skeleton().len());
+    let mut frames = Frames::from_stills(&ones.stills, ones.clip.skeleton().len());
     frames.algorithm_1(action.naka_nashi);
     if both {
         frames.algorithm_2(action.koma_dori);
@@ -131,7 +116,7 @@ fn times_of(action: &Action, ones: &Ones) -> [String; 6] {
     let layer = &ones.sheet.layers[0];
     let letter = milliseconds(|| to_the_letter(ones, action, true));
     let stages = milliseconds(|| settings.apply(layer, &ones.stills, 1));
-    let all = milliseconds(|| settings.apply(layer, &Stills::of(&ones.clip, layer), 1));
+    let all = milliseconds(|| settings.apply(layer, &Stills::from_layer(&ones.clip, layer), 1));
     [
         action.name.into(),
         action.milliseconds.to_string(),
@@ -142,7 +127,7 @@ fn times_of(action: &Action, ones: &Ones) -> [String; 6] {
     ]
 }
 
-/// The middle of 21 runs after one.
+/// The median of 21 runs after a warm-up run.
 fn milliseconds<T>(run: impl Fn() -> T) -> f64 {
     black_box(run());
     let mut times: Vec<f64> = (0..21)

@@ -1,30 +1,30 @@
-//! Figures 7 to 10: a ball that rolls from A to B, with three inbetweens, spaced by the library.
+//! Figures 7 to 10: a ball that rolls from A to B with three inbetweens, spaced by the library.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 use genga::keys::{LayerKeys, Wall};
 use genga::motion::{Clip, JointId, bvh};
-use genga::plot::SpacingPlot;
 use genga::sheet::Sheet;
 use genga::signal::{LowPass, Measure, Signals, Spectrum, Speed, TurnFinder, TurnKind};
 use genga::time::{Frame, KOMA_RATE, Span};
 use genga::timing::{On, Pace, Spacing};
+use genga_plot::SpacingPlot;
 
 use crate::Outcome;
 use crate::part::Part;
 use crate::table::number;
 
-/// Koma from A to B, both included, and frames a second.
+/// Number of koma from A to B, both included, and frames per second.
 const KOMA: usize = 9;
 const RATE: f64 = 120.0;
 
-/// Where on the way the ball of Fig. 10 is fastest, in time.
+/// Share of the time at which the ball of Fig. 10 is fastest.
 const FASTEST: f64 = 0.85;
-/// Its speed at A and B, as a share of what is added to it at the fastest.
+/// Its speed at A and B, as a share of the added peak speed.
 const ROLLS: f64 = 0.25;
 
-/// Both pictures, and what the prose says of them.
+/// Makes both pictures and the numbers of the prose.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let even = clip(|share| share)?;
     let sheets = [0.0, 0.3, 0.6].map(|weight| sheet(&even, weight, &[]));
@@ -55,7 +55,7 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     Ok(())
 }
 
-/// A ball that rolls along X, at each share of the time so much of its way.
+/// Makes a clip of a ball that rolls along X; `way` maps the share of the time to the share of the distance.
 fn clip(way: impl Fn(f64) -> f64) -> Outcome<Clip> {
     let frames = (KOMA - 1) * (RATE / KOMA_RATE) as usize + 1;
     let mut text = format!(
@@ -69,10 +69,10 @@ fn clip(way: impl Fn(f64) -> f64) -> Outcome<Clip> {
     Ok(bvh::read(text.as_bytes())?.clip)
 }
 
-/// The way gone by a ball that rolls on while its speed swells as a squared sine up to [`FASTEST`], and
-/// falls in the same way towards the end.
+/// Distance covered by a ball that rolls steadily while its speed swells as a squared sine up to [`FASTEST`], and falls
+/// in the same way towards the end.
 fn gone(share: f64) -> f64 {
-    // The integral of sin²(πx/2a), from 0.
+    // Integral of sin²(πx/2a), from 0.
     let swell = |x: f64, a: f64| 0.5 * x - 0.5 * a / PI * libm::sin(PI * x / a) + ROLLS * x;
     let whole = swell(FASTEST, FASTEST) + swell(1.0 - FASTEST, 1.0 - FASTEST);
     let way = match share {
@@ -82,17 +82,17 @@ fn gone(share: f64) -> f64 {
     way / whole
 }
 
-/// The frames at which the ball stops accelerating, as the library finds them.
+/// Frames at which the ball stops accelerating, as found by the library.
 fn walls(speed: &Signals) -> Vec<Frame> {
     let unfiltered = LowPass { width: Span::Frames(0.0), ..LowPass::default() };
-    let speed = unfiltered.apply(&Spectrum::of(speed));
+    let speed = unfiltered.apply(&Spectrum::new(speed));
     let turns = TurnFinder::default().find(&speed, 0.0);
     turns[0].iter().filter(|turn| turn.kind == TurnKind::Wall).map(|turn| turn.frame).collect()
 }
 
-/// Three inbetweens between the ends of a clip.
+/// Makes a sheet with three inbetweens between the ends of a clip.
 fn sheet(clip: &Clip, weight: f64, walls: &[Frame]) -> Sheet {
-    // Three fit between two balls as near as those of the paper where they may stay for one koma.
+    // Three inbetweens fit between balls as close as the paper's only if a drawing may stay for one koma.
     let (on, inbetweens) = (On::every(1), Some(3));
     let spacing = Spacing { on, inbetweens, weight, ..Spacing::default() };
     let walls = walls.iter().map(|frame| Wall { frame: *frame, strength: 1.0 }).collect();

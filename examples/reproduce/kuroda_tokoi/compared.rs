@@ -1,5 +1,5 @@
-//! Table 1 in the ways to read it, beside the paper: on the sample, and on windows of real clips as
-//! long as the paper's capture.
+//! Compares several readings of Table 1 with the paper: on the sample, and on windows of real clips as long as the
+//! paper's capture.
 
 use genga::motion::Clip;
 use genga::signal::{FilterKind, Measure, Side};
@@ -11,14 +11,14 @@ use crate::table::{Table, number, percent, spread};
 use crate::takes::Take;
 use crate::{Outcome, samples, windows};
 
-/// Koma of the paper's 496 frames, and the fewest of a clip that stands beside them.
+/// Length in koma of the paper's 496 frames, and the shortest clip that is compared.
 const KOMA: usize = 119;
 const LEAST_KOMA: usize = 100;
 
-/// A take that is there in two rigs counts once.
+/// The second rig of a take, left out so that the take counts once.
 const AGAIN: &str = "threejs-pirouette";
 
-/// What is told apart: one change from the study's way each, and the ways that others found best.
+/// The ways shown: those that differ from the study's in one choice, and those that others found best.
 fn shown() -> Vec<Way> {
     let rising = Way { side: Side::Rising, ..STUDY };
     let both = Way { side: Side::Both, ..STUDY };
@@ -31,30 +31,30 @@ fn shown() -> Vec<Way> {
     ways.push(Way { measure: Measure::Angle, ..STUDY });
     ways.extend([both, rising]);
     ways.push(Way { width: Width::EachSide, ..rising });
-    // The best of a prototype's.
+    // The best way of an earlier prototype.
     ways.push(Way { measure: Measure::Angle, band: 0.01, side: Side::Both, ..each_side });
     ways
 }
 
-/// The sample's table, and what the prose says of it.
+/// Makes the sample's table and the numbers of the prose.
 pub(super) fn add_sample(part: &mut Part) -> Outcome<()> {
-    let counts = Compared::of(&[samples::clip("kuroda-pitch")?])?;
-    let header = ["reading", ">keys at 10/5", ">10/10", ">20/5", ">20/10", ">30/5", ">30/10"];
-    let mut table = Table::new(&[&header[..], &[">level", ">shape", ">error"]].concat());
-    table.row(&sample_row("the paper".into(), paper()));
+    let counts = Compared::new(&[samples::clip("kuroda-pitch")?])?;
+    let mut table = Table::new(&["reading", ">level", ">shape", ">error"]);
     for way in shown() {
-        table.row(&sample_row(way.words(), counts.of_way(&way)[0].union));
+        let fit = Fit::new(counts.of_way(&way)[0].union);
+        let [level, shape, error] =
+            [fit.level(), fit.shape(), fit.error()].map(|value| number(value, 2));
+        table.row(&[way.words(), level, shape, error]);
     }
-    let study = counts.of_way(&STUDY)[0];
-    table.row(&sample_row("the words of §3.3, the sum over joints".into(), study.total));
     part.table("table-1-sample", table);
+    let study = counts.of_way(&STUDY)[0];
     costs(part, "kt.paper", paper());
     costs(part, "kt.words", study.union);
     let rising = counts.of_way(&Way { side: Side::Rising, ..STUDY })[0];
     costs(part, "kt.rising", rising.union);
-    part.number("kt.words.error", number(Fit::of(study.union).error(), 2));
-    part.number("kt.rising.error", number(Fit::of(rising.union).error(), 2));
-    let total = Fit::of(study.total);
+    part.number("kt.words.error", number(Fit::new(study.union).error(), 2));
+    part.number("kt.rising.error", number(Fit::new(rising.union).error(), 2));
+    let total = Fit::new(study.total);
     part.number("kt.total.level", number(total.level(), 1));
     let both = counts.of_way(&Way { side: Side::Both, ..STUDY })[0];
     part.number("kt.both.most", both.union[0]);
@@ -63,12 +63,12 @@ pub(super) fn add_sample(part: &mut Part) -> Outcome<()> {
     Ok(())
 }
 
-/// A share in whole %, for prose.
+/// Formats a share in whole %, for prose.
 fn whole(share: f64) -> String {
     number(100.0 * share, 0)
 }
 
-/// What the longer persistence and the widest filter cost.
+/// Adds the shares lost to the longer persistence and to the widest filter.
 fn costs(part: &mut Part, name: &str, counts: Six) {
     let [least, _, most] = spread(lost(counts));
     part.number(&format!("{name}.lost.least"), whole(least));
@@ -76,15 +76,7 @@ fn costs(part: &mut Part, name: &str, counts: Six) {
     part.number(&format!("{name}.filtered"), whole(filtered_away(counts)));
 }
 
-fn sample_row(words: String, counts: Six) -> Vec<String> {
-    let fit = Fit::of(counts);
-    let mut row = vec![words];
-    row.extend(counts.map(|count| count.to_string()));
-    row.extend([fit.level(), fit.shape(), fit.error()].map(|value| number(value, 2)));
-    row
-}
-
-/// The tables of the real clips, and what the prose says of them.
+/// Makes the tables of the real clips and the numbers of the prose.
 pub(super) fn add_takes(part: &mut Part, takes: &[Take]) -> Outcome<()> {
     let koma =
         |take: &Take| take.clip.rate().koma_from_frames(take.clip.len(), genga::time::KOMA_RATE);
@@ -92,7 +84,7 @@ pub(super) fn add_takes(part: &mut Part, takes: &[Take]) -> Outcome<()> {
     let long: Vec<&Take> = long.collect();
     let window = |take: &&Take| windows::window(&take.clip, koma(take).min(KOMA));
     let clips = long.iter().map(window).collect::<Outcome<Vec<_>>>()?;
-    let counts = Compared::of(&clips)?;
+    let counts = Compared::new(&clips)?;
     part.table("table-1-clips", by_clip(&long, &clips, &counts));
     part.table("table-1-readings", by_way(&counts));
     part.number("kt.clips", clips.len());
@@ -117,82 +109,69 @@ pub(super) fn add_takes(part: &mut Part, takes: &[Take]) -> Outcome<()> {
 }
 
 fn by_clip(takes: &[&Take], clips: &[Clip], counts: &Compared) -> Table {
-    let header = ["clip", ">frames", ">joints", ">keys at 10/5", ">10/10", ">20/5", ">20/10"];
-    let more = [">30/5", ">30/10", ">level", ">shape", ">M costs"];
-    let mut table = Table::new(&[&header[..], &more].concat());
+    let mut table = Table::new(&["clip", ">frames", ">joints", ">level", ">M costs"]);
     for ((take, clip), of_clip) in takes.iter().zip(clips).zip(counts.of_way(&STUDY)) {
-        let fit = Fit::of(of_clip.union);
-        let mut row = vec![
+        table.row(&[
             take.name.clone(),
             format!("{}–{}", clip.first(), clip.last()),
             clip.skeleton().len().to_string(),
-        ];
-        row.extend(of_clip.union.map(|count| count.to_string()));
-        row.extend([fit.level(), fit.shape()].map(|value| number(value, 2)));
-        row.push(percents(spread(lost(of_clip.union))));
-        table.row(&row);
+            number(Fit::new(of_clip.union).level(), 2),
+            percents(spread(lost(of_clip.union))),
+        ]);
     }
     table
 }
 
-/// From the least to the most, without the middle.
+/// Formats a range from least to most, without the median.
 fn percents([least, _, most]: [f64; 3]) -> String {
     format!("{} to {} %", whole(least), whole(most))
 }
 
 fn by_way(counts: &Compared) -> Table {
-    let mut table = Table::new(&[
-        "reading",
-        ">level",
-        ">least to most",
-        ">shape",
-        ">error",
-        ">least to most",
-        ">M costs",
-        ">nearer than the words",
-    ]);
+    let header = ["reading", ">level", ">shape", ">error", ">M costs", ">nearer than the words"];
+    let mut table = Table::new(&header);
     for way in shown().into_iter().chain(counts.nearest()) {
         table.row(&counts.row(&way));
     }
     table
 }
 
-/// Every way on some clips.
+/// All ways counted on some clips.
 struct Compared {
     ways: Vec<Way>,
-    /// A list a clip, in the order of the ways.
+    /// Per clip, the counts in the order of the ways.
     counts: Vec<Vec<Counts>>,
 }
 
 impl Compared {
-    fn of(clips: &[Clip]) -> Outcome<Self> {
+    fn new(clips: &[Clip]) -> Outcome<Self> {
         let ways = readings::all();
         let counts = clips.iter().map(|clip| readings::count(clip, &ways));
         Ok(Self { counts: counts.collect::<Outcome<_>>()?, ways })
     }
 
-    /// What one way counts on each clip.
+    /// The counts of one way on each clip.
     fn of_way(&self, way: &Way) -> Vec<Counts> {
         let at = self.ways.iter().position(|other| other == way).expect("every way is counted");
         self.counts.iter().map(|counts| counts[at]).collect()
     }
 
     fn fits(&self, way: &Way) -> Vec<Fit> {
-        self.of_way(way).iter().map(|counts| Fit::of(counts.union)).collect()
+        self.of_way(way).iter().map(|counts| Fit::new(counts.union)).collect()
     }
 
-    /// The middle share that the longer persistence costs, over all clips and filter ranges.
+    /// The median share lost to the longer persistence, over all clips and filter ranges.
     fn lost(&self, way: &Way) -> f64 {
         median(self.of_way(way).iter().flat_map(|counts| lost(counts.union)))
     }
 
-    /// On how many clips a way is nearer to the paper than the words.
+    /// Number of clips on which a way is nearer to the paper than the study's way.
     fn nearer(&self, way: &Way) -> usize {
         let pairs = self.fits(way).into_iter().zip(self.fits(&STUDY));
         pairs.filter(|(fit, words)| fit.error() < words.error()).count()
     }
 
-    /// The three ways of the least middle error.
+    /// The three ways with the smallest median error.
     fn nearest(&self) -> Vec<Way> {
         let error = |way: &Way| median(self.fits(way).iter().map(Fit::error));
         let mut ways: Vec<(f64, Way)> = self.ways.iter().map(|way| (error(way), *way)).collect();
@@ -200,18 +179,15 @@ impl Compared {
         ways.into_iter().take(3).map(|(_, way)| way).collect()
     }
 
-    fn row(&self, way: &Way) -> Vec<String> {
+    fn row(&self, way: &Way) -> [String; 6] {
         let fits = self.fits(way);
-        let [least, level, most] = spread(fits.iter().map(Fit::level));
-        let [nearest, error, furthest] = spread(fits.iter().map(Fit::error));
+        let middle = |of: fn(&Fit) -> f64| number(median(fits.iter().map(of)), 2);
         let nearer = if *way == STUDY { "–".into() } else { self.nearer(way).to_string() };
-        vec![
+        [
             way.words(),
-            number(level, 2),
-            format!("{} to {}", number(least, 1), number(most, 1)),
-            number(median(fits.iter().map(Fit::shape)), 2),
-            number(error, 2),
-            format!("{} to {}", number(nearest, 2), number(furthest, 2)),
+            middle(Fit::level),
+            middle(Fit::shape),
+            middle(Fit::error),
             percent(self.lost(way)),
             nearer,
         ]

@@ -1,18 +1,18 @@
-//! How near counts come to the paper's Table 1.
+//! Measures how near counts come to the paper's Table 1.
 
 use super::readings::Six;
 use super::table_1::PAPER;
 use crate::table::spread;
 
-/// Six counts beside the paper's.
+/// Six counts compared with the paper's.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fit {
-    /// ln(count/paper) of each; of no key at all as of one.
+    /// ln(count/paper) of each; a count of 0 is taken as 1.
     logs: [f64; PAPER.len()],
 }
 
 impl Fit {
-    pub(super) fn of(counts: Six) -> Self {
+    pub(super) fn new(counts: Six) -> Self {
         let mut logs = [0.0; PAPER.len()];
         for ((log, count), (.., paper)) in logs.iter_mut().zip(counts).zip(PAPER) {
             *log = libm::log(count.max(1) as f64 / paper as f64);
@@ -20,17 +20,17 @@ impl Fit {
         Self { logs }
     }
 
-    /// The root mean square of ln(count/paper): 0.7 is a factor of 2.
+    /// Root mean square of ln(count/paper): 0.7 is a factor of 2.
     pub(super) fn error(&self) -> f64 {
         rms(self.logs)
     }
 
-    /// How many times the paper's counts they are: the geometric mean.
+    /// Geometric mean of count/paper.
     pub(super) fn level(&self) -> f64 {
         libm::exp(self.mean())
     }
 
-    /// The error that is left when the level is taken away.
+    /// The error that remains without the level.
     pub(super) fn shape(&self) -> f64 {
         rms(self.logs.map(|log| log - self.mean()))
     }
@@ -44,22 +44,22 @@ fn rms(values: [f64; PAPER.len()]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
-/// The share of keys that the longer persistence costs, at each filter range.
+/// Share of keys lost to the longer persistence, at each filter range.
 pub(super) fn lost(counts: Six) -> [f64; 3] {
     std::array::from_fn(|at| 1.0 - counts[2 * at + 1] as f64 / counts[2 * at].max(1) as f64)
 }
 
-/// The share of keys that the widest filter costs against the narrowest, at the shorter persistence.
+/// Share of keys lost to the widest filter compared with the narrowest, at the shorter persistence.
 pub(super) fn filtered_away(counts: Six) -> f64 {
     1.0 - counts[4] as f64 / counts[0].max(1) as f64
 }
 
-/// What the paper counted.
+/// The paper's counts.
 pub(super) fn paper() -> Six {
     PAPER.map(|(.., keys)| keys)
 }
 
-/// The middle of some values.
+/// The median.
 pub(super) fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     spread(values)[1]
 }
@@ -70,14 +70,14 @@ mod tests {
 
     #[test]
     fn the_papers_own_counts_fit_and_their_double_is_off_in_level_alone() {
-        let fit = Fit::of(paper());
+        let fit = Fit::new(paper());
         assert_eq!((fit.error(), fit.level(), fit.shape()), (0.0, 1.0, 0.0));
-        let fit = Fit::of(paper().map(|keys| 2 * keys));
+        let fit = Fit::new(paper().map(|keys| 2 * keys));
         assert!((fit.level() - 2.0).abs() < 1e-12 && fit.shape() < 1e-12);
         assert!((fit.error() - libm::log(2.0)).abs() < 1e-12);
-        let fit = Fit::of([99, 75, 80, 71, 64, 104]);
+        let fit = Fit::new([99, 75, 80, 71, 64, 104]);
         assert!(fit.shape() > 0.2, "{fit:?}");
-        assert!(Fit::of([0; 6]).error().is_finite());
+        assert!(Fit::new([0; 6]).error().is_finite());
     }
 
     #[test]

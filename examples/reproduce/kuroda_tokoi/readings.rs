@@ -1,40 +1,40 @@
-//! The ways to read the paper that its words leave open, and what each counts on a clip.
+//! The readings of the paper that its wording leaves open, and their counts on a clip.
 
 use genga::motion::Clip;
 use genga::signal::{
     FilterKind, LowPass, Measure, Reading, Side, Signals, Spectrum, Speed, Steady, TurnFinder,
 };
-use genga::study;
 use genga::time::Span;
+use genga_lab::study;
 
 use super::table_1::PAPER;
 use crate::Outcome;
 
-/// Frames a second of the paper's capture, in whose frames its widths are told: at another rate they
-/// are as long in seconds.
+/// Frames per second of the paper's capture, the unit of its widths. At another rate they are converted to keep their
+/// length in seconds.
 const RATE: f64 = 100.0;
 
-/// How wide the window of a filter range W is.
+/// The meaning of a filter range W.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Width {
-    /// W frames.
+    /// A window of W frames.
     Whole,
-    /// W frames on each side: 2W.
+    /// A window of W frames on each side: 2W.
     EachSide,
 }
 
-/// One way to read the paper.
+/// One reading of the paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Way {
     pub(super) measure: Measure,
     pub(super) kind: FilterKind,
     pub(super) width: Width,
-    /// The dead band in ° a frame², at the paper's rate.
+    /// Dead band in ° per frame², at the paper's rate.
     pub(super) band: f64,
     pub(super) side: Side,
 }
 
-/// The way of `genga study`.
+/// The reading of `genga study`.
 pub(super) const STUDY: Way = Way {
     measure: Measure::Rotation,
     kind: FilterKind::Box,
@@ -43,7 +43,7 @@ pub(super) const STUDY: Way = Way {
     side: Side::After,
 };
 
-/// Every way, those with one filter side by side.
+/// All readings; those with the same filter are adjacent.
 pub(super) fn all() -> Vec<Way> {
     let mut all = vec![STUDY];
     all = each(all, [Measure::Rotation, Measure::Angle], |way, measure| Way { measure, ..way });
@@ -54,7 +54,7 @@ pub(super) fn all() -> Vec<Way> {
     each(all, [Side::After, Side::Both, Side::Rising], |way, side| Way { side, ..way })
 }
 
-/// Each of the ways with each of the choices.
+/// Combines each of the ways with each of the choices.
 fn each<T: Copy, const N: usize>(
     ways: Vec<Way>,
     choices: [T; N],
@@ -66,16 +66,16 @@ fn each<T: Copy, const N: usize>(
 /// The six counts of the table, in the order of [`PAPER`].
 pub(super) type Six = [usize; PAPER.len()];
 
-/// What one way counts on a clip.
+/// The counts of one reading on a clip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
-    /// Distinct frames over all joints.
+    /// Number of distinct frames over all joints.
     pub(super) union: Six,
-    /// The sum over the joints.
+    /// Sum over the joints.
     pub(super) total: Six,
 }
 
-/// What each of the ways counts on a clip.
+/// Counts the keys of a clip with each of the ways.
 pub(super) fn count(clip: &Clip, ways: &[Way]) -> Outcome<Vec<Counts>> {
     let mut counts = Vec::with_capacity(ways.len());
     for of_measure in ways.chunk_by(|a, b| a.measure == b.measure) {
@@ -89,12 +89,12 @@ pub(super) fn count(clip: &Clip, ways: &[Way]) -> Outcome<Vec<Counts>> {
     Ok(counts)
 }
 
-/// The table's filter ranges, and its persistences of each.
+/// The table's filter ranges, and the persistences of each.
 const FRAMES: [f64; 3] = [10.0, 20.0, 30.0];
 const PERSISTENCES: [f64; 2] = [5.0, 10.0];
 
 impl Way {
-    /// In what it is not the study's way.
+    /// Describes how this reading differs from the study's.
     pub(super) fn words(&self) -> String {
         let mut words = Vec::new();
         if self.measure != STUDY.measure {
@@ -125,7 +125,7 @@ impl Way {
         if words.is_empty() { "the words of §3.3".into() } else { words.join(", ") }
     }
 
-    /// The filter of a range W.
+    /// The low-pass filter of a range W.
     pub(super) fn filter(&self, range: f64) -> LowPass {
         let frames = match self.width {
             Width::Whole => range,
@@ -134,7 +134,7 @@ impl Way {
         LowPass { kind: self.kind, width: Span::Seconds(frames / RATE) }
     }
 
-    /// What finds the turns, at a persistence M.
+    /// The turn finder of a persistence M.
     pub(super) fn finder(&self, persistence: f64) -> TurnFinder {
         TurnFinder {
             reading: Reading::Literal,

@@ -1,17 +1,17 @@
 //! Table 1: keys by filter width and persistence, in the literal reading.
 
 use genga::pipeline::Budget;
-use genga::study::{self, Axis, Grid, Measure, Study};
+use genga_lab::study::{self, Axis, Grid, Measure, Study};
 
 use crate::part::Part;
 use crate::table::{Table, number};
 use crate::{Outcome, samples};
 
-/// What the paper counted, in the order of the study: filter width, persistence, keys.
+/// The paper's counts in the order of the study: filter width, persistence, keys.
 pub(super) const PAPER: [(usize, usize, usize); 6] =
     [(10, 5, 99), (10, 10, 75), (20, 5, 80), (20, 10, 71), (30, 5, 64), (30, 10, 52)];
 
-/// The table, and what the prose says of it.
+/// Makes the table and the numbers of the prose.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let grid = study()?.run(samples::clip("kuroda-pitch")?, || ())?;
     part.table("table-1-keys", table(&grid));
@@ -24,21 +24,20 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     Ok(())
 }
 
-/// The six cells of the paper.
+/// The study of the paper's six cells.
 pub(super) fn study() -> Outcome<Study> {
     Ok(Study {
         recipe: study::table_1_recipe(),
         x: Axis::new("filter.width", "10,20,30")?,
         y: Some(Axis::new("turns.persistence", "5,10")?),
-        measures: vec![Measure::Union, Measure::Total, Measure::Genga],
+        measures: vec![Measure::Union, Measure::Total],
         keep_keys: false,
         budget: Budget::default(),
     })
 }
 
 fn table(grid: &Grid) -> Table {
-    let header =
-        [">filter width", ">persistence", ">paper: keys", ">union", ">total", ">layer keys"];
+    let header = [">filter width", ">persistence", ">paper: keys", ">union", ">total"];
     let mut table = Table::new(&header);
     for (cell, (width, persistence, keys)) in grid.cells.iter().zip(PAPER) {
         let mut row = [width, persistence, keys].map(|number| number.to_string()).to_vec();

@@ -1,17 +1,17 @@
-//! Figure 5: a stride of a walk, genga and inbetweens.
+//! Figure 5: genga and inbetweens of a stride of a walk.
 
-use genga::plot::PoseRow;
 use genga::sheet::Role;
+use genga_plot::PoseRow;
 
 use crate::Outcome;
 use crate::part::Part;
 use crate::takes::{Take, named};
 
-/// The clip, and the source frames from the right foot's landing to its next.
+/// Name of the clip, and the source frames from the right foot's landing to its next.
 const CLIP: &str = "cmu-07_01-walk";
 const STRIDE: [f64; 2] = [130.0, 260.0];
 
-/// The picture, drawings numbered as in the paper.
+/// Makes the picture, with drawings numbered as in the paper.
 pub(super) fn add(part: &mut Part, takes: &[Take]) -> Outcome<()> {
     let take = named(takes, CLIP)?;
     let layer = &take.default().spaced.layers[0];

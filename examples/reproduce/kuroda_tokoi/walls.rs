@@ -1,4 +1,4 @@
-//! The claim of §3.4: at a wall nothing is drawn into the fast place.
+//! The claim of §3.4: at a wall, no inbetween is drawn into the fast place.
 
 use genga::edits::Edits;
 use genga::keys::{self, LayerKeys};
@@ -15,24 +15,24 @@ use crate::samples;
 use crate::table::number;
 use crate::takes::Take;
 
-/// Inbetweens for which it matters whether there is a wall.
+/// Counts of inbetweens for which a wall makes a difference.
 #[derive(Debug, Clone, Copy, Default)]
 struct Told {
-    /// All of them.
+    /// All such inbetweens.
     all: usize,
-    /// Those drawn to where the body is faster than at their even place, by the nearer key alone and with
-    /// the wall.
+    /// Number of those drawn where the body is faster than at their even place, by the nearer key alone and with the
+    /// wall.
     nearer: usize,
     wall: usize,
 }
 
-/// What the prose says of the sample.
+/// Adds the sample's numbers for the prose.
 pub(super) fn add_sample(part: &mut Part) -> Outcome<()> {
     add(part, "kt.walls", told(samples::clip("kuroda-pitch")?)?);
     Ok(())
 }
 
-/// What the prose says of the real clips.
+/// Adds the real clips' numbers for the prose.
 pub(super) fn add_takes(part: &mut Part, takes: &[Take]) -> Outcome<()> {
     let mut sum = Told::default();
     for take in takes {
@@ -50,7 +50,7 @@ fn add(part: &mut Part, name: &str, told: Told) {
     part.number(&format!("{name}.wall"), share(told.wall));
 }
 
-/// The inbetweens that the wall and the nearer key would draw to other sides, by the default recipe.
+/// Counts the inbetweens that the wall and the nearer key would move in opposite directions, with the default recipe.
 fn told(clip: Clip) -> Outcome<Told> {
     let recipe = Recipe::default();
     let weights = keys::weights(&clip);
@@ -79,20 +79,20 @@ fn told(clip: Clip) -> Outcome<Told> {
     Ok(told)
 }
 
-/// The places of the inbetweens.
+/// The source places of the inbetweens.
 fn places(layer: &Layer) -> impl Iterator<Item = f64> + '_ {
     let inbetweens = layer.drawings.iter().filter(|drawing| drawing.role == Role::Inbetween);
     inbetweens.map(|drawing| drawing.source.place())
 }
 
-/// The body's speed: the joints' filtered speeds, each with its weight.
+/// The body's speed: the weighted sum of the joints' filtered speeds.
 struct Sum<'a> {
     filtered: &'a Signals,
     weights: &'a [f64],
 }
 
 impl Sum<'_> {
-    /// At a place, straight between two frames.
+    /// The speed at a place, interpolated linearly between two frames.
     fn at(&self, place: f64) -> f64 {
         let row = place - self.filtered.first.0 as f64;
         let (before, share) = (row.floor() as usize, row - row.floor());

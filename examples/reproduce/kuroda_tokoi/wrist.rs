@@ -1,22 +1,23 @@
 //! Figures 2, 3, 4 and 6: the skeleton, and the left wrist's speed from the capture to its keys.
 
-use genga::plot::{SkeletonPlot, SpeedCurves, SpeedPlot};
 use genga::signal::{Side, Signals, Spectrum, Speed, Turn, TurnKind};
+use genga_plot::{SkeletonPlot, SpeedCurves, SpeedPlot};
 
 use super::readings::{STUDY, Way};
 use crate::part::Part;
 use crate::table::Table;
 use crate::{Outcome, samples};
 
-/// The joint of the left wrist, and what the paper found there.
+/// Joint of the left wrist, and the paper's keys of it.
 const WRIST: &str = "LeftHand";
 const PAPER: [usize; 5] = [12, 150, 251, 397, 473];
 
-/// The paper's filter range of Fig. 4, and the persistence: the shorter of its table, as it names none.
+/// The paper's filter range of Fig. 4, and the persistence. The paper states none for it, so the shorter one of its
+/// table is used.
 const RANGE: f64 = 20.0;
 const PERSISTENCE: f64 = 5.0;
 
-/// The pictures, the wrist's keys, and what the prose says of them.
+/// Makes the pictures, the wrist's keys, and the numbers of the prose.
 pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let clip = samples::clip("kuroda-pitch")?;
     part.picture("skeleton", SkeletonPlot::default().draw("kuroda-pitch", &clip)?);
@@ -26,7 +27,7 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     let names: Vec<&str> = clip.skeleton().joints.iter().map(|joint| joint.name.as_str()).collect();
     let wrist = clip.skeleton().find(WRIST).ok_or("the sample has no left wrist")?;
     let speed = Speed::default().measure(&clip)?;
-    let spectrum = Spectrum::of(&speed);
+    let spectrum = Spectrum::new(&speed);
     let filtered = STUDY.filter(RANGE).apply(&spectrum);
     let turns = keys(STUDY, &filtered);
     let none = vec![Vec::new(); names.len()];
@@ -55,7 +56,7 @@ pub(super) fn add(part: &mut Part) -> Outcome<()> {
     Ok(())
 }
 
-/// Each joint's keys in one way of reading.
+/// Finds each joint's keys with one way of reading.
 fn keys(way: Way, filtered: &Signals) -> Vec<Vec<Turn>> {
     let mut turns = way.finder(PERSISTENCE).find(filtered, 0.0);
     turns.iter_mut().for_each(|turns| turns.retain(|turn| turn.kind == TurnKind::Key));
@@ -71,7 +72,7 @@ fn row(words: &str, frames: &[usize]) -> [String; 3] {
     [words.into(), frames.len().to_string(), list.join(", ")]
 }
 
-/// How often a speed stops falling and begins to rise.
+/// Number of local minima of a speed.
 fn valleys(speed: &[f64]) -> usize {
     speed.windows(3).filter(|three| three[1] < three[0] && three[1] < three[2]).count()
 }

@@ -1,11 +1,11 @@
-//! The parts of a body that act by turning, each with its own measure.
+//! The parts of a body that act by turning, each measured on its own scale.
 
 use crate::motion::{Build, above, below};
 
-/// How far a part has to turn to act, in % of body height by its own measure: as far as a whole body would have to go.
+/// Distance a part has to turn to act, in % of body height on its own scale: as far as a whole body would have to move.
 pub(super) const SPAN: f64 = 4.0;
 
-/// The least turns that are seen as acting, in degrees.
+/// Least turns that are seen as acting, in degrees.
 const HEAD: f64 = 15.0;
 const FACE: f64 = 10.0;
 const ARM: f64 = 30.0;
@@ -15,27 +15,27 @@ const FINGER: f64 = 75.0;
 const LEG: f64 = 30.0;
 const FOOT: f64 = 15.0;
 
-/// What hangs on a head, and on a hand, at the most: some faces have a thousand joints.
+/// Most face parts of a head, and most finger parts of a hand: some faces have a thousand joints.
 const MOST: [usize; 2] = [48, 24];
 
 /// A part of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Part {
-    /// What carries it, and the joints of it that turn on that and on each other.
+    /// The joint that carries it, then its own joints, each turning on the one before.
     pub(crate) chain: Vec<usize>,
-    /// How far a turn by one radian counts as moved, in % of body height.
+    /// Movement that a turn by one radian counts as, in % of body height.
     pub(crate) worth: f64,
 }
 
 impl Part {
-    /// The joint that carries it, and its last one.
+    /// Returns the joint that carries it, and its last one.
     pub(crate) fn ends(&self) -> [usize; 2] {
         [self.chain[0], self.chain[self.chain.len() - 1]]
     }
 }
 
-/// The parts of a person that count; none of any other body, which has no measure of its own. On a screen an arm or a leg is
-/// what is seen of it, and its places say that.
+/// Returns the parts of a person that have a weight. Other bodies have no parts, because nothing gives their scale. On
+/// a screen, arms and legs are left out (hands and feet are not): their positions show what is seen of them.
 pub(super) fn parts(build: &Build, own: &[f64], is_world: bool) -> Vec<Part> {
     let Some(mannequin) = &build.mannequin else { return Vec::new() };
     let skeleton = build.members.skeleton();
@@ -69,7 +69,7 @@ pub(super) fn parts(build: &Build, own: &[f64], is_world: bool) -> Vec<Part> {
     parts
 }
 
-/// The last joints of all that the body has below one of its joints.
+/// Returns the last joint of each chain that the body has below a joint.
 fn ends_below(build: &Build, top: usize) -> impl Iterator<Item = usize> {
     let skeleton = build.members.skeleton();
     let carries = skeleton.carriers();

@@ -5,23 +5,23 @@ use std::ops::RangeInclusive;
 use crate::keys::Chords;
 use crate::maths;
 
-/// Seconds before and after a moment over which the movement is laid side by side.
+/// Seconds before and after a moment whose movements are compared.
 const WINDOW: f64 = 1.5;
 
-/// Seconds within which a moment is where the movement changes most.
+/// Seconds around a change in which no other is larger.
 const APART: f64 = 0.5;
 
-/// % of body height a second of a body that rests: a side with no more movement says little.
+/// Speed of a resting body, in % of body height a second: a side with no more movement says little.
 const REST: f64 = 15.0;
 
-/// Columns of a posture that are one part: a point's three coordinates.
+/// Columns of a posture that form one part: a point's three coordinates.
 const PART: usize = 3;
 
-/// The instants at which the movement changes most, by time, each with how much: see
-/// [`Movement::change`]. None in sight of a rest: that parts what was before from what comes after.
+/// Finds the instants at which the movement changes most, by time, each with the size of the change: see
+/// [`Movement::change`]. Instants in sight of a rest are left out: the rest already separates before from after.
 pub(super) fn changes(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<(usize, f64)> {
     let per_second = chords.clock().koma_rate;
-    let movement = Movement::of(chords);
+    let movement = Movement::new(chords);
     let window = (WINDOW * per_second).round() as usize;
     let changes: Vec<f64> =
         (0..chords.len()).map(|instant| movement.change(instant, window)).collect();
@@ -40,17 +40,17 @@ pub(super) fn changes(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<(
     found.map(|at| (at, changes[at])).collect()
 }
 
-/// How much each part of the body moves.
+/// The movement of each part of the body.
 struct Movement {
     parts: usize,
     /// Instants × parts: the squared steps summed up to the one into each instant.
     sums: Vec<f64>,
-    /// What a resting body adds in an instant.
+    /// Movement of a resting body in an instant.
     rest: f64,
 }
 
 impl Movement {
-    fn of(chords: &Chords) -> Self {
+    fn new(chords: &Chords) -> Self {
         let (postures, per_second) = (chords.postures(), chords.clock().koma_rate);
         let parts = if postures.len() == 0 { 0 } else { postures.row(0).chunks(PART).count() };
         let mut sums = vec![0.0; parts * postures.len()];
@@ -67,8 +67,9 @@ impl Movement {
         Self { parts, sums, rest: (REST / per_second).powi(2) }
     }
 
-    /// −ln of the share of the movement before that goes on in the same parts of the body, times the share
-    /// of that after that was there before: ln 4 where half goes and half is new.
+    /// Returns −ln of a product of two shares: the share of the movement before that goes on in the same parts of the
+    /// body, and the share of the movement after that was there before. It is ln 4 if half goes and half is new, and
+    /// less if either side moves little.
     fn change(&self, instant: usize, window: usize) -> f64 {
         let last = self.sums.len() / self.parts.max(1) - 1;
         let (from, past) = (instant.saturating_sub(window), (instant + window).min(last));
@@ -85,7 +86,7 @@ impl Movement {
         -2.0 * maths::ln((1.0 - word * (1.0 - kept.min(1.0))).max(f64::MIN_POSITIVE))
     }
 
-    /// How much each part moves from one instant to another.
+    /// Returns the movement of each part between two instants.
     fn between(&self, from: usize, to: usize) -> impl Iterator<Item = f64> {
         let row = |instant: usize| &self.sums[instant * self.parts..(instant + 1) * self.parts];
         row(to).iter().zip(row(from)).map(|(to, from)| to - from)

@@ -1,21 +1,21 @@
-//! The cheapest way to divide a take.
+//! Finds the cheapest way to divide a take.
 
 use crate::maths;
 
-/// What the length of an action counts against how clearly it begins. Found on real clips: with less, a
-/// deep pause inside of a movement is worth a split, with more, kicks that follow each other are not.
+/// Weight of an action's length against the clarity of its begin. Found on real clips: with less, a deep pause inside a
+/// movement is worth a split; with more, kicks that follow each other are not.
 const OF_LENGTH: f64 = 1.5;
 
-/// A place where a take may be divided.
+/// A possible division of a take.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     /// Seconds from the take's begin.
     pub(super) at: f64,
-    /// What a division there costs; below 0 it pays.
+    /// Cost of a division there; below 0 it pays.
     pub(super) price: f64,
 }
 
-/// How long the parts are to be, in seconds.
+/// The wanted lengths of the parts, in seconds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lengths {
     pub(super) usual: f64,
@@ -23,24 +23,24 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    /// What a part of a length costs: as much half as long as twice as long.
+    /// Returns the cost of a part of a length: half the usual length costs as much as twice.
     fn price(self, seconds: f64) -> f64 {
         OF_LENGTH * maths::ln(seconds / self.usual).powi(2)
     }
 }
 
-/// Which of the places, sorted by time, divide a take of a length so that places and parts together
-/// cost least; of equals, those with the earlier begin of the last part. No part is shorter than the
-/// shortest, unless nothing is divided.
+/// Finds which of the places, sorted by time, divide a take so that places and parts together cost least; of equals,
+/// those with the earlier begin of the last part. No part is shorter than the shortest, unless nothing is divided.
 pub(super) fn cheapest(places: &[Place], seconds: f64, lengths: Lengths) -> Vec<usize> {
     let (begin, end) = (Place { at: 0.0, price: 0.0 }, Place { at: seconds, price: 0.0 });
     let all: Vec<Place> = [begin].into_iter().chain(places.iter().copied()).chain([end]).collect();
-    // The least cost of a take that ends at each place, and where its last part begins; and the least up to there.
+    // Least cost of a take that ends at each place, with the begin of its last part; then the least of these costs so
+    // far.
     let mut best: Vec<(f64, usize)> = vec![(0.0, 0)];
     let mut cheapest = vec![0.0f64];
     for (at, place) in all.iter().enumerate().skip(1) {
         let mut least = (f64::INFINITY, 0);
-        // What a part costs at the least that is longer than the last one whose price was asked for.
+        // Least cost of a part that is longer than the last one priced.
         let mut longer = 0.0;
         for (from, other) in all[..at].iter().enumerate().rev() {
             let long = place.at - other.at;
@@ -53,7 +53,7 @@ pub(super) fn cheapest(places: &[Place], seconds: f64, lengths: Lengths) -> Vec<
             let price = lengths.price(long);
             if long > lengths.usual {
                 longer = price;
-                // A part that is longer still costs more, and no take before it less.
+                // A longer part costs more, and no take before it costs less.
                 if cheapest[from] + price + place.price > least.0 {
                     break;
                 }
@@ -82,7 +82,7 @@ mod tests {
 
     use super::*;
 
-    /// What a way to divide costs; none where a part is too short.
+    /// Returns the cost of a division; `None` if a part is too short.
     fn cost(chosen: &[usize], places: &[Place], seconds: f64, lengths: Lengths) -> Option<f64> {
         let mut bounds: Vec<f64> = chosen.iter().map(|at| places[*at].at).collect();
         bounds.insert(0, 0.0);

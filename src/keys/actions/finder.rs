@@ -1,4 +1,4 @@
-//! Where a take is split: in rests and lulls, and where other parts of the body take over.
+//! Finds where a take is split: in rests and lulls, and where other parts of the body take over.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,23 +14,22 @@ use crate::maths;
 use crate::motion::Clip;
 use crate::time::{Frame, Span};
 
-/// Finds the actions (動作) of a take, which KKMFT §3 cuts by hand: of all ways to split it the one with
-/// the clearest splits and the most usual lengths.
+/// Finds the actions (動作) of a take, which KKMFT §3 cuts by hand: of all divisions, the one with the clearest splits
+/// and the most usual lengths.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ActionFinder {
-    /// Whether a take is split at all. Default yes; without it, it is one action however long.
+    /// Whether a take is split at all. Default yes; otherwise it is one action however long.
     pub split: bool,
-    /// How long an action usually is, frames or seconds, above 0. Default 4.4 s, the mean of the clips
-    /// of KKMFT Table 1. Raised, single movements go together into one action.
+    /// Usual length of an action, in frames or seconds, above 0. Default 4.4 s, the mean of the clips of KKMFT Table 1.
+    /// Raised, single movements join into one action.
     pub length: Span,
-    /// How clear a split has to be, 1 or more; default 4: the body is so many times slower than before and
-    /// after, or no more than half of its movement goes on in the same parts of it (a share of one by the
-    /// root of 4). Less will do where an action would be too long. Raised, movements with a short pause
-    /// between them are one action.
+    /// Clarity that a split needs, 1 or more; default 4: the body is that many times slower than before and after, or
+    /// at most half of its movement goes on in the same parts (a share of one by the root of 4). Less is enough if an
+    /// action would be too long. Raised, movements with a short pause between them are one action.
     pub contrast: f64,
-    /// How short an action may be, frames or seconds. Default 1 s. A person's own splits may stand
-    /// closer. Raised, short movements go with those beside them.
+    /// Least length of an action, in frames or seconds. Default 1 s. A person's own splits may be closer. Raised, short
+    /// movements join their neighbours.
     pub shortest: Span,
 }
 
@@ -55,30 +54,30 @@ struct Candidate {
 knobs!(actions::ActionFinder {
     split: knob(
         "動作に分ける",
-        "Whether a long take is split into actions: what is left out is then counted in each of \
-         them.",
-        "長いテイクを動作に分けるか。抜く枚数は動作ごとに数える。",
+        "Whether a long take is split into actions. Left-out drawings are then counted per action.",
+        "長いテイクを動作に分けるか。分けると、抜く枚数を動作ごとに数える。",
     ),
     length: knob(
         "動作の普通の長さ",
-        "How long an action usually is: 4.4 s in the second paper. Longer makes fewer actions.",
+        "Usual length of an action; 4.4 s in the second paper. Longer values give fewer actions.",
         "一つの動作の普通の長さ（第二の論文では4.4秒）。長くすると動作の数が減る。",
     )
     .above(0.0),
     contrast: knob(
         "区切りの明瞭さ",
-        "How clear a split has to be: the body so many times slower than before and after (4: or \
-         half of the movement goes over to other parts). Less will do where an action would be too \
-         long.",
-        "区切りがどれほどはっきりしていればよいか。前後の何分の一まで遅くなるか（4）、\
-         または動きの半分がほかの部位へ移るか。動作が長すぎるときは、もっと弱くても区切る。",
+        "How clear a split must be: how many times slower the body is than before and after. At 4, \
+         half of the movement passing to other parts is as clear. Less is enough where an action \
+         would be too long.",
+        "区切りに必要な明瞭さ。体が前後の何分の一まで遅くなるか。4のとき、\
+         動きの半分がほかの部位へ移れば同じ明瞭さとみなす。動作が長すぎるときは、\
+         もっと弱くても区切る。",
     )
     .unit("times")
     .at_least(1.0)
     .slider(1.0, 20.0),
     shortest: knob(
         "最短の動作",
-        "How short an action may be. Longer joins short movements with those beside them.",
+        "Shortest length of an action. Longer values join short movements to their neighbours.",
         "動作の最短の長さ。長くすると短い動きは隣の動作に入る。",
     ),
 });
@@ -92,16 +91,15 @@ impl ActionFinder {
         self.check()
     }
 
-    /// The actions of a clip: between a person's splits where there are any, else between those that are
-    /// found.
+    /// Finds the actions of a clip: between a person's splits if there are any, otherwise between found ones.
     ///
     /// ```
     /// use genga::keys::{ActionFinder, Chords, Reference};
     ///
     /// # let clip = genga::motion::bvh::open("data/kick.bvh".as_ref())?.clip;
-    /// let reference = Reference::of(&clip, clip.clock(24.0));
+    /// let reference = Reference::new(&clip, clip.clock(24.0));
     /// let own = vec![1.0; clip.skeleton().len()];
-    /// let chords = Chords::of(&clip, &reference, &own, f64::INFINITY);
+    /// let chords = Chords::new(&clip, &reference, &own, f64::INFINITY);
     /// let actions = ActionFinder::default().find(&clip, &chords, &[]);
     /// assert_eq!(actions.iter().count(), 1, "a kick is one action");
     /// # Ok::<(), genga::Error>(())
@@ -115,7 +113,7 @@ impl ActionFinder {
         Actions::split(clip, splits)
     }
 
-    /// The splits with which the take costs least.
+    /// Finds the splits with which the take costs least.
     fn found(&self, clip: &Clip, candidates: &[Candidate]) -> Vec<Split> {
         let fps = clip.rate().fps();
         let place = |candidate: &Candidate| Place {
@@ -130,10 +128,10 @@ impl ActionFinder {
     }
 }
 
-/// The speed below which a body rests between two actions, in % of its height a second: slower than what a drawing holds.
+/// Speed below which a body rests between two actions, in % of body height a second: slower than what a drawing holds.
 const RESTS: f64 = 15.0;
 
-/// Every place where a take may be split, by time.
+/// Finds every place where a take may be split, by time.
 fn candidates(chords: &Chords) -> Vec<Candidate> {
     let candidate = |instant, why, clear| {
         let split = Split { frame: chords.frame(instant), why };

@@ -6,24 +6,24 @@ use crate::keys::Chords;
 use crate::keys::stillness::smoothed;
 use crate::maths;
 
-/// Seconds over which the speed is averaged: a step or a tremble is no lull.
+/// Seconds over which the speed is averaged, so that a step or a tremble does not count as a lull.
 const SMOOTH: f64 = 0.25;
 
-/// % of body height a second that are added to each speed: what trembles when somebody stands still, so
-/// that a perfect stand is a deep lull and no infinite one.
+/// Speed that is added to each, in % of body height a second: the tremble of somebody who stands still. It keeps the
+/// depth of a perfect stand finite.
 const TREMBLE: f64 = 2.0;
 
 /// A moment of little movement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Lull {
     pub(super) instant: usize,
-    /// ln of how many times faster the body gets both before and after it, before it is slower still.
+    /// ln of the factor by which the body gets faster, both before and after it, until it is slower still.
     pub(super) depth: f64,
-    /// Whether it is a rest, of which it is the middle.
+    /// Whether it is the middle of a rest.
     pub(super) is_rest: bool,
 }
 
-/// Every lull, by time, the rests among them.
+/// Finds every lull, by time, including the rests.
 pub(super) fn lulls(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<Lull> {
     let per_second = chords.clock().koma_rate;
     let over = (SMOOTH * per_second).round() as usize;
@@ -35,7 +35,7 @@ pub(super) fn lulls(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<Lul
         .map(|(instant, depth)| Lull { instant, depth, is_rest: false })
         .collect();
     lulls.extend(rests.iter().filter_map(|rest| {
-        // The steps of a rest are one fewer than its instants.
+        // A rest has one step fewer than instants.
         let (begin, end) = (*rest.start(), *rest.end());
         let depth = depth_of(&logs, begin..end)?;
         Some(Lull { instant: usize::midpoint(begin, end), depth, is_rest: true })
@@ -44,7 +44,7 @@ pub(super) fn lulls(chords: &Chords, rests: &[RangeInclusive<usize>]) -> Vec<Lul
     lulls
 }
 
-/// How deep a stretch lies: up to the lower of the highest values before and after it. None at the ends.
+/// Returns how deep a stretch lies below the lower of the highest values before and after it; `None` at the ends.
 fn depth_of(values: &[f64], stretch: Range<usize>) -> Option<f64> {
     let highest = |values: &[f64]| values.iter().copied().reduce(f64::max);
     let (before, after) = (highest(&values[..stretch.start])?, highest(&values[stretch.end..])?);
@@ -52,9 +52,8 @@ fn depth_of(values: &[f64], stretch: Range<usize>) -> Option<f64> {
     Some(before.min(after) - floor)
 }
 
-/// The middle of each valley and how deep it is: as far as one must climb on the easier side to get lower
-/// still. The lowest is as deep as the lower of the heights beside it; what rises or falls to an end of
-/// the values is no valley.
+/// Finds the middle and the depth of each valley: the climb on the easier side to lower ground. The lowest valley is as
+/// deep as the lower of the heights beside it. Values that rise or fall to an end are no valley.
 fn valleys(values: &[f64]) -> Vec<(usize, f64)> {
     let before = climbs(values.iter().copied());
     let mut after = climbs(values.iter().rev().copied());
@@ -72,10 +71,9 @@ fn valleys(values: &[f64]) -> Vec<(usize, f64)> {
     valleys
 }
 
-/// How far each value lies below the highest since the last one that is lower; 0 behind a value that is
-/// lower itself.
+/// Returns how far each value lies below the highest since the last lower value; 0 right after a lower value.
 fn climbs(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    // Values that rise, each with the highest between it and the one before it on the stack.
+    // Rising values, each with the highest value between it and the one below it on the stack.
     let mut stack: Vec<(f64, f64)> = Vec::new();
     let climb = |value: f64| {
         let mut highest = value;
@@ -94,7 +92,7 @@ mod tests {
 
     use super::*;
 
-    /// From the words, value by value.
+    /// Computes a depth directly, value by value.
     fn slowly(values: &[f64], at: usize) -> f64 {
         let climb = |others: &mut dyn Iterator<Item = &f64>| {
             others.take_while(|other| **other >= values[at]).fold(values[at], |a, b| a.max(*b))

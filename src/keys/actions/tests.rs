@@ -31,12 +31,12 @@ fn arms(angles: &[(f64, f64)]) -> Clip {
 }
 
 fn found(clip: &Clip, finder: &ActionFinder, asked: &[Frame]) -> Actions {
-    let reference = Reference::of(clip, clip.clock(24.0));
-    let chords = Chords::of(clip, &reference, &vec![1.0; clip.skeleton().len()], 2.0);
+    let reference = Reference::new(clip, clip.clock(24.0));
+    let chords = Chords::new(clip, &reference, &vec![1.0; clip.skeleton().len()], 2.0);
     finder.find(clip, &chords, asked)
 }
 
-/// The splits that the defaults find.
+/// Returns the splits that the defaults find.
 fn splits(clip: &Clip) -> Vec<(usize, SplitReason)> {
     let actions = found(clip, &ActionFinder::default(), &[]);
     actions.splits().iter().map(|split| (split.frame.0, split.why)).collect()

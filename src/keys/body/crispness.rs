@@ -1,34 +1,33 @@
-//! Crispness (鋭さ): how suddenly a layer changes its velocities. Keys with straight inbetweens change them at the keys
-//! alone; a body that was captured changes them all the time.
+//! Crispness (鋭さ): how suddenly a layer changes its velocities. Keys with straight inbetweens change them only at the
+//! keys; a captured body changes them all the time.
 
 use super::tracks::Tracks;
 
-/// How far to each side a change is compared with others, in seconds.
+/// Distance to each side within which a change is compared with others, in seconds.
 const REACH: f64 = 0.1;
 
-/// No capture is crisper. A capture that counts as drawn loses its smoothing: this is the constant to
-/// guard.
+/// Largest crispness of a capture. A capture that counts as drawn loses its smoothing: this is the constant to guard.
 const CAPTURED: f64 = 0.03;
 
-/// By how much crisper a clip is that is all drawn.
+/// Additional crispness at which a clip counts as fully drawn.
 const RAMP: f64 = 0.02;
 
-/// The longest time from one frame to the next that sampling leaves between kinks, in seconds.
+/// Longest interval between the kinks that sampling leaves, in seconds.
 const SAMPLED: f64 = 0.125;
 
-/// A body that is slower stands, in % of its height a second: it is rounding.
+/// Speed up to which a body counts as standing still, in % of body height a second: rounding.
 const STANDS: f64 = 1e-6;
 
-/// How much of a layer of that crispness is drawn, 0 to 1.
+/// Returns the share of a layer with that crispness that is drawn, 0 to 1.
 pub(crate) fn drawn(crispness: f64) -> f64 {
     ((crispness - CAPTURED) / RAMP).clamp(0.0, 1.0)
 }
 
-/// How crisp some tracks are: below 0.03 as good as all captures, up to 1 where nothing but kinks is left.
+/// Computes the crispness of some tracks: below 0.03 for practically all captures, up to 1 for nothing but kinks.
 ///
-/// Motion that was sampled from fewer frames a second has a kink at each of them, at even distances. Added up over such a
-/// distance its changes are as smooth as the motion was. So they are added up over several distances, and the smallest
-/// crispness counts.
+/// Motion that was sampled from fewer frames a second has a kink at each of them, at even distances. Summed over such a
+/// distance, its changes are as smooth as the original motion. So they are summed over several distances, and the
+/// smallest crispness counts.
 pub(super) fn crispness(tracks: &Tracks) -> f64 {
     let rate = tracks.steps.rate().fps();
     let sampled = ((SAMPLED * rate).round() as usize).max(1);
@@ -47,10 +46,10 @@ pub(super) fn crispness(tracks: &Tracks) -> f64 {
     if spread == as_it_is { own } else { own.min(of(&spread)) }
 }
 
-/// A part of a step.
+/// A share of a step that stands for one frame's step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Share {
-    /// How many steps later it is that step.
+    /// How many steps later that step is.
     later: usize,
     part: f64,
 }
@@ -59,7 +58,7 @@ impl Share {
     const WHOLE: Self = Self { later: 0, part: 1.0 };
 }
 
-/// Gives frames that are repeated, up to so many times, equal shares of the step behind them.
+/// Gives frames that repeat up to `most` times equal shares of the step that follows.
 fn spread(speeds: &[f64], most: usize) -> Vec<Share> {
     let mut shares = vec![Share::WHOLE; speeds.len()];
     let mut repeated = 0;
@@ -79,8 +78,8 @@ fn spread(speeds: &[f64], most: usize) -> Vec<Share> {
     shares
 }
 
-/// The tracks of the body, three columns each, with their weights. Parts that act while all else is quiet have no say:
-/// their tracks begin and end where the quiet does, and nobody drew that.
+/// Returns the tracks of the body, three columns each, with their weights. Parts that act while the rest is quiet are
+/// left out: their tracks begin and end with the quiet, and nobody drew that.
 fn of_body(tracks: &Tracks) -> impl Iterator<Item = (&[f64], f64)> {
     let columns = 3 * tracks.steps.frames();
     let values = tracks.steps.unfiltered().values.as_slice();
@@ -88,7 +87,7 @@ fn of_body(tracks: &Tracks) -> impl Iterator<Item = (&[f64], f64)> {
     values.chunks_exact(columns.max(1)).zip(weights)
 }
 
-/// How fast the body is in each step.
+/// Returns the body's speed in each step.
 fn speeds(tracks: &Tracks) -> Vec<f64> {
     let steps = tracks.steps.frames();
     let mut speeds = vec![0.0; steps];
@@ -101,7 +100,7 @@ fn speeds(tracks: &Tracks) -> Vec<f64> {
     speeds
 }
 
-/// By how much the body changes its velocity from each step to the next, of steps in these shares.
+/// Returns how much the body changes its velocity from each step to the next, with the steps divided into shares.
 fn changes(tracks: &Tracks, shares: &[Share]) -> Vec<f64> {
     let steps = shares.len();
     let mut changes = vec![0.0; steps.saturating_sub(1)];
@@ -116,7 +115,7 @@ fn changes(tracks: &Tracks, shares: &[Share]) -> Vec<f64> {
     changes
 }
 
-/// Running sums, beginning with 0.
+/// Returns the running sums, beginning with 0.
 fn sums(values: Vec<f64>) -> Vec<f64> {
     let mut sum = 0.0;
     let after = values.into_iter().map(|value| {
@@ -126,9 +125,10 @@ fn sums(values: Vec<f64>) -> Vec<f64> {
     [0.0].into_iter().chain(after).collect()
 }
 
-/// How much larger than its neighbours a change is in the mean, from 0 where all are alike to 1 where each stands alone:
-/// of changes taken so many `together`, compared with those up to `reach` to each side. Those with fewer at a side only
-/// stand beside others. By their roots: else a few changes of a quick movement were all.
+/// Returns how much larger than its neighbours a change is on average, from 0 (all alike) to 1 (each stands alone).
+/// Changes are summed in groups of `together`, and each group is compared with `reach` groups on either side. Groups
+/// too near to an end only serve as neighbours. Groups weigh by their square roots, or a few changes of a quick
+/// movement would dominate.
 fn concentration(sums: &[f64], together: usize, reach: usize) -> f64 {
     let (width, count) = (2 * reach + 1, (sums.len() - 1) / together);
     let even = 1.0 / width as f64;
@@ -156,18 +156,18 @@ mod tests {
     use crate::motion::{Build, Screen};
     use crate::time::FrameRate;
 
-    fn of(angles: &[f64], fps: f64) -> f64 {
+    fn crispness(angles: &[f64], fps: f64) -> f64 {
         let clip = swing(angles).with_rate(FrameRate::new(fps).unwrap());
-        Tracks::of_all(&clip, &Build::of(&clip), &Screen::WORLD, 2.0).crispness()
+        Tracks::of_all(&clip, &Build::new(&clip), &Screen::WORLD, 2.0).crispness()
     }
 
-    /// An arm that swings as one does, for five seconds.
+    /// The angles of an arm that swings naturally, for five seconds.
     fn swung(fps: f64) -> Vec<f64> {
         let angle = |second: f64| 40.0 * (TAU * second).cos() + 15.0 * (TAU * 2.3 * second).sin();
         (0..(5.0 * fps) as usize).map(|at| angle(at as f64 / fps)).collect()
     }
 
-    /// The same on other frames: straight from each to the next, or each repeated.
+    /// Resamples angles to other frames: interpolated linearly, or each repeated.
     fn resampled(angles: &[f64], by: f64, straight: bool) -> Vec<f64> {
         let count = ((angles.len() - 1) as f64 * by) as usize;
         let angle = |at: usize| {
@@ -179,7 +179,7 @@ mod tests {
         (0..count).map(angle).collect()
     }
 
-    /// Keys with straight inbetweens, the frames of the keys and their angles.
+    /// Returns straight inbetweens between keys, given by their frames and angles.
     fn keyed(keys: &[(usize, f64)]) -> Vec<f64> {
         let way = |pair: &[(usize, f64)]| {
             let ((from, begin), (to, end)) = (pair[0], pair[1]);
@@ -194,11 +194,11 @@ mod tests {
         let keys = [(0, 0.0), (11, 60.0), (31, -20.0), (40, 10.0), (66, 80.0), (90, 0.0)];
         let fast = keys.map(|(frame, angle)| (5 * frame, angle));
         for (keys, fps) in [(keys, 24.0), (fast, 120.0)] {
-            let crisp = of(&keyed(&keys), fps);
+            let crisp = crispness(&keyed(&keys), fps);
             assert!(drawn(crisp) == 1.0, "{fps}: {crisp}");
         }
         for fps in [24.0, 30.0, 60.0, 120.0] {
-            let smooth = of(&swung(fps), fps);
+            let smooth = crispness(&swung(fps), fps);
             assert!(drawn(smooth) == 0.0, "{fps}: {smooth}");
         }
         assert_eq!(
@@ -213,13 +213,13 @@ mod tests {
             [(30.0, 60.0), (30.0, 120.0), (24.0, 60.0), (24.0, 30.0), (15.0, 60.0), (15.0, 30.0)]
         {
             for straight in [true, false] {
-                let own = of(&resampled(&swung(fps), to / fps, straight), to);
+                let own = crispness(&resampled(&swung(fps), to / fps, straight), to);
                 assert!(own < CAPTURED, "{fps} to {to}, straight {straight}: {own}");
             }
         }
         let swung = swung(24.0);
         let twos: Vec<f64> = (0..swung.len()).map(|at| swung[at / 2 * 2]).collect();
-        assert!(of(&twos, 24.0) < CAPTURED, "{}", of(&twos, 24.0));
+        assert!(crispness(&twos, 24.0) < CAPTURED, "{}", crispness(&twos, 24.0));
     }
 
     #[test]
@@ -228,16 +228,19 @@ mod tests {
         for at in [7, 20, 31, 50, 58, 79, 101, 118, 140] {
             angles[at] = angles[at - 1];
         }
-        assert!(of(&angles, 30.0) < CAPTURED, "{}", of(&angles, 30.0));
+        assert!(crispness(&angles, 30.0) < CAPTURED, "{}", crispness(&angles, 30.0));
     }
 
     #[test]
     fn what_stands_or_is_short_is_not_drawn() {
-        assert_eq!(of(&[5.0; 100], 24.0), 0.0);
+        assert_eq!(crispness(&[5.0; 100], 24.0), 0.0);
         for short in 1..6 {
-            assert_eq!(of(&keyed(&[(0, 0.0), (2, 50.0), (short + 2, 0.0)])[..short], 24.0), 0.0);
+            assert_eq!(
+                crispness(&keyed(&[(0, 0.0), (2, 50.0), (short + 2, 0.0)])[..short], 24.0),
+                0.0
+            );
         }
-        let hasty = of(&swung(1e6)[..3000], 1e6);
+        let hasty = crispness(&swung(1e6)[..3000], 1e6);
         assert_eq!(hasty, 0.0, "fewer frames than are compared");
     }
 
@@ -251,7 +254,7 @@ mod tests {
         assert_eq!(shares(&[3.0, 0.0, 0.0]), [(0, 1.0); 3], "nothing comes behind");
     }
 
-    /// The measure from the words.
+    /// Computes the concentration directly from its definition.
     fn slow(changes: &[f64], together: usize, reach: usize) -> f64 {
         let sums: Vec<f64> =
             changes.chunks_exact(together).map(|changes| changes.iter().sum()).collect();

@@ -1,4 +1,4 @@
-//! The pattern of a turn: slower now than a moment before and a moment after [KT11 §3.3].
+//! The pattern of a turn: slower now than a moment before and after [KT11 §3.3].
 
 use crate::keys::peaks::{peaks, strongest_apart};
 use crate::motion::lanes::wide;
@@ -7,13 +7,13 @@ use crate::time::Frame;
 
 use super::tracks::Tracks;
 
-/// A change of a bend below this is rounding, in % of body height a second.
+/// Change of a bend below which it is rounding, in % of body height a second.
 const DUST: f64 = 1e-9;
 
-/// A bend of less is no turn and no wall, likewise: nobody sees it.
+/// Least bend of a turn or wall, in % of body height a second: nobody sees less.
 pub(super) const LEAST: f64 = 0.1;
 
-/// The speeds of all tracks, as they are looked at for turns.
+/// The speeds of all tracks, searched for turns.
 #[derive(Debug, Clone)]
 pub(super) struct Pattern {
     first: Frame,
@@ -25,8 +25,8 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    /// The speed of each track at each frame, its steps smoothed; they are written over what was in `room`.
-    pub(super) fn of(
+    /// Smooths the steps and computes each track's speed at each frame. Reuses the memory of `room`.
+    pub(super) fn from_steps(
         Tracks { steps, weights, .. }: &Tracks,
         filter: &LowPass,
         room: Vec<f64>,
@@ -45,25 +45,25 @@ impl Pattern {
         Self { first, frames: count + 1, speeds, weights: weights.clone() }
     }
 
-    /// The speeds alone.
+    /// Returns the speeds alone, for reuse of their memory.
     pub(super) fn into_speeds(self) -> Vec<f64> {
         self.speeds
     }
 
-    /// Speeds as they are, one track after the other.
+    /// Takes given speeds, one track after the other.
     #[cfg(test)]
     pub(super) fn from_speeds(speeds: Vec<f64>, weights: Vec<f64>) -> Self {
         Self { first: Frame(0), frames: speeds.len() / weights.len(), speeds, weights }
     }
 
-    /// The clip's first frame.
+    /// Returns the clip's first frame.
     pub(super) fn first(&self) -> Frame {
         self.first
     }
 
-    /// By how much the body is slower at each frame than `reach` frames before and after, and by how much faster: the mean
-    /// of the tracks by their weights, each as far as it is slower, or faster, itself. Beyond its ends the clip is
-    /// mirrored.
+    /// Returns how much slower the body is at each frame than `reach` frames before and after, and how much faster.
+    /// Both are weighted sums over the tracks; each track counts only as far as it is slower, or faster, itself. Beyond
+    /// its ends the clip is mirrored.
     #[inline(always)]
     pub(super) fn bends(&self, reach: f64) -> (Vec<f64>, Vec<f64>) {
         let (mut valleys, mut hills) = (vec![0.0; self.frames], vec![0.0; self.frames]);
@@ -76,11 +76,11 @@ impl Pattern {
     }
 }
 
-/// Adds how fast a track is at each frame, of its steps along three axes.
+/// Adds the speed of a track at each frame, from its steps along three axes.
 #[inline(always)]
 fn add_speeds(track: &[f64], count: usize, speeds: &mut Vec<f64>) {
     let [x, y, z] = [0, 1, 2].map(|axis| &track[axis * count..(axis + 1) * count]);
-    // At a frame a body is as fast as in the mean of the steps into it and out of it: time has no direction.
+    // The velocity at a frame is the mean of the steps into and out of it: time has no direction.
     let speed = |before: usize, after: usize| {
         let mean = |axis: &[f64]| 0.5 * (axis[before] + axis[after]);
         (mean(x).powi(2) + mean(y).powi(2) + mean(z).powi(2)).sqrt()
@@ -97,7 +97,7 @@ fn add_bends(speeds: &[f64], weight: f64, reach: f64, valleys: &mut [f64], hills
     let (near, share) = (reach.floor() as usize, reach.fract());
     let far = (near + 1).min(last);
     let mut add = |at: usize, [before, further, after, beyond]: [f64; 4]| {
-        // Between two frames a speed is on the straight line.
+        // Speeds between two frames are interpolated linearly.
         let ends = (before + share * (further - before)) + (after + share * (beyond - after));
         let bend = weight * (0.5 * ends - speeds[at]);
         valleys[at] += bend.max(0.0);
@@ -117,9 +117,9 @@ fn add_bends(speeds: &[f64], weight: f64, reach: f64, valleys: &mut [f64], hills
     }
 }
 
-/// The largest of the values up to `reach` places to each side of every one.
+/// Returns the largest value up to `reach` places to each side of every place.
 pub(super) fn largest_near(values: &[f64], reach: usize) -> Vec<f64> {
-    // Places whose value none behind them reaches, the largest first.
+    // Places whose value is above all later ones, the largest first.
     let mut leading = std::collections::VecDeque::new();
     let mut next = 0;
     let largest = |at: usize| {
@@ -138,8 +138,8 @@ pub(super) fn largest_near(values: &[f64], reach: usize) -> Vec<f64> {
     (0..values.len()).map(largest).collect()
 }
 
-/// The peaks of a bend, those first that bend most and none nearer to another than `apart`; by their row, with
-/// their height.
+/// Returns the peaks of a bend by row, with their height. Of peaks nearer to each other than `apart`, the highest
+/// stays.
 pub(super) fn summits(bend: &[f64], apart: f64) -> Vec<(usize, f64)> {
     let found = peaks(bend, DUST).into_iter().map(|row| (row, bend[row]));
     strongest_apart(found.filter(|(_, height)| *height >= LEAST).collect(), apart)

@@ -11,7 +11,7 @@ use crate::time::{FrameRate, Span};
 
 fn speeds(clip: &Clip, width: f64) -> BodySpeeds {
     let filter = LowPass { width: Span::Frames(width), ..LowPass::default() };
-    BodySpeeds::of(&Tracks::of_all(clip, &Build::of(clip), &Screen::WORLD, 2.0), &filter)
+    BodySpeeds::new(&Tracks::of_all(clip, &Build::new(clip), &Screen::WORLD, 2.0), &filter)
 }
 
 fn turns(clip: &Clip, width: f64, persistence: f64) -> BodyTurns {
@@ -68,7 +68,7 @@ fn what_is_shorter_than_the_filter_or_the_persistence_is_no_turn() {
     assert_eq!(count(24.0, 12.0), 3, "{:?}", found(24.0, 12.0));
 }
 
-/// The bend of a track at a frame from the words.
+/// Computes the bend of a track at a frame directly.
 fn slow_bend(speeds: &[f64], at: usize, reach: f64) -> f64 {
     let last = speeds.len() as f64 - 1.0;
     let reach = reach.min(last);

@@ -1,4 +1,4 @@
-//! Tracks (軌跡): the velocities of all that turns and travels in a layer, vectors in % of body height a second.
+//! Tracks (軌跡): the velocities of everything that turns or moves in a layer, as vectors in % of body height a second.
 
 use std::array;
 use std::ops::Range;
@@ -16,72 +16,72 @@ use crate::motion::lanes::{LANES, LaneVec, Lanes, pieces, wide};
 use crate::motion::{Build, Clip, Joint, JointId, Point, Screen};
 use crate::signal::{Quantity, Signals, Spectrum};
 
-/// How far a joint that carries a whole chain of bones reaches, in heights of the body.
+/// Reach of a joint that carries a whole chain of bones, in body heights.
 const REACH: f64 = 0.75;
 
-/// The weight of the rotation of such a joint beside the place of a limb's end, which has 1.
+/// Weight of the rotation of a joint that carries a whole chain; the position of a limb's end has 1.
 const ROTATION: f64 = 0.5 * REACH;
 
-/// The weight of each of the tracks of a gait.
+/// Weight of each track of a gait.
 const GAIT: f64 = 2.0;
 
-/// The weight of the tips of a body that has no limbs, together: that of a person's places.
+/// Total weight of the tips of a body without limbs: that of a person's positions.
 const TIPS: f64 = 6.0;
 
-/// The motion of a layer, and what is known of the body it is of.
+/// The motion of a layer, and what is known about its body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LayerMotion<'a> {
-    /// The motion in which only the joints of the layer move.
+    /// The motion in which only the layer's joints move.
     pub(crate) clip: &'a Clip,
     /// The build of the whole body.
     pub(crate) build: &'a Build,
-    /// How much the rotation of each joint counts; with 0 it has no track.
+    /// Weight of each joint's rotation; 0 for no track.
     pub(crate) heard: &'a [f64],
-    /// How much the place of each joint counts; with 0 it has no track.
+    /// Weight of each joint's position; 0 for no track.
     pub(crate) judged: &'a [f64],
-    /// From where places are seen.
+    /// The screen on which positions are seen.
     pub(crate) screen: &'a Screen,
-    /// The height of the body in the file's unit, where the build does not say it.
+    /// Height of the body in the file's unit, if the build has none.
     pub(crate) height: f64,
-    /// What its parts do while the body as a whole is quiet.
+    /// Parts that act while the whole body is quiet.
     pub(crate) acting: &'a Acting,
 }
 
-/// The velocities of a layer: another filter needs no new ones.
+/// The velocities of a layer. Another filter needs no new ones.
 #[derive(Debug, Clone)]
 pub(crate) struct Tracks {
     /// Three columns a track: the step from each frame to the next, one fewer than there are frames.
     pub(super) steps: Spectrum,
-    /// One a track, above 0: together 1, and besides them those of parts that act while all else is quiet. Each of these
-    /// speaks as loudly as a whole body.
+    /// One weight a track, above 0. Those of the body sum to 1. Parts that act while the rest is quiet come on top,
+    /// each as loud as a whole body.
     pub(super) weights: Vec<f64>,
-    /// How many of them are of the body, in front of those of parts that act.
+    /// Number of tracks of the body; they come before those of acting parts.
     pub(super) of_body: usize,
 }
 
 /// A joint that turns.
 struct Turning {
     joint: usize,
-    /// How far it reaches, in % of the body's height.
+    /// Its reach, in % of body height.
     reach: f64,
     weight: f64,
 }
 
-/// A part that turns on what carries it while all else is quiet.
+/// A part that turns against its carrier while the rest of the body is quiet.
 struct Acts<'a> {
     part: &'a Part,
     weight: f64,
-    /// The steps that are its acting, by the frame that each leads to.
+    /// Steps in which it acts, numbered by the frame that each leads to.
     when: Vec<Range<usize>>,
 }
 
-/// What travels.
+/// A place whose movement is tracked.
 struct Travelling {
     what: Place,
     weight: f64,
 }
 
-/// A place on a body, or the way from one to another.
+/// A place on a body, or the vector from one place to another.
 #[derive(Clone, Copy)]
 enum Place {
     /// A point.
@@ -90,13 +90,13 @@ enum Place {
     Between(Point, Point),
     /// The second of two points seen from the first.
     From(Point, Point),
-    /// How high the middle of two points is.
+    /// The height of the middle of two points.
     Height(Point, Point),
 }
 
 impl Tracks {
-    /// Measures them.
-    pub(crate) fn of(motion: &LayerMotion<'_>) -> Self {
+    /// Measures the tracks of a layer.
+    pub(crate) fn new(motion: &LayerMotion<'_>) -> Self {
         let clip = motion.clip;
         let (turning, travelling) = (turning(motion), travelling(motion));
         let acting = acting(motion);
@@ -110,7 +110,7 @@ impl Tracks {
         let (steps, columns) = (clip.len() - 1, 3 * weights.len());
         let mut values = vec![0.0; steps * columns];
         if clip.len() > 1 {
-            let mut following = Following::of(motion, &turning, &travelling, &acting);
+            let mut following = Following::new(motion, &turning, &travelling, &acting);
             for piece in pieces(clip.len().div_ceil(LANES)) {
                 wide(
                     #[inline(always)]
@@ -124,20 +124,20 @@ impl Tracks {
         Self { steps: Spectrum::from(signals), weights, of_body }
     }
 
-    /// Measures those of a whole body, none of its parts acting.
+    /// Measures the tracks of a whole body without acting parts.
     pub(crate) fn of_all(clip: &Clip, build: &Build, screen: &Screen, height: f64) -> Self {
         let all = vec![1.0; clip.skeleton().len()];
         let (heard, judged, acting) = (&all[..], &all[..], &Acting::default());
-        Self::of(&LayerMotion { clip, build, heard, judged, screen, height, acting })
+        Self::new(&LayerMotion { clip, build, heard, judged, screen, height, acting })
     }
 
-    /// How suddenly the body changes its velocities, 0 for a capture to 1 for nothing but kinks.
+    /// Returns how suddenly the body changes its velocities, from 0 for a capture to 1 for nothing but kinks.
     pub(crate) fn crispness(&self) -> f64 {
         crispness(self)
     }
 }
 
-/// Rotation [KT11 §3.1]: of every joint that ever turns and has a say, by what it carries.
+/// Returns the rotations [KT11 §3.1] of all joints that turn and have a weight, weighted by the bones they carry.
 fn turning(motion: &LayerMotion<'_>) -> Vec<Turning> {
     let turns = motion.clip.turning_joints();
     let track = |(joint, carried): (usize, f64)| Turning {
@@ -147,7 +147,7 @@ fn turning(motion: &LayerMotion<'_>) -> Vec<Turning> {
     };
     let members = &motion.build.members;
     let is_of_body = |(joint, heard): (usize, &f64)| *heard > 0.0 && members.has(joint);
-    // A layer of hair alone reaches as far as its hair.
+    // If a layer has only hair, its hair gives the reach.
     let skeleton = match motion.heard.iter().enumerate().any(is_of_body) {
         true => members.skeleton(),
         false => motion.clip.skeleton(),
@@ -157,7 +157,7 @@ fn turning(motion: &LayerMotion<'_>) -> Vec<Turning> {
     tracks.filter(|track| track.weight > 0.0).collect()
 }
 
-/// Displacement [KT11 §2]: head, wrists, ankles and pelvis, and the gait; of a body without limbs its tips.
+/// Returns the displacements [KT11 §2]: head, wrists, ankles, pelvis and gait; of a body without limbs, its tips.
 fn travelling(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     let mut tracks = match &motion.build.mannequin {
         Some(mannequin) => of_person(motion, mannequin),
@@ -172,9 +172,9 @@ fn of_person(motion: &LayerMotion<'_>, mannequin: &Mannequin) -> Vec<Travelling>
     let both = |a: &Point, b: &Point| f64::min(counts(a), counts(b));
     let ends = motion.build.landmarks.points().into_iter();
     let ends = ends.map(|end| Travelling { what: Place::Of(end), weight: counts(&end) });
-    let [left, right] = mannequin.legs().map(|[hip, _, ankle]| [hip, ankle].map(Point::of));
+    let [left, right] = mannequin.legs().map(|[hip, _, ankle]| [hip, ankle].map(Point::new));
     let hips = both(&left[0], &right[0]);
-    // What feet and pelvis do in the world is mostly travel; seen from each other it is the step.
+    // In the world, feet and pelvis mostly travel. The step is their movement relative to each other.
     let pelvis = Travelling { what: Place::Between(left[0], right[0]), weight: hips };
     let gait = [
         Travelling {
@@ -186,7 +186,7 @@ fn of_person(motion: &LayerMotion<'_>, mannequin: &Mannequin) -> Vec<Travelling>
     ends.chain([pelvis]).chain(gait).collect()
 }
 
-/// The tips of its chains; its joints where there are none.
+/// Returns the tips of the body's chains, or its joints if no chain has a tip.
 fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     let skeleton = motion.build.members.skeleton();
     let of_joint = |(joint, data): (JointId, &Joint)| {
@@ -195,7 +195,7 @@ fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     };
     let mut tips: Vec<Point> = skeleton.iter().flat_map(of_joint).collect();
     if tips.is_empty() {
-        tips.extend((0..skeleton.len()).map(Point::of));
+        tips.extend((0..skeleton.len()).map(Point::new));
     }
     let weight = (TIPS / tips.len() as f64).min(1.0);
     let track = |tip: Point| Travelling {
@@ -205,7 +205,7 @@ fn of_tips(motion: &LayerMotion<'_>) -> Vec<Travelling> {
     tips.into_iter().map(track).collect()
 }
 
-/// What parts do while all else is quiet.
+/// Returns the parts that act while the rest of the body is quiet.
 fn acting<'a>(motion: &LayerMotion<'a>) -> Vec<Acts<'a>> {
     let first = motion.clip.first().0;
     let acts = motion.acting.parts().map(|(part, when)| Acts {
@@ -219,7 +219,7 @@ fn acting<'a>(motion: &LayerMotion<'a>) -> Vec<Acts<'a>> {
     acts.filter(|track| track.weight > 0.0).collect()
 }
 
-/// Follows the body from block to block; keeps how it stood in the frame before.
+/// Follows the body block by block, and keeps its state at the frame before.
 struct Following<'a> {
     motion: &'a LayerMotion<'a>,
     turning: &'a [Turning],
@@ -234,7 +234,7 @@ struct Following<'a> {
 }
 
 impl<'a> Following<'a> {
-    fn of(
+    fn new(
         motion: &'a LayerMotion<'a>,
         turning: &'a [Turning],
         travelling: &'a [Travelling],
@@ -246,16 +246,16 @@ impl<'a> Following<'a> {
             travelling,
             acting,
             rows: motion.clip.rows().collect(),
-            sight: Sight::of(motion),
-            poser: LanePoser::of(motion.clip),
+            sight: Sight::new(motion),
+            poser: LanePoser::new(motion.clip),
             turned: vec![DQuat::IDENTITY; turning.len()],
             stood: vec![DVec3::ZERO; travelling.len()],
             held: vec![DQuat::IDENTITY; acting.len()],
         }
     }
 
-    /// Writes the step of each track into the frames of some blocks and from each of them to the next, [`LANES`] frames
-    /// side by side; `values` are those of all frames.
+    /// Writes each track's steps into the frames of some blocks, [`LANES`] frames side by side. `values` holds all
+    /// frames.
     #[inline(always)]
     fn write(&mut self, blocks: Range<usize>, values: &mut [f64]) {
         let steps = self.rows.len() - 1;
@@ -267,7 +267,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Poses a block and writes how it turns.
+    /// Poses a block and writes its rotations.
     #[inline(always)]
     fn turn(&mut self, begin: usize, tracks: &mut ChunksExactMut<'_, f64>) {
         let Self { motion, turning, rows, poser, turned, .. } = self;
@@ -284,7 +284,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Writes how the block that was posed travels.
+    /// Writes the displacements of the posed block.
     #[inline(always)]
     fn travel(&mut self, begin: usize, tracks: &mut ChunksExactMut<'_, f64>) {
         let Self { travelling, sight, poser, stood, .. } = self;
@@ -299,7 +299,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Writes what parts do in the block that was posed; what they do at other times is no acting.
+    /// Writes the turns of acting parts in the posed block; 0 while a part does not act.
     #[inline(always)]
     fn act(&mut self, begin: usize, tracks: &mut ChunksExactMut<'_, f64>) {
         let Self { motion, acting, poser, held, .. } = self;
@@ -320,7 +320,7 @@ impl<'a> Following<'a> {
     }
 }
 
-/// Writes the steps into the frames of a block into the three columns of a track.
+/// Writes the steps into the frames of a block to the three columns of a track.
 #[inline(always)]
 fn put(columns: &mut [f64], begin: usize, step: LaneVec) {
     let steps = columns.len() / 3;
@@ -335,25 +335,26 @@ fn put(columns: &mut [f64], begin: usize, step: LaneVec) {
     }
 }
 
-/// How places are seen.
+/// The view of places: the screen, the up axis and the scale.
 struct Sight<'a> {
     screen: &'a Screen,
     up: DVec3,
-    /// From the file's unit a frame to % of body height a second.
+    /// Factor from the file's unit a frame to % of body height a second.
     scale: f64,
 }
 
 impl<'a> Sight<'a> {
-    fn of(motion: &LayerMotion<'a>) -> Self {
+    fn new(motion: &LayerMotion<'a>) -> Self {
         let Build { landmarks, mannequin, .. } = motion.build;
         let height = mannequin.as_ref().map_or(motion.height, Mannequin::height);
         let scale = if height > 0.0 { 100.0 * motion.clip.rate().fps() / height } else { 0.0 };
-        // What is up on a screen is its second axis.
+        // On a screen, the second axis is up.
         let up = if motion.screen.is_world() { landmarks.up.unit() } else { DVec3::Y };
         Self { screen: motion.screen, up, scale }
     }
 
-    /// Where a place is in some poses, in % of body height a second from the origin a frame before.
+    /// Returns where a place is in some poses, scaled so that the step between two frames is in % of body height a
+    /// second.
     #[inline(always)]
     fn see(&self, what: Place, pose: &LanePose) -> LaneVec {
         let stand = |point: Point| {

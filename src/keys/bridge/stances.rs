@@ -23,12 +23,12 @@ pub(super) struct Stances {
 }
 
 impl Stances {
-    pub(super) fn of(clip: &Clip, rig: &Rig, frames: &[Frame]) -> Self {
+    pub(super) fn new(clip: &Clip, rig: &Rig, frames: &[Frame]) -> Self {
         let moving: Vec<usize> = rig.moving().collect();
         let groups = rig.len().div_ceil(LANES);
         let mut rotations = vec![LaneQuat::default(); frames.len() * groups];
         let mut translations = Vec::with_capacity(frames.len() * moving.len());
-        let mut poser = LanePoser::of(clip);
+        let mut poser = LanePoser::new(clip);
         let into = rotations.chunks_mut((LANES * groups).max(1));
         for (frames, rotations) in frames.chunks(LANES).zip(into) {
             let frame = |lane: usize| frames[lane.min(frames.len() - 1)];
@@ -50,22 +50,22 @@ impl Stances {
         Self { rotations, translations, groups, moving }
     }
 
-    /// Groups of [`LANES`] joints in a pose.
+    /// Number of groups of [`LANES`] joints in a pose.
     pub(super) fn groups(&self) -> usize {
         self.groups
     }
 
-    /// The joints that have a position of their own.
+    /// Returns the joints that have a position of their own.
     pub(super) fn moving(&self) -> &[usize] {
         &self.moving
     }
 
-    /// The rotations of a frame's joints, [`LANES`] joints together.
+    /// Returns the rotations of a frame's joints, [`LANES`] joints together.
     pub(super) fn rotations(&self, at: usize) -> &[LaneQuat] {
         &self.rotations[at * self.groups..(at + 1) * self.groups]
     }
 
-    /// Where the moving joints of a frame stand.
+    /// Returns the positions of the moving joints of a frame.
     pub(super) fn translations(&self, at: usize) -> &[DVec3] {
         let moving = self.moving.len();
         &self.translations[at * moving..(at + 1) * moving]

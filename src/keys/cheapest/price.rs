@@ -1,32 +1,33 @@
-//! The price (値段) at which no more keys are worth it than a limit lets in.
+//! The price (値段) at which no more keys are worth it than a limit allows.
 //!
-//! A dearer key leaves fewer of them. Between two prices their number is guessed. Where a guess tells nothing new, the
-//! price is tried at which both sets cost the same. Either another set is cheaper there, or no number lies between them.
+//! A higher price leaves fewer keys. Between two prices the number of keys is interpolated. If a guess tells nothing
+//! new, the price is tried at which both sets cost the same. Either a third set is cheaper there, or no number lies
+//! between.
 
 use crate::keys::cheapest::Cheapest;
 use crate::maths;
 
-/// The highest price that is tried for a limit, %² of body height times koma: more than anything loses.
+/// Highest price that is tried for a limit, in %² of body height times koma: more than anything loses.
 const HIGHEST: f64 = 1e12;
 
-/// The lowest, where the first is 0.
+/// Lowest price that is tried, used if the given price is 0.
 pub(super) const LOWEST: f64 = 1e-6;
 
-/// By how much the price goes up at least, and at the most, until too few are worth it.
+/// Least and largest factor by which the price rises in a step, until few enough keys are worth it.
 const STEPS: [f64; 2] = [2.0, 1000.0];
 
-/// Prices that are tried between two in the search for one: more would not tell two sets apart.
+/// Most prices tried between two bounds: more would not tell two sets apart.
 const TRIES: usize = 40;
 
-/// How far a price that is tried stays from both ends of the span, as a share of it.
+/// Distance of a tried price from both ends of the span, as a share of the span.
 const AWAY: f64 = 0.05;
 
-/// Keys by which two sets may differ and the price between them be aimed at rather than halved for.
+/// Difference in keys up to which two sets are tried at their crossing price instead of an interpolated one.
 const CLOSE: usize = 4;
 
 impl Cheapest<'_> {
-    /// The cheapest set at a price, `low` or more, at which so few are worth it; `many` is that at `low`. It is the least
-    /// such price, unless just as many as are let in are found at a higher one before.
+    /// Finds the cheapest set with at most `most` found keys, at a price of `low` or more. `many` is the set at `low`.
+    /// It is the least such price, unless a higher price tried before leaves exactly `most`.
     pub(super) fn limited(&self, mut low: f64, mut many: Vec<usize>, most: usize) -> Vec<usize> {
         if self.found(&many) <= most {
             return many;
@@ -52,7 +53,7 @@ impl Cheapest<'_> {
                 between([low, high], counts, most)
             };
             let set = self.at(price);
-            // Where both cost the same and no other is cheaper, no other is the cheapest at any price between.
+            // If both sets tie for the minimum here, no third set is optimal in between (lower envelope).
             if aims && (set == many || set == few) {
                 break;
             }
@@ -67,7 +68,7 @@ impl Cheapest<'_> {
         few
     }
 
-    /// The price at which a set of many and one of fewer cost the same.
+    /// Returns the price at which a larger and a smaller set cost the same.
     fn crossing(&self, many: &[usize], few: &[usize]) -> f64 {
         let loss =
             |set: &[usize]| set.windows(2).map(|ends| self.loss(ends[0], ends[1])).sum::<f64>();
@@ -79,15 +80,15 @@ impl Cheapest<'_> {
     }
 }
 
-/// A price at which about so many are left of those that are found at a lower one: their number falls with its fourth root.
+/// Guesses a price that leaves about `most` of `found` keys: their number falls with the fourth root of the price.
 fn dearer(price: f64, found: usize, most: usize) -> f64 {
     let [found, most] = [found, most].map(|count| count as f64 + 0.5);
     let square = (found / most) * (found / most);
     price * (square * square).clamp(STEPS[0], STEPS[1])
 }
 
-/// The price between two at which so many would be left if their number were a power of it; not near either of them, lest
-/// one end of the span stay for ever.
+/// Guesses the price between two that leaves `most` keys, if their number is a power of the price. Stays away from both
+/// bounds, lest one of them never move.
 fn between(prices: [f64; 2], counts: [usize; 2], most: usize) -> f64 {
     let [low, high] = prices.map(maths::ln);
     let [many, few, most] = [counts[0], counts[1], most].map(|count| maths::ln(count as f64 + 0.5));

@@ -16,7 +16,7 @@ fn entries(count: usize, staying: &[usize]) -> Vec<Entry> {
     several(count, staying, 1)
 }
 
-/// So many entries a koma, one a frame.
+/// Returns `count` entries, one a frame and `a_koma` a koma.
 fn several(count: usize, staying: &[usize], a_koma: usize) -> Vec<Entry> {
     let entry = |frame: usize| Entry {
         frame: Frame(frame),
@@ -28,14 +28,14 @@ fn several(count: usize, staying: &[usize], a_koma: usize) -> Vec<Entry> {
     (0..count).map(entry).collect()
 }
 
-/// What a set loses and costs.
+/// Returns the loss of a set plus its cost.
 fn cost(cheapest: &Cheapest<'_>, kept: &[usize], price: f64) -> f64 {
     let lost: f64 = kept.windows(2).map(|ends| cheapest.loss(ends[0], ends[1])).sum();
     let found = kept.iter().map(|at| cheapest.entries[*at]).filter(|entry| !entry.stays);
     lost + price * found.map(|entry| entry.cost).sum::<f64>()
 }
 
-/// Every set that may be: the ends and what stays in it, the others a distance apart.
+/// Returns every possible set: the ends and the entries that stay are in it, the others a distance apart.
 fn every_set(cheapest: &Cheapest<'_>) -> Vec<Vec<usize>> {
     let entries = cheapest.entries;
     let may_be = |set: &Vec<usize>| {

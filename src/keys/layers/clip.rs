@@ -1,4 +1,4 @@
-//! What keys of one layer are judged by: the motion that its own joints make.
+//! The motion that the joints of one layer make, by which its keys are judged.
 
 use std::sync::Arc;
 
@@ -9,32 +9,32 @@ use crate::motion::{Clip, Members, Skeleton};
 
 /// The motion of a layer: its joints move, all others stay as in the clip's first frame.
 ///
-/// So a hand that is carried along by a walk has no keys for it, whatever the hips do: what counts is how
-/// a joint turns and what hangs on it, and both are the same whichever way the rest of the body stands.
+/// A hand that is carried along by a walk therefore has no keys for the walk, whatever the hips do. The motion of a
+/// layer is how its joints turn and move all that hangs on them, whichever way the rest of the body stands.
 #[derive(Debug, Clone)]
 pub(crate) struct LayerClip {
     pub(crate) clip: Arc<Clip>,
-    /// Which joints are of the layer.
+    /// Whether each joint is in the layer.
     pub(crate) moves: Vec<bool>,
-    /// How much each joint's turns count; 0 outside the layer.
+    /// Weight of each joint's turns; 0 outside the layer.
     pub(crate) heard: Vec<f64>,
-    /// How much each joint counts where poses are compared; 0 for what the layer does not carry.
+    /// Weight of each joint when poses are compared; 0 if the layer does not carry it.
     pub(crate) judged: Vec<f64>,
 }
 
 impl LayerClip {
-    /// The motion of some joints; of the whole body it is the clip itself.
+    /// Builds the motion of a layer; for the whole body it is the clip itself.
     ///
     /// # Errors
-    /// [`Error::Setting`] as [`JointWeights::of`], and where none of them has a say.
-    pub(crate) fn of(
+    /// [`Error::Setting`] as [`JointWeights::of`], and if no joint of the layer has a weight above 0.
+    pub(crate) fn new(
         clip: &Arc<Clip>,
         layer: &LayerJoints,
         members: &Members,
         weights: &JointWeights,
     ) -> Result<Self, Error> {
         let skeleton = clip.skeleton();
-        let own = weights.of(skeleton)?;
+        let own = weights.resolve(skeleton)?;
         // A layer of hair alone is judged by its hair.
         let is_of_body = layer.joints.iter().any(|joint| members.has(joint.0));
         let own = if is_of_body { only(&own, |joint| members.has(joint)) } else { own };
@@ -59,13 +59,13 @@ impl LayerClip {
     }
 }
 
-/// Weights of some joints, and 0 for all others.
+/// Returns the weights of some joints, and 0 for all others.
 fn only(own: &[f64], counts: impl Fn(usize) -> bool) -> Vec<f64> {
     let own = own.iter().enumerate();
     own.map(|(joint, own)| if counts(joint) { *own } else { 0.0 }).collect()
 }
 
-/// Some joints and all that hang on them.
+/// Returns some joints and all below them.
 fn carried(skeleton: &Skeleton, joints: &[bool]) -> Vec<bool> {
     let mut carried = joints.to_vec();
     for (joint, data) in skeleton.iter() {

@@ -7,7 +7,7 @@ use crate::keys::layers::LayerJoints;
 use crate::keys::weights::fits;
 use crate::motion::{JointId, Skeleton};
 
-/// Letters with a meaning of their own where a correction names a layer, `--pin B/12:top@0.5,40`.
+/// Characters with a special meaning where a correction names a layer, `--pin B/12:top@0.5,40`.
 const SIGNS: [char; 4] = ['/', ':', '@', ','];
 
 /// A layer as a person names it.
@@ -44,7 +44,7 @@ pub(super) fn validate(layers: &[NamedLayer]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The named layers of a body; joints that none names are of the first.
+/// Splits a body into named layers; joints in none of them belong to the first.
 pub(super) fn split(layers: &[NamedLayer], skeleton: &Skeleton) -> Result<Vec<LayerJoints>, Error> {
     let mut layer_of = vec![None; skeleton.len()];
     for (at, layer) in layers.iter().enumerate() {
@@ -74,10 +74,10 @@ pub(super) fn split(layers: &[NamedLayer], skeleton: &Skeleton) -> Result<Vec<La
     Ok(layers.iter().enumerate().map(part).collect())
 }
 
-/// The joints that a name or pattern fits.
+/// Returns the joints that a name or pattern fits.
 fn fitting(pattern: &str, layer: &NamedLayer, skeleton: &Skeleton) -> Result<Vec<usize>, Error> {
     let names = || skeleton.joints.iter().map(|joint| joint.name.as_str());
-    // A whole name means that joint alone, whatever signs it has.
+    // A whole name means that joint alone, whatever characters it has.
     if let Some(joint) = names().position(|name| name == pattern) {
         return Ok(vec![joint]);
     }
@@ -91,7 +91,7 @@ fn fitting(pattern: &str, layer: &NamedLayer, skeleton: &Skeleton) -> Result<Vec
     Ok(found)
 }
 
-/// The layer as an error names it.
+/// Returns the layer's name for errors.
 fn knob(name: &str) -> String {
     format!("layers.{name}")
 }

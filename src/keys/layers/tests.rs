@@ -1,4 +1,4 @@
-//! Every joint is of one layer, and what cannot be split says why.
+//! Tests that every joint is in one layer, and that a body that cannot be split gets an error with the reason.
 
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ fn sample(name: &str) -> Clip {
     bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
 }
 
-/// The names of each layer's joints.
+/// Returns the names of each layer's joints.
 fn names(clip: &Clip, layers: &Layers) -> Vec<Vec<String>> {
     let name = |joint: &JointId| clip.skeleton().joints[joint.0].name.clone();
     let parts = layers.split(clip).unwrap();

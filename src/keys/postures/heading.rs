@@ -1,4 +1,4 @@
-//! Which way a body faces (向き), from instant to instant.
+//! The direction in which a body faces (向き), from instant to instant.
 
 use std::f64::consts::TAU;
 
@@ -6,15 +6,13 @@ use glam::DVec3;
 
 use crate::maths;
 
-/// Below this share of their length the lines across the body say nothing of where it faces: somebody
-/// lies on a side.
+/// Least horizontal share of the lines across the body for a known heading: below it, somebody lies on a side.
 const LEVEL: f64 = 0.3;
 
-/// The heading at each instant in radians about Y, whole turns counted, from the lines through both
-/// hips and both shoulders, each of length 1. Where they stand on end it is a straight way from the one
-/// before to the one after.
+/// Returns the heading at each instant in radians about Y, counting whole turns, from the lines through both hips and
+/// both shoulders, each of length 1. While they stand upright, the heading is interpolated between the known ones.
 pub(super) fn headings(across: &[[DVec3; 2]]) -> Vec<f64> {
-    // A rig's file may begin with the left leg and the right arm.
+    // A file may begin with the left leg and the right arm.
     let agree: f64 = across.iter().map(|[hips, shoulders]| hips.dot(*shoulders)).sum();
     let side = if agree < 0.0 { -1.0 } else { 1.0 };
     let way = |[hips, shoulders]: &[DVec3; 2]| (*hips + side * *shoulders) / 2.0;
@@ -36,12 +34,12 @@ pub(super) fn headings(across: &[[DVec3; 2]]) -> Vec<f64> {
     bridged(headings)
 }
 
-/// The angle a whole number of turns from `angle` that is nearest to another.
+/// Returns the angle nearest to `other` that is a whole number of turns from `angle`.
 fn nearest_turn(angle: f64, other: f64) -> f64 {
     angle + TAU * ((other - angle) / TAU).round()
 }
 
-/// Fills what is not known in a straight way between what is; at the ends with the nearest.
+/// Fills unknown values by linear interpolation; at the ends, with the nearest known one.
 fn bridged(mut values: Vec<f64>) -> Vec<f64> {
     let mut at = 0;
     let mut before: Option<f64> = None;
@@ -70,7 +68,7 @@ fn bridged(mut values: Vec<f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A line across a body that faces so many degrees round Y, tipped so far up.
+    /// Returns the lines across a body that faces `degrees` about Y, tipped up by `tipped` degrees.
     fn facing(degrees: f64, tipped: f64) -> [DVec3; 2] {
         let (angle, tipped) = (degrees.to_radians(), tipped.to_radians());
         let level = DVec3::new(angle.cos(), 0.0, angle.sin()) * tipped.cos();

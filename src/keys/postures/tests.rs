@@ -8,16 +8,16 @@ fn sample(name: &str) -> Clip {
 }
 
 fn postures(clip: &Clip) -> Postures {
-    Postures::of(
+    Postures::new(
         clip,
-        &Build::of(clip),
+        &Build::new(clip),
         clip.clock(48.0),
         (&Screen::WORLD, 2.0),
         &vec![1.0; clip.skeleton().len()],
     )
 }
 
-/// The clip with everything so much larger, and then carried so far along X.
+/// Returns the clip scaled by `scale` and then carried by `way` along X.
 fn carried(clip: &Clip, way: f64, scale: f64) -> Clip {
     let mut skeleton = clip.skeleton().clone();
     for joint in &mut skeleton.joints {
@@ -97,22 +97,22 @@ fn a_joint_without_say_does_not_count() {
     let kick = sample("kick");
     let clock = kick.clock(48.0);
     let mut own = vec![1.0; kick.skeleton().len()];
-    let build = Build::of(&kick);
+    let build = Build::new(&kick);
     let wrist = build.mannequin.as_ref().unwrap().joints()[4];
     own[wrist] = 0.0;
-    let rows = Postures::of(&kick, &build, clock, (&Screen::WORLD, 2.0), &own);
+    let rows = Postures::new(&kick, &build, clock, (&Screen::WORLD, 2.0), &own);
     assert!((0..rows.len()).all(|at| rows.row(at)[3 * 4..3 * 6].iter().all(|value| *value == 0.0)));
     assert!((0..rows.len()).any(|at| rows.row(at)[..3 * 4].iter().any(|value| *value != 0.0)));
 }
 
-/// The postures as they are seen from somewhere.
+/// Returns the postures as seen from a camera.
 fn seen(clip: &Clip, from: &str) -> Postures {
-    let screen = Screen::of(from.parse().unwrap(), clip);
+    let screen = Screen::new(from.parse().unwrap(), clip);
     let own = vec![1.0; clip.skeleton().len()];
-    Postures::of(clip, &Build::of(clip), clip.clock(48.0), (&screen, 2.0), &own)
+    Postures::new(clip, &Build::new(clip), clip.clock(48.0), (&screen, 2.0), &own)
 }
 
-/// The first pose of the clip, carried so far along each axis in a second.
+/// Returns the first pose of the clip, carried along each axis by `way` in a second.
 fn gone(clip: &Clip, way: [f64; 3]) -> Clip {
     let root = &clip.skeleton().joints[0];
     let rows = (0..25).flat_map(|frame| {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::edits::{Forbidden, Move, Pin};
 
-/// A koma in frames.
+/// Frames in a koma.
 const KOMA: f64 = 5.0;
 
 /// Six steps of 13 koma from koma 2 on, the body highest as the feet pass, in a clip of 90 koma.
@@ -18,7 +18,8 @@ fn found(koma: f64, origin: Origin) -> Key {
     Key { origin, strength: 0.5, ..Key::set(Frame((KOMA * koma).round() as usize)) }
 }
 
-/// What stands where, in koma, with corrections: a turn a koma behind each contact, two fills beside each passing.
+/// Lays a gait with corrections, and returns the keys in koma: a turn a koma behind each contact, two fills beside each
+/// passing.
 fn laid(edits: &Edits) -> Vec<(f64, Origin)> {
     let mut keys: Vec<Key> = (0..6)
         .flat_map(|at| {
@@ -28,7 +29,7 @@ fn laid(edits: &Edits) -> Vec<(f64, Origin)> {
         })
         .collect();
     let ends = (Frame(0), Frame(450));
-    let walks = Walks::of(&[gait()], Choosable { keys: &keys, edits, koma: KOMA, ends });
+    let walks = Walks::new(&[gait()], Choosable { keys: &keys, edits, koma: KOMA, ends });
     walks.give(&mut keys, edits, KOMA);
     crate::keys::correct::moved(&mut keys, edits, KOMA);
     keys.extend(edits.pins.iter().map(|pin| Key::set(pin.frame)));
@@ -37,12 +38,12 @@ fn laid(edits: &Edits) -> Vec<(f64, Origin)> {
     keys.iter().map(|key| (key.frame.0 as f64 / KOMA, key.origin)).collect()
 }
 
-/// The koma of what is of a kind.
-fn of(laid: &[(f64, Origin)], origin: Origin) -> Vec<f64> {
+/// Returns the koma of the keys of one origin.
+fn koma_of(laid: &[(f64, Origin)], origin: Origin) -> Vec<f64> {
     laid.iter().filter(|key| key.1 == origin).map(|key| key.0).collect()
 }
 
-/// The phases of a gait but for those of a step.
+/// Returns the phases of a gait except those of one step.
 fn all_but(broken: usize) -> Vec<f64> {
     let phases = |at: usize| [0.8, 3.0, 6.0, 9.6].map(|koma| 2.0 + 13.0 * at as f64 + koma);
     let steps = (0..6).filter(|at| *at != broken).flat_map(phases);
@@ -58,28 +59,28 @@ fn all_but(broken: usize) -> Vec<f64> {
 #[test]
 fn every_step_has_the_same_phases_and_takes_the_turns_that_were_found() {
     let laid = laid(&Edits::default());
-    assert_eq!(laid.len(), of(&laid, Origin::Step).len(), "{laid:?}");
-    assert_eq!(of(&laid, Origin::Step), all_but(6), "up is half-way to the next contact");
+    assert_eq!(laid.len(), koma_of(&laid, Origin::Step).len(), "{laid:?}");
+    assert_eq!(koma_of(&laid, Origin::Step), all_but(6), "up is half-way to the next contact");
 }
 
 #[test]
 fn a_correction_breaks_the_step_in_which_it_is_and_no_other() {
     let pin = Pin { frame: Frame(5 * 33), ..Pin::parse("1").unwrap() };
     let laid_with = laid(&Edits { pins: vec![pin], ..Edits::default() });
-    assert_eq!(of(&laid_with, Origin::Pinned), [33.0]);
-    assert_eq!(of(&laid_with, Origin::Fill), [32.6, 35.4], "what was found is there again");
-    assert_eq!(of(&laid_with, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&laid_with, Origin::Pinned), [33.0]);
+    assert_eq!(koma_of(&laid_with, Origin::Fill), [32.6, 35.4], "what was found is there again");
+    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2));
     let forbidden = Forbidden { from: Frame(5 * 34), past: Frame(5 * 34 + 1) };
     let laid_with = laid(&Edits { forbidden: vec![forbidden], ..Edits::default() });
-    assert_eq!(of(&laid_with, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2));
 }
 
 #[test]
 fn a_phase_can_be_moved() {
     let moved = Move { from: Frame(5 * 31), to: Frame(5 * 32), name: None, weight: None };
     let laid = laid(&Edits { moves: vec![moved], ..Edits::default() });
-    assert_eq!(of(&laid, Origin::Moved { from: Frame(155) }), [32.0]);
-    assert_eq!(of(&laid, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&laid, Origin::Moved { from: Frame(155) }), [32.0]);
+    assert_eq!(koma_of(&laid, Origin::Step), all_but(2));
 }
 
 #[test]
@@ -87,9 +88,9 @@ fn where_keys_are_frozen_steps_stay_that_were_there_and_no_others_come() {
     let steps: Vec<Frame> =
         all_but(2).iter().map(|koma| Frame((koma * KOMA).round() as usize)).collect();
     let frozen = laid(&Edits { frozen: steps, ..Edits::default() });
-    assert_eq!(of(&frozen, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&frozen, Origin::Step), all_but(2));
     let frozen = laid(&Edits { frozen: vec![Frame(10)], ..Edits::default() });
-    assert!(of(&frozen, Origin::Step).is_empty());
+    assert!(koma_of(&frozen, Origin::Step).is_empty());
     let alone = laid(&Edits { only_pins: true, ..Edits::default() });
     assert!(alone.is_empty(), "{alone:?}");
 }

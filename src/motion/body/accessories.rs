@@ -1,8 +1,10 @@
-//! What hangs on a body and is none of it (付属物): hair and cloth, props, helpers of a rig, joints that never move.
+//! Finds accessories (付属物), joints that hang on a body without belonging to it: hair and cloth, props, rig helpers
+//! and joints that never move.
 //!
-//! What lies on the way to the end of a limb that names give is the body. Of all else a name may say what it is, and no
-//! bone is as long as the way to a knee pole. Where all limbs are known, more is: what reaches further than a hand or a foot
-//! is no part of a body, what goes its own way is a control, and what never moves is a point on a bone.
+//! Joints on the way to the end of a named limb are the body. For others the name may tell their role, and a bone far
+//! longer than the others leads to a helper such as a knee pole. If all limbs are known, three more rules hold: a
+//! chain that reaches further than a hand or a foot is no part of the body, a joint that travels is a control, and a
+//! joint that never moves is a point on a bone.
 
 use crate::motion::Skeleton;
 use crate::motion::body::limbs::NamedLimbs;
@@ -10,26 +12,26 @@ use crate::motion::body::role::Role;
 use crate::motion::body::side::words;
 use crate::motion::landmarks::above;
 
-/// How far from the line of a limb a joint may be that belongs to the body, in heights of the body: a hand is .11 long and a
-/// foot .15.
+/// Largest distance along the bones from a limb's line to a joint of the body, in heights of the body: a hand is .11
+/// long and a foot .15.
 const REACH: f64 = 0.22;
 
-/// The longest bone of a body, as a share of all its bones: a thigh has a tenth.
+/// Longest bone of a body, as a share of all its bones: a thigh has a tenth.
 const LONGEST: f64 = 0.25;
 
-/// A helper is alone, or one of two: where more bones are about as long they are the legs of an animal.
+/// Largest number of similar long bones that are helpers. More similar bones are an animal's legs.
 const PAIR: usize = 2;
 
-/// As what share of another a bone is about as long.
+/// Ratio of lengths above which two bones count as similar.
 const ALIKE: f64 = 0.67;
 
-/// Joints of a body at the least that its longest bone is looked for in.
+/// Fewest joints of a body in which an overlong bone is looked for.
 const FEWEST: usize = 8;
 
-/// Something that carries more than one of so many joints is no accessory, whatever it is called.
+/// A joint that carries more than one in this many of its tree's joints is no accessory, whatever its name.
 const ONE_OF: usize = 3;
 
-/// Words of names, and letters of those that are not parted into words.
+/// A role, words that name it, and substrings that name it in names without word boundaries.
 type Names = (Role, &'static [&'static str], &'static [&'static str]);
 
 const NAMES: [Names; 3] = [
@@ -44,7 +46,7 @@ const NAMES: [Names; 3] = [
             "target",
             "effector",
             "helper",
-            "dummy",
+            "mannequin",
             "null",
             "locator",
             "weight",
@@ -74,7 +76,7 @@ const NAMES: [Names; 3] = [
     ),
 ];
 
-/// Words for what hangs on hands, feet, heads and backs and is a part of them.
+/// Words for parts of hands, feet, heads and backs, which belong to the body.
 const PARTS: [&str; 15] = [
     "toe",
     "finger",
@@ -93,43 +95,43 @@ const PARTS: [&str; 15] = [
     "翼",
 ];
 
-/// What the joints of a finger are called where they have no numbers.
+/// Names of finger joints without numbers.
 const KNUCKLES: [&str; 4] = ["metacarpal", "proximal", "intermediate", "distal"];
 
-/// Words for sides, which stand behind a number in some names.
+/// Words for sides, which follow the number in some names.
 const SIDES: [&str; 4] = ["l", "r", "left", "right"];
 
-/// What is known of the joints of a rig.
+/// The joints of a rig and their known properties.
 pub(super) struct Rig<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) limbs: &'a NamedLimbs,
-    /// Of each joint whether it moves on what carries it.
+    /// Whether each joint moves relative to its parent.
     pub(super) moves: &'a [bool],
-    /// Of each joint whether it leaves its place there.
+    /// Whether each joint changes position relative to its parent.
     pub(super) travels: &'a [bool],
 }
 
-/// What is added up over the joints of a rig.
+/// Sums over the joints of a rig.
 struct Sums {
-    /// On the way to the end of a limb or to the head.
+    /// Whether a joint lies on the way to the end of a limb or to the head.
     is_core: Vec<bool>,
-    /// How far each joint is from there along the bones.
+    /// Distance of each joint from that way along the bones.
     far: Vec<f64>,
-    /// The longest way from each joint outward.
+    /// Longest chain of bones below each joint.
     reach: Vec<f64>,
-    /// Whether it or what hangs on it moves.
+    /// Whether a joint or its descendants move.
     moves: Vec<bool>,
-    /// Whether it or what hangs on it is known by its name: a finger, a toe.
+    /// Whether a joint or its descendants are known by name: a finger, a toe.
     is_part: Vec<bool>,
-    /// How many joints hang on it, and how long their bones are together, itself among them.
+    /// Number of joints below each joint, itself included, and the sum of their bones.
     joints: Vec<usize>,
     bones: Vec<f64>,
-    /// The first joint of its tree.
+    /// Root of each joint's tree.
     root: Vec<usize>,
 }
 
 impl Rig<'_> {
-    /// Takes from the body what is none of it.
+    /// Assigns other roles to joints that are no part of the body.
     pub(super) fn strip(&self, roles: &mut [Role]) {
         let sums = self.sums(roles);
         for (joint, data) in self.skeleton.iter() {
@@ -146,7 +148,7 @@ impl Rig<'_> {
         }
     }
 
-    /// What a joint is that hangs on the body, where it is none of it.
+    /// Finds the role of a joint that hangs on the body; `None` for a part of the body.
     fn role(&self, sums: &Sums, joint: usize) -> Option<Role> {
         let root = sums.root[joint];
         if ONE_OF * sums.joints[joint] > sums.joints[root] {
@@ -171,7 +173,7 @@ impl Rig<'_> {
             })
     }
 
-    /// How many bones of its tree are about as long as that of a joint, or longer.
+    /// Counts the bones of its tree that are similar to a joint's bone in length, or longer.
     fn count_like(&self, sums: &Sums, joint: usize) -> usize {
         let root = sums.root[joint];
         let bone = |joint: usize| self.skeleton.joints[joint].offset.length();
@@ -198,7 +200,7 @@ impl Rig<'_> {
                 far[joint] = far[parent] + bone(joint);
             }
         }
-        // The joints of a finger. What is called by the same word further out is a point at its end.
+        // Marks the joints of a finger. A joint named by the same word further out is only the point at its end.
         let mut known = vec![0; count];
         let mut is_part = Vec::with_capacity(count);
         for (joint, data) in skeleton.iter() {
@@ -222,7 +224,7 @@ impl Rig<'_> {
     }
 }
 
-/// What a name says that something is.
+/// Finds the role that a name tells.
 pub(super) fn role_of(name: &str) -> Option<Role> {
     let own = words(name);
     let is = |(_, words, letters): &&Names| {
@@ -233,7 +235,7 @@ pub(super) fn role_of(name: &str) -> Option<Role> {
     NAMES.iter().find(is).map(|(role, ..)| *role)
 }
 
-/// Of which parts of hands, feet, heads and backs a name speaks: a bit for each word.
+/// Returns the parts of hands, feet, heads and backs that a name mentions, one bit per word.
 fn parts_in(name: &str) -> u32 {
     let words = words(name);
     let has = |part: &str| {
@@ -246,7 +248,7 @@ fn parts_in(name: &str) -> u32 {
     PARTS.iter().enumerate().map(bit).fold(0, |all, bit| all | bit)
 }
 
-/// Whether a name says that something is one of several in a row, as the joints of a finger.
+/// Whether a name marks a joint as one of several in a row, as in a finger.
 fn is_in_a_row(name: &str) -> bool {
     let words = words(name);
     let last = words.iter().rfind(|word| !SIDES.contains(&&word[..]));

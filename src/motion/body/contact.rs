@@ -1,4 +1,4 @@
-//! Contacts (接地): when a foot stands on the ground, and when a hand stays where it is.
+//! Contacts (接地): stretches in which a foot stands on the ground or a hand stays in place.
 
 use std::ops::RangeInclusive;
 
@@ -8,45 +8,44 @@ use crate::motion::Clip;
 use crate::motion::landmarks::{self, Landmarks, Point};
 use crate::time::Clock;
 
-/// What touches.
+/// The kind of limb that touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limb {
     /// A foot on the ground.
     Foot,
-    /// A hand on something, wherever that is.
+    /// A hand on something, at any height.
     Hand,
 }
 
-/// A stretch in which a foot or a hand stays where it is in the world.
+/// A stretch in which a foot or a hand stays in place in the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// What touches.
+    /// Kind of limb.
     pub limb: Limb,
-    /// The point that stays: the sole of a foot, the wrist of a hand.
+    /// Point that stays: the sole of a foot, the wrist of a hand.
     pub point: Point,
-    /// Its first and its last koma.
+    /// First and last koma.
     pub koma: RangeInclusive<usize>,
 }
 
-/// Finds contacts in world positions koma by koma.
+/// Finds contacts from world positions, koma by koma.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactFinder {
-    /// How fast a foot may be and still stand, in % of body height a second. Default 12. Raised, slow
-    /// swings of a foot near the ground count as standing.
+    /// Largest speed of a standing foot, in % of body height per second. Default 12. If raised, slow swings near the
+    /// ground also count as standing.
     pub foot_speed: f64,
-    /// How high a foot may stand above the ground it shares with the other, in % of body height: above its
-    /// own lowest (the level below which it is in one of twenty koma), or, on a step, above the other foot
-    /// at the koma on which that is highest. Default 3. Raised, a foot that is held still in the air
-    /// stands too.
+    /// Largest height of a standing foot, in % of body height: above its own ground level (5th percentile of its
+    /// height) or, on stairs, above the other foot on some koma of the stretch. Default 3. If raised, a foot held
+    /// still in the air also counts as standing.
     pub foot_lift: f64,
-    /// How long a foot must stand, in seconds. Default 0.125, three koma.
+    /// Shortest contact of a foot, in seconds. Default 0.125, three koma.
     pub foot_least: f64,
-    /// How fast a hand may be and still stay, in % of body height a second. Default 6.5.
+    /// Largest speed of a staying hand, in % of body height per second. Default 6.5.
     pub hand_speed: f64,
-    /// How long a hand must stay, in seconds. Default 0.25.
+    /// Shortest contact of a hand, in seconds. Default 0.25.
     pub hand_least: f64,
-    /// How fast a hand must have been in the half second before, in % of body height a second: a hand
-    /// that hangs still touches nothing. Default 32.
+    /// Least top speed of a hand in the half second before a contact, in % of body height per second. Default 32. It
+    /// excludes hands that just hang still.
     pub hand_before: f64,
 }
 
@@ -63,26 +62,26 @@ impl Default for ContactFinder {
     }
 }
 
-/// Seconds before a hand's contact in which it must have moved.
+/// Seconds before a hand's contact in which the hand must have moved.
 const BEFORE: f64 = 0.5;
 
-/// The share of koma in which a foot is below its ground.
+/// Share of koma in which a foot is below its ground level.
 const LOW: f64 = 0.05;
 
-/// Seconds over which small steps are looked at together, and how far they may lead, in % of body height.
+/// Window in seconds for detecting slow drift, and the largest drift of a contact within it, in % of body height.
 const SLOW: f64 = 0.5;
 const SLOW_WAY: f64 = 2.5;
 
-/// Steps of the path that may be too fast within one contact: one koma that is off has two.
+/// Largest number of too fast steps within one contact: a single bad koma causes two.
 const TORN: usize = 2;
 
-/// How far a point may get in them, in the longest steps of one that stays.
+/// Largest displacement over such a gap, in units of the largest step of a still point.
 const TORN_WAY: f64 = 2.0;
 
 impl ContactFinder {
-    /// The contacts of both feet, then of both hands, each by koma.
+    /// Finds the contacts of both feet, then of both hands, each in order of time.
     pub fn find(&self, clip: &Clip, clock: Clock) -> Vec<Contact> {
-        let found = Landmarks::of(clip);
+        let found = Landmarks::new(clip);
         if found.height <= 0.0 {
             return Vec::new();
         }
@@ -103,11 +102,11 @@ impl ContactFinder {
         contacts.collect()
     }
 
-    /// The stretches in which each sole stands; paths in % of body height.
+    /// Finds the stretches in which each sole stands; paths are in % of body height.
     ///
-    /// A foot that is still stands on the ground where it is as low as it gets. Where the ground has steps
-    /// it stands if it carries the body: if at some koma of the stretch the other foot is no lower. One that
-    /// is held in the air has the other below it as long as it is held.
+    /// A still foot stands if it is near its own ground level. On stairs a foot stands if it carries the body: the
+    /// other foot is no lower on some koma of the stretch. While a foot is held in the air, the other is always below
+    /// it.
     fn standing(
         &self,
         soles: &[Vec<DVec3>],
@@ -128,7 +127,7 @@ impl ContactFinder {
         soles.iter().enumerate().map(stand).collect()
     }
 
-    /// Whether no other foot is below a foot on some koma of a stretch.
+    /// Whether no other foot is below this one on some koma of a stretch.
     fn carries(&self, levels: &[Vec<f64>], foot: usize, koma: &RangeInclusive<usize>) -> bool {
         let others = || levels.iter().enumerate().filter(|(other, _)| *other != foot);
         koma.clone().any(|koma| {
@@ -137,7 +136,7 @@ impl ContactFinder {
         })
     }
 
-    /// The stretches in which a wrist stays after it moved.
+    /// Finds the stretches in which a wrist stays after having moved.
     fn staying(&self, path: &[DVec3], koma_rate: f64) -> Vec<RangeInclusive<usize>> {
         let before = (BEFORE * koma_rate).round() as usize;
         let moved = |koma: &RangeInclusive<usize>| {
@@ -152,7 +151,7 @@ impl ContactFinder {
     }
 }
 
-/// The level below which a foot is in one of twenty koma.
+/// Returns the ground level of a foot, the 5th percentile of its height.
 fn ground(levels: &[f64]) -> f64 {
     let mut sorted = levels.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -163,15 +162,15 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// The stretches of a path in which no step is faster than `speed`, of `least` seconds or more; two that a
-/// fast koma tore are one again.
+/// Finds the stretches of a path, at least `least` seconds long, in which no step is faster than `speed`. Two
+/// stretches separated by a single bad koma are merged.
 fn still(path: &[DVec3], speed: f64, least: f64, koma_rate: f64) -> Vec<RangeInclusive<usize>> {
     let (step, least) = (speed / koma_rate, least * koma_rate);
     let steps = still_steps(path, step, koma_rate);
     let mut stretches: Vec<RangeInclusive<usize>> = Vec::new();
     let mut begin = 0;
     for run in steps.chunk_by(|a, b| a == b) {
-        // So many steps join one koma more.
+        // A run of n steps joins n + 1 koma.
         let end = begin + run.len();
         if run[0] && (run.len() + 1) as f64 >= least - 1e-9 {
             let is_torn = |before: &&mut RangeInclusive<usize>| {
@@ -188,8 +187,8 @@ fn still(path: &[DVec3], speed: f64, least: f64, koma_rate: f64) -> Vec<RangeInc
     stretches
 }
 
-/// Which steps of a path are no longer than `step`, and none of a slow way: many small steps in one direction are
-/// a foot that is set elsewhere with care.
+/// Marks the steps of a path that are no longer than `step` and not part of a slow drift: many small steps in one
+/// direction mean that a foot is carefully set elsewhere.
 fn still_steps(path: &[DVec3], step: f64, koma_rate: f64) -> Vec<bool> {
     let is_small = |koma: usize| path[koma].distance(path[koma + 1]) <= step;
     let small: Vec<bool> = (0..path.len().saturating_sub(1)).map(is_small).collect();
@@ -206,7 +205,7 @@ fn still_steps(path: &[DVec3], step: f64, koma_rate: f64) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    /// A path along X by steps, at a height.
+    /// A path along X made of steps, at a height.
     fn path(steps: &[(usize, f64)], level: impl Fn(usize) -> f64) -> Vec<DVec3> {
         let mut x = 0.0;
         let mut path = vec![DVec3::new(0.0, level(0), 0.0)];
@@ -219,7 +218,7 @@ mod tests {
         path
     }
 
-    /// The stretches in which a foot stands whose other foot stays on the ground.
+    /// Finds the stretches in which a foot stands while the other stays on the ground.
     fn standing(path: Vec<DVec3>) -> Vec<RangeInclusive<usize>> {
         let other = vec![DVec3::ZERO; path.len()];
         ContactFinder::default().standing(&[path, other], DVec3::Y, 24.0).swap_remove(0)
@@ -229,7 +228,7 @@ mod tests {
     fn a_sole_stands_where_it_hardly_moves_near_its_ground() {
         let steps = [(10, 0.1), (8, 5.0), (12, 0.1), (8, 5.0), (6, 0.1)];
         assert_eq!(standing(path(&steps, |_| 3.0)), [0..=10, 18..=30, 38..=44]);
-        // The second time it is held in the air.
+        // At its second stop the foot is held in the air.
         let lifted = |koma| if (15..35).contains(&koma) { 9.0 } else { 3.0 };
         assert_eq!(standing(path(&steps, lifted)), [0..=10, 38..=44]);
     }
@@ -262,7 +261,7 @@ mod tests {
         from + share * (to - from)
     }
 
-    /// Two feet in turn: every 12 koma one is set a stride further, at the levels of `steps`.
+    /// Two feet in turn: every 12 koma one of them is set a stride further, at the heights in `steps`.
     fn walk(steps: &[f64]) -> Vec<Vec<DVec3>> {
         let mut feet = [vec![DVec3::ZERO], vec![DVec3::ZERO]];
         for (at, level) in steps.iter().enumerate() {
@@ -272,7 +271,7 @@ mod tests {
             let highest = from.y.max(to.y) + 3.0;
             for koma in 1..=12 {
                 let share = f64::from(koma) / 12.0;
-                // Up first, then over and down.
+                // First up, then forward and down.
                 let level = if koma < 6 {
                     between(from.y, highest, share * 2.0)
                 } else {

@@ -1,4 +1,4 @@
-//! Gaits (歩き・走り): steps of left and right by turns that are alike, and the phases of each.
+//! Gaits (歩き・走り): similar steps of alternating feet, and the phases of each step.
 
 mod chains;
 mod legs;
@@ -10,51 +10,50 @@ use crate::motion::body::gait::legs::{Legs, Paths, RATE};
 use crate::motion::{Build, Clip, Point, landmarks};
 use crate::time::Clock;
 
-/// A stretch of four or more steps, left and right by turns, each about as long as the others of its foot. The body may
-/// travel, go on a treadmill or march on the spot.
+/// A stretch of four or more steps of alternating feet, each about as long as the others of its foot. The body may
+/// travel, use a treadmill or march on the spot.
 ///
-/// Four are two of each foot: fewer would show no cycle, as one step of a foot is like every other.
+/// Four steps are two of each foot. Fewer would show no cycle: a single step of a foot has no counterpart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gait {
-    /// Its steps, each from one contact to the next.
+    /// Steps of the gait, each from one contact to the next.
     pub steps: Vec<Step>,
 }
 
-/// A step: from where a foot comes down to where the other does. Instants are in koma from the clip's first, with a
-/// fraction.
+/// A step, from one foot's contact to that of the other. Instants are in fractional koma from the clip's first.
 ///
-/// What the clip cuts off of its first or last step lies before 0 or behind the last koma, as long from what is seen as in
-/// other steps of that foot.
+/// If the clip cuts off a part of its first or last step, the missing instants are extrapolated from other steps of
+/// that foot. They lie before 0 or behind the last koma.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// The foot that comes down and stands: 0 is the left one, 1 the right one. In a body whose joints have no names of
-    /// sides 0 is the first in the file.
+    /// Foot that comes down and stands: 0 is left, 1 is right. If the joints' names tell no sides, 0 is the first in
+    /// the file.
     pub foot: usize,
-    /// Contact (接地): this foot comes down. Its ankle or its sole is within 0.75 %H of its ground.
+    /// Contact (接地): this foot comes down. Its ankle or its sole is within 0.75 %H of its ground level.
     pub contact: f64,
-    /// Down (沈み): the pelvis is lowest from contact to passing.
+    /// Down (沈み): the pelvis is lowest between contact and passing.
     pub down: f64,
-    /// Passing (すれ違い): the other foot passes this one. The ankles are nearest: the square of the way between them along
-    /// the ground less a quarter of that of their rise is least. In a stride that is where they cross, on the spot where the
-    /// foot is highest.
+    /// Passing (すれ違い): the other foot passes this one, and the ankles are nearest. Minimizes the squared horizontal
+    /// distance of the ankles minus a quarter of their squared vertical distance. In a stride the ankles cross there;
+    /// in a march on the spot the foot is highest there.
     pub passing: f64,
-    /// Up (伸び): the pelvis is highest from passing to the next contact. A walk is as high as it gets when feet pass,
-    /// or even before: then this is the passing.
+    /// Up (伸び): the pelvis is highest between passing and the next contact. A walk may reach its top at the passing
+    /// or even before; then this equals the passing.
     pub up: f64,
-    /// The other foot comes down.
+    /// Contact of the other foot.
     pub next: f64,
 }
 
 impl Gait {
-    /// The gaits of a clip, in their order; none of a body without head, two arms and two legs.
+    /// Finds the gaits of a clip in order of time; empty for a body without head, two arms and two legs.
     pub fn find(clip: &Clip, clock: Clock) -> Vec<Self> {
-        Self::of(clip, &Build::of(clip), clock)
+        Self::find_all(clip, &Build::new(clip), clock)
     }
 
-    /// The same of a body that is known.
-    pub(crate) fn of(clip: &Clip, build: &Build, clock: Clock) -> Vec<Self> {
+    /// Finds the gaits of a clip whose build is known.
+    pub fn find_all(clip: &Clip, build: &Build, clock: Clock) -> Vec<Self> {
         let Some(paths) = paths(clip, build, clock) else { return Vec::new() };
-        let legs = Legs::of(&paths, build.landmarks.up.unit());
+        let legs = Legs::new(&paths, build.landmarks.up.unit());
         let mut gaits = chains::gaits(&legs);
         let koma = clock.koma_rate / RATE;
         gaits.iter_mut().flat_map(|gait| &mut gait.steps).for_each(|step| step.scale(koma));
@@ -69,7 +68,7 @@ impl Step {
     }
 }
 
-/// Where hips, ankles and soles of both legs are, the left one first.
+/// Computes the paths of hips, ankles and soles of both legs, the left one first.
 fn paths(clip: &Clip, build: &Build, clock: Clock) -> Option<Paths> {
     let (mannequin, feet) = (build.mannequin.as_ref()?, &build.landmarks.feet);
     let legs = mannequin.legs();
@@ -77,7 +76,7 @@ fn paths(clip: &Clip, build: &Build, clock: Clock) -> Option<Paths> {
     let order = if legs[0][0] == left { [0, 1] } else { [1, 0] };
     let points = order.map(|leg| {
         let foot = feet.get(leg)?;
-        Some([Point::of(legs[leg][0]), foot.ankle, foot.sole])
+        Some([Point::new(legs[leg][0]), foot.ankle, foot.sole])
     });
     let [left, right] = points;
     let points = [left?, right?].concat();

@@ -1,4 +1,4 @@
-//! The landmarks of a body (頭・手首・足首): head, wrists and ankles, by their names, else by its shape and motion.
+//! The landmarks of a body (頭・手首・足首): head, wrists and ankles, found by name, or else by shape and motion.
 
 use std::array;
 use std::collections::BTreeSet;
@@ -13,32 +13,32 @@ use crate::motion::lanes::{LANES, LaneVec, pieces, wide};
 use crate::motion::{Axis, Body, Build, Clip, Joint, JointId, Members, Skeleton};
 use crate::time::{Clock, Frame};
 
-/// Frames that are looked at: enough to know which limb is usually low.
+/// Number of sampled frames: enough to know which limb is usually low.
 const LOOKS: usize = 200;
 
-/// The longest hand, foot or head, as a share of the body's height: what a joint may carry and still be
-/// the end of a limb. A hand is a ninth and a forearm with its hand a quarter where both are whole; in
-/// real files, which cut off toes and fingers, feet go up to 0.152 and forearms down to 0.157.
+/// Longest hand, foot or head, as a share of the body's height: a joint with a longer chain below it is not the end
+/// of a limb. A complete hand is a ninth of the height, a forearm with its hand a quarter. Real files cut off toes
+/// and fingers: their feet reach up to 0.152, their forearms down to 0.157.
 const LONGEST_END: f64 = 0.154;
 
-/// The shortest limb, from the root to its end, as a share of the body's height.
+/// Shortest limb, from the root to its end, as a share of the body's height.
 const SHORTEST_LIMB: f64 = 0.15;
 
-/// A point that a joint carries.
+/// A point attached to a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// The joint.
     pub joint: JointId,
-    /// From the joint, in its own axes and in the file's unit; 0 for the joint itself.
+    /// Vector from the joint, in the joint's own axes and in the file's unit; 0 for the joint itself.
     pub offset: DVec3,
 }
 
 impl Point {
-    pub(crate) fn of(joint: usize) -> Self {
+    pub(crate) fn new(joint: usize) -> Self {
         Self { joint: JointId(joint), offset: DVec3::ZERO }
     }
 
-    /// Where it stands in the world.
+    /// Returns the world position of the point.
     pub fn position(&self, body: &Body) -> DVec3 {
         body.positions()[self.joint.0] + body.rotations()[self.joint.0] * self.offset
     }
@@ -47,40 +47,41 @@ impl Point {
 /// A foot (足).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
-    /// The ankle, where the foot hangs on the leg.
+    /// Ankle, where the foot joins the leg.
     pub ankle: Point,
-    /// The point of the foot that is lowest in the mean: the ball or the tip of the toes.
+    /// Point of the foot that is lowest on average: the ball or the tip of the toes.
     pub sole: Point,
 }
 
-/// Head, wrists and ankles of a body; what a body does not have is missing.
+/// Head, wrists and ankles of a body, as far as it has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landmarks {
-    /// The head, or the neck where the head is short.
+    /// Head, or the neck if the head is short.
     pub head: Option<Point>,
-    /// The wrists, none, one or two, in the order of the file.
+    /// Zero to two wrists, in the order of the file.
     pub wrists: Vec<Point>,
-    /// The feet, none, one or two, in the order of the file.
+    /// Zero to two feet, in the order of the file.
     pub feet: Vec<Foot>,
-    /// The axis that points up.
+    /// Axis that points up.
     pub up: Axis,
-    /// The height of the body in the file's unit: of a person with legs as long as these, from hip to ankle over 0.48. Of a
-    /// body without limbs it is the middle one of the longest sides of the boxes round its joints, over the frames.
+    /// Height of the body in the file's unit: that of a person with legs of this length, hip to ankle divided by
+    /// 0.48. For a body without limbs, the median over the frames of the longest side of its joints' bounding box.
     pub height: f64,
 }
 
 impl Landmarks {
-    /// Finds them. Limbs and head are those that [names](crate::deliver::BoneMap) give, where these make whole limbs. Else a
-    /// limb ends at the first joint from the root that carries no more than 15 %
-    /// of the body's height. Of the ends the two that are lowest in the mean over the clip are the feet, of
-    /// what is left the two furthest from the root along the bones are the hands, however high they are held,
-    /// and the highest of the others is the head. A body of fewer than three ends has no landmark; what
-    /// hangs on another root than most of the body, such as a sword, is not looked at.
-    pub fn of(clip: &Clip) -> Self {
-        Build::of(clip).landmarks
+    /// Finds the landmarks of a clip.
+    ///
+    /// [Names](crate::motion::BoneMap) give limbs and head if the named limbs are whole. Otherwise a limb ends at the
+    /// first joint from the root that carries no more than 15 % of the body's height. The two ends that are lowest on
+    /// average are the feet. Of the others, the two furthest from the root along the bones are the hands, however
+    /// high they are held, and the highest of the rest is the head. A body with fewer than three ends has no
+    /// landmarks. Trees other than the body's, such as a sword, are ignored.
+    pub fn new(clip: &Clip) -> Self {
+        Build::new(clip).landmarks
     }
 
-    /// The same of the joints that are the body: limbs that names give, and for the others its shape.
+    /// Finds the landmarks among the body's joints: named limbs first, the others by shape.
     pub(super) fn of_members(
         looks: &Looks,
         members: &Members,
@@ -108,27 +109,28 @@ impl Landmarks {
         let lengths = lengths(skeleton);
         let mut longest = ends.clone();
         longest.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
-        // One of them is left to be the head.
+        // Keep one end for the head.
         let spare = ends.len() - usize::from(limbs.head.is_none()).min(ends.len());
         longest.truncate((2 - wrists.len()).min(spare));
         let highest = ends.into_iter().rfind(|end| !longest.contains(end));
-        // Rigs of one person have their last joint of the neck elsewhere in the head; what is short enough begins alike.
+        // Rigs of one performer place the last neck joint differently. The first joint with a short enough chain is
+        // comparable between them.
         let named = limbs.head.map(|head| first_of_head(skeleton, looks.height, head));
-        landmarks.head = named.or(highest).map(Point::of);
+        landmarks.head = named.or(highest).map(Point::new);
         wrists.extend(longest);
         wrists.sort_unstable();
-        landmarks.wrists = wrists.into_iter().map(Point::of).collect();
+        landmarks.wrists = wrists.into_iter().map(Point::new).collect();
         landmarks
     }
 
-    /// Wrists, ankles and head.
+    /// Returns wrists, ankles and head.
     pub fn points(&self) -> Vec<Point> {
         let ankles = self.feet.iter().map(|foot| foot.ankle);
         self.wrists.iter().copied().chain(ankles).chain(self.head).collect()
     }
 }
 
-/// Where some points stand in the world at each koma of a clock: one path a point, in the file's unit.
+/// Computes the world positions of some points at each koma of a clock: one path per point, in the file's unit.
 pub fn paths(clip: &Clip, clock: Clock, points: &[Point]) -> Vec<Vec<DVec3>> {
     let koma = clip.rate().koma_from_frames(clip.len(), clock.koma_rate);
     let joints: Vec<usize> = points.iter().map(|point| point.joint.0).collect();
@@ -156,14 +158,14 @@ pub fn paths(clip: &Clip, clock: Clock, points: &[Point]) -> Vec<Vec<DVec3>> {
     paths
 }
 
-/// Where each joint and tip stands in the mean over a clip, and how tall the body is.
+/// Mean positions of joints and tips over a clip, and the height of the body.
 pub(super) struct Looks {
-    /// One a joint.
+    /// One position per joint.
     means: Vec<DVec3>,
-    /// One an End Site, in the order of the file.
+    /// One position per End Site, in the order of the file.
     tips: Vec<(Point, DVec3)>,
     height: f64,
-    /// How upright it stands, where names give legs and head.
+    /// How upright the body stands, if names give legs and head.
     upright: Option<DVec3>,
 }
 
@@ -176,7 +178,7 @@ impl Looks {
         let means = vec![DVec3::ZERO; skeleton.len()];
         let mut looks = Self { means, tips: tips.collect(), height: 0.0, upright: None };
         let mut sides = Vec::new();
-        let mut stands = limbs.legs_and_head().map(|(legs, head)| Stands::of(legs, head));
+        let mut stands = limbs.legs_and_head().map(|(legs, head)| Stands::from_legs(legs, head));
         each_look(clip, |body| {
             for (mean, position) in looks.means.iter_mut().zip(body.positions()) {
                 *mean += *position;
@@ -192,36 +194,36 @@ impl Looks {
         looks
     }
 
-    /// How upright a body with these ends stands along each axis, as [`Stands::upright`] has it.
+    /// Returns how upright a body with these legs and head stands along each axis: see [`Stands::upright`].
     pub(super) fn upright(&self, clip: &Clip, legs: [[usize; 3]; 2], head: usize) -> DVec3 {
         self.upright.unwrap_or_else(|| {
-            let mut stands = Stands::of(legs, head);
+            let mut stands = Stands::from_legs(legs, head);
             each_look(clip, |body| stands.look(body));
             stands.upright()
         })
     }
 
-    /// The foot below an ankle.
+    /// Returns the foot below an ankle.
     fn foot(&self, skeleton: &Skeleton, ankle: usize, up: DVec3) -> Foot {
-        let joints = below(skeleton, ankle).map(|joint| (Point::of(joint), self.means[joint]));
+        let joints = below(skeleton, ankle).map(|joint| (Point::new(joint), self.means[joint]));
         let inside: BTreeSet<usize> = below(skeleton, ankle).collect();
         let tips = self.tips.iter().copied().filter(|(tip, _)| inside.contains(&tip.joint.0));
         let lowest = joints.chain(tips).min_by(|a, b| a.1.dot(up).total_cmp(&b.1.dot(up)));
-        let ankle = Point::of(ankle);
+        let ankle = Point::new(ankle);
         Foot { ankle, sole: lowest.map_or(ankle, |(sole, _)| sole) }
     }
 }
 
-/// How a body stands in the poses that are looked at.
+/// Directions of a body's legs and of the whole body over the sampled poses.
 struct Stands {
     legs: [[usize; 3]; 2],
     head: usize,
-    /// From ankles to hips, and from ankles to the head.
+    /// Directions from the ankles to the hips, and from the ankles to the head.
     ways: [Vec<DVec3>; 2],
 }
 
 impl Stands {
-    fn of(legs: [[usize; 3]; 2], head: usize) -> Self {
+    fn from_legs(legs: [[usize; 3]; 2], head: usize) -> Self {
         Self { legs, head, ways: [Vec::new(), Vec::new()] }
     }
 
@@ -233,8 +235,8 @@ impl Stands {
         self.ways[1].push((at(self.head) - ankles).normalize_or_zero());
     }
 
-    /// How upright it stands along each axis in the middle of its poses, as a cosine: as its legs do, or all of it, whichever
-    /// is more.
+    /// Returns how upright the body stands along each axis, as the median cosine over its poses: that of its legs or
+    /// that of the whole body, whichever is larger.
     fn upright(&self) -> DVec3 {
         let middle = |ways: &Vec<DVec3>| {
             let along = |axis: DVec3| median(ways.iter().map(|way| way.dot(axis)).collect());
@@ -245,9 +247,9 @@ impl Stands {
     }
 }
 
-/// Looks at a clip, evenly and not too often.
+/// Samples a clip evenly, at most [`LOOKS`] frames.
 fn each_look(clip: &Clip, mut look: impl FnMut(&Body)) {
-    let (mut poser, mut body) = (LanePoser::of(clip), Body::new(clip.skeleton()));
+    let (mut poser, mut body) = (LanePoser::new(clip), Body::new(clip.skeleton()));
     let looks = clip.len().min(LOOKS);
     let frame = |look: usize| Frame(clip.first().0 + look * clip.len() / looks);
     for first in (0..looks).step_by(LANES) {
@@ -266,13 +268,13 @@ fn each_look(clip: &Clip, mut look: impl FnMut(&Body)) {
     }
 }
 
-/// The middle one of some numbers; 0 without any.
+/// Returns the median of some numbers; 0 if there are none.
 fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// The joints at which limbs end.
+/// Finds the joints at which limbs end.
 fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     let (reaches, lengths) = (skeleton.reaches(), lengths(skeleton));
     let carries = skeleton.carriers();
@@ -283,17 +285,17 @@ fn ends(skeleton: &Skeleton, height: f64) -> BTreeSet<usize> {
     leaves.map(end).filter(|end| lengths[*end] >= SHORTEST_LIMB * height).collect()
 }
 
-/// The shortest bone from the joint of a head to its top, as a share of the body's height: some rigs end in that joint.
+/// Shortest bone from the head's joint to its top, as a share of the body's height. Some rigs end at that joint.
 const SHORTEST_HEAD: f64 = 0.02;
 
-/// On the way to a head the first joint from the root that carries no more than a head does; the head itself where it ends in
-/// its joint.
+/// Returns the first joint from the root, on the way to the head, with a chain no longer than a head. If the rig ends
+/// at the head's joint, returns that joint.
 fn first_of_head(skeleton: &Skeleton, height: f64, head: usize) -> usize {
     let is_long = |offset: DVec3| offset.length() >= SHORTEST_HEAD * height;
     let mut tips = skeleton.joints[head].end_sites.iter().map(|end| end.offset);
     let mut joints = skeleton.joints.iter();
     let hangs_on = |joint: &Joint| joint.parent == Some(JointId(head)) && is_long(joint.offset);
-    // Without its top the neck would be as short as one.
+    // If the rig has no top of the head, the neck would pass as a head.
     let has_top = tips.any(is_long) || joints.any(hangs_on);
     if has_top { first_end_of(skeleton, &skeleton.reaches(), height, head) } else { head }
 }
@@ -305,7 +307,7 @@ fn first_end_of(skeleton: &Skeleton, reaches: &[f64], height: f64, joint: usize)
     above(skeleton, joint).filter(is_end).last().unwrap_or(joint)
 }
 
-/// The root of the tree with most bones by their length, of equals the first.
+/// Returns the root of the tree with the greatest sum of bone lengths; of equal trees the first.
 pub(super) fn body_root(skeleton: &Skeleton) -> Option<usize> {
     let roots = skeleton.roots();
     let sizes = bones_by_tree(skeleton, &roots);
@@ -313,7 +315,7 @@ pub(super) fn body_root(skeleton: &Skeleton) -> Option<usize> {
     roots.into_iter().reduce(largest)
 }
 
-/// How long the bones of each tree are together, at its root.
+/// Sums the bone lengths of each tree; the sum is at the index of the root.
 pub(super) fn bones_by_tree(skeleton: &Skeleton, roots: &[usize]) -> Vec<f64> {
     let mut sizes = vec![0.0; skeleton.len()];
     for (joint, root) in skeleton.joints.iter().zip(roots) {
@@ -322,12 +324,12 @@ pub(super) fn bones_by_tree(skeleton: &Skeleton, roots: &[usize]) -> Vec<f64> {
     sizes
 }
 
-/// A joint and all that it hangs on, up to its root.
+/// Returns a joint and its ancestors, up to the root.
 pub(crate) fn above(skeleton: &Skeleton, joint: usize) -> impl Iterator<Item = usize> {
     iter::successors(Some(joint), |joint| skeleton.joints[*joint].parent.map(|parent| parent.0))
 }
 
-/// How far each joint is from its root along the bones. The root's own offset is no bone.
+/// Returns each joint's distance from its root along the bones. The root's own offset is no bone.
 pub(super) fn lengths(skeleton: &Skeleton) -> Vec<f64> {
     let mut lengths: Vec<f64> = Vec::with_capacity(skeleton.len());
     for joint in &skeleton.joints {
@@ -336,7 +338,7 @@ pub(super) fn lengths(skeleton: &Skeleton) -> Vec<f64> {
     lengths
 }
 
-/// A joint and all that hangs on it.
+/// Returns a joint and its descendants.
 pub(crate) fn below(skeleton: &Skeleton, top: usize) -> impl Iterator<Item = usize> {
     let mut is_below = vec![false; skeleton.len()];
     for (joint, data) in skeleton.joints.iter().enumerate().skip(top) {
@@ -375,7 +377,7 @@ mod tests {
         ("q", Some(15), [0.0, -8.0, 12.0], Some([0.0, 0.0, 5.0])),
     ];
 
-    /// That body, standing still; `turned` is the axis that is up.
+    /// The body standing still; `turned` maps Y up to another axis.
     fn standing(scale: f64, turned: fn(DVec3) -> DVec3) -> Clip {
         let place = |offset: [f64; 3]| turned(scale * DVec3::from_array(offset));
         let joints = BODY.iter().enumerate().map(|(at, (name, parent, offset, tip))| Joint {
@@ -402,7 +404,7 @@ mod tests {
             (12.0, |offset| DVec3::new(offset.x, -offset.z, offset.y)),
         ] {
             let clip = standing(scale, turned);
-            let found = Landmarks::of(&clip);
+            let found = Landmarks::new(&clip);
             let joint = |point: &Point| clip.skeleton().joints[point.joint.0].name.clone();
             assert_eq!(found.head.as_ref().map(joint).as_deref(), Some("d"));
             assert_eq!(found.wrists.iter().map(joint).collect::<Vec<_>>(), ["g", "l"]);
@@ -418,7 +420,7 @@ mod tests {
     #[test]
     fn a_path_has_a_place_a_koma() {
         let clip = standing(1.0, |offset| offset);
-        let points = Landmarks::of(&clip).points();
+        let points = Landmarks::new(&clip).points();
         let paths = paths(&clip, clip.clock(24.0), &points);
         assert_eq!(paths.len(), 5);
         assert_eq!(paths[4], [DVec3::new(0.0, 155.0, 0.0); 3], "the head");
@@ -431,6 +433,6 @@ mod tests {
         skeleton.joints.truncate(2);
         let rate = FrameRate::new(24.0).unwrap();
         let clip = Clip::new(skeleton, rate, Frame(0), 1, vec![0.0; 2]).unwrap();
-        assert!(Landmarks::of(&clip).points().is_empty());
+        assert!(Landmarks::new(&clip).points().is_empty());
     }
 }

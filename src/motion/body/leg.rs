@@ -1,4 +1,4 @@
-//! A leg (脚) that sets its foot down somewhere else: two bones that turn at hip and knee.
+//! Moves the foot of a leg (脚) by inverse kinematics: two bones that turn at hip and knee.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,16 +10,17 @@ use crate::motion::rotation_axes;
 use crate::motion::{Body, Build, Clip, JointId, Pose, Poser};
 use crate::time::Frame;
 
-/// Frames that are looked at to see how a knee bends.
+/// Number of frames sampled to see how a knee bends.
 const LOOKS: usize = 200;
 
-/// How much a knee has to bend in the mean, as the sine of its angle, that its hinge is seen: 1°.
+/// Least mean bend of a knee, as the sine of its angle, at which its hinge can be told: 1°.
 const LEAST_BEND: f64 = 0.02;
 
-/// How far past straight a knee may be stretched that is no other knee, in radians: 15°.
+/// Largest overextension of a knee, in radians, that counts as a straight leg rather than a knee on the wrong side:
+/// 15°.
 const OVER: f64 = 0.26;
 
-/// How fast such a knee goes through straight, for each radian that the leg is to be bent more.
+/// Speed at which an overextended knee passes through straight, in radians per radian of further bending.
 const THROUGH: f64 = 4.0;
 
 /// The joints of a leg and the hinge of its knee.
@@ -28,32 +29,32 @@ pub(in crate::motion) struct Leg {
     hip: usize,
     knee: usize,
     pub(in crate::motion) ankle: usize,
-    /// What carries knee and ankle: the hip itself, or a joint of a twist below it.
+    /// Parents of knee and ankle: the hip or knee itself, or a twist joint below it.
     over_knee: usize,
     over_ankle: usize,
     over_hip: Option<usize>,
-    /// The axis of the knee in the axes of what carries it, of length 1: about it shin turns to thigh.
+    /// Unit axis of the knee, about which shin and thigh bend together, in the axes of the knee's parent.
     hinge: DVec3,
 }
 
-/// The turns in the world that bring a foot elsewhere.
+/// World-space rotations that move a foot to a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::motion) struct Reach {
-    /// Of the whole leg at the hip, after the knee.
-    pub(in crate::motion) swing: DQuat,
-    /// Of the shin at the knee.
-    pub(in crate::motion) bend: DQuat,
+pub struct Reach {
+    /// Rotation of the whole leg at the hip, applied after the knee's.
+    pub swing: DQuat,
+    /// Rotation of the shin at the knee.
+    pub bend: DQuat,
 }
 
 impl Leg {
-    /// The legs of a body in the order of its feet; none where a leg can't be turned freely at hip, knee
-    /// and ankle, or its knee never bends. A body without head, two arms and two legs has none.
-    pub(in crate::motion) fn both(clip: &Clip, build: &Build) -> Vec<Option<Self>> {
+    /// Finds the legs of a body in the order of its feet. A leg is `None` if hip, knee or ankle cannot turn freely,
+    /// or if its knee never bends. A body without head, two arms and two legs has no legs.
+    pub(crate) fn both(clip: &Clip, build: &Build) -> Vec<Option<Self>> {
         let joints = build.mannequin.as_ref().map(Mannequin::legs);
-        joints.into_iter().flatten().map(|joints| Self::of(clip, joints)).collect()
+        joints.into_iter().flatten().map(|joints| Self::from_joints(clip, joints)).collect()
     }
 
-    fn of(clip: &Clip, [hip, knee, ankle]: [usize; 3]) -> Option<Self> {
+    fn from_joints(clip: &Clip, [hip, knee, ankle]: [usize; 3]) -> Option<Self> {
         let joints = &clip.skeleton().joints;
         let over = |joint: usize| joints[joint].parent.map(|JointId(parent)| parent);
         if [hip, knee, ankle].iter().any(|joint| rotation_axes(&joints[*joint]).is_none()) {
@@ -66,9 +67,9 @@ impl Leg {
         Some(Self { hinge, ..leg })
     }
 
-    /// The axis about which the knee mostly bends, in the axes of what carries it.
+    /// Estimates the axis about which the knee mostly bends, in the axes of its parent.
     fn seen_hinge(&self, clip: &Clip) -> Option<DVec3> {
-        let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
+        let (mut poser, mut body) = (Poser::new(clip), Body::new(clip.skeleton()));
         let looks = clip.len().min(LOOKS);
         let bend = |look: usize| {
             body.place(poser.frame(Frame(clip.first().0 + look * clip.len() / looks)));
@@ -81,14 +82,13 @@ impl Leg {
         (mean.length() > LEAST_BEND).then(|| mean.normalize())
     }
 
-    /// The joints that [`Leg::carry`] turns.
+    /// Returns the joints that [`Leg::carry`] turns.
     pub(in crate::motion) fn joints(&self) -> [usize; 3] {
         [self.hip, self.knee, self.ankle]
     }
 
-    /// Brings the foot to where it is `way` from where it was, as far as the leg reaches, and turned in the
-    /// world as before. Hip and bones keep their place and length, the knee bends as knees of this body do.
-    /// `body` is that of the pose.
+    /// Moves the foot by `way`, as far as the leg reaches, and keeps the foot's world orientation. The hip stays in
+    /// place, the bones keep their length, and the knee bends as this body's knees do. `body` must be in this pose.
     pub(in crate::motion) fn carry(&self, pose: &mut Pose, body: &Body, way: DVec3) {
         let world = body.rotations();
         let hinge = world[self.over_knee] * self.hinge;
@@ -97,7 +97,7 @@ impl Leg {
             return;
         };
         let over_hip = self.over_hip.map_or(DQuat::IDENTITY, |joint| world[joint]);
-        // What carries a joint is turned too; the foot itself is not.
+        // The parents are rotated too; the foot itself is not.
         let turns = [
             (self.hip, over_hip, swing * world[self.hip]),
             (self.knee, world[self.over_knee], bend * world[self.knee]),
@@ -109,17 +109,13 @@ impl Leg {
     }
 }
 
-/// The turns that bring the end of two bones to a target, or as near to it as they reach; none for bones of
+/// Computes the rotations that bring the end of two bones to a target, or as near as they reach; `None` for bones of
 /// no length.
 ///
-/// The knee turns about its hinge until hip and ankle are as far apart as they have to be, then the leg
-/// swings there by the shortest way. What bones and hinge leave askew stays so: the lengths across the
-/// hinge obey the law of cosines, those along it do not change.
-pub(in crate::motion) fn reach(
-    [hip, knee, ankle]: [DVec3; 3],
-    hinge: DVec3,
-    target: DVec3,
-) -> Option<Reach> {
+/// First the knee turns about its hinge until hip and ankle have the wanted distance. Then the leg swings to the
+/// target by the shortest arc. Bones need not be perpendicular to the hinge: their components across the hinge obey
+/// the law of cosines, those along it do not change.
+pub fn reach([hip, knee, ankle]: [DVec3; 3], hinge: DVec3, target: DVec3) -> Option<Reach> {
     let (thigh, shin) = (hip - knee, ankle - knee);
     let (along_thigh, along_shin) = (thigh.dot(hinge), shin.dot(hinge));
     let (a, b) = (thigh - along_thigh * hinge, shin - along_shin * hinge);
@@ -137,11 +133,11 @@ pub(in crate::motion) fn reach(
     Some(Reach { swing, bend })
 }
 
-/// How far a knee turns about its hinge from one bend to another, both 0 where the leg is straight; the second is
-/// 0 to π.
+/// Returns the angle by which a knee turns about its hinge, from bend `now` to bend `wanted`. Both are 0 for a
+/// straight leg; `wanted` is 0 to π.
 ///
-/// A knee that is a little past straight would jump to the same bend on the other side when its foot is hardly
-/// moved. It goes there by and by instead: so near to straight the foot is off by next to nothing.
+/// A slightly overextended knee would jump to the same bend on the other side as soon as its foot moves. It passes
+/// through straight gradually instead; so near to straight, the error of the foot is negligible.
 fn bend(now: f64, wanted: f64) -> f64 {
     let past = if now > PI { TAU - now } else { -now };
     if !(0.0..=OVER).contains(&past) {
@@ -161,7 +157,7 @@ mod tests {
         prop::array::uniform3(-size..size).prop_map(DVec3::from_array)
     }
 
-    /// Hip, knee and ankle after a reach.
+    /// Returns hip, knee and ankle after a reach.
     fn reached([hip, knee, ankle]: [DVec3; 3], Reach { swing, bend }: Reach) -> [DVec3; 3] {
         let shin = bend * (ankle - knee);
         [hip, hip + swing * (knee - hip), hip + swing * (knee - hip + shin)]
@@ -170,7 +166,7 @@ mod tests {
     #[test]
     fn a_straight_leg_of_two_bones_bends_by_the_law_of_cosines() {
         let leg = [2.0, 1.0, 0.0].map(|level| DVec3::Y * level);
-        // Two bones of 1 over √2: a right angle.
+        // Two bones of length 1 span √2 at a right angle.
         let target = DVec3::Y * (2.0 - 2.0_f64.sqrt());
         let found = reached(leg, reach(leg, DVec3::X, target).unwrap());
         assert!(found[2].abs_diff_eq(target, 1e-12), "{found:?}");
@@ -224,11 +220,11 @@ mod tests {
             let near = reaches.iter().copied().fold(f64::INFINITY, f64::min);
             let far = reaches.iter().copied().fold(0.0, f64::max);
             let wanted = hip.distance(target);
-            // As near as the knee lets it: the oracle's tenths of a degree are that coarse.
+            // The tolerance allows for the oracle's resolution of a tenth of a degree.
             let off = found[2].distance(target);
             let across = |bone: DVec3| bone.reject_from_normalized(hinge);
             let past = hinge.dot(across(shin).cross(across(thigh))).atan2(across(thigh).dot(across(shin)));
-            // It goes through straight by and by.
+            // An overextended knee passes through straight gradually, so it is excluded here.
             prop_assume!(!(-OVER..=0.0).contains(&past));
             let least = (near - wanted).max(wanted - far).max(0.0);
             prop_assert!(off <= least + 1e-6 || (wanted - near).abs() < 1e-5, "{off} {least} {found:?}");

@@ -1,6 +1,6 @@
-//! The limbs that names give (名前による手足), where they make whole ones.
+//! Finds limbs by name (名前による手足), if the named joints make whole limbs.
 
-mod words;
+mod name_words;
 
 use std::sync::LazyLock;
 
@@ -12,38 +12,39 @@ use crate::motion::body::names::bones::Side;
 use crate::motion::landmarks::above;
 use crate::motion::{Declared, JointId, Skeleton};
 
-use words::ByWords;
+use name_words::ByWords;
 
-/// The table that comes with the program.
+/// The built-in table of names.
 static NAMES: LazyLock<BoneMap> = LazyLock::new(BoneMap::default);
 
-/// How alike the two bones of a limb are at the least: a forearm may have half the length of an upper arm, while names that
-/// stand a joint too far out make a foot the second bone of a leg.
+/// Least ratio of a limb's two bones. A forearm may be half as long as an upper arm, while names that are off by one
+/// joint make a foot the second bone of a leg.
 const EVEN: f64 = 1.0 / 3.0;
 
-/// How much longer than the other a limb may be: an arm that is called a leg is half as long as a leg.
+/// Largest ratio of the two limbs of a pair. An arm that is named as a leg is only half as long as a leg.
 const ALIKE: f64 = 1.4;
 
-/// Thigh and shin together, in heights of the body.
+/// Length of thigh and shin together, in heights of the body.
 pub(super) const LEG: f64 = 0.48;
 
 /// An arm or a leg: shoulder, elbow and wrist, or hip, knee and ankle.
 pub(crate) type Limb = [usize; 3];
 
-/// What names say of a body.
+/// Limbs and head of a body known by name.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct NamedLimbs {
-    /// Left and right.
+    /// Left and right arm.
     pub(crate) arms: [Option<Limb>; 2],
-    /// Left and right.
+    /// Left and right leg.
     pub(crate) legs: [Option<Limb>; 2],
     pub(crate) head: Option<usize>,
 }
 
 impl NamedLimbs {
-    /// What a person says of a clip, and else, of the dialect that names most joints of a tree, the limbs that are whole:
-    /// their joints hang on one another, their two bones are more or less alike, and so are both sides.
-    pub(crate) fn of(skeleton: &Skeleton, is_of_tree: &[bool], said: Declared) -> Self {
+    /// Takes the limbs that a person declared. The others come from the dialect that names most joints of a tree, if
+    /// they are whole: their joints hang on one another, and their two bones, as well as both sides, are of similar
+    /// length.
+    pub(crate) fn new(skeleton: &Skeleton, is_of_tree: &[bool], said: Declared) -> Self {
         let named = Self::by_names(skeleton, is_of_tree);
         let limb = |at: usize| said.limbs[at].map(|limb| limb.map(|joint| joint.0));
         Self {
@@ -68,9 +69,9 @@ impl NamedLimbs {
         if found.are_whole() { found } else { found.or_by_words(skeleton, is_of_tree) }
     }
 
-    /// What no dialect names may still be plain by the words in names: both sides of a kind of limb at once.
+    /// Adds limbs found by the words in names, for names in no dialect. Both sides of a pair are taken together.
     fn or_by_words(self, skeleton: &Skeleton, is_of_tree: &[bool]) -> Self {
-        let words = ByWords::of(skeleton, is_of_tree);
+        let words = ByWords::new(skeleton, is_of_tree);
         let both = |own: [Option<Limb>; 2], limb: &dyn Fn(BodySide) -> [Option<JointId>; 3]| {
             let sides = [BodySide::Left, BodySide::Right];
             let by_words = || alike(sides.map(|side| whole(skeleton, limb(side))));
@@ -83,7 +84,7 @@ impl NamedLimbs {
         }
     }
 
-    /// Whether a joint belongs to a limb or the head that names give: it hangs there, or leads to the head.
+    /// Whether a joint hangs on a named limb or head, or leads to the head.
     pub(super) fn take(&self, skeleton: &Skeleton, joint: usize) -> bool {
         let tops =
             || self.arms.iter().chain(&self.legs).flatten().map(|limb| limb[0]).chain(self.head);
@@ -91,13 +92,13 @@ impl NamedLimbs {
         hangs || self.head.is_some_and(|head| above(skeleton, head).any(|above| above == joint))
     }
 
-    /// Shoulder, elbow and wrist, or hip, knee and ankle, of the limb that ends at a joint.
+    /// Returns shoulder, elbow and wrist, or hip, knee and ankle, of the named limb that ends at a joint.
     pub(super) fn ending_at(&self, end: usize) -> Option<Limb> {
         let mut limbs = self.arms.iter().chain(&self.legs).flatten().copied();
         limbs.find(|limb| limb[2] == end)
     }
 
-    /// The height of a person with these legs, where head and all limbs are known.
+    /// Returns the height of a person with these legs, if head and all limbs are known.
     pub(super) fn height(&self, skeleton: &Skeleton) -> Option<f64> {
         let [Some(left), Some(right)] = self.legs else { return None };
         let length = |[hip, _, ankle]: Limb| way(skeleton, JointId(hip), JointId(ankle));
@@ -105,7 +106,7 @@ impl NamedLimbs {
         self.are_whole().then_some(mean / LEG)
     }
 
-    /// Both legs and the head, where names give them.
+    /// Returns both legs and the head, if they are known.
     pub(super) fn legs_and_head(&self) -> Option<([Limb; 2], usize)> {
         let [left, right] = self.legs;
         Some(([left?, right?], self.head?))
@@ -116,15 +117,15 @@ impl NamedLimbs {
         self.head.is_some() && self.arms.iter().chain(&self.legs).all(Option::is_some)
     }
 
-    /// Their joints and the head.
+    /// Returns the joints of the limbs and the head.
     pub(crate) fn joints(&self) -> impl Iterator<Item = usize> {
         let limbs = self.arms.into_iter().chain(self.legs).flatten().flatten();
         limbs.chain(self.head)
     }
 }
 
-/// What a person's table of bones says of head and limbs: of a limb for which it has a row, where its joints hang on one
-/// another.
+/// Reads head and limbs from a person's bone table. A limb counts if the person has a row for it and its joints hang
+/// on one another.
 pub(crate) fn said(map: &BoneMap, skeleton: &Skeleton) -> Declared {
     let found = map.find(skeleton);
     let named = |bone: &str| found.joints[map.model.find(bone)?].first().copied();
@@ -144,7 +145,7 @@ pub(crate) fn said(map: &BoneMap, skeleton: &Skeleton) -> Declared {
     }
 }
 
-/// A limb and its length, where its joints can be one.
+/// Returns a limb and its length if its joints can be one.
 fn whole(skeleton: &Skeleton, limb: [Option<JointId>; 3]) -> Option<(Limb, f64)> {
     let [upper, middle, lower] = limb;
     let (upper, middle, lower) = (upper?, middle?, lower?);
@@ -153,7 +154,7 @@ fn whole(skeleton: &Skeleton, limb: [Option<JointId>; 3]) -> Option<(Limb, f64)>
     is_even.then_some(([upper.0, middle.0, lower.0], first + second))
 }
 
-/// Both sides, where their lengths are of one kind of limb.
+/// Returns both sides if their lengths are similar, or neither.
 fn alike(limbs: [Option<(Limb, f64)>; 2]) -> [Option<Limb>; 2] {
     if let [Some((_, left)), Some((_, right))] = limbs
         && left.max(right) > ALIKE * left.min(right)

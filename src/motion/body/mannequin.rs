@@ -1,8 +1,8 @@
-//! The mannequin (人形): standard bones that point where a rig's bones point.
+//! The mannequin (人形): standard bones that point in the directions of a rig's bones.
 //!
-//! Two rigs of one performer differ in much that is no part of the motion: how many joints a spine has,
-//! where a hip sits, whether a toe has a tip. A mannequin has the same bones on everybody, so that what
-//! is judged on it follows the motion and not the rig.
+//! Two rigs of one performer differ in details that are no part of the motion: the number of spine joints, the
+//! position of a hip, the tip of a toe. A mannequin has the same bones for every rig, so that measurements on it
+//! depend on the motion and not on the rig.
 
 use glam::DVec3;
 
@@ -10,11 +10,11 @@ use crate::motion::body::limbs::{LEG, NamedLimbs};
 use crate::motion::landmarks::{above, below, lengths};
 use crate::motion::{BodySide, EndSite, JointId, Landmarks, Point, Skeleton};
 
-/// Points of a mannequin besides its pelvis: neck, head, and of each side shoulder, elbow, wrist,
+/// Number of points of a mannequin besides its pelvis: neck, head, and for each side shoulder, elbow, wrist,
 /// fingertips, hip, knee, ankle and toes.
 pub(crate) const POINTS: usize = 18;
 
-/// The bone that leads to each point, in heights of the body: usual proportions of a grown person.
+/// Length of the bone that leads to each point, in heights of the body: usual proportions of an adult.
 pub(crate) const BONES: [f64; POINTS] = {
     let mut bones = [0.0; POINTS];
     [bones[0], bones[1]] = [0.30, 0.14];
@@ -27,22 +27,22 @@ pub(crate) const BONES: [f64; POINTS] = {
     bones
 };
 
-/// From the root to the head and to an ankle along the bones, both together, in heights of the body.
+/// Length along the bones from the root to the head plus that from the root to an ankle, in heights of the body.
 const TRUNK_AND_LEG: f64 = 0.9;
 
-/// Upper arm and forearm together, in heights of the body.
+/// Length of upper arm and forearm together, in heights of the body.
 const ARM: f64 = 0.32;
 
-/// Where a mannequin's bones are in a rig.
+/// The bones of a mannequin located in a rig.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Mannequin {
     pub(super) head: Point,
-    /// Where the arms part.
+    /// Joint at which the arms branch off.
     pub(super) chest: usize,
     pub(super) arms: [Limb; 2],
     pub(super) legs: [Limb; 2],
-    /// The height of a person with the legs of this rig, and no less than from its ankles to its head along the bones, in the
-    /// file's unit.
+    /// Height of a person with the legs of this rig, but at least the length along the bones from its ankles to its
+    /// head, in the file's unit.
     height: f64,
 }
 
@@ -51,28 +51,28 @@ pub(crate) struct Mannequin {
 pub(super) struct Limb {
     /// Shoulder or hip.
     pub(super) upper: Point,
-    /// Elbow or knee; the end of the limb where it has none.
+    /// Elbow or knee; without one, the end of the limb.
     pub(super) middle: Point,
     /// Wrist or ankle.
     pub(super) lower: Point,
-    /// What hangs on it: fingertips, or the sole.
+    /// Points at its end: fingertips, or the sole.
     pub(super) tips: Vec<Point>,
 }
 
 /// A mannequin in a pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stand {
-    /// Each point from the pelvis, in heights of the body.
+    /// Vector of each point from the pelvis, in heights of the body.
     pub(crate) points: [DVec3; POINTS],
-    /// Where the pelvis is, in heights of the body.
+    /// Position of the pelvis, in heights of the body.
     pub(crate) pelvis: DVec3,
-    /// From one hip to the other and from one shoulder to the other: each of length 1.
+    /// Unit vectors across the hips and across the shoulders.
     pub(crate) across: [DVec3; 2],
 }
 
 impl Mannequin {
-    /// Finds its bones in a rig by their lengths; none in a body without head, two arms and two legs.
-    pub(super) fn of(
+    /// Locates the bones in a rig by their lengths; `None` for a body without head, two arms and two legs.
+    pub(super) fn new(
         skeleton: &Skeleton,
         landmarks: &Landmarks,
         named: &NamedLimbs,
@@ -81,13 +81,13 @@ impl Mannequin {
         let [left_foot, right_foot] = landmarks.feet[..] else { return None };
         let head = landmarks.head?;
         let lengths = lengths(skeleton);
-        let pair = |ends| Pair::of(skeleton, named, &lengths, ends);
+        let pair = |ends| Pair::find(skeleton, named, &lengths, ends);
         let arms = pair([left_hand.joint, right_hand.joint]);
         let legs = pair([left_foot.ankle.joint, right_foot.ankle.joint]);
         let hands = arms.ends.map(|wrist| tips(skeleton, wrist));
         let soles = [left_foot.sole, right_foot.sole].map(|sole| vec![sole]);
-        // The bones and not the motion: somebody who crouches has legs as long as ever. A game's root on the floor is
-        // no bone.
+        // Measures the bones and not the motion: a crouching body has legs as long as ever. A game rig's root on the
+        // floor is no bone.
         let trunk = pair([head.joint, JointId(legs.fork)]);
         let to_hips = lengths[trunk.fork];
         let height = (lengths[head.joint.0] + legs.mean_length() - 2.0 * to_hips) / TRUNK_AND_LEG;
@@ -95,7 +95,7 @@ impl Mannequin {
         let legs_found = legs.limbs(LEG * height, soles)?;
         let leg = |leg: &Limb| lengths[leg.lower.joint.0] - lengths[leg.upper.joint.0];
         let leg_length = f64::midpoint(leg(&legs_found[0]), leg(&legs_found[1]));
-        // A doll with a large head and short legs is no shorter than the way from its ankles to its head.
+        // A doll with a large head and short legs is at least as tall as its length from ankles to head.
         let upright = TRUNK_AND_LEG * height;
         (leg_length > 0.0).then_some(Self {
             head,
@@ -106,13 +106,13 @@ impl Mannequin {
         })
     }
 
-    /// The height of a person with the legs of this rig, and no less than from its ankles to its head along the bones, in the
-    /// file's unit.
+    /// Returns the height of a person with the legs of this rig, but at least the length along the bones from its
+    /// ankles to its head, in the file's unit.
     pub(crate) fn height(&self) -> f64 {
         self.height
     }
 
-    /// The joint of the rig at which each point is looked for.
+    /// Returns the joint of the rig for each point.
     pub(crate) fn joints(&self) -> [usize; POINTS] {
         let limb = |limb: &Limb| {
             let [upper, middle, lower] =
@@ -128,31 +128,31 @@ impl Mannequin {
         joints
     }
 
-    /// The joint of the head.
+    /// Returns the joint of the head.
     pub(crate) fn head(&self) -> usize {
         self.head.joint.0
     }
 
-    /// The joint at which the arms part.
+    /// Returns the joint at which the arms branch off.
     pub(crate) fn chest(&self) -> usize {
         self.chest
     }
 
-    /// Shoulder, elbow and wrist of each arm, in the order of the wrists.
+    /// Returns shoulder, elbow and wrist of each arm, in the order of the wrists.
     pub(crate) fn arms(&self) -> [[usize; 3]; 2] {
         self.arms.each_ref().map(Limb::joints)
     }
 
-    /// Hip, knee and ankle of each leg, in the order of the feet.
+    /// Returns hip, knee and ankle of each leg, in the order of the feet.
     pub(crate) fn legs(&self) -> [[usize; 3]; 2] {
         self.legs.each_ref().map(Limb::joints)
     }
 
-    /// Where the limbs begin: left and right shoulder, left and right hip, as far as names tell a side.
+    /// Returns the first joints of the limbs: left and right shoulder, left and right hip, if names tell the sides.
     pub(crate) fn limb_tops(&self, skeleton: &Skeleton) -> [usize; 4] {
         let left_first = |limbs: &[Limb; 2]| {
             let tops = [&limbs[0], &limbs[1]].map(|limb| limb.upper.joint.0);
-            let is = |at: usize, side| BodySide::of(&skeleton.joints[tops[at]].name) == side;
+            let is = |at: usize, side| BodySide::from_name(&skeleton.joints[tops[at]].name) == side;
             let is_turned = is(0, BodySide::Right) || is(1, BodySide::Left);
             if is_turned { [tops[1], tops[0]] } else { tops }
         };
@@ -160,7 +160,7 @@ impl Mannequin {
         [a, b, c, d]
     }
 
-    /// The mannequin in the pose of the rig; `place` says where a point of the rig stands in the world.
+    /// Computes the mannequin in the pose of the rig; `place` gives the world position of a point of the rig.
     pub(crate) fn stand(&self, place: impl Fn(Point) -> DVec3) -> Stand {
         let middle = |limbs: &[Limb; 2]| {
             let [left, right] = [&limbs[0], &limbs[1]].map(|limb| place(limb.upper));
@@ -182,13 +182,13 @@ impl Mannequin {
 }
 
 impl Limb {
-    /// Its joints from the trunk on.
+    /// Returns its joints, from the trunk outward.
     fn joints(&self) -> [usize; 3] {
         [self.upper, self.middle, self.lower].map(|point| point.joint.0)
     }
 
-    /// Writes the limb's four points from `first` on: it hangs on `trunk` in the rig and on `from` in
-    /// the mannequin. A bone that the rig does not have points as the one before it.
+    /// Writes the limb's four points from index `first` on. It hangs on `trunk` in the rig and on `from` in the
+    /// mannequin. A bone that the rig lacks points in the direction of the bone before it.
     fn reach(
         &self,
         trunk: DVec3,
@@ -210,18 +210,18 @@ impl Limb {
     }
 }
 
-/// Two limbs, from where they part to their ends.
+/// A pair of limbs, from their fork to their ends.
 struct Pair<'a> {
     skeleton: &'a Skeleton,
     named: &'a NamedLimbs,
-    /// How far each joint is from its root along the bones.
+    /// Distance of each joint from its root along the bones.
     lengths: &'a [f64],
     ends: [usize; 2],
     fork: usize,
 }
 
 impl<'a> Pair<'a> {
-    fn of(
+    fn find(
         skeleton: &'a Skeleton,
         named: &'a NamedLimbs,
         lengths: &'a [f64],
@@ -233,22 +233,22 @@ impl<'a> Pair<'a> {
         Self { skeleton, named, lengths, ends, fork }
     }
 
-    /// From the root to their ends, the mean of both.
+    /// Returns the mean length of both from the root to their ends.
     fn mean_length(&self) -> f64 {
         f64::midpoint(self.lengths[self.ends[0]], self.lengths[self.ends[1]])
     }
 
-    /// The joints of both; `length` is what a usual limb has from shoulder to wrist or hip to ankle.
+    /// Finds the joints of both limbs; `length` is the usual length from shoulder to wrist or from hip to ankle.
     fn limbs(&self, length: f64, tips: [Vec<Point>; 2]) -> Option<[Limb; 2]> {
         let [left, right] = tips;
         Some([self.limb(self.ends[0], length, left)?, self.limb(self.ends[1], length, right)?])
     }
 
-    /// As names have it. Else shoulder and elbow are the joints that turn whose distance to the wrist is nearest to the usual
-    /// one: a collar bone, a twist joint or an elbow of two bones is passed over.
+    /// Uses the named joints if there are any. Otherwise shoulder and elbow are the turning joints with the most
+    /// usual distances to the wrist; this skips collar bones, twist joints and elbows made of two bones.
     fn limb(&self, end: usize, length: f64, tips: Vec<Point>) -> Option<Limb> {
         if let Some(limb) = self.named.ending_at(end) {
-            let [upper, middle, lower] = limb.map(Point::of);
+            let [upper, middle, lower] = limb.map(Point::new);
             return Some(Limb { upper, middle, lower, tips });
         }
         let inner: Vec<usize> = above(self.skeleton, end)
@@ -267,22 +267,22 @@ impl<'a> Pair<'a> {
         let below: Vec<usize> =
             inner.into_iter().filter(|joint| to_end(*joint) < to_end(upper)).collect();
         let middle = nearest(&below, to_end(upper) / 2.0).unwrap_or(end);
-        let [upper, middle, lower] = [upper, middle, end].map(Point::of);
+        let [upper, middle, lower] = [upper, middle, end].map(Point::new);
         Some(Limb { upper, middle, lower, tips })
     }
 }
 
-/// The tips of all that hangs on a joint, and the joints without any at its ends; none where nothing
-/// hangs on it.
+/// Returns the tips at and below a joint, and the leaf joints below it that have no tip; empty if nothing hangs on
+/// the joint.
 pub(super) fn tips(skeleton: &Skeleton, top: usize) -> Vec<Point> {
     let carries = skeleton.carriers();
     let mut tips = Vec::new();
     for joint in below(skeleton, top) {
         let ends = &skeleton.joints[joint].end_sites;
-        let at = |end: &EndSite| Point { offset: end.offset, ..Point::of(joint) };
+        let at = |end: &EndSite| Point { offset: end.offset, ..Point::new(joint) };
         tips.extend(ends.iter().map(at));
         if ends.is_empty() && !carries[joint] && joint != top {
-            tips.push(Point::of(joint));
+            tips.push(Point::new(joint));
         }
     }
     tips

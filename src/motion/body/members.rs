@@ -1,6 +1,7 @@
-//! Which joints are the body (体をなす関節): rigs also have references that stay where they are, and what hangs on those.
+//! Finds the joints that make up the body (体をなす関節). Rigs also have references that stay in place, and joints that
+//! hang on them.
 //!
-//! All that asks for the lengths of bones, for limbs or for ends asks the body alone.
+//! Code that asks for the lengths of bones, for limbs or for ends looks at the body alone.
 
 use glam::DVec3;
 
@@ -10,27 +11,27 @@ use crate::motion::body::role::Role;
 use crate::motion::landmarks::{above, body_root, bones_by_tree};
 use crate::motion::{Channel, Clip, EndSite, Joint, JointId, Skeleton, local_translation};
 
-/// Turns of fewer degrees are none: single floats and rounded decimals have such noise.
+/// Least rotation in degrees that counts as movement: single floats and rounded decimals have smaller noise.
 const LEAST_TURN: f64 = 0.05;
 
-/// Ways of a smaller share of all bones are none, likewise.
+/// Least displacement that counts as movement, as a share of the sum of all bones.
 const LEAST_WAY: f64 = 1e-4;
 
 /// The joints of a clip that are the body.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Members {
+pub struct Members {
     roles: Vec<Role>,
-    /// The same joints, where those that are no part of the body stand for themselves: without length, parent and tips. A
-    /// root of the body has no parent.
+    /// Skeleton in which joints outside the body are isolated: without length, parent and tips. A root of the body
+    /// has no parent.
     skeleton: Skeleton,
-    /// How far the tip of a bone may be from its joint to be a part of the body, in the file's unit.
+    /// Largest distance of a tip from its joint at which it belongs to the body, in the file's unit.
     longest: f64,
 }
 
 impl Members {
-    /// A tree begins where all of it hangs that moves, and the limbs that names give. Trees in which nothing moves are none
-    /// of a body beside one that does.
-    pub(super) fn of(
+    /// Finds the body in a skeleton. In each tree it begins at the lowest joint that carries everything that moves
+    /// and all named limbs. If anything moves, trees without movement are not part of the body.
+    pub(super) fn find(
         skeleton: &Skeleton,
         [moves, travels]: [Vec<bool>; 2],
         limbs: &NamedLimbs,
@@ -47,46 +48,46 @@ impl Members {
         Self { skeleton: alone(skeleton, &roles, longest), roles, longest }
     }
 
-    /// Every joint.
+    /// Takes every joint as part of the body.
     pub(crate) fn all(skeleton: &Skeleton) -> Self {
         let roles = vec![Role::Body; skeleton.len()];
         Self { roles, skeleton: skeleton.clone(), longest: f64::INFINITY }
     }
 
-    /// Whether every joint is a part of the body.
+    /// Whether every joint is part of the body.
     pub(crate) fn are_all(&self) -> bool {
         self.roles.iter().all(|role| *role == Role::Body)
     }
 
-    /// The body alone.
+    /// Skeleton of the body alone.
     pub(crate) fn skeleton(&self) -> &Skeleton {
         &self.skeleton
     }
 
-    /// Whether a joint is a part of the body.
+    /// Whether a joint is part of the body.
     pub(crate) fn has(&self, joint: usize) -> bool {
         self.roles[joint] == Role::Body
     }
 
-    /// The roots of other people's trees.
+    /// Returns the roots of other people's trees.
     pub(super) fn others<'a>(&'a self, clip: &'a Clip) -> impl Iterator<Item = &'a str> {
         let roots = clip.skeleton().joints.iter().zip(&self.roles);
         let roots = roots.filter(|(joint, role)| joint.parent.is_none() && **role == Role::Other);
         roots.map(|(joint, _)| &joint.name[..])
     }
 
-    /// How many joints have a role.
+    /// Number of joints with a role.
     pub(super) fn count(&self, role: Role) -> usize {
         self.roles.iter().filter(|own| **own == role).count()
     }
 
-    /// Which points of a clip, its joints and then its tips, are a part of the body.
+    /// Marks the points of a clip, joints and then tips, that are part of the body.
     pub(crate) fn own_points(&self, skeleton: &Skeleton) -> Vec<bool> {
         self.points(skeleton, |joint| self.has(joint))
     }
 
-    /// Which of them are seen in a picture: what a rig has for itself alone is not.
-    pub(crate) fn shown(&self, skeleton: &Skeleton) -> Vec<bool> {
+    /// Marks the points of a clip that appear in a picture. Technical joints of the rig do not.
+    pub fn shown(&self, skeleton: &Skeleton) -> Vec<bool> {
         self.points(skeleton, |joint| {
             matches!(
                 self.roles[joint],
@@ -104,12 +105,12 @@ impl Members {
         (0..skeleton.len()).map(&is).chain(of_tips).collect()
     }
 
-    /// The joint at which most of it begins.
+    /// Returns the joint at which the largest part of the body begins.
     pub(crate) fn root(&self) -> usize {
         body_root(&self.skeleton).unwrap_or(0)
     }
 
-    /// The size of the box round its joints; `positions` begin with those of all joints.
+    /// Returns the size of the joints' bounding box; `positions` begins with those of all joints.
     pub(crate) fn extent(&self, positions: &[DVec3]) -> DVec3 {
         let joints = || positions.iter().zip(&self.roles);
         let own = || joints().filter(|(_, role)| **role == Role::Body).map(|(place, _)| *place);
@@ -118,7 +119,7 @@ impl Members {
     }
 }
 
-/// The roles of bodies that begin at some joints.
+/// Assigns roles, given the joints at which bodies begin.
 fn below(skeleton: &Skeleton, begins: &[bool]) -> Vec<Role> {
     let mut roles = vec![Role::Still; skeleton.len()];
     for (joint, data) in skeleton.iter() {
@@ -133,10 +134,10 @@ fn below(skeleton: &Skeleton, begins: &[bool]) -> Vec<Role> {
     roles
 }
 
-/// The longest tip of a bone, as a share of all bones of the body.
+/// Longest tip of a bone, as a share of all bones of the body.
 const LONGEST_TIP: f64 = 0.15;
 
-/// How far the tip of a bone may be from its joint: some hands have one that is as far away as the floor.
+/// Returns the largest distance of a tip from its joint. Some hands have a tip that is as far away as the floor.
 fn longest_tip(skeleton: &Skeleton, roles: &[Role]) -> f64 {
     let is_own = |joint: &JointId| roles[joint.0] == Role::Body;
     let own = skeleton
@@ -146,7 +147,7 @@ fn longest_tip(skeleton: &Skeleton, roles: &[Role]) -> f64 {
     if bones.len() < PERSON.0 { f64::INFINITY } else { LONGEST_TIP * bones.iter().sum::<f64>() }
 }
 
-/// The same joints, where those of another role than the body's stand for themselves.
+/// Isolates the joints that have another role than the body.
 fn alone(skeleton: &Skeleton, roles: &[Role], longest: f64) -> Skeleton {
     let mut skeleton = skeleton.clone();
     for (joint, role) in skeleton.joints.iter_mut().zip(roles) {
@@ -160,7 +161,8 @@ fn alone(skeleton: &Skeleton, roles: &[Role], longest: f64) -> Skeleton {
     skeleton
 }
 
-/// The joints with the bones that lead to them: some files keep these in position channels, with offsets of nothing.
+/// Returns the skeleton with offsets taken from position channels: some files have zero offsets and keep the bones in
+/// these channels.
 pub(super) fn bones(clip: &Clip) -> Skeleton {
     let mut skeleton = clip.skeleton().clone();
     if let Some(first) = clip.rows().next() {
@@ -171,7 +173,7 @@ pub(super) fn bones(clip: &Clip) -> Skeleton {
     skeleton
 }
 
-/// Which joints move on what carries them, and which leave their place there.
+/// Marks the joints that move relative to their parent, and those that change position relative to it.
 pub(super) fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
     let ranges = clip.ranges();
     let size: f64 = skeleton.joints.iter().map(|joint| joint.offset.length()).sum();
@@ -189,13 +191,13 @@ pub(super) fn moving(clip: &Clip, skeleton: &Skeleton) -> [Vec<bool>; 2] {
     [joints().map(|joint| any(joint, |_| true)).collect(), travels.collect()]
 }
 
-/// Whether nothing moves in a clip.
-pub(crate) fn is_still(clip: &Clip) -> bool {
+/// Whether a clip has no movement at all.
+pub fn is_still(clip: &Clip) -> bool {
     let [moves, _] = moving(clip, &bones(clip));
     !moves.contains(&true)
 }
 
-/// The joints of the tree that is most of the body by its bones, among those in which something moves.
+/// Marks the joints of the main tree: the one with the greatest sum of bone lengths among those that move.
 pub(super) fn main_tree(skeleton: &Skeleton, moves: &[bool]) -> Vec<bool> {
     let roots = skeleton.roots();
     let bones = bones_by_tree(skeleton, &roots);
@@ -209,10 +211,10 @@ pub(super) fn main_tree(skeleton: &Skeleton, moves: &[bool]) -> Vec<bool> {
     roots.iter().map(|root| Some(*root) == main).collect()
 }
 
-/// The fewest joints of a person, and the shortest bones beside those of another.
+/// Least number of joints of a person, and the least share of the main tree's bones that another person has.
 const PERSON: (usize, f64) = (8, 1.0 / 3.0);
 
-/// Trees as large as a person beside the one that is most of the body are other people.
+/// Marks trees as large as a person, besides the main one, as other people.
 fn leave_out_others(skeleton: &Skeleton, is_main: &[bool], roles: &mut [Role]) {
     let roots = skeleton.roots();
     let bones = bones_by_tree(skeleton, &roots);
@@ -226,7 +228,7 @@ fn leave_out_others(skeleton: &Skeleton, is_main: &[bool], roles: &mut [Role]) {
     }
 }
 
-/// In each tree that moves the joint at which the body begins.
+/// Marks the joint at which the body begins in each moving tree.
 fn tops(skeleton: &Skeleton, moves: &[bool], limbs: &NamedLimbs) -> Vec<bool> {
     let mut wanted = moves.to_vec();
     limbs.joints().for_each(|joint| wanted[joint] = true);
@@ -241,7 +243,7 @@ fn tops(skeleton: &Skeleton, moves: &[bool], limbs: &NamedLimbs) -> Vec<bool> {
     if limbs.are_whole() {
         let mut core = vec![false; wanted.len()];
         limbs.joints().for_each(|joint| core[joint] = true);
-        // What else moves in a tree may hang on what only carries the body.
+        // Further moving joints of the tree may hang on a joint that only carries the body.
         for (top, carrier) in lowest.iter_mut().zip(carriers(skeleton, &roots, &core)) {
             let begin = |carrier| above(skeleton, carrier).filter(|joint| moves[*joint]).last();
             *top = carrier.map(|carrier| begin(carrier).unwrap_or(carrier)).or(*top);
@@ -253,7 +255,7 @@ fn tops(skeleton: &Skeleton, moves: &[bool], limbs: &NamedLimbs) -> Vec<bool> {
     tops
 }
 
-/// Of each root the lowest joint that carries all of some joints of its tree, where it has any.
+/// Returns, for each root, the lowest joint that carries all wanted joints of its tree, if there are any.
 fn carriers(skeleton: &Skeleton, roots: &[usize], wanted: &[bool]) -> Vec<Option<usize>> {
     let mut below: Vec<usize> = wanted.iter().map(|wanted| usize::from(*wanted)).collect();
     for (joint, data) in skeleton.iter().rev() {
@@ -261,7 +263,7 @@ fn carriers(skeleton: &Skeleton, roots: &[usize], wanted: &[bool]) -> Vec<Option
             below[parent.0] += below[joint.0];
         }
     }
-    // Parents come first: the last that carries all of its tree is the lowest.
+    // Parents come first, so the last joint that carries all of them is the lowest.
     let mut lowest = vec![None; below.len()];
     for (joint, root) in roots.iter().enumerate() {
         if below[joint] > 0 && below[joint] == below[*root] {

@@ -1,7 +1,6 @@
-//! Which joints drive which bone: the table of dialects, a person's own rows over it, and what of it a
-//! clip has.
+//! Assigns joints to bones by name: the table of dialects, a person's own rows, and the matches in a clip.
 
-pub(crate) mod bones;
+pub mod bones;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -14,48 +13,50 @@ use crate::motion::body::{limbs, structure};
 use crate::motion::{Clip, Declared, JointId, Skeleton, plain_name};
 use bones::{LONGEST_NAME, Model, Side, cp932};
 
-/// The table that comes with the program.
+/// The built-in table of names.
 const DIALECTS: &str = include_str!("names/dialects.toml");
 
-/// What stands for a dialect where no name is known and the shape of the body alone says what is what.
-pub(crate) const SHAPE: &str = "by shape";
+/// Dialect reported if no name is known and the body's shape alone assigns the joints.
+pub const SHAPE: &str = "by shape";
 
-/// The table of bones (ボーン対応表): how programs name the joints of each MMD bone, and a person's own
-/// rows over that.
+/// The bone table (ボーン対応表): the names that programs give the joints of each MMD bone, overridden by a person's own
+/// rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoneMap {
-    pub(crate) model: Model,
+    /// Bones that joints are assigned to.
+    pub model: Model,
     dialects: Vec<Dialect>,
     /// Rows of a person.
     own: BTreeMap<String, Vec<String>>,
-    /// How many dialects are a person's; they come first.
+    /// Number of dialects added by a person; they come first.
     added: usize,
 }
 
-/// One program's way to name joints.
+/// Naming scheme of one program.
 #[derive(Debug, Clone, PartialEq)]
 struct Dialect {
     name: String,
-    /// Of each bone the joints that make it, from the body outward.
+    /// Joints that form each bone, from the body outward.
     rows: BTreeMap<String, Vec<String>>,
-    /// The plain names of the same joints.
+    /// Plain names of these joints.
     plain: BTreeMap<String, Vec<String>>,
 }
 
-/// What of the table a skeleton has.
+/// Match between a skeleton and the bone table.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Found {
-    pub(crate) dialect: String,
-    /// Of each bone of the model its joints, from the body outward; none when it is not driven.
-    pub(crate) joints: Vec<Vec<JointId>>,
-    /// Bones whose joints no name says, or a wrong one: the shape of the body does.
-    pub(crate) by_shape: Vec<String>,
+pub struct Found {
+    /// Dialect of the names, or [`SHAPE`].
+    pub dialect: String,
+    /// Joints of each bone of the model, from the body outward; empty if the bone is not driven.
+    pub joints: Vec<Vec<JointId>>,
+    /// Bones whose joints come from the body's shape, because names gave none or wrong ones.
+    pub by_shape: Vec<String>,
     /// Names in a person's own rows that no joint has.
-    pub(crate) missing: Vec<String>,
+    pub missing: Vec<String>,
 }
 
 impl Default for BoneMap {
-    /// The table that comes with the program.
+    /// The built-in table.
     fn default() -> Self {
         let mut map =
             Self { model: Model::standard(), dialects: vec![], own: BTreeMap::new(), added: 0 };
@@ -66,31 +67,31 @@ impl Default for BoneMap {
 }
 
 impl BoneMap {
-    /// The program's table with a person's file over it: rows under `[bones]` stand in place of those
-    /// of whichever dialect fits, `[[dialect]]` adds one, `[extra."NAME"]` a bone that models have
-    /// besides the standard ones. `docs/formats.md` shows each.
+    /// Adds a person's file to the built-in table. Rows under `[bones]` replace those of any dialect, `[[dialect]]`
+    /// adds a dialect, and `[extra."NAME"]` adds a bone to the standard ones. `docs/input.md` shows each.
     ///
     /// # Errors
-    /// [`Error::Setting`] with line and column when it is no TOML, or has a key or a bone that there is
-    /// not, or a name that is longer than a VMD holds.
+    ///
+    /// [`Error::Setting`] with line and column, if the file is not TOML, has an unknown key or bone, or a name longer
+    /// than a VMD can hold.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let mut map = Self::default();
         map.take(text)?;
         Ok(map)
     }
 
-    /// What a person's rows and dialects say of head and limbs of a skeleton.
-    pub(crate) fn limbs_said(&self, skeleton: &Skeleton) -> Declared {
+    /// Returns head and limbs of a skeleton as a person's rows and dialects give them.
+    pub fn limbs_said(&self, skeleton: &Skeleton) -> Declared {
         limbs::said(self, skeleton)
     }
 
-    /// The names of the dialects, in the order in which they are asked.
+    /// Names of the dialects, in order of precedence.
     pub fn dialects(&self) -> impl Iterator<Item = &str> {
         self.dialects.iter().map(|dialect| &dialect.name[..])
     }
 
-    /// What a dialect calls a bone, or the first of the joints that make it there.
-    pub(crate) fn first_name(&self, dialect: &str, bone: &str) -> Option<&str> {
+    /// Returns the name of a bone in a dialect: that of the first joint that forms it.
+    pub fn first_name(&self, dialect: &str, bone: &str) -> Option<&str> {
         let dialect = self.dialects.iter().find(|own| own.name == dialect)?;
         dialect.rows.get(bone)?.first().map(String::as_str)
     }
@@ -112,13 +113,13 @@ impl BoneMap {
         let known = |rows: &Rows| {
             let unknown = rows.keys().find(|bone| self.model.find(bone.get_ref()).is_none());
             unknown.map_or(Ok(()), |bone| {
-                let message = format!("there is no bone {}; see docs/formats.md", bone.get_ref());
+                let message = format!("there is no bone {}; see docs/input.md", bone.get_ref());
                 Err(failed(Some(bone.span()), &message))
             })
         };
         known(&file.bones)?;
         file.dialect.iter().try_for_each(|dialect| known(&dialect.bones))?;
-        // A person's dialects are asked first: of two that fit equally well theirs is taken.
+        // A person's dialects come first, so that they win against equally good ones.
         self.added += file.dialect.len();
         let dialects = file.dialect.into_iter().map(Dialect::from);
         self.dialects.splice(0..0, dialects.collect::<Vec<_>>());
@@ -127,12 +128,13 @@ impl BoneMap {
         Ok(())
     }
 
-    /// What a clip has of the dialect that names most of its bones, and of those most joints; where that leaves a
-    /// limb, or does not fit it, the shape of the body says whose joints they are.
+    /// Matches a clip with the dialect that names most of its bones and, of equal ones, most joints. If a limb is
+    /// missing or does not fit the body, the body's shape assigns its joints.
     ///
     /// # Errors
-    /// [`Error::Clip`] when no joint is known: the message names them and the way out.
-    pub(crate) fn of(&self, clip: &Clip) -> Result<Found, Error> {
+    ///
+    /// [`Error::Clip`] if no joint is known; the message names the joints and the remedy.
+    pub fn locate(&self, clip: &Clip) -> Result<Found, Error> {
         let mut found = self.find(clip.skeleton());
         let is_unknown = found.joints.iter().all(Vec::is_empty);
         found.by_shape = structure::settle(&self.model, &mut found.joints, clip, |bone| {
@@ -147,25 +149,25 @@ impl BoneMap {
         Ok(found)
     }
 
-    /// Whether a person says which joints are one of some bones, by rows or by a dialect of their own.
+    /// Whether a person assigned a joint to one of some bones, by rows or by a dialect of their own.
     pub(super) fn says(&self, found: &Found, bones: &[&str]) -> bool {
         let mut added = self.dialects[..self.added].iter();
         let is_own = added.any(|dialect| dialect.name == found.dialect);
         is_own || bones.iter().any(|bone| self.own.contains_key(*bone))
     }
 
-    /// What a skeleton has of the dialect that names most of its bones, and of those most joints.
+    /// Matches a skeleton with the dialect that names most of its bones and, of equal ones, most joints.
     pub(super) fn find(&self, skeleton: &Skeleton) -> Found {
         self.find_among(skeleton, |_| true)
     }
 
-    /// The same among some joints, those of one tree.
+    /// Matches only some joints of a skeleton, such as those of one tree.
     pub(crate) fn find_among(
         &self,
         skeleton: &Skeleton,
         is_among: impl Fn(usize) -> bool,
     ) -> Found {
-        let names = Names::of(skeleton, is_among);
+        let names = Names::new(skeleton, is_among);
         let nothing = Dialect::new("own".into(), BTreeMap::new());
         let mut best = self.joints(&nothing, &names);
         let mut dialect = &nothing;
@@ -192,7 +194,8 @@ impl BoneMap {
     }
 }
 
-/// Bones of limbs that are driven, all bones that are, and joints that drive them: fingers of another dialect are many.
+/// Counts the driven limb bones, all driven bones, and the joints that drive them, in order of importance: fingers of
+/// another dialect are many.
 fn score(model: &Model, joints: &[Vec<JointId>]) -> [usize; 3] {
     let driven = || model.bones.iter().zip(joints).filter(|(_, joints)| !joints.is_empty());
     let of_limbs = driven().filter(|(bone, _)| structure::is_of_limb(&bone.name)).count();
@@ -209,11 +212,11 @@ fn unknown(skeleton: &Skeleton) -> Error {
     ))
 }
 
-/// The joints of a skeleton by their plain names.
+/// Joints of a skeleton by their plain names.
 struct Names(HashMap<String, JointId>);
 
 impl Names {
-    fn of(skeleton: &Skeleton, is_among: impl Fn(usize) -> bool) -> Self {
+    fn new(skeleton: &Skeleton, is_among: impl Fn(usize) -> bool) -> Self {
         let joints = || skeleton.iter().filter(|(id, _)| is_among(id.0));
         let own: Vec<&str> = joints().map(|(_, joint)| own_name(&joint.name)).collect();
         let mut names = HashMap::new();
@@ -235,10 +238,10 @@ impl Names {
     }
 }
 
-/// Joints at the least of which a part of their names can be nobody's own.
+/// Fewest joints at which a shared part of names is removed.
 const FEWEST: usize = 8;
 
-/// The longest of some parts of the first names that nearly all names have; nothing where none is.
+/// Finds the longest part of the first two names that nearly all names share; empty if there is none.
 fn shared<'a, Parts: Iterator<Item = &'a str>>(
     names: &[&'a str],
     parts: impl Fn(&'a str) -> Parts,
@@ -248,22 +251,22 @@ fn shared<'a, Parts: Iterator<Item = &'a str>>(
         let having = names.iter().filter(|name| has(name, part)).count();
         names.len() >= FEWEST && 10 * having >= 9 * names.len()
     };
-    // The root may have another name than all others.
+    // The root's name may differ from all others.
     let some = names.iter().take(2).flat_map(|name| parts(name));
     some.filter(is_shared).max_by_key(|part| part.len()).unwrap_or_default()
 }
 
-/// What a name begins with, up to something that parts words.
+/// Returns the beginnings of a name, each up to a separator.
 fn prefixes(name: &str) -> impl Iterator<Item = &str> {
     name.char_indices().filter(|(_, letter)| DASHES.contains(letter)).map(|(at, _)| &name[..=at])
 }
 
-/// What a name ends with, from something that parts words.
+/// Returns the ends of a name, each from a separator on.
 fn suffixes(name: &str) -> impl Iterator<Item = &str> {
     name.char_indices().filter(|(_, letter)| DASHES.contains(letter)).map(|(at, _)| &name[at..])
 }
 
-/// `line:column: ` of a byte in a text, from 1.
+/// Formats the position of a byte in a text as `line:column: `, from 1.
 fn place(text: &str, byte: usize) -> String {
     let before = &text[..byte.min(text.len())];
     let line = before.matches('\n').count() + 1;
@@ -271,7 +274,7 @@ fn place(text: &str, byte: usize) -> String {
     format!("{line}:{column}: ")
 }
 
-/// The sentence of a setting's error without its name.
+/// Returns the message of a setting's error without the setting's name.
 fn said(error: &Error) -> &str {
     match error {
         Error::Setting { message, .. } => message,
@@ -281,7 +284,7 @@ fn said(error: &Error) -> &str {
 
 type Rows = BTreeMap<Spanned<String>, Joints>;
 
-/// The file.
+/// The TOML file.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct File {
@@ -294,7 +297,7 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct DialectText {
     name: String,
-    /// For the reader of the file alone.
+    /// Description for readers of the file.
     #[serde(default, rename = "about")]
     _about: String,
     #[serde(default)]

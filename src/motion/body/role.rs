@@ -1,22 +1,22 @@
-//! What a joint is to the body (関節の役割).
+//! The role of a joint in a body (関節の役割).
 
-/// What a joint is to the body.
+/// Role of a joint in a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// A part of it.
+    /// Part of the body.
     Body,
-    /// Carries the body and never moves, as the reference of a scene.
+    /// Carries the body and never moves, like the reference of a scene.
     Guide,
-    /// Never moves: it hangs on nothing that does, or is a point on a bone.
+    /// Never moves: hangs on nothing that moves, or is a point on a bone.
     Still,
     /// A helper or a control of the rig.
     Helper,
     /// Hair, cloth, a tail.
     Hair,
-    /// Something that is held or worn.
+    /// Something held or worn.
     Prop,
-    /// Reaches too far from the body to be a part of it.
+    /// Reaches too far from the body to be part of it.
     Far,
-    /// Somebody else's, who is in the same file.
+    /// Belongs to another person in the same file.
     Other,
 }

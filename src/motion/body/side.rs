@@ -1,29 +1,32 @@
-//! Left and right (左右) of a body, as the names of its joints say it.
+//! Reads left and right (左右) of a body from its joint names.
 
-/// What programs put before the names of all their joints.
+/// Prefixes that programs put before every joint name.
 const PREFIXES: [&str; 4] = ["mixamorig", "bip001", "bip01", "character1"];
 
-/// What stands between the words of a name.
+/// Separators between the words of a name.
 pub(super) const DASHES: [char; 4] = [' ', '_', '-', '.'];
 
-/// What an l or r may be written together with in one case: lfemur, RHAND. Not lumbar, RIBS.
+/// Parts of the body that may follow an l or r in the same case: lfemur, RHAND, but not lumbar, RIBS.
 const PARTS: [&str; 25] = [
     "ankle", "arm", "buttock", "calf", "clavicle", "collar", "elbow", "eye", "femur", "finger",
     "foot", "forearm", "hand", "hip", "humerus", "knee", "leg", "radius", "shin", "shoulder",
     "thigh", "thumb", "tibia", "toe", "wrist",
 ];
 
-/// Which side of the body a joint belongs to.
+/// The side of the body that a joint belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum BodySide {
+pub enum BodySide {
+    /// A left limb.
     Left,
+    /// A right limb.
     Right,
+    /// No side.
     Trunk,
 }
 
 impl BodySide {
-    /// Reads it from a joint's name: LeftArm, lShldr, LThumb, Bip01 L Thigh, Arm.L, lfemur, 左腕.
-    pub(crate) fn of(name: &str) -> Self {
+    /// Reads the side from a joint's name: LeftArm, lShldr, LThumb, Bip01 L Thigh, Arm.L, lfemur, 左腕.
+    pub fn from_name(name: &str) -> Self {
         let words = words(own_name(name));
         let is_alone = words.len() == 1;
         let side = words.iter().find_map(|word| match &word[..] {
@@ -45,8 +48,8 @@ fn begins(word: &str, sides: [&str; 2], letter: char) -> bool {
         || part.is_some_and(|rest| PARTS.iter().any(|part| rest.starts_with(part)))
 }
 
-/// A joint's name without what its program puts before all of them.
-pub(crate) fn own_name(name: &str) -> &str {
+/// Returns a joint's name without its program's prefix.
+pub(super) fn own_name(name: &str) -> &str {
     let name = name.rsplit(':').next().unwrap_or_default();
     let after = |prefix: &&str| {
         let (begin, rest) = name.split_at_checked(prefix.len())?;
@@ -56,12 +59,12 @@ pub(crate) fn own_name(name: &str) -> &str {
     PREFIXES.iter().find_map(after).unwrap_or(name)
 }
 
-/// A name as it is compared: without prefix, case and what stands between words.
-pub(crate) fn plain_name(name: &str) -> String {
+/// Normalizes a name for comparison: without prefix and separators, in lower case.
+pub fn plain_name(name: &str) -> String {
     own_name(name).replace(DASHES, "").to_lowercase()
 }
 
-/// The words of a name in small letters: LThumb is l and thumb, UpperArm_R is upper, arm and r.
+/// Splits a name into lower-case words: LThumb is l and thumb, UpperArm_R is upper, arm and r.
 pub(super) fn words(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     let mut words = vec![String::new()];
@@ -85,7 +88,7 @@ mod tests {
 
     fn assert_sides(names: &str, side: BodySide) {
         names.split_terminator(',').map(str::trim).for_each(|name| {
-            assert_eq!(BodySide::of(name), side, "{name}");
+            assert_eq!(BodySide::from_name(name), side, "{name}");
         });
     }
 

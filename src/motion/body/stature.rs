@@ -1,4 +1,4 @@
-//! How big a body is (身長), in which unit its file must be, and which way is up.
+//! The height of a body (身長), the unit of its file and its up axis.
 
 use std::ops::RangeInclusive;
 
@@ -6,36 +6,36 @@ use glam::DVec3;
 
 use crate::motion::{Axis, Body, Build, Clip, Members, Poser};
 
-/// How much taller than along one axis a body has to be along the other to stand along it.
+/// Ratio by which a body must be taller along one axis than along the other to stand along it.
 const CLEARLY: f64 = 1.25;
 
-/// Metres of whoever is animated, from a doll to a giant.
+/// Plausible heights of an animated figure in metres, from a doll to a giant.
 const SOMEBODY: RangeInclusive<f64> = 0.1..=30.0;
 
-/// How a body stands in its file.
+/// Height, up axis and unit of a body in its file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stature {
-    /// The height of a person with the legs of this body, in the file's unit. Of a body without limbs it is the longest side of
-    /// the box round its joints in the first frame; 0 without a frame or with one joint.
+    /// Height of a person with the legs of this body, in the file's unit. For a body without limbs, the longest side
+    /// of its joints' bounding box in the first frame; 0 without a frame or with one joint.
     pub size: f64,
-    /// The axis that points up, Y or Z.
+    /// Axis that points up, Y or Z.
     pub up: Axis,
-    /// Metres in a unit of the file: as it declares, unless that makes nobody of the body, else by the unit that makes a
-    /// person of it.
+    /// Metres per unit of the file: as declared, if that gives a plausible height, otherwise by the unit that makes
+    /// the body a person.
     pub metres: f64,
 }
 
 impl Stature {
-    /// Looks at a clip.
+    /// Measures the body of a clip.
     ///
-    /// Up is what is [declared](Clip::declared), else the axis along which the body mostly stands, from its ankles to hips or
-    /// head. Of somebody who lies or crawls all the time, and of a body without limbs, it is the axis along which it is
-    /// clearly taller in the first frame or at rest, and else custom, which is Y.
-    pub fn of(clip: &Clip) -> Self {
-        Build::of(clip).stature
+    /// The up axis is the [declared](Clip::declared) one, or else the axis along which the body mostly stands, from
+    /// its ankles to hips or head. A body that always lies or crawls, or has no limbs, gets the axis along which it
+    /// is clearly taller in the first frame or at rest, or else the usual axis, Y.
+    pub fn new(clip: &Clip) -> Self {
+        Build::new(clip).stature
     }
 
-    /// Of a body of that size in a clip.
+    /// Creates the stature of a body with a known size and up axis.
     pub(super) fn of_size(clip: &Clip, size: f64, up: Axis) -> Self {
         let metres = clip.declared().metres;
         let declared = metres.filter(|metres| SOMEBODY.contains(&(size * metres)));
@@ -44,13 +44,13 @@ impl Stature {
     }
 }
 
-/// The size of a body in a clip's first frame, and along which axis it is clearly taller then or at rest. Z is not up where
-/// the rest pose stands along Y: that is somebody who begins on hands and knees.
+/// Returns the size of a body in the first frame, and the axis along which it is clearly taller in that frame or at
+/// rest. Z is not up if the rest pose stands along Y: such a body begins on hands and knees.
 pub(super) fn seen(clip: &Clip, members: &Members) -> (f64, Option<Axis>) {
     let mut body = Body::new(clip.skeleton());
     let rest = members.extent(body.positions());
     if !clip.is_empty() {
-        body.place(Poser::of(clip).frame(clip.first()));
+        body.place(Poser::new(clip).frame(clip.first()));
     }
     let first = members.extent(body.positions());
     let up = match (taller(first), taller(rest)) {
@@ -60,7 +60,7 @@ pub(super) fn seen(clip: &Clip, members: &Members) -> (f64, Option<Axis>) {
     (if clip.is_empty() { 0.0 } else { first.max_element() }, up)
 }
 
-/// Along which of Y and Z a body is clearly taller, if along any.
+/// Returns which of Y and Z a body is clearly taller along, if either.
 fn taller(extent: DVec3) -> Option<Axis> {
     let is_clearly = |tall: f64, other: f64| tall > CLEARLY * other;
     match extent {
@@ -70,14 +70,14 @@ fn taller(extent: DVec3) -> Option<Axis> {
     }
 }
 
-/// The unit of a file's lengths (単位). BVH does not name it.
+/// The unit of length of a file (単位). BVH does not name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// 1 m.
     Metre,
-    /// 10 cm, as MakeHuman has it.
+    /// 10 cm, as in MakeHuman.
     Decimetre,
-    /// What CMU's motion is in: an inch divided by 0.45, 5.64 cm.
+    /// The unit of CMU's motion: an inch divided by 0.45, 5.64 cm.
     Cmu,
     /// 2.54 cm.
     Inch,
@@ -87,7 +87,8 @@ pub enum Unit {
     Millimetre,
 }
 
-/// Sizes of a person in each unit, from small to large. Where two units meet, one makes somebody tall and the other a child.
+/// Sizes of a person in each unit, in ascending order. At a shared bound, one unit gives a tall person and the other
+/// a child.
 const PERSONS: [(Unit, f64, f64); 6] = [
     (Unit::Metre, 1.0, 3.0),
     (Unit::Decimetre, 10.0, 21.5),
@@ -98,21 +99,20 @@ const PERSONS: [(Unit, f64, f64); 6] = [
 ];
 
 impl Unit {
-    /// The unit in which a body of that size is a person's; none where no unit makes it one.
+    /// Returns the unit in which a body of that size is a person's; `None` without such a unit.
     pub fn of_size(size: f64) -> Option<Self> {
         let is_person = |(_, low, high): &&(Self, f64, f64)| (*low..=*high).contains(&size);
         PERSONS.iter().find(is_person).map(|person| person.0)
     }
 
-    /// The unit in which a body of that size is nearest to a person's; centimetres for a body without
-    /// a size.
+    /// Returns the unit in which a body of that size is nearest to a person's; centimetres if the size is 0.
     pub fn nearest(size: f64) -> Self {
         let off = |(_, low, high): &(Self, f64, f64)| (low / size).max(size / high);
         let nearest = PERSONS.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         nearest.filter(|_| size > 0.0).map_or(Self::Centimetre, |person| person.0)
     }
 
-    /// Metres in one of it.
+    /// Metres per unit.
     pub fn metres(self) -> f64 {
         match self {
             Self::Metre => 1.0,
@@ -131,7 +131,7 @@ mod tests {
     use crate::motion::{Channel, Declared, Joint, JointId, Skeleton};
     use crate::time::{Frame, FrameRate};
 
-    /// A straight body along `offset` at rest, turned about X by some degrees in its one frame.
+    /// A straight body along `offset` at rest, turned about X by some degrees in its only frame.
     fn body(offset: DVec3, degrees: f64) -> Clip {
         let joint = |parent: Option<usize>, offset, channels: &[Channel]| Joint {
             name: "joint".into(),
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn up_is_z_only_where_both_poses_allow_it() {
-        let up = |offset, degrees| Stature::of(&body(offset, degrees)).up;
+        let up = |offset, degrees| Stature::new(&body(offset, degrees)).up;
         assert_eq!(up(DVec3::Y, 0.0), Axis::Y);
         assert_eq!(up(DVec3::Z, 0.0), Axis::Z, "as Blender writes it");
         assert_eq!(up(DVec3::Y, 90.0), Axis::Y, "it begins lying down");
@@ -162,19 +162,19 @@ mod tests {
     #[test]
     fn what_is_declared_goes_before_what_is_seen() {
         let lying = body(170.0 * DVec3::Z, 0.0);
-        let by_eye = Stature::of(&lying);
+        let by_eye = Stature::new(&lying);
         assert_eq!((by_eye.up, by_eye.metres), (Axis::Z, 0.01));
-        let declared = |metres| Stature::of(&lying.clone().with_declared(Declared::y_up(metres)));
+        let declared = |metres| Stature::new(&lying.clone().with_declared(Declared::y_up(metres)));
         assert_eq!((declared(0.02).up, declared(0.02).metres), (Axis::Y, 0.02), "a giant");
         assert_eq!(declared(1.0).metres, 0.01, "nobody is 170 m tall");
     }
 
     #[test]
     fn the_size_is_that_of_the_first_frame() {
-        assert_eq!(Stature::of(&body(170.0 * DVec3::Y, 0.0)).size, 170.0);
+        assert_eq!(Stature::new(&body(170.0 * DVec3::Y, 0.0)).size, 170.0);
         let none = Skeleton { joints: vec![] };
         let none = Clip::new(none, FrameRate::new(24.0).unwrap(), Frame(0), 0, vec![]).unwrap();
-        assert_eq!(Stature::of(&none).size, 0.0);
+        assert_eq!(Stature::new(&none).size, 0.0);
     }
 
     #[test]

@@ -1,22 +1,22 @@
-//! Which joints drive which bone by the shape of the body (体の構造): a thigh is a thigh whatever its name.
+//! Assigns joints to bones by the shape of the body (体の構造): a thigh is a thigh whatever its name.
 //!
-//! The shape says where limbs, head and pelvis are. Names that fit it stand. Where they do not, or say a limb in part, the
-//! shape decides the limb. It does not say where a chest begins or which finger is which: there names decide, and what
-//! nobody named is shared out along the spine.
+//! The shape gives limbs, head and pelvis. Names that fit it are kept. A limb whose names do not fit, or are
+//! incomplete, comes from the shape. The shape cannot tell the beginning of a chest or the fingers apart: names
+//! decide these, and unnamed joints are distributed along the spine.
 
 pub(super) mod fit;
 
 use std::collections::HashSet;
 
 use super::names::bones::{Model, Side};
-use crate::motion::{Clip, JointId, LayFigure, Skeleton};
+use crate::motion::{Clip, JointId, MannequinParts, Skeleton};
 use fit::{carries, fits};
 
-/// What one bone is made of, from the body outward.
+/// A bone and the joints that form it, from the body outward.
 type Row = (String, Vec<JointId>);
 
-/// The bones of the four limbs, from the trunk outward, with what a person calls the limb.
-pub(crate) const LIMBS: [(&str, [&str; 3]); 2] =
+/// Names of the limbs, and their bones from the trunk outward.
+pub const LIMBS: [(&str, [&str; 3]); 2] =
     [("arm", ["腕", "ひじ", "手首"]), ("leg", ["足", "ひざ", "足首"])];
 
 /// The collar bone of an arm.
@@ -25,17 +25,17 @@ const COLLAR: &str = "肩";
 /// The two bones of the spine.
 const SPINE: [&str; 2] = ["上半身", "上半身2"];
 
-/// Brings the joints that names gave to bones together with the shape of the body. Rows that a person gave stand whatever
-/// they say. A joint drives one bone only, but for the root, which the centre shares with the pelvis.
+/// Reconciles the joints named for bones with the shape of the body. A person's rows are always kept. A joint drives
+/// one bone only, except that the root drives both the centre and the pelvis.
 ///
-/// Gives the bones of which the shape says the joints.
+/// Returns the bones whose joints come from the shape.
 pub(crate) fn settle(
     model: &Model,
     joints: &mut [Vec<JointId>],
     clip: &Clip,
     is_given: impl Fn(&str) -> bool,
 ) -> Vec<String> {
-    let Some(figure) = LayFigure::of(clip) else { return Vec::new() };
+    let Some(figure) = MannequinParts::new(clip) else { return Vec::new() };
     let skeleton = clip.skeleton();
     let mut rows = rows(skeleton, &figure);
     let named = joints.to_vec();
@@ -60,7 +60,7 @@ pub(crate) fn settle(
     by_shape
 }
 
-/// Gives limbs their joints before all else, and takes these from the rows that may change.
+/// Assigns the joints of limbs first, and removes them from other rows that may change.
 fn take_limbs(
     joints: &mut [Vec<JointId>],
     rows: &[Row],
@@ -81,18 +81,18 @@ pub(super) fn is_of_limb(bone: &str) -> bool {
     LIMBS.iter().any(|(_, bones)| bones.contains(&stem))
 }
 
-/// The limbs whose bone at the trunk is not driven, in words: left arm.
-pub(crate) fn still_limbs(drives: impl Fn(&str) -> bool) -> Vec<String> {
+/// Returns the limbs whose first bone is not driven, in words: left arm.
+pub fn still_limbs(drives: impl Fn(&str) -> bool) -> Vec<String> {
     let limbs = LIMBS
         .iter()
         .flat_map(|(limb, bones)| Side::BOTH.map(|side| (side, *limb, bones)).into_iter());
-    // A limb of one bone that turns is a limb that moves; one of which only the end turns is not.
+    // A limb moves if its first bone turns, even if no other does; if only its end turns, it does not move.
     let still = limbs.filter(|(side, _, bones)| !drives(&side.named(bones[0])));
     still.map(|(side, limb, _)| format!("{} {limb}", side.english())).collect()
 }
 
-/// The bones of which the shape is to say the joints: those that names leave, and of limbs that they say in part or
-/// against the shape all.
+/// Returns the bones whose joints the shape decides: unnamed bones, and all bones of a limb that is named
+/// incompletely or against the shape.
 fn open(
     model: &Model,
     named: &[Vec<JointId>],
@@ -119,7 +119,7 @@ fn open(
             open.extend(bones);
         }
     }
-    // Where a chest begins only names say. A chest without a spine below it is the whole spine, and is shared out.
+    // Only names tell where a chest begins. A chest without a spine below it is the whole spine, and is distributed.
     let has_spine = by_name(SPINE[0]).is_some() || SPINE.iter().any(|bone| is_given(bone));
     open.extend(SPINE.iter().filter(|_| !has_spine).map(|bone| (*bone).to_owned()));
     let unnamed = |bone: &String| by_name(bone).is_none() && !is_given(bone);
@@ -127,8 +127,8 @@ fn open(
     open
 }
 
-/// The joints of each bone as the shape has them.
-fn rows(skeleton: &Skeleton, figure: &LayFigure) -> Vec<Row> {
+/// Returns the joints of each bone as found by shape.
+fn rows(skeleton: &Skeleton, figure: &MannequinParts) -> Vec<Row> {
     let between = |from: usize, to: usize| -> Vec<JointId> {
         let parent = |joint: &usize| skeleton.joints[*joint].parent.map(|parent| parent.0);
         let up = std::iter::successors(parent(&to), parent).take_while(|joint| *joint != from);
@@ -155,7 +155,7 @@ fn rows(skeleton: &Skeleton, figure: &LayFigure) -> Vec<Row> {
         rows.push((side.named(COLLAR), between(chest, figure.arms[at][0])));
         for ((_, bones), limb) in LIMBS.iter().zip([figure.arms[at], figure.legs[at]]) {
             let mut joints = limb[..3].to_vec();
-            // A limb without a middle ends there twice.
+            // A limb without a middle joint lists its end twice.
             joints.dedup();
             let bones = if joints.len() == 3 { &bones[..] } else { &[bones[0], bones[2]] };
             let named = bones.iter().zip(joints);

@@ -1,4 +1,4 @@
-//! Whether a pose is a T-pose (Tポーズ): a body whose arms are spread level.
+//! Recognizes a T-pose (Tポーズ): a body with its arms spread level.
 
 use glam::DVec3;
 
@@ -8,17 +8,17 @@ use crate::motion::body::Build;
 use crate::motion::clip::{Body, Pose};
 use crate::time::Frame;
 
-/// How far an arm may point from the line through both shoulders, in degrees: a person who is asked for a T-pose lets
-/// the arms hang a little.
+/// Largest angle between an arm and the line through both shoulders, in degrees: people asked for a T-pose let their
+/// arms hang a little.
 const LEVEL: f64 = 25.0;
 
-/// Where a mannequin's left and right shoulder and wrist are among its points.
+/// Indices of left and right shoulder and wrist among a mannequin's points.
 const ARMS: [[usize; 2]; 2] = [[2, 4], [10, 12]];
 
-/// Whether both arms point straight away from each other and across the spine at a frame, as seen in the body's own axes:
-/// it may lie, lean or face anywhere. False for a body without head, two arms and two legs.
+/// Whether both arms point straight away from each other and across the spine at a frame. The body may lie, lean or
+/// face anywhere. False for a body without head, two arms and two legs.
 pub(crate) fn is_t_pose(clip: &Clip, frame: Frame) -> bool {
-    let Some(mannequin) = Build::of(clip).mannequin else { return false };
+    let Some(mannequin) = Build::new(clip).mannequin else { return false };
     let mut pose = Pose::rest(clip.skeleton());
     pose.take_frame(clip, frame);
     let mut body = Body::new(clip.skeleton());

@@ -1,4 +1,4 @@
-//! Which way is up (上方向): as a person or the file says, else as the body stands over the clip.
+//! Finds the up axis (上方向): as a person or the file declares, or else as the body stands over the clip.
 
 use glam::DVec3;
 
@@ -8,31 +8,31 @@ use crate::motion::body::mannequin::Mannequin;
 use crate::motion::body::members::Members;
 use crate::motion::{Axis, Body, Clip, Landmarks, Word};
 
-/// How upright a body stands at the least in the middle of all its poses, as the cosine to the axis: 45°.
+/// Least uprightness of a body in the median of its poses, as the cosine to the axis: 45°.
 const UPRIGHT: f64 = 0.7;
 
-/// By how much more than along the other axis.
+/// Least lead over the other axis.
 const CLEARLY: f64 = 0.15;
 
-/// By what something is known of a body.
+/// Evidence for a fact about a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum By {
-    /// A person says it.
+    /// Declared by a person.
     Person,
-    /// The file says it.
+    /// Declared by the file.
     File,
-    /// The motion does: how the body stands.
+    /// Motion: how the body stands.
     Motion,
-    /// The motion does, and the rest pose stands otherwise: a file that is turned in its root, or somebody who lies.
+    /// Motion, against the rest pose: the file is rotated in its root, or the body lies down.
     Turned,
-    /// The shape of the body does.
+    /// Shape of the body.
     Shape,
-    /// Nothing does: it is what is usual.
+    /// No evidence: the usual value.
     Custom,
 }
 
-/// The axis that points up, Y or Z, and by what it is known. Somebody who lies or crawls all the time keeps the axis of the
-/// rest pose, where its legs stand along one, and else Y. A body without legs has that of its longest side, `rest`.
+/// Finds the up axis, Y or Z, and the evidence for it. A body that always lies or crawls keeps the axis along which
+/// its legs stand at rest, or else Y. A body without legs has the axis of its longest side, `rest`.
 pub(super) fn up(
     clip: &Clip,
     members: &Members,
@@ -45,10 +45,10 @@ pub(super) fn up(
         Some((up, Word::File)) => return (up, By::File),
         None => {}
     }
-    // Which ends are feet depends on what is up, where no name says it: each axis has to prove itself by its own.
+    // Without names, the choice of feet depends on the up axis, so each axis is judged by its own choice.
     let ends = |axis: Axis| {
         let landmarks = Landmarks::of_members(looks, members, limbs, axis);
-        let legs = Mannequin::of(members.skeleton(), &landmarks, limbs)?.legs();
+        let legs = Mannequin::new(members.skeleton(), &landmarks, limbs)?.legs();
         Some((legs, landmarks.head?.joint.0))
     };
     let stands = |ends: Option<([[usize; 3]; 2], usize)>| {
@@ -64,7 +64,7 @@ pub(super) fn up(
             let is_turned = along_rest(clip, of_z).y.abs() >= UPRIGHT;
             (Axis::Z, if is_turned { By::Turned } else { By::Motion })
         }
-        // Where a body lies says nothing of the room.
+        // The orientation of a body that lies tells nothing about the room.
         () if of_y.or(of_z).is_some() => (rest_up(clip, of_y.or(of_z)), By::Custom),
         () => rest.map_or((Axis::Y, By::Custom), |axis| (axis, By::Shape)),
     }
@@ -73,7 +73,7 @@ pub(super) fn up(
 /// Head and legs of a body.
 type Ends = Option<([[usize; 3]; 2], usize)>;
 
-/// The way that the legs of a rest pose stand up; none without legs.
+/// Returns the direction of the legs at rest, from ankles to hips; zero without legs.
 fn along_rest(clip: &Clip, ends: Ends) -> DVec3 {
     let Some((legs, _)) = ends else { return DVec3::ZERO };
     let body = Body::new(clip.skeleton());
@@ -82,7 +82,7 @@ fn along_rest(clip: &Clip, ends: Ends) -> DVec3 {
     (ways[0] + ways[1]).normalize_or_zero()
 }
 
-/// The axis along which the legs of a rest pose stand, Y if neither.
+/// Returns the axis along which the legs stand at rest, Y if neither.
 fn rest_up(clip: &Clip, ends: Ends) -> Axis {
     if along_rest(clip, ends).z.abs() >= UPRIGHT { Axis::Z } else { Axis::Y }
 }

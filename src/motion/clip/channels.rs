@@ -1,4 +1,4 @@
-//! Poses back into channel values: what a drawing is in the file's own terms.
+//! Converts poses back into channel values, the file's own terms.
 
 use glam::{DMat3, DQuat};
 
@@ -7,21 +7,21 @@ use crate::motion::{Axis, Channel, Clip, Joint, Poser};
 use crate::sheet::Source;
 use crate::time::Frame;
 
-/// Writes drawings as rows of channel values, with its buffers.
+/// Writes drawings as rows of channel values. Reuses its buffers.
 #[derive(Debug, Clone)]
 pub struct RowWriter<'a> {
     poser: Poser<'a>,
 }
 
 impl<'a> RowWriter<'a> {
-    /// A writer for drawings of that clip.
+    /// Creates a writer for drawings of a clip.
     pub fn new(clip: &'a Clip) -> Self {
-        Self { poser: Poser::of(clip) }
+        Self { poser: Poser::new(clip) }
     }
 
-    /// Writes a drawing into `row`, as wide as the skeleton has channels. A source frame comes out as
-    /// the numbers it was read from. An instant between frames is slerped, and its angles are the ones
-    /// nearest to those of the frame before, so that they run on past ±180° as the file's do.
+    /// Writes a drawing into `row`, as wide as the skeleton has channels. A source frame comes out as the numbers it
+    /// was read from. An instant between frames is slerped. Its angles are the ones nearest to those of the frame
+    /// before, so that they continue past ±180° as in the file.
     pub fn write(&mut self, source: Source, row: &mut [f64]) {
         let clip = self.poser.clip();
         let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
@@ -37,7 +37,8 @@ impl<'a> RowWriter<'a> {
             let columns = joint.first_channel..joint.first_channel + joint.channels.len();
             let (before, after) = (&before[columns.clone()], &after[columns.clone()]);
             if before == after && matches!(source, Source::At(_)) {
-                // Between equal frames a joint keeps its numbers: by way of the pose they get dust.
+                // Between equal frames a joint keeps its numbers: converting to a pose and back would add rounding
+                // errors.
                 row[columns].copy_from_slice(before);
                 continue;
             }
@@ -65,16 +66,16 @@ impl<'a> RowWriter<'a> {
                 (Channel::Position(Axis::Y), _) => translation.y,
                 (Channel::Position(Axis::Z), _) => translation.z,
                 (Channel::Rotation(_), Some(angles)) => angles[rotations.next().unwrap_or(2)],
-                // Fewer than three axes, or one axis twice, cannot follow a slerp exactly: each angle
-                // goes its own straight way.
+                // Fewer than three axes, or one axis twice, cannot follow a slerp exactly: each angle is interpolated
+                // linearly.
                 (Channel::Rotation(_), None) => before[at] + share * (after[at] - before[at]),
             };
         }
     }
 }
 
-/// Writes a rotation into the columns of a joint that turns about three different axes: of all triples of
-/// angles that give it, the one nearest to the values that stand there.
+/// Writes a rotation into the columns of a joint that turns about three different axes. Of all equivalent triples of
+/// angles it picks the one nearest to the present values.
 pub(crate) fn turn_columns(joint: &Joint, axes: [Axis; 3], rotation: DQuat, columns: &mut [f64]) {
     let angles = angles_from_rotation(rotation, axes, &near(joint, columns));
     let is_rotation = |channel: &Channel| matches!(channel, Channel::Rotation(_));
@@ -82,9 +83,9 @@ pub(crate) fn turn_columns(joint: &Joint, axes: [Axis; 3], rotation: DQuat, colu
     turned.zip(angles).for_each(|((_, value), angle)| *value = angle);
 }
 
-/// Writes a rotation into the columns that a joint has in a row as wide as the skeleton, the way back from
-/// [`local_rotation`](crate::motion::local_rotation): degrees, of all triples that give it the one nearest to what
-/// stands there. Says whether it could; only a joint that turns about three different axes has every rotation.
+/// Writes a rotation into a joint's columns of a row as wide as the skeleton, in degrees: the inverse of
+/// [`local_rotation`](crate::motion::local_rotation). Of all equivalent triples of angles it picks the one nearest to
+/// the present values. Returns whether it could: only a joint with three different axes can express every rotation.
 pub fn set_local_rotation(joint: &Joint, rotation: DQuat, row: &mut [f64]) -> bool {
     let columns = joint.first_channel..joint.first_channel + joint.channels.len();
     let axes = rotation_axes(joint);
@@ -94,7 +95,7 @@ pub fn set_local_rotation(joint: &Joint, rotation: DQuat, row: &mut [f64]) -> bo
     axes.is_some()
 }
 
-/// The axes of a joint's rotations when they are three different ones, in the order listed.
+/// Returns the axes of a joint's rotations, in the order listed, if they are three different ones.
 pub(crate) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
     let mut axes = joint.channels.iter().filter_map(|channel| match channel {
         Channel::Rotation(axis) => Some(*axis),
@@ -105,7 +106,7 @@ pub(crate) fn rotation_axes(joint: &Joint) -> Option<[Axis; 3]> {
     (axes.next().is_none() && a != b && b != c && a != c).then_some(three)
 }
 
-/// The rotation values of a joint's row.
+/// Returns the rotation values in a joint's part of a row.
 fn near(joint: &Joint, row: &[f64]) -> [f64; 3] {
     let mut near = [0.0; 3];
     let rotations =
@@ -116,8 +117,8 @@ fn near(joint: &Joint, row: &[f64]) -> [f64; 3] {
     near
 }
 
-/// The angles in degrees whose product about `axes`, left to right, is `rotation`: of all such triples
-/// the one nearest to `near`.
+/// Computes the angles in degrees whose product about `axes`, left to right, is `rotation`. Of all such triples it
+/// returns the one nearest to `near`.
 fn angles_from_rotation(rotation: DQuat, axes: [Axis; 3], near: &[f64; 3]) -> [f64; 3] {
     let matrix = DMat3::from_quat(rotation);
     let [i, j, k] = axes.map(|axis| axis as usize);
@@ -135,8 +136,8 @@ fn angles_from_rotation(rotation: DQuat, axes: [Axis; 3], near: &[f64; 3]) -> [f
     if distance(&direct, near) <= distance(&other, near) { direct } else { other }
 }
 
-/// Gimbal lock: only the sum or the difference of the first and third angle is known, so the first
-/// stays where it was.
+/// Handles gimbal lock: only the sum or the difference of the first and third angle is known, so the first keeps its
+/// value.
 fn locked(
     entry: &impl Fn(usize, usize) -> f64,
     [i, j, _]: [usize; 3],

@@ -1,33 +1,33 @@
-//! What is said of a motion besides its values: by its file, or by a person.
+//! Facts about a motion, besides its values, that its file or a person declares.
 
 use crate::motion::{Axis, JointId};
 
-/// What is said of a motion (宣言). It goes before whatever can be seen.
+/// Declared facts about a motion (宣言). They override anything inferred from it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Declared {
-    /// The axis that points up, and who says so. Default: none, as in a BVH.
+    /// Axis that points up, and the source of that fact. Default: `None`, as in BVH.
     pub up: Option<(Axis, Word)>,
-    /// Metres in a unit of the values. Default: none, as in a BVH.
+    /// Metres per unit of the values. Default: `None`, as in BVH.
     pub metres: Option<f64>,
-    /// Shoulder, elbow and wrist of the left and the right arm, then hip, knee and ankle of the legs, as far as a person says
-    /// which joints they are. Default: none.
+    /// Shoulder, elbow and wrist of the left and the right arm, then hip, knee and ankle of the left and the right
+    /// leg, if a person names the joints. Default: `None`.
     pub limbs: [Option<[JointId; 3]>; 4],
-    /// The head, likewise.
+    /// Head joint, if a person names it. Default: `None`.
     pub head: Option<JointId>,
 }
 
-/// Whose word something is.
+/// Source of a declared fact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Word {
-    /// A person's, who has seen the motion.
+    /// A person who has seen the motion.
     Person,
-    /// The file's.
+    /// The motion file.
     File,
 }
 
 impl Declared {
-    /// What a file says whose values are turned to Y up, in a unit of so many metres.
-    pub(crate) fn y_up(metres: f64) -> Self {
+    /// Facts declared by a file whose values are converted to Y up, in a unit of `metres` metres.
+    pub fn y_up(metres: f64) -> Self {
         Self { up: Some((Axis::Y, Word::File)), metres: Some(metres), ..Self::default() }
     }
 }

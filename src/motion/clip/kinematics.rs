@@ -1,4 +1,4 @@
-//! Poses: local rotations of a frame, sampled instants, blends, and world positions.
+//! Poses: local rotations of a frame, sampled instants, blends and world positions.
 
 use glam::{DQuat, DVec3};
 
@@ -7,8 +7,8 @@ use crate::motion::clip::lane_poser::LanePose;
 use crate::motion::{Axis, Channel, Clip, Joint, Skeleton};
 use crate::time::Frame;
 
-/// The rotation of a joint against its parent, a unit quaternion: the product of its elementary
-/// rotations in the order its channels are listed, left to right.
+/// Computes the rotation of a joint relative to its parent, a unit quaternion: the product of its elementary
+/// rotations in the order of its channels, left to right.
 pub fn local_rotation(joint: &Joint, row: &[f64]) -> DQuat {
     let mut rotation = DQuat::IDENTITY;
     for (channel, degrees) in joint.channels.iter().zip(&row[joint.first_channel..]) {
@@ -20,7 +20,7 @@ pub fn local_rotation(joint: &Joint, row: &[f64]) -> DQuat {
     rotation
 }
 
-/// `rotation` times a rotation about one axis, given by the sine and cosine of half its angle:
+/// Multiplies `rotation` by a rotation about one axis, given by the sine and cosine of half its angle. This needs
 /// half the products of a full quaternion multiplication.
 fn turn(q: DQuat, axis: Axis, sin: f64, cos: f64) -> DQuat {
     let DQuat { x, y, z, w } = q;
@@ -46,8 +46,8 @@ fn turn(q: DQuat, axis: Axis, sin: f64, cos: f64) -> DQuat {
     }
 }
 
-/// Where a joint stands against its parent, in the file's unit: its offset, with each axis that has a
-/// position channel replaced by that channel's value.
+/// Computes the position of a joint relative to its parent, in the file's unit: the offset, with each position
+/// channel's value replacing that axis.
 pub fn local_translation(joint: &Joint, row: &[f64]) -> DVec3 {
     let mut translation = joint.offset;
     for (channel, value) in joint.channels.iter().zip(&row[joint.first_channel..]) {
@@ -61,7 +61,7 @@ pub fn local_translation(joint: &Joint, row: &[f64]) -> DVec3 {
     translation
 }
 
-/// The local pose of one instant: a rotation and a translation a joint, in joint order.
+/// The local pose of an instant: a rotation and a translation per joint, in joint order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pose {
     /// Local rotations, unit quaternions.
@@ -71,7 +71,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The rest pose of a skeleton, a buffer for the calls below.
+    /// Creates the rest pose of a skeleton, as a buffer for the methods below.
     pub fn rest(skeleton: &Skeleton) -> Self {
         Self {
             rotations: vec![DQuat::IDENTITY; skeleton.len()],
@@ -79,12 +79,12 @@ impl Pose {
         }
     }
 
-    /// Takes on the pose of a frame.
+    /// Sets the pose to that of a frame.
     pub fn take_frame(&mut self, clip: &Clip, frame: Frame) {
         self.take_row(clip.skeleton(), clip.row(frame));
     }
 
-    /// Takes on the pose of a row of channel values.
+    /// Sets the pose from a row of channel values.
     pub(in crate::motion) fn take_row(&mut self, skeleton: &Skeleton, row: &[f64]) {
         for ((joint, rotation), translation) in
             skeleton.joints.iter().zip(&mut self.rotations).zip(&mut self.translations)
@@ -94,8 +94,8 @@ impl Pose {
         }
     }
 
-    /// Takes on the pose at a place, a fractional frame number: slerp between the two neighbouring
-    /// frames. Places outside the clip give its first or last frame.
+    /// Sets the pose to that at a place, a fractional frame number: a slerp between the two neighbouring frames.
+    /// Places outside the clip give its first or last frame.
     pub fn take_place(&mut self, clip: &Clip, place: f64) {
         let place = place.clamp(clip.first().0 as f64, clip.last().0 as f64);
         let before = Frame(place.floor() as usize);
@@ -113,7 +113,7 @@ impl Pose {
         }
     }
 
-    /// Takes on the pose `share` of the way from one pose to another: slerp of every joint.
+    /// Sets the pose to the blend `share` of the way from one pose to another: a slerp of every joint.
     pub fn take_blend(&mut self, from: &Pose, to: &Pose, share: f64) {
         for (rotation, (from, to)) in
             self.rotations.iter_mut().zip(from.rotations.iter().zip(&to.rotations))
@@ -128,29 +128,28 @@ impl Pose {
     }
 }
 
-/// Slerp between two rotations; between equals there is no way, and rounding must make none: a body that
-/// stands still has to read as still.
+/// Slerps between two rotations. Equal rotations are returned unchanged: rounding must not make a still body move.
 fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     if from == to { from } else { from.slerp(to, share) }
 }
 
-/// The same for translations.
+/// Interpolates between two translations. Equal ones are returned unchanged, as in [`slerp`].
 fn lerp(from: DVec3, to: DVec3, share: f64) -> DVec3 {
     if from == to { from } else { from.lerp(to, share) }
 }
 
-/// A body in the world (forward kinematics): where a local pose puts joints and tips of bones.
+/// A body in the world (forward kinematics): the positions of joints and bone tips in a pose.
 #[derive(Debug, Clone)]
 pub struct Body {
     parents: Vec<Option<usize>>,
-    /// The joint of each tip, and where it is from there.
+    /// Joint of each tip, and the offset from it.
     tips: Vec<(usize, DVec3)>,
     rotations: Vec<DQuat>,
     points: Vec<DVec3>,
 }
 
 impl Body {
-    /// A body of that skeleton in its rest pose.
+    /// Creates a body of a skeleton in its rest pose.
     pub fn new(skeleton: &Skeleton) -> Self {
         let parent = |joint: &Joint| joint.parent.map(|parent| parent.0);
         let tips = skeleton
@@ -167,7 +166,7 @@ impl Body {
         body
     }
 
-    /// Takes on a pose.
+    /// Sets the body to a local pose.
     pub fn place(&mut self, pose: &Pose) {
         let positions = &mut self.points;
         for (joint, parent) in self.parents.iter().enumerate() {
@@ -183,7 +182,7 @@ impl Body {
         self.place_tips();
     }
 
-    /// Takes on one of several poses that stand in the world already.
+    /// Sets the body to one lane of poses that are already in world space.
     pub(in crate::motion) fn take_lane(&mut self, world: &LanePose, lane: usize) {
         for (joint, rotation) in self.rotations.iter_mut().enumerate() {
             *rotation = world.rotations[joint].lane(lane);
@@ -199,17 +198,18 @@ impl Body {
         }
     }
 
-    /// World positions of the joints, in joint order and in the file's unit.
+    /// Returns the world positions of the joints, in joint order and in the file's unit.
     pub fn positions(&self) -> &[DVec3] {
         &self.points[..self.parents.len()]
     }
 
-    /// The same and behind them the tips (End Sites), in the order of their joints.
+    /// Returns the world positions of the joints, followed by those of the tips (End Sites) in the order of their
+    /// joints.
     pub fn points(&self) -> &[DVec3] {
         &self.points
     }
 
-    /// World rotations of the joints.
+    /// Returns the world rotations of the joints.
     pub fn rotations(&self) -> &[DQuat] {
         &self.rotations
     }

@@ -1,6 +1,6 @@
-//! Several instants of a clip at once: local poses, their blends, and where every joint stands.
+//! Computes several instants of a clip at once: local poses, their blends and the position of every joint.
 //!
-//! What [`Poser`](super::Poser) and [`Body`](super::Body) do for one instant.
+//! The vector counterpart of [`Poser`](super::Poser) and [`Body`](super::Body), which compute one instant.
 
 use std::array;
 
@@ -10,7 +10,7 @@ use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes};
 use crate::sheet::Source;
 use crate::time::{Clock, Frame};
 
-/// Gives poses of a clip, several at a time, with its buffers.
+/// Computes several poses of a clip at a time. Reuses its buffers.
 #[derive(Debug, Clone)]
 pub(crate) struct LanePoser<'a> {
     clip: &'a Clip,
@@ -21,29 +21,29 @@ pub(crate) struct LanePoser<'a> {
 }
 
 impl<'a> LanePoser<'a> {
-    pub(crate) fn of(clip: &'a Clip) -> Self {
-        Self::of_rig(clip, Rig::of(clip.skeleton()))
+    pub(crate) fn new(clip: &'a Clip) -> Self {
+        Self::of_rig(clip, Rig::new(clip.skeleton()))
     }
 
-    /// Poses of a part of the clip's skeleton, its joints in the order of the rig.
+    /// Creates a poser for a part of the clip's skeleton; poses list its joints in the order of the rig.
     pub(crate) fn of_rig(clip: &'a Clip, rig: Rig) -> Self {
         let rest = LanePose::rest(&rig);
         Self { clip, rig, pose: rest.clone(), from: rest.clone(), to: rest }
     }
 
-    /// The poses that were last given.
+    /// Returns the last computed poses.
     pub(crate) fn pose(&self) -> &LanePose {
         &self.pose
     }
 
-    /// The poses of rows of the table.
+    /// Computes the poses of rows of the table.
     #[inline(always)]
     pub(crate) fn rows(&mut self, rows: &Rows<'_>) -> &LanePose {
         self.pose.take_rows(&self.rig, rows);
         &self.pose
     }
 
-    /// The poses at a block of [`LANES`] koma of a clock; behind the last koma the last again.
+    /// Computes the poses at a block of [`LANES`] koma of a clock. Lanes behind the last koma repeat it.
     #[inline(always)]
     pub(crate) fn koma(&mut self, clock: Clock, block: usize, koma: usize) -> &LanePose {
         let place = |lane: usize| clock.place_from_koma((LANES * block + lane).min(koma - 1));
@@ -51,14 +51,14 @@ impl<'a> LanePoser<'a> {
         &self.pose
     }
 
-    /// The poses of drawings.
+    /// Computes the poses of drawings.
     #[inline(always)]
     pub(crate) fn drawings(&mut self, sources: [Source; LANES]) -> &LanePose {
         let Self { clip, rig, pose, from, to } = self;
         if sources.iter().all(|source| matches!(source, Source::At(_))) {
             pose.take_places(clip, rig, sources.map(Source::place));
         } else {
-            // What is no blend is one of a pose with itself.
+            // A source that is no blend becomes a blend of one pose with itself.
             let blends = sources.map(|source| match source {
                 Source::At(place) => (place, place, 0.0),
                 Source::Between { from, to, share } => (from, to, share),
@@ -70,7 +70,7 @@ impl<'a> LanePoser<'a> {
         &self.pose
     }
 
-    /// The poses that were last given, put into the world: rotations become world rotations, translations
+    /// Puts the last computed poses into world space: rotations become world rotations, translations become
     /// positions.
     #[inline(always)]
     pub(crate) fn stand(&mut self) -> &LanePose {
@@ -79,7 +79,7 @@ impl<'a> LanePoser<'a> {
     }
 }
 
-/// A local pose a lane: a rotation and a translation a joint, in joint order.
+/// One local pose per lane: a rotation and a translation per joint, in joint order.
 #[derive(Debug, Clone)]
 pub(crate) struct LanePose {
     pub(crate) rotations: Vec<LaneQuat>,
@@ -87,14 +87,14 @@ pub(crate) struct LanePose {
 }
 
 impl LanePose {
-    /// A buffer for poses of a rig.
+    /// Creates a buffer for poses of a rig.
     fn rest(rig: &Rig) -> Self {
         let offsets = (0..rig.len()).map(|joint| LaneVec::splat(rig.offset(joint)));
         Self { rotations: vec![LaneQuat::default(); rig.len()], translations: offsets.collect() }
     }
 
-    /// Takes on the poses at some places, fractional frame numbers: slerp between the two neighbouring
-    /// frames. Places outside the clip give its first or last frame.
+    /// Sets the poses to those at some places, fractional frame numbers: a slerp between the two neighbouring frames.
+    /// Places outside the clip give its first or last frame.
     #[inline(always)]
     fn take_places(&mut self, clip: &Clip, rig: &Rig, places: [f64; LANES]) {
         let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
@@ -114,7 +114,7 @@ impl LanePose {
         }
     }
 
-    /// Takes on the poses of rows of the table.
+    /// Sets the poses from rows of the table.
     #[inline(always)]
     fn take_rows(&mut self, rig: &Rig, rows: &Rows<'_>) {
         for joint in 0..rig.len() {
@@ -123,7 +123,7 @@ impl LanePose {
         }
     }
 
-    /// Takes on the poses `shares` of the way from some poses to others: slerp of every joint.
+    /// Sets the poses to the blends `shares` of the way from some poses to others: a slerp of every joint.
     #[inline(always)]
     fn take_blends(&mut self, from: &Self, to: &Self, shares: Lanes) {
         for joint in 0..self.rotations.len() {
@@ -134,7 +134,7 @@ impl LanePose {
         }
     }
 
-    /// Into the world: rotations become world rotations, translations positions.
+    /// Puts the poses into world space: rotations become world rotations, translations become positions.
     #[inline(always)]
     fn place(&mut self, rig: &Rig) {
         rig.place(&mut self.rotations, &mut self.translations);
@@ -150,8 +150,8 @@ mod tests {
     use crate::motion::{Axis, Body, Channel, Joint, JointId, Pose, Skeleton};
     use crate::time::FrameRate;
 
-    /// A root that travels, an arm with every order of axes, a bone without channels, and columns that
-    /// do not stand in the order of joints.
+    /// A clip of a root that travels, an arm with every order of axes and a bone without channels; its columns are
+    /// not in the order of joints.
     fn clip(values: &[f64]) -> Clip {
         let turn = |axis| Channel::Rotation(axis);
         let joint = |parent: Option<usize>, channels: Vec<Channel>, first_channel| Joint {
@@ -189,7 +189,7 @@ mod tests {
             share in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0],
         ) {
             let clip = clip(&values);
-            let (rig, skeleton) = (Rig::of(clip.skeleton()), clip.skeleton());
+            let (rig, skeleton) = (Rig::new(clip.skeleton()), clip.skeleton());
             let mut wide = LanePose::rest(&rig);
             wide.take_places(&clip, &rig, places);
             let other = wide.clone();
@@ -208,7 +208,7 @@ mod tests {
                 body.place(pose);
                 for (joint, position) in body.positions().iter().enumerate() {
                     let found = wide.translations[joint].lane(lane);
-                    // At half a turn apart either way round is a shortest one; nothing else may differ.
+                    // Half a turn apart, both directions are equally short; only there may the results differ.
                     let half_turn = pose == &mix
                         && from.rotations.iter().zip(&to.rotations).any(|(a, b)| a.dot(*b).abs() < 1e-6);
                     prop_assert!(half_turn || found.abs_diff_eq(*position, 1e-10), "{found} {position}");
@@ -236,7 +236,7 @@ mod tests {
                 pose.place(rig);
                 pose
             };
-            let (whole, part) = (stand(&Rig::of(clip.skeleton())), stand(&part));
+            let (whole, part) = (stand(&Rig::new(clip.skeleton())), stand(&part));
             for (joint, place) in joints.into_iter().zip(found) {
                 prop_assert_eq!(whole.translations[joint], part.translations[place]);
                 prop_assert_eq!(whole.rotations[joint], part.rotations[place]);
@@ -248,7 +248,7 @@ mod tests {
     fn between_equal_frames_nothing_moves_by_even_the_last_digit() {
         let row = [33.3, 0.1, -77.7, 12.0, 5.0, 179.0, -3.0, 361.0, 40.0];
         let clip = clip(&[row, row].concat());
-        let rig = Rig::of(clip.skeleton());
+        let rig = Rig::new(clip.skeleton());
         let (mut frame, mut between) = (LanePose::rest(&rig), LanePose::rest(&rig));
         frame.take_places(&clip, &rig, [3.0, 4.0, 4.0, 3.0]);
         between.take_places(&clip, &rig, [3.3, 3.9, 3.5, 3.0]);

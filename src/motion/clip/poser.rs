@@ -1,11 +1,11 @@
-//! The pose of a frame, of an instant, or of a drawing: the one place where poses come from.
+//! Computes the pose of a frame, an instant or a drawing. All single poses come from here.
 
 use crate::motion::{Clip, Pose};
 use crate::sheet::Source;
 use crate::time::Frame;
 
-/// Gives the poses of a clip one after the other, with its buffers. A [`Body`](super::Body) then says where
-/// the joints are.
+/// Computes the poses of a clip one after the other. Reuses its buffers. A [`Body`](super::Body) then gives the
+/// positions of the joints.
 #[derive(Debug, Clone)]
 pub struct Poser<'a> {
     clip: &'a Clip,
@@ -15,44 +15,47 @@ pub struct Poser<'a> {
 }
 
 impl<'a> Poser<'a> {
-    /// A poser in the rest pose.
-    pub fn of(clip: &'a Clip) -> Self {
+    /// Creates a poser in the rest pose.
+    pub fn new(clip: &'a Clip) -> Self {
         let rest = Pose::rest(clip.skeleton());
         Self { clip, pose: rest.clone(), from: rest.clone(), to: rest }
     }
 
-    /// The motion.
+    /// The motion clip.
     pub fn clip(&self) -> &'a Clip {
         self.clip
     }
 
-    /// The pose that was last given.
+    /// Returns the last computed pose.
     pub fn pose(&self) -> &Pose {
         &self.pose
     }
 
-    /// The pose of a frame.
+    /// Computes the pose of a frame.
     ///
     /// # Panics
-    /// When the clip has no such frame.
+    ///
+    /// If the clip lacks the frame.
     pub fn frame(&mut self, frame: Frame) -> &Pose {
         self.pose.take_frame(self.clip, frame);
         &self.pose
     }
 
-    /// The pose at a place, a fractional frame number: see [`Pose::take_place`].
+    /// Computes the pose at a place, a fractional frame number: see [`Pose::take_place`].
     ///
     /// # Panics
-    /// When the clip has no frame.
+    ///
+    /// If the clip has no frame.
     pub fn place(&mut self, place: f64) -> &Pose {
         self.pose.take_place(self.clip, place);
         &self.pose
     }
 
-    /// The pose of a drawing: an instant of the clip, or a blend of two.
+    /// Computes the pose of a drawing: an instant of the clip, or a blend of two.
     ///
     /// # Panics
-    /// When the clip has no frame.
+    ///
+    /// If the clip has no frame.
     pub fn drawing(&mut self, source: Source) -> &Pose {
         match source {
             Source::At(place) => self.pose.take_place(self.clip, place),

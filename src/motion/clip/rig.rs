@@ -1,4 +1,4 @@
-//! A skeleton read for work on several poses at once: which columns of a row turn and move what.
+//! A skeleton prepared for computing several poses at once: which columns of a row rotate and move each joint.
 
 use std::array;
 use std::iter;
@@ -8,10 +8,10 @@ use glam::DVec3;
 use crate::motion::lanes::{LANES, LaneQuat, LaneVec, Lanes, ThreeAxes};
 use crate::motion::{Axis, Channel, Skeleton};
 
-/// One row of channel values a lane.
+/// One row of channel values per lane.
 pub(crate) type Rows<'a> = [&'a [f64]; LANES];
 
-/// The columns of each joint, looked up once instead of at every value.
+/// The columns of each joint, looked up once rather than for every value.
 #[derive(Debug, Clone)]
 pub(crate) struct Rig {
     joints: Vec<RigJoint>,
@@ -22,21 +22,21 @@ struct RigJoint {
     parent: Option<usize>,
     offset: DVec3,
     turns: Turns,
-    /// Axis and column of each position.
+    /// Axis and column of each position channel.
     moves: Vec<(Axis, usize)>,
 }
 
-/// How the rotation of a joint comes out of a row.
+/// How to compute a joint's rotation from a row.
 #[derive(Debug, Clone)]
 enum Turns {
-    /// As nearly every file has it: three different axes, and their columns.
+    /// Three different axes and their columns, as in nearly every file.
     Three(ThreeAxes, [usize; 3]),
-    /// Axis and column of each rotation, in the order they are multiplied.
+    /// Axis and column of each rotation, in the order of multiplication.
     Listed(Vec<(Axis, usize)>),
 }
 
 impl Turns {
-    fn of(listed: Vec<(Axis, usize)>) -> Self {
+    fn new(listed: Vec<(Axis, usize)>) -> Self {
         let three = |turns: [(Axis, usize); 3]| {
             let axes = ThreeAxes::new(turns.map(|(axis, _)| axis))?;
             Some(Self::Three(axes, turns.map(|(_, column)| column)))
@@ -46,7 +46,7 @@ impl Turns {
 }
 
 impl Rig {
-    pub(crate) fn of(skeleton: &Skeleton) -> Self {
+    pub(crate) fn new(skeleton: &Skeleton) -> Self {
         let joint = |(_, joint): (_, &crate::motion::Joint)| {
             let (mut turns, mut moves) = (Vec::new(), Vec::new());
             for (column, channel) in (joint.first_channel..).zip(&joint.channels) {
@@ -56,12 +56,13 @@ impl Rig {
                 }
             }
             let parent = joint.parent.map(|parent| parent.0);
-            RigJoint { parent, offset: joint.offset, turns: Turns::of(turns), moves }
+            RigJoint { parent, offset: joint.offset, turns: Turns::new(turns), moves }
         };
         Self { joints: skeleton.iter().map(joint).collect() }
     }
 
-    /// The part of a skeleton that carries some joints, with these, and where in it each of them is.
+    /// Builds the part of a skeleton that consists of some joints and their ancestors. Also returns the index of each
+    /// of these joints in it.
     pub(crate) fn carrying(skeleton: &Skeleton, joints: &[usize]) -> (Self, Vec<usize>) {
         let mut carries = vec![false; skeleton.len()];
         for joint in joints {
@@ -70,7 +71,7 @@ impl Rig {
                 carries[joint] = true;
             }
         }
-        let mut rig = Self::of(skeleton);
+        let mut rig = Self::new(skeleton);
         let kept: Vec<usize> = (0..rig.len()).filter(|joint| carries[*joint]).collect();
         let place = |joint: &usize| kept.partition_point(|kept| kept < joint);
         let mut carries = carries.into_iter();
@@ -85,7 +86,8 @@ impl Rig {
         self.joints.len()
     }
 
-    /// The rotation of a joint against its parent: [`local_rotation`](super::local_rotation) of each row.
+    /// Computes the rotation of a joint relative to its parent: [`local_rotation`](super::local_rotation) of each
+    /// row.
     #[inline(always)]
     pub(crate) fn rotation(&self, joint: usize, rows: &Rows<'_>) -> LaneQuat {
         let half = |column: usize| gather(rows, column).half_sin_cos();
@@ -100,7 +102,7 @@ impl Rig {
         }
     }
 
-    /// The three different axes of a joint and their columns, where it has such.
+    /// Returns the three different axes of a joint and their columns, if it has them.
     pub(crate) fn three_axes(&self, joint: usize) -> Option<(ThreeAxes, [usize; 3])> {
         match self.joints[joint].turns {
             Turns::Three(axes, columns) => Some((axes, columns)),
@@ -108,8 +110,8 @@ impl Rig {
         }
     }
 
-    /// Where a joint stands against its parent: [`local_translation`](super::local_translation) of each
-    /// row.
+    /// Computes the position of a joint relative to its parent: [`local_translation`](super::local_translation) of
+    /// each row.
     #[inline(always)]
     pub(crate) fn translation(&self, joint: usize, rows: &Rows<'_>) -> LaneVec {
         let RigJoint { offset, moves, .. } = &self.joints[joint];
@@ -120,8 +122,7 @@ impl Rig {
         translation
     }
 
-    /// Turns local poses into world ones in place: rotations into world rotations, translations into
-    /// positions.
+    /// Converts local poses into world poses in place: rotations into world rotations, translations into positions.
     #[inline(always)]
     pub(crate) fn place(&self, rotations: &mut [LaneQuat], translations: &mut [LaneVec]) {
         for (joint, RigJoint { parent, .. }) in self.joints.iter().enumerate() {
@@ -133,19 +134,19 @@ impl Rig {
         }
     }
 
-    /// Joints that have a position of their own in the file.
+    /// Returns the joints that have position channels.
     pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
         let moves = |(_, joint): &(usize, &RigJoint)| !joint.moves.is_empty();
         self.joints.iter().enumerate().filter(moves).map(|(joint, _)| joint)
     }
 
-    /// The joint that carries a joint.
+    /// Returns the parent of a joint.
     #[inline(always)]
     pub(crate) fn parent(&self, joint: usize) -> Option<usize> {
         self.joints[joint].parent
     }
 
-    /// The offset of a joint at rest.
+    /// Returns the offset of a joint at rest.
     pub(crate) fn offset(&self, joint: usize) -> DVec3 {
         self.joints[joint].offset
     }

@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use crate::motion::Axis;
 
-/// A joint by its place in the file, from 0.
+/// The index of a joint in the file, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JointId(pub usize);
 
-/// What one column of the motion table drives.
+/// Target of one column of the motion table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {
     /// Position along an axis, in the file's unit. It *replaces* the offset on that axis.
@@ -22,7 +22,7 @@ pub enum Channel {
 pub struct EndSite {
     /// The word after `End`, usually `Site`.
     pub name: String,
-    /// From the joint to the tip, in the file's unit.
+    /// Vector from the joint to the tip, in the file's unit.
     pub offset: DVec3,
 }
 
@@ -31,26 +31,26 @@ pub struct EndSite {
 pub struct Joint {
     /// The name as written.
     pub name: String,
-    /// The joint it hangs on; none for a root.
+    /// Parent joint; `None` for a root.
     pub parent: Option<JointId>,
-    /// From the parent at rest, in the file's unit.
+    /// Vector from the parent at rest, in the file's unit.
     pub offset: DVec3,
-    /// Its columns, in the order listed.
+    /// Channels of the joint, in the order listed.
     pub channels: Vec<Channel>,
-    /// The column of its first channel in a row of the motion table.
+    /// Column of its first channel in a row of the motion table.
     pub first_channel: usize,
-    /// Tips that end here.
+    /// Tips of bones that end at this joint.
     pub end_sites: Vec<EndSite>,
 }
 
 impl Joint {
-    /// Whether it can turn; else it is a point on the bone of the joint before it.
+    /// Whether the joint can turn. Otherwise it is a point on the bone of the joint before it.
     pub(crate) fn turns(&self) -> bool {
         self.channels.iter().any(|channel| matches!(channel, Channel::Rotation(_)))
     }
 }
 
-/// Joints in file order, so that a parent always stands before its children.
+/// Joints in file order: a parent always comes before its children.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Skeleton {
     /// The joints.
@@ -63,27 +63,27 @@ impl Skeleton {
         self.joints.len()
     }
 
-    /// Whether there is no joint at all.
+    /// Whether the skeleton is empty.
     pub fn is_empty(&self) -> bool {
         self.joints.is_empty()
     }
 
-    /// Columns in a row of the motion table.
+    /// Number of columns in a row of the motion table.
     pub fn channels(&self) -> usize {
         self.joints.iter().map(|joint| joint.channels.len()).sum()
     }
 
-    /// Joints with their ids, parents first.
+    /// Returns the joints with their ids, parents first.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (JointId, &Joint)> {
         self.joints.iter().enumerate().map(|(joint, data)| (JointId(joint), data))
     }
 
-    /// The first joint of that name.
+    /// Finds the first joint with that name.
     pub fn find(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|joint| joint.name == name).map(JointId)
     }
 
-    /// The root of each joint's tree.
+    /// Returns the root of each joint's tree.
     pub(crate) fn roots(&self) -> Vec<usize> {
         let mut roots = Vec::with_capacity(self.len());
         for (joint, data) in self.iter() {
@@ -92,14 +92,14 @@ impl Skeleton {
         roots
     }
 
-    /// The joint of each point of a pose: the joints themselves, then that of each tip.
-    pub(crate) fn owners(&self) -> impl Iterator<Item = usize> {
+    /// Returns the joint of each point of a pose: first the joints themselves, then the joint of each tip.
+    pub fn owners(&self) -> impl Iterator<Item = usize> {
         let tips =
             self.iter().flat_map(|(joint, data)| data.end_sites.iter().map(move |_| joint.0));
         (0..self.len()).chain(tips)
     }
 
-    /// Which joints carry another.
+    /// Finds the joints that have children.
     pub(crate) fn carriers(&self) -> Vec<bool> {
         let mut carries = vec![false; self.len()];
         let parents = self.joints.iter().filter_map(|joint| joint.parent);
@@ -107,16 +107,17 @@ impl Skeleton {
         carries
     }
 
-    /// How far a joint's rotation carries: the length of the longest chain of bones below it, End
-    /// Sites included, in the file's unit. A leaf without an End Site takes its own bone's length.
+    /// Computes the reach of each joint: the length of the longest chain of bones below it, End Sites included, in
+    /// the file's unit. A leaf without an End Site gets its own bone's length.
     ///
-    /// One value a joint, in joint order.
+    /// Returns one value per joint, in joint order.
     pub fn reaches(&self) -> Vec<f64> {
         let mut reaches = vec![0.0; self.len()];
         for (JointId(joint), data) in self.iter().rev() {
             let tips = data.end_sites.iter().map(|end| end.offset.length());
             let chain = tips.fold(reaches[joint], f64::max);
-            // A bare leaf drives nothing that the file names: its own bone stands for what hangs on it.
+            // A leaf without an End Site drives nothing named in the file: its own bone's length stands in for the
+            // missing tip.
             reaches[joint] = if chain > 0.0 { chain } else { data.offset.length() };
             if let Some(JointId(parent)) = data.parent {
                 let through = data.offset.length() + if chain > 0.0 { chain } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Feet that stay where they stand (接地): in the drawings of one contact a sole is on one place.
+//! Keeps standing feet in place (接地): all drawings of one contact have the sole at one position.
 
 use glam::DVec3;
 
@@ -6,10 +6,10 @@ use crate::motion::body::leg::Leg;
 use crate::motion::{Body, Build, Clip, Contact, ContactFinder, Point, Pose, landmarks};
 use crate::time::Clock;
 
-/// Koma before and after a contact in which a foot comes to its place and leaves it.
+/// Number of koma before and after a contact over which a foot eases into and out of its held position.
 const EASE: f64 = 2.0;
 
-/// The feet of a body and where they stand.
+/// The feet of a body and their contacts.
 #[derive(Debug, Clone)]
 pub(super) struct HeldFeet(Vec<HeldFoot>);
 
@@ -18,33 +18,33 @@ pub(super) struct HeldFeet(Vec<HeldFoot>);
 struct HeldFoot {
     leg: Leg,
     sole: Point,
-    /// By time; none overlaps another.
+    /// Contacts in order of time, without overlap.
     stands: Vec<Stand>,
 }
 
-/// A contact, in places of the source.
+/// A contact of a foot; its ends are places of the source.
 #[derive(Debug, Clone, PartialEq)]
 struct Stand {
     from: Edge,
     to: Edge,
-    /// Where the sole is held.
+    /// Held position of the sole.
     at: DVec3,
 }
 
-/// The begin or the end of a contact.
+/// The beginning or the end of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Edge {
     place: f64,
-    /// Over how many frames the foot comes here or leaves.
+    /// Number of frames over which the foot eases in or out.
     ease: f64,
-    /// From where the source has the sole to where it is held.
+    /// Vector from the sole's position in the source to the held one.
     way: DVec3,
 }
 
 impl HeldFeet {
-    /// The feet of a clip that stand at some time; none where nothing can be held.
-    pub(super) fn of(clip: &Clip, clock: Clock) -> Option<Self> {
-        let build = Build::of(clip);
+    /// Finds the feet of a clip that stand at some time; `None` if there are none.
+    pub(super) fn new(clip: &Clip, clock: Clock) -> Option<Self> {
+        let build = Build::new(clip);
         let contacts = ContactFinder::default().find(clip, clock);
         let soles: Vec<Point> = build.landmarks.feet.iter().map(|foot| foot.sole).collect();
         let paths = landmarks::paths(clip, clock, &soles);
@@ -57,13 +57,13 @@ impl HeldFeet {
         (!feet.is_empty()).then_some(Self(feet))
     }
 
-    /// The joints that are turned to hold them.
+    /// Returns the joints that turn to hold the feet.
     pub(super) fn joints(&self) -> Vec<usize> {
         self.0.iter().flat_map(|foot| foot.leg.joints()).collect()
     }
 }
 
-/// The contacts of one foot, whose path is given koma by koma.
+/// Collects the contacts of one foot; `path` has one position per koma.
 fn stands<'a>(
     contacts: impl Iterator<Item = &'a Contact>,
     path: &[DVec3],
@@ -78,7 +78,7 @@ fn stands<'a>(
         Stand { from: edge(*contact.koma.start()), to: edge(*contact.koma.end()), at }
     };
     let mut stands: Vec<Stand> = contacts.map(stand).collect();
-    // Between two contacts that follow at once there is no time for both.
+    // If two contacts follow closely, each eases only over the gap between them.
     for at in 1..stands.len() {
         let gap = stands[at].from.place - stands[at - 1].to.place;
         let ease = ease.min(gap);
@@ -87,8 +87,8 @@ fn stands<'a>(
     stands
 }
 
-/// How far a foot is to be brought in a drawing of an instant in which its sole is somewhere: to where it is
-/// held, and near a contact some of the way that it goes at its begin or end.
+/// Returns the vector from `sole` to its corrected position in a drawing at `place`: to the held position during a
+/// contact, and an eased share of the edge's offset near one.
 fn way(stands: &[Stand], place: f64, sole: DVec3) -> DVec3 {
     let after = stands.partition_point(|stand| stand.from.place <= place);
     let before = after.checked_sub(1).map(|at| &stands[at]);
@@ -101,7 +101,7 @@ fn way(stands: &[Stand], place: f64, sole: DVec3) -> DVec3 {
 }
 
 impl Edge {
-    /// What is left of its way at a place outside of the contact.
+    /// Returns the eased rest of the offset at a place outside the contact (smoothstep).
     fn way_at(&self, place: f64) -> DVec3 {
         let off = (place - self.place).abs() / self.ease;
         let left = (1.0 - off).max(0.0);
@@ -109,7 +109,7 @@ impl Edge {
     }
 }
 
-/// Holds the feet of poses, with its buffers.
+/// Holds the feet of poses. Reuses its buffers.
 #[derive(Debug, Clone)]
 pub(super) struct FootHold<'a> {
     feet: &'a HeldFeet,
@@ -117,17 +117,17 @@ pub(super) struct FootHold<'a> {
 }
 
 impl<'a> FootHold<'a> {
-    pub(super) fn of(feet: &'a HeldFeet, clip: &Clip) -> Self {
+    pub(super) fn new(feet: &'a HeldFeet, clip: &Clip) -> Self {
         Self { feet, body: Body::new(clip.skeleton()) }
     }
 
-    /// The joints that are turned to hold them.
+    /// Returns the joints that turn to hold the feet.
     pub(super) fn joints(&self) -> Vec<usize> {
         self.feet.joints()
     }
 
-    /// Brings the feet of a drawing's pose to where they are held; `place` is the instant that it shows of
-    /// a joint.
+    /// Moves the feet of a drawing's pose to their held positions; `place` gives the place in the source that the
+    /// drawing shows for a joint.
     pub(super) fn hold(&mut self, place: impl Fn(usize) -> f64, pose: &mut Pose) {
         self.body.place(pose);
         for foot in &self.feet.0 {
@@ -168,7 +168,7 @@ mod tests {
             to: edge(to.0, to.1),
             at: DVec3::X * at,
         };
-        // In the source the sole goes from 4 to 6 and from 20 to 21 while it stands.
+        // While it stands, the source's sole drifts from 4 to 6, then from 20 to 21.
         let stands =
             [stand((10.0, 1.0), (20.0, -1.0), 5.0), stand((23.0, 0.5), (30.0, -0.5), 20.5)];
         let at = |place: f64, sole: f64| way(&stands, place, DVec3::X * sole).x;
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!([found[0].at, found[1].from.way], [DVec3::Y, 1.5 * DVec3::Y]);
     }
 
-    /// Where the joints stand, how they are turned in the world, and where the soles are.
+    /// Returns positions and world rotations of the joints, and positions of the soles.
     fn placed(pose: &Pose, clip: &Clip, feet: &HeldFeet) -> (Vec<DVec3>, Vec<DQuat>, Vec<DVec3>) {
         let mut body = Body::new(clip.skeleton());
         body.place(pose);
@@ -209,7 +209,7 @@ mod tests {
         (body.positions().to_vec(), body.rotations().to_vec(), soles)
     }
 
-    /// A sheet on ones of some sources.
+    /// Creates a sheet on ones of some sources.
     fn sheet(clip: &Clip, sources: &[Source], root: RootMotion, feet: Feet) -> Sheet {
         let mut sheet = Sheet { root, feet, ..Sheet::on_ones(clip.clock(24.0), sources.len()) };
         let drawings = sheet.layers[0].drawings.iter_mut();
@@ -237,10 +237,10 @@ mod tests {
             let clip = kick();
             let root = if ones { RootMotion::Ones } else { RootMotion::Drawings };
             let [free, held] = [Feet::Free, Feet::Held].map(|feet| sheet(&clip, &sources, root, feet));
-            let [free, held] = [&free, &held].map(|sheet| Composite::of(&clip, sheet).unwrap());
+            let [free, held] = [&free, &held].map(|sheet| Composite::new(&clip, sheet).unwrap());
             let feet = held.feet.as_ref().unwrap();
-            let (mut own, mut posed) = (CompositePoser::of(&free), CompositePoser::of(&held));
-            let (mut own_rows, mut rows) = (CompositeRows::of(&free), CompositeRows::of(&held));
+            let (mut own, mut posed) = (CompositePoser::new(&free), CompositePoser::new(&held));
+            let (mut own_rows, mut rows) = (CompositeRows::new(&free), CompositeRows::new(&held));
             let (mut own_row, mut row) = (vec![0.0; clip.skeleton().channels()], vec![0.0; clip.skeleton().channels()]);
             for (koma, source) in sources.iter().enumerate() {
                 let (own, posed) = (own.drawing(koma, koma), posed.drawing(koma, koma));
@@ -282,8 +282,8 @@ mod tests {
     fn a_body_without_feet_or_one_that_never_stands_is_as_it_was() {
         let clip = kick();
         let clock = clip.clock(24.0);
-        assert!(HeldFeet::of(&clip, clock).is_some());
+        assert!(HeldFeet::new(&clip, clock).is_some());
         let short = clip.trimmed(Frame(0), Frame(1)).unwrap();
-        assert!(HeldFeet::of(&short, clock).is_none(), "a frame is too short to stand");
+        assert!(HeldFeet::new(&short, clock).is_none(), "a frame is too short to stand");
     }
 }

@@ -1,9 +1,9 @@
-//! Several columns of drawings as one.
+//! Merges several columns of drawings into one.
 
 use crate::sheet::{Drawing, Exposure, Layer, Role, Source, Why};
 
-/// A column that has a drawing wherever one of some layers has a new one, and for each of its drawings
-/// what each of the layers shows. Its length is that of the longest.
+/// Builds a column with a new drawing wherever one of the layers has one, as long as the longest layer. Also returns,
+/// for each new drawing, the source shown by each layer.
 pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
     let length = layers.iter().map(|layer| layer.length()).max().unwrap_or(0);
     let mut begins: Vec<usize> =
@@ -28,7 +28,7 @@ pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
             .collect();
         sources.push(shown.iter().map(|(_, drawing)| drawing.source).collect());
         let new = shown.iter().filter(|(first, _)| *first == begin).map(|(_, drawing)| *drawing);
-        // Of equals the first: `min_by_key` takes it.
+        // `min_by_key` returns the first of equal ranks.
         let lead = new.min_by_key(|drawing| rank(drawing.role)).expect("some layer begins here");
         flat.exposures.push(Exposure { drawing: flat.drawings.len(), koma: end - begin });
         flat.drawings.push(Drawing { why: of_all(&lead.why), ..*lead });
@@ -36,19 +36,19 @@ pub(super) fn flattened(layers: &[&Layer]) -> (Layer, Vec<Vec<Source>>) {
     (flat, sources)
 }
 
-/// What a layer shows on a koma, and since when.
+/// Returns the drawing of a layer on a koma, and the koma on which it began.
 fn shown<'a>(layer: &'a Layer, column: &[(usize, Exposure)], koma: usize) -> (usize, &'a Drawing) {
     let after = column.partition_point(|(begin, _)| *begin <= koma);
     let (begin, exposure) = column[after - 1];
     (begin, &layer.drawings[exposure.drawing])
 }
 
-/// Why a drawing is there. What was left out before it or held by it was so in its own layer alone.
+/// Copies the reasons, but without omissions and holds: these concern one layer alone.
 fn of_all(why: &Why) -> Why {
     Why { lengthened: 0, omitted_before: 0, held_for: 0, ..why.clone() }
 }
 
-/// Which of several drawings gives theirs its name.
+/// Precedence of a role when several layers begin a drawing on one koma; the lowest leads.
 fn rank(role: Role) -> usize {
     match role {
         Role::Genga => 0,
@@ -57,7 +57,7 @@ fn rank(role: Role) -> usize {
     }
 }
 
-/// From the first column to the last.
+/// Joins the names of the first and the last column.
 fn name(layers: &[&Layer]) -> String {
     match layers {
         [first, .., last] => format!("{}-{}", first.name, last.name),

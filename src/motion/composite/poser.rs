@@ -1,14 +1,14 @@
-//! The poses of a composite.
+//! Computes the poses of a composite.
 
 use super::{Composite, FootHold};
 use crate::motion::{Pose, Poser};
 use crate::sheet::Source;
 
-/// Gives the poses of what is on screen, one after the other, with its buffers.
+/// Computes the poses of what is on screen, one after the other. Reuses its buffers.
 #[derive(Debug, Clone)]
-pub(crate) struct CompositePoser<'a> {
+pub struct CompositePoser<'a> {
     composite: &'a Composite<'a>,
-    /// What each layer shows, and the whole body so: a layer's drawing stays while others change.
+    /// Last source of each layer and the whole body posed from it: a layer's drawing often stays while others change.
     layers: Vec<(Option<Source>, Poser<'a>)>,
     root: Poser<'a>,
     feet: Option<FootHold<'a>>,
@@ -16,15 +16,15 @@ pub(crate) struct CompositePoser<'a> {
 }
 
 impl<'a> CompositePoser<'a> {
-    /// For the drawings of a composite.
-    pub(crate) fn of(composite: &'a Composite<'a>) -> Self {
-        let root = Poser::of(composite.clip());
+    /// Creates a poser for the drawings of a composite.
+    pub fn new(composite: &'a Composite<'a>) -> Self {
+        let root = Poser::new(composite.clip());
         let layers = vec![(None, root.clone()); composite.layers()];
         Self { composite, layers, pose: root.pose().clone(), root, feet: composite.foot_hold() }
     }
 
-    /// The pose of a drawing as it is on screen on a koma.
-    pub(crate) fn drawing(&mut self, drawing: usize, koma: usize) -> &Pose {
+    /// Computes the pose of a drawing as shown on a koma.
+    pub fn drawing(&mut self, drawing: usize, koma: usize) -> &Pose {
         let composite = self.composite;
         for ((taken, poser), source) in self.layers.iter_mut().zip(&composite.drawings[drawing]) {
             if taken.replace(*source) != Some(*source) {

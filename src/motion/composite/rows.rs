@@ -1,26 +1,26 @@
-//! A composite as rows of channel values.
+//! Writes a composite as rows of channel values.
 
 use super::{Composite, FootHold, is_position};
 use crate::motion::{Pose, RowWriter, local_rotation};
 use crate::motion::{rotation_axes, turn_columns};
 use crate::sheet::Source;
 
-/// Writes what is on screen as rows of channel values, with its buffers.
+/// Writes what is on screen as rows of channel values. Reuses its buffers.
 #[derive(Debug, Clone)]
-pub(crate) struct CompositeRows<'a> {
+pub struct CompositeRows<'a> {
     composite: &'a Composite<'a>,
     writer: RowWriter<'a>,
-    /// What each layer shows, and the whole body so: a layer's drawing stays while others change.
+    /// Last source of each layer and the whole body's row of it: a layer's drawing often stays while others change.
     layers: Vec<(Option<Source>, Vec<f64>)>,
-    /// The source at a koma.
+    /// Row of the source at the current koma.
     root: Vec<f64>,
-    /// What holds the feet, and the pose in which it does.
+    /// Foot hold and a pose buffer for it.
     feet: Option<(FootHold<'a>, Pose)>,
 }
 
 impl<'a> CompositeRows<'a> {
-    /// For the drawings of a composite.
-    pub(crate) fn of(composite: &'a Composite<'a>) -> Self {
+    /// Creates a writer for the drawings of a composite.
+    pub fn new(composite: &'a Composite<'a>) -> Self {
         let row = vec![0.0; composite.clip().skeleton().channels()];
         Self {
             composite,
@@ -31,8 +31,8 @@ impl<'a> CompositeRows<'a> {
         }
     }
 
-    /// Writes a drawing as it is on screen on a koma: see [`RowWriter::write`].
-    pub(crate) fn write(&mut self, drawing: usize, koma: usize, row: &mut [f64]) {
+    /// Writes a drawing as shown on a koma: see [`RowWriter::write`].
+    pub fn write(&mut self, drawing: usize, koma: usize, row: &mut [f64]) {
         let composite = self.composite;
         let sources = &composite.drawings[drawing];
         for ((taken, own), source) in self.layers.iter_mut().zip(sources) {
@@ -57,7 +57,7 @@ impl<'a> CompositeRows<'a> {
         self.hold_feet(drawing, row);
     }
 
-    /// Writes the legs of feet that are held anew; a leg that is not keeps its numbers.
+    /// Rewrites the legs of held feet. A leg that does not change keeps its numbers.
     fn hold_feet(&mut self, drawing: usize, row: &mut [f64]) {
         let Some((feet, pose)) = &mut self.feet else { return };
         let skeleton = self.composite.clip().skeleton();

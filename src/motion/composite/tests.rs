@@ -1,4 +1,4 @@
-//! Each joint is as its own layer's drawing has it, and a root on ones is where the source is.
+//! Tests that each joint follows its own layer's drawing, and that a root on ones follows the source.
 
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ fn kick() -> Clip {
     bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
 }
 
-/// A layer that shows some places, each with a role, for so many koma.
+/// Creates a layer that shows some places, each with a role and a number of koma.
 fn layer(name: &str, joints: &[&str], shown: &[(f64, Role, usize)]) -> Layer {
     let drawing = |(place, role, _): &(f64, Role, usize)| Drawing {
         source: Source::At(*place),
@@ -42,7 +42,7 @@ fn two_layers(clip: &Clip) -> Sheet {
 fn a_single_layer_is_itself() {
     let clip = kick();
     let sheet = Sheet::on_ones(clip.clock(24.0), 5);
-    let composite = Composite::of(&clip, &sheet).unwrap();
+    let composite = Composite::new(&clip, &sheet).unwrap();
     assert_eq!(composite.layer(), &sheet.layers[0]);
     assert_eq!(composite.first_koma(), [0, 1, 2, 3, 4]);
 }
@@ -51,7 +51,7 @@ fn a_single_layer_is_itself() {
 fn several_layers_have_a_drawing_wherever_one_of_them_has_a_new_one() {
     let clip = kick();
     let sheet = two_layers(&clip);
-    let composite = Composite::of(&clip, &sheet).unwrap();
+    let composite = Composite::new(&clip, &sheet).unwrap();
     let flat = composite.layer();
     let begins: Vec<usize> = flat.timed().map(|(begin, _)| begin).collect();
     assert_eq!(begins, [0, 2, 4, 8]);
@@ -78,10 +78,10 @@ fn what_no_layer_names_or_one_that_shows_nothing_is_of_the_first() {
     let clip = kick();
     let mut sheet = two_layers(&clip);
     sheet.layers[1].joints.clear();
-    assert_eq!(Composite::of(&clip, &sheet).unwrap().layer(), &sheet.layers[0]);
+    assert_eq!(Composite::new(&clip, &sheet).unwrap().layer(), &sheet.layers[0]);
     let mut sheet = two_layers(&clip);
     sheet.layers[1].exposures.clear();
-    assert_eq!(Composite::of(&clip, &sheet).unwrap().layer(), &sheet.layers[0]);
+    assert_eq!(Composite::new(&clip, &sheet).unwrap().layer(), &sheet.layers[0]);
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn a_joint_that_the_clip_has_not_is_said_with_the_nearest_name() {
     let clip = kick();
     let mut sheet = two_layers(&clip);
     sheet.layers[1].joints[0] = "LeftAmr".into();
-    let error = Composite::of(&clip, &sheet).unwrap_err().to_string();
+    let error = Composite::new(&clip, &sheet).unwrap_err().to_string();
     assert_eq!(error, "layer B: the clip has no joint LeftAmr; did you mean LeftArm?");
 }
 
@@ -101,7 +101,7 @@ fn the_joint_that_travels_is_the_first_whose_place_changes() {
     assert!(travellers(&still).is_empty());
     let mut sheet = Sheet::on_ones(still.clock(24.0), 3);
     sheet.root = RootMotion::Ones;
-    assert!(!Composite::of(&still, &sheet).unwrap().slides(), "nothing slides that never moves");
+    assert!(!Composite::new(&still, &sheet).unwrap().slides(), "nothing slides that never moves");
 }
 
 proptest! {
@@ -124,11 +124,11 @@ proptest! {
             sheet.layers.push(layer(&at.to_string(), &own, &shown));
         }
         sheet.root = if ones { RootMotion::Ones } else { RootMotion::Drawings };
-        let composite = Composite::of(&clip, &sheet).unwrap();
-        let mut rows = CompositeRows::of(&composite);
-        let mut posed = CompositePoser::of(&composite);
+        let composite = Composite::new(&clip, &sheet).unwrap();
+        let mut rows = CompositeRows::new(&composite);
+        let mut posed = CompositePoser::new(&composite);
         let (mut row, mut own) = (vec![0.0; clip.skeleton().channels()], vec![0.0; clip.skeleton().channels()]);
-        let (mut writer, mut own_pose) = (RowWriter::new(&clip), Poser::of(&clip));
+        let (mut writer, mut own_pose) = (RowWriter::new(&clip), Poser::new(&clip));
         for (koma, drawing) in composite.layer().koma().enumerate() {
             rows.write(drawing, koma, &mut row);
             let shown = posed.drawing(drawing, koma);

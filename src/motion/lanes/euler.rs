@@ -1,30 +1,30 @@
-//! Rotations about three different axes, one after the other, in closed form.
+//! Products of rotations about three different axes, in closed form.
 
 use super::{LaneQuat, LaneVec, Lanes};
 use crate::motion::Axis;
 
-/// Three different axes in the order their rotations are multiplied.
+/// Three different axes in the order in which their rotations are multiplied.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ThreeAxes {
+pub struct ThreeAxes {
     axes: [Axis; 3],
-    /// 1 where the axes follow each other as x, y, z do, −1 where they run the other way round.
+    /// 1 if the axes follow each other like x, y, z, −1 if in reverse order.
     sense: f64,
 }
 
 impl ThreeAxes {
-    /// None where an axis comes twice.
-    pub(crate) fn new(axes: [Axis; 3]) -> Option<Self> {
+    /// Returns `None` if an axis occurs twice.
+    pub fn new(axes: [Axis; 3]) -> Option<Self> {
         let [first, second, third] = axes.map(|axis| axis as usize);
         let different = first != second && second != third && third != first;
         let sense = if (first + 1) % 3 == second { 1.0 } else { -1.0 };
         different.then_some(Self { axes, sense })
     }
 
-    /// The product of three rotations, given by sine and cosine of half of each angle: in a basis of
-    /// the three axes as they are listed, the third turned round where they run the other way. Angles
-    /// between rotations are the same in any basis, and this one costs nothing to make.
+    /// Computes the product of three rotations, given by the sine and cosine of half of each angle. The result is in
+    /// the basis of the three axes as listed, with the third reversed if `sense` is −1. Angles between rotations are
+    /// the same in any basis, and this one costs nothing to make.
     #[inline(always)]
-    pub(crate) fn product(self, halves: [(Lanes, Lanes); 3]) -> LaneQuat {
+    pub fn product(self, halves: [(Lanes, Lanes); 3]) -> LaneQuat {
         let [(sin_a, cos_a), (sin_b, cos_b), (sin_c, cos_c)] = halves;
         let sin_c = sin_c * Lanes::splat(self.sense);
         let (neither, first) = (cos_a * cos_b, sin_a * cos_b);
@@ -37,9 +37,9 @@ impl ThreeAxes {
         LaneQuat { v, w: neither * cos_c - both * sin_c }
     }
 
-    /// The same product in the basis that the joint has.
+    /// Computes the product in the joint's own basis.
     #[inline(always)]
-    pub(crate) fn rotation(self, halves: [(Lanes, Lanes); 3]) -> LaneQuat {
+    pub fn rotation(self, halves: [(Lanes, Lanes); 3]) -> LaneQuat {
         let LaneQuat { v, w } = self.product(halves);
         let [first, second, third] = self.axes;
         let mut turned = LaneVec::default();

@@ -1,4 +1,4 @@
-//! Quaternions and vectors, one a lane.
+//! Quaternions and vectors, one per lane.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -7,27 +7,27 @@ use glam::{DQuat, DVec3};
 use super::{LANES, Lanes};
 use crate::motion::Axis;
 
-/// A vector a lane.
+/// One vector per lane.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct LaneVec {
-    pub(crate) x: Lanes,
-    pub(crate) y: Lanes,
-    pub(crate) z: Lanes,
+pub struct LaneVec {
+    pub x: Lanes,
+    pub y: Lanes,
+    pub z: Lanes,
 }
 
 impl LaneVec {
     #[inline(always)]
-    pub(crate) fn splat(vec: DVec3) -> Self {
+    pub fn splat(vec: DVec3) -> Self {
         Self { x: Lanes::splat(vec.x), y: Lanes::splat(vec.y), z: Lanes::splat(vec.z) }
     }
 
     #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize) -> DVec3 {
+    pub fn lane(&self, lane: usize) -> DVec3 {
         DVec3::new(self.x.0[lane], self.y.0[lane], self.z.0[lane])
     }
 
     #[inline(always)]
-    pub(crate) fn axis_mut(&mut self, axis: Axis) -> &mut Lanes {
+    pub fn axis_mut(&mut self, axis: Axis) -> &mut Lanes {
         match axis {
             Axis::X => &mut self.x,
             Axis::Y => &mut self.y,
@@ -36,12 +36,12 @@ impl LaneVec {
     }
 
     #[inline(always)]
-    pub(crate) fn with(self, other: Self, of: impl Fn(Lanes, Lanes) -> Lanes) -> Self {
+    pub fn with(self, other: Self, of: impl Fn(Lanes, Lanes) -> Lanes) -> Self {
         Self { x: of(self.x, other.x), y: of(self.y, other.y), z: of(self.z, other.z) }
     }
 
     #[inline(always)]
-    pub(crate) fn dot(self, other: Self) -> Lanes {
+    pub fn dot(self, other: Self) -> Lanes {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
@@ -54,9 +54,9 @@ impl LaneVec {
         }
     }
 
-    /// Each lane by itself.
+    /// Applies a function to each lane.
     #[inline(always)]
-    pub(crate) fn map(self, of: impl Fn(DVec3) -> DVec3) -> Self {
+    pub fn map(self, of: impl Fn(DVec3) -> DVec3) -> Self {
         let mut mapped = self;
         for lane in 0..LANES {
             let vec = of(self.lane(lane));
@@ -65,15 +65,15 @@ impl LaneVec {
         mapped
     }
 
-    /// `share` of the way from one to the other, and not even a digit off where both are the same.
+    /// Interpolates by `share`. If both ends are equal, the result is exactly that value.
     #[inline(always)]
-    pub(crate) fn lerp(self, to: Self, share: Lanes) -> Self {
+    pub fn lerp(self, to: Self, share: Lanes) -> Self {
         self + (to - self) * share
     }
 
-    /// Each lane takes what the one before it holds, the first takes `first`.
+    /// Shifts the values by one lane towards the end and puts `first` into the first lane.
     #[inline(always)]
-    pub(crate) fn shifted(self, first: DVec3) -> Self {
+    pub fn shifted(self, first: DVec3) -> Self {
         Self { x: self.x.shifted(first.x), y: self.y.shifted(first.y), z: self.z.shifted(first.z) }
     }
 }
@@ -105,15 +105,15 @@ impl Mul<Lanes> for LaneVec {
     }
 }
 
-/// A quaternion a lane: vector part `v`, scalar part `w`.
+/// One quaternion per lane: vector part `v`, scalar part `w`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LaneQuat {
-    pub(crate) v: LaneVec,
-    pub(crate) w: Lanes,
+pub struct LaneQuat {
+    pub v: LaneVec,
+    pub w: Lanes,
 }
 
 impl Default for LaneQuat {
-    /// No rotation.
+    /// The identity rotation.
     fn default() -> Self {
         Self { v: LaneVec::default(), w: Lanes::ONE }
     }
@@ -121,27 +121,27 @@ impl Default for LaneQuat {
 
 impl LaneQuat {
     #[inline(always)]
-    pub(crate) fn splat(q: DQuat) -> Self {
+    pub fn splat(q: DQuat) -> Self {
         Self { v: LaneVec::splat(q.xyz()), w: Lanes::splat(q.w) }
     }
 
     #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize) -> DQuat {
+    pub fn lane(&self, lane: usize) -> DQuat {
         let v = self.v.lane(lane);
         DQuat::from_xyzw(v.x, v.y, v.z, self.w.0[lane])
     }
 
     #[inline(always)]
-    pub(crate) fn set_lane(&mut self, lane: usize, q: DQuat) {
+    pub fn set_lane(&mut self, lane: usize, q: DQuat) {
         self.v.x.0[lane] = q.x;
         self.v.y.0[lane] = q.y;
         self.v.z.0[lane] = q.z;
         self.w.0[lane] = q.w;
     }
 
-    /// This rotation times one about an axis: half the products of a whole multiplication.
+    /// Multiplies this rotation by one about an axis, with half the products of a full multiplication.
     #[inline(always)]
-    pub(crate) fn turned(self, axis: Axis, (sin, cos): (Lanes, Lanes)) -> Self {
+    pub fn turned(self, axis: Axis, (sin, cos): (Lanes, Lanes)) -> Self {
         let Self { v: LaneVec { x, y, z }, w } = self;
         let (x_cos, y_cos, z_cos, w_cos) = (x * cos, y * cos, z * cos, w * cos);
         let (x_sin, y_sin, z_sin, w_sin) = (x * sin, y * sin, z * sin, w * sin);
@@ -153,19 +153,19 @@ impl LaneQuat {
         Self { v: LaneVec { x, y, z }, w }
     }
 
-    /// The angle of the rotation between two in radians, 0 to π, the same for q and −q.
+    /// Returns the angle between two rotations in radians, 0 to π, the same for q and −q.
     ///
-    /// On the sphere of unit quaternions the nearer of ±`to` is half that angle away. A step from frame
-    /// to frame is short, and half of its chord is the sine of half of that.
+    /// On the sphere of unit quaternions, the nearer of ±`to` is half that angle away. Steps from frame to frame are
+    /// short, and half of the chord is the sine of a quarter of the angle.
     #[inline(always)]
-    pub(crate) fn angle_to(self, to: Self) -> Lanes {
+    pub fn angle_to(self, to: Self) -> Lanes {
         let chord = (to - self).squared();
         let short = chord.short_arc();
         if chord.all_short() { short } else { self.far_angle_to(to, chord, short) }
     }
 
-    /// By Kahan: the tangent of half of a half is |a − b| / |a + b|, exact for tiny angles and for large
-    /// ones.
+    /// Kahan's formula: the tangent of a quarter of the angle is |a − b| / |a + b|, precise for tiny and for large
+    /// angles.
     #[inline(always)]
     fn far_angle_to(self, to: Self, chord: Lanes, short: Lanes) -> Lanes {
         let sum = (to + self).squared();
@@ -174,21 +174,21 @@ impl LaneQuat {
         (tangent.atan() * Lanes::splat(4.0)).where_long(chord, short)
     }
 
-    /// The way from one rotation to another as a vector: the axis, in the axes that both are given in, times the
-    /// angle of the short way in radians.
+    /// Returns the rotation from one to another as a vector: the axis, in the common reference axes, times the angle
+    /// of the shorter arc in radians.
     #[inline(always)]
-    pub(crate) fn way_to(self, to: Self) -> LaneVec {
+    pub fn way_to(self, to: Self) -> LaneVec {
         let turn = to * self.conjugate();
         let sine = turn.v.dot(turn.v).sqrt();
         let sign = turn.w.map(|w| 1f64.copysign(w));
-        // Of a way so short the angle is twice the sine of its half.
+        // For an angle this short, it equals twice the sine of its half.
         let stretch = |angle: f64, sine: f64| if sine > 0.0 { angle / sine } else { 2.0 };
         turn.v * (self.angle_to(to).with(sine, stretch) * sign)
     }
 
-    /// The rotation back.
+    /// Returns the inverse rotation.
     #[inline(always)]
-    pub(crate) fn conjugate(self) -> Self {
+    pub fn conjugate(self) -> Self {
         Self { v: self.v * Lanes::splat(-1.0), w: self.w }
     }
 
@@ -197,12 +197,13 @@ impl LaneQuat {
         (self.v.x * self.v.x + self.v.y * self.v.y) + (self.v.z * self.v.z + self.w * self.w)
     }
 
-    /// `share` of the short way to `to` (slerp); between equals there is no way.
+    /// Moves `share` of the shorter arc to `to` (slerp). Equal rotations stay exactly the same.
     #[inline(always)]
-    pub(crate) fn slerp(self, to: Self, share: Lanes) -> Self {
+    pub fn slerp(self, to: Self, share: Lanes) -> Self {
         let arc = Arc::between(self, to);
         let moved = arc.along(share);
-        // Where nothing is gone, not even a digit: from the middle, rounding would show.
+        // A lane that does not move keeps every digit: computed from the middle of the arc, it would show rounding
+        // errors.
         let stays = arc.degrees * share;
         let pick = |moved: Lanes, here: Lanes| {
             Lanes::from_fn(|lane| if stays.0[lane] == 0.0 { here.0[lane] } else { moved.0[lane] })
@@ -211,20 +212,20 @@ impl LaneQuat {
     }
 
     #[inline(always)]
-    pub(crate) fn scaled(self, by: Lanes) -> Self {
+    pub fn scaled(self, by: Lanes) -> Self {
         Self { v: self.v * by, w: self.w * by }
     }
 
-    /// A vector turned by this rotation.
+    /// Rotates a vector.
     #[inline(always)]
-    pub(crate) fn rotate(self, vec: LaneVec) -> LaneVec {
+    pub fn rotate(self, vec: LaneVec) -> LaneVec {
         let twice = self.v.cross(vec) * Lanes::splat(2.0);
         vec + twice * self.w + self.v.cross(twice)
     }
 
-    /// Each lane takes what the one before it holds, the first takes `first`.
+    /// Shifts the values by one lane towards the end and puts `first` into the first lane.
     #[inline(always)]
-    pub(crate) fn shifted(self, first: DQuat) -> Self {
+    pub fn shifted(self, first: DQuat) -> Self {
         Self { v: self.v.shifted(first.xyz()), w: self.w.shifted(first.w) }
     }
 }
@@ -259,28 +260,28 @@ impl Mul for LaneQuat {
     }
 }
 
-/// The short way from one rotation to another, seen from its middle: there both ends are at most a
-/// quarter turn away, and their sum and their difference say all.
+/// The shorter arc between two rotations, described from its middle. Both ends are at most a quarter turn from there,
+/// and their sum and difference determine the arc.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Arc {
-    pub(crate) middle: LaneQuat,
-    /// A quarter turn of the four-dimensional circle further on; 0 where there is no way to go.
-    pub(crate) across: LaneQuat,
-    /// The whole way in degrees, 0 to 180.
-    pub(crate) degrees: Lanes,
+pub struct Arc {
+    pub middle: LaneQuat,
+    /// Point a quarter turn of the four-dimensional circle further on; 0 for an arc of length 0.
+    pub across: LaneQuat,
+    /// Angle of the whole arc in degrees, 0 to 180.
+    pub degrees: Lanes,
 }
 
 impl Arc {
     #[inline(always)]
-    pub(crate) fn between(from: LaneQuat, to: LaneQuat) -> Self {
-        // The nearer of ±`to`.
+    pub fn between(from: LaneQuat, to: LaneQuat) -> Self {
+        // Picks the nearer of ±`to`.
         let cos = from.v.dot(to.v) + from.w * to.w;
         let to = to.scaled(cos.map(|cos| 1f64.copysign(cos)));
         let (sum, difference) = (from + to, to - from);
         let (run, rise) = (sum.squared().sqrt(), difference.squared().sqrt());
         let per_run = run.map(|run| 1.0 / run);
         let per_rise = rise.map(|rise| if rise > 0.0 { 1.0 / rise } else { 0.0 });
-        // The tangent of a quarter of the angle: flat up to 94°, where that of the half ends at 47°.
+        // The tangent of a quarter of the angle is flat up to 94°; that of half the angle would be only up to 47°.
         let quarter = (rise * per_run).atan();
         Self {
             middle: sum.scaled(per_run),
@@ -289,9 +290,9 @@ impl Arc {
         }
     }
 
-    /// The rotations some shares of the way along.
+    /// Returns the rotations at some shares of the arc.
     #[inline(always)]
-    pub(crate) fn along(&self, share: Lanes) -> LaneQuat {
+    pub fn along(&self, share: Lanes) -> LaneQuat {
         let (sin, cos) = (self.degrees * (share - Lanes::splat(0.5))).near_half_sin_cos();
         self.middle.scaled(cos) + self.across.scaled(sin)
     }
@@ -339,7 +340,7 @@ mod tests {
         fn a_slerp_goes_evenly_on_the_short_way(a in unit(), b in unit(), share in 0.0..1.0) {
             let found = LaneQuat::splat(a).slerp(LaneQuat::splat(b), Lanes::splat(share)).lane(1);
             let expected = a.slerp(b, share);
-            // glam measures the way by an arc cosine, which knows half the digits of a small angle.
+            // glam measures the arc by an arc cosine, which loses half the digits of a small angle.
             prop_assert!(found.dot(expected).abs() > 1.0 - 1e-13, "{found} {expected}");
             let same = LaneQuat::splat(a).slerp(LaneQuat::splat(a), Lanes::splat(share)).lane(0);
             prop_assert_eq!(same, a, "between equals nothing moves");
@@ -357,7 +358,7 @@ mod tests {
                 let way = a.conjugate() * to;
                 let expected = 2.0 * way.xyz().length().atan2(way.w.abs());
                 let found = LaneQuat::splat(a).angle_to(LaneQuat::splat(to)).0[1];
-                // Both are as exact as the digits of the quaternions let them.
+                // Both are as precise as the digits of the quaternions allow.
                 let near = 8.0 * f64::EPSILON * expected + 2e-15;
                 prop_assert!((found - expected).abs() < near, "{found} {expected}");
             }

@@ -1,18 +1,17 @@
-//! Sines, cosines and arc tangents of all lanes at once, without a branch a lane.
+//! Sines, cosines and arc tangents of all lanes at once, without a branch per lane.
 
 use std::f64::consts::PI;
 
 use super::{LANES, Lanes};
 use crate::maths;
 
-/// Added to a number below 2⁵¹ it rounds it to a whole one, which then stands in the lowest bits.
+/// Adding this to a number below 2⁵¹ rounds it to an integer, which is then in the lowest bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Degrees beyond which whole turns are taken off first: below, 180 · k is exact.
+/// Angle in degrees beyond which whole turns are removed first: below it, 180 · k is exact.
 const FAR: f64 = 1e15;
 
-/// The coefficients of fdlibm (Sun, 1993) for |x| ≤ π/4: (sin x − x)/x³ in powers of x², within 2⁻⁵⁸
-/// of x.
+/// Coefficients of fdlibm (Sun, 1993) for |x| ≤ π/4: (sin x − x)/x³ in powers of x², within 2⁻⁵⁸ of x.
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
 const SINE: [f64; 6] = [
     -1.66666666666666324348e-01,
@@ -23,7 +22,7 @@ const SINE: [f64; 6] = [
     1.58969099521155010221e-10,
 ];
 
-/// The same for the arc tangent, (x − atan x)/x³ for |x| ≤ 7/16: the even powers of x², and the odd.
+/// Coefficients of fdlibm for the arc tangent, (x − atan x)/x³ for |x| ≤ 7/16, split into even and odd powers of x².
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
 const ARC_TANGENT_EVEN: [f64; 6] = [
     3.33333333333329318027e-01,
@@ -42,8 +41,8 @@ const ARC_TANGENT_ODD: [f64; 5] = [
     -3.65315727442169155270e-02,
 ];
 
-/// The arc sine of half a chord, twice, over the chord: powers of the chord squared after the first, 1.
-/// Further ones are below 2⁻⁵⁵ where chords are short.
+/// Coefficients of 2 · asin(c/2)/c in powers of c², after the leading 1, for a chord c. Further terms are below 2⁻⁵⁵
+/// for short chords.
 const SHORT_ARC: [f64; 6] = [
     1.0 / 24.0,
     3.0 / 640.0,
@@ -53,19 +52,19 @@ const SHORT_ARC: [f64; 6] = [
     231.0 / 54_525_952.0,
 ];
 
-/// The largest chord, squared, of which that holds: a rotation by 20°.
+/// Largest square of a chord for which [`SHORT_ARC`] holds: a rotation by 20°.
 const SHORT: f64 = 0.03;
 
-/// The largest ratio that the polynomial takes.
+/// Largest ratio for which the arc tangent's polynomial holds.
 const STEEP: f64 = 7.0 / 16.0;
 
 impl Lanes {
-    /// Sine and cosine of *half* of each angle in degrees, which is what quaternions are made of.
+    /// Returns sine and cosine of *half* of each angle in degrees, the components of quaternions.
     ///
-    /// Half turns come off in degrees, where they are whole numbers: what is left is exact, at any
-    /// angle, and only then becomes radians. Sine and cosine are within 2⁻⁵² of the true ones.
+    /// Half turns are removed in degrees, where they are integers: the remainder is exact for any angle, and only
+    /// then converted to radians. Sine and cosine are within 2⁻⁵² of the true values.
     #[inline(always)]
-    pub(crate) fn half_sin_cos(self) -> (Self, Self) {
+    pub fn half_sin_cos(self) -> (Self, Self) {
         let near = self.0.iter().fold(true, |near, degrees| near & (degrees.abs() < FAR));
         let degrees = if near { self } else { self.without_whole_turns() };
         let rounded = degrees * Self::splat(1.0 / 180.0) + Self::splat(ROUNDER);
@@ -73,7 +72,7 @@ impl Lanes {
         let rest = degrees - half_turns * Self::splat(180.0);
         let (sin, cos) = rest.near_half_sin_cos();
         let bits: [u64; LANES] = std::array::from_fn(|lane| rounded.0[lane].to_bits());
-        // Quarter after quarter: sin, cos, −sin, −cos; the cosine is a quarter ahead.
+        // The quarters of a turn give sin, cos, −sin, −cos; the cosine is a quarter ahead.
         let pick = |lane: usize, even: f64, odd: f64, quarter: u64| {
             let swap = (bits[lane] & 1).wrapping_neg();
             let picked = (even.to_bits() & !swap) | (odd.to_bits() & swap);
@@ -85,12 +84,12 @@ impl Lanes {
         )
     }
 
-    /// The same, to the last digit, for angles within a quarter turn.
+    /// Returns the same bits as [`half_sin_cos`](Self::half_sin_cos), for angles within a quarter turn.
     ///
-    /// The cosine comes from the sine: up to half a quarter turn that loses nothing, and a root is done
-    /// while other lanes are multiplied.
+    /// The cosine is computed from the sine. For half angles up to 45° this loses no precision, and the square root
+    /// overlaps with the multiplications of other lanes.
     #[inline(always)]
-    pub(crate) fn near_half_sin_cos(self) -> (Self, Self) {
+    pub fn near_half_sin_cos(self) -> (Self, Self) {
         let x = self * Self::splat(PI / 360.0);
         let square = x * x;
         let sin = x + x * square * horner(&SINE, square);
@@ -99,7 +98,7 @@ impl Lanes {
 
     /// Whether all angles in degrees are within a quarter turn.
     #[inline(always)]
-    pub(crate) fn all_near(self) -> bool {
+    pub fn all_near(self) -> bool {
         self.0.iter().fold(true, |near, degrees| near & (degrees.abs() < 90.0))
     }
 
@@ -108,34 +107,33 @@ impl Lanes {
         self.map(|degrees| degrees % 720.0)
     }
 
-    /// The arc tangent of ratios of at least 0, to within two units in the last place.
+    /// Computes the arc tangent of ratios ≥ 0, within two units in the last place.
     #[inline(always)]
-    pub(crate) fn atan(self) -> Self {
+    pub fn atan(self) -> Self {
         let flat = self.flat_atan();
         if self.all_flat() { flat } else { self.steep_atan(flat) }
     }
 
-    // Ratios are steep where half of a half angle passes 23°: rare.
+    // A ratio is steep if a quarter of the rotation's angle exceeds 23°, which is rare.
     #[cold]
     fn steep_atan(self, flat: Self) -> Self {
         self.with(flat, |ratio, flat| if ratio <= STEEP { flat } else { maths::atan(ratio) })
     }
 
-    /// The angle of a rotation in radians from its chord between unit quaternions, which is given
-    /// squared and is short.
+    /// Computes the angle of a rotation in radians, given the square of a short chord between unit quaternions.
     #[inline(always)]
     pub(super) fn short_arc(self) -> Self {
         let chord = self.sqrt() * Self::splat(2.0);
         chord + chord * self * horner(&SHORT_ARC, self)
     }
 
-    /// Whether all are chords, squared, that are short.
+    /// Whether all values are squares of short chords.
     #[inline(always)]
     pub(super) fn all_short(self) -> bool {
         self.0.iter().fold(true, |short, chord| short & (*chord <= SHORT))
     }
 
-    /// These numbers, but `short` where the chord is.
+    /// Returns these numbers, or `short` in lanes with a short chord.
     #[inline(always)]
     pub(super) fn where_long(self, chord: Self, short: Self) -> Self {
         Self::from_fn(|lane| if chord.0[lane] <= SHORT { short.0[lane] } else { self.0[lane] })
@@ -146,18 +144,18 @@ impl Lanes {
         self.0.iter().fold(true, |flat, ratio| flat & (*ratio <= STEEP))
     }
 
-    /// The arc tangent of ratios from 0 to 7/16.
+    /// Computes the arc tangent of ratios from 0 to 7/16.
     #[inline(always)]
     fn flat_atan(self) -> Self {
         let square = self * self;
         let fourth = square * square;
-        // Two short chains of products instead of a long one: each step waits for the last.
+        // Two short chains of products are faster than a long one, in which each step waits for the last.
         let sum = horner(&ARC_TANGENT_EVEN, fourth) + square * horner(&ARC_TANGENT_ODD, fourth);
         self - self * square * sum
     }
 }
 
-/// Horner's rule, the constant first.
+/// Evaluates a polynomial by Horner's rule, the constant coefficient first.
 #[inline(always)]
 fn horner<const TERMS: usize>(coefficients: &[f64; TERMS], x: Lanes) -> Lanes {
     let mut sum = Lanes::splat(coefficients[TERMS - 1]);
@@ -173,7 +171,7 @@ mod tests {
 
     use super::*;
 
-    /// One lane at a time by the standard library, half turns taken off exactly.
+    /// Computes one lane with the standard library, after exact removal of half turns.
     fn slow(degrees: f64) -> (f64, f64) {
         let degrees = degrees % 720.0;
         let half_turns = (degrees / 180.0).round();

@@ -1,4 +1,4 @@
-//! The camera (カメラ): the side from which figures are seen.
+//! The camera (カメラ): the side from which a body is drawn.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,33 +11,32 @@ use crate::knob::{Kind, Setting, as_word};
 use crate::motion::seen::view::View;
 use crate::motion::{BodySide, Build, Clip, Members, Skeleton};
 
-/// From where a picture looks (カメラ): level, without perspective, standing still.
+/// Viewing direction of a picture (カメラ): level, orthographic and fixed.
 ///
-/// Front is where the body faces in the first pose, by its hips. A rig that names no sides faces as files
-/// usually do: along Z, or along −Y where Z is up.
+/// Front is where the body faces in the first pose, judged by its hips. A rig whose names tell no sides is assumed to
+/// face as most files do: along Z, or along −Y if Z is up.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Camera {
-    /// 正面: the face looks at us; the body's left is to the right.
+    /// 正面: faces the viewer; the body's left is on the right.
     Front,
-    /// 側面: the face looks to the right.
+    /// 側面: faces right.
     Side,
-    /// 斜め: half-way between the two.
+    /// 斜め: halfway between front and side.
     ThreeQuarter,
-    /// The side from which most of the movement is seen; a way that is gone leads to the right. The
-    /// default.
+    /// The side that shows most of the movement; the body travels to the right. The default.
     #[default]
     Auto,
 }
 
 impl Camera {
-    /// All of them.
+    /// All cameras.
     pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::ThreeQuarter, Self::Auto];
 
     const WORDS: [&'static str; 4] =
         [Self::Front.word(), Self::Side.word(), Self::ThreeQuarter.word(), Self::Auto.word()];
 
-    /// The word used on the command line and in files.
+    /// Returns the word used on the command line and in files.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -47,9 +46,9 @@ impl Camera {
         }
     }
 
-    /// The view of some poses of a clip, each the positions of its joints and then of its tips.
-    pub(crate) fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
-        let Build { members, stature, .. } = Build::of(clip);
+    /// Returns the view of some poses of a clip. Each pose lists the positions of its joints and then of its tips.
+    pub fn view(self, clip: &Clip, poses: &[Vec<DVec3>]) -> View {
+        let Build { members, stature, .. } = Build::new(clip);
         let first = poses.first().map_or(&[][..], Vec::as_slice);
         let up = stature.up.unit();
         let front = facing(&members, first, up);
@@ -59,13 +58,13 @@ impl Camera {
             Self::Front => View::from(up, front),
             Self::Side => View::from(up, side),
             Self::ThreeQuarter => View::from(up, (front + side).normalize()),
-            Self::Auto if members.are_all() => View::of(up, poses),
-            Self::Auto => View::of(up, &own(&members, clip.skeleton(), poses)),
+            Self::Auto if members.are_all() => View::new(up, poses),
+            Self::Auto => View::new(up, &own(&members, clip.skeleton(), poses)),
         }
     }
 }
 
-/// The places of the body alone, its root first.
+/// Returns the positions of the body alone, its root first.
 fn own(members: &Members, skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
     let root = members.root();
     let of: Vec<usize> = skeleton.owners().collect();
@@ -77,15 +76,15 @@ fn own(members: &Members, skeleton: &Skeleton, poses: &[Vec<DVec3>]) -> Vec<Vec<
     poses.iter().map(pose).collect()
 }
 
-/// Where a body faces, level and of length 1.
+/// Returns the direction that a body faces, level and of length 1.
 fn facing(members: &Members, pose: &[DVec3], up: DVec3) -> DVec3 {
     let of = |side| {
         let joints = members.skeleton().joints.iter().enumerate();
         let own = joints.filter(|(joint, _)| members.has(*joint));
-        own.filter(move |(_, data)| BodySide::of(&data.name) == side).map(|(joint, _)| joint)
+        own.filter(move |(_, data)| BodySide::from_name(&data.name) == side).map(|(joint, _)| joint)
     };
-    // Both sides list their joints in one order, hips or shoulders first. Some rigs begin them with
-    // joints in the middle of the body, which say nothing.
+    // Both sides list their joints in one order, hips or shoulders first. Some rigs begin with joints on the body's
+    // midline, which give no direction; these are skipped.
     let across = of(BodySide::Left).zip(of(BodySide::Right)).find_map(|(left, right)| {
         let across = *pose.get(left)? - *pose.get(right)?;
         let level = across - up * across.dot(up);
@@ -131,8 +130,8 @@ mod tests {
         ["Bip01", "Bip01 Pelvis", "Bip01 L Thigh", "Bip01 Spine", "Bip01 R Thigh", "Bip01 Head"];
     const NAMELESS: [&str; 6] = ["bone"; 6];
 
-    /// Hips with two legs, the left one `left` away, and a head `up` above them, turned about X by some
-    /// degrees in its one frame.
+    /// Hips with two legs, the left one `left` away, and a head `up` above them, turned about X by some degrees in
+    /// the only frame.
     fn body(names: [&str; 6], left: DVec3, up: DVec3, degrees: f64) -> (Clip, Vec<Vec<DVec3>>) {
         let pose = [DVec3::ZERO, DVec3::ZERO, left, DVec3::ZERO, -left, up];
         let joint = |at: usize| Joint {

@@ -1,7 +1,7 @@
-//! The screen (画面): from where movement is measured.
+//! The screen (画面): the space in which movement is measured.
 //!
-//! In the world, as both papers do; or as a camera sees it: on its screen a hand that comes straight towards us hardly
-//! moves, and what is near moves more than what is far [KKMFT §5].
+//! Either the world, as in both papers, or a camera's screen. On a screen, a hand that comes straight towards the
+//! camera hardly moves, and near things move more than far ones [KKMFT §5].
 
 use std::fmt;
 use std::str::FromStr;
@@ -14,43 +14,43 @@ use crate::motion::seen::view::View;
 use crate::motion::{Body, Camera, Clip, Poser, Stature};
 use crate::time::Frame;
 
-/// Frames that are looked at for the side of a [`Camera`]: enough to know where the body goes.
+/// Number of frames sampled to choose the side of a [`Camera`]: enough to know where the body goes.
 const LOOKS: usize = 200;
 
-/// What is nearer to an eye than this share of the way to its target, or behind it, is seen as if it were so far:
-/// nearer still, a hair would fill the screen.
+/// Smallest depth, as a share of the distance from eye to target. Points that are nearer or behind the eye are
+/// projected at this depth: otherwise a hair before the lens would fill the screen.
 const NEAREST: f64 = 0.05;
 
-/// From where movement is measured (見る位置).
+/// Viewpoint from which movement is measured (見る位置).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum SeenFrom {
-    /// From nowhere: ways are those through the world [KKMFT §3.1]. The default.
+    /// No viewpoint: distances are measured in the world [KKMFT §3.1]. The default.
     #[default]
     World,
-    /// From one of the sides that pictures have, without perspective.
+    /// One of the orthographic cameras of the pictures.
     Camera(Camera),
-    /// From a place, with perspective.
+    /// A camera position, with perspective.
     Eye(Eye),
 }
 
-/// A camera that stands still somewhere and looks at something, both in the file's unit.
+/// A fixed perspective camera, in the file's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Eye {
-    /// Where it stands.
+    /// Position of the camera.
     pub at: DVec3,
-    /// What it looks at, somewhere else: what moves there moves as far on the screen as in the world.
+    /// Point it looks at, distinct from `at`. At its distance, movements are as large on the screen as in the world.
     pub target: DVec3,
 }
 
 impl Eye {
-    /// Whether it can see: both places are numbers, and not the same.
+    /// Whether the camera can see: both points are finite and distinct.
     pub fn is_eye(&self) -> bool {
         let way = self.target - self.at;
         way.is_finite() && way.length_squared() > 0.0 && way.length_squared().is_finite()
     }
 }
 
-/// What a camera makes of places.
+/// Projection of a camera, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Screen(Sight);
 
@@ -62,18 +62,18 @@ enum Sight {
 }
 
 impl Screen {
-    /// No screen: places are where they are.
+    /// The identity: positions stay in the world.
     pub const WORLD: Self = Self(Sight::World);
 
-    /// The screen of a camera that looks at a clip.
-    pub fn of(seen_from: SeenFrom, clip: &Clip) -> Self {
+    /// Computes the screen of a camera that looks at a clip.
+    pub fn new(seen_from: SeenFrom, clip: &Clip) -> Self {
         Self(match seen_from {
             SeenFrom::World => Sight::World,
             SeenFrom::Camera(camera) => Sight::Far(camera.view(clip, &looks(clip))),
             SeenFrom::Eye(eye) => {
-                let (way, up) = (eye.target - eye.at, Stature::of(clip).up.unit());
+                let (way, up) = (eye.target - eye.at, Stature::new(clip).up.unit());
                 let near = -way.normalize();
-                // Straight from above or below any side may be the right one: ways are as long.
+                // Straight from above or below any side will do: distances on the screen are equal.
                 let right = up.cross(near).try_normalize().unwrap_or(near.any_orthonormal_vector());
                 let view = View { right, up: near.cross(right), near };
                 Sight::Near { eye, view, distance: way.length() }
@@ -81,8 +81,8 @@ impl Screen {
         })
     }
 
-    /// Where a place of the world is seen: right and up on the screen and 0, in the file's unit. Without a screen it is
-    /// the place itself.
+    /// Projects a world position: (right, up, 0) on the screen, in the file's unit. Without a screen it returns the
+    /// position itself.
     pub fn see(&self, place: DVec3) -> DVec3 {
         match self.0 {
             Sight::World => place,
@@ -98,15 +98,15 @@ impl Screen {
         }
     }
 
-    /// Whether there is none.
+    /// Whether positions stay in the world.
     pub fn is_world(&self) -> bool {
         self.0 == Sight::World
     }
 }
 
-/// Where the joints stand in some frames of a clip, evenly spread.
-pub(in crate::motion) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
-    let (mut poser, mut body) = (Poser::of(clip), Body::new(clip.skeleton()));
+/// Returns the joint positions in some evenly spaced frames of a clip.
+pub fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
+    let (mut poser, mut body) = (Poser::new(clip), Body::new(clip.skeleton()));
     let step = clip.len().div_ceil(LOOKS).max(1);
     let stand = |row: usize| {
         body.place(poser.frame(Frame(clip.first().0 + row)));
@@ -116,13 +116,13 @@ pub(in crate::motion) fn looks(clip: &Clip) -> Vec<Vec<DVec3>> {
 }
 
 impl SeenFrom {
-    /// Whether there is a screen.
+    /// Whether movement is measured in the world.
     pub fn is_world(self) -> bool {
         self == Self::World
     }
 }
 
-/// That nothing is seen from there, and from where it is.
+/// Creates the error for an invalid viewpoint, naming the valid ones.
 fn nowhere(text: &str) -> Error {
     let message = format!(
         "\"{text}\" is nowhere to look from; it is world, {}, or where the camera stands and what it looks at, \
@@ -185,7 +185,7 @@ mod tests {
     use crate::motion::{Axis, Channel, Joint, Skeleton};
     use crate::time::FrameRate;
 
-    /// A point that goes along X.
+    /// A clip of one point that moves along X.
     fn clip() -> Clip {
         let joint = Joint {
             name: "point".into(),
@@ -201,7 +201,7 @@ mod tests {
     }
 
     fn screen(text: &str) -> Screen {
-        Screen::of(text.parse().unwrap(), &clip())
+        Screen::new(text.parse().unwrap(), &clip())
     }
 
     #[test]

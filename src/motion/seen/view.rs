@@ -1,28 +1,31 @@
-//! The view that shows most of a motion: from which side to look.
+//! Finds the side view that shows most of a motion.
 
 use glam::DVec3;
 
 use crate::maths;
 
-/// An orthographic view: what is right, up and near in the world.
+/// An orthographic view: its right, up and near directions in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct View {
-    pub(crate) right: DVec3,
-    pub(crate) up: DVec3,
-    pub(crate) near: DVec3,
+pub struct View {
+    /// Unit vector to the viewer's right.
+    pub right: DVec3,
+    /// Unit vector up.
+    pub up: DVec3,
+    /// Unit vector towards the viewer.
+    pub near: DVec3,
 }
 
-/// The share of the body's height that a way has to reach to be walked rather than swayed.
+/// Least travel of the root, as a share of the body's height, that counts as walking rather than swaying.
 const WALKED: f64 = 0.5;
 
 impl View {
-    /// The side view of some poses, each the positions of the same points, the root first.
+    /// Computes the side view of some poses. All list the positions of the same points, the root first.
     ///
-    /// To the right lies the horizontal direction of the largest movement: of the root where it goes
-    /// somewhere, otherwise of the joints about their means. A walk goes from left to right.
-    pub(crate) fn of(up: DVec3, poses: &[Vec<DVec3>]) -> Self {
+    /// The horizontal direction of largest movement becomes the right: that of the root if it travels, otherwise that
+    /// of the points about their means. A walk goes from left to right.
+    pub fn new(up: DVec3, poses: &[Vec<DVec3>]) -> Self {
         let first = poses.first().map_or(&[][..], Vec::as_slice);
-        // Both cross products turn from `right` over `up` to `near`.
+        // Both pairs satisfy `a` × `b` = `up`.
         let (a, b) = if up == DVec3::Z { (DVec3::X, DVec3::Y) } else { (DVec3::Z, DVec3::X) };
         let roots: Vec<DVec3> = poses.iter().filter_map(|pose| pose.first().copied()).collect();
         let flat = |point: &DVec3| (point.dot(a), point.dot(b));
@@ -41,18 +44,18 @@ impl View {
         Self { right, up, near: right.cross(up) }
     }
 
-    /// The view from a level direction.
-    pub(crate) fn from(up: DVec3, near: DVec3) -> Self {
+    /// Creates the view from a level direction.
+    pub fn from(up: DVec3, near: DVec3) -> Self {
         Self { right: up.cross(near), up, near }
     }
 
-    /// Right, up and near of a point.
-    pub(crate) fn see(&self, point: DVec3) -> (f64, f64, f64) {
+    /// Returns the right, up and near coordinates of a point.
+    pub fn see(&self, point: DVec3) -> (f64, f64, f64) {
         (point.dot(self.right), point.dot(self.up), point.dot(self.near))
     }
 
-    /// The leftmost and the rightmost of some points.
-    pub(crate) fn sides<'a>(&self, pose: impl IntoIterator<Item = &'a DVec3>) -> (f64, f64) {
+    /// Returns the leftmost and the rightmost coordinate of some points.
+    pub fn sides<'a>(&self, pose: impl IntoIterator<Item = &'a DVec3>) -> (f64, f64) {
         let start = (f64::INFINITY, f64::NEG_INFINITY);
         pose.into_iter().fold(start, |(low, high), point| {
             let x = self.see(*point).0;
@@ -61,14 +64,14 @@ impl View {
     }
 }
 
-/// The size of the box round some points.
-pub(crate) fn extent(points: &[DVec3]) -> DVec3 {
+/// Returns the size of the bounding box of some points.
+pub fn extent(points: &[DVec3]) -> DVec3 {
     let low = points.iter().copied().reduce(DVec3::min);
     let high = points.iter().copied().reduce(DVec3::max);
     low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
 }
 
-/// Every point of every pose against the root and against its own mean.
+/// Projects every point of every pose, relative to the root and to its own mean.
 fn about_means(poses: &[Vec<DVec3>], flat: impl Fn(&DVec3) -> (f64, f64)) -> Vec<(f64, f64)> {
     let points = poses.first().map_or(0, Vec::len);
     let against_root = |pose: &Vec<DVec3>, point: usize| pose[point] - pose[0];
@@ -81,12 +84,12 @@ fn about_means(poses: &[Vec<DVec3>], flat: impl Fn(&DVec3) -> (f64, f64)) -> Vec
     all
 }
 
-/// The points of one pose, as they stand.
+/// Projects the points of one pose as they are.
 fn about_mean(pose: &[DVec3], flat: impl Fn(&DVec3) -> (f64, f64)) -> Vec<(f64, f64)> {
     pose.iter().map(flat).collect()
 }
 
-/// The diagonal of the box round some flat points.
+/// Returns the diagonal of the bounding box of some flat points.
 fn spread(points: &[(f64, f64)]) -> f64 {
     let side = |of: fn(&(f64, f64)) -> f64| {
         let values = points.iter().map(of);
@@ -97,7 +100,7 @@ fn spread(points: &[(f64, f64)]) -> f64 {
     maths::hypot(side(|point| point.0), side(|point| point.1))
 }
 
-/// The direction in which flat points lie most apart, from the first axis towards the second.
+/// Computes the principal direction of flat points, as an angle from the first axis towards the second.
 fn principal_angle(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
     let sum = points.iter().fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));

@@ -1,4 +1,4 @@
-//! A correction changes its own neighbourhood and nothing else.
+//! A correction changes only its own neighbourhood.
 
 use proptest::prelude::*;
 
@@ -33,7 +33,7 @@ enum One {
 }
 
 impl One {
-    /// Puts it among the corrections; a move is of the key nearest to its frame.
+    /// Adds it to the corrections; a move applies to the key nearest to its frame.
     fn put(self, edits: &mut Edits, keys: &[usize]) {
         match self {
             Self::Pin(frame) => edits.pins.push(pin(frame)),
@@ -59,7 +59,7 @@ impl One {
         edits
     }
 
-    /// The frames that it is about: where a key is set, or none may be.
+    /// Returns the range of frames it concerns, where a key is set or none may be.
     fn about(self, keys: &[usize], koma: f64) -> (usize, usize) {
         let reach = (2.0 * koma).ceil() as usize;
         match self {
@@ -84,7 +84,8 @@ fn any_correction() -> impl Strategy<Value = One> {
     ]
 }
 
-/// The neighbourhood of some frames: from the key before to the key behind, both so far away that two have room.
+/// Returns the neighbourhood of some frames: from the key before to the key after, both far enough away to leave room
+/// for two.
 fn neighbourhood(keys: &[usize], (from, to): (usize, usize), apart: f64) -> (usize, usize) {
     let before = keys.iter().rev().find(|key| **key as f64 + apart <= from as f64);
     let after = keys.iter().find(|key| **key as f64 >= to as f64 + apart);
@@ -101,7 +102,7 @@ fn a_key_of_the_kick_is_forbidden_and_no_other_moves() {
         let corrected = keys(&mut engine, &recipe, &edits);
         let begin = at.checked_sub(1).map_or(0, |at| free[at]);
         let end = free.get(at + 1).copied().unwrap_or(usize::MAX);
-        // Two genga two koma apart give way together.
+        // Two genga that are two koma apart give way together.
         let is_outside =
             |key: &&usize| key.abs_diff(free[at]) > 3 && !(begin < **key && **key < end);
         let outside = |keys: &[usize]| keys.iter().filter(is_outside).copied().collect::<Vec<_>>();

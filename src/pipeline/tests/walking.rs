@@ -6,10 +6,10 @@ use super::*;
 use crate::keys::Layers;
 use crate::sheet::Reason;
 
-/// Frames of a step: 13 koma at 48 frames a second.
+/// Frames per step: 13 koma at 48 frames per second.
 const STEP: f64 = 26.0;
 
-/// How far a thigh swings, in degrees, and how far a shin is bent under it.
+/// Swing of a thigh and bend of the shin under it, in degrees.
 const SWING: (f64, f64) = (24.0, 55.0);
 
 const BODY: &str = "\
@@ -20,7 +20,7 @@ OFFSET 0 0 0
 CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
 ";
 
-/// A limb of three joints that turn, from its names, where it begins and how long its bones are.
+/// Writes a limb of three rotating joints: names, offset of the first, and bone.
 fn limb(text: &mut String, names: [&str; 3], at: [f64; 3], bone: [f64; 3]) {
     let mut offset = at;
     for name in names {
@@ -32,14 +32,14 @@ fn limb(text: &mut String, names: [&str; 3], at: [f64; 3], bone: [f64; 3]) {
     writeln!(text, "End Site\n{{\nOFFSET 0 -5 12\n}}\n}}\n}}\n}}").unwrap();
 }
 
-/// A thigh's and a shin's angle at a part of the cycle, which begins where the foot comes down.
+/// Returns the angles of thigh and shin at a phase of the cycle, which begins when the foot lands.
 fn leg(cycle: f64) -> [f64; 2] {
     let part = cycle.rem_euclid(1.0);
     let bent = (2.0 * std::f64::consts::PI * (part - 0.5)).sin().max(0.0);
     [-SWING.0 * (std::f64::consts::TAU * part).cos(), if part > 0.5 { SWING.1 * bent } else { 0.0 }]
 }
 
-/// Six steps.
+/// Builds a clip of six steps.
 pub(crate) fn clip() -> Clip {
     let mut text = String::from(BODY);
     limb(&mut text, ["LeftUpLeg", "LeftLeg", "LeftFoot"], [9.0, 0.0, 0.0], [0.0, -42.0, 0.0]);
@@ -72,7 +72,7 @@ pub(crate) fn clip() -> Clip {
     crate::motion::bvh::read(text.as_bytes()).unwrap().clip
 }
 
-/// For how long each genga of a step stays, up to the next.
+/// Returns how many koma each genga of a step stays, up to the next.
 fn steps(engine: &mut Engine, settings: &[(&str, &str)]) -> Vec<usize> {
     let mut recipe = Recipe::default();
     settings.iter().for_each(|(name, value)| recipe.set(name, value).unwrap());

@@ -1,6 +1,6 @@
 //! The discrete Fourier transform of any length, the same on every processor.
 //!
-//! A product of all numbers with a chirp makes it a convolution (Bluestein 1970), and that one is done by transforms whose
+//! Multiplying all numbers by a chirp makes it a convolution (Bluestein 1970). The convolution uses transforms whose
 //! length is a power of two: `Real` knows their cosines.
 
 use std::f64::consts::PI;
@@ -9,10 +9,10 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 
-use super::real::Real;
+use super::portable_float::Real;
 use crate::maths;
 
-/// The transform of some numbers of fixed length.
+/// A Fourier transform of a fixed length.
 #[derive(Clone)]
 pub(super) struct Fourier {
     /// exp(−iπn²/N).
@@ -23,26 +23,26 @@ pub(super) struct Fourier {
     back: Arc<dyn Fft<Real>>,
 }
 
-/// What a transform needs beside its numbers.
+/// The buffers of a transform.
 pub(super) struct Room {
     padded: Vec<Complex<Real>>,
     scratch: Vec<Complex<Real>>,
 }
 
-/// exp(iα).
+/// Returns exp(iα).
 pub(super) fn turn(angle: f64) -> Complex<Real> {
     let (sin, cos) = maths::sin_cos(angle);
     Complex::new(Real(cos), Real(sin))
 }
 
 impl Fourier {
-    /// The transform of so many numbers, at least one.
-    pub(super) fn of(len: usize) -> Self {
+    /// Plans the transform of so many numbers, at least one.
+    pub(super) fn new(len: usize) -> Self {
         let padded = (2 * len - 1).next_power_of_two();
         let mut planner = FftPlannerScalar::new();
         let forth = planner.plan_fft_forward(padded);
         let back = planner.plan_fft_inverse(padded);
-        // Whole turns come off while numbers are whole.
+        // Whole turns are subtracted while the numbers are still integers.
         let half_turns = |n: usize| (n as u128 * n as u128 % (2 * len as u128)) as f64 / len as f64;
         let chirp: Vec<_> = (0..len).map(|n| turn(-PI * half_turns(n))).collect();
         let mut convolver = vec![Complex::new(Real(0.0), Real(0.0)); padded];
@@ -60,7 +60,7 @@ impl Fourier {
         Room { padded: zeros(self.convolver.len()), scratch: zeros(scratch[0].max(scratch[1])) }
     }
 
-    /// Σ z[n] exp(−2πikn/N) in the place of z[k].
+    /// Replaces z[k] by Σ z[n] exp(−2πikn/N).
     pub(super) fn transform(&self, numbers: &mut [Complex<Real>], room: &mut Room) {
         let Room { padded, scratch } = room;
         let (filled, rest) = padded.split_at_mut(numbers.len());
@@ -89,7 +89,7 @@ mod tests {
             let numbers: Vec<_> = (0..len)
                 .map(|n| Complex::new(Real((n * n % 7) as f64), Real((n % 5) as f64 - 2.0)))
                 .collect();
-            let fourier = Fourier::of(len);
+            let fourier = Fourier::new(len);
             let mut room = fourier.room();
             let mut found = numbers.clone();
             fourier.transform(&mut found, &mut room);

@@ -1,19 +1,19 @@
-//! The moving average as a running sum: one addition and one subtraction a frame, whatever the width.
+//! Computes the moving average as a running sum: one addition and one subtraction a frame, whatever the width.
 //!
-//! What the spectrum gives as well, for a third of the time and none of the memory; the spectrum is
-//! its test.
+//! The spectrum gives the same result, but needs three times as long and more memory. The tests compare both.
 
 use nalgebra::DMatrix;
 
 use crate::signal::Signals;
 
-/// Columns that are summed side by side.
+/// Columns summed side by side.
 const TOGETHER: usize = 4;
 
-/// Frames after which the sum is taken anew, so that rounding does not grow with the clip.
+/// Frames after which the sum is computed anew, so that rounding does not grow with the clip.
 const FRESH: usize = 1024;
 
-/// A window of any width: `2 · reach + 1` frames in the middle count alike, and two more on each side in part.
+/// A window of any width: the `2 · reach + 1` frames in the middle weigh the same, and two more on each side weigh
+/// less.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     reach: usize,
@@ -23,23 +23,23 @@ pub(super) struct Window {
 /// The weights of a window's frames, which add up to 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Taps {
-    /// Of each frame in the middle.
+    /// Weight of each frame in the middle.
     pub(super) middle: f64,
-    /// Of the frame next to these on either side.
+    /// Weight of the next frame on either side.
     pub(super) inner: f64,
-    /// Of the outermost frame on either side.
+    /// Weight of the outermost frame on either side.
     pub(super) outer: f64,
 }
 
-/// How far the frames in the middle reach to either side, and what all weigh, for a width in frames above 0.
+/// Returns how far the middle frames reach to either side, and all weights, for a width in frames above 0.
 ///
-/// Each edge falls in three steps, between the frames about W/2 from the middle. They add up to 1, lie at W/2 in the
-/// mean, and their squares add up to 1/2, as those of the two equal steps of an even width do: so as much of the frames'
-/// noise gets into the acceleration at an odd width as at an even one.
+/// Each edge falls in three steps, between the frames about W/2 from the middle. The steps sum to 1, their mean lies at
+/// W/2, and their squares sum to 1/2, like those of the two equal steps of an even width. So as much noise of the
+/// frames gets into the acceleration at an odd width as at an even one.
 pub(super) fn taps(width: f64) -> (f64, Taps) {
     let half = width / 2.0;
     let whole = half.floor();
-    // How far the middle step lies beyond W/2. The other two follow from the three conditions.
+    // Distance of the middle step beyond W/2. The other two steps follow from the three conditions.
     let beyond = whole + 0.5 - half;
     let last = (2.0 - 3.0 * beyond - (1.0 - 3.0 * beyond * beyond).sqrt()) / 6.0;
     let first = last + beyond;
@@ -52,13 +52,13 @@ pub(super) fn taps(width: f64) -> (f64, Taps) {
 }
 
 impl Window {
-    /// The window of a width in frames above 0; none where it reaches beyond the clip mirrored once.
+    /// Returns the window of a width in frames above 0; `None` if it reaches beyond the clip mirrored once.
     pub(super) fn within(width: f64, frames: usize) -> Option<Self> {
         let (reach, taps) = taps(width);
         (reach + 2.0 <= frames as f64).then_some(Self { reach: reach as usize, taps })
     }
 
-    /// The means of every joint by itself.
+    /// Computes the means of every joint by itself.
     pub(super) fn means(self, signals: &Signals) -> Signals {
         let (frames, joints) = signals.values.shape();
         let mut values = vec![0.0; frames * joints];
@@ -74,8 +74,8 @@ impl Window {
         Signals { values: DMatrix::from_vec(frames, joints, values), ..*signals }
     }
 
-    /// The mean round each frame of as many columns, one behind the other. Side by side, for each sum waits for the one
-    /// before it.
+    /// Computes the mean around each frame of `COLUMNS` columns, one behind the other. They run side by side, because
+    /// each sum waits for the one before it.
     #[inline(always)]
     pub(super) fn slide<const COLUMNS: usize>(self, columns: &[f64], means: &mut [f64]) {
         let frames = columns.len() / COLUMNS;
@@ -87,7 +87,7 @@ impl Window {
                 *sum = round.map(|frame| column[mirrored(frame, frames)]).sum();
             }
             let end = frames.min(begin + part);
-            // Where the whole window lies within the clip, no frame is mirrored.
+            // If the whole window lies within the clip, no frame is mirrored.
             let inner = (begin.max(self.reach + 2), end.min(frames.saturating_sub(self.reach + 2)));
             let inner = if inner.0 < inner.1 { inner.0..inner.1 } else { end..end };
             let at = |frame: isize| mirrored(frame, frames);
@@ -110,8 +110,8 @@ impl Window {
         }
     }
 
-    /// Writes the means of a frame and takes the sums on to the next; behind them are the two frames before its middle, the
-    /// first of that, and the two after it.
+    /// Writes the means of a frame and moves the sums on to the next frame. The frames are, in order: the two before
+    /// the middle of the window, the first of the middle, and the two after it.
     #[inline(always)]
     fn step<const COLUMNS: usize>(
         self,
@@ -132,7 +132,7 @@ impl Window {
     }
 }
 
-/// The frame that stands at a place of the mirrored clip: c b a | a b c … x y z | z y x.
+/// Returns the frame at a place of the mirrored clip: c b a | a b c … x y z | z y x.
 #[inline(always)]
 fn mirrored(place: isize, frames: usize) -> usize {
     let last = frames as isize - 1;

@@ -1,4 +1,4 @@
-//! A clip of signals as cosines (DCT-II), and back.
+//! Transforms a clip of signals to cosines (DCT-II) and back.
 //!
 //! A transform of N mirrored frames takes one Fourier transform of length N: the even frames followed by the
 //! odd ones backwards, then a turn by k quarter steps (Makhoul 1980).
@@ -10,12 +10,12 @@ use nalgebra::DMatrix;
 use rustfft::num_complex::Complex;
 
 use super::fourier::{Fourier, turn};
-use super::real::Real;
+use super::portable_float::Real;
 use crate::signal::Signals;
 use crate::time::FrameRate;
 
-/// Spectrum (周波数成分) of signals: made when the first filter asks for it, then any number of filters
-/// are products with it.
+/// Spectrum (周波数成分) of signals. It is computed when the first filter needs it; after that, filters are products with
+/// it.
 #[derive(Clone)]
 pub struct Spectrum {
     signals: Signals,
@@ -45,8 +45,8 @@ impl From<Signals> for Spectrum {
 }
 
 impl Spectrum {
-    /// The spectrum of every joint.
-    pub fn of(signals: &Signals) -> Self {
+    /// Creates the spectrum of every joint.
+    pub fn new(signals: &Signals) -> Self {
         signals.clone().into()
     }
 
@@ -60,26 +60,26 @@ impl Spectrum {
         self.signals.rate
     }
 
-    /// The signals it was made of.
+    /// Returns the signals it was made of.
     pub fn unfiltered(&self) -> &Signals {
         &self.signals
     }
 
-    /// The signals whose k-th cosine is `gains[k]` times as large; of at least one frame.
+    /// Returns the signals with the k-th cosine multiplied by `gains[k]`. Needs at least one frame.
     pub(super) fn times(&self, gains: &[f64]) -> Signals {
-        let cosines = self.cosines.get_or_init(|| Cosines::of(&self.signals));
+        let cosines = self.cosines.get_or_init(|| Cosines::new(&self.signals));
         Signals { values: cosines.times(gains), ..self.signals }
     }
 }
 
 impl Cosines {
-    fn of(signals: &Signals) -> Self {
+    fn new(signals: &Signals) -> Self {
         let frames = signals.frames();
         let step = PI / (2 * frames) as f64;
         let mut cosines = Self {
             values: DMatrix::zeros(frames, signals.joints()),
             quarter_steps: (0..frames).map(|k| turn(step * k as f64)).collect(),
-            fourier: Fourier::of(frames),
+            fourier: Fourier::new(frames),
         };
         cosines.fill(signals);
         cosines
@@ -120,7 +120,7 @@ impl Cosines {
         values
     }
 
-    /// The waves of the shuffled frames, conjugate: their transform forth is that back.
+    /// Computes the waves of the shuffled frames, conjugated: their forward transform equals the inverse transform.
     fn waves_from_cosines(&self, cosines: &[f64], gains: &[f64], waves: &mut [Complex<Real>]) {
         let frames = cosines.len();
         let scaled = |k: usize| Real(cosines[k] * gains[k]);
@@ -131,7 +131,7 @@ impl Cosines {
     }
 }
 
-/// Where frame n stands before the transform: the even frames first, the odd ones behind, backwards.
+/// Returns the place of frame n before the transform: the even frames first, then the odd ones backwards.
 fn shuffled_place(n: usize, frames: usize) -> usize {
     if n.is_multiple_of(2) { n / 2 } else { frames - 1 - n / 2 }
 }

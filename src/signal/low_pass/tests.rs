@@ -22,7 +22,7 @@ fn column(values: &[f64]) -> Signals {
 
 fn filter(kind: FilterKind, width: f64, values: &[f64]) -> Vec<f64> {
     let filter = LowPass { kind, width: Span::Frames(width) };
-    let filtered = filter.apply(&Spectrum::of(&column(values)));
+    let filtered = filter.apply(&Spectrum::new(&column(values)));
     filtered.values.as_slice().to_vec()
 }
 
@@ -50,8 +50,8 @@ fn convolved(values: &[f64], reach: i64, tap: impl Fn(i64) -> f64) -> Vec<f64> {
     (0..values.len() as i64).map(frame).collect()
 }
 
-/// The three steps in which an edge of the window falls, each with its place: the least last one with which they add up to
-/// 1, lie at W/2 in the mean and have squares of 1/2, searched for.
+/// Returns the three steps in which an edge of the window falls, each with its place. Searches for the least last step
+/// with which they sum to 1, lie at W/2 on average and have squares that sum to 1/2.
 fn steps(width: f64) -> [(f64, f64); 3] {
     let middle = (width / 2.0).floor() + 0.5;
     let beyond = middle - width / 2.0;
@@ -66,7 +66,7 @@ fn steps(width: f64) -> [(f64, f64); 3] {
     [(middle - 1.0, first), (middle, second), (middle + 1.0, third)]
 }
 
-/// What the steps of both edges leave of frame m.
+/// Returns what the steps of both edges leave of frame m.
 fn box_tap(width: f64, m: i64) -> f64 {
     let fallen = |place: f64| -> f64 {
         steps(width).iter().filter(|(step, _)| *step < place).map(|(_, size)| size).sum()
@@ -173,7 +173,7 @@ fn every_filter_equals_its_slow_way_at_every_length_and_width() {
 fn a_running_sum_equals_the_spectrum_on_a_long_clip_and_does_not_drift() {
     let mut values = noise(5000);
     values[4000..].fill(0.0);
-    let spectrum = Spectrum::of(&column(&values));
+    let spectrum = Spectrum::new(&column(&values));
     for width in [0.4, 1.5, 12.0, 13.0, 100.4, 2047.0, 4998.0, 9990.0] {
         let summed = Window::within(width, 5000).unwrap().means(spectrum.unfiltered());
         let by_waves = spectrum.times(&Box.response(width, 5000));
@@ -185,7 +185,7 @@ fn a_running_sum_equals_the_spectrum_on_a_long_clip_and_does_not_drift() {
     assert!(still < 1e-8, "what stands still stays so but for rounding: {still}");
 }
 
-/// The weights of the box, from the answer to a single 1.
+/// Returns the weights of the box, from its answer to a single 1.
 fn box_taps(width: f64) -> Vec<f64> {
     let mut values = [0.0; 201];
     values[100] = 1.0;
@@ -209,7 +209,7 @@ fn no_width_lets_more_noise_into_the_acceleration_than_those_beside_it() {
     for tenths in 20..600 {
         let width = f64::from(tenths) / 10.0;
         let taps = box_taps(width);
-        // Frames of noise alike give an acceleration of that variance.
+        // Frames with equal noise give an acceleration of that variance.
         let variance: f64 = taps.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         assert!((variance * width * width - 1.0).abs() < 1e-9, "{width}: {variance}");
         let wide: f64 = taps.iter().sum::<f64>() / taps[100];
@@ -248,7 +248,7 @@ fn clips_without_frames_or_joints_and_of_one_frame_pass() {
         for (frames, joints) in [(0, 0), (0, 3), (4, 0), (1, 3)] {
             let before = signals(DMatrix::from_element(frames, joints, 4.0));
             let filter = LowPass { kind, width: Span::Frames(5.0) };
-            assert_eq!(filter.apply(&Spectrum::of(&before)), before);
+            assert_eq!(filter.apply(&Spectrum::new(&before)), before);
         }
     }
 }
@@ -258,7 +258,7 @@ fn every_joint_is_filtered_by_itself_and_keeps_unit_rate_and_first_frame() {
     let (a, b) = (noise(30), noise(60)[30..].to_vec());
     let both = signals(DMatrix::from_column_slice(30, 2, &[a.clone(), b.clone()].concat()));
     for kind in KINDS {
-        let filtered = LowPass { kind, width: Span::Frames(6.5) }.apply(&Spectrum::of(&both));
+        let filtered = LowPass { kind, width: Span::Frames(6.5) }.apply(&Spectrum::new(&both));
         assert_eq!(filtered.joint(JointId(0)), filter(kind, 6.5, &a));
         assert_eq!(filtered.joint(JointId(1)), filter(kind, 6.5, &b));
         assert_eq!(
@@ -271,7 +271,7 @@ fn every_joint_is_filtered_by_itself_and_keeps_unit_rate_and_first_frame() {
 #[test]
 fn a_width_in_seconds_follows_the_rate() {
     let values = noise(30);
-    let spectrum = Spectrum::of(&column(&values));
+    let spectrum = Spectrum::new(&column(&values));
     let filter = |width| LowPass { kind: Box, width }.apply(&spectrum);
     assert_eq!(filter(Span::Seconds(0.1)), filter(Span::Frames(12.0)));
 }

@@ -1,4 +1,4 @@
-//! The angles a joint turns by from frame to frame, a block of frames at a time.
+//! Computes the angles a joint turns by from frame to frame, a block of frames at a time.
 
 use std::array;
 
@@ -7,16 +7,16 @@ use glam::DQuat;
 use crate::motion::clip::rig::Rig;
 use crate::motion::lanes::{LANES, LaneQuat, Lanes, ThreeAxes};
 
-/// Frames that are read for one joint before the next: their rows stay in the fastest cache.
+/// Frames read for one joint before the next, so that their rows stay in the fastest cache.
 pub(super) const BLOCK: usize = PARTS * LANES;
 
-/// A block in lanes.
+/// Number of lane vectors in a block.
 pub(super) const PARTS: usize = 8;
 
 /// The rows of a block.
 pub(super) type Rows<'a> = [&'a [f64]; BLOCK];
 
-/// The first rows of many; a last block that is not full repeats its last row.
+/// Returns the first rows of many; a last block that is not full repeats its last row.
 #[inline(always)]
 pub(super) fn block<'a>(rows: &[&'a [f64]]) -> Rows<'a> {
     array::from_fn(|at| rows[at.min(rows.len() - 1)])
@@ -29,17 +29,17 @@ pub(super) struct JointSteps<'a> {
     before: DQuat,
 }
 
-/// How the rotations of a joint come out of its channels.
+/// How the rotations of a joint are read from its channels.
 enum Reading<'a> {
-    /// As nearly every file has it: three axes, and their columns.
+    /// Three axes and their columns, as in nearly every file.
     ThreeAxes(ThreeAxes, [usize; 3]),
-    /// Whatever else there is.
+    /// Any other list of channels.
     Listed(&'a Rig, usize),
 }
 
 impl<'a> JointSteps<'a> {
-    /// Every joint before the first of its steps, which goes from the first row to itself.
-    pub(super) fn of(rig: &'a Rig, first: &[f64]) -> Vec<Self> {
+    /// Prepares every joint for its first step, which goes from the first row to itself.
+    pub(super) fn prepare(rig: &'a Rig, first: &[f64]) -> Vec<Self> {
         let joint = |joint: usize| {
             let reading = match rig.three_axes(joint) {
                 Some((axes, columns)) => Reading::ThreeAxes(axes, columns),
@@ -52,7 +52,7 @@ impl<'a> JointSteps<'a> {
         (0..rig.len()).map(joint).collect()
     }
 
-    /// The angle of the step into each frame of the next block, in radians.
+    /// Computes the angle of the step into each frame of the next block, in radians.
     #[inline(always)]
     pub(super) fn steps(&mut self, rows: &Rows<'_>, steps: &mut [Lanes; PARTS]) {
         let mut rotations = [LaneQuat::default(); PARTS];
@@ -65,7 +65,7 @@ impl<'a> JointSteps<'a> {
 }
 
 impl Reading<'_> {
-    // Loops over buffers: closures over whole arrays are not inlined.
+    // Loops over buffers, because closures over whole arrays are not inlined.
     #[inline(always)]
     fn rotations(&self, rows: &Rows<'_>, rotations: &mut [LaneQuat; PARTS]) {
         match *self {
@@ -88,8 +88,8 @@ impl Reading<'_> {
     }
 }
 
-/// Sines and cosines of half of each angle. Most channels stay within a quarter turn: asked once for
-/// all of a block.
+/// Computes sines and cosines of half of each angle. Most channels stay within a quarter turn, which is checked once
+/// for the whole block.
 #[inline(always)]
 fn half_sines(rows: &Rows<'_>, column: usize, halves: &mut [(Lanes, Lanes); PARTS]) {
     let mut degrees = [Lanes::ZERO; PARTS];

@@ -177,8 +177,8 @@ proptest! {
         }
     }
 
-    /// Blocks, their seams and the last that is not full; near angles, far ones, and lists of channels
-    /// that are no three axes: all against one pose after the other.
+    /// Compares every step with one pose after the other: blocks, their seams and a last block that is not full; near
+    /// angles, far ones, and lists of channels that are not three axes.
     #[test]
     fn every_step_is_the_angle_from_one_pose_to_the_next(
         values in prop::collection::vec(prop_oneof![-80.0..80.0, -80.0..80.0, -800.0..800.0], 14 * 40),

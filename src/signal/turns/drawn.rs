@@ -1,4 +1,4 @@
-//! How much of a clip is drawn rather than captured: found in the clip, or said by a person.
+//! How much of a clip is drawn rather than captured: found in the clip, or set by a person.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,13 +7,13 @@ use crate::knob::{Kind, Range, Setting, as_word, by_word};
 use crate::signal::{LowPass, TurnFinder};
 use crate::time::{FrameRate, Span};
 
-/// The filter and the persistence of motion that is all drawn, in seconds, where they are wider: a koma of film.
+/// Seconds to which filter and persistence shrink for motion that is all drawn, if they are wider: a koma of film.
 const NARROWEST: f64 = 1.0 / 24.0;
 
 /// How much of a clip is drawn (描かれた動き): `auto`, or a number from 0 (captured) to 1 (drawn).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Drawn {
-    /// As much as the clip itself says, by how suddenly it changes its speed.
+    /// As found in the clip, by how suddenly it changes its speed.
     #[default]
     Auto,
     /// A share from 0 to 1.
@@ -21,7 +21,7 @@ pub enum Drawn {
 }
 
 impl Drawn {
-    /// The share, where a clip itself says `own`.
+    /// Returns the share; `own` is the share found in the clip.
     pub fn share(self, own: f64) -> f64 {
         match self {
             Self::Auto => own,
@@ -31,7 +31,8 @@ impl Drawn {
 }
 
 impl TurnFinder {
-    /// The filter and the persistence, in frames, by which a body is asked for turns of whose motion `share` is drawn.
+    /// Returns the filter, and the persistence in frames, with which to find turns of a body. `share` of its motion is
+    /// drawn.
     pub(crate) fn of_body(&self, filter: &LowPass, share: f64, rate: FrameRate) -> (LowPass, f64) {
         let filter = LowPass { width: narrowed(share, filter.width, rate), ..filter.clone() };
         (filter, narrowed(share, self.persistence, rate).frames(rate))

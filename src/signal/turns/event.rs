@@ -1,23 +1,23 @@
-//! Valleys and hills of the speed: where a movement starts, ends, or only slows down.
+//! Finds valleys and hills of the speed: where a movement starts, ends, or only slows down.
 //!
-//! Not the paper's words: read to the letter they lose most ends of movements (動き終わり), because
-//! nothing is faster after an end.
+//! This is not the paper's rule: read to the letter, it loses most ends of movements (動き終わり), because no frame after an
+//! end is faster.
 
 use std::cmp::Ordering::{self, Greater, Less};
 
 use super::{Scan, Turn, TurnKind};
 use crate::time::KOMA_RATE;
 
-/// A valley or hill shorter than this is one turn: two drawings nearer than that would share a koma
-/// or stand side by side.
+/// Seconds below which a valley or hill is one turn: two drawings nearer than that would share a koma or stand side by
+/// side.
 const SHORT: f64 = 2.0 / KOMA_RATE;
 
-/// The turns of every valley (keys) and hill (walls), with the filter's delay undone.
+/// Finds the turns of every valley (keys) and hill (walls), with the filter's delay undone.
 #[inline(always)]
 pub(super) fn turns(scan: &Scan, speeds: &[f64], turns: &mut Vec<Turn>) {
     let (mut begin, mut entry) = (0, None);
     for (step, &sign) in scan.signs.iter().enumerate().filter(|(_, sign)| sign.is_ne()) {
-        // Else a pause inside an acceleration, or just another step of it.
+        // Otherwise it is a pause inside an acceleration, or just another step of it.
         if entry != Some(sign) {
             Run { begin, end: step }.read(entry, Some(sign), scan, speeds, turns);
         }
@@ -26,7 +26,7 @@ pub(super) fn turns(scan: &Scan, speeds: &[f64], turns: &mut Vec<Turn>) {
     Run { begin, end: scan.frames - 1 }.read(entry, None, scan, speeds, turns);
 }
 
-/// The rows `begin..=end` with only steady steps between them, as many as there are.
+/// The longest run of rows `begin..=end` with only steady steps between them.
 #[derive(Clone, Copy)]
 struct Run {
     begin: usize,
@@ -34,7 +34,7 @@ struct Run {
 }
 
 impl Run {
-    /// By the steps into the run and out of it; without one it touches the clip's edge there.
+    /// Finds turns from the steps into the run and out of it; `None` if the run touches the clip's edge there.
     #[inline(always)]
     fn read(
         self,
@@ -51,7 +51,7 @@ impl Run {
             (None, Some(Less)) => turns.extend(self.start(scan, TurnKind::Wall)),
             (Some(Less), None) => turns.extend(self.finish(scan, TurnKind::Key)),
             (Some(Greater), None) => turns.extend(self.finish(scan, TurnKind::Wall)),
-            // A joint that is steady throughout.
+            // The joint is steady throughout.
             _ => {}
         }
     }
@@ -68,8 +68,8 @@ impl Run {
         }
     }
 
-    /// The end of the movement before the run: the filter found it late, and its speed is that of the
-    /// step into the frame. None on the clip's last frame.
+    /// Returns the end of the movement before the run. The filter found it late, and its speed is that of the step into
+    /// the frame. `None` on the clip's last frame.
     #[inline(always)]
     fn finish(self, scan: &Scan, kind: TurnKind) -> Option<Turn> {
         let moved = self.begin.saturating_sub(scan.delay + 1);
@@ -77,17 +77,16 @@ impl Run {
         inside.then(|| scan.turn(moved, kind, before(scan, kind, self.begin)))
     }
 
-    /// The start of the movement after the run, which the filter found early. None on the clip's first
-    /// frame.
+    /// Returns the start of the movement after the run, which the filter found early. `None` on the clip's first frame.
     #[inline(always)]
     fn start(self, scan: &Scan, kind: TurnKind) -> Option<Turn> {
         let moved = self.end + scan.delay;
         (self.end > 0).then(|| scan.turn(moved, kind, after(scan, kind, self.end)))
     }
 
-    /// The first and the last of the slowest rows for a key, of the fastest for a wall. More than one
-    /// is slowest in a short hold, where only rounding differs: if they counted against each other, no
-    /// such hold would ever be confirmed.
+    /// Returns the first and the last of the slowest rows for a key, of the fastest for a wall. A short hold has
+    /// several, which differ only by rounding. If they counted against each other, no such hold would ever be
+    /// confirmed.
     fn extreme(self, kind: TurnKind, speeds: &[f64], floor: f64) -> (usize, usize) {
         if self.begin == self.end {
             return (self.begin, self.end);
@@ -104,14 +103,14 @@ impl Run {
     }
 }
 
-/// Confirmed by the frames after: as far as the clip reaches is for good.
+/// Counts the frames after a row that confirm it; reaching the clip's end counts as the whole clip.
 #[inline(always)]
 fn after(scan: &Scan, kind: TurnKind, row: usize) -> usize {
     let frames = scan.persistence.after(kind, row);
     if frames == scan.frames - 1 - row { scan.frames } else { frames }
 }
 
-/// Confirmed by the frames before: as far as the clip reaches is for good.
+/// Counts the frames before a row that confirm it; reaching the clip's begin counts as the whole clip.
 #[inline(always)]
 fn before(scan: &Scan, kind: TurnKind, row: usize) -> usize {
     let frames = scan.persistence.before(kind, row);

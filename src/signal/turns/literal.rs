@@ -1,10 +1,10 @@
-//! The paper's words: the signs of the two steps around a frame, and the frames that follow.
+//! Finds turns by the paper's words: the signs of the two steps around a frame, and the frames that follow.
 
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 use super::{Scan, Side, Turn, TurnKind};
 
-/// Every candidate by the table of [KT11 §3.3, §3.4], where it stands: nothing is moved.
+/// Finds every candidate by the table of [KT11 §3.3, §3.4], exactly where it stands.
 pub(super) fn turns(scan: &Scan, turns: &mut Vec<Turn>) {
     for row in 1..=scan.frames - 2 {
         let kind = match (scan.signs[row - 1], scan.signs[row]) {

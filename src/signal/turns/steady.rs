@@ -1,4 +1,4 @@
-//! The dead band: what counts as a steady speed.
+//! The dead band: the accelerations that count as a steady speed.
 
 use std::fmt;
 use std::str::FromStr;
@@ -15,7 +15,7 @@ pub enum Steady {
 }
 
 impl Steady {
-    /// Whether it is a band: finite, not below 0, and a share not above 1.
+    /// Whether it is a valid band: finite, not below 0, and a share not above 1.
     pub fn is_band(self) -> bool {
         match self {
             Self::Acceleration(size) => size.is_finite() && size >= 0.0,
@@ -23,8 +23,7 @@ impl Steady {
         }
     }
 
-    /// The largest change from one frame to the next, in the signal's unit, that is steady. `sizes` is
-    /// a buffer.
+    /// Returns the largest change from one frame to the next that is steady, in the signal's unit. `sizes` is a buffer.
     pub(super) fn step(
         self,
         speeds: &[f64],
@@ -39,7 +38,7 @@ impl Steady {
     }
 }
 
-/// The 95th percentile of the changes' sizes by nearest rank: the smallest that 95 % do not exceed.
+/// Returns the 95th percentile of the changes' sizes by nearest rank: the smallest that 95 % do not exceed.
 fn usual_largest(speeds: &[f64], sizes: &mut Vec<f64>) -> f64 {
     sizes.clear();
     sizes.extend(speeds.windows(2).map(|step| (step[1] - step[0]).abs()));
@@ -68,8 +67,8 @@ impl fmt::Display for Steady {
     }
 }
 
-/// The number written in `text` times a power of ten, still as text: no digit is rounded, so that a
-/// share reads back as the same number.
+/// Multiplies the number written in `text` by a power of ten, still as text: no digit is rounded, so that a share reads
+/// back as the same number.
 fn with_exponent_moved(text: &str, by: i32) -> String {
     let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     match exponent.parse::<i32>() {

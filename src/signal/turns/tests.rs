@@ -29,7 +29,7 @@ fn finder(reading: Reading, steady: f64, persistence: f64) -> TurnFinder {
     }
 }
 
-/// Rows, from 0, of the turns of one kind.
+/// Returns the rows, from 0, of the turns of one kind.
 fn rows(turns: &[Turn], kind: TurnKind) -> Vec<usize> {
     turns.iter().filter(|turn| turn.kind == kind).map(|turn| turn.frame.0 - FIRST).collect()
 }
@@ -39,7 +39,7 @@ fn keys_and_walls(finder: &TurnFinder, fps: f64, speeds: &[f64]) -> (Vec<usize>,
     (rows(turns, TurnKind::Key), rows(turns, TurnKind::Wall))
 }
 
-/// The words of the method, frame by frame and run by run, with nothing clever.
+/// The method from its definition, frame by frame and run by run, with nothing clever.
 struct Slow<'a> {
     finder: &'a TurnFinder,
     fps: f64,
@@ -144,7 +144,7 @@ impl Slow<'_> {
                             found.push((end_at, kind));
                         }
                     } else if (j - i) as f64 / self.fps < 2.0 / 24.0 {
-                        // The slowest frames: those that no frame of the run is slower than.
+                        // The slowest frames: no frame of the run is slower.
                         let slowest: Vec<usize> = (i..=j)
                             .filter(|k| !(i..=j).any(|other| self.beyond(kind, other, *k)))
                             .collect();
@@ -334,7 +334,7 @@ fn a_filtered_stop_is_found_where_it_was() {
     let speeds = signals(24.0, Quantity::Length, &[stop_and_go()]);
     for width in [3.0, 4.8, 7.0] {
         let filter = LowPass { kind: FilterKind::Box, width: Span::Frames(width) };
-        let filtered = filter.apply(&Spectrum::of(&speeds));
+        let filtered = filter.apply(&Spectrum::new(&speeds));
         let found = finder(Reading::Event, 0.0, 2.0).find(&filtered, filter.delay(speeds.rate));
         let keys = rows(&found[0], TurnKind::Key);
         assert!(keys[0].abs_diff(11) <= 1 && keys[1].abs_diff(35) <= 1, "{width}: {keys:?}");
@@ -351,7 +351,7 @@ fn the_delay_is_what_a_filter_eats_of_a_hold() {
         speeds.chain([1.0; 60]).map(|speed| (100.0 * speed).to_radians()).collect();
     let speeds = signals(120.0, Quantity::Angle, &[speeds]);
     let keys = |filter: &LowPass, delay| {
-        let filtered = filter.apply(&Spectrum::of(&speeds));
+        let filtered = filter.apply(&Spectrum::new(&speeds));
         rows(&TurnFinder::default().find(&filtered, delay)[0], TurnKind::Key)
     };
     use FilterKind::{Box, Butterworth, Gaussian, Ideal};
@@ -371,7 +371,7 @@ fn a_short_hold_of_equal_frames_is_confirmed() {
     let speeds: Vec<f64> = movement(100.0).rev().chain([0.0; 20]).chain(movement(100.0)).collect();
     let speeds = signals(120.0, Quantity::Length, &[speeds]);
     let filter = LowPass::default();
-    let filtered = filter.apply(&Spectrum::of(&speeds));
+    let filtered = filter.apply(&Spectrum::new(&speeds));
     let turns = TurnFinder::default().find(&filtered, filter.delay(speeds.rate));
     let keys = rows(&turns[0], TurnKind::Key);
     assert!(keys.len() == 1 && (30..50).contains(&keys[0]), "{keys:?}");
@@ -482,7 +482,7 @@ fn one_column_of_sums_is_a_signal_like_any_other() {
     let summed: Vec<f64> = stop_and_go().iter().map(|speed| speed * 30.0).collect();
     let layer = signals(24.0, Quantity::Angle, &[summed]);
     let filter = LowPass::default();
-    let filtered = filter.apply(&Spectrum::of(&layer));
+    let filtered = filter.apply(&Spectrum::new(&layer));
     let turns = TurnFinder::default().find(&filtered, filter.delay(layer.rate));
     assert_eq!(turns.len(), 1);
     assert_eq!(rows(&turns[0], TurnKind::Key).len(), 2);
@@ -497,10 +497,11 @@ fn on_real_clips_both_readings_equal_their_words() {
 
 fn reads_as_the_words_say(path: &Path) {
     let name = real::name(path);
-    let (clip, _) = bvh::lead_in::strip(bvh::read(&real::bytes(path)).unwrap().clip);
+    let (clip, _) =
+        crate::motion::clean::lead_in::strip(bvh::read(&real::bytes(path)).unwrap().clip);
     let speeds = Speed::default().measure(&clip).unwrap();
     let filter = LowPass::default();
-    let (filtered, delay) = (filter.apply(&Spectrum::of(&speeds)), filter.delay(speeds.rate));
+    let (filtered, delay) = (filter.apply(&Spectrum::new(&speeds)), filter.delay(speeds.rate));
     let floor = DUST * filtered.values.amax();
     let steady = Steady::Acceleration(100.0);
     for (reading, side, persistence) in [
@@ -513,7 +514,7 @@ fn reads_as_the_words_say(path: &Path) {
         let span = Span::Frames(persistence as f64);
         let finder =
             TurnFinder { reading, steady, persistence: span, side, ..TurnFinder::default() };
-        // The words of the oracle know no units: its band is in radians.
+        // The oracle knows no units: its band is in radians.
         let band = Steady::Acceleration(100f64.to_radians());
         let in_radians = TurnFinder { steady: band, ..finder.clone() };
         let fps = clip.rate().fps();

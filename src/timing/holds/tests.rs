@@ -4,12 +4,12 @@ use super::*;
 use crate::sheet::{Role, Source, Why};
 use crate::time::{Frame, FrameRate};
 
-/// Four frames a koma.
+/// Four frames per koma.
 fn clock() -> Clock {
     Clock { first: Frame(0), frame_rate: FrameRate::new(96.0).unwrap(), koma_rate: 24.0 }
 }
 
-/// A layer on twos, of which some drawings are genga.
+/// Builds a layer on twos with genga at some drawings.
 fn spaced(drawings: usize, genga: &[usize]) -> Layer {
     let drawing = |at: usize| Drawing {
         source: Source::At(8.0 * at as f64),
@@ -28,9 +28,9 @@ fn spaced(drawings: usize, genga: &[usize]) -> Layer {
     }
 }
 
-/// The layer without some inbetweens, which the drawing before them holds over.
+/// Removes some inbetweens from the layer; the drawing before each holds over it.
 fn without(spaced: &Layer, gone: &[usize]) -> Layer {
-    let mut row = Row::of(spaced, spaced);
+    let mut row = Row::new(spaced, spaced);
     for drawing in gone
         .iter()
         .rev()
@@ -50,7 +50,7 @@ fn held(layer: &Layer, spaced: &Layer, holds: &[&str]) -> Layer {
     with_holds(layer, spaced, &holds, clock())
 }
 
-/// The frame of each drawing and its koma.
+/// Returns the frame of each drawing and its number of koma.
 fn row(layer: &Layer) -> Vec<(usize, usize)> {
     let index =
         |shown: &Exposure| (layer.drawings[shown.drawing].source.place() as usize, shown.koma);

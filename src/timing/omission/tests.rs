@@ -11,11 +11,11 @@ use crate::cases::cases;
 use crate::sheet::{Drawing, Exposure, Reason, Role, Source, Why};
 use crate::timing::Shortfall;
 
-/// A drawing to be: a position along a line for each of two joints, koma, role.
+/// A planned drawing: positions of two joints along a line, koma, role.
 type Plan = ((i32, i32), usize, Role);
 
-/// A layer whose drawings' places are their numbers, and its stills. A genga whose second joint is at an odd place is a
-/// fill.
+/// Builds a layer whose drawings' places are their numbers, and its stills. A genga whose second joint is at an odd
+/// place is a fill.
 fn laid_out(plan: &[Plan]) -> (Layer, Stills) {
     let mut stills = Stills::new(2);
     let mut layer = Layer { name: "A".into(), joints: vec![], drawings: vec![], exposures: vec![] };
@@ -30,7 +30,7 @@ fn laid_out(plan: &[Plan]) -> (Layer, Stills) {
     (layer, stills)
 }
 
-/// One joint on ones, without genga, at these places along a line.
+/// Builds one joint on ones, without genga, at these places along a line.
 fn on_ones(places: &[i32]) -> (Layer, Stills) {
     let last = places.len().saturating_sub(1);
     let role = |at| if at == 0 || at == last { Role::End } else { Role::Inbetween };
@@ -112,7 +112,7 @@ fn settings_read_back_as_written_and_know_their_knobs() {
     assert!(toml::from_str::<Omission>("hold = 3").is_err());
 }
 
-// What comes in.
+// Input.
 
 #[test]
 fn a_layer_that_does_not_show_each_drawing_once_in_order_is_refused() {
@@ -180,7 +180,7 @@ fn a_body_that_does_not_move_loses_nothing_to_naka_nashi() {
     assert_eq!(held.report.koma_dori.shortfall, Some(Shortfall::NoRoom));
 }
 
-// What comes out.
+// Output.
 
 #[test]
 fn deletions_gather_in_one_place_unless_all_are_taken_at_once() {
@@ -260,8 +260,8 @@ fn each_drawing_says_what_was_done_round_it() {
     let places = [0, 10, 20, 21, 23, 26, 30, 35, 90, 91, 94, 100];
     let (layer, stills) = on_ones(&places);
     let omitted = counts(1, 2).apply(&layer, &stills, 1).unwrap();
-    // 8 jumps furthest and goes; 2, before the smallest step, is lengthened, so that it cannot be
-    // replaced; 3 is replaced by it, then 4 is the smallest single step left.
+    // 8 jumps furthest and goes. 2, before the smallest step, is lengthened, so it cannot be replaced; it replaces 3,
+    // and then 4 is the smallest single step left.
     assert_eq!(indices(&omitted.report.naka_nashi.gone), [8]);
     assert_eq!(omitted.report.naka_nashi.gone[0], Gone { drawing: 8, place: 8.0, koma: 8 });
     assert_eq!(omitted.report.lengthened, 1);
@@ -276,14 +276,14 @@ fn each_drawing_says_what_was_done_round_it() {
     assert_eq!(why(5.0), (0, 0, 0));
 }
 
-/// A turn, a movement with a fill in it, another turn: places, koma, roles.
+/// Builds a turn, a movement with a fill in it, and another turn: places, koma, roles.
 fn movement() -> (Layer, Stills) {
     use Role::{End, Genga, Inbetween};
     let slow = [(0, End), (1, Inbetween), (2, Inbetween), (3, Genga)];
     let fast =
         [(20, Inbetween), (50, Inbetween), (61, Genga), (90, Inbetween), (95, Genga), (96, End)];
     let places = slow.iter().chain(&fast);
-    // Only what is at 61 is a fill.
+    // Only the drawing at 61 is a fill.
     let second = |place: i32| i32::from(place == 61);
     let plan: Vec<Plan> = places.map(|&(place, role)| ((place, second(place)), 2, role)).collect();
     laid_out(&plan)
@@ -293,10 +293,10 @@ fn movement() -> (Layer, Stills) {
 fn freed_koma_go_to_the_turn_before_and_a_fill_comes_later() {
     let (layer, stills) = movement();
     let after = |naka_nashi| counts(naka_nashi, 0).apply(&layer, &stills, 2).unwrap();
-    // 5 goes, which jumps by 30; its koma go to the turn, 3, and 4 comes later.
+    // 5 goes, as it jumps by 30; its koma go to the turn, 3, and 4 comes later.
     let once = [(0, 2), (1, 2), (2, 2), (3, 4), (4, 2), (6, 2), (7, 2), (8, 2), (9, 2)];
     assert_eq!(left(&after(1).layer), once);
-    // 7 jumps by 29, but the turn has room for one koma alone. The fill is never left out.
+    // 7 jumps by 29, but the turn has room for only one koma. The fill is never left out.
     assert_eq!(left(&after(4).layer), once);
     assert_eq!(after(4).report.naka_nashi.shortfall, Some(Shortfall::NoRoom));
 }
@@ -306,12 +306,12 @@ fn only_what_is_markedly_fast_is_left_out_and_only_small_movements_are_held() {
     let (layer, stills) = movement();
     let course = Course { on: On::every(2), height: 100.0, ..Course::default() };
     let report = |settings: Omission| settings.apply_to(&layer, &stills, &course).unwrap().report;
-    // Steps of 1, 1, 1, 17, 30, 11, 29, 5, 1: the middle one is 5.
+    // Steps of 1, 1, 1, 17, 30, 11, 29, 5, 1: the median is 5.
     let gone = |fast| indices(&report(Omission { fast, ..counts(9, 0) }).naka_nashi.gone);
     assert_eq!([gone(5.5), gone(6.5)], [vec![5], vec![]]);
     let slow = report(Omission { fast: 6.5, ..counts(9, 0) });
     assert_eq!(slow.naka_nashi.shortfall, Some(Shortfall::NoneFast));
-    // Of two joints one moves by 1: 0.71 in the mean.
+    // One of two joints moves by 1, so the root mean square is 0.71.
     let held = |small| report(Omission { small, max_hold: 9, ..counts(0, 9) }).koma_dori;
     assert_eq!(indices(&held(0.8).gone), [1]);
     assert_eq!(held(0.8).shortfall, Some(Shortfall::NoneSmall));
@@ -320,7 +320,7 @@ fn only_what_is_markedly_fast_is_left_out_and_only_small_movements_are_held() {
     assert_eq!(report(share).koma_dori.shortfall, None, "a share is the most");
 }
 
-// Against the oracle, and laws.
+// Comparison with the oracle, and laws.
 
 fn amounts() -> impl Strategy<Value = usize> {
     prop_oneof![4 => 0..6usize, 2 => 6..40usize, 1 => Just(1000)]
@@ -342,7 +342,7 @@ prop_compose! {
     }
 }
 
-/// Few places, so that ties and rests abound.
+/// Generates few places, so that ties and rests are frequent.
 fn place() -> impl Strategy<Value = (i32, i32)> {
     prop_oneof![(0..3, 0..2), (0..40, 0..40)]
 }
@@ -355,7 +355,7 @@ fn ones() -> impl Strategy<Value = Vec<Plan>> {
     })
 }
 
-/// Sheets with genga, and a spacing of their own; the first and last need not be called ends.
+/// Generates sheets with genga and a spacing of their own; the first and last drawing need not be ends.
 fn keyed() -> impl Strategy<Value = (Vec<Plan>, usize)> {
     let role =
         prop_oneof![6 => Just(Role::Inbetween), 2 => Just(Role::Genga), 1 => Just(Role::End)];
@@ -375,7 +375,7 @@ proptest! {
     ) {
         let (layer, stills) = laid_out(&plan);
         let omitted = settings.apply(&layer, &stills, 1).unwrap();
-        let expected = Rules::of(&settings, &stills, 1).by_koma(&rows(&layer));
+        let expected = Rules::new(&settings, &stills, 1).by_koma(&rows(&layer));
         prop_assert_eq!(outcome(&omitted), expected);
     }
 
@@ -388,7 +388,7 @@ proptest! {
         let rows = rows(&layer);
         let course = Course { on: On::every(on), height: 100.0, ..Course::default() };
         let omitted = settings.apply_to(&layer, &stills, &course).unwrap();
-        let slow = Rules::of(&settings, &stills, on);
+        let slow = Rules::new(&settings, &stills, on);
         let without_genga = rows.iter().filter(|row| row.kept).count() <= 2;
         let expected =
             if on == 1 && without_genga { slow.by_koma(&rows) } else { slow.by_drawing(&rows) };

@@ -1,24 +1,24 @@
-//! The time between two neighbouring keys, and where its inbetweens are taken from.
+//! The time between two neighbouring keys, and the source places of its inbetweens.
 
 use super::{InbetweenSource, Spacing, Station};
 use crate::keys::Wall;
 use crate::sheet::{Drawing, Role, Source, Why};
 use crate::time::Clock;
-use crate::timing::on::STAY;
+use crate::timing::koma_per_drawing::STAY;
 
-/// The most that a hand can pull: at 1 all inbetweens would be the key itself.
+/// The largest weight that dragging can set: at 1 all inbetweens would be the key itself.
 const MOST_WEIGHT: f64 = 0.95;
 
-/// The time between two neighbouring stations and the rule of its spacing.
+/// The time between two neighbouring stations, with the rule of its spacing.
 pub(super) struct Interval {
     koma: [usize; 2],
     places: [f64; 2],
     weights: [f64; 2],
-    /// The strongest wall strictly between the two, if there is one.
+    /// The strongest wall strictly between the two, if any.
     wall: Option<f64>,
     /// In frames.
     max_shift: f64,
-    /// Koma that a drawing stays at the most where the body moves.
+    /// Most koma that a drawing stays while the body moves.
     longest: usize,
     source: InbetweenSource,
 }
@@ -52,7 +52,7 @@ impl Interval {
         }
     }
 
-    /// What stands on a koma and stays for so many.
+    /// Returns the inbetween on a koma that stays for `stay` koma.
     pub(super) fn inbetween(&self, koma: usize, stay: usize) -> Drawing {
         let [from, to] = self.places;
         let place = self.place(koma, stay);
@@ -65,7 +65,7 @@ impl Interval {
         Drawing { source, role: Role::Inbetween, why: Why::default() }
     }
 
-    /// Where in the source an inbetween on that koma is taken from: drawn towards the key on its side.
+    /// Returns the source place of an inbetween on a koma, drawn towards the key on its side.
     fn place(&self, koma: usize, stay: usize) -> f64 {
         let [from, to] = self.places;
         let share = self.share(koma, stay);
@@ -77,8 +77,8 @@ impl Interval {
         self.bounded(from + shifted * (to - from), share)
     }
 
-    /// The weight with which an inbetween on that koma is taken from a place, and whose it is: 0 for the key before,
-    /// 1 for the key after. None on a key, in the middle, and where both show one place.
+    /// Returns the weight that takes an inbetween on a koma to a place, and its key: 0 for the key before, 1 for the
+    /// key after. `None` on a key, in the middle, and if both show one place.
     pub(super) fn weight_at(&self, koma: usize, stay: usize, place: f64) -> Option<(usize, f64)> {
         let [from, to] = self.places;
         let share = self.share(koma, stay);
@@ -88,21 +88,21 @@ impl Interval {
         (even != key).then_some((side, (1.0 - left).clamp(0.0, MOST_WEIGHT)))
     }
 
-    /// How much of the time has gone, 0 to 1, for a drawing that stays so long: it shows the middle of its
-    /// exposure, as a key that stays for two koma does. What holds in a rest shows the begin of the hold.
+    /// Returns the elapsed share of the time, 0 to 1, for a drawing that stays `stay` koma. A drawing shows the middle
+    /// of its exposure, as a key that stays for two koma does. A hold in a rest shows its begin.
     fn share(&self, koma: usize, stay: usize) -> f64 {
         let [from, to] = self.koma;
         let middle = stay.min(self.longest).saturating_sub(STAY) as f64 / 2.0;
         ((koma - from) as f64 + middle) / (to - from) as f64
     }
 
-    /// The place without any weight.
+    /// Returns the place without any weight.
     fn even(&self, share: f64) -> f64 {
         let [from, to] = self.places;
         from + share * (to - from)
     }
 
-    /// The side is that of the nearer key, or before and after the wall where there is one; none in the middle.
+    /// Returns the side of the nearer key, or, if there is a wall, the side of the wall; `None` in the middle.
     fn side(&self, share: f64) -> Option<usize> {
         let even = self.even(share);
         let side = match self.wall {
@@ -113,8 +113,8 @@ impl Interval {
         (side != 0.0).then_some(usize::from(side > 0.0))
     }
 
-    /// Bounded about the even place, and not about the koma's own instant: a key may stand half a koma off its
-    /// instant, and the bound must not push an inbetween past it.
+    /// Clamps a place around the even place. Clamping around the koma's own instant would be wrong: a key may stand
+    /// half a koma off its instant, and the clamp must not push an inbetween past it.
     fn bounded(&self, place: f64, share: f64) -> f64 {
         let even = self.even(share);
         place.clamp(even - self.max_shift, even + self.max_shift)

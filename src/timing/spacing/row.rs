@@ -1,4 +1,4 @@
-//! The row of drawings on a sheet as it is laid out: stations, and what stands between them.
+//! The row of drawings on a sheet while it is laid out: stations, and the inbetweens between them.
 
 use std::sync::Arc;
 
@@ -10,32 +10,32 @@ use super::{Spaced, Spacing};
 use crate::keys::Wall;
 use crate::sheet::{Drawing, Exposure, Layer};
 use crate::time::Clock;
-use crate::timing::on::{Pace, STAY};
+use crate::timing::koma_per_drawing::{Pace, STAY};
 
-/// By what a row is laid out.
+/// The rules by which a row is laid out.
 pub(super) struct Rules<'a> {
     pub(super) spacing: &'a Spacing,
     pub(super) clock: Clock,
     pub(super) walls: &'a [Wall],
-    /// Whether the drawing before holds up to the sheet's end.
+    /// Whether the last drawing before the end may hold up to the sheet's end.
     pub(super) holds_end: bool,
     pub(super) pace: &'a Pace<'a>,
     pub(super) still: Still<'a>,
     pub(super) steps: Steps,
 }
 
-/// Drawings, the koma on which they begin, and the inbetweens asked for that did not fit.
+/// The drawings, the koma on which they begin, and the number of requested inbetweens that did not fit.
 #[derive(Default)]
 pub(super) struct Row {
     drawings: Vec<Drawing>,
     begins: Vec<usize>,
-    /// The koma whose poses the last two of them show: a genga may come before its own.
+    /// The koma whose poses the last two drawings show; a genga may be placed before its own koma.
     shown: [usize; 2],
     did_not_fit: usize,
 }
 
 impl Rules<'_> {
-    /// Lays stations out on so many koma; `names` are those of all joints.
+    /// Lays out stations on `koma` koma; `names` are the names of all joints.
     pub(super) fn lay_out(
         self,
         stations: &[Station<'_>],
@@ -57,8 +57,8 @@ impl Rules<'_> {
         Spaced { gaits: self.steps.into_koma(), ..row.into_spaced(koma) }
     }
 
-    /// Which stations are drawn: not the ends of rests and of the sheet up to which the one before holds. All that was chosen
-    /// is drawn.
+    /// Returns which stations are drawn: all but the ends of rests and of the sheet up to which the drawing before
+    /// holds. Chosen keys are always drawn.
     fn drawn(&self, stations: &[Station<'_>]) -> Vec<bool> {
         let mut drawn = vec![true; stations.len()];
         let mut shown = 0;
@@ -73,7 +73,7 @@ impl Rules<'_> {
         drawn
     }
 
-    /// Puts the inbetweens between two stations into a row and gives the koma from which on the second is shown.
+    /// Puts the inbetweens between two stations into a row and returns the koma from which the second is shown.
     fn go(&self, row: &mut Row, from: &Station<'_>, to: &Station<'_>, is_drawn: bool) -> usize {
         if let Some(koma) = self.steps.between(from.koma, to.koma) {
             return self.step(row, from, to, &koma);
@@ -96,7 +96,7 @@ impl Rules<'_> {
         end
     }
 
-    /// Puts the inbetweens of a step between two stations: those that every step has. Nothing holds there.
+    /// Puts the inbetweens of a step, the same in every step, between two stations. Nothing holds there.
     fn step(&self, row: &mut Row, from: &Station<'_>, to: &Station<'_>, koma: &[usize]) -> usize {
         row.did_not_fit +=
             self.spacing.inbetweens.map_or(0, |asked| asked.saturating_sub(koma.len()));
@@ -104,7 +104,7 @@ impl Rules<'_> {
         to.koma
     }
 
-    /// Puts inbetweens on some koma into a row, the last up to `end`.
+    /// Puts inbetweens on some koma into a row; the last stays up to `end`.
     fn put(&self, row: &mut Row, [from, to]: [&Station<'_>; 2], koma: &[usize], end: usize) {
         let interval = Interval::new(self.spacing, from, to, self.walls, self.clock);
         let ends = koma.iter().skip(1).copied().chain([end]);
@@ -113,15 +113,15 @@ impl Rules<'_> {
         }
     }
 
-    /// The koma on which inbetweens stand between two koma: the first no earlier than the body sets out from the drawing on
-    /// screen, each for as long as a drawing has to.
+    /// Returns the koma of the inbetweens between two koma. The first comes no earlier than the body sets out from the
+    /// drawing on screen, and each stays as long as a drawing must.
     fn inbetweens(&self, shown: usize, from: usize, to: usize) -> Vec<usize> {
         if let Some(asked) = self.spacing.inbetweens {
             return self.spacing.evenly(asked, from..to, self.pace);
         }
         let step = |koma: usize| self.spacing.stay(koma, self.pace);
         let stays = |koma: &usize| koma + step(*koma).min(STAY) <= to;
-        // What is on screen stays for as long as any drawing does.
+        // The drawing on screen stays as long as any other.
         let first = from.max(shown + step(shown));
         let first = match self.still.is_rest(from, to) {
             true => first,
@@ -131,13 +131,13 @@ impl Rules<'_> {
         std::iter::successors(Some(first), next).take_while(stays).collect()
     }
 
-    /// Whether a station is the end of a rest: a time rather than a pose.
+    /// Whether a station is the end of a rest, and so marks a time rather than a pose.
     fn is_end_of_rest(&self, station: &Station<'_>) -> bool {
         station.is_rest() && self.still.ends_rest(station.koma)
     }
 
-    /// The koma on which a station within a rest comes: its own, or that of the first inbetween that is like it, whose place it
-    /// takes.
+    /// Returns the koma of a station within a rest: its own, or that of the first inbetween that looks like it, which
+    /// it replaces.
     fn displace(&self, koma: &mut Vec<usize>, to: &Station<'_>) -> usize {
         let is_like = |koma: &usize| self.still.leads_to(*koma, to.koma);
         match koma.iter().position(is_like).filter(|_| !to.is_fixed()) {
@@ -146,8 +146,8 @@ impl Rules<'_> {
         }
     }
 
-    /// The koma on which a station comes: its own, or the one from which on the body is there, if the drawing before it has
-    /// stayed by then. What would come after it goes.
+    /// Returns the koma of a station: its own, or the one at which the body arrives, if the drawing before has stayed
+    /// long enough by then. Inbetweens after that koma are removed.
     fn arrive(&self, row: &Row, koma: &mut Vec<usize>, to: &Station<'_>) -> usize {
         let stays_two = self.spacing.stay(to.koma, self.pace) >= STAY;
         if to.is_fixed() || self.spacing.inbetweens.is_some() || !stays_two {
@@ -162,20 +162,20 @@ impl Rules<'_> {
 }
 
 impl Row {
-    /// Whether what is on screen holds up to a station.
+    /// Whether the drawing on screen holds up to a station.
     fn holds_up_to(&self, station: &Station<'_>, still: &Still<'_>) -> bool {
         let is_any = !self.drawings.is_empty();
         is_any && !station.is_set() && still.holds(self.shown[1], station.koma)
     }
 
-    /// Puts a drawing on a koma that shows the pose of one.
+    /// Puts a drawing on a koma; `shown` is the koma whose pose it shows.
     fn put(&mut self, koma: usize, shown: usize, drawing: Drawing) {
         self.drawings.push(drawing);
         self.begins.push(koma);
         self.shown = [self.shown[1], shown];
     }
 
-    /// A layer of so many koma, each drawing up to the next.
+    /// Converts the row into a layer of `koma` koma, each drawing lasting up to the next.
     fn into_spaced(self, koma: usize) -> Spaced {
         let Self { drawings, begins, did_not_fit, .. } = self;
         let ends = begins.iter().skip(1).copied().chain([koma]);

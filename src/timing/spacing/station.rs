@@ -1,4 +1,4 @@
-//! Stations: drawings that stand at a koma of their own, the keys and both ends of the sheet.
+//! Stations: drawings with a koma of their own, namely the keys and both ends of the sheet.
 
 use std::cmp::Reverse;
 use std::sync::Arc;
@@ -9,20 +9,20 @@ use crate::motion::JointId;
 use crate::sheet::{Drawing, Role, Source, Why};
 use crate::time::Clock;
 
-/// A drawing that stands at a koma of its own: a key or an end.
+/// A drawing with a koma of its own: a key or an end.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station<'a> {
     pub(super) koma: usize,
     pub(super) place: f64,
     pub(super) role: Role,
-    /// The key it shows, or for an end the key it took over.
+    /// The key it shows; for an end, the key it took over.
     pub(super) key: Option<&'a Key>,
 }
 
-/// Keys and ends by koma, of those that stand too near to each other the stronger.
+/// Returns keys and ends by koma; of those too close to each other, the stronger.
 ///
-/// `least` is for how many koma the drawing of a koma has to stay. What a person set stays, however near. The phases of
-/// `steps` stand on koma of their own.
+/// `least` gives the fewest koma that the drawing of a koma has to stay. Drawings that a person set stay, however
+/// close. The phases of `steps` have koma of their own.
 pub(super) fn stations<'a>(
     keys: &'a [Key],
     steps: &Steps,
@@ -34,7 +34,7 @@ pub(super) fn stations<'a>(
     let set: Vec<usize> = own.iter().filter(|key| key.is_set()).map(|key| key.koma).collect();
     let stay = if last == 0 { 1 } else { least(last - 1) };
     let mut taken = ends(clock, last, stay, &set);
-    // The strongest first; of equals the earlier, since the order of those is kept.
+    // The strongest first; on a tie the earlier, as the sort is stable.
     own.sort_by(|a, b| b.strength().total_cmp(&a.strength()));
     own.sort_by_key(|station| Reverse(station.rank()));
     for station in own {
@@ -62,10 +62,10 @@ pub(super) fn stations<'a>(
     taken
 }
 
-/// The keys on their koma: the two nearest to a key's frame, or the nearest where drawings stay for one.
+/// Assigns keys to koma: the earlier of the two nearest to a key's frame, or the nearest if drawings stay for one koma.
 ///
-/// A drawing that stays for two koma is in time in the mean if its frame lies between them. Where that koma has
-/// what a person set already, what else they set comes on the next.
+/// A drawing that stays for two koma is on time on average if its frame lies between them. If a person already set a
+/// drawing on that koma, further ones that they set go on the next.
 fn on_koma<'a>(
     keys: &'a [Key],
     steps: &Steps,
@@ -91,18 +91,18 @@ fn on_koma<'a>(
     stations
 }
 
-/// The last koma that is not behind a place.
+/// Returns the last koma at or before a place.
 pub(super) fn koma_before(clock: Clock, place: f64) -> usize {
     let nearest = clock.koma_from_place(place);
     let is_behind = nearest > 0 && place < clock.place_from_koma(nearest) - HAIR;
     nearest - usize::from(is_behind)
 }
 
-/// Places nearer than this, in frames, are one.
+/// Places closer than this, in frames, are equal.
 const HAIR: f64 = 1e-6;
 
-/// The drawings of both ends, or one for a sheet too short for two. The last stays for `stay` koma like any
-/// other, or for one where a person wants two drawings there; `set` are the koma of what they set.
+/// Returns the drawings of both ends, or one for a sheet too short for two. The last stays for `stay` koma like any
+/// other, or for one if a person wants two drawings there; `set` are the koma of the drawings that they set.
 fn ends<'a>(clock: Clock, last: usize, stay: usize, set: &[usize]) -> Vec<Station<'a>> {
     let end = |koma, shown: usize| Station {
         koma,
@@ -120,12 +120,13 @@ fn ends<'a>(clock: Clock, last: usize, stay: usize, set: &[usize]) -> Vec<Statio
 }
 
 impl Station<'_> {
-    /// Whether a person wants it just where it is.
+    /// Whether a person placed it.
     pub(super) fn is_set(&self) -> bool {
         self.key.is_some_and(|key| key.origin.is_set())
     }
 
-    /// Whether it is drawn whatever the body does: a person wants it, something touches, or all steps of a gait have it.
+    /// Whether it is drawn whatever the body does: a person placed it, a contact happens there, or it is a phase of a
+    /// gait.
     pub(super) fn is_fixed(&self) -> bool {
         self.is_set() || matches!(self.origin(), Some(Origin::Contact | Origin::Step))
     }
@@ -135,7 +136,7 @@ impl Station<'_> {
         self.origin() == Some(Origin::Step)
     }
 
-    /// Whether it is an end of the sheet that no person wants.
+    /// Whether it is an end of the sheet that no person placed.
     pub(super) fn is_free_end(&self) -> bool {
         self.role == Role::End && !self.is_set()
     }
@@ -149,7 +150,7 @@ impl Station<'_> {
         self.key.map(|key| key.origin)
     }
 
-    /// What goes before what, whatever it saves.
+    /// Returns its priority, which precedes strength.
     fn rank(&self) -> usize {
         match self.origin() {
             Some(Origin::Pinned | Origin::Moved { .. }) => 4,
@@ -160,13 +161,13 @@ impl Station<'_> {
         }
     }
 
-    /// What it saves; where all are kept for how strong they are, that.
+    /// Returns what the key saves; its strength, if keys are not priced.
     fn strength(&self) -> f64 {
         let of = |key: &Key| if key.price.is_finite() { key.price } else { key.strength };
         self.key.map_or(0.0, of)
     }
 
-    /// The drawing; `names` are those of all joints.
+    /// Returns the drawing; `names` are the names of all joints.
     pub(super) fn drawing(&self, names: &[Arc<str>]) -> Drawing {
         let mut why = Why::default();
         if let Some(key) = self.key {
@@ -189,8 +190,8 @@ impl Station<'_> {
 }
 
 impl<'a> Station<'a> {
-    /// An end takes over the reasons of the strongest key that gives way to it. It shows what it shows, unless a
-    /// person wants the key there.
+    /// Lets an end take over the reasons of the strongest key that gives way to it. It keeps its own pose, unless a
+    /// person placed the key.
     fn take_over(&mut self, given: &Station<'a>) {
         if self.role != Role::End || self.key.is_some() {
             return;

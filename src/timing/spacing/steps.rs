@@ -1,4 +1,4 @@
-//! The koma of a gait's drawings (歩き). Every step has the same rhythm, left and right.
+//! The koma of a gait's drawings (歩き). Every step, left or right, has the same rhythm.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -8,51 +8,51 @@ use super::Spacing;
 use crate::keys::{Phase, Walk};
 use crate::maths::median;
 use crate::time::Frame;
-use crate::timing::on::{Pace, STAY};
+use crate::timing::koma_per_drawing::{Pace, STAY};
 
-/// A hair of a koma: instants nearer than this are one.
+/// Instants closer than this, in koma, are equal.
 const HAIR: f64 = 1e-6;
 
 /// The drawings of gaits on a sheet.
 #[derive(Debug, Default)]
 pub(super) struct Steps {
-    /// The koma of each genga by the frame that it shows.
+    /// The koma of each genga, by the frame that it shows.
     koma: BTreeMap<Frame, usize>,
-    /// The koma of each inbetween, and for how many it stays.
+    /// The koma of each inbetween, with the number of koma that it stays.
     inbetweens: BTreeMap<usize, usize>,
-    /// Rows of steps without a gap, from the first contact to the last.
+    /// Gapless rows of steps, from the first contact to the last.
     rows: Vec<Steady>,
 }
 
-/// A row of steps without a gap.
+/// A gapless row of steps.
 #[derive(Debug, Clone, PartialEq)]
 struct Steady {
     koma: Range<usize>,
-    /// For how many koma a drawing stays at the least beside what is no step.
+    /// Fewest koma that a drawing stays next to a drawing that is not a step.
     least: usize,
 }
 
 impl Steps {
-    /// The drawings of gaits on a sheet of so many koma.
-    pub(super) fn of(walks: &[Walk], length: usize, spacing: &Spacing, pace: &Pace<'_>) -> Self {
+    /// Lays out the drawings of gaits on a sheet of `length` koma.
+    pub(super) fn new(walks: &[Walk], length: usize, spacing: &Spacing, pace: &Pace<'_>) -> Self {
         let mut steps = Self::default();
         for walk in walks {
-            Placing::of(walk, spacing, pace).put(walk, length, &mut steps);
+            Placing::new(walk, spacing, pace).put(walk, length, &mut steps);
         }
         steps
     }
 
-    /// The koma of the genga of a step that shows a frame.
+    /// Returns the koma of the genga of a step that shows a frame.
     pub(super) fn koma(&self, frame: Frame) -> Option<usize> {
         self.koma.get(&frame).copied()
     }
 
-    /// For how many koma the drawing of a koma stays at the least; none outside of gaits.
+    /// Returns the fewest koma that the drawing of a koma stays; `None` outside gaits.
     pub(super) fn least(&self, koma: usize) -> Option<usize> {
         self.rows.iter().find(|row| row.koma.contains(&koma)).map(|row| row.least)
     }
 
-    /// The inbetweens between two koma of one gait. For other koma there is no answer.
+    /// Returns the inbetweens between two koma of one gait; `None` for other koma.
     pub(super) fn between(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         let is_row = |row: &&Steady| row.koma.start <= from && from < to && to <= row.koma.end;
         self.rows.iter().find(is_row)?;
@@ -63,7 +63,7 @@ impl Steps {
         Some(self.inbetweens.range(from..to).filter(fits).map(|(koma, _)| *koma).collect())
     }
 
-    /// The koma from the first contact to the last of each row of steps.
+    /// Returns the koma of each row of steps, from the first contact to the last.
     pub(super) fn into_koma(self) -> Vec<Range<usize>> {
         self.rows.into_iter().map(|row| row.koma).collect()
     }
@@ -79,22 +79,22 @@ impl Steps {
     }
 }
 
-/// How the steps of a gait are put on a sheet.
+/// The rules for putting the steps of a gait on a sheet.
 struct Placing {
     exposures: Exposures,
-    /// Whether a genga comes on the earlier of the two koma that are nearest.
+    /// Whether a genga goes on the earlier of the two nearest koma.
     comes_early: bool,
 }
 
 impl Placing {
-    fn of(walk: &Walk, spacing: &Spacing, pace: &Pace<'_>) -> Self {
+    fn new(walk: &Walk, spacing: &Spacing, pace: &Pace<'_>) -> Self {
         let comes_early = spacing.on.stay() >= STAY;
         let rhythm =
             Rhythm { on: on(walk, comes_early, spacing, pace), inbetweens: spacing.inbetweens };
-        Self { exposures: Exposures::of(&walk.shares, walk.koma, rhythm), comes_early }
+        Self { exposures: Exposures::new(&walk.shares, walk.koma, rhythm), comes_early }
     }
 
-    /// Puts a gait's drawings on a sheet of so many koma.
+    /// Puts a gait's drawings on a sheet of `length` koma.
     fn put(&self, walk: &Walk, length: usize, steps: &mut Steps) {
         let on_sheet = |koma: isize| usize::try_from(koma).ok().filter(|koma| *koma < length);
         for step in &walk.steps {
@@ -121,19 +121,19 @@ impl Placing {
     }
 }
 
-/// The koma of an instant, before the sheet's first where the clip begins in a step.
+/// Returns the koma of an instant; negative if the clip begins in the middle of a step.
 fn koma(instant: f64, comes_early: bool) -> isize {
     let half = if comes_early { 0.0 } else { 0.5 };
     (instant + half + HAIR).floor() as isize
 }
 
-/// The nearest whole number of koma, of two the later.
+/// Rounds to the nearest whole number of koma, up on a tie.
 fn nearest(koma: f64) -> usize {
     (koma + 0.5 + HAIR).floor().max(0.0) as usize
 }
 
-/// For how many koma a drawing of a gait stays: the median of all its koma. Where a step has room for four phases they are
-/// no less than two, as its genga show the pace.
+/// Returns how many koma a drawing of a gait stays: the median over all its koma. If a step has room for four phases,
+/// that is at least two, as its genga show the pace.
 fn on(walk: &Walk, comes_early: bool, spacing: &Spacing, pace: &Pace<'_>) -> usize {
     let all = walk
         .steps
@@ -146,22 +146,22 @@ fn on(walk: &Walk, comes_early: bool, spacing: &Spacing, pace: &Pace<'_>) -> usi
     on.max(least)
 }
 
-/// How many drawings a phase has.
+/// The rule for the number of drawings in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Rhythm {
-    /// For how many koma each stays, or a koma longer rather than that one stays for less than two.
+    /// Number of koma that each drawing stays. It grows by one koma if the last would otherwise stay for less than two.
     pub(super) on: usize,
-    /// Inbetweens that are asked for instead.
+    /// A fixed number of inbetweens instead.
     pub(super) inbetweens: Option<usize>,
 }
 
 impl Rhythm {
-    /// For how many koma a drawing stays at the least.
+    /// Returns the fewest koma that a drawing stays.
     fn least(self) -> usize {
         self.on.min(STAY)
     }
 
-    /// Drawings of so many koma.
+    /// Returns the number of drawings in `koma` koma.
     fn drawings(self, koma: usize) -> usize {
         let drawings = match (self.inbetweens, self.on) {
             (Some(asked), _) => (asked + 1).min(koma / self.least()),
@@ -171,7 +171,8 @@ impl Rhythm {
         drawings.max(1)
     }
 
-    /// Drawings of so many koma where others like it have some: as many, if there is room; on ones one a koma.
+    /// Returns the number of drawings in `koma` koma if similar phases have `usual`: the same number if there is room;
+    /// on ones, one per koma.
     fn like(self, usual: usize, koma: usize) -> usize {
         match self {
             Self { on: 1, inbetweens: None } => self.drawings(koma),
@@ -180,7 +181,7 @@ impl Rhythm {
     }
 }
 
-/// For how long a phase stays, and in how many drawings.
+/// The length of a phase and its number of drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Exposed {
     koma: usize,
@@ -188,27 +189,27 @@ pub(super) struct Exposed {
 }
 
 impl Exposed {
-    /// From when until when each drawing stays, as evenly as it goes, in koma from the first.
+    /// Returns the begin and end of each drawing in koma from the first, as evenly as possible.
     fn cuts(self) -> impl Iterator<Item = (usize, usize)> {
         let cut = move |at: usize| (at * self.koma).div_ceil(self.drawings);
         (0..self.drawings).map(move |at| (cut(at), cut(at + 1)))
     }
 }
 
-/// For how many koma each phase of a step stays: a function of the length of the step alone.
+/// The length of each phase of a step, which depends only on the length of the step.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Exposures {
     /// The exposures of the median step.
     usual: Vec<Exposed>,
-    /// Phases by how much more than they have is theirs by their share of the step, the most first.
+    /// The phases in the order of their deficit: how much shorter they are than their share of the step, largest first.
     order: Vec<usize>,
     rhythm: Rhythm,
 }
 
 impl Exposures {
-    /// The exposures of a gait whose phases begin at some shares of a step of so many koma. Each stays for two koma at the
-    /// least, where there is room.
-    pub(super) fn of(shares: &[f64], koma: f64, rhythm: Rhythm) -> Self {
+    /// Computes the exposures of a gait whose phases begin at `shares` of a step of `koma` koma. Each phase stays for
+    /// at least two koma if there is room.
+    pub(super) fn new(shares: &[f64], koma: f64, rhythm: Rhythm) -> Self {
         let count = shares.len();
         let length = nearest(koma).max(count);
         let least = (length / count.max(1)).min(STAY);
@@ -226,15 +227,16 @@ impl Exposures {
             let end = shares.get(phase + 1).copied().unwrap_or(1.0);
             (end - shares[*phase]) * length as f64 - usual[*phase].koma as f64
         };
-        // Where a phase is half-way between others, two lack the same, and it is no rounding that tells them apart.
+        // If a phase is half-way between others, two have the same deficit, and rounding errors must not decide between
+        // them.
         let hairs = |phase: &usize| (lacks(phase) / HAIR).round() as i64;
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by_key(|phase| Reverse(hairs(phase)));
         Self { usual, order, rhythm }
     }
 
-    /// Those of a step of so many koma. A koma more or less than usual goes to one phase, the next to the next: drawings
-    /// that stay for the shortest take first, and those that stay for two koma give last.
+    /// Returns the exposures of a step of `koma` koma. Koma beyond or short of the usual length go to one phase each:
+    /// phases with the shortest drawings take first, and phases of two koma give last.
     pub(super) fn of_step(&self, koma: usize) -> Vec<Exposed> {
         let mut step = self.usual.clone();
         let usual: usize = step.iter().map(|phase| phase.koma).sum();
@@ -252,14 +254,14 @@ impl Exposures {
         step
     }
 
-    /// The phase of a step that takes a koma more first: one whose drawings stay for the shortest.
+    /// Returns the phase that takes an extra koma first: one whose drawings are the shortest.
     fn first_to_take(&self, step: &[Exposed]) -> usize {
         let stays = |phase: usize| step[phase].koma as f64 / step[phase].drawings as f64;
         let shorter = |a: &&usize, b: &&usize| stays(**a).total_cmp(&stays(**b));
         self.order.iter().min_by(shorter).copied().unwrap_or_default()
     }
 
-    /// The phase of a step that gives a koma first.
+    /// Returns the phase that gives up a koma first.
     fn first_to_give(&self, step: &[Exposed]) -> usize {
         let rank = |phase: &&usize| {
             let Exposed { koma, drawings } = step[**phase];

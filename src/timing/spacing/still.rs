@@ -1,25 +1,25 @@
-//! Where the drawing on screen holds (止め), because the body hardly gets away from it.
+//! Holds (止め): where the drawing on screen stays because the body hardly moves away from it.
 
 use std::ops::RangeInclusive;
 
 use crate::keys::Alike;
 use crate::time::{Clock, Frame};
-use crate::timing::on::Pace;
+use crate::timing::koma_per_drawing::Pace;
 
-/// Poses are alike at the most up to this share of how far the poses of the take get from each other: a breath is all that
-/// moves in some.
+/// Poses count as alike at most up to this share of the range of the take's poses: in some takes, breathing is the only
+/// movement.
 const OF_REACH: f64 = 1.0 / 8.0;
 
-/// Poses nearer than this are alike however little moves, in % of body height, unless a recipe says less.
+/// Poses closer than this are alike however little moves, in % of body height, unless a recipe says less.
 const TREMBLE: f64 = 0.8;
 
-/// A share of the drift that is hardly seen: within it the body has not set out yet, or has arrived.
+/// Share of the drift that is hardly visible: within it the body has not set out yet, or has arrived.
 const SLIGHT: f64 = 0.4;
 
-/// Koma up to which it is asked whether a pose holds: two seconds on film, and no key is chosen for what lies behind.
+/// Largest number of koma over which a pose is tested for holding: two seconds on film. Keys are not chosen beyond.
 const FAR: usize = 48;
 
-/// Which poses of a body are one on the sheet, where it may be so unlike a drawing, in % of its height.
+/// Computes which poses of a body are the same on the sheet; `drift` is the allowed difference in % of body height.
 pub(crate) fn alike(pace: &Pace<'_>, drift: f64) -> Alike {
     let still = Still { rests: Vec::new(), drift: bounded(drift, pace), pace };
     let last = |koma: usize| {
@@ -32,22 +32,22 @@ pub(crate) fn alike(pace: &Pace<'_>, drift: f64) -> Alike {
     Alike::from_last((0..pace.koma()).map(last).collect())
 }
 
-/// How far the body may be from a drawing, where it gets no further than it does in the take.
+/// Bounds the drift by the range of the take's poses.
 fn bounded(drift: f64, pace: &Pace<'_>) -> f64 {
     if drift > TREMBLE { drift.min((OF_REACH * pace.reach()).max(TREMBLE)) } else { drift }
 }
 
-/// Which koma look alike, and the rests of a layer.
+/// The koma that look alike, and the rests of a layer.
 pub(super) struct Still<'a> {
-    /// The rests in koma.
+    /// The rests, in koma.
     rests: Vec<RangeInclusive<usize>>,
-    /// How unlike two poses are from which on they are not one, in % of body height; 0 where nothing holds.
+    /// The difference from which on two poses are distinct, in % of body height; 0 if nothing holds.
     drift: f64,
     pace: &'a Pace<'a>,
 }
 
 impl<'a> Still<'a> {
-    pub(super) fn of(
+    pub(super) fn new(
         rests: &[RangeInclusive<Frame>],
         clock: Clock,
         drift: f64,
@@ -58,19 +58,19 @@ impl<'a> Still<'a> {
         Self { rests, drift: bounded(drift, pace), pace }
     }
 
-    /// Whether a koma is inside of a rest and shows nothing that its begin does not.
+    /// Whether a koma is inside a rest and shows nothing that its begin does not.
     pub(super) fn covers(&self, koma: usize) -> bool {
         let is_within = |rest: &&RangeInclusive<usize>| *rest.start() < koma && koma < *rest.end();
         let mut rests = self.rests.iter().filter(is_within);
         rests.any(|rest| self.are_alike(*rest.start(), koma))
     }
 
-    /// Whether the pose of a koma holds up to a later one: the body gets nowhere else all the way.
+    /// Whether the pose of a koma holds up to a later one: the body stays close to it all the way.
     pub(super) fn holds(&self, shown: usize, koma: usize) -> bool {
         (shown + 1..=koma).all(|on_the_way| self.are_alike(shown, on_the_way))
     }
 
-    /// The koma on which the body sets out from the pose of one, from a koma on up to a later one: until then it hardly moves.
+    /// Returns the koma, between two, on which the body sets out from the pose of `shown`; until then it hardly moves.
     pub(super) fn departure(&self, shown: usize, from: usize, to: usize) -> usize {
         let is_away = |koma: &usize| !self.are_alike(shown, *koma);
         let away = (from + 1..to).find(is_away).unwrap_or(to);
@@ -78,24 +78,24 @@ impl<'a> Still<'a> {
         (from..away).rev().take_while(is_out).last().unwrap_or(away)
     }
 
-    /// The koma behind another from which on the body is where it is on a later one.
+    /// Returns the first koma after `from` at which the body has arrived at its pose of `to`.
     pub(super) fn arrival(&self, from: usize, to: usize) -> usize {
         let is_there = |koma: &usize| self.pace.unlike(*koma, to) < SLIGHT * self.drift;
         (from + 1..to).rev().take_while(is_there).last().unwrap_or(to)
     }
 
-    /// Whether a rest ends on a koma, or a koma beside it.
+    /// Whether a rest ends on a koma or next to it.
     pub(super) fn ends_rest(&self, koma: usize) -> bool {
         self.rests.iter().any(|rest| *rest.start() + 1 < koma && koma.abs_diff(*rest.end()) <= 1)
     }
 
-    /// Whether all of the time between two koma is of one rest; each may stand a koma beside its frame.
+    /// Whether the whole time between two koma belongs to one rest; each may be one koma off its frame.
     pub(super) fn is_rest(&self, from: usize, to: usize) -> bool {
         self.rests.iter().any(|rest| *rest.start() <= from + 1 && to <= *rest.end() + 1)
     }
 
-    /// Of some koma behind those of the last two drawings on screen those at which something new is to be seen: not what is
-    /// in a rest and like the drawing on screen.
+    /// Returns those of some koma at which something new is visible: it drops those in a rest that look like the
+    /// drawing on screen. `shown` are the koma of the last two drawings on screen.
     pub(super) fn what_moves(&self, mut shown: [usize; 2], mut koma: Vec<usize>) -> Vec<usize> {
         koma.retain(|&koma| {
             let is_in = |rest: &RangeInclusive<usize>| *rest.start() < koma && koma < *rest.end();
@@ -108,19 +108,19 @@ impl<'a> Still<'a> {
         koma
     }
 
-    /// Whether the body is in the pose of a later koma from one on.
+    /// Whether the body keeps the pose of `to` from `koma` on.
     pub(super) fn leads_to(&self, koma: usize, to: usize) -> bool {
         (koma..to).all(|on_the_way| self.are_alike(on_the_way, to))
     }
 
-    /// Whether a drawing of a rest stays on screen on a later koma: the body is not elsewhere, nor back where it was before
-    /// that drawing. A gesture goes out and comes back, and may be hardly more than the drift.
+    /// Whether a drawing of a rest stays on screen on a later koma: the body is neither elsewhere nor back at its pose
+    /// before that drawing. A gesture goes out and comes back, and may be hardly larger than the drift.
     fn stays(&self, [before, shown]: [usize; 2], koma: usize) -> bool {
         let [from_before, from_shown] = [before, shown].map(|own| self.pace.unlike(own, koma));
         from_shown < self.drift && from_shown <= from_before + SLIGHT * self.drift
     }
 
-    /// Whether the poses of two koma are nearly one.
+    /// Whether the poses of two koma are nearly the same.
     fn are_alike(&self, a: usize, b: usize) -> bool {
         self.pace.unlike(a, b) < self.drift
     }

@@ -32,12 +32,12 @@ fn layer(keys: &[usize], walls: &[usize]) -> LayerKeys {
     }
 }
 
-/// Everything on twos.
+/// Spacing on twos throughout.
 fn twos() -> Spacing {
     Spacing { on: On::every(2), ..Spacing::default() }
 }
 
-/// A body that goes on all the time but in rests, at 24 frames a second.
+/// Builds a body that always moves except in rests, at 24 frames per second.
 fn moving(rests: &[RangeInclusive<Frame>]) -> Pace<'static> {
     let is_still =
         |koma: usize| rests.iter().any(|rest| rest.start().0 < koma && koma <= rest.end().0);
@@ -115,7 +115,7 @@ fn inbetweens_crowd_towards_the_nearer_key_and_the_middle_stays() {
     assert_eq!(places(&layer), [0.0, 1.0, 4.0, 7.0, 8.0]);
 }
 
-/// Three inbetweens, half way to their key, of drawings that may stay for one koma.
+/// Three inbetweens, half way to their key; drawings may stay for one koma.
 fn three() -> Spacing {
     let (on, inbetweens) = (On::every(1), Some(3));
     Spacing { on, inbetweens, weight: 0.5, max_shift: 9.0, ..Spacing::default() }
@@ -252,7 +252,7 @@ fn short_sheets_are_ends_alone() {
 
 // Rests.
 
-/// Keys with rests between some frames, whose ends are keys.
+/// Builds keys with rests between some frames, whose ends are keys.
 fn resting(keys: &[usize], rests: &[(usize, usize)]) -> LayerKeys {
     let mut layer = layer(keys, &[]);
     for (begin, end) in rests {
@@ -268,7 +268,7 @@ fn resting(keys: &[usize], rests: &[(usize, usize)]) -> LayerKeys {
 #[test]
 fn one_drawing_holds_through_a_rest() {
     let held = |layer: &LayerKeys| begins(&place(&twos(), layer, 24.0, 40));
-    // The end of the rest is a time alone: a koma after it the body is elsewhere.
+    // The end of the rest marks only a time: one koma after it the body is elsewhere.
     assert_eq!(held(&resting(&[], &[(8, 32)])), [0, 2, 4, 6, 8, 33, 35, 38]);
     let with_key = held(&resting(&[20], &[(8, 32)]));
     assert_eq!(with_key, [0, 2, 4, 6, 8, 20, 33, 35, 38], "what was chosen is drawn");
@@ -307,13 +307,13 @@ fn a_rest_at_an_end_of_the_sheet_is_held_by_one_drawing() {
 
 // Holds.
 
-/// The row of a body that goes so far into each koma from the second on.
+/// Lays out a body that takes these steps into each koma from the second on.
 fn laid_out(keys: &LayerKeys, steps: &[f64], spacing: &Spacing) -> Layer {
     let pace = Pace::of_steps(steps.iter().copied());
     spacing.place(keys, &Skeleton::default(), clock(24.0), steps.len() + 1, &pace).layer
 }
 
-/// The frames and the begins of the genga.
+/// Returns frame and begin of the genga.
 fn genga(layer: &Layer) -> Vec<(usize, usize)> {
     let shown = layer.timed().map(|(begin, shown)| (&layer.drawings[shown.drawing], begin));
     let genga = shown.filter(|(drawing, _)| drawing.role == Role::Genga);
@@ -379,7 +379,7 @@ fn a_slow_drift_in_a_rest_is_a_moving_hold() {
 
 #[test]
 fn where_hardly_anything_moves_less_is_another_pose() {
-    // 4 % in all: an eighth of it is less than a tremble, 0.8.
+    // 4 % in all: an eighth of it is below the tremble of 0.8.
     let alike = |steps: &[f64]| alike(&Pace::of_steps(steps.iter().copied()), 3.3);
     assert_eq!(alike(&[0.5; 8]), Alike::from_last(vec![1, 2, 3, 4, 5, 6, 7, 8, 8]));
     let far = alike(&[vec![10.0; 20], vec![0.5; 8]].concat());

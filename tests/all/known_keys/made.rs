@@ -1,30 +1,30 @@
-//! Clips with a pose on every frame, made from a few known keys.
+//! Makes clips with a pose on every frame from a few known keys.
 
 use genga::motion::{Body, Channel, Clip, Landmarks, Pose, RowWriter};
 use genga::sheet::Source;
-use genga::study::Noise;
 use genga::time::{Frame, FrameRate};
+use genga_lab::study::Noise;
 
-/// Frames in a koma of the clips that are made, 120 a second.
+/// Frames in a koma of the made clips, which have 120 frames per second.
 pub(crate) const FRAMES: usize = 5;
 
-/// How much of the way through the room is left: keys are taken from anywhere in a clip, and a body does
-/// not leap across a stage from one to the next.
+/// Share of the travel that is kept: keys come from anywhere in a clip, and a body does not leap across a stage from
+/// one to the next.
 const TRAVEL: f64 = 0.2;
 
-/// Keys of each clip.
+/// Number of keys in each clip.
 const KEYS: usize = 16;
 
-/// How far apart two keys after one another are at least, in heights of the body: what one would draw.
+/// Least distance between consecutive keys, in body heights: enough to be worth a drawing.
 const APART: f64 = 0.1;
 
-/// Seconds of a clip from one key's pose to the next one's, back or forth, at the most.
+/// Largest distance in the source, in seconds, from one key's pose to the next one's, forwards or backwards.
 const NEAR: f64 = 1.0;
 
-/// How far a joint is early or late at a key at the most, in koma.
+/// Largest time by which a joint is early or late at a key, in koma.
 const LATE: f64 = 1.0;
 
-/// Numbers that look drawn by lot, the same for the same seed.
+/// A seeded pseudo-random generator.
 struct Lot(u64);
 
 impl Lot {
@@ -41,19 +41,19 @@ impl Lot {
 /// One of the poses that a clip is made from.
 #[derive(Debug, Clone, Copy)]
 struct Known {
-    /// Where its pose stands in the clip it is taken from.
+    /// Place of its pose in the source clip.
     place: f64,
-    /// Where that of the root does: a body does not face anywhere from one key to the next.
+    /// Place of the root's pose: a body does not turn to any direction from one key to the next.
     root: f64,
-    /// When it is reached, and how long it is held, in koma.
+    /// Koma at which it is reached, and koma for which it is held.
     at: f64,
     hold: f64,
     /// Whether the body is still moving when it gets there.
     is_passed: bool,
 }
 
-/// Keys 5 to 14 koma apart; every fifth or so is held for half a second or more, and of the others every
-/// third is passed at speed.
+/// Draws keys 5 to 14 koma apart. About every fifth is held for half a second or more, and every third of the others is
+/// passed at speed.
 fn known(clip: &Clip, lot: &mut Lot) -> Vec<Known> {
     let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
     let second = clip.rate().fps();
@@ -82,8 +82,8 @@ fn known(clip: &Clip, lot: &mut Lot) -> Vec<Known> {
     keys
 }
 
-/// How far two poses of a clip are apart without their way through the room, each given by its place and
-/// that of its root: root mean square over the joints, in heights of the body.
+/// Distance between two poses of a clip with little travel, each given by its place and that of its root: root mean
+/// square over the joints, in body heights.
 fn distance(clip: &Clip, one: (f64, f64), other: (f64, f64)) -> f64 {
     let stands = [one, other].map(|(place, root)| {
         let (mut pose, mut body) = (Pose::rest(clip.skeleton()), Body::new(clip.skeleton()));
@@ -95,21 +95,21 @@ fn distance(clip: &Clip, one: (f64, f64), other: (f64, f64)) -> f64 {
         body.positions().to_vec()
     });
     let ways = stands[0].iter().zip(&stands[1]).map(|(a, b)| a.distance_squared(*b));
-    (ways.sum::<f64>() / stands[0].len() as f64).sqrt() / Landmarks::of(clip).height
+    (ways.sum::<f64>() / stands[0].len() as f64).sqrt() / Landmarks::new(clip).height
 }
 
-/// What moves a body from known key to known key.
+/// Moves a body from known key to known key.
 struct Made<'a> {
     from: &'a Clip,
     keys: &'a [Known],
-    /// Joint by joint, how many koma later each key is reached than it is by the body as a whole.
+    /// Koma by which each joint reaches each key later than the body as a whole.
     late: Vec<Vec<f64>>,
-    /// Whether its inbetweens are straight and nothing is smoothed.
+    /// Whether inbetweens are linear and unsmoothed.
     is_straight: bool,
 }
 
 impl Made<'_> {
-    /// Where the pose of a joint comes from at a koma.
+    /// The source of a joint's pose at a koma.
     fn source(&self, joint: usize, koma: f64) -> Source {
         let keys = self.keys;
         let place = |key: usize| if joint == 0 { keys[key].root } else { keys[key].place };
@@ -123,7 +123,7 @@ impl Made<'_> {
         }
         let share = (koma - left(before)) / (reached(before + 1) - left(before));
         let [out, into] = [before, before + 1].map(|key| f64::from(keys[key].is_passed));
-        // Hermite's curve: it starts and ends at rest, or at the pace of the whole way.
+        // A Hermite curve: it starts and ends at rest, or at the mean pace of the segment.
         let (square, cube) = (share * share, share * share * share);
         if self.is_straight {
             return Source::Between { from: place(before), to: place(before + 1), share };
@@ -161,7 +161,7 @@ impl Made<'_> {
     }
 }
 
-/// Each channel's mean over a koma: a body has mass, and no speed of it changes at once.
+/// Averages each channel over a koma: a body has mass, and its speed does not jump.
 fn smooth(values: &[f64], channels: usize) -> Vec<f64> {
     let frames = values.len() / channels;
     let mean = |frame: usize, channel: usize| {
@@ -172,7 +172,7 @@ fn smooth(values: &[f64], channels: usize) -> Vec<f64> {
     (0..frames).flat_map(|frame| (0..channels).map(move |channel| mean(frame, channel))).collect()
 }
 
-/// A clip made from keys of another, and the frames of those but its first and last.
+/// Makes a clip from keys of another. Returns it with the frames of all keys but the first and the last.
 pub(crate) fn made(from: &Clip, seed: u64, noise: f64) -> (Clip, Vec<Frame>) {
     let mut lot = Lot(seed);
     let keys = known(from, &mut lot);
@@ -183,7 +183,7 @@ pub(crate) fn made(from: &Clip, seed: u64, noise: f64) -> (Clip, Vec<Frame>) {
     (Noise { degrees: noise, seed }.on(&clip), frames(&keys))
 }
 
-/// The same keys as a program inbetweens them: straight, and all joints on the same frame.
+/// Makes a clip of the same keys with a program's inbetweens: linear, and all joints on the same frame.
 #[allow(dead_code, reason = "no figure of the pages is made of such clips")]
 pub(crate) fn keyed(from: &Clip, seed: u64) -> (Clip, Vec<Frame>) {
     let keys = known(from, &mut Lot(seed));
@@ -200,8 +200,9 @@ fn frames(keys: &[Known]) -> Vec<Frame> {
     frames
 }
 
-/// The noise of a clip in degrees, from the third differences of its rotations, which motion hardly has: half
-/// of those of a channel are smaller than √20 · 0.67 times its noise. The middle one of the channels that turn.
+/// Estimates the noise of a clip in degrees from the third differences of its rotations, which motion hardly has: half
+/// of those of a channel are smaller than √20 · 0.67 times its noise. The result is the median of the channels that
+/// turn.
 pub(crate) fn noise_of(clip: &Clip) -> f64 {
     let rows: Vec<&[f64]> = clip.rows().collect();
     let noise = |channel: usize| {

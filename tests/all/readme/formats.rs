@@ -1,4 +1,4 @@
-//! What `docs/formats.md` shows of files is what the program writes and reads.
+//! Checks that the files shown in `docs/formats.md` are those that the program writes and reads.
 
 use std::fs;
 
@@ -7,19 +7,19 @@ use genga::recipe::Recipe;
 use super::page::{blocks, page};
 use super::reader::{place, said};
 
-/// The block of the page that has a line.
+/// The block of the page that contains a line.
 fn block_with(line: &str) -> String {
     let page = page("docs/formats.md");
     let found = blocks(&page).into_iter().find(|block| block.lines.contains(&line));
     found.unwrap_or_else(|| panic!("no block has {line}")).lines.join("\n") + "\n"
 }
 
-/// The pieces of a shown file between what was left out of it, without white space at their ends.
+/// The pieces of a shown file between omissions (`…`), trimmed.
 fn shown(block: &str) -> Vec<&str> {
     block.split('…').map(str::trim).filter(|piece| !piece.is_empty()).collect()
 }
 
-/// The first piece that is not in a text behind those before it.
+/// The first piece that does not occur in a text after the pieces before it.
 fn missing<'a>(block: &'a str, text: &str) -> Option<&'a str> {
     let mut rest = text;
     shown(block).into_iter().find(|piece| {

@@ -1,4 +1,4 @@
-//! A page of Markdown: prose, fenced blocks, and the commands in them.
+//! Parses a page of Markdown: prose, fenced blocks, and the commands in them.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ pub(super) fn page(name: &str) -> String {
 /// A fenced block of a page.
 pub(super) struct Block<'a> {
     pub(super) language: &'a str,
-    /// What the comment above it says that it is written into.
+    /// File name in the comment above the block, if any.
     pub(super) file: Option<&'a str>,
     pub(super) lines: Vec<&'a str>,
 }
@@ -49,7 +49,7 @@ pub(super) fn blocks(page: &str) -> Vec<Block<'_>> {
     pieces(page).into_iter().filter_map(block).collect()
 }
 
-/// The commands of a page, in order, without the comments behind them.
+/// The commands of a page in order, without trailing comments.
 pub(super) fn commands(page: &str) -> Vec<String> {
     let of = |block: Block| -> Vec<String> {
         let lines = block.lines.into_iter();

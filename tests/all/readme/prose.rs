@@ -1,4 +1,4 @@
-//! What the prose of all pages names between backticks is there.
+//! Checks that everything named in backticks in the prose of all pages exists.
 
 use std::fs;
 
@@ -6,10 +6,13 @@ use super::page::{Piece, page, pieces};
 use super::reader::{place, said};
 use crate::clips::here;
 
-/// The pages of the project, and those of `docs`.
+/// The pages of the project, including those of `docs`.
 fn pages() -> Vec<String> {
-    let docs = fs::read_dir(here("docs")).unwrap().map(|entry| entry.unwrap().file_name());
-    let docs = docs.map(|name| format!("docs/{}", name.to_string_lossy()));
+    let in_folder = |folder: &'static str| {
+        let names = fs::read_dir(here(folder)).unwrap().map(|entry| entry.unwrap().file_name());
+        names.map(move |name| format!("{folder}/{}", name.to_string_lossy()))
+    };
+    let docs = ["docs", "docs/lab"].into_iter().flat_map(in_folder);
     let pages = docs.filter(|name| name.ends_with(".md"));
     let first = ["README.md", "README.ja.md", "CHANGELOG.md"].map(str::to_owned);
     let mut pages: Vec<_> = first.into_iter().chain(pages).collect();
@@ -17,7 +20,7 @@ fn pages() -> Vec<String> {
     pages
 }
 
-/// What stands between backticks in the prose of all pages, each with its page.
+/// All text in backticks in the prose of all pages, each with its page.
 fn codes() -> Vec<(String, String)> {
     let mut codes = Vec::new();
     for name in pages() {
@@ -63,7 +66,7 @@ fn commands_and_options_named_in_the_prose_are_there() {
     let mut missing = Vec::new();
     for (name, code) in codes().into_iter().filter(|(_, code)| ours(code)) {
         let command = code.strip_prefix("genga ").and_then(|rest| rest.split_whitespace().next());
-        // A file in place of a command is one of the mistakes that are told.
+        // A file in place of a command is one of the documented mistakes.
         let is_there = |word: &str| commands.contains(&word) || word.contains('.');
         let mut named = code.split(end).filter(|word| word.starts_with("--"));
         if !command.is_none_or(is_there) || named.any(|word| !options.contains(&word)) {

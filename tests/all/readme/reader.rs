@@ -1,4 +1,4 @@
-//! A reader who types what a page shows.
+//! Runs the commands of a page as a reader types them.
 
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -9,29 +9,29 @@ use crate::clips::here;
 /// The test command of the README.
 pub(super) const TESTS: &str = "cargo test --locked";
 
-/// Commands that are not run here: they build all anew, open a window, or show a page until they are ended.
+/// Commands that are not run here: they build everything anew, open a window, or serve a page until they are ended.
 const ELSEWHERE: [&str; 8] = [
     TESTS,
-    "cargo install --path . --locked",
-    "cargo install --path . --features pdf --locked",
-    "cargo install --path . --features studio --locked",
+    "cargo install --path crates/genga-cli --locked",
+    "cargo install --path crates/genga-cli --features pdf --locked",
+    "cargo install --path crates/genga-cli --features studio --locked",
     "cargo run --release --locked --features studio -- studio data/kick.bvh",
     "rustup target add wasm32-unknown-unknown",
     "tools/browser --serve",
     "env -u WAYLAND_DISPLAY genga studio data/kick.bvh",
 ];
 
-/// What stands before a command of somebody who has not installed the program.
+/// Prefix of a command for somebody who has not installed the program.
 pub(super) const UNINSTALLED: &str = "cargo run --release --locked -- ";
 
-/// A folder of a reader, with the repository's motions in it.
+/// A reader's folder, with a link to the repository's motions.
 pub(super) fn place() -> tempfile::TempDir {
     let place = tempfile::tempdir().unwrap();
     symlink(here("data"), place.path().join("data")).unwrap();
     place
 }
 
-/// Runs a command of a page in a folder, and gives what it says, data and words together.
+/// Runs a command of a page in a folder, and returns stdout and stderr together.
 pub(super) fn said(command: &str, place: &Path) -> Result<String, String> {
     if ELSEWHERE.contains(&command) {
         return Ok(String::new());

@@ -1,4 +1,4 @@
-//! What `targets/amc.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/amc.rs` on inputs of libFuzzer.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What `targets/chain.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/chain.rs` on inputs of libFuzzer.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What `targets/fbx.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/fbx.rs` on inputs of libFuzzer.
 
 #![no_main]
 

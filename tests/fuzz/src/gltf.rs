@@ -1,4 +1,4 @@
-//! What `targets/gltf.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/gltf.rs` on inputs of libFuzzer.
 
 #![no_main]
 

@@ -1,7 +1,7 @@
-//! Memory and time of one call: what libFuzzer itself cannot see on stable Rust.
+//! Measures memory and time of one call, which libFuzzer itself cannot do on stable Rust.
 //!
-//! Its `-malloc_limit_mb` needs the hooks of a sanitizer's runtime, and its slowest unit is told in
-//! whole seconds. So the memory is counted here, by the allocator, and held against a bound.
+//! Its `-malloc_limit_mb` needs the hooks of a sanitizer's runtime, and its slowest unit is reported in whole seconds.
+//! So the allocator counts the memory here, and it is compared with a bound.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
@@ -17,7 +17,7 @@ static LARGEST: AtomicUsize = AtomicUsize::new(0);
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-// SAFETY: every call is handed to the system's allocator as it is; only sizes are noted.
+// SAFETY: every call is passed to the system's allocator unchanged; only sizes are noted.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let now = NOW.fetch_add(layout.size(), Relaxed) + layout.size();
@@ -33,14 +33,14 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Bytes of memory that a call may take, and those in multiples of which they are told.
+/// Bytes of memory that a call may take, and the unit in which multiples are reported.
 pub struct Bound {
     pub most: usize,
     pub unit: usize,
 }
 
-/// Runs it on an input of so many bytes and panics when it took more memory than the bound. Says so on stderr when it was
-/// the slowest, or took the largest multiple, up to now.
+/// Runs `call` on an input of `size` bytes, and panics if it took more memory than the bound. Reports on stderr if it
+/// was the slowest so far, or took the largest multiple.
 pub fn measured<T>(size: usize, Bound { most, unit }: Bound, call: impl FnOnce() -> T) -> T {
     let before = NOW.load(Relaxed);
     PEAK.store(before, Relaxed);
@@ -55,7 +55,7 @@ pub fn measured<T>(size: usize, Bound { most, unit }: Bound, call: impl FnOnce()
     if SLOWEST.fetch_max(micros, Relaxed) < micros {
         eprintln!("slowest: {micros} us for {size} bytes");
     }
-    // A small input tells nothing: a String alone has 24 bytes.
+    // A small input says little: a String alone has 24 bytes.
     let multiple = 100 * taken / unit.max(1);
     if unit >= 256 && LARGEST.fetch_max(multiple, Relaxed) < multiple {
         eprintln!("memory: {}.{:02} times {unit} bytes", multiple / 100, multiple % 100);

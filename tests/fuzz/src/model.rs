@@ -1,4 +1,4 @@
-//! What `targets/model.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/model.rs` on inputs of libFuzzer.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What `targets/read.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/read.rs` on inputs of libFuzzer.
 
 #![no_main]
 

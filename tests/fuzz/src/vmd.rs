@@ -1,4 +1,4 @@
-//! What `targets/vmd.rs` checks, on what libFuzzer makes up.
+//! Runs the check of `targets/vmd.rs` on inputs of libFuzzer.
 
 #![no_main]
 

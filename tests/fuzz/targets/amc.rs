@@ -1,27 +1,27 @@
-//! Any two texts, the skeleton before a line of `%` and the motion behind it: the reader refuses them with line and column,
-//! or gives a clip.
+//! Any two texts, the skeleton before a line of `%` and the motion after it: the reader refuses them with line and
+//! column, or returns a clip.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use genga::error::{Error, Place};
-use genga::motion::file;
+use genga_read as file;
 
 use super::measure::{self, Bound};
 
 /// Bytes of memory that a call may take for each byte of its input.
 const MULTIPLE: usize = 256;
 
-/// Bytes that it may take for nothing.
+/// Fixed allowance in bytes.
 const FREE: usize = 256 << 10;
 
-/// Where the skeleton lies: a reader finds it by a path.
+/// Path of the skeleton, which the reader finds by its path.
 fn skeleton() -> &'static PathBuf {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
     PATH.get_or_init(|| std::env::temp_dir().join(format!("genga-fuzz-{}.asf", std::process::id())))
 }
 
-/// Panics where that does not hold.
+/// Panics if the check fails.
 pub(super) fn check(bytes: &[u8]) {
     let at = bytes.windows(3).position(|part| part == b"\n%\n");
     let (asf, amc) = at.map_or((bytes, &b""[..]), |at| (&bytes[..at], &bytes[at + 3..]));
@@ -40,7 +40,7 @@ pub(super) fn check(bytes: &[u8]) {
             assert!((1..=3 * motion.len() + 1).contains(&column), "column {column}");
         }
         Err(Error::Motion { place: Place::Part(place), .. }) => assert!(place.contains(".asf:")),
-        Err(Error::Clip { .. } | Error::Bvh { .. }) => {}
+        Err(Error::Clip { .. }) => {}
         Err(other) => panic!("an error without a place: {other}"),
     }
 }

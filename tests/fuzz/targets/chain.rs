@@ -1,23 +1,24 @@
-//! Any motion that the reader takes: the chain refuses it, or gives a sheet of its length and keeps within its budget.
+//! Any motion that the reader accepts: the chain refuses it, or returns a sheet of its length and keeps within its
+//! budget.
 
-use genga::deliver;
 use genga::edits::Edits;
 use genga::motion::bvh;
+use genga::motion::clean::Cleaning;
 use genga::pipeline::{Breakdown, Budget, Engine};
 use genga::recipe::Recipe;
 
 use super::measure::{self, Bound};
 
-/// Bytes of memory that a run is allowed. Thousands of joints or of koma fit.
+/// Bytes of memory for a run. Thousands of joints or of koma fit.
 const BUDGET: usize = 24 << 20;
 
-/// The limited motion is written and read again where it has no more numbers than these.
+/// Most numbers of a limited motion that is written and read again.
 const MOST_WRITTEN: usize = 40_000;
 
-/// Panics where that does not hold.
+/// Panics if the check fails.
 pub(super) fn check(bytes: &[u8]) {
     let Ok(read) = bvh::read(bytes) else { return };
-    let (clip, _) = bvh::Cleaning::default().of(read.clip).expect("all frames are asked for");
+    let (clip, _) = Cleaning::default().apply(read.clip).expect("all frames are asked for");
     let recipe = Recipe::default();
     let budget = Budget { bytes: Some(BUDGET as f64) };
     let Ok(engine) = Engine::new(clip) else { return };
@@ -46,7 +47,8 @@ fn check_limited(breakdown: &Breakdown) {
     if koma * (1 + breakdown.clip.skeleton().channels()) > MOST_WRITTEN {
         return;
     }
-    let text = deliver::limited_bvh(breakdown.clip, breakdown.sheet).expect("the limited motion");
+    let text =
+        genga_files::limited_bvh(breakdown.clip, breakdown.sheet).expect("the limited motion");
     let limited = bvh::read(text.as_bytes()).expect("the limited motion reads").clip;
     assert_eq!(limited.len(), koma, "rows of the limited motion");
 }

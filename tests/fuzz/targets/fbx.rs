@@ -1,20 +1,21 @@
-//! Any bytes that begin as FBX does: the reader refuses them with a place, or gives a clip that can be worked on. genga's
-//! own memory is counted here; that of ufbx, which is C, is bounded by what it is allowed and by libFuzzer's limit.
+//! Any bytes that begin as FBX: the reader refuses them with a place, or returns a clip that can be worked on. genga's
+//! own memory is counted here. That of ufbx, which is C, is bounded by its allowance and by libFuzzer's limit.
 
 use genga::error::{Error, Place};
-use genga::motion::{StreamLimit, file};
+use genga::motion::StreamLimit;
+use genga_read as file;
 
 use super::measure::{self, Bound};
 
-/// What ufbx may take, and what may be sampled of curves, in bytes.
+/// Bytes that ufbx may take, and that may be sampled from curves.
 const ALLOWED: usize = 4 << 20;
 
 /// Bytes of memory that a call may take for each byte of its input.
 const MULTIPLE: usize = 64;
 
-/// Panics where that does not hold.
+/// Panics if the check fails.
 pub(super) fn check(bytes: &[u8]) {
-    // What does not begin as a binary file is text.
+    // A file without the binary signature is text.
     let head: &[u8] = if bytes.starts_with(b"Kaydara FBX Binary") { b"" } else { b"; FBX\n" };
     let fbx = [head, bytes].concat();
     let options =

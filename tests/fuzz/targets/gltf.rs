@@ -1,20 +1,21 @@
-//! Any bytes as a GLB, or as the rest of a document in JSON: the reader refuses them with a place, or gives a clip that can
-//! be worked on.
+//! Any bytes as a GLB, or as the rest of a JSON document: the reader refuses them with a place, or returns a clip that
+//! can be worked on.
 
 use genga::error::{Error, Place};
-use genga::motion::{StreamLimit, file};
+use genga::motion::StreamLimit;
+use genga_read as file;
 
 use super::measure::{self, Bound};
 
-/// What may be read of numbers, and sampled of curves, in bytes.
+/// Bytes of numbers that may be read, and that may be sampled from curves.
 const ALLOWED: usize = 4 << 20;
 
 /// Bytes of memory that a call may take for each byte of its input.
 const MULTIPLE: usize = 64;
 
-/// Panics where that does not hold.
+/// Panics if the check fails.
 pub(super) fn check(bytes: &[u8]) {
-    // What is no GLB and no document is put into one.
+    // Input that is neither a GLB nor a document is put into one.
     let is_whole = bytes.starts_with(b"glTF") || bytes.starts_with(b"{");
     let head: &[u8] = if is_whole { b"" } else { br#"{"asset":{"version":"2.0"},"# };
     let gltf = [head, bytes].concat();

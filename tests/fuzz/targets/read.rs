@@ -1,6 +1,6 @@
-//! Any bytes: the reader refuses them, or gives a motion that is written and read back unchanged. The
-//! careful way, which reads lines that end in CR, says the same as the quick way, and repair panics no
-//! more than the plain reading does.
+//! Any bytes: the reader refuses them, or returns a motion that is written and read back unchanged. The careful path,
+//! which reads lines that end in CR, gives the same result as the quick path. Repairing panics no more than plain
+//! reading does.
 
 use genga::error::Error;
 use genga::motion::{Clip, bvh};
@@ -10,14 +10,14 @@ use super::measure::{self, Bound};
 /// Bytes of memory that a call may take for each byte of its input.
 const MULTIPLE: usize = 64;
 
-/// Bytes that it may take for nothing.
+/// Fixed allowance in bytes.
 const FREE: usize = 64 << 10;
 
 fn measured<T>(size: usize, call: impl FnOnce() -> T) -> T {
     measure::measured(size, Bound { most: MULTIPLE * size + FREE, unit: size }, call)
 }
 
-/// Panics where that does not hold.
+/// Panics if the check fails.
 pub(super) fn check(bytes: &[u8]) {
     let plain = measured(bytes.len(), || bvh::read(bytes));
     match &plain {
@@ -36,7 +36,7 @@ pub(super) fn check(bytes: &[u8]) {
             assert!(plain.is_err(), "repair breaks what was whole: {error}");
         }
     }
-    // In UTF-16 a line end is more than a byte.
+    // In UTF-16 a line end has more than one byte.
     if !bytes.contains(&b'\r') && !bytes.starts_with(b"\xff\xfe") && !bytes.starts_with(b"\xfe\xff")
     {
         let careful: Vec<u8> =
@@ -58,7 +58,7 @@ fn check_clip(clip: &Clip) {
 
 fn check_error(error: &Error, size: usize) {
     let (line, column) = error.position().expect("a reader's error has a place");
-    // Lines end in LF, CRLF or CR, so there is at most one a byte, and the end is in one. A byte of
+    // Lines end in LF, CRLF or CR, so there is at most one line per byte, and the end may be on one more. A byte of
     // Shift-JIS may be three of UTF-8.
     assert!((1..=size + 1).contains(&line), "line {line}");
     assert!((1..=3 * size + 1).contains(&column), "column {column}");

@@ -1,18 +1,19 @@
-//! Any bytes after the signature of a VMD: the reader refuses them at a byte that is there, or gives a clip that can be
-//! worked on. What it takes is bounded by what it may take, whatever the file says about itself.
+//! Any bytes after the signature of a VMD: the reader refuses them at a byte within the file, or returns a clip that
+//! can be worked on. Its memory is bounded by the limit, whatever the file says about itself.
 
 use genga::error::{Error, Place};
-use genga::motion::{StreamLimit, file};
+use genga::motion::StreamLimit;
+use genga_read as file;
 
 use super::measure::{self, Bound};
 
-/// What may be sampled of curves, in bytes: a few bytes say a frame that is far away.
+/// Bytes that may be sampled from curves: a few bytes can name a frame that is far away.
 const SAMPLED: usize = 4 << 20;
 
-/// Bytes of memory that a call may take for each byte of its input, and for what is sampled.
+/// Bytes of memory that a call may take for each byte of its input, and for sampled values.
 const MULTIPLE: usize = 64;
 
-/// Panics where that does not hold.
+/// Panics if the check fails.
 pub(super) fn check(bytes: &[u8]) {
     let mut vmd = b"Vocaloid Motion Data".to_vec();
     vmd.extend(bytes);
@@ -25,7 +26,7 @@ pub(super) fn check(bytes: &[u8]) {
             assert!(byte <= vmd.len() as u64, "byte {byte}: {message}");
             assert!(message.len() < 2000, "an error of {} bytes", message.len());
         }
-        // That no bone is known is a matter of all of them.
+        // That no bone is known concerns the whole file.
         Err(Error::Motion { place: Place::Whole, message }) => assert!(message.contains("keyed")),
         Err(Error::Clip { .. }) => {}
         Err(other) => panic!("an error without a place: {other}"),

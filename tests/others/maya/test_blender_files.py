@@ -86,9 +86,9 @@ class Takes(unittest.TestCase):
 
     def test_another_length_is_said_either_way(self):
         for keyed, words in (
-            ((1, 49), "ends on frame 49, but kick.bvh goes on to 50"),
-            ((1, 51), "goes on to frame 51, but kick.bvh ends on 50"),
-            ((3, 50), "begins on frame 3, but source frame 0 is said to lie on 1"),
+            ((1, 49), "ends on frame 49, but kick.bvh lasts until 50"),
+            ((1, 51), "lasts until frame 51, but kick.bvh ends on 50"),
+            ((3, 50), "begins on frame 3, but source frame 0 is set to 1"),
         ):
             with self.subTest(keyed=keyed):
                 (sentence,) = self.doubts(keyed=keyed)
@@ -107,7 +107,7 @@ class Takes(unittest.TestCase):
 
     def test_layers_are_taken_by_name_and_others_refused(self):
         self.assertEqual([layer.name for layer in sheet().of("")], ["A", "B"])
-        with self.assertRaisesRegex(files.NotAFile, "no layer C; there are A, B"):
+        with self.assertRaisesRegex(files.NotAFile, "no layer C; the sheet has A, B"):
             sheet().of("C")
 
     def test_what_poses_cannot_show_is_said(self):

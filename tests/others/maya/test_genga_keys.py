@@ -117,7 +117,7 @@ class Found(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "no joint is selected"):
             genga_keys.find_keys()
         self.cmds.add("|other", kind="joint")
-        with self.assertRaisesRegex(RuntimeError, "does not hang on"):
+        with self.assertRaisesRegex(RuntimeError, "is not below"):
             genga_keys.find_keys(nodes=[self.paths[0], "|other"])
         own = builtins.__import__
 
@@ -128,7 +128,7 @@ class Found(unittest.TestCase):
 
         builtins.__import__ = without
         try:
-            with self.assertRaisesRegex(RuntimeError, "mayapy has no genga yet"):
+            with self.assertRaisesRegex(RuntimeError, "genga is not installed"):
                 genga_keys.find_keys()
         finally:
             builtins.__import__ = own

@@ -1,7 +1,6 @@
-//! Where a curve bends.
+//! Finds where a curve bends.
 
-/// The place furthest from the straight line between the first and the last value; of several the
-/// first.
+/// Index of the value furthest from the straight line between the first and the last; the first one on a tie.
 pub(super) fn knee(values: &[f64]) -> usize {
     let last = values.len().saturating_sub(1);
     let rise = (values[last] - values[0]) / last.max(1) as f64;
@@ -9,12 +8,7 @@ pub(super) fn knee(values: &[f64]) -> usize {
     (0..=last).rev().max_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap_or(0)
 }
 
-/// The place of the first value that the next does not exceed; none when all rise.
-pub(super) fn last_of_rise(values: &[f64]) -> Option<usize> {
-    values.windows(2).position(|pair| pair[1] <= pair[0])
-}
-
-/// The last place up to which no value is larger than the first.
+/// Last index up to which no value is larger than the first.
 pub(super) fn last_within(values: &[f64]) -> usize {
     let over = |value: &f64| *value > values[0] * (1.0 + 1e-9);
     values.iter().position(over).unwrap_or(values.len()) - 1
@@ -32,9 +26,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rise_and_a_bound_end_before_the_first_that_breaks_them() {
-        assert_eq!(last_of_rise(&[1.0, 2.0, 3.0, 3.0, 5.0]), Some(2));
-        assert_eq!(last_of_rise(&[1.0, 2.0]), None);
+    fn a_bound_ends_before_the_first_that_breaks_it() {
         assert_eq!(last_within(&[1.0, 1.0, 0.9, 1.2, 1.0]), 2);
         assert_eq!(last_within(&[1.0, 1.0]), 1);
     }

@@ -1,4 +1,4 @@
-//! The largest step against either number, a line a clip.
+//! Draws the largest step against both numbers, one line per clip.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -9,7 +9,7 @@ use crate::kitamura::growth::knee::{knee, last_within};
 use crate::kitamura::growth::{Effect, Growth, KOMA_DORI, NAKA_NASHI, middle};
 use crate::table::number;
 
-/// The fonts of the library's pictures.
+/// Fonts, as in the library's pictures.
 const FONTS: &str = "Noto Sans CJK JP, Hiragino Sans, Yu Gothic, sans-serif";
 
 const CLIP: RGBColor = RGBColor(184, 190, 197);
@@ -26,14 +26,14 @@ struct Panel {
     below: &'static str,
     most: usize,
     highest: f64,
-    /// What the paper finds right, from and to.
+    /// The range that the paper finds right.
     paper: (f64, f64),
     of: fn(&Growth) -> &[Effect],
-    /// The place of the dot on the middle line.
+    /// Index of the dot on the median line.
     dot: fn(&[f64]) -> usize,
 }
 
-/// Both charts side by side.
+/// Draws both charts side by side.
 pub(super) fn draw(clips: &[Growth]) -> Outcome<String> {
     let mut svg = String::new();
     {

@@ -1,4 +1,4 @@
-//! Chains (連なり) of steps by turns of left and right, and which stretches of them are one gait.
+//! Builds chains (連なり) of alternating steps and splits them into gaits.
 
 use std::array;
 use std::mem;
@@ -8,54 +8,56 @@ use super::legs::{Legs, Passing, RATE, most};
 use super::{Gait, Step};
 use crate::maths::median;
 
-/// Steps of a gait: two of each foot, as one alone is like every other.
+/// Fewest steps of a gait: two of each foot, as a single one has no counterpart.
 const LEAST_STEPS: usize = 4;
 
-/// The shortest and the longest step, in seconds: a sprint, and a walk in slow motion.
+/// Shortest and longest step, in seconds: a sprint, and a walk in slow motion.
 const SECONDS: RangeInclusive<f64> = 0.15..=2.0;
 
-/// How long both feet may stay on the ground in a step, in seconds: after more one has stopped.
+/// Longest time in a step with both feet on the ground, in seconds: after more the body has stopped.
 const LONGEST_STAND: f64 = 0.4;
 
-/// How far a step may be from the middle one of its foot, as a share of that and in seconds, whichever is more: a koma and a
-/// half of film, as steps of a run are counted in few koma.
+/// Largest difference of a step from the median step of its foot, as a share of the median and in seconds; the larger
+/// of both applies. The time is a koma and a half of film, because a step of a run lasts only a few koma.
 const ALIKE: (f64, f64) = (0.25, 0.0625);
 
-/// How far ankles are still apart when a foot comes down, as a share of how far they get, in the middle step of a gait at the
-/// least. Who pedals has a foot lowest where the other is highest: 0.2. In a sprint it is 0.4 and more, in a walk nearly 1.
+/// Least distance of the ankles at a contact, as a share of their largest distance, in the median step of a gait.
+/// Pedalling has 0.2, because one foot is lowest when the other is highest. A sprint has 0.4 and more, a walk nearly
+/// 1.
 const STILL_APART: f64 = 0.33;
 
-/// How near to an end of the clip a step may begin or end without a contact to be one that the clip cuts, in seconds.
+/// Largest time between an end of the clip and a step's missing contact, in seconds, at which the clip has cut the
+/// step.
 const AT_END: f64 = 1.0 / 12.0;
 
-/// How long a foot must be down before the clip ends to have come down, in seconds: half of [`AT_END`], so that a step
-/// whose end is hardly not seen still counts.
+/// Least time that a foot must be down before the clip ends, in seconds: half of [`AT_END`], so that a step whose end
+/// is just visible still counts.
 const LANDED: f64 = AT_END / 2.0;
 
-/// What is seen of a step, in instants.
+/// The observed part of a step, in instants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Seen {
     foot: usize,
     contact: Option<f64>,
     passing: Option<f64>,
     next: Option<f64>,
-    /// How far the ankles are still apart at its contact.
+    /// Distance of the ankles at the contact, as a share of their largest.
     still_apart: Option<f64>,
 }
 
 impl Seen {
-    /// How long it is, where both its contacts are seen.
+    /// Returns the duration, if both contacts are observed.
     fn length(&self) -> Option<f64> {
         Some(self.next? - self.contact?)
     }
 }
 
-/// The gaits of two legs, in instants.
+/// Finds the gaits of two legs, in instants.
 pub(super) fn gaits(legs: &Legs) -> Vec<Gait> {
     chains(legs).iter().flat_map(|chain| parts(chain)).filter_map(|part| gait(legs, part)).collect()
 }
 
-/// The longest stretches of steps that alternate and are steps of somebody who goes on.
+/// Finds the longest chains of alternating steps of a body that keeps walking.
 fn chains(legs: &Legs) -> Vec<Vec<Seen>> {
     let passings = legs.passings();
     let downs = touchdowns(legs, &passings);
@@ -84,8 +86,8 @@ fn chains(legs: &Legs) -> Vec<Vec<Seen>> {
     chains
 }
 
-/// When the foot that passes at each passing comes down after it. One that is hardly down when the clip ends may still
-/// be on its way.
+/// Finds the touchdown after each passing. A foot that is down only just before the clip ends may still be moving,
+/// and gives `None`.
 fn touchdowns(legs: &Legs, passings: &[Passing]) -> Vec<Option<f64>> {
     let last = legs.last() as f64;
     let down = |(at, passing): (usize, &Passing)| {
@@ -96,7 +98,7 @@ fn touchdowns(legs: &Legs, passings: &[Passing]) -> Vec<Option<f64>> {
     passings.iter().enumerate().map(down).collect()
 }
 
-/// Whether what is seen of a step is one of somebody who goes on.
+/// Whether an observed step belongs to a body that keeps walking.
 fn is_step(legs: &Legs, step: Seen) -> bool {
     let (Some(contact), Some(passing)) = (step.contact, step.passing) else { return true };
     let is_long = |length: f64| SECONDS.contains(&(length / RATE));
@@ -106,7 +108,7 @@ fn is_step(legs: &Legs, step: Seen) -> bool {
         && step.next.is_none_or(overtakes)
 }
 
-/// The step in the middle of which the clip ends, before its passing.
+/// Returns the step during which the clip ends before its passing.
 fn cut_off(legs: &Legs, passings: &[Passing], downs: &[Option<f64>]) -> Option<Seen> {
     let (passing, contact) = (passings.last()?, downs.last().copied()??);
     let foot = passing.swings;
@@ -115,7 +117,7 @@ fn cut_off(legs: &Legs, passings: &[Passing], downs: &[Option<f64>]) -> Option<S
     is_seen.then_some(Seen { foot, contact, passing: None, next, still_apart: None })
 }
 
-/// The stretches of a chain whose steps are as long as others of their foot: the longest, then those before and behind it.
+/// Splits a chain into stretches of equally long steps per foot: the longest one, then those before and behind it.
 fn parts(chain: &[Seen]) -> Vec<&[Seen]> {
     let Some(Range { start, end }) = longest(chain) else { return Vec::new() };
     let mut found = parts(&chain[..start]);
@@ -124,7 +126,7 @@ fn parts(chain: &[Seen]) -> Vec<&[Seen]> {
     found
 }
 
-/// The longest stretch of a chain in which steps are alike however many of its first ones are taken; of equals the first.
+/// Finds the longest stretch of a chain of which every prefix has similar steps; of equally long ones the first.
 fn longest(chain: &[Seen]) -> Option<Range<usize>> {
     let mut best = 0..LEAST_STEPS - 1;
     for begin in 0..chain.len() {
@@ -150,7 +152,7 @@ fn are_alike(steps: &[Seen]) -> bool {
     })
 }
 
-/// The gait of some steps: what the clip cuts off of the first and the last is as in the others.
+/// Builds the gait of some steps. Parts cut off by the clip are completed from the other steps.
 fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
     let still_apart = median(steps.iter().filter_map(|step| step.still_apart))?;
     if still_apart < STILL_APART {
@@ -179,7 +181,7 @@ fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
     (whole.len() >= LEAST_STEPS).then(|| with_heights(legs, &whole))
 }
 
-/// What a part of the steps of a foot is like: the middle one of those that are seen, or of the other foot's.
+/// Returns the median of a part of a foot's observed steps, or that of the other foot if there are none.
 fn middle(steps: &[Seen], foot: usize, part: fn(&Seen) -> Option<f64>) -> Option<f64> {
     let of = |foot| median(steps.iter().filter(|step| step.foot == foot).filter_map(part));
     of(foot).or_else(|| of(1 - foot))
@@ -189,7 +191,7 @@ fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
     let last = legs.last() as f64;
     let extreme = |sign: f64, from: f64, to: f64| {
         let at = most(&legs.pelvis, (from, to), sign);
-        // At an end of the clip it may go on rising or falling.
+        // At an end of the clip the pelvis may continue to rise or fall, so this is no extreme.
         (at > 0.0 && at < last && from < last && to > 0.0).then_some((at - from) / (to - from))
     };
     let seen = |&(foot, [contact, passing, next]): &(usize, [f64; 3])| {

@@ -1,45 +1,47 @@
-//! What two legs do from instant to instant, and when a foot passes the other or comes down.
+//! Computes the relative movement of two legs, their passings and touchdowns.
 
 use std::array;
 
 use glam::DVec3;
 
-/// Instants a second at which legs are looked at: a quarter of a koma of film, whatever the rates of clip and sheet.
+/// Samples per second of the legs: a quarter of a koma of film, whatever the rates of clip and sheet.
 pub(super) const RATE: f64 = 96.0;
 
-/// Instants to each side up to which places are averaged, by a triangle a koma and a half wide: frames that a low rate lacks
-/// and noise make no extremes of their own.
+/// Half width of the triangular smoothing window, in instants; it spans a koma and a half. It keeps noise, and the
+/// missing frames of a low rate, from creating extremes.
 const SMOOTH: usize = 3;
 
-/// What the rise of one ankle above the other counts against the way between them along the ground, both squared. With it
-/// who marches on the spot passes when a foot is highest; with more a run would pass half a koma early.
+/// Weight of the ankles' squared vertical distance against their squared horizontal one. With this weight, a march on
+/// the spot has its passing where a foot is highest; with more, a run would pass half a koma early.
 const RISE: f64 = 0.25;
 
-/// How far ankles come nearer and part again in a step at the least, in %H: feet that stand do less.
+/// Least change of the ankles' distance in a step, in %H: standing feet have less.
 const LEAST_SWING: f64 = 5.0;
 
-/// How much higher the ankle that passes is than the one that stands at the least, in %H.
+/// Least height of the passing ankle above the standing one, in %H.
 const LEAST_RISE: f64 = 1.0;
 
-/// How much higher than where it comes down a foot was at the least that came down, in %H.
+/// Least height that a foot must have had above its level at touchdown, in %H.
 const LEAST_LIFT: f64 = 0.5;
 
-/// The share of its way past the other after which a foot may come down: a swing may skim the ground before.
+/// Share of the way from passing to the widest stance after which a foot may come down: before, it may skim the
+/// ground.
 const APART: f64 = 0.95;
 
-/// How near to its ground a foot is down, in %H: more than it trembles, and less than it is off in a step.
+/// Largest height above its ground level at which a foot is down, in %H: more than a foot trembles, less than the
+/// lift of a step.
 const DOWN: f64 = 0.75;
 
-/// The share of the way apart below which a foot is on its way again.
+/// Share of the widest stance below which a foot has left for the next step.
 const LEAVES: f64 = 0.85;
 
-/// How high the pelvis is above the ankle that stands at the least, in %H: who crawls or sits does not walk.
+/// Least height of the pelvis above the standing ankle, in %H: a body that crawls or sits does not walk.
 const LEAST_PELVIS: f64 = 25.0;
 
-/// How far ankles may be from each other along the way at the least, in %H, that one is before the other.
+/// Distance of the ankles along the way, in %H, below which neither is ahead.
 const BEFORE: f64 = 10.0;
 
-/// Where the points of both legs are, left first, in %H: hips, ankles and soles, a place an instant each.
+/// Paths of both legs' hips, ankles and soles, the left leg first, in %H, one position per instant.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Paths {
     pub(super) hips: [Vec<DVec3>; 2],
@@ -47,33 +49,34 @@ pub(super) struct Paths {
     pub(super) soles: [Vec<DVec3>; 2],
 }
 
-/// Two legs; all lengths in %H, an entry an instant.
+/// Relative movement of two legs; all lengths in %H, one entry per instant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Legs {
-    /// How far the ankles are apart: the square of the way along the ground less [`RISE`] times that of the rise.
+    /// Distance of the ankles: its squared horizontal part minus [`RISE`] times its squared vertical part.
     apart: Vec<f64>,
-    /// How far the left ankle is above the right one.
+    /// Height of the left ankle above the right one.
     rise: Vec<f64>,
-    /// How far the left ankle is before the right one, square to the line through the hips; which way that faces is not known.
+    /// Distance of the left ankle ahead of the right one, perpendicular to the line through the hips. The sign of the
+    /// direction is unknown.
     before: Vec<f64>,
-    /// The heights of ankle and sole of each foot.
+    /// Heights of ankle and sole of each foot.
     levels: [[Vec<f64>; 2]; 2],
-    /// The height of the middle of the hips.
+    /// Height of the midpoint of the hips.
     pub(super) pelvis: Vec<f64>,
 }
 
-/// An instant at which ankles are nearest.
+/// An instant at which the ankles are nearest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passing {
     pub(super) at: f64,
-    /// The foot that is higher.
+    /// Foot that is higher.
     pub(super) swings: usize,
-    /// Whether it passes: not where both feet stand side by side.
+    /// Whether the foot passes: false if both feet just stand side by side.
     pub(super) is_step: bool,
 }
 
 impl Legs {
-    pub(super) fn of(paths: &Paths, up: DVec3) -> Self {
+    pub(super) fn new(paths: &Paths, up: DVec3) -> Self {
         let [hips, ankles, soles] = [&paths.hips, &paths.ankles, &paths.soles]
             .map(|pair| pair.each_ref().map(|path| smoothed(path)));
         let level = |path: &Vec<DVec3>| path.iter().map(|place| place.dot(up)).collect();
@@ -93,13 +96,13 @@ impl Legs {
         }
     }
 
-    /// The last instant.
+    /// Returns the last instant.
     pub(super) fn last(&self) -> usize {
         self.apart.len().saturating_sub(1)
     }
 
-    /// The instants at which ankles are nearest, between others at which they are clearly further apart; also where the clip
-    /// begins or ends before they are.
+    /// Finds the instants at which the ankles are nearest, between others at which they are clearly further apart.
+    /// The beginning and the end of the clip may take the place of the latter.
     pub(super) fn passings(&self) -> Vec<Passing> {
         let passing = |nearest: usize| {
             let at = extreme(&self.apart, nearest);
@@ -111,7 +114,7 @@ impl Legs {
         self.nearest().into_iter().map(passing).collect()
     }
 
-    /// Where `apart` is least between two instants at which it is clearly more; neither the first instant nor the last.
+    /// Finds the minima of `apart` between clearly larger values, except at the first and the last instant.
     fn nearest(&self) -> Vec<usize> {
         let mut found = Vec::new();
         let (mut low, mut high, mut is_falling) = (0, 0, true);
@@ -136,15 +139,15 @@ impl Legs {
         found
     }
 
-    /// How far the ankles are apart, in %H: the root of `apart`, but even about 0.
+    /// Returns the distance of the ankles in %H: the square root of `apart`, smoothed around 0.
     fn way(&self, at: usize) -> f64 {
         let apart = self.apart[at];
         apart / (apart.abs() + LEAST_SWING * LEAST_SWING).sqrt()
     }
 
-    /// When a foot that passes at `from`, or before, comes down: the first instant at which its ankle or its sole is on the
-    /// ground that it has until `to`, when the other passes, once it is as far from the other as it gets or
-    /// nearly so. In a walk that is the heel, in a run, in the air for a while longer, what comes first.
+    /// Finds when a foot that passes at `from`, or before, comes down. The other foot passes at `to`. It is the first
+    /// instant at which ankle or sole is at its ground level of that time, once the feet are about as far apart as
+    /// they get. In a walk the heel comes first; in a run the foot is longer in the air, and either may.
     pub(super) fn touchdown(&self, foot: usize, from: f64, to: f64) -> Option<f64> {
         let (from, to) = (from.ceil() as usize, to.floor() as usize);
         let furthest = self.furthest(from, to)?;
@@ -169,7 +172,7 @@ impl Legs {
         self.levels[foot].iter().all(is_lifted)
     }
 
-    /// How far the ankles still are apart at a contact between two passings, as a share of how far they get.
+    /// Returns the distance of the ankles at a contact between two passings, as a share of their largest distance.
     pub(super) fn still_apart(&self, from: f64, contact: f64, passing: f64) -> f64 {
         let [before, contact, to] = [from, contact, passing].map(|at| at.round() as usize);
         let Some(furthest) = self.furthest(before, contact.min(to)) else { return 0.0 };
@@ -177,7 +180,7 @@ impl Legs {
         (down - near) / (far - near).max(f64::MIN_POSITIVE)
     }
 
-    /// How long both feet stay where they are after a contact, in instants, before one passes.
+    /// Returns how many instants both feet stay in place after a contact, before one passes.
     pub(super) fn stands(&self, contact: f64, passing: f64) -> f64 {
         let (from, to) = (contact.ceil() as usize, passing.floor() as usize);
         let Some(furthest) = self.furthest(from, to) else { return 0.0 };
@@ -186,16 +189,15 @@ impl Legs {
         leaves as f64 - contact
     }
 
-    /// Whether the foot that came down first is before the other at the one instant and behind it at the other, or both
-    /// times hardly either.
+    /// Whether the foot that came down first is ahead at one instant and behind at the other, or about level at both.
     pub(super) fn is_overtaken(&self, contact: f64, next: f64) -> bool {
         let [first, second] =
             [contact, next].map(|at| self.before[(at.round() as usize).min(self.last())]);
         first * second < 0.0 || (first.abs() < BEFORE && second.abs() < BEFORE)
     }
 
-    /// Whether from a foot's contact to the end of the clip the other has come half of its way to it, or more, and is
-    /// higher.
+    /// Whether, between a foot's contact and the end of the clip, the other foot has come at least half of the way to
+    /// it, and is higher.
     pub(super) fn is_half_way(&self, foot: usize, passing: f64, contact: f64) -> bool {
         let (from, last) = (passing as usize, self.last());
         let Some(furthest) = self.furthest(from, last) else { return false };
@@ -209,8 +211,8 @@ impl Legs {
     }
 }
 
-/// Where a value that is above 0 before an instant, and no longer at it, is 0: a straight way between both. One that is
-/// not above 0 before is nowhere.
+/// Interpolates linearly when a value falls to 0 between `at - 1` and `at`. Without a positive value at `at - 1`,
+/// returns `at - 1`.
 fn crossing(at: usize, value: impl Fn(usize) -> f64) -> f64 {
     let Some(before) = at.checked_sub(1).map(&value).filter(|before| *before > 0.0) else {
         return at.saturating_sub(1) as f64;
@@ -218,7 +220,7 @@ fn crossing(at: usize, value: impl Fn(usize) -> f64) -> f64 {
     at as f64 - 1.0 + before / (before - value(at))
 }
 
-/// Where some values are most from one instant to another, or, with a `sign` of −1, least.
+/// Finds the maximum of some values between two instants, or the minimum if `sign` is −1.
 pub(super) fn most(values: &[f64], (from, to): (f64, f64), sign: f64) -> f64 {
     let last = values.len().saturating_sub(1) as f64;
     let within = (from.clamp(0.0, last).ceil() as usize)..=(to.clamp(0.0, last).floor() as usize);
@@ -226,7 +228,7 @@ pub(super) fn most(values: &[f64], (from, to): (f64, f64), sign: f64) -> f64 {
     most.map_or(from, |at| extreme(values, at).clamp(from, to))
 }
 
-/// The extreme at an instant, more exactly: the top of the parabola through it and its neighbours.
+/// Refines an extreme to the vertex of the parabola through it and its neighbours.
 fn extreme(values: &[f64], at: usize) -> f64 {
     let around = at.checked_sub(1).and_then(|before| values.get(before..=at + 1));
     let Some(&[before, own, after]) = around else { return at as f64 };
@@ -239,7 +241,7 @@ fn least(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// A path averaged about each instant; towards its ends about fewer.
+/// Smooths a path about each instant, with a narrower window towards its ends.
 fn smoothed(path: &[DVec3]) -> Vec<DVec3> {
     let mean = |at: usize| {
         let room = at.min(path.len() - 1 - at).min(SMOOTH);

@@ -7,24 +7,24 @@ use super::chains::gaits;
 use super::legs::{Legs, Paths, RATE};
 use super::*;
 
-/// Half a second a step.
+/// Half a second per step.
 const STEP: f64 = 0.5 * RATE;
 
-/// The share of its cycle in which a foot stands.
+/// Share of its cycle in which a foot stands.
 const STANDS: f64 = 0.6;
 
 /// Half a koma, in instants.
 const NEAR: f64 = 2.0;
 
-/// How somebody walks.
+/// A simulated walk.
 #[derive(Debug, Clone, Copy)]
 struct Walker {
-    /// Half of a stride, and how high a foot gets, in %H.
+    /// Half of a stride, and the lift of a foot, in %H.
     reach: f64,
     lift: f64,
-    /// How far the body gets in a cycle, in %H.
+    /// Distance travelled in a cycle, in %H.
     travels: f64,
-    /// Cycles that are gone by some instant.
+    /// Number of cycles completed by an instant.
     cycle: fn(f64) -> f64,
 }
 
@@ -32,7 +32,7 @@ const WALKER: Walker =
     Walker { reach: 20.0, lift: 12.0, travels: 0.0, cycle: |at| at / (2.0 * STEP) + 0.9 };
 
 impl Walker {
-    /// Ankle, along the way and up, at a part of its cycle, which begins where it comes down.
+    /// Position of an ankle along the way and upwards at a phase of its cycle, which begins at the contact.
     fn ankle(&self, cycle: f64) -> (f64, f64) {
         let part = cycle.rem_euclid(1.0);
         if part < STANDS {
@@ -46,7 +46,7 @@ impl Walker {
         let mut paths = Paths::default();
         for at in 0..instants {
             let cycle = (self.cycle)(at as f64);
-            // It is lowest a twelfth of a cycle after a contact, and highest a quarter later.
+            // The pelvis is lowest a twelfth of a cycle after a contact, and highest a quarter later.
             let pelvis = DVec3::new(
                 self.travels * cycle,
                 53.0 - 1.5 * (TAU * (2.0 * cycle - 1.0 / 6.0)).cos(),
@@ -69,7 +69,7 @@ impl Walker {
 }
 
 fn found(paths: &Paths) -> Vec<Gait> {
-    gaits(&Legs::of(paths, DVec3::Y))
+    gaits(&Legs::new(paths, DVec3::Y))
 }
 
 fn changed(paths: &Paths, change: impl Fn(&Vec<DVec3>) -> Vec<DVec3>) -> Paths {
@@ -92,7 +92,7 @@ fn are_near(a: &[Gait], b: &[Gait], most: f64) -> bool {
     a.len() == b.len() && a.iter().zip(&b).all(is_near)
 }
 
-/// The steps of the walker: its left foot comes down a tenth of a cycle after the first instant.
+/// Expected steps of the walker: its left foot comes down a tenth of a cycle after the first instant.
 fn expected(steps: usize) -> Vec<Gait> {
     let step = |at: usize| {
         let phase = |share: f64| (0.2 + at as f64 + share) * STEP;
@@ -105,7 +105,7 @@ fn expected(steps: usize) -> Vec<Gait> {
 
 #[test]
 fn every_step_has_its_phases_even_the_one_that_the_clip_cuts() {
-    // It ends just after the fifth passing.
+    // The clip ends just after the fifth passing.
     let clip = (4.9 * STEP) as usize;
     for travels in [0.0, 80.0] {
         let gaits = Walker { travels, ..WALKER }.gaits(clip);
@@ -168,7 +168,7 @@ fn a_clip_that_begins_later_has_the_same_steps_so_much_earlier() {
 
 #[test]
 fn a_limp_is_a_gait_and_a_change_of_pace_begins_another() {
-    // The step of one foot takes 1.4 times as long as that of the other.
+    // The steps of one foot take 1.4 times as long as those of the other.
     let limp = |at: f64| {
         let (cycle, part) = ((at / (2.4 * STEP)).floor(), at / STEP % 2.4);
         cycle + if part < 1.0 { 0.5 * part } else { 0.5 + 0.5 * (part - 1.0) / 1.4 }

@@ -5,7 +5,7 @@ use crate::time::{Frame, FrameRate};
 /// Name, parent and offset of a joint.
 type Bone = (&'static str, Option<usize>, [f64; 3]);
 
-/// A standing body, its arms out.
+/// A standing body with its arms spread.
 const BODY: [Bone; 16] = [
     ("hips", None, [0.0, 90.0, 0.0]),
     ("chest", Some(0), [0.0, 45.0, 0.0]),
@@ -25,7 +25,7 @@ const BODY: [Bone; 16] = [
     ("knee.r", Some(14), [0.0, -40.0, 0.0]),
 ];
 
-/// That body with ankles, toes, hands and a crown.
+/// The body of [`BODY`] with ankles, toes, hands and a crown.
 fn body() -> Clip {
     let mut joints: Vec<Joint> = BODY
         .iter()
@@ -60,7 +60,7 @@ fn body() -> Clip {
     clip(Skeleton { joints })
 }
 
-/// Two frames without any turn.
+/// Two frames without rotation.
 fn clip(skeleton: Skeleton) -> Clip {
     let rate = FrameRate::new(24.0).unwrap();
     let values = vec![0.0; 2 * skeleton.channels()];
@@ -68,7 +68,7 @@ fn clip(skeleton: Skeleton) -> Clip {
 }
 
 fn mannequin(clip: &Clip) -> Option<Mannequin> {
-    Build::of(clip).mannequin
+    Build::new(clip).mannequin
 }
 
 fn stand(clip: &Clip) -> Stand {
@@ -115,7 +115,7 @@ fn it_stands_as_the_rig_stands_with_bones_of_its_own() {
     let ankles = [stand.points[8], stand.points[16]];
     assert!(ankles.iter().all(|ankle| (ankle.y + 0.48).abs() < 0.05), "{ankles:?}");
     assert_eq!(stand.across, [-DVec3::X; 2]);
-    // Its leg is that of a person of 79 / 0.48.
+    // The leg, 79 long, is that of a person of height 79 / 0.48.
     assert!((stand.pelvis.y - 86.0 * 0.48 / 79.0).abs() < 1e-12);
 }
 

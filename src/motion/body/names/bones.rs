@@ -1,4 +1,4 @@
-//! The bones of an MMD model (標準ボーン) that a motion is written for, and how they hang together.
+//! The bones of an MMD model (標準ボーン) that a motion can drive, and their hierarchy.
 
 use encoding_rs::SHIFT_JIS;
 use glam::DVec3;
@@ -6,23 +6,24 @@ use glam::DVec3;
 use crate::error::Error;
 use crate::maths;
 
-/// The longest name of a bone in a VMD, in bytes of CP932; a longer one would be cut there and match
-/// no bone of any model.
-pub(crate) const LONGEST_NAME: usize = 15;
+/// Longest name of a bone in a VMD, in bytes of CP932. A longer name would be cut and match no bone of any model.
+pub const LONGEST_NAME: usize = 15;
 
-/// Left or right of the body.
+/// A side of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Side {
-    /// 左, which is +X also in MMD.
+pub enum Side {
+    /// 左; +X, in MMD as well.
     Left,
     /// 右.
     Right,
 }
 
 impl Side {
-    pub(crate) const BOTH: [Self; 2] = [Self::Left, Self::Right];
+    /// Both sides, the left one first.
+    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    pub(crate) fn word(self) -> &'static str {
+    /// Returns its word in MMD names: 左 or 右.
+    pub fn word(self) -> &'static str {
         match self {
             Self::Left => "左",
             Self::Right => "右",
@@ -36,13 +37,13 @@ impl Side {
         }
     }
 
-    /// The bone of this side by its name without 左 or 右.
-    pub(crate) fn named(self, bone: &str) -> String {
+    /// Returns the name of this side's bone, given the name without 左 or 右.
+    pub fn named(self, bone: &str) -> String {
         format!("{}{bone}", self.word())
     }
 
-    /// 1 for left, −1 for right: the sign of its x.
-    pub(crate) fn sign(self) -> f64 {
+    /// Returns 1 for left and −1 for right, the sign of x on that side.
+    pub fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,
             Self::Right => -1.0,
@@ -50,26 +51,26 @@ impl Side {
     }
 }
 
-/// What a bone is to the body: how the model's rest and the capture's are brought together there.
+/// The kind of a bone, which decides how the rest poses of model and capture are matched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Part {
-    /// Carries the whole and turns nothing.
+pub enum Part {
+    /// Carries the whole body and turns nothing.
     Center,
-    /// Pelvis, spine, neck, head, collar bones, feet: upright in the one is upright in the other,
-    /// whatever slant the bone itself has.
+    /// Pelvis, spine, neck, head, collar bones, feet: upright in the capture means upright in the model, whatever the
+    /// slant of the bone itself.
     Trunk,
-    /// Upper arm or forearm: the bone points where the capture's does.
+    /// Upper arm or forearm: the bone points in the same direction as in the capture.
     Arm(Side),
-    /// Thigh or shin: likewise.
+    /// Thigh or shin: the bone points in the same direction as in the capture.
     Leg(Side),
-    /// Hand, fingers and what a person adds: as the bone it hangs on.
+    /// Hand, fingers and bones added by a person: as their parent.
     Follows,
 }
 
 impl Part {
-    /// Where the bone of a limb points in a standard model at rest: arms hang `arm_angle` radians below the
-    /// horizontal, legs straight down. Axes as in BVH: +X is left, +Y up, +Z in front.
-    pub(crate) fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
+    /// Returns the direction of a limb's bone in a standard model at rest: arms hang `arm_angle` radians below the
+    /// horizontal, legs point straight down. Axes as in BVH: +X is left, +Y up, +Z in front.
+    pub fn rest_direction(self, arm_angle: f64) -> Option<DVec3> {
         let (sin, cos) = maths::sin_cos(arm_angle);
         match self {
             Self::Arm(side) => Some(DVec3::new(side.sign() * cos, -sin, 0.0)),
@@ -81,23 +82,26 @@ impl Part {
 
 /// A bone of the model.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Bone {
-    pub(crate) name: String,
-    /// Index of the bone it hangs on, which stands before it.
-    pub(crate) parent: Option<usize>,
-    pub(crate) part: Part,
-    /// Where it points at rest, where a model says so.
-    pub(crate) rest: Option<DVec3>,
+pub struct Bone {
+    /// Name in the model.
+    pub name: String,
+    /// Index of the parent bone, which comes earlier in the list.
+    pub parent: Option<usize>,
+    /// Kind of the bone.
+    pub part: Part,
+    /// Direction at rest, if the model gives it.
+    pub rest: Option<DVec3>,
 }
 
 impl Bone {
-    /// Where the bone of a limb points at rest: as its model has it, else with arms that hang `arm_angle` radians.
-    pub(crate) fn rest_direction(&self, arm_angle: f64) -> Option<DVec3> {
+    /// Returns the direction of a limb's bone at rest: that of its model, or else the standard one with arms at
+    /// `arm_angle` radians.
+    pub fn rest_direction(&self, arm_angle: f64) -> Option<DVec3> {
         self.rest.or_else(|| self.part.rest_direction(arm_angle))
     }
 }
 
-/// Name, parent and part of those in the middle. Upper and lower body are siblings in MMD.
+/// Name, parent and kind of the bones on the midline. Upper and lower body are siblings in MMD.
 const MIDDLE: [(&str, Option<&str>, Part); 6] = [
     ("センター", None, Part::Center),
     ("下半身", Some("センター"), Part::Trunk),
@@ -107,10 +111,10 @@ const MIDDLE: [(&str, Option<&str>, Part); 6] = [
     ("頭", Some("首"), Part::Trunk),
 ];
 
-/// Name, parent and part on a side.
+/// Name, parent and kind of a bone on one side.
 type Sided = (&'static str, &'static str, fn(Side) -> Part);
 
-/// Those of each side without 左 and 右; a parent that begins with `=` has no side.
+/// Bones of each side, without 左 and 右. A parent that begins with `=` has no side.
 const SIDED: [Sided; 22] = [
     ("肩", "=上半身2", |_| Part::Trunk),
     ("腕", "肩", Part::Arm),
@@ -138,13 +142,14 @@ const SIDED: [Sided; 22] = [
 
 /// The bones of a model, parents before children.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Model {
-    pub(crate) bones: Vec<Bone>,
+pub struct Model {
+    /// Bones in order, parents first.
+    pub bones: Vec<Bone>,
 }
 
 impl Model {
-    /// The standard and semi-standard bones that a motion can drive.
-    pub(crate) fn standard() -> Self {
+    /// Creates the standard and semi-standard bones that a motion can drive.
+    pub fn standard() -> Self {
         let mut model = Self { bones: Vec::new() };
         for (name, parent, part) in MIDDLE {
             model.hang(name.into(), parent, part);
@@ -164,7 +169,7 @@ impl Model {
         self.bones.push(Bone { name, parent, part, rest: None });
     }
 
-    /// Adds a bone that a person named; it follows the one it hangs on.
+    /// Adds a bone that a person named; it follows its parent.
     pub(crate) fn add(&mut self, name: &str, parent: &str) -> Result<(), Error> {
         let wrong = |message| Err(Error::setting("bones", message));
         if self.find(name).is_some() {
@@ -178,21 +183,23 @@ impl Model {
         Ok(())
     }
 
-    pub(crate) fn find(&self, name: &str) -> Option<usize> {
+    /// Returns the index of the bone with that name.
+    pub fn find(&self, name: &str) -> Option<usize> {
         self.bones.iter().position(|bone| bone.name == name)
     }
 
-    /// The bone of a side by its name without 左 or 右.
-    pub(crate) fn sided(&self, side: Side, name: &str) -> Option<usize> {
+    /// Returns the index of a side's bone, given the name without 左 or 右.
+    pub fn sided(&self, side: Side, name: &str) -> Option<usize> {
         self.find(&side.named(name))
     }
 }
 
-/// A name in CP932.
+/// Encodes a name in CP932.
 ///
 /// # Errors
-/// [`Error::Setting`] when it has a letter that CP932 has not, or more than `longest` bytes.
-pub(crate) fn cp932(text: &str, longest: usize) -> Result<Vec<u8>, Error> {
+///
+/// [`Error::Setting`] if it has a character that CP932 lacks, or more than `longest` bytes.
+pub fn cp932(text: &str, longest: usize) -> Result<Vec<u8>, Error> {
     let (bytes, _, has_others) = SHIFT_JIS.encode(text);
     let wrong = |message| Err(Error::setting("vmd", message));
     if has_others || text.contains('\0') {

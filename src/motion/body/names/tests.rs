@@ -13,7 +13,7 @@ fn skeleton(names: &[&str]) -> Skeleton {
     Skeleton { joints: names.iter().enumerate().map(joint).collect() }
 }
 
-/// The bones that are driven, with their joints.
+/// Returns the driven bones with their joints.
 fn driven(map: &BoneMap, names: &[&str]) -> Vec<(String, Vec<String>)> {
     let skeleton = skeleton(names);
     let found = map.find(&skeleton);
@@ -119,7 +119,7 @@ fn a_clip_of_unknown_names_is_told_the_way_out() {
     let rate = crate::time::FrameRate::new(24.0).unwrap();
     let unknown = skeleton(&["ボーン1", "ボーン2"]);
     let clip = Clip::new(unknown, rate, crate::time::Frame(0), 1, vec![]).unwrap();
-    let error = BoneMap::default().of(&clip).unwrap_err().to_string();
+    let error = BoneMap::default().locate(&clip).unwrap_err().to_string();
     assert!(error.contains("ボーン1, ボーン2") && error.contains("[bones]"), "{error}");
     let own = BoneMap::parse("[bones]\n\"頭\" = \"ボーン2\"\n").unwrap();
     assert_eq!(driven(&own, &["ボーン1", "ボーン2"]), [("頭".into(), vec!["ボーン2".into()])]);

@@ -1,9 +1,9 @@
-//! What is left out is counted in each action by itself.
+//! Omissions are counted in each action separately.
 
 use super::*;
 use crate::cases::cases;
 
-/// So many koma on ones that get faster and slower again.
+/// Builds a take of `koma` koma on ones that speeds up and slows down again.
 fn long(koma: i32) -> (Layer, Stills) {
     let places: Vec<i32> = (0..koma).map(|at| at * at % 97).collect();
     on_ones(&places)
@@ -37,7 +37,7 @@ fn course(on: usize, later: &[usize]) -> Course {
     Course { on: On::every(on), later: later.to_vec(), ..Course::default() }
 }
 
-/// Drawings of an action: one that stays, then inbetweens.
+/// Generates the drawings of an action: one that stays, then inbetweens.
 fn action() -> impl Strategy<Value = Vec<Plan>> {
     prop::collection::vec(place(), 2..20).prop_map(|places| {
         let role = |at| if at == 0 { Role::End } else { Role::Inbetween };

@@ -1,4 +1,4 @@
-//! Slow and obvious: the stages as printed, everything recomputed in every round.
+//! A slow and obvious oracle: the stages as printed, with everything recomputed in every round.
 
 use crate::timing::{Amount, Omission, Order, Stills};
 
@@ -8,11 +8,11 @@ pub(super) struct Row {
     pub(super) drawing: usize,
     pub(super) koma: usize,
     pub(super) kept: bool,
-    /// Whether a movement begins and ends there: kept, and no fill.
+    /// Whether a movement begins and ends there: kept, and not a fill.
     pub(super) opens: bool,
 }
 
-/// What is left as (drawing, koma), who went in which order, and how many rounds were done.
+/// The remaining (drawing, koma), the removed drawings in order, and the number of rounds done.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Outcome {
     pub(super) left: Vec<(usize, usize)>,
@@ -21,7 +21,7 @@ pub(super) struct Outcome {
     pub(super) replaced: Vec<usize>,
 }
 
-/// How many each stage is asked for, and the limits.
+/// The number asked of each stage, and the limits.
 pub(super) struct Rules<'a> {
     pub(super) stills: &'a Stills,
     pub(super) naka_nashi: usize,
@@ -35,7 +35,7 @@ pub(super) struct Rules<'a> {
 }
 
 impl<'a> Rules<'a> {
-    pub(super) fn of(settings: &Omission, stills: &'a Stills, on: usize) -> Self {
+    pub(super) fn new(settings: &Omission, stills: &'a Stills, on: usize) -> Self {
         let count = |amount| match amount {
             Amount::Count(count) => count,
             Amount::Share(_) => panic!("the oracle wants counts"),
@@ -101,8 +101,8 @@ fn first_min(values: impl Iterator<Item = (usize, f64)>) -> Option<usize> {
     first_max(values.map(|(at, value)| (at, -value))).map(|(at, _)| at)
 }
 
-/// A list of frames, each the number of its drawing: Algorithms 1 and 2 to the letter, with the
-/// first and the last drawing staying and a held drawing never copied over.
+/// A list of frames, each the number of its drawing: Algorithms 1 and 2 to the letter, except that the first and the
+/// last drawing stay and a held drawing is never copied over.
 struct Frames<'a> {
     rules: &'a Rules<'a>,
     frames: Vec<usize>,
@@ -121,12 +121,12 @@ impl Frames<'_> {
         self.frames.iter().filter(|&&frame| frame == drawing).count()
     }
 
-    /// k − 1 may be duplicated: fewer than 3 times so far, and the hold stays within the bound.
+    /// Whether k − 1 may be duplicated: fewer than 3 times so far, and the hold stays within the bound.
     fn may_grow(&self, drawing: usize) -> bool {
         drawing != self.last && self.duplicated[drawing] < 3 && self.run(drawing) < self.rules.bound
     }
 
-    /// Frames that may be deleted: not those of the first and the last drawing.
+    /// Returns the frames that may be deleted: all but those of the first and the last drawing.
     fn inner(&self) -> impl Iterator<Item = usize> + '_ {
         (1..self.frames.len())
             .filter(|&k| self.frames[k] != self.frames[0] && self.frames[k] != self.last)
@@ -170,7 +170,7 @@ impl Frames<'_> {
         }
     }
 
-    /// §3.4: the largest of the first distances, then the duplicates.
+    /// Deletes the frames with the largest initial distances, then duplicates (§3.4).
     fn all_at_once(&mut self) {
         let mut ranked: Vec<(usize, f64)> = self
             .inner()
@@ -230,15 +230,15 @@ impl Frames<'_> {
     }
 }
 
-/// Drawings with longer exposures, which go as a whole and stay between their kept drawings.
+/// Drawings with longer exposures, which are removed as a whole and stay between their kept drawings.
 struct Keyed<'a> {
     rules: &'a Rules<'a>,
     rows: Vec<Row>,
     lengthened: Vec<usize>,
     held: Vec<usize>,
-    /// The SSD of what is markedly fast.
+    /// The SSD of markedly fast movement.
     fast: f64,
-    /// Whether the body is slow at a drawing.
+    /// Whether the body is slow at each drawing.
     slow: Vec<bool>,
     outcome: Outcome,
 }
@@ -248,7 +248,7 @@ impl Keyed<'_> {
         self.rules.stills.ssd(self.rows[at - 1].drawing, self.rows[at].drawing)
     }
 
-    /// The drawing from which the movement at `at` starts.
+    /// Returns the drawing from which the movement at `at` starts.
     fn opener(&self, at: usize) -> usize {
         (0..=at).rev().find(|&at| self.rows[at].opens).unwrap()
     }
@@ -264,7 +264,7 @@ impl Keyed<'_> {
         self.lengthened[self.rows[opener].drawing] += koma;
     }
 
-    /// The median of what moves, as it is before anything goes.
+    /// Computes the median of the moving steps, before any omission.
     fn measure(&mut self) {
         let steps = (1..self.rows.len()).map(|at| self.ssd(at).sqrt());
         let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
@@ -311,7 +311,7 @@ impl Keyed<'_> {
             free.map(|at| (self.rows[at].drawing, self.ssd(at))).collect();
         ranked.retain(|(_, ssd)| *ssd > 0.0 && *ssd >= self.fast);
         ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-        // Koma owed by the drawing that opens the interval.
+        // The koma owed to the drawing that opens the interval.
         let mut owed = vec![0; self.lengthened.len()];
         for (drawing, _) in ranked {
             if self.outcome.taken == self.rules.naka_nashi {
@@ -341,7 +341,7 @@ impl Keyed<'_> {
                     && self.rows[at - 1].koma + koma <= self.rules.bound
             });
             let Some(at) = first_min(free.map(|at| (at, self.ssd(at)))) else { return };
-            // Two joints of a body 100 high.
+            // Two joints, and a body of height 100.
             if self.ssd(at) > 2.0 * self.rules.small.powi(2) {
                 return;
             }

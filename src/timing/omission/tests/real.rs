@@ -6,18 +6,17 @@ use crate::real;
 use crate::sheet::Sheet;
 use crate::time::{Frame, KOMA_RATE};
 
-/// A real clip, the koma of the window round its fastest movement, N_io and N_hf. Frame counts and
-/// numbers are the paper's; its fourth action, 88 koma, has the numbers of the second but for one
-/// hold.
+/// A real clip, the koma of the window around its fastest movement, N_io and N_hf. Frame counts and numbers are the
+/// paper's; its fourth action, 88 koma, has the numbers of the second except for one hold.
 const WINDOWS: [(&str, usize, usize, usize); 3] = [
     ("cmu-02_05-punch-strike", 129, 4, 33),
     ("cmu-11_01-soccer-kick", 92, 4, 30),
     ("cmu-02_07-swordplay", 120, 6, 40),
 ];
 
-/// The clip's window of that many koma, its fastest koma in the middle as far as the clip reaches.
+/// Cuts the clip's window of `koma` koma, its fastest koma in the middle as far as the clip reaches.
 fn window(clip: Clip, koma: usize) -> Clip {
-    let (clip, _) = bvh::lead_in::strip(clip);
+    let (clip, _) = crate::motion::clean::lead_in::strip(clip);
     let (layer, stills) = ones(&clip);
     let fastest = (1..layer.drawings.len())
         .max_by(|a, b| stills.ssd(a - 1, *a).total_cmp(&stills.ssd(b - 1, *b)))
@@ -31,16 +30,16 @@ fn window(clip: Clip, koma: usize) -> Clip {
 fn ones(clip: &Clip) -> (Layer, Stills) {
     let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
     let layer = Sheet::on_ones(clip.clock(KOMA_RATE), koma).layers.remove(0);
-    let stills = Stills::of(clip, &layer);
+    let stills = Stills::from_layer(clip, &layer);
     (layer, stills)
 }
 
 fn peak(clip: &Clip, layer: &Layer) -> f64 {
-    let stills = Stills::of(clip, layer);
+    let stills = Stills::from_layer(clip, layer);
     (1..stills.len()).map(|at| stills.ssd(at - 1, at)).fold(0.0, f64::max)
 }
 
-/// Looks at each window, its koma, and the paper's counts.
+/// Runs a test on each window with its koma and the paper's counts.
 fn each_window(look: impl Fn(&str, Clip, usize, [usize; 2])) {
     for (name, koma, naka_nashi, koma_dori) in WINDOWS {
         real::with([name], |[path]| {
@@ -77,7 +76,7 @@ fn real_movements_lose_and_hold_what_the_paper_asks_for() {
 fn on_real_movements_it_is_algorithms_1_and_2_koma_for_koma() {
     each_window(|name, clip, _, [naka_nashi, koma_dori]| {
         let (mut layer, stills) = ones(&clip);
-        // The oracle calls a drawing by its number, which the helpers read from its place.
+        // The oracle names a drawing by its number, which the helpers read from its place.
         for (number, drawing) in layer.drawings.iter_mut().enumerate() {
             drawing.source = Source::At(number as f64);
         }
@@ -86,7 +85,7 @@ fn on_real_movements_it_is_algorithms_1_and_2_koma_for_koma() {
                 for more in [counts(12, 60), counts(naka_nashi, koma_dori)] {
                     let settings = Omission { order, all_at_once, keep_length, ..more };
                     let omitted = settings.apply(&layer, &stills, 1).unwrap();
-                    let expected = Rules::of(&settings, &stills, 1).by_koma(&rows(&layer));
+                    let expected = Rules::new(&settings, &stills, 1).by_koma(&rows(&layer));
                     assert_eq!(outcome(&omitted), expected, "{name} {settings:?}");
                 }
             }

@@ -14,7 +14,7 @@ fn drawings(step: &[Exposed]) -> Vec<usize> {
 
 #[test]
 fn a_step_has_exposures_by_its_length_alone() {
-    let walk = Exposures::of(&[0.0, 0.22, 0.47, 0.74], 13.2, ON_TWOS);
+    let walk = Exposures::new(&[0.0, 0.22, 0.47, 0.74], 13.2, ON_TWOS);
     let of = |length| koma(&walk.of_step(length));
     assert_eq!(of(13), [3, 3, 4, 3]);
     assert_eq!(of(14), [3, 3, 5, 3], "a koma more goes where drawings are short");
@@ -22,10 +22,10 @@ fn a_step_has_exposures_by_its_length_alone() {
     assert_eq!(of(12), [2, 3, 4, 3], "and a koma less comes from where it lacks least");
     assert_eq!(of(9), [2, 2, 3, 2]);
     assert_eq!(of(8), [2; 4]);
-    let run = Exposures::of(&[0.0, 0.1, 0.9, 0.95], 8.0, ON_TWOS);
+    let run = Exposures::new(&[0.0, 0.1, 0.9, 0.95], 8.0, ON_TWOS);
     assert_eq!(koma(&run.of_step(8)), [2; 4], "each stays for two");
     assert_eq!(run.of_step(7).iter().map(|phase| phase.koma).sum::<usize>(), 7);
-    assert_eq!(koma(&Exposures::of(&[0.0], 3.1, ON_TWOS).of_step(3)), [3]);
+    assert_eq!(koma(&Exposures::new(&[0.0], 3.1, ON_TWOS).of_step(3)), [3]);
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn a_drawing_stays_a_koma_longer_rather_than_one_stays_for_one() {
 
 #[test]
 fn shorter_steps_keep_their_drawings_as_long_as_each_stays_for_two_koma() {
-    let slow = Exposures::of(&[0.0, 0.15, 0.38, 0.54], 13.0, ON_TWOS);
+    let slow = Exposures::new(&[0.0, 0.15, 0.38, 0.54], 13.0, ON_TWOS);
     assert_eq!(
         (koma(&slow.of_step(13)), drawings(&slow.of_step(13))),
         (vec![2, 3, 2, 6], vec![1, 1, 1, 3])
@@ -69,7 +69,7 @@ proptest! {
     ) {
         shares.sort_by(f64::total_cmp);
         let shares = [vec![0.0], shares].concat();
-        let exposures = Exposures::of(&shares[..count], usual, Rhythm { on, inbetweens: None });
+        let exposures = Exposures::new(&shares[..count], usual, Rhythm { on, inbetweens: None });
         let length = (usual.round() as usize).saturating_add_signed(off).max(count);
         let [one, more] = [0, 1].map(|more| exposures.of_step(length + more));
         prop_assert_eq!(&more, &exposures.of_step(length + 1), "the same again");

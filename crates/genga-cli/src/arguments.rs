@@ -1,0 +1,76 @@
+//! Parses the command line; if that fails, suggests what to type instead.
+
+use std::path::Path;
+
+use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser};
+
+use super::commands::Args;
+use super::paths::{first_clip, is_motion};
+
+/// Largest number of clips that a tip lists. If there are more, it lists only the first and the last.
+const MOST_WORDS: usize = 4;
+
+/// Parses this process's arguments, or exits with a tip.
+pub(super) fn args() -> Args {
+    Args::try_parse().unwrap_or_else(|error| with_tip(error).exit())
+}
+
+fn with_tip(mut error: clap::Error) -> clap::Error {
+    if let Some(tip) = tip(&error) {
+        let tips = vec![StyledStr::from(tip)];
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+    }
+    error
+}
+
+fn tip(error: &clap::Error) -> Option<String> {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.as_str()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let word = word(ContextKind::InvalidSubcommand)?;
+            let is_suggested = error.get(ContextKind::SuggestedSubcommand).is_some();
+            clip_of(Path::new(word)).or_else(|| commands_like(word).filter(|_| !is_suggested))
+        }
+        ErrorKind::UnknownArgument => {
+            let word = word(ContextKind::InvalidArg)?;
+            Path::new(word).exists().then(|| many(word))
+        }
+        _ => None,
+    }
+}
+
+/// Suggests the `batch` command if several clips are given where one is expected.
+fn many(other: &str) -> String {
+    let is_clip = |word: &String| word == other || is_motion(Path::new(word));
+    let words = std::env::args_os().skip(2).map(|word| word.to_string_lossy().into_owned());
+    let mut words: Vec<String> = words.filter(is_clip).map(quoted).collect();
+    if words.len() > MOST_WORDS {
+        words.splice(1..words.len() - 1, ["…".into()]);
+    }
+    format!("it takes one clip at a time; of many: genga batch {} --out library", words.join(" "))
+}
+
+/// Quotes a word if a shell requires it.
+fn quoted(word: String) -> String {
+    if word.contains([' ', '(', ')', '&', ';', '$', '\'']) { format!("\"{word}\"") } else { word }
+}
+
+/// Suggests `genga run` if the first word is a clip, or a folder of them, instead of a command.
+fn clip_of(path: &Path) -> Option<String> {
+    let clip = if path.is_dir() { first_clip(path)? } else { path.to_owned() };
+    (is_motion(&clip) || clip.is_file()).then(|| format!("type: genga run {}", clip.display()))
+}
+
+/// Suggests the commands that begin with the same letter as a misspelled word.
+fn commands_like(word: &str) -> Option<String> {
+    let commands = Args::command();
+    let names = commands.get_subcommands().map(clap::Command::get_name);
+    let like = names.filter(|name| name.chars().next() == word.chars().next());
+    let like = like.collect::<Vec<_>>().join(" or ");
+    (!like.is_empty()).then(|| format!("did you mean {like}?"))
+}

@@ -1,0 +1,220 @@
+//! The journal of finished clips (作業記録): one line per clip, written when its folder is in place. The next batch reads
+//! it and continues from there.
+
+use std::collections::{HashMap, HashSet};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::super::failure::Failure;
+use super::super::files;
+use super::row::Line;
+use super::shard::Shard;
+
+/// Version of the format, as written in the file.
+const SCHEMA: &str = "genga-batch-1";
+
+/// The first line: identifies the list and the part.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Header {
+    schema: String,
+    /// The version of genga.
+    genga: String,
+    /// Digest of the names of all clips.
+    pub(crate) list: String,
+    /// Number of clips in all parts together.
+    pub(crate) clips: usize,
+    pub(crate) part: usize,
+    pub(crate) parts: usize,
+}
+
+impl Header {
+    pub(crate) fn new(list: String, clips: usize, shard: Shard) -> Self {
+        let genga = env!("CARGO_PKG_VERSION").into();
+        Self { schema: SCHEMA.into(), genga, list, clips, part: shard.index, parts: shard.count }
+    }
+
+    /// Path of this part's journal in a folder.
+    pub(crate) fn file(&self, folder: &Path) -> PathBuf {
+        match self.parts {
+            1 => folder.join("batch.jsonl"),
+            _ => folder.join(format!("batch-{}-of-{}.jsonl", self.part, self.parts)),
+        }
+    }
+}
+
+/// Whether a file name is that of a journal.
+pub(crate) fn is_journal(name: &str) -> bool {
+    name.starts_with("batch") && name.ends_with(".jsonl")
+}
+
+/// Position of a line in the file.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    begin: u64,
+    length: usize,
+}
+
+/// The part of a clip's journal line that is kept in memory.
+#[derive(Debug, Clone)]
+struct Known {
+    at: usize,
+    span: Span,
+    file: String,
+    asked: String,
+    is_done: bool,
+}
+
+/// A journal that is read and appended to.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    path: PathBuf,
+    file: File,
+    end: u64,
+    pub(crate) header: Header,
+    known: HashMap<String, Known>,
+}
+
+impl Journal {
+    /// Opens the journal of a part of a list. From the journal of another list, clips of the same name are kept.
+    pub(crate) fn open(folder: &Path, header: Header, names: &[&str]) -> Result<Self, Failure> {
+        let path = header.file(folder);
+        if !path.exists() {
+            return Self::begin(&path, header, &[]);
+        }
+        let before = Self::held(&path)?;
+        if before.header == header {
+            return Ok(before);
+        }
+        // Keeps only clips of the new list, at their new places.
+        let places: HashMap<&str, usize> =
+            names.iter().enumerate().map(|(at, name)| (*name, at)).collect();
+        let mut lines = Vec::new();
+        for (name, known) in &before.known {
+            if let Some(at) = places.get(name.as_str()) {
+                lines.push(Line { at: *at, ..before.line_at(known.span)? });
+            }
+        }
+        lines.sort_by_key(|line| line.at);
+        Self::begin(&path, header, &lines)
+    }
+
+    fn begin(path: &Path, header: Header, lines: &[Line]) -> Result<Self, Failure> {
+        let mut text = encoded(&header);
+        lines.iter().for_each(|line| text.push_str(&encoded(line)));
+        files::write(path, text.as_bytes())?;
+        Self::held(path)
+    }
+
+    /// Opens and locks a journal for writing. An incomplete last line is cut off.
+    fn held(path: &Path) -> Result<Self, Failure> {
+        let file = OpenOptions::new().read(true).append(true).open(path);
+        let file = file.map_err(|error| Failure::at(path, error))?;
+        // On a file system without locks, a second batch goes unnoticed.
+        if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            return Err(Failure::at(
+                path,
+                "another batch is at work on this; wait for it, or name another folder with --out",
+            ));
+        }
+        let journal = Self::new(path, file)?;
+        journal.file.set_len(journal.end).map_err(|error| Failure::at(path, error))?;
+        Ok(journal)
+    }
+
+    /// Reads a journal. An incomplete last line is ignored.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let file = File::open(path).map_err(|error| Failure::at(path, error))?;
+        Self::new(path, file)
+    }
+
+    fn new(path: &Path, file: File) -> Result<Self, Failure> {
+        let io = |error: io::Error| Failure::at(path, error);
+        let mut lines = BufReader::new(&file);
+        let mut text = String::new();
+        let mut end = lines.read_line(&mut text).map_err(io)? as u64;
+        let is_ours = |header: &Header| header.schema == SCHEMA;
+        let header = serde_json::from_str(&text).ok().filter(is_ours);
+        let header: Header = header.ok_or_else(|| {
+            Failure::at(path, "is no journal of a batch that this version can read")
+        })?;
+        let mut known = HashMap::new();
+        loop {
+            text.clear();
+            let length = lines.read_line(&mut text).map_err(io)?;
+            let line = serde_json::from_str::<Line>(&text).ok().filter(|_| text.ends_with('\n'));
+            let Some(line) = line else { break };
+            let span = Span { begin: end, length };
+            let Line { at, clip, file, asked, row, .. } = line;
+            known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+            end += length as u64;
+        }
+        drop(lines);
+        Ok(Self { path: path.into(), file, end, header, known })
+    }
+
+    /// Whether this clip was done with the same file and options; its line is then not needed.
+    pub(crate) fn has(&self, name: &str, file: &str, asked: &str) -> bool {
+        self.known
+            .get(name)
+            .is_some_and(|known| known.is_done && known.file == file && known.asked == asked)
+    }
+
+    /// Returns the last line of a clip.
+    pub(crate) fn line(&self, name: &str) -> Result<Option<Line>, Failure> {
+        self.known.get(name).map(|known| self.line_at(known.span)).transpose()
+    }
+
+    fn line_at(&self, span: Span) -> Result<Line, Failure> {
+        let mut text = vec![0; span.length];
+        let mut file = &self.file;
+        let read = file.seek(SeekFrom::Start(span.begin)).and_then(|_| file.read_exact(&mut text));
+        let line = read.and_then(|()| serde_json::from_slice(&text).map_err(io::Error::other));
+        line.map_err(|error| Failure::at(&self.path, error))
+    }
+
+    /// Appends the line of a clip.
+    pub(crate) fn add(&mut self, line: Line) -> Result<(), Failure> {
+        let text = encoded(&line);
+        let span = Span { begin: self.end, length: text.len() };
+        let written = self.file.write_all(text.as_bytes());
+        written.map_err(|error| Failure::at(&self.path, error))?;
+        self.end += text.len() as u64;
+        let Line { at, clip, file, asked, row, .. } = line;
+        self.known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+        Ok(())
+    }
+
+    /// The known clips and their places in the list, in no particular order.
+    pub(crate) fn places(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.known.iter().map(|(name, known)| (known.at, name.as_str()))
+    }
+}
+
+/// Refuses parts that do not all belong to one list.
+pub(crate) fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
+    let wrongly = |message: String| Err(Failure::AskedWrongly(format!("--join: {message}")));
+    let Some(first) = journals.first() else {
+        return wrongly("there is no batch in these folders; name those that --out named".into());
+    };
+    let (list, parts) = (&first.header.list, first.header.parts);
+    if journals.iter().any(|journal| &journal.header.list != list || journal.header.parts != parts)
+    {
+        return wrongly(
+            "these folders are of different lists, or of lists that were dealt differently".into(),
+        );
+    }
+    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
+    match (1..=parts).find(|part| !there.contains(part)) {
+        Some(part) => wrongly(format!(
+            "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
+        )),
+        None => Ok(()),
+    }
+}
+
+fn encoded(data: &impl Serialize) -> String {
+    serde_json::to_string(data).expect("plain data") + "\n"
+}

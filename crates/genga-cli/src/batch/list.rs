@@ -1,0 +1,311 @@
+//! Builds the list of clips from files, folders, patterns, lists and tables, in the order in which they are named.
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Component, Path, PathBuf};
+
+use walkdir::WalkDir;
+
+use super::super::failure::Failure;
+use super::super::files;
+use super::super::paths::is_motion;
+use genga::sanitize::is_hidden;
+
+/// A clip of a batch.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Item {
+    /// Path of the file.
+    pub(crate) path: PathBuf,
+    /// Name, unique in the list: the path without the folders common to all, separated by `/`.
+    pub(crate) name: String,
+    /// Options of this clip alone, as on the command line.
+    pub(crate) own: Vec<String>,
+    /// Bytes of the file, 0 if it does not exist.
+    pub(crate) size: u64,
+}
+
+/// A clip's path and its own options.
+type Named = (PathBuf, Vec<String>);
+
+/// Returns all named clips. Folders are walked in order of name; `out` is left out.
+pub(crate) fn items(words: &[String], out: &Path) -> Result<Vec<Item>, Failure> {
+    let mut named = Vec::new();
+    for word in words {
+        named.extend(of_word(word, out)?);
+    }
+    if named.is_empty() {
+        let words = words.join(" ");
+        return Err(Failure::AskedWrongly(format!(
+            "there is no clip in {words}: name motion files or folders of them"
+        )));
+    }
+    Ok(called(named))
+}
+
+fn of_word(word: &str, out: &Path) -> Result<Vec<Named>, Failure> {
+    if word == "-" {
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes);
+        read.map_err(|error| Failure::CouldNot(format!("stdin: {error}")))?;
+        return lined(&bytes, Path::new("stdin"));
+    }
+    if let Some(list) = word.strip_prefix('@') {
+        return of_list(Path::new(list));
+    }
+    let path = Path::new(word);
+    if path.is_dir() {
+        return walked(path, out);
+    }
+    if !path.exists() && word.contains(['*', '?', '[']) {
+        return matched(word, out);
+    }
+    match path.exists() {
+        true => Ok(vec![(path.into(), vec![])]),
+        false => Err(Failure::CouldNot(format!("{word}: there is no such file or folder"))),
+    }
+}
+
+/// Parses a list with one file per line; empty lines and lines that begin with # are skipped. Paths are the system's
+/// raw bytes.
+fn lined(bytes: &[u8], list: &Path) -> Result<Vec<Named>, Failure> {
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let lines = bytes.split(|byte| *byte == b'\n');
+    let lines = lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line));
+    let lines = lines.filter(|line| !line.trim_ascii().is_empty() && !line.starts_with(b"#"));
+    let path = |line| path_of(line).ok_or_else(|| not_utf8(list));
+    lines.map(|line| Ok((path(line)?, vec![]))).collect()
+}
+
+#[cfg(unix)]
+fn path_of(bytes: &[u8]) -> Option<PathBuf> {
+    use std::os::unix::ffi::OsStrExt;
+    Some(std::ffi::OsStr::from_bytes(bytes).into())
+}
+
+#[cfg(not(unix))]
+fn path_of(bytes: &[u8]) -> Option<PathBuf> {
+    std::str::from_utf8(bytes).ok().map(PathBuf::from)
+}
+
+fn not_utf8(list: &Path) -> Failure {
+    Failure::CouldNot(format!("{}: is not UTF-8; save the list as UTF-8", list.display()))
+}
+
+/// Writes the list as text that [`lined`] can read.
+pub(crate) fn written(items: &[Item]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for item in items {
+        bytes.extend_from_slice(item.path.as_os_str().as_encoded_bytes());
+        bytes.push(b'\n');
+    }
+    bytes
+}
+
+fn of_list(list: &Path) -> Result<Vec<Named>, Failure> {
+    let bytes = files::read(list)?;
+    let ending = list.extension().map(|ending| ending.to_ascii_lowercase());
+    let ending = ending.as_ref().and_then(|ending| ending.to_str());
+    if !matches!(ending, Some("csv" | "jsonl" | "ndjson")) {
+        return lined(&bytes, list);
+    }
+    let text = String::from_utf8(bytes).map_err(|_| not_utf8(list))?;
+    let text = text.trim_start_matches('\u{feff}');
+    let table = if ending == Some("csv") { of_table(text) } else { of_objects(text) };
+    table
+        .map_err(|(line, reason)| Failure::CouldNot(format!("{}:{line}: {reason}", list.display())))
+}
+
+/// Parses a CSV table with a column `clip` and columns named like options.
+fn of_table(text: &str) -> Result<Vec<Named>, (usize, String)> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let fault = |error: csv::Error| {
+        (error.position().map_or(1, |place| place.line() as usize), error.to_string())
+    };
+    let header = reader.headers().map_err(fault)?.clone();
+    let mut named = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(fault)?;
+        let line = record.position().map_or(1, |place| place.line() as usize);
+        let cells = header.iter().zip(&record).map(|(name, cell)| (name.trim(), cell.to_owned()));
+        named.push(of_cells(cells).map_err(|reason| (line, reason))?);
+    }
+    Ok(named)
+}
+
+/// Parses JSON Lines: one object per clip.
+fn of_objects(text: &str) -> Result<Vec<Named>, (usize, String)> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let object = |(at, line): (usize, &str)| {
+        let read: Result<serde_json::Map<String, serde_json::Value>, _> =
+            serde_json::from_str(line);
+        let object = read.map_err(|error| (at + 1, error.to_string()))?;
+        let cells = object.iter().map(|(name, value)| (name.as_str(), word_of(value)));
+        of_cells(cells).map_err(|reason| (at + 1, reason))
+    };
+    lines.map(object).collect()
+}
+
+/// Formats a JSON value as on the command line.
+fn word_of(value: &serde_json::Value) -> String {
+    match value {
+        serde_json::Value::Null => String::new(),
+        serde_json::Value::String(text) => text.clone(),
+        serde_json::Value::Array(values) => {
+            values.iter().map(word_of).collect::<Vec<_>>().join(",")
+        }
+        other => other.to_string(),
+    }
+}
+
+fn of_cells<'a>(cells: impl Iterator<Item = (&'a str, String)>) -> Result<Named, String> {
+    let (mut path, mut own) = (None, Vec::new());
+    for (name, cell) in cells {
+        match name.strip_prefix("set.") {
+            _ if name == "clip" => path = Some(cell).filter(|cell| !cell.is_empty()),
+            _ if cell.is_empty() || cell == "false" => {}
+            Some(key) => own.push(format!("--set={key}={cell}")),
+            None if cell == "true" => own.push(format!("--{name}")),
+            None => own.push(format!("--{name}={cell}")),
+        }
+    }
+    let path = path.ok_or("the clip is missing: a column clip has its path")?;
+    Ok((path.into(), own))
+}
+
+fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
+    let out = fs::canonicalize(out).ok();
+    let is_out = |path: &Path| path.is_dir() && out.is_some() && fs::canonicalize(path).ok() == out;
+    let walk = WalkDir::new(folder).follow_links(true).sort_by_file_name();
+    let mut found = Vec::new();
+    for entry in walk.into_iter().filter_entry(|entry| !is_out(entry.path())) {
+        // A link loop is skipped, a dangling link becomes a clip that fails, and an unreadable folder is an error.
+        match entry {
+            Ok(entry) if entry.file_type().is_file() && is_motion(entry.path()) => {
+                found.push((entry.into_path(), vec![]));
+            }
+            Ok(_) => {}
+            Err(error) if error.loop_ancestor().is_some() => {}
+            Err(error) if error.path().is_some_and(Path::is_symlink) => {
+                found.extend(
+                    error.path().filter(|path| is_motion(path)).map(|path| (path.into(), vec![])),
+                );
+            }
+            Err(error) => return Err(Failure::CouldNot(error.to_string())),
+        }
+    }
+    Ok(found)
+}
+
+fn matched(pattern: &str, out: &Path) -> Result<Vec<Named>, Failure> {
+    let paths = glob::glob(pattern)
+        .map_err(|error| Failure::AskedWrongly(format!("{pattern}: {error}")))?;
+    let out = fs::canonicalize(out).ok();
+    let is_in_out = |path: &Path| {
+        let real = fs::canonicalize(path).ok();
+        real.zip(out.as_ref()).is_some_and(|(real, out)| real.starts_with(out))
+    };
+    let mut found = Vec::new();
+    for path in paths {
+        let path = path.map_err(|error| Failure::CouldNot(error.to_string()))?;
+        match path.is_dir() {
+            true => found.extend(walked(&path, out.as_deref().unwrap_or(Path::new("")))?),
+            false if is_motion(&path) && !is_in_out(&path) => found.push((path, vec![])),
+            false => {}
+        }
+    }
+    match found.is_empty() {
+        true => Err(Failure::CouldNot(format!("{pattern}: no motion file matches"))),
+        false => Ok(found),
+    }
+}
+
+/// Gives each clip a unique name. Names that differ only in case get a number too, because many file systems treat them
+/// as equal.
+fn called(named: Vec<Named>) -> Vec<Item> {
+    let parts: Vec<Vec<String>> = named.iter().map(|(path, _)| folders(path)).collect();
+    let common = common(&parts);
+    let mut seen: HashSet<String> = HashSet::new();
+    let mut counts: HashMap<String, usize> = HashMap::new();
+    let item = |((path, own), parts): (Named, Vec<String>)| {
+        // The name becomes a folder name too.
+        let plain = parts[common..].join("/").replace(is_hidden, "_");
+        let count = counts.entry(plain.to_lowercase()).or_insert(1);
+        let mut name = plain.clone();
+        while !seen.insert(name.to_lowercase()) {
+            *count += 1;
+            name = format!("{plain}~{count}");
+        }
+        let size = fs::metadata(&path).map_or(0, |about| about.len());
+        Item { path, name, own, size }
+    };
+    named.into_iter().zip(parts).map(item).collect()
+}
+
+/// Splits a path into its names, without roots and `..`.
+fn folders(path: &Path) -> Vec<String> {
+    let name = |part| match part {
+        Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
+        _ => None,
+    };
+    path.components().filter_map(name).collect()
+}
+
+/// Number of leading folders common to all.
+fn common(parts: &[Vec<String>]) -> usize {
+    let Some((first, others)) = parts.split_first() else { return 0 };
+    let shared = |other: &Vec<String>| {
+        let most = first.len().min(other.len()).saturating_sub(1);
+        first.iter().zip(other).take(most).take_while(|(a, b)| a == b).count()
+    };
+    others.iter().map(shared).min().unwrap_or(first.len().saturating_sub(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(paths: &[&str]) -> Vec<String> {
+        let named = paths.iter().map(|path| (PathBuf::from(path), vec![])).collect();
+        called(named).into_iter().map(|item| item.name).collect()
+    }
+
+    #[test]
+    fn a_clip_is_called_by_what_is_not_in_common() {
+        assert_eq!(names(&["lib/a/walk.bvh", "lib/b/walk.bvh"]), ["a/walk.bvh", "b/walk.bvh"]);
+        assert_eq!(names(&["lib/a/walk.bvh", "lib/run.bvh"]), ["a/walk.bvh", "run.bvh"]);
+        assert_eq!(names(&["/x/y/walk.bvh"]), ["walk.bvh"]);
+        assert_eq!(
+            names(&["../walk.bvh", "./walk.bvh", "walk.bvh"]),
+            ["walk.bvh", "walk.bvh~2", "walk.bvh~3"]
+        );
+        assert_eq!(names(&["a", "a/b.bvh"]), ["a", "a/b.bvh"]);
+        assert_eq!(names(&["Walk.bvh", "walk.bvh"]), ["Walk.bvh", "walk.bvh~2"]);
+        assert_eq!(
+            names(&["walk.bvh~2", "walk.bvh", "walk.bvh"]),
+            ["walk.bvh~2", "walk.bvh", "walk.bvh~3"]
+        );
+    }
+
+    #[test]
+    fn a_table_says_what_is_asked_of_each_clip() {
+        let table = "clip,trim,set.spacing.on,repair\na.bvh,1..9,3,true\nb.bvh,,,false\n";
+        let lines = "{\"clip\": \"a.bvh\", \"trim\": \"1..9\", \"set.spacing.on\": 3, \"repair\": true}\n\n{\"clip\": \"b.bvh\"}\n";
+        let own = ["--trim=1..9", "--set=spacing.on=3", "--repair"].map(str::to_owned).to_vec();
+        let wanted = vec![("a.bvh".into(), own), ("b.bvh".into(), vec![])];
+        assert_eq!(of_table(table).unwrap(), wanted);
+        let mut read = of_objects(lines).unwrap();
+        read[0].1.sort_by_key(|word| wanted[0].1.iter().position(|other| other == word));
+        assert_eq!(read, wanted);
+        assert_eq!(of_table("trim\n1..9\n").unwrap_err().0, 2);
+        assert_eq!(of_objects("{\"clip\": \"a\"}\n{").unwrap_err().0, 2);
+    }
+
+    #[test]
+    fn a_list_has_a_clip_a_line() {
+        let lines = "\u{feff}# a list\r\n\r\na b.bvh\r\n歩き.bvh".as_bytes();
+        let read: Vec<_> = lined(lines, Path::new("list.txt")).unwrap().into_iter().collect();
+        let paths: Vec<_> = read.into_iter().map(|(path, _)| path).collect();
+        assert_eq!(paths, ["a b.bvh", "歩き.bvh"].map(PathBuf::from));
+    }
+}

@@ -1,0 +1,87 @@
+//! Moves the folder of a clip into its place: as a whole, and never over a person's changes.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use walkdir::WalkDir;
+
+use super::super::failure::Failure;
+use genga_files::Manifest;
+
+/// Folder that holds a folder per clip.
+pub(super) const CLIPS: &str = "clips";
+
+/// Digests of files by name.
+type Files = BTreeMap<String, String>;
+
+/// The output folder of a batch, with the clips' folders.
+pub(crate) struct Places<'a> {
+    pub(crate) out: &'a Path,
+    /// Whether files that a person changed may be overwritten.
+    pub(crate) is_forced: bool,
+}
+
+impl Places<'_> {
+    /// The folder of a clip.
+    pub(crate) fn clip_folder(&self, name: &str) -> PathBuf {
+        self.out.join(CLIPS).join(name)
+    }
+
+    /// Whether all files of a clip are there.
+    pub(crate) fn has(&self, name: &str, files: &Files) -> bool {
+        let folder = self.clip_folder(name);
+        files.keys().all(|file| folder.join(file).is_file())
+    }
+
+    /// Moves a finished folder to the place of the earlier batch's folder, which goes to `old`. Does nothing if there
+    /// are no files.
+    pub(crate) fn put(
+        &self,
+        name: &str,
+        (ready, old): (&Path, &Path),
+        come: &Files,
+        before: &Files,
+    ) -> Result<(), Failure> {
+        let place = self.clip_folder(name);
+        let failed = |error| Failure::at(&place, error);
+        if place.exists() {
+            self.spare(&place, come, before)?;
+            fs::rename(&place, old).map_err(failed)?;
+        }
+        if come.is_empty() {
+            return Ok(());
+        }
+        place.parent().map_or(Ok(()), fs::create_dir_all).map_err(failed)?;
+        fs::rename(ready, &place).map_err(failed)
+    }
+
+    /// Refuses a folder with a file that neither the previous batch nor this one wrote.
+    fn spare(&self, place: &Path, come: &Files, before: &Files) -> Result<(), Failure> {
+        if self.is_forced {
+            return Ok(());
+        }
+        for entry in
+            WalkDir::new(place).into_iter().flatten().filter(|entry| entry.file_type().is_file())
+        {
+            let path = entry.path();
+            let name =
+                path.strip_prefix(place).unwrap_or(path).to_string_lossy().replace('\\', "/");
+            let digest = fs::read(path).map(|bytes| Manifest::digest(&bytes)).unwrap_or_default();
+            let is_ours = |files: &Files| files.get(&name) == Some(&digest);
+            if !is_ours(come) && !is_ours(before) {
+                return Err(foreign(path, "file"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The failure for something that no batch wrote and that would be overwritten.
+pub(super) fn foreign(path: &Path, what: &str) -> Failure {
+    let path = path.display();
+    Failure::AskedWrongly(format!(
+        "{path}: this {what} is not as a batch wrote it, and would be lost; move it, write elsewhere with --out, or write \
+         over it with --force"
+    ))
+}

@@ -1,0 +1,142 @@
+//! The summary of a clip in one row.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use genga_files::Report;
+
+/// A row of `summary.csv`. For a failed clip most of it is empty.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Row {
+    /// `done` or `failed`.
+    pub(crate) status: String,
+    /// Why it failed.
+    pub(crate) message: String,
+    /// Figures of a clip that is done.
+    #[serde(flatten)]
+    pub(crate) figures: Option<Figures>,
+    /// Codes of the reader's warnings, each once.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Figures of a clip that is done.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Figures {
+    frames: usize,
+    rate: f64,
+    joints: usize,
+    koma: usize,
+    genga: usize,
+    drawings: usize,
+    held: usize,
+    longest_hold: usize,
+    actions: usize,
+    motion: String,
+    recipe: String,
+}
+
+/// Status of a clip that is done.
+const DONE: &str = "done";
+
+impl Row {
+    /// Names of the cells; the clip's name comes first.
+    pub(crate) const HEADER: [&str; 15] = [
+        "clip",
+        "status",
+        "message",
+        "frames",
+        "rate",
+        "joints",
+        "koma",
+        "genga",
+        "drawings",
+        "held",
+        "longest_hold",
+        "actions",
+        "warnings",
+        "motion",
+        "recipe",
+    ];
+
+    /// Builds the row of a finished clip; `motion` and `recipe` are digests.
+    pub(crate) fn done(
+        report: &Report,
+        motion: String,
+        recipe: String,
+        warnings: Vec<String>,
+    ) -> Self {
+        let figures = Figures {
+            frames: report.frames,
+            rate: report.frame_rate,
+            joints: report.joints,
+            koma: report.koma,
+            genga: report.genga,
+            drawings: report.drawings,
+            held: report.held_koma,
+            longest_hold: report.longest_hold,
+            actions: report.actions.len().max(1),
+            motion,
+            recipe,
+        };
+        Self { status: DONE.into(), message: String::new(), figures: Some(figures), warnings }
+    }
+
+    /// Builds the row of a failed clip.
+    pub(crate) fn failed(message: String, warnings: Vec<String>) -> Self {
+        Self { status: "failed".into(), message, figures: None, warnings }
+    }
+
+    pub(crate) fn is_done(&self) -> bool {
+        self.status == DONE
+    }
+
+    /// The cells after the clip's name.
+    pub(crate) fn cells(&self) -> Vec<String> {
+        let figures = self.figures.as_ref().map(|figures| {
+            let Figures {
+                frames,
+                rate,
+                joints,
+                koma,
+                genga,
+                drawings,
+                held,
+                longest_hold,
+                actions,
+                ..
+            } = figures;
+            let counts =
+                [*frames, *joints, *koma, *genga, *drawings, *held, *longest_hold, *actions];
+            let mut cells: Vec<String> = counts.iter().map(ToString::to_string).collect();
+            cells.insert(1, rate.to_string());
+            (cells, figures.motion.clone(), figures.recipe.clone())
+        });
+        let (numbers, motion, recipe) =
+            figures.unwrap_or_else(|| (vec![String::new(); 9], String::new(), String::new()));
+        let mut cells = vec![self.status.clone(), self.message.clone()];
+        cells.extend(numbers);
+        cells.extend([self.warnings.join(" "), motion, recipe]);
+        cells
+    }
+}
+
+/// The results of a clip, as a line of the journal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Line {
+    /// Index in the list, from 0.
+    pub(crate) at: usize,
+    /// Name of the clip.
+    pub(crate) clip: String,
+    /// Digest of the clip's file.
+    pub(crate) file: String,
+    /// Digest of the clip's options.
+    pub(crate) asked: String,
+    pub(crate) row: Row,
+    /// Key table, as in `keys.csv` of a run.
+    pub(crate) keys: String,
+    /// Files and their digests.
+    pub(crate) files: BTreeMap<String, String>,
+    /// Milliseconds spent reading, drawing and writing.
+    pub(crate) ms: [f64; 3],
+}

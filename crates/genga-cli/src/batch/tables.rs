@@ -1,0 +1,124 @@
+//! The tables of all clips: `summary.csv` and `keys.csv`, and apart from them `times.csv`, which differs on every run.
+
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::Path;
+
+use super::super::failure::Failure;
+use super::super::staging::Staging;
+use super::super::stop;
+use super::journal::Journal;
+use super::row::{Line, Row};
+use genga::sanitize::cell;
+
+/// The tables, in the order in which they are moved into place.
+const FILES: [&str; 3] = ["keys.csv", "times.csv", "summary.csv"];
+
+/// The number of finished clips, and the failed ones.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Count {
+    pub(crate) done: usize,
+    /// The first failures with their reasons, one a line.
+    pub(crate) failed: Vec<String>,
+    pub(crate) failures: usize,
+}
+
+/// Most failures listed in full.
+pub(crate) const NAMED: usize = 3;
+
+/// Writes the tables of the named clips, in that order, as far as the journals know them. No table is ever wholly in
+/// memory.
+pub(crate) fn write<'a>(
+    out: &Path,
+    journals: &[Journal],
+    names: impl Iterator<Item = &'a str>,
+) -> Result<Count, Failure> {
+    let io = |error: io::Error| Failure::at(out, error);
+    let staging = Staging::within(out).map_err(io)?;
+    let open = |name: &str| {
+        File::create(staging.place(name)).map(BufWriter::new).map(csv::Writer::from_writer)
+    };
+    let [mut keys, mut times, mut summary] =
+        [open(FILES[0]).map_err(io)?, open(FILES[1]).map_err(io)?, open(FILES[2]).map_err(io)?];
+    let csv = |error: csv::Error| Failure::at(out, error);
+    summary.write_record(Row::HEADER).map_err(csv)?;
+    times.write_record(["clip", "read_ms", "draw_ms", "write_ms"]).map_err(csv)?;
+    let (mut count, mut has_header) = (Count::default(), false);
+    for name in names {
+        let Some(line) = line(journals, name)? else { continue };
+        count.add(&line);
+        write_row(&mut summary, &line.clip, line.row.cells()).map_err(csv)?;
+        let ms = line.ms.map(|ms| format!("{ms:.1}"));
+        write_row(&mut times, &line.clip, ms).map_err(csv)?;
+        copy_keys(&line, &mut keys, &mut has_header).map_err(csv)?;
+    }
+    for table in [&mut keys, &mut times, &mut summary] {
+        table.flush().map_err(io)?;
+    }
+    drop((keys, times, summary));
+    let put =
+        || FILES.iter().try_for_each(|name| std::fs::rename(staging.place(name), out.join(name)));
+    stop::undisturbed(put).map_err(io)?;
+    Ok(count)
+}
+
+/// Returns the last line of a clip, from the journal that has it.
+pub(crate) fn line(journals: &[Journal], name: &str) -> Result<Option<Line>, Failure> {
+    journals.iter().find_map(|journal| journal.line(name).transpose()).transpose()
+}
+
+/// Writes a row that begins with the clip's name, with every cell escaped against formula injection.
+fn write_row(
+    table: &mut csv::Writer<BufWriter<File>>,
+    clip: &str,
+    cells: impl IntoIterator<Item = String>,
+) -> Result<(), csv::Error> {
+    table.write_field(&*cell(clip))?;
+    cells.into_iter().try_for_each(|text| table.write_field(&*cell(&text)))?;
+    table.write_record(None::<&[u8]>)
+}
+
+/// Copies the rows of a clip's key table, each after the clip's name. Their cells cannot be formulas.
+fn copy_keys(
+    line: &Line,
+    keys: &mut csv::Writer<BufWriter<File>>,
+    has_header: &mut bool,
+) -> Result<(), csv::Error> {
+    let mut table = csv::ReaderBuilder::new().has_headers(false).from_reader(line.keys.as_bytes());
+    for (at, record) in table.records().enumerate() {
+        let record = record?;
+        match at {
+            0 if *has_header => continue,
+            0 => keys.write_field("clip")?,
+            _ => keys.write_field(&*cell(&line.clip))?,
+        }
+        *has_header = true;
+        keys.write_record(&record)?;
+    }
+    Ok(())
+}
+
+impl Count {
+    /// Counts the named clips as far as the journals know them.
+    pub(crate) fn of<'a>(
+        journals: &[Journal],
+        names: impl Iterator<Item = &'a str>,
+    ) -> Result<Self, Failure> {
+        let mut count = Self::default();
+        for name in names {
+            line(journals, name)?.iter().for_each(|line| count.add(line));
+        }
+        Ok(count)
+    }
+
+    fn add(&mut self, line: &Line) {
+        if line.row.is_done() {
+            self.done += 1;
+            return;
+        }
+        self.failures += 1;
+        if self.failed.len() < NAMED {
+            self.failed.push(line.row.message.clone());
+        }
+    }
+}

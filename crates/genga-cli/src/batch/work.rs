@@ -1,0 +1,251 @@
+//! Processes one clip of a batch: reads it, draws it, writes it to staging.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::time::Instant;
+
+use clap::{Args, Command, FromArgMatches};
+
+use super::super::console::{Words, is_loss};
+use super::super::failure::Failure;
+use super::super::format_args::Formats;
+use super::super::plan::{Plan, PlanArgs};
+use super::super::{corrections, files, paths, stop};
+use super::list::Item;
+use super::pack::Parcel;
+use super::row::{Line, Row};
+use genga::edits::Edits;
+use genga::error::Error;
+use genga::recipe::Recipe;
+use genga_files::{Drawings, Manifest, Report, Rows, Run};
+
+/// The options shared by all clips.
+pub(crate) struct Asked<'a> {
+    plan: &'a PlanArgs,
+    formats: &'a Formats,
+    recipe: Recipe,
+    edits: Edits,
+    digest: String,
+}
+
+/// The options of one clip.
+struct OfOne {
+    plan: PlanArgs,
+    recipe: Recipe,
+    edits: Edits,
+}
+
+impl<'a> Asked<'a> {
+    pub(crate) fn new(plan: &'a PlanArgs, formats: &'a Formats) -> Result<Self, Failure> {
+        let Plan { recipe, edits, .. } = Plan::from_args(plan)?;
+        let digest = digest(plan, formats, &recipe, &edits)?;
+        Ok(Self { plan, formats, recipe, edits, digest })
+    }
+
+    /// Returns the settings of a clip, its own options included, and a digest of all.
+    fn of_one(&self, item: &Item) -> Result<(OfOne, String), Failure> {
+        let mut plan = self.plan.for_clip(&item.path);
+        if item.own.is_empty() {
+            let (recipe, edits) = (self.recipe.clone(), self.edits.clone());
+            return Ok((OfOne { plan, recipe, edits }, self.digest.clone()));
+        }
+        plan = with(plan, &item.own)?;
+        let Plan { recipe, edits, .. } = Plan::from_args(&plan)?;
+        let digest = digest(&plan.for_clip(Path::new("")), self.formats, &recipe, &edits)?;
+        Ok((OfOne { plan, recipe, edits }, digest))
+    }
+}
+
+/// Adds command-line words to a plan.
+fn with(mut plan: PlanArgs, words: &[String]) -> Result<PlanArgs, Failure> {
+    let set = plan.corrections.settings.set.clone();
+    let command = PlanArgs::augment_args_for_update(Command::new("genga").no_binary_name(true));
+    let wrong = |error: clap::Error| Failure::AskedWrongly(first_line(&error.to_string()));
+    let matches = command.try_get_matches_from(words).map_err(wrong)?;
+    plan.update_from_arg_matches(&matches).map_err(wrong)?;
+    let own = &mut plan.corrections.settings.set;
+    if *own != set {
+        // Settings for all clips come first, so that the clip's own override them.
+        own.splice(0..0, set);
+    }
+    Ok(plan)
+}
+
+fn first_line(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    line.trim_start_matches("error: ").to_owned()
+}
+
+/// Returns a digest of everything besides the motion that a result depends on.
+fn digest(
+    plan: &PlanArgs,
+    formats: &Formats,
+    recipe: &Recipe,
+    edits: &Edits,
+) -> Result<String, Failure> {
+    let mut text =
+        format!("{}\n{plan:?}\n{formats:?}\n{}", env!("CARGO_PKG_VERSION"), recipe.write(edits));
+    for path in plan.files() {
+        text += &Manifest::digest(&files::read(path)?);
+    }
+    Ok(Manifest::digest(text.as_bytes()))
+}
+
+/// Bytes of a file in memory at a time.
+const BLOCK: usize = 1 << 20;
+
+/// Returns a digest of the digests of a file's blocks.
+fn digest_of_file(path: &Path) -> Result<String, Failure> {
+    let failed = |source| Failure::from(Error::Io { path: path.to_owned(), source });
+    let mut file = File::open(path).map_err(failed)?;
+    let (mut block, mut digests) = (Vec::new(), String::new());
+    loop {
+        block.clear();
+        let count = (&mut file).take(BLOCK as u64).read_to_end(&mut block).map_err(failed)?;
+        if count == 0 {
+            return Ok(Manifest::digest(digests.as_bytes()));
+        }
+        digests += &Manifest::digest(&block);
+    }
+}
+
+/// A clip whose digests are known, before any work on it.
+pub(crate) struct Begun<'a> {
+    at: usize,
+    item: &'a Item,
+    file: String,
+    asked: Result<(OfOne, String), Failure>,
+}
+
+impl<'a> Begun<'a> {
+    pub(crate) fn new(asked: &Asked<'_>, at: usize, item: &'a Item) -> Self {
+        let (file, asked) = match digest_of_file(&item.path) {
+            Ok(file) => (file, asked.of_one(item)),
+            Err(failure) => (String::new(), Err(failure)),
+        };
+        Self { at, item, file, asked }
+    }
+
+    /// Digests of the clip's file and of its options.
+    pub(crate) fn digests(&self) -> (&str, &str) {
+        (&self.file, self.asked.as_ref().map_or("", |(_, digest)| digest))
+    }
+
+    /// Draws the clip, and writes its files into a folder of its own or into a parcel. A clip that fails still becomes
+    /// a row; only a write error stops the batch.
+    pub(crate) fn finish(
+        self,
+        formats: &Formats,
+        ready: &Path,
+        mut parcel: Option<&mut Parcel>,
+    ) -> Result<Line, Failure> {
+        let Self { at, item, file, asked } = self;
+        let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
+        let (mut warnings, mut is_unwritten) = (Vec::new(), false);
+        let drawn = asked.and_then(|(own, digest)| {
+            let put = &mut |name: &str, bytes: &[u8], of: &str| match &mut parcel {
+                Some(parcel) => parcel
+                    .add(&item.name, name, of, bytes)
+                    .map_err(|source| Error::Io { path: item.path.clone(), source }),
+                None => write(&ready.join(name), bytes).inspect_err(|_| is_unwritten = true),
+            };
+            let work = || drawn(&own, &digest, formats, put, &mut warnings);
+            let fault = |_| {
+                Failure::CouldNot(format!(
+                    "{}: genga failed on this clip, which is a fault of its own",
+                    item.path.display()
+                ))
+            };
+            catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(fault(panic)))
+        });
+        let mut line = Line {
+            at,
+            clip: item.name.clone(),
+            file,
+            asked: digest,
+            row: Row::default(),
+            keys: String::new(),
+            files: BTreeMap::new(),
+            ms: [0.0; 3],
+        };
+        match drawn {
+            Ok(Drawn { row, keys, files, ms }) => {
+                (line.row, line.keys, line.files, line.ms) = (row, keys, files, ms)
+            }
+            // A write error is the fault of the place, not of the clip.
+            Err(failure) if is_unwritten => return Err(failure),
+            Err(failure) => {
+                let _ = fs::remove_dir_all(ready);
+                line.row = Row::failed(failure.to_string(), warnings);
+            }
+        }
+        Ok(line)
+    }
+}
+
+/// The results of a clip.
+struct Drawn {
+    row: Row,
+    keys: String,
+    files: BTreeMap<String, String>,
+    ms: [f64; 3],
+}
+
+/// Callback that stores a file of a clip: its name, its bytes, their digest.
+type Put<'a> = dyn FnMut(&str, &[u8], &str) -> Result<(), Error> + 'a;
+
+fn drawn(
+    own: &OfOne,
+    digest: &str,
+    formats: &Formats,
+    put: &mut Put<'_>,
+    warnings: &mut Vec<String>,
+) -> Result<Drawn, Failure> {
+    let (begin, mute) = (Instant::now(), Words::new(true));
+    let mut plan = Plan::with(&own.plan, own.recipe.clone(), own.edits.clone());
+    let path = own.plan.clip();
+    let (mut engine, clip) = plan.read(&mut |warning| {
+        if !warnings.iter().any(|code| code == warning.code) {
+            warnings.push(warning.code.into());
+        }
+    })?;
+    let read = Instant::now();
+    let mut notes = Vec::new();
+    plan.settle(&mut engine, &mute, &mut |note| notes.push(note))?;
+    let Plan { recipe, edits, .. } = &plan;
+    let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(path))?;
+    notes.extend(corrections::unmoved(edits, &breakdown));
+    let report = Report::new(&breakdown, notes);
+    let name = paths::stem(path);
+    let keys =
+        Drawings { cut: name.clone(), rows: Rows::Keys }.write(breakdown.clip, breakdown.sheet)?;
+    let found = Instant::now();
+    let mut files = BTreeMap::new();
+    let mut formats = formats.clone();
+    let motion = clip.motion.clone();
+    let run = Run { name: &name, clip: &clip, breakdown: &breakdown, recipe, edits };
+    run.with_cut(|cut| {
+        let losses = formats.settle(cut)?.into_iter().filter(is_loss);
+        warnings.extend(losses.map(|warning| warning.code.into()));
+        formats.each(cut, &mut |name, bytes| {
+            let digest = Manifest::digest(bytes);
+            put(name, bytes, &digest)?;
+            files.insert(name.to_owned(), digest);
+            Ok(())
+        })
+    })?;
+    let row = Row::done(&report, motion, digest.to_owned(), std::mem::take(warnings));
+    let ms = [read - begin, found - read, found.elapsed()].map(|time| time.as_secs_f64() * 1e3);
+    Ok(Drawn { row, keys, files, ms })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let write = || {
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        fs::write(path, bytes)
+    };
+    stop::undisturbed(write).map_err(|source| Error::Io { path: path.to_owned(), source })
+}

@@ -1,0 +1,306 @@
+//! The motion of a command: which clip, which part of it, and how it is read.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::console::Words;
+use super::failure::Failure;
+use super::{files, paths};
+use genga::error::{Error, Warning};
+use genga::motion::clean::{Cleaning, glitches};
+use genga::motion::{Axis, BoneMap, Clip, StreamLimit};
+use genga::pipeline::Budget;
+use genga::time::FrameRate;
+use genga_files::ClipMark;
+use genga_files::sheet_json::SheetFile;
+use genga_read::{Found, Take};
+
+/// The clip, and which part of it.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ClipArgs {
+    /// Motion file: BVH, FBX, glTF (GLB, VRM, VRMA), VMD or ASF/AMC, detected by content; - is stdin.
+    #[arg(id = "clip", value_name = "CLIP")]
+    pub(super) path: PathBuf,
+    #[command(flatten)]
+    pub(super) part: Part,
+}
+
+/// Which part of a clip, and how it is read.
+#[derive(Debug, Default, Clone, Args)]
+pub(super) struct Part {
+    /// Keep a T-pose that was inserted before or after the motion.
+    #[arg(long)]
+    keep_lead_in: bool,
+    /// Use only source frames A up to but not including B, numbered from 0 as in the file.
+    #[arg(long, value_name = "A..B", value_parser = frames)]
+    trim: Option<Frames>,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+/// How a clip is read.
+#[derive(Debug, Default, Clone, Args)]
+pub(super) struct Reading {
+    /// Override the file's frames per second. Rows are played at this rate; curves (FBX, glTF) are sampled at it.
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
+    fps: Option<FrameRate>,
+    /// Use only the tree of joints whose root has this name, if there are several.
+    #[arg(long, value_name = "NAME")]
+    root: Option<String>,
+    /// Use the take with this name, if the file has several; inspect lists them.
+    #[arg(long, value_name = "NAME")]
+    take: Option<String>,
+    /// Override the up axis: y or z, whatever the file says and however the body stands.
+    #[arg(long, value_name = "AXIS", value_parser = up)]
+    up: Option<Axis>,
+    /// Table of bones, over the built-in one: which joints are head and limbs, and which joints drive which bones of
+    /// vmd and vrma.
+    #[arg(long, value_name = "BONES.toml")]
+    pub(super) bones: Option<PathBuf>,
+    /// Skeleton for a motion without one: the model (.pmx, .pmd) for a VMD, or the .asf for an AMC if not beside it.
+    #[arg(long, value_name = "FILE")]
+    skeleton: Option<PathBuf>,
+    /// Keep glitches: single frames that fly off, and ends at which the tracker comes from the origin.
+    #[arg(long)]
+    keep_glitches: bool,
+    /// Replace nan and inf by the value before them, and drop surplus values of a row. A note reports each repair.
+    #[arg(long, conflicts_with = "strict")]
+    repair: bool,
+    /// Reject a file that has warnings (see inspect --warnings).
+    #[arg(long)]
+    strict: bool,
+    /// Memory limit of the work, and size limit of input from a pipe, in GiB [default: 1 for a pipe; for the work 1
+    /// plus 16 times the values of the clip].
+    #[arg(long, value_name = "GIB", value_parser = gib)]
+    memory: Option<f64>,
+}
+
+/// A half-open range of source frames.
+type Frames = std::ops::Range<usize>;
+
+fn frames(text: &str) -> Result<Frames, String> {
+    let number = |text: &str, open: usize| match text.trim() {
+        "" => Some(open),
+        text => text.parse().ok(),
+    };
+    let parsed = text
+        .split_once("..")
+        .and_then(|(begin, end)| Some(number(begin, 0)?..number(end, usize::MAX)?));
+    parsed.ok_or_else(|| "expected frame numbers, as in 120..480, 120.. or ..480".into())
+}
+
+fn gib(text: &str) -> Result<f64, String> {
+    let gib = text.parse().ok().filter(|gib: &f64| *gib > 0.0 && gib.is_finite());
+    gib.ok_or_else(|| "expected GiB above 0, as in 8 or 0.5".into())
+}
+
+fn up(text: &str) -> Result<Axis, String> {
+    match text {
+        "y" | "Y" => Ok(Axis::Y),
+        "z" | "Z" => Ok(Axis::Z),
+        _ => Err("expected y or z".into()),
+    }
+}
+
+fn rate(text: &str) -> Result<FrameRate, String> {
+    let fps = text.parse().ok().and_then(|fps| FrameRate::new(fps).ok());
+    fps.ok_or_else(|| "expected frames a second from 0.001 to 1000000, as in 120 or 29.97".into())
+}
+
+/// A clip that is ready to be worked on, and notes about it.
+pub(super) struct Source {
+    pub(super) clip: Clip,
+    pub(super) notes: Vec<Warning>,
+    /// Seconds per frame as written in the file, if they are.
+    pub(super) written_frame_time: Option<f64>,
+    /// Facts found in the file, if it is not a BVH.
+    pub(super) found: Vec<Found>,
+    /// The file's takes, if the format has any.
+    pub(super) takes: Vec<Take>,
+    /// Identifies the whole file.
+    pub(super) of: ClipMark,
+}
+
+impl ClipArgs {
+    /// Reads the clip as [`Part::read`] does.
+    pub(super) fn read(&self) -> Result<Source, Failure> {
+        self.part.read(&self.path)
+    }
+
+    /// The memory budget of a run of this clip.
+    pub(super) fn budget(&self) -> Budget {
+        self.part.budget()
+    }
+}
+
+impl Part {
+    /// The options of reading.
+    pub(super) fn reading(&self) -> &Reading {
+        &self.reading
+    }
+
+    /// The memory limit in bytes, if one was asked for.
+    pub(super) fn memory(&self) -> Option<f64> {
+        self.reading.memory.map(|gib| gib * 1024.0 * 1024.0 * 1024.0)
+    }
+
+    /// The memory budget of work on this clip.
+    pub(super) fn budget(&self) -> Budget {
+        self.reading.memory.map_or(Budget::default(), Budget::gib)
+    }
+
+    /// Reads the clip, removes or repairs lead-ins and glitches unless asked to keep them, and trims.
+    ///
+    /// A T-pose or a glitch is a fact about the motion and no fault of the file, so `--strict` accepts it.
+    pub(super) fn read(&self, path: &Path) -> Result<Source, Failure> {
+        let read = self.reading.read(path)?;
+        let genga_read::Read { clip, warnings: mut notes, written_frame_time, found, takes } = read;
+        let of = ClipMark::new(&paths::file_name(path), &clip);
+        let Self { keep_lead_in, trim, reading } = self;
+        let (keep_lead_in, keep_glitches) = (*keep_lead_in, reading.keep_glitches);
+        let cleaning = Cleaning { keep_lead_in, keep_glitches, trim: trim.clone() };
+        let (clip, cleaned) = cleaning.apply(clip).map_err(|error| match error {
+            Error::Clip { message } => Failure::AskedWrongly(format!("--trim: {message}")),
+            other => files::fault_of(path)(other),
+        })?;
+        notes.extend(cleaned);
+        clip.check_size().map_err(files::fault_of(path))?;
+        Ok(Source { clip, notes, written_frame_time, found, takes, of })
+    }
+
+    /// Reads every file before any work begins, and prints each one's warnings.
+    pub(super) fn read_all(&self, clips: &[PathBuf], words: &Words) -> Result<Vec<Clip>, Failure> {
+        let read = |path: &PathBuf| {
+            let source = self.read(path)?;
+            let of = if clips.len() > 1 { format!("{}: ", path.display()) } else { String::new() };
+            source.notes.iter().for_each(|warning| words.warn_of(&of, warning));
+            Ok(source.clip)
+        };
+        clips.iter().map(read).collect()
+    }
+}
+
+impl Reading {
+    /// Reads the bone table given by `--bones`.
+    pub(super) fn bones(&self) -> Result<Option<BoneMap>, Failure> {
+        let parsed = |path| files::parsed("bones", path, BoneMap::parse);
+        self.bones.as_deref().map(parsed).transpose()
+    }
+
+    /// Reads the whole file with its metadata and warnings.
+    fn read(&self, path: &Path) -> Result<genga_read::Read, Failure> {
+        if path.is_dir() {
+            return Err(Failure::AskedWrongly(folder(path)));
+        }
+        let Self { fps, root, take, up, skeleton, repair, strict, memory, .. } = self.clone();
+        let stream = memory.map_or(StreamLimit::default(), StreamLimit::gib);
+        let bones = self.bones()?;
+        let options =
+            genga_read::Options { strict, repair, fps, root, take, skeleton, up, bones, stream };
+        let read = if paths::is_stream(path) {
+            options.read(&files::read_up_to(stream, path)?)
+        } else {
+            options.open(path)
+        };
+        read.map_err(|error| match error {
+            Error::Setting { name, message } => {
+                Failure::AskedWrongly(format!("--{name}: {message}"))
+            }
+            Error::Motion { .. } if is_sheet(path) => Failure::AskedWrongly(sheet(path)),
+            other => files::fault_of(path)(other),
+        })
+    }
+
+    /// Reads the motion that a sheet was made of, and prints its warnings.
+    pub(super) fn read_for(
+        &self,
+        (sheet, file): (&Path, &SheetFile),
+        path: &Path,
+        words: &Words,
+    ) -> Result<OfSheet, Failure> {
+        let of_sheet = files::fault_of(sheet);
+        let read = self.read(path)?;
+        let of = ClipMark::new(&paths::file_name(path), &read.clip);
+        let (clip, note) =
+            if self.keep_glitches { (read.clip, None) } else { glitches::mend(read.clip) };
+        let (source, notes) = file.fit(clip).map_err(&of_sheet)?;
+        source.check_size().map_err(files::fault_of(path))?;
+        let drawn = file.drawn(&source).map_err(&of_sheet)?;
+        read.warnings.iter().chain(&note).chain(&notes).for_each(|warning| words.warn(warning));
+        Ok(OfSheet { source, drawn, of })
+    }
+}
+
+/// The motion that a sheet was made of.
+pub(super) struct OfSheet {
+    /// The motion as captured.
+    pub(super) source: Clip,
+    /// The motion as drawn, if it was exaggerated.
+    pub(super) drawn: Option<Clip>,
+    /// Identifies the whole file.
+    pub(super) of: ClipMark,
+}
+
+impl OfSheet {
+    /// The motion that the drawings show.
+    pub(super) fn clip(&self) -> &Clip {
+        self.drawn.as_ref().unwrap_or(&self.source)
+    }
+}
+
+/// The message for a folder given in place of a clip.
+fn folder(path: &Path) -> String {
+    let name = path.display();
+    match paths::first_clip(path) {
+        Some(clip) => {
+            let clip = clip.display();
+            format!(
+                "{name} is a folder: name a clip in it, such as {clip}; of all: genga batch {name} --out library"
+            )
+        }
+        None => format!("{name} is a folder without a motion file: name a clip"),
+    }
+}
+
+/// Whether a file is a genga sheet.
+fn is_sheet(path: &Path) -> bool {
+    let mut begin = String::new();
+    let file = fs::File::open(path).map(|file| file.take(256));
+    // The limit may split a multi-byte character; the text read before it is kept.
+    let _ = file.and_then(|mut file| file.read_to_string(&mut begin));
+    begin.contains("\"genga-sheet-")
+}
+
+/// The message for a sheet given in place of a clip.
+fn sheet(path: &Path) -> String {
+    let sheet = path.display();
+    format!(
+        "{sheet} is a sheet and no motion; for files of it: genga deliver {sheet} CLIP.bvh --to xdts"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_is_a_number_of_frames_a_second() {
+        assert_eq!(rate("29.97").unwrap().fps(), 29.97);
+        for wrong in ["0", "-24", "nan", "inf", "fast", ""] {
+            assert!(rate(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_range_is_two_frames_or_open() {
+        assert_eq!(frames("120..480").unwrap(), 120..480);
+        assert_eq!(frames("120..").unwrap(), 120..usize::MAX);
+        assert_eq!(frames("..480").unwrap(), 0..480);
+        for wrong in ["120-480", "a..480", "120..b", "-1..5"] {
+            assert!(frames(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! `genga batch`: processes many clips, keeps what is finished, and writes tables of all.
+
+use std::fs;
+use std::io::{Write, stdout};
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use clap::{Args, ValueEnum};
+
+use crate::batch::journal::{Header, Journal, check_parts, is_journal};
+use crate::batch::list::{self, Item};
+use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
+use crate::batch::place::Places;
+use crate::batch::pool::Pool;
+use crate::batch::row::{Line, Row};
+use crate::batch::shard::{Shard, largest_first};
+use crate::batch::tables::{self, Count, NAMED};
+use crate::batch::work::{Asked, Begun};
+use crate::clip::{ClipArgs, Part};
+use crate::console::{Bar, Words, counted};
+use crate::corrections::Corrections;
+use crate::failure::Failure;
+use crate::files;
+use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::plan::{PlanArgs, TargetArgs};
+use crate::staging::Staging;
+use crate::stop;
+use genga_files::Manifest;
+
+#[derive(Debug, Args)]
+#[command(after_help = help(), after_long_help = long_help())]
+pub(super) struct BatchArgs {
+    /// Motion files, folders, patterns ("lib/**/*.bvh"), @list.txt (one file per line), @table.csv or @table.jsonl (a
+    /// column clip, and columns named after options: trim, fps, recipe, pin, set.spacing.on), or - for a list on stdin.
+    #[arg(value_name = "CLIPS", required_unless_present = "join")]
+    clips: Vec<String>,
+    #[command(flatten)]
+    part: Part,
+    #[command(flatten)]
+    corrections: Corrections,
+    #[command(flatten)]
+    targets: TargetArgs,
+    /// Formats to write for each clip: --deliver json,xdts, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', default_value = "json")]
+    deliver: Vec<String>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    /// Output folder, for the tables and one folder per clip. Finished clips are not processed again.
+    #[arg(long, short, value_name = "DIR", required = true)]
+    out: PathBuf,
+    /// Process one part of the list: 1/4 to 4/4 on four machines. All parts have about the same number of bytes.
+    /// Afterwards, run --join.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Make the tables of finished parts, from these folders.
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["clips", "shard"])]
+    join: Vec<PathBuf>,
+    /// Number of clips processed at the same time [default: one per core].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Write one archive, clips.zip, instead of one folder per clip. --join merges the archives of all parts.
+    #[arg(long)]
+    pack: bool,
+    /// Stop at the first clip that fails.
+    #[arg(long)]
+    fail_fast: bool,
+    /// Exit with code 0 even if clips fail. Failed clips are rows of the tables, and --join reports them.
+    #[arg(long, conflicts_with = "fail_fast")]
+    allow_failures: bool,
+    /// Only print the list that --shard divides, one file per line, for other machines.
+    #[arg(long, conflicts_with_all = ["shard", "join"])]
+    list: bool,
+    /// How progress is shown: a bar on a terminal, or lines on stdout for programs.
+    #[arg(long, value_name = "HOW", default_value = "bar")]
+    progress: Progress,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Progress {
+    /// A bar on a terminal.
+    Bar,
+    /// One JSON object per clip.
+    Json,
+    /// Open Job Description messages, for render farms.
+    Openjd,
+    /// No progress.
+    None,
+}
+
+/// Memory for all clips in progress, unless --memory is given.
+const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
+
+/// Cost of a clip besides its bytes, in bytes. The progress bar estimates the time left from this and the file size.
+const LEAST: u64 = 1 << 14;
+
+pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    if !args.list {
+        fs::create_dir_all(&args.out).map_err(|error| Failure::at(&args.out, error))?;
+    }
+    if !args.join.is_empty() {
+        return join(args, words);
+    }
+    if args.list {
+        return files::to_stdout(&list::written(&list::items(&args.clips, &args.out)?));
+    }
+    let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
+    let bones = clip.part.reading().bones()?;
+    let formats = Formats::new("deliver", &args.deliver, &[], &args.formats, bones.as_ref())?;
+    let plan = PlanArgs::new(clip, args.corrections.clone(), args.targets.clone());
+    let asked = Asked::new(&plan, &formats)?;
+    let items = list::items(&args.clips, &args.out)?;
+    let batch = Batch::begin(args, &items, &asked, &formats)?;
+    batch.work(words)?;
+    batch.close(args, words)
+}
+
+/// A batch in progress.
+struct Batch<'a> {
+    items: &'a [Item],
+    asked: &'a Asked<'a>,
+    formats: &'a Formats,
+    places: Places<'a>,
+    staging: Staging,
+    /// Indices of this part's clips in the list, in order.
+    own: Vec<usize>,
+    crew: Pool,
+    is_packed: bool,
+    fails_fast: bool,
+    progress: Progress,
+    state: Mutex<State>,
+}
+
+/// The mutable state of a batch in progress.
+struct State {
+    journal: Journal,
+    /// The archive, if one is written instead of folders.
+    pack: Option<Pack>,
+    done: usize,
+    failed: usize,
+    /// The error that stops the batch.
+    fault: Option<Failure>,
+}
+
+impl<'a> Batch<'a> {
+    fn begin(
+        args: &'a BatchArgs,
+        items: &'a [Item],
+        asked: &'a Asked<'a>,
+        formats: &'a Formats,
+    ) -> Result<Self, Failure> {
+        let names: Vec<&str> = items.iter().map(|item| item.name.as_str()).collect();
+        let sizes: Vec<u64> = items.iter().map(|item| item.size).collect();
+        let shard = args.shard.unwrap_or_default();
+        let list = Manifest::digest(names.join("\n").as_bytes());
+        let staging = Staging::within(&args.out).map_err(|error| Failure::at(&args.out, error))?;
+        let header = Header::new(list, items.len(), shard);
+        let journal = Journal::open(&args.out, header, &names)?;
+        let pack = args
+            .pack
+            .then(|| Pack::open(&args.out, &journal.header, args.formats.force))
+            .transpose()?;
+        // From here on a signal lets clips in progress finish.
+        stop::gently();
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let jobs = args.jobs.map_or(cores, usize::from);
+        let room = args.part.memory().unwrap_or(ROOM) as u64;
+        Ok(Self {
+            items,
+            asked,
+            formats,
+            places: Places { out: &args.out, is_forced: args.formats.force },
+            staging,
+            own: shard.deal(&sizes),
+            crew: Pool { jobs, room },
+            is_packed: args.pack,
+            fails_fast: args.fail_fast,
+            progress: args.progress,
+            state: Mutex::new(State { journal, pack, done: 0, failed: 0, fault: None }),
+        })
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn work(&self, words: &Words) -> Result<(), Failure> {
+        let is_watched = self.progress == Progress::Bar;
+        let sizes: Vec<u64> = self.own.iter().map(|at| self.items[*at].size).collect();
+        let bytes = sizes.iter().map(|size| size + LEAST).sum();
+        let bar = is_watched.then(|| words.weighing(bytes));
+        let order: Vec<usize> = largest_first(&sizes).into_iter().map(|at| self.own[at]).collect();
+        let is_over = || {
+            let state = self.state();
+            stop::is_asked() || state.fault.is_some() || self.fails_fast && state.failed > 0
+        };
+        self.crew.each(
+            &order,
+            |at| self.items[at].size,
+            is_over,
+            |at| {
+                let told = self.one(at).and_then(|is_done| self.tell(at, is_done, bar.as_ref()));
+                if let Err(failure) = told {
+                    self.state().fault.get_or_insert(failure);
+                }
+            },
+        )?;
+        self.state().fault.take().map_or(Ok(()), Err)
+    }
+
+    /// Processes a clip unless it is done already. Returns whether it succeeded.
+    fn one(&self, at: usize) -> Result<bool, Failure> {
+        let item = &self.items[at];
+        let begun = Begun::new(self.asked, at, item);
+        let (file, asked) = begun.digests();
+        let before = {
+            let state = self.state();
+            let line = state.journal.line(&item.name)?;
+            let has = |line: &Line| match &state.pack {
+                Some(pack) => pack.has(&item.name, &line.files),
+                None => self.places.has(&item.name, &line.files),
+            };
+            let is_there = line.as_ref().is_some_and(has);
+            if is_there && state.journal.has(&item.name, file, asked) {
+                return Ok(true);
+            }
+            line.map(|line| line.files).unwrap_or_default()
+        };
+        let (ready, old) =
+            (self.staging.place(&format!("{at}")), self.staging.place(&format!("{at}-old")));
+        let mut parcel = self.is_packed.then(Parcel::default);
+        let mut line = begun.finish(self.formats, &ready, parcel.as_mut())?;
+        let mut state = self.state();
+        stop::undisturbed(|| {
+            if let (Some(pack), Some(parcel)) = (&mut state.pack, parcel) {
+                let is_done = line.row.is_done();
+                if is_done {
+                    pack.add(parcel)?;
+                }
+                return state.journal.add(line).map(|()| is_done);
+            }
+            match self.places.put(&item.name, (&ready, &old), &line.files, &before) {
+                Err(Failure::AskedWrongly(message)) => {
+                    line.row = Row::failed(message, vec![]);
+                    line.files = before;
+                    line.keys.clear();
+                }
+                put => put?,
+            }
+            let is_done = line.row.is_done();
+            state.journal.add(line).map(|()| is_done)
+        })
+    }
+
+    fn tell(&self, at: usize, is_done: bool, bar: Option<&Bar>) -> Result<(), Failure> {
+        let mut state = self.state();
+        state.done += 1;
+        state.failed += usize::from(!is_done);
+        let (done, failed, of) = (state.done, state.failed, self.own.len());
+        if let Some(bar) = bar {
+            bar.weigh(
+                self.items[at].size + LEAST,
+                format!("{done} of {of} clips, {failed} failed"),
+            );
+        }
+        let line = match self.progress {
+            Progress::Bar | Progress::None => return Ok(()),
+            Progress::Json => {
+                let clip = &self.items[at].name;
+                serde_json::json!({"clip": clip, "is_done": is_done, "done": done, "failed": failed, "of": of}).to_string()
+            }
+            Progress::Openjd => {
+                let share = 100.0 * done as f64 / of as f64;
+                format!(
+                    "openjd_progress: {share:.1}\nopenjd_status: {done} of {of} clips, {failed} failed"
+                )
+            }
+        };
+        // A closed stdout is no reason to stop.
+        let _ = writeln!(stdout(), "{line}");
+        Ok(())
+    }
+
+    /// Writes the tables of the finished clips, and reports the outcome.
+    fn close(self, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+        let names = || self.own.iter().map(|at| self.items[*at].name.as_str());
+        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let journals = [state.journal];
+        let count = match args.shard {
+            None => tables::write(&args.out, &journals, names())?,
+            Some(_) => Count::of(&journals, names())?,
+        };
+        let of = self.own.len();
+        if stop::is_asked() {
+            let finished = count.done + count.failures;
+            return Err(Failure::Stopped(format!(
+                "stopped with {finished} of {of} clips finished; the same command goes on from there"
+            )));
+        }
+        if let Some(pack) = state.pack {
+            let packs = [pack];
+            pack::all(packs[0].path(), &packs, &journals, names())?;
+            packs.into_iter().for_each(Pack::clear);
+        }
+        end(&count, of, args, words)
+    }
+}
+
+/// Merges all parts into one set of tables.
+fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    let (mut journals, mut packs) = (Vec::new(), Vec::new());
+    for folder in &args.join {
+        let entries = fs::read_dir(folder).map_err(|error| Failure::at(folder, error))?;
+        let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        files.retain(|file| {
+            file.file_name().is_some_and(|name| is_journal(&name.to_string_lossy()))
+        });
+        files.sort();
+        for file in files {
+            let journal = Journal::read(&file)?;
+            packs.push(Pack::read(folder, &journal.header)?);
+            journals.push(journal);
+        }
+    }
+    check_parts(&journals)?;
+    let mut clips: Vec<(usize, String)> = Vec::new();
+    journals
+        .iter()
+        .for_each(|journal| clips.extend(journal.places().map(|(at, name)| (at, name.to_owned()))));
+    clips.sort();
+    let of = journals.first().map_or(0, |journal| journal.header.clips);
+    let names = || clips.iter().map(|(_, name)| name.as_str());
+    let count = tables::write(&args.out, &journals, names())?;
+    if packs.iter().any(Pack::is_there) {
+        pack::all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
+    }
+    end(&count, of, args, words)
+}
+
+/// Reports the outcome.
+fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    let Count { done, failed, failures } = count;
+    let out = args.out.display();
+    let tables =
+        if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
+    words.say(format_args!(
+        "batch       一括       {} of {of} done into {out}: {tables}",
+        counted(*done, "clip")
+    ));
+    if *failures == 0 {
+        return Ok(());
+    }
+    let more = if *failures > NAMED { "; …, all in summary.csv" } else { "" };
+    let message = format!("{failures} of {of} failed: {}{more}", failed.join("; "));
+    if args.progress == Progress::Openjd {
+        let word = if args.allow_failures { "openjd_status" } else { "openjd_fail" };
+        let _ = writeln!(stdout(), "{word}: {message}");
+    }
+    if args.allow_failures {
+        if args.progress != Progress::Openjd {
+            words.say(message);
+        }
+        return Ok(());
+    }
+    Err(Failure::CouldNot(message))
+}

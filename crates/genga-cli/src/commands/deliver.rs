@@ -1,0 +1,124 @@
+//! `genga deliver`: writes a sheet, edited or not, in other formats.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::clip::Reading;
+use crate::console::{Words, counted};
+use crate::failure::Failure;
+use crate::folder::{Folder, Made};
+use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::staging::Bundle;
+use crate::{files, paths};
+use genga_files::sheet_json::SheetFile;
+use genga_files::{Cut, sheet_json, xdts};
+
+#[derive(Debug, Args)]
+#[command(after_help = help(), after_long_help = long_help())]
+pub(super) struct DeliverArgs {
+    /// The sheet: a sheet.json, or a timesheet of all drawings from another program (XDTS or TDTS); - is stdin.
+    #[arg(value_name = "SHEET.json")]
+    sheet: PathBuf,
+    /// The motion that the sheet was made of, the whole file.
+    #[arg(value_name = "CLIP")]
+    clip: PathBuf,
+    /// Formats to write: --to remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required_unless_present = "bvh")]
+    to: Vec<String>,
+    /// For an XDTS or TDTS timesheet: the sheet.json with the drawings that its numbers refer to [default: the one
+    /// beside it, or one or two folders above].
+    #[arg(long, value_name = "SHEET.json")]
+    drawings: Option<PathBuf>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    #[command(flatten)]
+    reading: Reading,
+    /// Output folder [default: the folder of the sheet].
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
+    let mut formats =
+        Formats::new("to", &args.to, &[], &args.formats, args.reading.bones()?.as_ref())?;
+    if paths::is_stream(&args.sheet) && paths::is_stream(&args.clip) {
+        let message = "sheet and clip cannot both come from stdin".into();
+        return Err(Failure::AskedWrongly(message));
+    }
+    paths::check_folder(args.out.as_deref(), "deliver", "")?;
+    let folder = args.out.as_deref().unwrap_or_else(|| beside(&args.sheet));
+    formats.leave_sheet(&args.sheet, folder)?;
+    formats.spare_edited(folder)?;
+    let file = read(args, words)?;
+    let bones = args.reading.bones.as_deref().map(|path| ("table of bones", path));
+    let sources = [("motion", &*args.clip), ("sheet", &*args.sheet)].into_iter().chain(bones);
+    for (what, path) in sources {
+        formats.spare(what, path, folder, &file.cut)?;
+    }
+    let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
+    let place = Folder::look(folder, args.formats.force);
+    place.check(&motion.of)?;
+    let cut = Cut {
+        name: &file.cut,
+        clip_file: &paths::file_name(&args.clip),
+        clip: motion.clip(),
+        exaggerated: motion.drawn.is_some().then_some((&motion.source, &file.exaggerate)),
+        sheet: &file.sheet,
+        spaced: None,
+        splits: &[],
+        made_with: file.made_with.as_ref(),
+    };
+    formats.settle(&cut)?.iter().for_each(|note| words.warn(note));
+    let mut bundle = Bundle::begin(folder)?;
+    let written = formats.write(&cut, &mut bundle, &|_| Ok(()))?;
+    let (clip, stale) = (motion.of.clone(), written.stale);
+    let made = Made { clip, recipe: None, stale, adds: true, given: None };
+    let left = place.finish(bundle, made)?;
+    for layer in &file.sheet.layers {
+        let (name, koma, genga) = (&layer.name, layer.length(), layer.genga());
+        let drawings = counted(layer.shown().count(), "drawing");
+        words.say(format_args!(
+            "sheet       シート     {name}: {koma} koma, {drawings}, {genga} genga"
+        ));
+    }
+    left.notes().iter().for_each(|note| words.say(note));
+    words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
+    Ok(())
+}
+
+/// Reads the sheet, with the timing of a timesheet if one was given.
+fn read(args: &DeliverArgs, words: &Words) -> Result<SheetFile, Failure> {
+    let (bytes, of_sheet) = (files::read(&args.sheet)?, files::fault_of(&args.sheet));
+    if !xdts::is_timesheet(&bytes) {
+        if args.drawings.is_some() {
+            let message = "--drawings belongs to a timesheet, XDTS or TDTS, and this is none";
+            return Err(Failure::AskedWrongly(message.into()));
+        }
+        return sheet_json::read(&bytes).map_err(of_sheet);
+    }
+    let timesheet = xdts::read_cells(&bytes).map_err(&of_sheet)?;
+    let path = args.drawings.clone().or_else(|| own_sheet(&args.sheet)).ok_or_else(|| {
+        Failure::AskedWrongly(format!(
+            "{}: a timesheet has numbers alone, and no sheet.json is beside it: name the one that it came from with \
+             --drawings kick-genga/sheet.json",
+            args.sheet.display()
+        ))
+    })?;
+    let file = sheet_json::read(&files::read(&path)?).map_err(files::fault_of(&path))?;
+    words.say(format_args!("drawings    動画       those of {}", path.display()));
+    let sheet = xdts::retimed(&timesheet, &file.sheet).map_err(of_sheet)?;
+    Ok(SheetFile { sheet, ..file })
+}
+
+/// Finds the sheet.json that a timesheet was made from: beside it, or up to two folders above, as in a cut folder.
+fn own_sheet(timesheet: &Path) -> Option<PathBuf> {
+    let folders = beside(timesheet).ancestors().take(3);
+    folders.map(|folder| folder.join("sheet.json")).find(|file| file.is_file())
+}
+
+/// The folder that contains a file.
+fn beside(file: &Path) -> &Path {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}

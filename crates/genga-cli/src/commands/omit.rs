@@ -1,0 +1,123 @@
+//! `genga omit`: applies the second paper's omission alone, to the clip at 24 drawings a second.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::camera_args::{self, SeenArgs};
+use crate::clip::ClipArgs;
+use crate::console::{Words, counted};
+use crate::failure::Failure;
+use crate::{files, paths};
+
+use genga::motion::Screen;
+use genga::sheet::Sheet;
+use genga::time::KOMA_RATE;
+use genga::timing::{Amount, Omission, OmissionReport, Omitted, Order, Stills};
+use genga_plot::SsdPlot;
+
+#[derive(Debug, Args)]
+pub(super) struct OmitArgs {
+    #[command(flatten)]
+    clip: ClipArgs,
+    #[command(flatten)]
+    seen: SeenArgs,
+    /// Number of the fastest drawings to leave out: a count (4) or a share of the koma (4%).
+    #[arg(long, value_name = "N", default_value = "4")]
+    naka_nashi: Amount,
+    /// Number of the slowest drawings to replace by holds: a count (33) or a share of the inbetweens (1/3).
+    #[arg(long, value_name = "N|SHARE", default_value = "1/3")]
+    koma_dori: Amount,
+    /// Longest hold, in koma.
+    #[arg(long, value_name = "K", default_value_t = 4)]
+    max_hold: usize,
+    /// Leave the fastest drawings out all at once, by their initial speed (for comparison).
+    #[arg(long)]
+    all_at_once: bool,
+    /// Apply koma-dori before naka-nashi.
+    #[arg(long)]
+    koma_dori_first: bool,
+    /// Let naka-nashi shorten the motion by the drawings it leaves out.
+    #[arg(long)]
+    let_length_change: bool,
+    /// Limited motion as a BVH file at 24 frames per second; - is stdout.
+    #[arg(long, short, value_name = "FILE.bvh")]
+    out: PathBuf,
+    /// Timesheet as a CSV file.
+    #[arg(long, value_name = "FILE.csv")]
+    sheet: Option<PathBuf>,
+    /// Draw the movement into each koma, before and after omission, as an SVG, PDF or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
+    let targets = || args.sheet.iter().chain(&args.plot).chain([&args.out]);
+    let sources = [("motion", Some(&*args.clip.path)), ("camera", camera_args::file(&args.seen))];
+    targets().try_for_each(|target| paths::spare(&sources, target))?;
+    paths::check_picture("plot", args.plot.as_ref())?;
+    paths::distinct(targets())?;
+    let source = args.clip.read()?;
+    let (seen_from, notes) = camera_args::asked(&args.seen, &source.clip)?;
+    let seen_from = seen_from.unwrap_or_default();
+    source.notes.iter().chain(&notes).for_each(|warning| words.warn(warning));
+    let clip = source.clip;
+    args.clip.budget().check(&clip, KOMA_RATE).map_err(files::fault_of(&args.clip.path))?;
+    let koma = clip.rate().koma_from_frames(clip.len(), KOMA_RATE);
+    let ones = Sheet::on_ones(clip.clock(KOMA_RATE), koma);
+    let started = std::time::Instant::now();
+    let Omitted { layer, report } = {
+        let stills = Stills::on(&clip, &ones.layers[0], &Screen::new(seen_from, &clip));
+        omission(args).apply(&ones.layers[0], &stills, 1)?
+    };
+    let took = started.elapsed();
+    let sheet = Sheet::new(ones.clock, vec![layer]);
+    let motion = genga_files::limited_bvh(&clip, &sheet)?;
+    if let Some(path) = &args.sheet {
+        files::write(path, genga_files::sheet_csv(&sheet)?.as_bytes())?;
+    }
+    if let Some(path) = &args.plot {
+        let plot = SsdPlot { seen_from, ..SsdPlot::default() };
+        files::write_picture(path, &plot.draw(&clip, &ones, &sheet)?)?;
+    }
+    files::write(&args.out, motion.as_bytes())?;
+    if !seen_from.is_world() {
+        words.say(format_args!("seen from   画面       {seen_from}"));
+    }
+    summary(words, koma, &sheet, &report, took.as_secs_f64());
+    Ok(())
+}
+
+fn omission(args: &OmitArgs) -> Omission {
+    Omission {
+        naka_nashi: args.naka_nashi,
+        koma_dori: args.koma_dori,
+        max_hold: args.max_hold,
+        keep_length: !args.let_length_change,
+        all_at_once: args.all_at_once,
+        order: if args.koma_dori_first { Order::KomaDoriFirst } else { Order::NakaNashiFirst },
+        // The remaining settings do not matter on ones without genga.
+        ..Omission::default()
+    }
+}
+
+fn summary(words: &Words, koma: usize, sheet: &Sheet, report: &OmissionReport, seconds: f64) {
+    let layer = &sheet.layers[0];
+    let (naka, dori) = (&report.naka_nashi, &report.koma_dori);
+    words.say(format_args!("length      尺         {koma} → {} koma", layer.length()));
+    words.say(format_args!(
+        "naka-nashi  中無し     {} of {} inbetweens left out",
+        naka.done, naka.asked
+    ));
+    words.say(format_args!(
+        "koma-dori   コマ撮り   {} of {} inbetweens held over",
+        dori.done, dori.asked
+    ));
+    let (drawings, longest) = (counted(layer.shown().count(), "drawing"), layer.longest_hold());
+    words.say(format_args!("sheet       シート     {drawings}, longest hold {longest} koma"));
+    words.say(format_args!(
+        "time                   {:.3} ms for positions and both stages",
+        1e3 * seconds
+    ));
+    report.shortfalls().for_each(|reason| words.say(format_args!("note        {reason}")));
+}

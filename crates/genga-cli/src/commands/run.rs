@@ -1,0 +1,246 @@
+//! `genga run`: runs the whole chain and writes a folder.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::console::{Words, counted};
+use crate::failure::Failure;
+use crate::folder::Folder;
+use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::plan::{Plan, PlanArgs};
+use crate::results::{OWN, Outcome, Results};
+use crate::{camera_args, corrections, files, paths, pin_args};
+use genga::edits::Edits;
+use genga::pipeline::Breakdown;
+use genga::recipe::Recipe;
+use genga_files::{GaitReport, LayerReport, Report, Run};
+
+#[derive(Debug, Args)]
+#[command(after_help = help(), after_long_help = long_help())]
+pub(super) struct RunArgs {
+    #[command(flatten)]
+    plan: PlanArgs,
+    /// Additional formats to write: --deliver remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
+    deliver: Vec<String>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    /// Output folder [default: the clip's name with -genga].
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Note when the recipe in the folder is the input and was written by hand: overwriting it would lose comments that the
+/// settings do not hold. A run after an edit is how a recipe is tuned, so the file is kept and the run not refused.
+const KEPT: &str = "recipe.toml is the recipe that was given, and stays as it is";
+
+/// Most actions after the first whose begins are printed; a long take has hundreds.
+const ACTIONS: usize = 8;
+
+/// Note when the recipe is kept although the run has settings that are not in it.
+const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your own writing, and stays as it is: the \
+                            corrections and settings that this run adds are not in it; write them there, or \
+                            run with --out into another folder, whose recipe.toml then has them";
+
+pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
+    let mut plan = Plan::from_args(&args.plan)?;
+    let mut formats = Formats::new(
+        "deliver",
+        &args.deliver,
+        &Run::FORMATS,
+        &args.formats,
+        args.plan.clip.part.reading().bones()?.as_ref(),
+    )?;
+    let clip = &args.plan.clip.path;
+    let name = paths::stem(clip);
+    paths::check_folder(args.out.as_deref(), "run", "; genga keys writes a table there")?;
+    let folder = args.out.clone().unwrap_or_else(|| format!("{name}-genga").into());
+    spare(args, &formats, &folder, &name)?;
+
+    let (working, mut notes) = (words.working(), Vec::new());
+    working.on("reading the motion");
+    let (mut engine, of) = plan.read(&mut |warning| {
+        words.warn_if_quiet(warning);
+        notes.push(warning.to_string());
+    })?;
+    let place = Folder::look(&folder, args.formats.force);
+    place.check(&of)?;
+    working.on("finding the key drawings");
+    plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
+    let Plan { recipe, edits, .. } = &plan;
+    let breakdown = engine.run_once(recipe, edits).map_err(files::fault_of(clip))?;
+    notes.extend(corrections::unmoved(edits, &breakdown));
+    notes.extend(corrections::unheld(edits, &breakdown));
+    notes.extend(corrections::idle(edits, &breakdown));
+
+    working.on("writing");
+    let results = Results {
+        name: &name,
+        clip: of,
+        breakdown: &breakdown,
+        recipe,
+        edits,
+        notes,
+        is_own_recipe: given(args, &folder).is_some(),
+        kept: kept(given(args, &folder), (recipe, edits)),
+        tell: &|_| Ok(()),
+    };
+    let Outcome { report, files, left } = results.write(&mut formats, place)?;
+    drop(working);
+
+    summary(words, &name, &report);
+    shortfalls(words, &report, &breakdown);
+    left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
+    words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
+    Ok(())
+}
+
+/// Refuses to overwrite an input or an edited sheet.
+fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<(), Failure> {
+    let (clip, corrections) = (&args.plan.clip, &args.plan.corrections);
+    let sources = [
+        ("motion", Some(&*clip.path)),
+        ("recipe", corrections.settings.recipe.as_deref()),
+        ("table of bones", args.plan.clip.part.reading().bones.as_deref()),
+        ("camera", camera_args::file(&corrections.seen)),
+    ];
+    for (what, path) in sources.into_iter().filter_map(|(what, path)| Some((what, path?))) {
+        formats.spare(what, path, folder, cut)?;
+        let mut own = OWN.iter().filter(|file| (what, **file) != ("recipe", Run::RECIPE));
+        own.try_for_each(|file| paths::spare(&[(what, Some(path))], &folder.join(file)))?;
+    }
+    pin_args::spare(corrections, formats, folder, cut)?;
+    formats.spare_edited(folder)
+}
+
+/// The recipe that was given, if it is the one in the folder.
+fn given<'a>(args: &'a RunArgs, folder: &Path) -> Option<&'a Path> {
+    let given = args.plan.corrections.settings.recipe.as_deref()?;
+    paths::is_same(given, &folder.join(Run::RECIPE)).then_some(given)
+}
+
+/// Why the recipe in the folder is kept as it is. `None` if it is to be written: none was given, or overwriting it
+/// loses nothing.
+fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
+    let text = String::from_utf8(files::read(given?).ok()?).ok()?;
+    match Recipe::parse(&text) {
+        Ok((recipe, edits)) if recipe.write(&edits) == text => None,
+        Ok((recipe, edits)) if (&recipe, &edits) == used => Some(KEPT),
+        _ => Some(KEPT_WITHOUT),
+    }
+}
+
+fn summary(words: &Words, cut: &str, report: &Report) {
+    let Report { frames, joints, frame_rate, seconds, koma, .. } = report;
+    let line =
+        format!("{cut}: {frames} frames at {frame_rate} fps, {joints} joints, {seconds:.2} s");
+    if report.losses.is_empty() {
+        words.say(line);
+    } else {
+        words.lose(format_args!("{line}; warning: {}", report.losses.join("; ")));
+    }
+    report.notes.iter().for_each(|note| words.say(format_args!("note        {note}")));
+    if let Some(line) = drawn(report) {
+        words.say(format_args!("drawn       手付け     {line}"));
+    }
+    if let Some(seen_from) = &report.seen_from {
+        words.say(format_args!("seen from   画面       {seen_from}"));
+    }
+    if report.layers.is_empty() {
+        of_body(words, report);
+    } else {
+        words.say(format_args!("sheet       シート     {koma} koma"));
+        report.layers.iter().for_each(|layer| words.say(of_layer(layer)));
+    }
+    if report.inbetweens_that_did_not_fit > 0 {
+        let count = report.inbetweens_that_did_not_fit;
+        words.say(format_args!("note        {count} inbetweens did not fit between their keys"));
+    }
+}
+
+/// Share of the motion that counts as drawn, per layer if they differ. `None` if all of it is captured.
+fn drawn(report: &Report) -> Option<String> {
+    let percent = |drawn: f64| format!("{:.0} %", 100.0 * drawn);
+    let first = report.drawn;
+    let much = if report.layers.iter().all(|layer| layer.drawn == first) {
+        (first > 0.0).then(|| percent(first))?
+    } else {
+        let of_layer = |layer: &LayerReport| format!("{} {}", layer.name, percent(layer.drawn));
+        report.layers.iter().map(of_layer).collect::<Vec<_>>().join(", ")
+    };
+    Some(format!("{much} keyed by hand, so that turns are smoothed less (turns.drawn)"))
+}
+
+/// Prints what could not be left out or held as asked.
+fn shortfalls(words: &Words, report: &Report, breakdown: &Breakdown<'_>) {
+    for layer in breakdown.layers() {
+        let of = if report.layers.is_empty() { "" } else { &format!("{}: ", layer.layer.name) };
+        let shortfalls = layer.omission.shortfalls();
+        shortfalls.for_each(|reason| words.say(format_args!("note        {of}{reason}")));
+    }
+}
+
+/// Describes a layer in one line.
+fn of_layer(layer: &LayerReport) -> String {
+    let LayerReport { name, joints, genga, longest_hold, .. } = layer;
+    let drawings = counted(layer.drawings, "drawing");
+    let first = joints.first().map_or("", String::as_str);
+    let others = match joints.len() {
+        0 | 1 => String::new(),
+        count => format!(" and {} more", count - 1),
+    };
+    format!(
+        "layer       セル       {name}: {genga} genga, {drawings}, {:.1} a second, longest hold {longest_hold} koma \
+         ({first}{others})",
+        layer.drawings_per_second
+    )
+}
+
+/// Describes a gait in one line.
+fn of_gait(gait: &GaitReport) -> String {
+    let GaitReport { steps, koma, phases } = gait;
+    let steps = counted(*steps, "step");
+    format!("gait        歩き       {steps} of {koma:.0} koma: {}", phases.join(", "))
+}
+
+/// Prints the figures of a sheet with one layer.
+fn of_body(words: &Words, report: &Report) {
+    let koma = report.koma;
+    words.say(format_args!(
+        "genga       原画       {}, first and last among them, {:.1} a second",
+        report.genga, report.genga_per_second
+    ));
+    if report.genga_over_limit > 0 {
+        words.say(format_args!(
+            "                       {} more would be worth a drawing (keys.per_second limits them)",
+            report.genga_over_limit
+        ));
+    }
+    words.say(format_args!(
+        "sheet       シート     {koma} koma, {}, {:.1} a second, longest hold {} koma",
+        counted(report.drawings, "drawing"),
+        report.drawings_per_second,
+        report.longest_hold
+    ));
+    if report.actions.len() > 1 {
+        let later = report.actions[1..].iter().map(|action| action.from.to_string());
+        let more = if report.actions.len() > 1 + ACTIONS { " …, all in report.json" } else { "" };
+        words.say(format_args!(
+            "actions     動作       {}, beginning with frames {} and {}{more}",
+            report.actions.len(),
+            report.first_frame,
+            later.take(ACTIONS).collect::<Vec<_>>().join(" ")
+        ));
+    }
+    report.gaits.iter().for_each(|gait| words.say(of_gait(gait)));
+    let omission = &report.omission;
+    words.say(format_args!(
+        "naka-nashi  中無し     {} of {} inbetweens left out, where it is fastest",
+        omission.naka_nashi_done, omission.naka_nashi_asked
+    ));
+    words.say(format_args!(
+        "koma-dori   コマ撮り   {} of {} inbetweens held over, where it is slowest",
+        omission.koma_dori_done, omission.koma_dori_asked
+    ));
+}

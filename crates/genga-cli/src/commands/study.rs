@@ -1,0 +1,327 @@
+//! `genga study`: counts keys and drawings while one or two settings vary.
+
+mod caption;
+
+use std::path::PathBuf;
+use std::slice::from_ref;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use rayon::prelude::*;
+
+use crate::clip::Part;
+use crate::console::{Words, counted};
+use crate::corrections::Settings;
+use crate::failure::Failure;
+use crate::{files, paths};
+
+use genga::error::Error;
+use genga::motion::Clip;
+use genga::recipe::{Kind, Knob, Recipe};
+use genga_lab::study::{self, Axis, Grid, Measure, Plateau, Study};
+use genga_plot::{HeatMap, StudyPlot};
+
+/// Sections of the recipe that change the sheet and not the keys.
+const OF_THE_SHEET: [&str; 2] = ["spacing", "omission"];
+
+/// Parser for the kinds of filter.
+fn filters() -> PossibleValuesParser {
+    let kind = Knob::find("filter.kind").map(|knob| knob.kind);
+    let words: &[&str] = if let Ok(Kind::Choice(words)) = kind { words } else { &[] };
+    PossibleValuesParser::new(words)
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = study_help())]
+pub(super) struct StudyArgs {
+    /// Motion files; - is stdin.
+    #[arg(value_name = "CLIP", required = true)]
+    clips: Vec<PathBuf>,
+    #[command(flatten)]
+    part: Part,
+    #[command(flatten)]
+    settings: Settings,
+    /// Setting to vary and its values, in the recipe of `genga run` [default: filter.width=10,20,30 in the recipe of
+    /// Table 1].
+    #[arg(long, value_name = "KNOB=VALUES")]
+    x: Option<Axis>,
+    /// Second setting to vary, for each value of the first [default: turns.persistence=5,10; none with --x].
+    #[arg(long, value_name = "KNOB=VALUES")]
+    y: Option<Axis>,
+    /// Filter widths of a Table 1 study, in source frames or seconds. Like --x filter.width=VALUES, but in the recipe
+    /// of Table 1.
+    #[arg(long, value_name = "VALUES", value_parser = filter_width, conflicts_with = "x")]
+    filter_width: Option<Axis>,
+    /// Persistences of a Table 1 study, in source frames or seconds. Like --y turns.persistence=VALUES, but in the
+    /// recipe of Table 1 unless --x is given.
+    #[arg(long, value_name = "VALUES", value_parser = persistence, conflicts_with = "y")]
+    persistence: Option<Axis>,
+    /// Kind of filter.
+    #[arg(long, value_name = "KIND", value_parser = filters())]
+    filter: Option<String>,
+    /// Measures to count [default: turns,genga,fills,union,total; all measures if a setting of the sheet varies].
+    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',')]
+    measure: Vec<Measure>,
+    /// Compare the layer's keys of each cell with those of the neighbouring cells: columns kept (share of keys),
+    /// mean_move and largest_move (source frames). Reports the region in which the keys do not change, and draws its
+    /// edge on the map.
+    #[arg(long)]
+    stability: bool,
+    /// Largest move of a key that still counts as the same, in koma of the sheet.
+    #[arg(long, value_name = "KOMA", default_value_t = 1.0, requires = "stability", value_parser = tolerance)]
+    tolerance: f64,
+    /// CSV file of the table; - is stdout.
+    #[arg(long, short, value_name = "FILE.csv", default_value = "-")]
+    out: PathBuf,
+    /// Draw a measure as curves over the first setting, as an SVG, PDF or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+    /// Draw a measure as a map of both settings, with its value in each cell, as an SVG, PDF or PNG file.
+    #[arg(long, value_name = "FILE.svg")]
+    heat: Option<PathBuf>,
+    /// Write a caption for the pictures as a Markdown file: their content and clips, and the recipe and command that
+    /// reproduce them.
+    #[arg(long, value_name = "FILE.md")]
+    caption: Option<PathBuf>,
+    /// Measure to draw [default: the first one counted; genga with --stability or a setting of keys, drawings with a
+    /// setting of the sheet, union with --paper].
+    #[arg(long, value_name = "MEASURE")]
+    show: Option<Measure>,
+    /// Draw counts per second of the clip, so that clips of different lengths compare. The table keeps the counts.
+    #[arg(long)]
+    per_second: bool,
+    /// Also draw the paper's six counts, from a clip that is not public.
+    #[arg(long, requires = "plot")]
+    paper: bool,
+}
+
+impl StudyArgs {
+    /// The measure to be drawn, if one is given.
+    fn shown(&self) -> Option<Measure> {
+        self.show.or(self.paper.then_some(Measure::Union))
+    }
+}
+
+/// Help on the syntax of axes, the measures, and three example studies.
+fn study_help() -> String {
+    let measures = Measure::ALL.map(|measure| {
+        let (english, japanese) = measure.words();
+        format!("\n  {measure:<21}{english} ({japanese})")
+    });
+    format!(
+        "Axes:\n  KNOB is any setting of `genga recipe`, or noise (degrees of Gaussian noise on every rotation) \
+         or\n  noise.seed. VALUES is a list; FROM..TO:STEP is a range, which includes TO if a step lands on \
+         it.\n  Values keep their units: 0.1s..0.5s:0.05s. Without --x and --y, the recipe is that of \
+         Table 1 of the first\n  paper (`genga recipe --study`); with them, that of `genga run`.\n\n\
+         Measures:{}\n\n\
+         Examples:\n  genga study a.bvh --filter-width 5..40:5 --persistence 1..20:1 --heat map.svg\n  \
+         genga study a.bvh b.bvh --x keys.min_price=2..20:2 --plot curves.pdf\n  \
+         genga study a.bvh --x noise=0..1:0.1 --y filter.width=0.05s..0.2s:0.05s --stability",
+        measures.concat()
+    )
+}
+
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    let koma = text.parse().ok().filter(|koma: &f64| koma.is_finite() && *koma >= 0.0);
+    koma.ok_or_else(|| "expected koma, 0 or more, as in 1 or 0.5".into())
+}
+
+fn filter_width(values: &str) -> Result<Axis, Error> {
+    Axis::new("filter.width", values)
+}
+
+fn persistence(values: &str) -> Result<Axis, Error> {
+    Axis::new("turns.persistence", values)
+}
+
+pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
+    let targets = || args.plot.iter().chain(&args.heat).chain(&args.caption).chain([&args.out]);
+    for clip in &args.clips {
+        targets().try_for_each(|target| paths::spare(&[("motion", Some(clip))], target))?;
+    }
+    paths::distinct(targets())?;
+    paths::check_picture("plot", args.plot.as_ref())?;
+    paths::check_picture("heat", args.heat.as_ref())?;
+    caption::check(args)?;
+    let study = asked(args)?;
+    let show = args.shown().unwrap_or_else(|| usually_shown(&study));
+    let (paper, per_second) = (args.paper, args.per_second);
+    let plot = StudyPlot { show, per_second, paper, ..StudyPlot::default() };
+    let heat = HeatMap { show, per_second };
+    // Refuses what cannot be drawn before the work begins.
+    plot.fits(&study.x, study.y.as_ref())?;
+    if args.heat.is_some() {
+        HeatMap::fits(&study.x, study.y.as_ref())?;
+    }
+    let clips = args.part.read_all(&args.clips, words)?;
+    let grids = swept(&study, clips, &args.clips, words)?;
+    let names = paths::names(&args.clips);
+    let tolerance = args.stability.then_some(args.tolerance);
+    let plateaus = tolerance.map(|koma| Plateaus::new(&grids, koma));
+    if let Some(path) = &args.plot {
+        files::write_picture(path, &plot.draw(&names, &grids)?)?;
+    }
+    if let Some(path) = &args.heat {
+        let edges = plateaus.as_ref().map(|plateaus| &plateaus.found);
+        files::write_picture(path, &heat.draw(&names, &grids, edges)?)?;
+    }
+    if let Some(path) = &args.caption {
+        let drawn = caption::Drawn {
+            show,
+            per_second,
+            paper,
+            curves: args.plot.is_some(),
+            map: args.heat.is_some(),
+        };
+        files::write(path, drawn.caption(&study, &names, &grids).as_bytes())?;
+    }
+    files::write(&args.out, genga_files::study_csv(&names, &grids, tolerance)?.as_bytes())?;
+    if let Some(plateaus) = plateaus {
+        say_plateaus(words, &names, &grids, &plateaus);
+    }
+    let files = targets().filter(|path| !paths::is_stream(path));
+    let files: Vec<String> = files.map(|path| path.display().to_string()).collect();
+    if !files.is_empty() {
+        words.say(format_args!("files       {}", files.join(" ")));
+    }
+    Ok(())
+}
+
+/// The regions in which the keys of the clips are identical, and in which they are nearly so.
+struct Plateaus {
+    koma: [f64; 2],
+    found: [Option<Plateau>; 2],
+}
+
+impl Plateaus {
+    fn new(grids: &[Grid], koma: f64) -> Self {
+        let koma = [0.0, koma];
+        Self { koma, found: koma.map(|koma| Plateau::largest(grids, koma)) }
+    }
+
+    fn say(&self, words: &Words, name: &str, grid: &Grid) {
+        for (koma, plateau) in self.koma.iter().zip(&self.found) {
+            words.say(format_args!("{name}: {}", sentence(grid, *koma, plateau.as_ref())));
+        }
+    }
+}
+
+/// Prints the regions in which the keys do not change, for each clip and for all together.
+fn say_plateaus(words: &Words, names: &[String], grids: &[Grid], of_all: &Plateaus) {
+    words.say("plateau  変わらない範囲");
+    if let ([name], [grid]) = (names, grids) {
+        return of_all.say(words, name, grid);
+    }
+    for (name, grid) in names.iter().zip(grids) {
+        Plateaus::new(from_ref(grid), of_all.koma[1]).say(words, name, grid);
+    }
+    of_all.say(words, "all clips", &grids[0]);
+}
+
+fn sentence(grid: &Grid, koma: f64, plateau: Option<&Plateau>) -> String {
+    let same = if koma == 0.0 {
+        "the very same keys".to_owned()
+    } else {
+        format!("the same keys within {koma} koma")
+    };
+    let Some(plateau) = plateau else {
+        return format!("{same} in no two cells side by side");
+    };
+    let own = match grid.own {
+        None => "the recipe\u{2019}s own settings lie outside the study",
+        Some(own) if plateau.holds(own) => "the recipe\u{2019}s own settings stand on it",
+        Some(_) => "the recipe\u{2019}s own settings stand beside it",
+    };
+    let (place, keys) = (plateau.words(grid), counted(plateau.keys, "key"));
+    format!("{same} at {place}, {keys} between the first and the last drawing; {own}")
+}
+
+fn asked(args: &StudyArgs) -> Result<Study, Failure> {
+    let is_table_1 = args.x.is_none() && args.y.is_none();
+    let base = if is_table_1 { study::table_1_recipe() } else { Recipe::default() };
+    let (mut recipe, _) = args.settings.read(base)?;
+    if let Some(kind) = &args.filter {
+        recipe.set("filter.kind", kind)?;
+    }
+    let (x, y) = axes(args)?;
+    for axis in [Some(&x), y.as_ref()].into_iter().flatten() {
+        not_set_too(args, axis)?;
+    }
+    let mut measures =
+        if args.measure.is_empty() { usual(&x, y.as_ref()) } else { args.measure.clone() };
+    let shown_too = args.shown().filter(|show| !measures.contains(show));
+    measures.extend(shown_too);
+    if args.stability && x.len() * y.as_ref().map_or(1, Axis::len) < 2 {
+        let message =
+            "--stability: compares cells, and there is one alone; give an axis more values";
+        return Err(Failure::AskedWrongly(message.into()));
+    }
+    let study =
+        Study { recipe, x, y, measures, keep_keys: args.stability, budget: args.part.budget() };
+    study.validate()?;
+    Ok(study)
+}
+
+/// The axes to vary; Table 1 of the paper by default.
+fn axes(args: &StudyArgs) -> Result<(Axis, Option<Axis>), Failure> {
+    let x = match args.x.as_ref().or(args.filter_width.as_ref()) {
+        Some(x) => x.clone(),
+        None => Axis::new("filter.width", "10,20,30")?,
+    };
+    let y = match args.y.as_ref().or(args.persistence.as_ref()) {
+        None if args.x.is_none() => Some(Axis::new("turns.persistence", "5,10")?),
+        y => y.cloned(),
+    };
+    Ok((x, y))
+}
+
+/// Refuses a setting that is both on an axis and given a value.
+fn not_set_too(args: &StudyArgs, axis: &Axis) -> Result<(), Failure> {
+    let name = axis.name();
+    if args.settings.set.iter().any(|(set, _)| set == name) {
+        return Err(Failure::AskedWrongly(format!("--set {name}: a study varies it already")));
+    }
+    if name == "filter.kind" && args.filter.is_some() {
+        return Err(Failure::AskedWrongly("--filter: a study varies it already".into()));
+    }
+    Ok(())
+}
+
+/// The measures counted by default.
+fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
+    let of_the_sheet =
+        |axis: &Axis| axis.knob().path().0.is_some_and(|section| OF_THE_SHEET.contains(&section));
+    if of_the_sheet(x) || y.is_some_and(of_the_sheet) {
+        return Measure::ALL.to_vec();
+    }
+    vec![Measure::Turns, Measure::Genga, Measure::Fills, Measure::Union, Measure::Total]
+}
+
+/// The measure drawn by default: genga if keys are compared, else the first measure that the axes can change.
+fn usually_shown(study: &Study) -> Measure {
+    let sections = |axis: &Axis| axis.knob().path().0;
+    let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
+    let sections: Vec<&str> = axes.filter_map(sections).collect();
+    let varies = |names: &[&str]| names.iter().any(|name| sections.contains(name));
+    let wanted = match study.keep_keys {
+        false if varies(&OF_THE_SHEET) => Measure::Drawings,
+        false if !varies(&["keys"]) => study.measures[0],
+        _ => Measure::Genga,
+    };
+    if study.measures.contains(&wanted) { wanted } else { study.measures[0] }
+}
+
+fn swept(
+    study: &Study,
+    clips: Vec<Clip>,
+    paths: &[PathBuf],
+    words: &Words,
+) -> Result<Vec<Grid>, Failure> {
+    let counter = words.counting(study.len() * clips.len(), "cells");
+    let grid = |(clip, path): (Clip, &PathBuf)| {
+        study.run(clip, || counter.count()).map_err(files::fault_of(path))
+    };
+    let grids: Vec<_> = clips.into_par_iter().zip(paths).map(grid).collect();
+    // Returns the first error in the order of the clips, whichever thread failed first.
+    grids.into_iter().collect()
+}

@@ -1,0 +1,314 @@
+//! The recipe of a command and a person's corrections.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::camera_args::SeenArgs;
+use super::failure::Failure;
+use super::{files, paths};
+use genga::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
+use genga::error::Error;
+use genga::keys::{Key, Layers, Origin};
+use genga::pipeline::{Breakdown, LayerBreakdown};
+use genga::recipe::Recipe;
+use genga::time::Frame;
+use genga::timing::held_for;
+
+/// The recipe: a file, then single settings on top.
+#[derive(Debug, Clone, Args)]
+pub(super) struct Settings {
+    /// Recipe file; see `genga recipe`.
+    #[arg(long, value_name = "R.toml")]
+    pub(super) recipe: Option<PathBuf>,
+    /// Set one setting, over the recipe: --set spacing.on=3 (repeatable).
+    #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
+    pub(super) set: Vec<(String, String)>,
+}
+
+/// The recipe, and a person's corrections.
+#[derive(Debug, Clone, Args)]
+pub(super) struct Corrections {
+    #[command(flatten)]
+    pub(super) settings: Settings,
+    #[command(flatten)]
+    layers: LayerArgs,
+    #[command(flatten)]
+    pub(super) seen: SeenArgs,
+    /// Pin frames as keys, with an optional name and spacing weight: --pin 12,150:wrist-top,180@0.5,200:hit@0. B/150
+    /// pins only in layer B; --forbid and --move accept a layer too.
+    #[arg(long, value_name = "[LAYER/]FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    pin: Vec<String>,
+    /// Forbid keys within two koma of these frames. A range excludes its last frame: --forbid 12,120..140
+    #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
+    forbid: Vec<String>,
+    /// Move keys: the key found near FROM is drawn at TO: --move 41:42,80:84:hit@0.2
+    #[arg(long = "move", value_name = "FROM:TO[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    moves: Vec<String>,
+    /// Set how many koma drawings stay, each given by the source frame it shows: --hold 42:4,60:1
+    #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',')]
+    holds: Vec<String>,
+    /// Source frames at which actions begin, instead of the detected ones (see genga split): --split 310,774
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
+    split: Vec<Frame>,
+    /// Add a spoken line to the S column, over source frames A up to but not including B:
+    /// --say "120..210:アキ:えい！" (repeatable).
+    #[arg(long, value_name = "A..B:[SPEAKER:]WORDS")]
+    say: Vec<String>,
+    /// Choose all keys anew around pins and forbidden frames, instead of only the neighbouring keys. =false overrides
+    /// the recipe.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    again: Option<bool>,
+    /// Keep the genga of an earlier run, whatever the settings: its folder, its sheet.json, or one you edited. Pins,
+    /// moves and forbidden frames then change only their own neighbourhood.
+    #[arg(long, value_name = "FOLDER|SHEET.json", conflicts_with = "again")]
+    pub(super) freeze: Option<PathBuf>,
+    /// Pin the keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
+    /// sheet.json, or the numbers on an XDTS timesheet (only the circled ones, if there are any).
+    #[arg(long, value_name = "FILE")]
+    pub(super) pin_from: Option<PathBuf>,
+    /// Use only pinned and moved keys, and the clip's ends. =false overrides the recipe.
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    pub(super) only_pins: Option<bool>,
+    /// Column of the --pin-from file [default: the only one, or A].
+    #[arg(long, value_name = "NAME", requires = "pin_from")]
+    pub(super) pin_column: Option<String>,
+}
+
+/// The cels of the sheet, over the recipe.
+#[derive(Debug, Clone, Args)]
+pub(super) struct LayerArgs {
+    /// Layers (セル) with their own keys and timing: body (one), limbs (trunk with head A, arms B and C, legs D and E),
+    /// joints (one per moving joint), or a TOML file of [[layers]] with name and joints.
+    #[arg(long, value_name = "body|limbs|joints|FILE")]
+    layers: Option<String>,
+    /// How the body travels through space: drawings (with its drawings), or ones (on every koma as in the source, so
+    /// held drawings slide; 移動を1コマで).
+    #[arg(long, value_name = "drawings|ones")]
+    root_on: Option<String>,
+}
+
+pub(super) fn frame(text: &str) -> Result<Frame, String> {
+    text.trim().parse().map(Frame).map_err(|_| "expected a source frame, as in 310".into())
+}
+
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("expected KEY=VALUE, as in spacing.on=3")?;
+    Ok((name.trim().into(), value.trim().into()))
+}
+
+impl Settings {
+    /// Reads the recipe and corrections asked for, on top of `default`.
+    pub(super) fn read(&self, default: Recipe) -> Result<(Recipe, Edits), Failure> {
+        let (mut recipe, edits) = match &self.recipe {
+            None => (default, Edits::default()),
+            Some(path) => {
+                let text = String::from_utf8(files::read(path)?).map_err(|_| {
+                    Failure::AskedWrongly(format!("{}: is not text", path.display()))
+                })?;
+                default.overlaid(&text).map_err(files::fault_of(path))?
+            }
+        };
+        for (name, value) in &self.set {
+            recipe.set(name, value)?;
+        }
+        Ok((recipe, edits))
+    }
+}
+
+impl Corrections {
+    /// Reads the recipe and its corrections, with those of the command line on top.
+    pub(super) fn read(&self) -> Result<(Recipe, Edits), Failure> {
+        let (mut recipe, mut edits) = self.settings.read(Recipe::default())?;
+        self.layers.put(&mut recipe)?;
+        self.keys(&mut edits)?;
+        for hold in &self.holds {
+            let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
+            edits.holds.retain(|other| other.frame != hold.frame);
+            edits.holds.push(hold);
+        }
+        for line in &self.say {
+            let line = Speech::parse(line).map_err(|error| wrongly("say", error))?;
+            if !edits.speech.contains(&line) {
+                edits.speech.push(line);
+            }
+        }
+        if !self.split.is_empty() {
+            edits.splits = self.split.clone();
+        }
+        edits.again = self.again.unwrap_or(edits.again);
+        edits.only_pins = self.only_pins.unwrap_or(edits.only_pins);
+        Ok((recipe, edits))
+    }
+
+    /// Adds the pins, forbidden frames and moves of the command line.
+    fn keys(&self, edits: &mut Edits) -> Result<(), Failure> {
+        for text in &self.pin {
+            let (layer, text) = layer_of(text);
+            let pin = Pin::parse(text).map_err(|error| wrongly("pin", error))?;
+            let pins = edits.pins_of(layer);
+            // A pin given again replaces the one on the same frame.
+            pins.retain(|other| other.frame != pin.frame);
+            pins.push(pin);
+        }
+        for text in &self.forbid {
+            let (layer, text) = layer_of(text);
+            let frames: Forbidden = text
+                .parse()
+                .map_err(|message| Failure::AskedWrongly(format!("--forbid: {message}")))?;
+            let forbidden = edits.forbidden_of(layer);
+            if !forbidden.contains(&frames) {
+                forbidden.push(frames);
+            }
+        }
+        for text in &self.moves {
+            let (layer, text) = layer_of(text);
+            let moved = Move::parse(text).map_err(|error| wrongly("move", error))?;
+            let moves = edits.moves_of(layer);
+            moves.retain(|other| other.from != moved.from);
+            moves.push(moved);
+        }
+        Ok(())
+    }
+}
+
+impl LayerArgs {
+    /// Puts the layers and the root asked for into a recipe.
+    fn put(&self, recipe: &mut Recipe) -> Result<(), Failure> {
+        match self.layers.as_deref() {
+            None => {}
+            Some(word @ ("body" | "limbs" | "joints")) => recipe.set("layers", word)?,
+            Some(file) => recipe.layers = layers_of_file(Path::new(file))?,
+        }
+        if let Some(word) = &self.root_on {
+            recipe.set("root", word)?;
+        }
+        Ok(())
+    }
+}
+
+fn layers_of_file(path: &Path) -> Result<Layers, Failure> {
+    if !paths::is_stream(path) && !path.exists() {
+        let message = format!(
+            "--layers: expected body, limbs, joints or a file of layers; there is no file {}",
+            path.display()
+        );
+        return Err(Failure::AskedWrongly(message));
+    }
+    files::parsed("layers", path, Layers::parse)
+}
+
+fn wrongly(option: &str, error: Error) -> Failure {
+    match error {
+        Error::Edits { message } => Failure::AskedWrongly(format!("--{option}: {message}")),
+        other => other.into(),
+    }
+}
+
+/// Returns a sentence for each move that found no key to move in any of its layers.
+pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let layers: Vec<_> = breakdown.layers().collect();
+    let of_all = edits.moves.iter().map(|moved| (moved, None));
+    let of_one = edits
+        .layers
+        .iter()
+        .flat_map(|(name, own)| own.moves.iter().map(move |moved| (moved, Some(name.as_str()))));
+    let said = of_all.chain(of_one).filter_map(|(moved, name)| {
+        let meant = layers.iter().filter(|own| name.is_none_or(|name| own.layer.name == name));
+        let keys: Vec<&[Key]> = meant.map(|own| own.keys.keys.as_slice()).collect();
+        let is_moved = |key: &Key| key.origin == Origin::Moved { from: moved.from };
+        let is_idle = !keys.iter().any(|keys| keys.iter().any(is_moved));
+        is_idle.then(|| unmoved_one(moved, name, keys.first().copied().unwrap_or_default()))
+    });
+    said.collect()
+}
+
+/// Says that there was no key to move, and where the nearest are.
+fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
+    let (from, to) = (moved.from, moved.to);
+    let after = keys.partition_point(|key| key.frame < from);
+    let round = &keys[after.saturating_sub(1)..keys.len().min(after + 1)];
+    let round: Vec<String> = round.iter().map(|key| key.frame.to_string()).collect();
+    let nearest = match round.as_slice() {
+        [] => String::new(),
+        [only] => format!(" (the nearest is at {only})"),
+        both => format!(" (the nearest are at {})", both.join(" and ")),
+    };
+    let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
+    format!(
+        "no key is found at frame {layer}{from}{nearest}, so none was moved to {to}; --pin {layer}{to} makes one there"
+    )
+}
+
+/// Returns a sentence for each hold that a layer could not keep exactly, and for each that found no drawing.
+pub(super) fn unheld(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let layers = &breakdown.sheet.layers;
+    let mut said = Vec::new();
+    for hold in &edits.holds {
+        let (frame, asked) = (hold.frame, hold.koma);
+        let stays = |layer| held_for(layer, *hold, breakdown.clock);
+        let found: Vec<_> = layers.iter().filter_map(|own| Some((own, stays(own)?))).collect();
+        if found.is_empty() {
+            said.push(format!(
+                "no drawing is within two koma of frame {frame}, so none stays for {asked} koma; --pin {frame} makes one \
+                 there"
+            ));
+        }
+        for (layer, koma) in found.into_iter().filter(|(_, koma)| *koma != asked) {
+            let of = if layers.len() > 1 { format!("{}/", layer.name) } else { String::new() };
+            said.push(format!(
+                "the drawing of frame {of}{frame} was to stay for {asked} koma and stays for {koma}: genga stay on their \
+                 koma, and on twos and threes no drawing for one"
+            ));
+        }
+    }
+    said
+}
+
+/// Returns a sentence for each forbidden frame or range that changes nothing in any of its layers: no key was found
+/// near it, and none was looked for elsewhere because of it.
+pub(super) fn idle(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let koma = breakdown.clock.frames_in_koma();
+    let of_all = edits.forbidden.iter().map(|frames| (frames, None));
+    let of_one = edits.layers.iter().flat_map(|(name, own)| {
+        own.forbidden.iter().map(move |frames| (frames, Some(name.as_str())))
+    });
+    let layers: Vec<_> = breakdown.layers().collect();
+    let said = of_all.chain(of_one).filter(|(frames, layer)| {
+        let mut meant = layers.iter().filter(|own| layer.is_none_or(|name| own.layer.name == name));
+        !meant.any(|own| has_an_effect(**frames, own, koma))
+    });
+    said.map(|(frames, layer)| {
+        let layer = layer.map_or_else(String::new, |name| format!("{name}/"));
+        format!("no key is found near frame {layer}{frames}, so there was none to forbid")
+    })
+    .collect()
+}
+
+/// Whether the forbidden frames removed a key, or may have moved the search for one.
+fn has_an_effect(frames: Forbidden, own: &LayerBreakdown<'_>, koma: f64) -> bool {
+    let found = own.uncorrected;
+    if found.iter().any(|key| frames.reaches(key.frame, koma)) {
+        return true;
+    }
+    let keys = &own.keys.keys;
+    let after = keys.partition_point(|key| key.frame < frames.from);
+    let begin = after.checked_sub(1).map(|at| keys[at].frame);
+    let end = keys.get(after).map(|key| key.frame);
+    let is_inside =
+        |key: &&Key| begin.is_none_or(|at| at < key.frame) && end.is_none_or(|at| key.frame < at);
+    found.iter().any(|key| is_inside(&key))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_is_a_number_of_the_file() {
+        assert_eq!(frame(" 310").unwrap(), Frame(310));
+        for wrong in ["", "-1", "1.5", "10s", "a"] {
+            assert!(frame(wrong).unwrap_err().contains("as in 310"), "{wrong}");
+        }
+    }
+}

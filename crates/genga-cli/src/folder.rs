@@ -1,0 +1,181 @@
+//! A results folder, which belongs to one run (一回の結果). Its manifest tells the next run which files are genga's and
+//! which a person has changed.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use super::failure::Failure;
+use super::format_args::shortened;
+use super::staging::{self, Bundle};
+use genga_files::{ClipMark, Manifest, Run};
+
+/// A results folder as it is before a run writes to it.
+pub(super) struct Folder<'a> {
+    path: &'a Path,
+    /// Manifest of the previous run. `None` if there is no manifest, or if genga did not write it in this form.
+    before: Option<Manifest>,
+    /// Whether files that a person changed may be overwritten.
+    is_forced: bool,
+}
+
+/// Products of a run besides its files.
+pub(super) struct Made<'a> {
+    pub(super) clip: ClipMark,
+    /// Digest of the recipe. `None` if a sheet was delivered.
+    pub(super) recipe: Option<String>,
+    /// Numbered files left over from a longer sheet.
+    pub(super) stale: Vec<String>,
+    /// Whether all other files of the previous run stay.
+    pub(super) adds: bool,
+    /// An input file that may be overwritten.
+    pub(super) given: Option<&'a str>,
+}
+
+/// Files in the folder that are not part of this run.
+pub(super) struct Left {
+    /// Files of an earlier run that were removed.
+    gone: Vec<String>,
+    /// Files of an earlier run that a person changed.
+    changed: Vec<String>,
+    /// Files of an earlier run that lie behind a link to another folder.
+    linked: Vec<String>,
+    /// Numbered files of a longer sheet that no manifest lists.
+    stale: Vec<String>,
+}
+
+impl Left {
+    /// Returns a sentence for each group of files.
+    pub(super) fn notes(self) -> Vec<String> {
+        let named = |of: &str, files: Vec<String>| {
+            let named = format!("{of}: {}", shortened(files.clone()).join(" "));
+            (!files.is_empty()).then_some(named)
+        };
+        let groups = [
+            ("of an earlier run, removed", self.gone),
+            ("of an earlier run, kept because they were changed since", self.changed),
+            ("of an earlier run, kept because a link leads to them", self.linked),
+            ("of an earlier sheet, not of this one", self.stale),
+        ];
+        groups.into_iter().filter_map(|(of, files)| named(of, files)).collect()
+    }
+}
+
+impl<'a> Folder<'a> {
+    /// Reads the folder's manifest, after finishing what a killed run had begun there.
+    pub(super) fn look(path: &'a Path, is_forced: bool) -> Self {
+        staging::sweep(path);
+        let text = fs::read_to_string(path.join(Run::MANIFEST)).unwrap_or_default();
+        let before = Manifest::read(&text).ok();
+        let is_as_written = |read: &Manifest| read.write().is_ok_and(|written| written == text);
+        Self { path, before: before.filter(is_as_written), is_forced }
+    }
+
+    /// Refuses a folder that holds the results of another clip.
+    pub(super) fn check(&self, clip: &ClipMark) -> Result<(), Failure> {
+        let Some(before) = self.before.as_ref().filter(|before| !before.clip.is_of(clip)) else {
+            return Ok(());
+        };
+        if self.is_forced {
+            return Ok(());
+        }
+        let (folder, theirs, ours) = (self.path.display(), &before.clip.file, &clip.file);
+        let other = match theirs == ours {
+            true => format!("another {ours}, with another motion"),
+            false => format!("another clip, {theirs}"),
+        };
+        Err(Failure::AskedWrongly(format!(
+            "{folder}: this folder is of {other}; write elsewhere with --out, or take it over with --force"
+        )))
+    }
+
+    /// The folder's path.
+    pub(super) fn path(&self) -> &'a Path {
+        self.path
+    }
+
+    /// Moves the files of a run into their places, the manifest last. Files that only the previous run wrote are
+    /// removed; those that a person changed stay and are reported.
+    pub(super) fn finish(self, mut bundle: Bundle<'_>, made: Made<'_>) -> Result<Left, Failure> {
+        let come = bundle.files();
+        self.spare(&come, made.given)?;
+        let (stay, rest) = self.others(&come, &made);
+        let is_as_written =
+            |name: &String| self.digest(name).is_some_and(|digest| self.has(name, &digest));
+        let (mut gone, changed): (Vec<_>, Vec<_>) = rest.into_iter().partition(is_as_written);
+        let linked: Vec<_> = gone.extract_if(.., |name| self.is_behind_link(name)).collect();
+        let is_known =
+            |name: &String| [&gone, &changed, &linked].iter().any(|of| of.contains(name));
+        let stale = made.stale.into_iter().filter(|name| !is_known(name)).collect();
+        let recipe = made.recipe.or_else(|| self.before.as_ref()?.recipe.clone());
+        let mut manifest = Manifest::new(made.clip);
+        manifest.recipe = recipe;
+        manifest.files = stay.into_iter().chain(come).collect();
+        bundle.add(Run::MANIFEST, manifest.write()?)?;
+        bundle.finish(gone.clone())?;
+        Ok(Left { gone, changed, linked, stale })
+    }
+
+    /// Splits the previous run's files that this run does not write into those that stay in the manifest and the names
+    /// of the rest.
+    fn others(
+        &self,
+        come: &BTreeMap<String, String>,
+        made: &Made<'_>,
+    ) -> (BTreeMap<String, String>, Vec<String>) {
+        let mut rest = self.before.as_ref().map(|run| run.files.clone()).unwrap_or_default();
+        rest.retain(|name, _| !come.contains_key(name) && self.path.join(name).is_file());
+        let stays = |name: &String| made.adds && !made.stale.contains(name);
+        let stay = rest.extract_if(.., |name, _| stays(name)).collect();
+        rest.retain(|name, _| made.given != Some(name));
+        (stay, rest.into_keys().collect())
+    }
+
+    /// Refuses to overwrite files that differ from what a run wrote.
+    fn spare(&self, come: &BTreeMap<String, String>, given: Option<&str>) -> Result<(), Failure> {
+        if self.is_forced {
+            return Ok(());
+        }
+        let is_ours = |name: &str, digest: &String| match self.digest(name) {
+            None => true,
+            Some(there) => there == *digest || self.has(name, &there) || given == Some(name),
+        };
+        let mut others: Vec<&str> = Vec::new();
+        if self.before.is_none() && self.path.join(Run::MANIFEST).is_file() {
+            others.push(Run::MANIFEST);
+        }
+        others.extend(
+            come.iter().filter(|(name, digest)| !is_ours(name, digest)).map(|(name, _)| &**name),
+        );
+        let Some((first, more)) = others.split_first() else { return Ok(()) };
+        let more =
+            if more.is_empty() { String::new() } else { format!(" (nor {})", more.join(" ")) };
+        Err(Failure::AskedWrongly(format!(
+            "{}: this file is not as a run wrote it{more}, and would be lost; move it, write elsewhere with --out, or write over \
+             it with --force",
+            self.path.join(first).display()
+        )))
+    }
+
+    /// Returns the current digest of a file: `None` if the file does not exist, and an empty string, which matches no
+    /// file, if it cannot be read.
+    fn digest(&self, name: &str) -> Option<String> {
+        match fs::read(self.path.join(name)) {
+            Ok(bytes) => Some(Manifest::digest(&bytes)),
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            Err(_) => Some(String::new()),
+        }
+    }
+
+    /// Whether a folder on the path to the file is a symbolic link.
+    fn is_behind_link(&self, name: &str) -> bool {
+        let way = Path::new(name).ancestors().skip(1);
+        way.filter(|part| !part.as_os_str().is_empty())
+            .any(|part| self.path.join(part).is_symlink())
+    }
+
+    fn has(&self, name: &str, digest: &str) -> bool {
+        self.before.as_ref().is_some_and(|before| before.has(name, digest))
+    }
+}

@@ -1,0 +1,261 @@
+//! `--pin-from`: keys that a person marked in a file, a table, a sheet or a digital timesheet.
+
+use std::path::Path;
+
+use super::console::counted;
+use super::corrections::Corrections;
+use super::failure::Failure;
+use super::format_args::Formats;
+use super::{files, paths};
+use genga::edits::{Edits, Pin};
+use genga::error::Error;
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use genga::time::Frame;
+use genga_files::xdts::{self, Column, Exchange, Mark, Numbered};
+use genga_files::{Cut, Format, pins_from_sheet, pins_from_table, sheet_json};
+
+/// Keys read from a file, with the column they were read from.
+struct Marked {
+    pins: Vec<Pin>,
+    column: String,
+    /// Notes for the user.
+    notes: Vec<String>,
+}
+
+impl Marked {
+    fn new((pins, column): (Vec<Pin>, String)) -> Self {
+        Self { pins, column, notes: vec![] }
+    }
+}
+
+/// Adds the keys marked in the `--pin-from` file to the corrections and returns what it did, in sentences. Pins given
+/// otherwise take precedence: on a koma that already has a pin, the marked key is dropped.
+pub(super) fn marked(
+    args: &Corrections,
+    engine: &mut Engine,
+    recipe: &Recipe,
+    edits: &mut Edits,
+) -> Result<Vec<String>, Failure> {
+    let Some(path) = &args.pin_from else { return Ok(vec![]) };
+    let name = paths::named(path);
+    let bytes = files::read(path)?;
+    let column = args.pin_column.as_deref();
+    let of_file = files::fault_of(path);
+    let marked = match Kind::detect(&name, &bytes) {
+        Kind::Timesheet => of_timesheet(&bytes, &name, column, engine, (recipe, edits))?,
+        Kind::Table => Marked::new(pins_from_table(&bytes, column).map_err(&of_file)?),
+        Kind::Sheet => {
+            let file = sheet_json::read(&bytes).map_err(&of_file)?;
+            check_rate(&file, engine, &name)?;
+            Marked::new(pins_from_sheet(&file, column).map_err(&of_file)?)
+        }
+    };
+    let count = marked.pins.len();
+    let layer = layer(&marked.column, engine, recipe)?;
+    let pinned = add(marked.pins, layer, engine, recipe, edits);
+    let mut notes = vec![format!(
+        "pinned from {}: {} of column {}",
+        name.display(),
+        counted(pinned, "key"),
+        marked.column
+    )];
+    if pinned < count {
+        let others = counted(count - pinned, "other");
+        notes.push(format!("{others} marked there gave way to pins on the same koma"));
+    }
+    notes.extend(marked.notes);
+    Ok(notes)
+}
+
+/// Returns the layer that a column's keys belong to: the layer of that name if there are several layers, else all.
+pub(super) fn layer<'a>(
+    column: &'a str,
+    engine: &Engine,
+    recipe: &Recipe,
+) -> Result<Option<&'a str>, Error> {
+    let parts = recipe.layers.split(engine.clip())?;
+    let is_one = parts.len() > 1 && parts.iter().any(|part| part.name == column);
+    Ok(is_one.then_some(column))
+}
+
+/// Adds pins to a layer, or to all layers, on koma without a pin. Returns the number added.
+fn add(
+    pins: Vec<Pin>,
+    layer: Option<&str>,
+    engine: &Engine,
+    recipe: &Recipe,
+    edits: &mut Edits,
+) -> usize {
+    let clock = engine.clip().clock(recipe.rate);
+    let koma = |frame: Frame| clock.koma_from_frame(frame);
+    let mut added = 0;
+    for pin in pins {
+        let own = koma(pin.frame);
+        let there = layer.map_or_else(|| edits.clone(), |name| edits.of_layer(name));
+        let moved = there.moves.iter().map(|moved| moved.to);
+        let mut taken = there.pins.iter().map(|pin| pin.frame).chain(moved);
+        if !taken.any(|frame| koma(frame) == own) {
+            edits.pins_of(layer).push(pin);
+            added += 1;
+        }
+    }
+    added
+}
+
+/// Refuses to overwrite the marked file, which holds a person's work.
+pub(super) fn spare(
+    args: &Corrections,
+    formats: &Formats,
+    folder: &Path,
+    cut: &str,
+) -> Result<(), Failure> {
+    let Some(marked) = args.pin_from.as_deref() else { return Ok(()) };
+    if formats.writes("xdts") {
+        let mut files = Format::find("xdts")?.files.iter();
+        if files.any(|file| paths::is_same(marked, &folder.join(Cut::file_of(cut, file)))) {
+            return Err(Failure::AskedWrongly(format!(
+                "{}: --deliver xdts would write over the sheet you marked; save it under another name, or \
+                 write elsewhere with --out",
+                marked.display()
+            )));
+        }
+    }
+    formats.spare("file with your keys", marked, folder, cut)
+}
+
+/// The kind of file that keys are marked in.
+enum Kind {
+    /// XDTS or TDTS.
+    Timesheet,
+    /// CSV.
+    Table,
+    /// `sheet.json`.
+    Sheet,
+}
+
+impl Kind {
+    /// Tells the kind by the file's extension, or by its first bytes if the extension is unknown.
+    fn detect(name: &Path, bytes: &[u8]) -> Self {
+        match paths::ending(name).as_deref() {
+            Some("xdts" | "tdts") => Self::Timesheet,
+            Some("csv" | "tsv" | "txt") => Self::Table,
+            Some("json") => Self::Sheet,
+            _ if bytes.trim_ascii_start().starts_with(b"{") => Self::Sheet,
+            _ if first_line(bytes).ends_with(b"DigitalTimeSheet Save Data") => Self::Timesheet,
+            _ => Self::Table,
+        }
+    }
+}
+
+fn first_line(bytes: &[u8]) -> &[u8] {
+    let line = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).next();
+    line.unwrap_or_default().trim_ascii()
+}
+
+/// Refuses a sheet whose frame rate differs from the clip's: its frame numbers are other moments.
+pub(super) fn check_rate(
+    file: &sheet_json::SheetFile,
+    engine: &Engine,
+    name: &Path,
+) -> Result<(), Failure> {
+    let (sheet, clip) = (file.clip.frame_rate, engine.clip().rate().fps());
+    if sheet == clip {
+        return Ok(());
+    }
+    let message = format!(
+        "the sheet is for {sheet} frames a second, the clip has {clip}: its frames are other moments here; \
+         --fps {sheet} reads the clip so"
+    );
+    Err(Failure::of_file(name, Error::sheet(message)))
+}
+
+/// Reads the keys of a timesheet as the frames that the clip's own sheet shows on those koma.
+fn of_timesheet(
+    bytes: &[u8],
+    name: &Path,
+    column: Option<&str>,
+    engine: &mut Engine,
+    (recipe, edits): (&Recipe, &Edits),
+) -> Result<Marked, Failure> {
+    let file = xdts::read(bytes).map_err(files::fault_of(name))?;
+    let column = sheet_column(&file, column, name)?;
+    let numbered = numbered(name);
+    if xdts::marked_keys(column, numbered).is_empty() {
+        return Err(nothing_marked(name, column, numbered));
+    }
+    let frames = (engine.clip().first(), engine.clip().last());
+    // Computes the sheet without `only_pins`: the marked keys may be the only ones.
+    let before = Edits { only_pins: false, ..edits.clone() };
+    let sheet = engine.run(recipe, &before)?.sheet;
+    if file.length != sheet.length() {
+        return Err(Failure::AskedWrongly(format!(
+            "{}: it has {} koma and the sheet of this clip {}, so its keys may stand on other koma here; was \
+             the timing edited, or is another part (--trim) meant?",
+            name.display(),
+            file.length,
+            sheet.length()
+        )));
+    }
+    let pins = xdts::pins(column, numbered, sheet, frames)
+        .map_err(|error| Failure::AskedWrongly(format!("{}: {error}", name.display())))?;
+    let has_marks =
+        column.changes.iter().any(|change| change.circled || change.mark == Mark::Inbetween);
+    let mut notes = Vec::new();
+    if numbered == Numbered::Keys && !has_marks {
+        notes.push("it has no inbetween marks, so every number on it is a key".into());
+    }
+    Ok(Marked { pins, column: column.name.clone(), notes })
+}
+
+/// Returns the column asked for, else the only one with a drawing, else column A, as genga names its own.
+fn sheet_column<'a>(
+    file: &'a Exchange,
+    asked: Option<&str>,
+    path: &Path,
+) -> Result<&'a Column, Failure> {
+    let drawn = |column: &&Column| {
+        column.changes.iter().any(|change| matches!(change.mark, Mark::Drawing(_)))
+    };
+    let columns: Vec<&Column> = file.columns.iter().filter(drawn).collect();
+    let called = |name: &str| columns.iter().copied().find(|column| column.name == name);
+    let found = match (asked, columns.as_slice()) {
+        (Some(name), _) => called(name),
+        (None, [only]) => Some(*only),
+        (None, _) => called("A"),
+    };
+    found.ok_or_else(|| {
+        let names: Vec<_> = columns.iter().map(|column| column.name.as_str()).collect();
+        let path = path.display();
+        Failure::AskedWrongly(match (names.as_slice(), asked) {
+            ([], _) => format!("{path}: no column of it has a drawing"),
+            (_, Some(name)) => {
+                format!("{path}: there is no column {name}; there are {}", names.join(", "))
+            }
+            (_, None) => {
+                format!("{path}: which column? --pin-column takes one of {}", names.join(", "))
+            }
+        })
+    })
+}
+
+/// Tells the numbering by the file name: genga's douga sheets (`_douga`) number every drawing.
+fn numbered(path: &Path) -> Numbered {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let is_douga = |stem: String| stem.trim_end_matches("_ts").ends_with("_douga");
+    if stem.is_some_and(is_douga) { Numbered::Drawings } else { Numbered::Keys }
+}
+
+fn nothing_marked(path: &Path, column: &Column, numbered: Numbered) -> Failure {
+    let (path, column) = (path.display(), &column.name);
+    Failure::AskedWrongly(match numbered {
+        Numbered::Keys => {
+            format!("{path}: column {column} has no number, so there is no key to pin")
+        }
+        Numbered::Drawings => format!(
+            "{path}: a douga sheet numbers every drawing, and none in column {column} is circled as a \
+             key (OPTION_KEYFRAME); give the _genga_ts.xdts, or mark keys in one written by \
+             --with xdts.circled=true"
+        ),
+    })
+}

@@ -1,0 +1,255 @@
+//! The plan of a run: the motion, the recipe with a person's corrections, and the targets of the sheet.
+
+use std::path::Path;
+
+use clap::Args;
+
+use super::clip::ClipArgs;
+use super::console::Words;
+use super::corrections::Corrections;
+use super::failure::Failure;
+use super::{camera_args, files, freeze_args, pin_args};
+use genga::edits::Edits;
+use genga::error::{Error, Warning};
+use genga::motion::Description;
+use genga::pipeline::Engine;
+use genga::recipe::{KNOBS, Recipe};
+use genga::target::{self, Met, Target};
+use genga_files::ClipMark;
+
+/// The motion, and all that is asked of it, whichever clip it is.
+#[derive(Debug, Clone, Args)]
+pub(super) struct PlanArgs {
+    #[command(flatten)]
+    pub(super) clip: ClipArgs,
+    #[command(flatten)]
+    pub(super) corrections: Corrections,
+    #[command(flatten)]
+    targets: TargetArgs,
+}
+
+/// What the sheet is to be, instead of the settings that make it so.
+#[derive(Debug, Clone, Args)]
+pub(super) struct TargetArgs {
+    /// Number of genga on the sheet, including pins, fixed keys (ends of rests), and the first and the last drawing.
+    /// Overrides keys.min_price and keys.per_second.
+    #[arg(long, value_name = "N", value_parser = genga, allow_negative_numbers = true)]
+    keys: Option<usize>,
+    /// Largest error of the body, slerped from key to key, as a share of its height: 5%. Few keys are chosen that stay
+    /// within it. Overrides keys.min_price and keys.per_second.
+    #[arg(long, value_name = "P%", value_parser = percent, allow_negative_numbers = true, conflicts_with = "keys")]
+    max_error: Option<f64>,
+    /// Number of drawings per second. It is reached with koma-dori, then spacing.on, naka-nashi and, unless it is
+    /// given, the number of keys.
+    #[arg(long, value_name = "X", value_parser = drawings, allow_negative_numbers = true)]
+    drawings_per_second: Option<f64>,
+}
+
+/// Parses a share of body height. A number below 1 without % is refused, since it might be a fraction.
+fn percent(text: &str) -> Result<f64, String> {
+    let (number, has_sign) = match text.trim().strip_suffix('%') {
+        Some(number) => (number.trim_end(), true),
+        None => (text.trim(), false),
+    };
+    let share: f64 = number
+        .parse()
+        .map_err(|_| format!("expected a share of body height (5%), found \"{text}\""))?;
+    if !has_sign && share > 0.0 && share < 1.0 {
+        let hundredfold = (share * 1e8).round() / 1e6;
+        return Err(format!(
+            "{number} may mean {number}% or {hundredfold}% of the body's height; write the one you mean with its %"
+        ));
+    }
+    Ok(share)
+}
+
+fn genga(text: &str) -> Result<usize, String> {
+    let wrong =
+        || format!("expected a whole number of genga, 0 or more, as in 24, found \"{text}\"");
+    text.trim().parse().map_err(|_| wrong())
+}
+
+fn drawings(text: &str) -> Result<f64, String> {
+    let wrong = || format!("expected drawings a second, above 0, as in 8 or 6.5, found \"{text}\"");
+    text.trim().parse().map_err(|_| wrong())
+}
+
+/// The settings and corrections of a run.
+pub(super) struct Plan<'a> {
+    args: &'a PlanArgs,
+    pub(super) recipe: Recipe,
+    pub(super) edits: Edits,
+}
+
+impl PlanArgs {
+    /// Combines the arguments for a clip.
+    pub(super) fn new(clip: ClipArgs, corrections: Corrections, targets: TargetArgs) -> Self {
+        Self { clip, corrections, targets }
+    }
+
+    /// Returns the plan for another clip.
+    pub(super) fn for_clip(&self, path: &Path) -> Self {
+        let mut other = self.clone();
+        other.clip.path = path.into();
+        other
+    }
+
+    /// The path of the clip.
+    pub(super) fn clip(&self) -> &Path {
+        &self.clip.path
+    }
+
+    /// Files besides the recipe that affect the sheet.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        let Corrections { freeze, pin_from, seen, .. } = &self.corrections;
+        let sheet = freeze.as_deref().filter(|path| path.is_file());
+        sheet.into_iter().chain(pin_from.as_deref()).chain(camera_args::file(seen))
+    }
+}
+
+impl<'a> Plan<'a> {
+    /// Builds a plan from a recipe and corrections already read.
+    pub(super) fn with(args: &'a PlanArgs, recipe: Recipe, edits: Edits) -> Self {
+        Self { args, recipe, edits }
+    }
+
+    /// Reads the recipe, and refuses what is impossible whatever the motion is.
+    pub(super) fn from_args(args: &'a PlanArgs) -> Result<Self, Failure> {
+        args.targets.check(&args.corrections)?;
+        let (recipe, edits) = args.corrections.read()?;
+        Ok(Self { args, recipe, edits })
+    }
+
+    /// Reads the motion and the camera. Warnings go to `note`. Also returns the mark that identifies the motion.
+    pub(super) fn read(
+        &mut self,
+        note: &mut dyn FnMut(&Warning),
+    ) -> Result<(Engine, ClipMark), Failure> {
+        let source = self.args.clip.read()?;
+        let (seen_from, notes) = camera_args::asked(&self.args.corrections.seen, &source.clip)?;
+        self.recipe.seen_from = seen_from.unwrap_or(self.recipe.seen_from);
+        let body = Description::notes(&source.clip);
+        source.notes.iter().chain(&notes).chain(&body).for_each(note);
+        let engine = Engine::new(source.clip)?.with_budget(self.args.clip.budget());
+        Ok((engine, source.of))
+    }
+
+    /// Adds the keys that are marked in a file, and finds the settings that meet the targets.
+    pub(super) fn settle(
+        &mut self,
+        engine: &mut Engine,
+        words: &Words,
+        note: &mut dyn FnMut(String),
+    ) -> Result<(), Failure> {
+        let Self { args, recipe, edits } = self;
+        freeze_args::freeze(&args.corrections, engine, recipe, edits)?
+            .into_iter()
+            .for_each(&mut *note);
+        pin_args::marked(&args.corrections, engine, recipe, edits)?
+            .into_iter()
+            .for_each(&mut *note);
+        args.meet(engine, recipe, edits, words)?.into_iter().for_each(note);
+        Ok(())
+    }
+}
+
+impl PlanArgs {
+    /// Finds the settings that meet the targets, puts them into the recipe and prints them. Returns a sentence for each
+    /// target that could not be met.
+    fn meet(
+        &self,
+        engine: &mut Engine,
+        recipe: &mut Recipe,
+        edits: &Edits,
+        words: &Words,
+    ) -> Result<Vec<String>, Failure> {
+        let targets = self.targets.targets();
+        if targets.is_empty() {
+            return Ok(vec![]);
+        }
+        let met = target::meet(engine, recipe, edits, &targets).map_err(|error| match error {
+            // An error of a target is reported by its option, one of the recipe by its setting.
+            Error::Setting { name, message }
+                if targets.iter().any(|target| target.name() == name) =>
+            {
+                Failure::AskedWrongly(format!("--{name}: {message}"))
+            }
+            other => files::fault_of(&self.clip.path)(other),
+        })?;
+        let changed = changes(recipe, &met.recipe)?.join(" ");
+        let settings = if changed.is_empty() { "nothing to change" } else { &changed };
+        match furthest_off(&met) {
+            Some(error) => {
+                words.say(format_args!("found       {settings}; furthest off {error:.2} %"));
+            }
+            None if changed.is_empty() => {}
+            None => words.say(format_args!("found       {settings}")),
+        }
+        *recipe = met.recipe;
+        let short = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_some());
+        Ok(short.map(ToString::to_string).collect())
+    }
+}
+
+impl TargetArgs {
+    /// Refuses a target for the number of keys together with `--only-pins`, which finds none.
+    fn check(&self, corrections: &Corrections) -> Result<(), Failure> {
+        let of_keys = |target: &&Target| !matches!(target, Target::DrawingsPerSecond(_));
+        match self.targets().iter().find(of_keys) {
+            Some(target) if corrections.only_pins == Some(true) => {
+                Err(Failure::AskedWrongly(format!(
+                    "--{}: cannot be asked for together with --only-pins, which wants no keys but your own; leave one of \
+                     them out",
+                    target.name()
+                )))
+            }
+            Some(target) if corrections.freeze.is_some() => Err(Failure::AskedWrongly(format!(
+                "--{}: cannot be asked for together with --freeze, which keeps the keys of a sheet; leave one of them out",
+                target.name()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let keys = self.keys.map(Target::Keys);
+        let drawings = self.drawings_per_second.map(Target::DrawingsPerSecond);
+        let error = self.max_error.map(Target::MaxError);
+        keys.into_iter().chain(error).chain(drawings).collect()
+    }
+}
+
+/// The largest error if one was asked for and reached: no other message prints it.
+fn furthest_off(met: &Met) -> Option<f64> {
+    let mut met_ones = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_none());
+    let of_error = met_ones.find(|outcome| matches!(outcome.target, Target::MaxError(_)));
+    of_error.map(|outcome| outcome.reached)
+}
+
+/// Returns the settings that changed, as `KEY=VALUE` for `--set`.
+fn changes(before: &Recipe, after: &Recipe) -> Result<Vec<String>, Error> {
+    let mut changed = Vec::new();
+    for knob in KNOBS {
+        let now = after.get(knob.name)?;
+        if before.get(knob.name)? != now {
+            changed.push(format!("{}={now}", knob.name));
+        }
+    }
+    Ok(changed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_body_height_has_its_sign_where_it_could_be_a_fraction() {
+        for (text, share) in [("5%", 5.0), ("5", 5.0), (" 0.5 % ", 0.5), ("1", 1.0), ("0", 0.0)] {
+            assert_eq!(percent(text), Ok(share), "{text}");
+        }
+        assert!(percent("0.02").unwrap_err().contains("0.02% or 2% of"));
+        for wrong in ["2%%", "%", "", "5 %x"] {
+            assert!(percent(wrong).unwrap_err().contains("(5%)"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Writes the results of a run into its folder.
+
+use super::console::is_loss;
+use super::failure::Failure;
+use super::folder::{Folder, Left, Made};
+use super::format_args::{Formats, Tell};
+use super::staging::Bundle;
+use genga::edits::Edits;
+use genga::error::Warning;
+use genga::pipeline::Breakdown;
+use genga::recipe::Recipe;
+use genga_files::{ClipMark, Manifest, Report, Run};
+
+/// Files of a run that belong to no output format.
+pub(super) const OWN: [&str; 4] = [Run::SPEEDS, Run::RECIPE, Run::REPORT, Run::MANIFEST];
+
+/// The results of a run, to be written.
+pub(super) struct Results<'a> {
+    pub(super) name: &'a str,
+    /// Identifies the motion that the folder belongs to.
+    pub(super) clip: ClipMark,
+    pub(super) breakdown: &'a Breakdown<'a>,
+    pub(super) recipe: &'a Recipe,
+    pub(super) edits: &'a Edits,
+    /// Notes for the user.
+    pub(super) notes: Vec<String>,
+    /// Whether the recipe in the folder is the one that was given, so that it may be overwritten.
+    pub(super) is_own_recipe: bool,
+    /// Why the recipe in the folder is kept as it is. `None` if it is written.
+    pub(super) kept: Option<&'static str>,
+    /// Callback before each file is written, which may stop the writing.
+    pub(super) tell: Tell<'a>,
+}
+
+/// The outcome of a run.
+pub(super) struct Outcome {
+    pub(super) report: Report,
+    /// The written files, as shown to the user.
+    pub(super) files: Vec<String>,
+    /// Other files in the folder.
+    pub(super) left: Left,
+}
+
+impl Results<'_> {
+    /// Writes the results and the other formats asked for: all files or none.
+    pub(super) fn write(
+        self,
+        formats: &mut Formats,
+        folder: Folder<'_>,
+    ) -> Result<Outcome, Failure> {
+        let Self { name, breakdown, recipe, edits, .. } = self;
+        let run = Run { name, clip: &self.clip, breakdown, recipe, edits };
+        folder.check(&self.clip)?;
+        let mut report = Report::new(breakdown, self.notes);
+        let mut bundle = Bundle::begin(folder.path())?;
+        let mut written = run.with_cut(|cut| {
+            let (losses, notes): (Vec<Warning>, _) =
+                formats.settle(cut)?.into_iter().partition(is_loss);
+            report.losses.extend(losses.iter().map(ToString::to_string));
+            report.notes.extend(notes.iter().map(ToString::to_string));
+            report.notes.extend(self.kept.map(str::to_owned));
+            formats.write(cut, &mut bundle, self.tell)
+        })?;
+        (self.tell)(Run::SPEEDS)?;
+        bundle.add(Run::SPEEDS, run.speeds()?)?;
+        let settings = recipe.write(edits);
+        let digest = Manifest::digest(settings.as_bytes());
+        if self.kept.is_none() {
+            bundle.add(Run::RECIPE, settings)?;
+        }
+        bundle.add(Run::REPORT, report.write()?)?;
+        let made = Made {
+            clip: self.clip.clone(),
+            recipe: Some(digest),
+            stale: written.stale,
+            adds: false,
+            given: self.is_own_recipe.then_some(Run::RECIPE),
+        };
+        let left = folder.finish(bundle, made)?;
+        written.files.extend(OWN.map(str::to_owned));
+        Ok(Outcome { report, files: written.files, left })
+    }
+}

@@ -1,0 +1,103 @@
+//! The cut folder (カット袋): the timesheets of a cut, and each column's pictures, numbered like their cells.
+
+use serde::Serialize;
+
+use super::xdts::column;
+use super::{Cut, Settings, Sink, xsheet};
+use genga::error::Error;
+use genga_plot::NumberedImages;
+
+/// The version of `cut.json`, stored in the file.
+const SCHEMA: &str = "genga-cut-1";
+
+/// Folders of the pictures: key drawings alone, and all drawings.
+const GENGA: &str = "genga";
+const DOUGA: &str = "douga";
+
+/// `cut.json`: the contents of the folder.
+#[derive(Debug, Serialize)]
+struct Contents<'a> {
+    schema: &'static str,
+    genga: &'static str,
+    cut: &'a str,
+    fps: f64,
+    koma: usize,
+    columns: Vec<Column<'a>>,
+}
+
+/// A column of the sheets.
+#[derive(Debug, Serialize)]
+struct Column<'a> {
+    /// Its name as in the sheets.
+    name: String,
+    /// Its picture folder, inside both `genga` and `douga`.
+    folder: String,
+    /// Names of its joints; empty for the whole body.
+    joints: &'a [String],
+    /// Numbers of its pictures.
+    genga: Vec<usize>,
+    douga: Vec<usize>,
+}
+
+/// Writes the cut's folder, named after the cut.
+///
+/// The XDTS sheets for drawing programs lie side by side, so that viewers pair them. Each is also copied beside its
+/// pictures, where programs look for these by column and number.
+///
+/// # Errors
+/// The errors of the formats in the folder.
+pub(super) fn write(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
+    let at = |file: &str| cut.file(&format!("CUT/{file}"));
+    let sheets = settings.xdts.write(cut.sheet, cut.name)?;
+    for (kind, sheet) in [(GENGA, &sheets.genga), (DOUGA, &sheets.douga)] {
+        let name = cut.file(&format!("CUT_{kind}_ts.xdts"));
+        put(&at(&name), sheet.as_bytes())?;
+        put(&at(&format!("{kind}/{name}")), sheet.as_bytes())?;
+    }
+    put(&at("CUT.tdts"), settings.tdts.write(cut.sheet, cut.name)?.as_bytes())?;
+    let paper = xsheet(&settings.xsheet, cut.name, cut.clip, cut.sheet)?;
+    put(&at("CUT_timesheet.html"), paper.html.as_bytes())?;
+    let mut columns = columns(cut);
+    // Columns are stacked on each other, so their pictures need a transparent background.
+    let transparent = settings.images.transparent || cut.sheet.layers.len() > 1;
+    let body = settings.figures.body;
+    let images = NumberedImages { transparent, body, ..settings.images.clone() };
+    images.draw_columns(cut.clip, cut.sheet, |layer, drawing, png| {
+        let number = cut.sheet.layers[layer].genga_numbers()[drawing];
+        let column = &mut columns[layer];
+        if let Some(number) = number {
+            column.genga.push(number);
+            put(&at(&picture(GENGA, &column.folder, number)), &png)?;
+        }
+        column.douga.push(drawing + 1);
+        put(&at(&picture(DOUGA, &column.folder, drawing + 1)), &png)
+    })?;
+    let (koma, fps) = (cut.sheet.length(), cut.sheet.clock.koma_rate);
+    let genga = env!("CARGO_PKG_VERSION");
+    let contents = Contents { schema: SCHEMA, genga, cut: cut.name, fps, koma, columns };
+    let failed =
+        |error: serde_json::Error| Error::Encoding { what: "cut.json", source: error.into() };
+    put(
+        &at("cut.json"),
+        (serde_json::to_string_pretty(&contents).map_err(failed)? + "\n").as_bytes(),
+    )
+}
+
+/// The columns, with no pictures listed yet.
+fn columns<'a>(cut: &Cut<'a>) -> Vec<Column<'a>> {
+    let layers = cut.sheet.layers.iter().enumerate();
+    let column = |(track, layer): (usize, &'a genga::sheet::Layer)| {
+        let name = column(track, &layer.name);
+        let folder = Cut::file_of(&name, "CUT");
+        Column { name, folder, joints: &layer.joints, genga: vec![], douga: vec![] }
+    };
+    layers.map(column).collect()
+}
+
+/// The path of a picture, where drawing programs look for it beside a sheet.
+fn picture(kind: &str, folder: &str, number: usize) -> String {
+    format!("{kind}/{folder}/{folder}_{number:04}.png")
+}
+
+#[cfg(test)]
+mod tests;

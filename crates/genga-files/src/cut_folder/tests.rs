@@ -1,0 +1,136 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::Value;
+
+use super::*;
+use genga::edits::Edits;
+use genga::motion::bvh;
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+
+/// The kick's cut folder with the given layers, as small pictures.
+fn folder(layers: &str) -> BTreeMap<String, Vec<u8>> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/kick.bvh");
+    let clip = bvh::open(path.as_ref()).unwrap().clip;
+    let mut recipe = Recipe::default();
+    recipe.set("layers", layers).unwrap();
+    let mut engine = Engine::new(clip).unwrap();
+    let breakdown = engine.run(&recipe, &Edits::default()).unwrap();
+    let cut = Cut {
+        name: "c012",
+        clip_file: "kick.bvh",
+        clip: breakdown.clip,
+        exaggerated: None,
+        sheet: breakdown.sheet,
+        spaced: None,
+        splits: &[],
+        made_with: None,
+    };
+    let mut settings = Settings::default();
+    settings.set("images.width", "160").unwrap();
+    settings.set("images.height", "90").unwrap();
+    // Seen from the front no limb hides another.
+    settings.set("images.camera", "front").unwrap();
+    let mut files = BTreeMap::new();
+    let mut put = |name: &str, bytes: &[u8]| {
+        assert!(files.insert(name.to_owned(), bytes.to_vec()).is_none(), "{name} twice");
+        Ok(())
+    };
+    write(&cut, &settings, &mut put).unwrap();
+    let whole = |name: &str, png: Vec<u8>| put(&format!("whole/{name}"), &png);
+    settings.images.draw(cut.clip, cut.sheet, whole).unwrap();
+    files
+}
+
+/// The cells that a drawing program derives from a sheet: each number in a column as `A/A_0001.png` beside the
+/// sheet. A cell that is not a number is a mark.
+fn suggested(files: &BTreeMap<String, Vec<u8>>, sheet: &str) -> BTreeSet<String> {
+    let text = std::str::from_utf8(&files[sheet]).unwrap();
+    let file: Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
+    let table = &file["timeTables"][0];
+    let names = table["timeTableHeaders"][0]["names"].as_array().unwrap();
+    let beside = &sheet[..sheet.rfind('/').unwrap()];
+    let mut found = BTreeSet::new();
+    for track in table["fields"][0]["tracks"].as_array().unwrap() {
+        let name = names[track["trackNo"].as_u64().unwrap() as usize].as_str().unwrap();
+        for frame in track["frames"].as_array().unwrap() {
+            let value = frame["data"][0]["values"][0].as_str().unwrap();
+            if let Ok(number) = value.parse::<usize>() {
+                found.insert(format!("{beside}/{name}/{name}_{number:04}.png"));
+            }
+        }
+    }
+    found
+}
+
+fn pictures(files: &BTreeMap<String, Vec<u8>>, kind: &str) -> BTreeSet<String> {
+    let begin = format!("c012/{kind}/");
+    let is_picture = |name: &&String| name.starts_with(&begin) && name.ends_with(".png");
+    files.keys().filter(is_picture).cloned().collect()
+}
+
+#[test]
+fn beside_each_sheet_every_cell_finds_its_picture_and_no_picture_is_left() {
+    for layers in ["body", "limbs"] {
+        let files = folder(layers);
+        for kind in [GENGA, DOUGA] {
+            let sheet = format!("c012/{kind}/c012_{kind}_ts.xdts");
+            let suggested = suggested(&files, &sheet);
+            assert_eq!(suggested, pictures(&files, kind), "{layers}, {kind}");
+            assert!(suggested.len() > 10);
+            assert_eq!(files[&sheet], files[&format!("c012/c012_{kind}_ts.xdts")]);
+        }
+    }
+}
+
+#[test]
+fn a_genga_has_the_picture_of_its_drawing() {
+    let files = folder("limbs");
+    let contents: Value = serde_json::from_slice(&files["c012/cut.json"]).unwrap();
+    let columns = contents["columns"].as_array().unwrap();
+    assert_eq!((columns.len(), &contents["koma"]), (5, &92.into()));
+    for column in columns {
+        let folder = column["folder"].as_str().unwrap();
+        let numbers = |kind: &str| -> Vec<u64> {
+            column[kind].as_array().unwrap().iter().map(|number| number.as_u64().unwrap()).collect()
+        };
+        let count = numbers(DOUGA).len() + numbers(GENGA).len();
+        let of_column = |name: &&String| name.contains(&format!("/{folder}/"));
+        assert_eq!(files.keys().filter(of_column).count(), count);
+        let picture = |kind: &str, number: u64| {
+            &files[&format!("c012/{kind}/{folder}/{folder}_{number:04}.png")]
+        };
+        let all: Vec<_> = numbers(DOUGA).into_iter().map(|number| picture(DOUGA, number)).collect();
+        assert!(numbers(GENGA).iter().all(|number| all.contains(&picture(GENGA, *number))));
+    }
+}
+
+#[test]
+fn a_column_has_its_own_joints_alone_and_all_columns_together_the_body() {
+    let ink = |png: &[u8]| {
+        let picture = resvg::tiny_skia::Pixmap::decode_png(png).unwrap();
+        let is_ink = |at: usize| {
+            // Composited over white paper.
+            let pixel = picture.pixels()[at];
+            u16::from(pixel.green()) + 255 - u16::from(pixel.alpha()) < 200
+        };
+        (0..picture.pixels().len()).filter(|at| is_ink(*at)).collect::<BTreeSet<_>>()
+    };
+    let limbs = folder("limbs");
+    let corner =
+        |png: &[u8]| resvg::tiny_skia::Pixmap::decode_png(png).unwrap().pixels()[0].alpha();
+    assert_eq!(corner(&limbs["c012/genga/B/B_0001.png"]), 0, "one sees the columns below");
+    assert_eq!(corner(&folder("body")["c012/genga/A/A_0001.png"]), 255);
+    let whole = ink(&limbs["whole/A-E_0001.png"]);
+    let columns = ["A", "B", "C", "D", "E"]
+        .map(|column| ink(&limbs[&format!("c012/douga/{column}/{column}_0001.png")]));
+    for (at, column) in columns.iter().enumerate() {
+        assert!(!column.is_empty() && column.len() * 2 < whole.len(), "column {at}");
+        let others = columns.iter().enumerate().filter(|(other, _)| *other != at);
+        let overlap = others.map(|(_, other)| other.intersection(column).count()).sum::<usize>();
+        assert!(overlap < column.len() / 2, "column {at}");
+    }
+    let together: BTreeSet<usize> = columns.into_iter().flatten().collect();
+    let missing = whole.difference(&together).count();
+    assert!(missing * 20 < whole.len(), "{missing} of {} are missing", whole.len());
+}

@@ -1,0 +1,77 @@
+//! Encodes the preview's pictures as a video through ffmpeg.
+
+use std::ffi::OsStr;
+use std::fs;
+
+use super::Mp4;
+use super::ffmpeg::{self, Ffmpeg};
+use crate::{Cut, Sink};
+use genga::error::{Error, Warning};
+use genga_plot::{FigureBody, Preview};
+
+/// The product, as named in errors.
+const MADE: &str = "the video";
+
+impl Mp4 {
+    /// Checks that ffmpeg is there before any work is done.
+    pub(crate) fn notes(&self) -> Result<Vec<Warning>, Error> {
+        ffmpeg::check(&self.ffmpeg).map(|()| Vec::new())
+    }
+
+    /// Draws the pictures and encodes them.
+    pub(crate) fn write(
+        &self,
+        body: FigureBody,
+        cut: &Cut<'_>,
+        put: &mut Sink<'_>,
+    ) -> Result<(), Error> {
+        self.validate()?;
+        let mut packer = Packer::begin(self, cut.sheet.clock.koma_rate)?;
+        let (camera, width, height) = (self.camera, self.width, self.height);
+        Preview { camera, body, width, height, ..Preview::default() }.play(
+            cut.name,
+            cut.clip,
+            cut.sheet,
+            |picture| packer.ffmpeg.feed(picture),
+        )?;
+        put(&cut.file("CUT.mp4"), &packer.finish()?)
+    }
+}
+
+fn failed(error: std::io::Error) -> Error {
+    ffmpeg::failed(MADE, error)
+}
+
+/// An ffmpeg that encodes a video.
+struct Packer {
+    ffmpeg: Ffmpeg,
+    /// The growing video. It must be seekable, because `+faststart` finally moves the index to the front.
+    film: tempfile::NamedTempFile,
+}
+
+impl Packer {
+    fn begin(mp4: &Mp4, koma_rate: f64) -> Result<Self, Error> {
+        let film = tempfile::Builder::new().suffix(".mp4").tempfile().map_err(failed)?;
+        let (size, rate) = (format!("{}x{}", mp4.width, mp4.height), koma_rate.to_string());
+        let raw = ["-f", "rawvideo", "-pix_fmt", "rgba", "-video_size", &size, "-framerate", &rate];
+        // Common players support no other pixel format.
+        let packed = ["-i", "pipe:0", "-pix_fmt", "yuv420p", "-movflags", "+faststart"];
+        // One thread and no version tags, so that the same input gives the same bytes.
+        let same = ["-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"];
+        let words = raw.into_iter().chain(packed).chain(same).map(OsStr::new);
+        let args = words.chain([film.path().as_os_str()]);
+        let ffmpeg = Ffmpeg::begin(&mp4.ffmpeg, (MADE, true), args)?;
+        Ok(Self { ffmpeg, film })
+    }
+
+    /// Waits for ffmpeg and returns the video.
+    fn finish(self) -> Result<Vec<u8>, Error> {
+        self.ffmpeg.finish()?;
+        let film = fs::read(self.film.path()).map_err(failed)?;
+        if film.is_empty() {
+            Err(failed(std::io::Error::other("ffmpeg made none")))
+        } else {
+            Ok(film)
+        }
+    }
+}

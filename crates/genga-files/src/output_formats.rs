@@ -1,0 +1,424 @@
+//! The registry of formats. A new format is a row in [`FORMATS`] and a file of its own.
+
+use std::fmt;
+
+#[cfg(feature = "pictures")]
+use crate::cut_folder;
+use crate::settings::Settings;
+use crate::{
+    Cut, Drawings, Rows, Sink, after_effects, columns_csv, figures, keys_bvh, limited_bvh,
+    pictures, remap_csv, sheet_csv, sheet_json, sts, vrma, xsheet,
+};
+use genga::error::{Error, Warning};
+use genga::sheet::{Layer, Sheet};
+
+/// A format in which a sheet is handed over (納品形式).
+#[derive(Clone, Copy)]
+pub struct Format {
+    /// The name that selects it.
+    pub name: &'static str,
+    /// A one-line description.
+    pub help: &'static str,
+    /// The Japanese term of the trade.
+    pub japanese: &'static str,
+    /// Patterns of the files it writes. `CUT` stands for the name of the cut, `0001` for the number of a
+    /// drawing or a page.
+    pub files: &'static [&'static str],
+    /// Whether it writes one numbered file per drawing or page.
+    pub is_numbered: bool,
+    /// Makes the files and passes them to the sink, one at a time.
+    make: fn(&Cut<'_>, &Settings, &mut Sink<'_>) -> Result<(), Error>,
+    /// Collects warnings about the files.
+    notes: fn(&Cut<'_>, &Settings) -> Result<Vec<Warning>, Error>,
+}
+
+/// The defaults of most rows: no numbered files and no notes.
+const PLAIN: Format = Format {
+    name: "",
+    help: "",
+    japanese: "",
+    files: &[],
+    is_numbered: false,
+    make: |_, _, _| Ok(()),
+    notes: |_, _| Ok(Vec::new()),
+};
+
+/// All formats, in the order in which they are listed and written.
+pub const FORMATS: &[Format] = &[
+    Format {
+        name: "json",
+        help: "the timesheet, to edit by hand and deliver again",
+        japanese: "タイムシート",
+        files: &["sheet.json"],
+        make: |cut, _, put| put("sheet.json", sheet_json::write(cut)?.as_bytes()),
+        ..PLAIN
+    },
+    Format {
+        name: "csv",
+        help: "tables of keys, drawings and koma",
+        japanese: "表",
+        files: &["keys.csv", "drawings.csv", "sheet.csv"],
+        make: |cut, settings, put| {
+            let table = |rows| Drawings { cut: cut.name.into(), rows }.write(cut.clip, cut.sheet);
+            let csv = &settings.csv;
+            put("keys.csv", &csv.encode(table(Rows::Keys)?))?;
+            put("drawings.csv", &csv.encode(table(Rows::All)?))?;
+            put("sheet.csv", &csv.encode(sheet_csv(cut.sheet)?))
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "remap",
+        help: "only the timing, for a rig or rendered pictures of the same take",
+        japanese: "タイムリマップ",
+        files: &["remap.csv", "remap.ffconcat"],
+        make: |cut, settings, put| {
+            put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?))?;
+            settings.remap.write(cut, put)
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "bvh",
+        help: "stepped motion: one row per koma, holds repeated",
+        japanese: "リミテッドモーション",
+        files: &["limited.bvh"],
+        make: |cut, _, put| put("limited.bvh", limited_bvh(cut.clip, cut.sheet)?.as_bytes()),
+        ..PLAIN
+    },
+    Format {
+        name: "bvh-keys",
+        help: "key poses: one row per genga",
+        japanese: "ポーズ集",
+        files: &["keys.bvh"],
+        make: |cut, _, put| put("keys.bvh", keys_bvh(cut.clip, cut.sheet)?.as_bytes()),
+        ..PLAIN
+    },
+    Format {
+        name: "xdts",
+        help: "timesheets for drawing programs: keys in ACTION, all drawings in CELL",
+        japanese: "デジタルタイムシート",
+        files: &["CUT_genga_ts.xdts", "CUT_douga_ts.xdts"],
+        make: |cut, settings, put| {
+            let made = settings.xdts.write(cut.sheet, cut.name)?;
+            put(&cut.file("CUT_genga_ts.xdts"), made.genga.as_bytes())?;
+            put(&cut.file("CUT_douga_ts.xdts"), made.douga.as_bytes())
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "tdts",
+        help: "one timesheet for drawing programs, with ACTION and CELL",
+        japanese: "デジタルタイムシート",
+        files: &["CUT.tdts"],
+        make: |cut, settings, put| {
+            put(&cut.file("CUT.tdts"), settings.tdts.write(cut.sheet, cut.name)?.as_bytes())
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "sts",
+        help: "all drawings, for programs that read ShiraheiTimeSheet",
+        japanese: "タイムシート（STS）",
+        files: &["CUT.sts"],
+        make: |cut, _, put| put(&cut.file("CUT.sts"), &sts(cut.sheet)?),
+        ..PLAIN
+    },
+    Format {
+        name: "columns",
+        help: "timesheet table: one row per koma, one column per layer",
+        japanese: "タイムシートの表",
+        files: &["CUT_timesheet.csv"],
+        make: |cut, settings, put| {
+            let table = columns_csv(cut.sheet)?;
+            put(&cut.file("CUT_timesheet.csv"), &settings.csv.encode(table))
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "ae",
+        help: "time remapping to paste into After Effects, one file per column",
+        japanese: "タイムリマップ（After Effects）",
+        files: &["ae/A.txt"],
+        make: |cut, _, put| after_effects::write(cut.sheet, put),
+        ..PLAIN
+    },
+    Format {
+        name: "xsheet",
+        help: "timesheet to print on A4 or B4: HTML, and one SVG per page",
+        japanese: "タイムシート用紙",
+        files: &["CUT_xsheet.html", "xsheet/0001.svg"],
+        is_numbered: true,
+        make: |cut, settings, put| {
+            let made = xsheet(&settings.xsheet, cut.name, cut.clip, cut.sheet)?;
+            put(&cut.file("CUT_xsheet.html"), made.html.as_bytes())?;
+            made.pages.iter().enumerate().try_for_each(|(at, page)| {
+                put(&format!("xsheet/{:04}.svg", at + 1), page.as_bytes())
+            })
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "vmd",
+        help: "motion for MikuMikuDance, with a table of joints and their bones",
+        japanese: "MMDモーション",
+        files: &["CUT.vmd", "CUT-bones.csv"],
+        make: |cut, settings, put| {
+            let made = settings.vmd.make(cut.clip, cut.sheet)?;
+            put(&cut.file("CUT.vmd"), &made.motion.bytes()?)?;
+            put(&cut.file("CUT-bones.csv"), &settings.csv.encode(made.report.csv()?))
+        },
+        notes: |cut, settings| settings.vmd.notes(cut.clip, cut.sheet),
+        ..PLAIN
+    },
+    Format {
+        name: "glb",
+        help: "stepped motion with visible bones and the role of every drawing",
+        japanese: "リミテッドモーション",
+        files: &["limited.glb"],
+        make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
+        ..PLAIN
+    },
+    Format {
+        name: "vrma",
+        help: "stepped motion for VRM avatars",
+        japanese: "VRMアニメーション",
+        files: &["CUT.vrma"],
+        make: |cut, settings, put| {
+            let made = vrma::write(cut.clip, cut.sheet, settings.vmd.map.as_ref())?;
+            put(&cut.file("CUT.vrma"), &made)
+        },
+        notes: |cut, settings| vrma::notes(cut.clip, settings.vmd.map.as_ref()),
+        ..PLAIN
+    },
+    Format {
+        name: "bars",
+        help: "picture: one bar per drawing over koma, with left-out drawings",
+        japanese: "シートの図",
+        files: &["sheet.svg"],
+        make: |cut, _, put| put("sheet.svg", pictures::bars(cut)?.as_bytes()),
+        ..PLAIN
+    },
+    Format {
+        name: "poses",
+        help: "picture: poses of the genga and ends in a row",
+        japanese: "ポーズの図",
+        files: &["poses.svg"],
+        make: |cut, settings, put| {
+            put("poses.svg", pictures::poses(cut, settings.figures.body)?.as_bytes())
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "strip",
+        help: "picture: source above, result below, koma by koma",
+        japanese: "素材と結果",
+        files: &["strip.svg"],
+        is_numbered: true,
+        make: figures::strip,
+        notes: |cut, settings| Ok(shortened("strip", settings.strip.most, cut.sheet)),
+    },
+    Format {
+        name: "contact",
+        help: "picture: contact sheet of the genga",
+        japanese: "原画一覧",
+        files: &["contact.svg"],
+        is_numbered: true,
+        make: figures::contact,
+        ..PLAIN
+    },
+    Format {
+        name: "onion",
+        help: "picture: the drawings from each genga to the next, overlaid",
+        japanese: "オニオンスキン",
+        files: &["onion.svg"],
+        is_numbered: true,
+        make: figures::onion,
+        ..PLAIN
+    },
+    Format {
+        name: "flipbook",
+        help: "web page that plays and steps through the drawings",
+        japanese: "パラパラ",
+        files: &["flipbook.html"],
+        make: figures::flipbook,
+        notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, cut.sheet)),
+        ..PLAIN
+    },
+    #[cfg(feature = "pictures")]
+    Format {
+        name: "preview",
+        help: "animated picture: source beside result",
+        japanese: "プレビュー",
+        files: &["preview.gif"],
+        make: figures::preview,
+        notes: |cut, settings| Ok(shortened("preview", settings.preview.most, cut.sheet)),
+        ..PLAIN
+    },
+    #[cfg(feature = "video")]
+    Format {
+        name: "mp4",
+        help: "video: source beside result; needs ffmpeg",
+        japanese: "動画ファイル",
+        files: &["CUT.mp4"],
+        make: |cut, settings, put| settings.mp4.write(settings.figures.body, cut, put),
+        notes: |_, settings| settings.mp4.notes(),
+        ..PLAIN
+    },
+    #[cfg(feature = "pictures")]
+    Format {
+        name: "images",
+        help: "one picture per drawing, numbered as on the sheet, to draw over",
+        japanese: "連番画像",
+        files: &["images/A_0001.png"],
+        is_numbered: true,
+        make: figures::images,
+        ..PLAIN
+    },
+    #[cfg(feature = "pictures")]
+    Format {
+        name: "cut",
+        help: "cut folder: timesheets, and the pictures of each column under their cel numbers",
+        japanese: "カット袋",
+        files: &["CUT/CUT_genga_ts.xdts", "CUT/douga/A/A_0001.png"],
+        is_numbered: true,
+        make: cut_folder::write,
+        ..PLAIN
+    },
+];
+
+impl Format {
+    /// Finds a format by name.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] that lists the known formats.
+    pub fn find(name: &str) -> Result<&'static Self, Error> {
+        FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
+            let known: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
+            let message = format!("there is no such format; there are {}", known.join(", "));
+            Error::setting(name, message)
+        })
+    }
+
+    /// Finds formats by name, each once and in the order of [`FORMATS`]; `all` selects every format.
+    ///
+    /// # Errors
+    /// The errors of [`Format::find`].
+    pub fn find_all<'a>(
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Vec<&'static Self>, Error> {
+        let mut asked = Vec::new();
+        for name in names.into_iter().map(str::trim) {
+            match name {
+                "all" => asked.extend(FORMATS),
+                name => asked.push(Self::find(name)?),
+            }
+        }
+        let is_asked = |format: &&Self| asked.iter().any(|other| other.name == format.name);
+        Ok(FORMATS.iter().filter(is_asked).collect())
+    }
+
+    /// Makes the files of this format and passes them to `put`, one at a time.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] as [`Sheet::check`]; the format's own errors if it cannot be made of this cut; an invalid
+    /// setting; and any error that `put` returns.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+    /// use genga_files::{Cut, Format, Settings};
+    ///
+    /// # let clip = genga::motion::bvh::open("../../data/kick.bvh".as_ref())?.clip;
+    /// # let mut engine = Engine::new(clip)?;
+    /// # let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
+    /// # let (clip, sheet) = (breakdown.clip, breakdown.sheet);
+    /// # let cut = Cut {
+    /// #     name: "c012",
+    /// #     clip_file: "kick.bvh",
+    /// #     clip,
+    /// #     exaggerated: None,
+    /// #     sheet,
+    /// #     spaced: None,
+    /// #     splits: &[],
+    /// #     made_with: None,
+    /// # };
+    /// let mut names = Vec::new();
+    /// Format::find("csv")?.write(&cut, &Settings::default(), &mut |name, _bytes| {
+    ///     names.push(name.to_owned());
+    ///     Ok(())
+    /// })?;
+    /// assert_eq!(names, ["keys.csv", "drawings.csv", "sheet.csv"]);
+    /// # Ok::<(), genga::Error>(())
+    /// ```
+    pub fn write(
+        &self,
+        cut: &Cut<'_>,
+        settings: &Settings,
+        put: &mut Sink<'_>,
+    ) -> Result<(), Error> {
+        cut.sheet.check()?;
+        (self.make)(cut, settings, put)
+    }
+
+    /// Collects warnings about the files, such as what they cannot hold.
+    ///
+    /// # Errors
+    /// The errors of [`Format::write`].
+    pub fn notes(&self, cut: &Cut<'_>, settings: &Settings) -> Result<Vec<Warning>, Error> {
+        (self.notes)(cut, settings)
+    }
+}
+
+/// Warns if a picture shows only the beginning of a long sheet.
+fn shortened(name: &str, most: usize, sheet: &Sheet) -> Vec<Warning> {
+    let koma = sheet.layers.first().map_or(0, Layer::length);
+    let message =
+        format!("{name} shows the first {most} of {koma} koma; {name}.most says how many");
+    if koma > most { vec![Warning::new("W_SHORTENED", message)] } else { vec![] }
+}
+
+impl fmt::Debug for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Format").field(&self.name).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_format_lists_the_known_ones() {
+        let error = Format::find("xdst").unwrap_err().to_string();
+        assert!(
+            error.starts_with("xdst: there is no such format; there are json, csv,"),
+            "{error}"
+        );
+        for format in FORMATS {
+            assert!(error.contains(format.name), "{error}");
+        }
+    }
+
+    #[test]
+    fn formats_come_once_and_in_their_order() {
+        let names = |asked: &[&str]| -> Vec<&str> {
+            let found = Format::find_all(asked.iter().copied()).unwrap();
+            found.iter().map(|format| format.name).collect()
+        };
+        assert_eq!(names(&["bvh", " json", "bvh"]), ["json", "bvh"]);
+        assert_eq!(names(&["all", "bvh"]).len(), FORMATS.len());
+        assert_eq!(names(&[]), [""; 0]);
+        assert!(Format::find_all(["json", ""]).is_err());
+    }
+
+    #[test]
+    fn no_two_formats_have_one_name_or_write_one_file() {
+        let mut names: Vec<_> = FORMATS.iter().map(|format| format.name).collect();
+        names.extend(FORMATS.iter().flat_map(|format| format.files));
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        assert!(!names.contains(&"all"));
+    }
+}

@@ -1,0 +1,60 @@
+//! The sheet as STS (ShiraheiTimeSheet): a small binary file that older timesheet programs read.
+
+use encoding_rs::SHIFT_JIS;
+
+use genga::error::Error;
+use genga::sheet::Sheet;
+
+/// The signature: a length byte, and the name.
+const SIGNATURE: &[u8; 18] = b"\x11ShiraheiTimeSheet";
+/// Zeros after the length field.
+const RESERVED: [u8; 2] = [0; 2];
+
+/// Writes the sheet with the number of the drawing on every koma, from 1, or 0 once a layer has ended. Layer names
+/// are Shift-JIS, cut at 255 bytes.
+///
+/// # Errors
+/// [`Error::Sheet`] for a sheet without koma, with more than 255 layers, or with more than 65,535 koma or drawings;
+/// also as [`Sheet::check`].
+pub fn sts(sheet: &Sheet) -> Result<Vec<u8>, Error> {
+    sheet.check()?;
+    let layers = u8::try_from(sheet.layers.len()).ok().filter(|layers| *layers > 0);
+    let length = u16::try_from(sheet.length()).ok().filter(|length| *length > 0);
+    let drawings = sheet.layers.iter().map(|layer| layer.drawings.len()).max().unwrap_or(0);
+    let fits = u16::try_from(drawings).is_ok();
+    let (Some(layers), Some(length), true) = (layers, length, fits) else {
+        return Err(Error::sheet(
+            "STS holds 1 to 255 layers and 1 to 65535 koma and drawings; split the clip",
+        ));
+    };
+    let mut bytes = SIGNATURE.to_vec();
+    bytes.push(layers);
+    bytes.extend(length.to_le_bytes());
+    bytes.extend(RESERVED);
+    for layer in &sheet.layers {
+        let numbers = layer.koma().map(|drawing| drawing as u16 + 1);
+        let ended = std::iter::repeat_n(0, sheet.length() - layer.length());
+        bytes.extend(numbers.chain(ended).flat_map(u16::to_le_bytes));
+    }
+    for layer in &sheet.layers {
+        let name = name(&layer.name);
+        bytes.push(name.len() as u8);
+        bytes.extend(name);
+    }
+    Ok(bytes)
+}
+
+/// Encodes a name in Shift-JIS, cut at whole characters, with `_` for characters it does not have.
+fn name(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for letter in text.chars() {
+        let mut own = [0; 4];
+        let (letter, _, is_unknown) = SHIFT_JIS.encode(letter.encode_utf8(&mut own));
+        let letter: &[u8] = if is_unknown { b"_" } else { &letter };
+        if bytes.len() + letter.len() > usize::from(u8::MAX) {
+            break;
+        }
+        bytes.extend(letter);
+    }
+    bytes
+}

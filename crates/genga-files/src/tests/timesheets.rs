@@ -1,0 +1,229 @@
+//! Every timesheet format agrees with the sheet koma by koma, as read by independent readers that follow the published
+//! rules.
+
+use encoding_rs::SHIFT_JIS;
+use serde_json::Value;
+
+use crate::xdts::tests::sheets::{cut_of_24, layer, sheet};
+use crate::xdts::{self, Tdts};
+use crate::{Cut, columns_csv, sts, time_remap};
+use genga::sheet::{Layer, Sheet};
+
+/// Sheets with difficult cases: a drawing shown again, one that continues over two exposures, layers of unequal length.
+fn sheets() -> Vec<Sheet> {
+    let body = layer("A", "eigie", &[(0, 3), (1, 2), (1, 1), (2, 4), (0, 2), (4, 2)]);
+    let arm = layer("腕", "eie", &[(0, 5), (1, 1), (2, 3)]);
+    vec![cut_of_24(), sheet(vec![body.clone()]), sheet(vec![body, arm])]
+}
+
+/// Number of the drawing on each koma, or 0 if there is none.
+fn douga(layer: &Layer, length: usize) -> Vec<usize> {
+    let mut numbers: Vec<usize> = layer.koma().map(|drawing| drawing + 1).collect();
+    numbers.resize(length, 0);
+    numbers
+}
+
+/// Number of the last genga begun by each koma, or 0 if there is none.
+fn genga(layer: &Layer, length: usize) -> Vec<usize> {
+    let numbers = layer.genga_numbers();
+    let mut last = 0;
+    let mut shown: Vec<usize> = layer
+        .koma()
+        .map(|drawing| {
+            last = numbers[drawing].unwrap_or(last);
+            last
+        })
+        .collect();
+    shown.resize(length, 0);
+    shown
+}
+
+/// Koma on which an inbetween begins.
+fn marks(layer: &Layer) -> Vec<usize> {
+    let koma: Vec<usize> = layer.koma().collect();
+    let begins = |at: &usize| *at == 0 || koma[at - 1] != koma[*at];
+    let is_between = |at: &usize| !layer.drawings[koma[*at]].role.is_kept();
+    (0..koma.len()).filter(begins).filter(is_between).collect()
+}
+
+/// Spreads numbers over the koma, each holding until the next.
+fn held(length: usize, numbers: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut koma = vec![0; length];
+    for (begin, number) in numbers {
+        koma[begin..].fill(number);
+    }
+    koma
+}
+
+/// A track of a TDTS file: its numbers, and the koma with marks.
+fn track(frames: &Value, length: usize) -> (Vec<usize>, Vec<usize>) {
+    let frames = frames.as_array().unwrap();
+    let koma = |entry: &Value| entry["frame"].as_u64().unwrap() as usize;
+    let value = |entry: &Value| entry["data"][0]["values"][0].as_str().unwrap().to_owned();
+    let ascend = frames.windows(2).all(|pair| koma(&pair[0]) < koma(&pair[1]));
+    assert!(ascend, "some readers refuse frames that do not ascend");
+    let within = || frames.iter().filter(|entry| koma(entry) < length);
+    let number = |entry: &Value| match &value(entry)[..] {
+        "SYMBOL_NULL_CELL" => Some((koma(entry), 0)),
+        "SYMBOL_TICK_1" => None,
+        number => Some((koma(entry), number.parse().unwrap())),
+    };
+    let marks = within().filter(|entry| value(entry) == "SYMBOL_TICK_1").map(koma).collect();
+    (held(length, within().filter_map(number)), marks)
+}
+
+#[test]
+fn tdts_has_both_columns_in_one_file() {
+    for (sheet, version) in sheets().iter().flat_map(|sheet| [(sheet, 5), (sheet, 11)]) {
+        let text = Tdts { version, marks: true }.write(sheet, "s03_c012").unwrap();
+        let json: Value = text
+            .split_once('\n')
+            .map(|(signature, json)| {
+                assert_eq!(signature, "toeiDigitalTimeSheet Save Data");
+                serde_json::from_str(json).unwrap()
+            })
+            .unwrap();
+        assert_eq!(json["version"], version);
+        let root = if version < 7 { &json } else { &json["timeSheets"][0] };
+        assert_eq!(root["header"], serde_json::json!({ "cut": "12", "scene": "3" }));
+        let table = &root["timeTables"][0];
+        let length = table["duration"].as_u64().unwrap() as usize;
+        assert_eq!(length, sheet.length());
+        for (track_no, layer) in sheet.layers.iter().enumerate() {
+            let of = |field: usize| &table["fields"][field]["tracks"][track_no];
+            assert_eq!(table["fields"][0]["fieldId"], 0);
+            assert_eq!(table["fields"][1]["fieldId"], 4);
+            let expected = (genga(layer, length), marks(layer));
+            assert_eq!(track(&of(0)["frames"], length), expected);
+            assert_eq!(track(&of(1)["frames"], length), (douga(layer, length), vec![]));
+            assert_eq!(table["timeTableHeaders"][1]["names"][track_no], layer.name);
+        }
+    }
+}
+
+#[test]
+fn tdts_is_read_back_and_its_marks_can_be_left_out() {
+    let sheet = cut_of_24();
+    let text = Tdts::default().write(&sheet, "walk").unwrap();
+    let read = xdts::read(text.as_bytes()).unwrap();
+    assert_eq!((read.cut.as_deref(), read.length), (Some("walk"), 24));
+    assert_eq!(read.columns[0].name, "A");
+    let plain = Tdts { marks: false, ..Tdts::default() }.write(&sheet, "walk").unwrap();
+    assert!(text.contains("SYMBOL_TICK_1") && !plain.contains("SYMBOL_TICK_1"));
+    let wrong = Tdts { version: 4, ..Tdts::default() }.write(&sheet, "walk");
+    assert!(wrong.unwrap_err().to_string().contains("version"));
+}
+
+#[test]
+fn sts_has_a_number_on_every_koma() {
+    for sheet in sheets() {
+        let bytes = sts(&sheet).unwrap();
+        assert_eq!(&bytes[..18], b"\x11ShiraheiTimeSheet");
+        let (layers, length) =
+            (usize::from(bytes[18]), usize::from(u16::from_le_bytes([bytes[19], bytes[20]])));
+        assert_eq!((layers, length), (sheet.layers.len(), sheet.length()));
+        let (numbers, mut names) = bytes[23..].split_at(2 * layers * length);
+        let numbers: Vec<usize> = numbers
+            .chunks(2)
+            .map(|pair| usize::from(u16::from_le_bytes([pair[0], pair[1]])))
+            .collect();
+        for (layer, numbers) in sheet.layers.iter().zip(numbers.chunks(length)) {
+            assert_eq!(numbers, douga(layer, length));
+            let (name, rest) = names[1..].split_at(usize::from(names[0]));
+            assert_eq!(SHIFT_JIS.decode(name).0, layer.name);
+            names = rest;
+        }
+        assert!(names.is_empty());
+    }
+}
+
+#[test]
+fn names_that_sts_cannot_hold_lose_letters_and_not_halves_of_letters() {
+    let long = layer(&"腕".repeat(200), "ee", &[(0, 1), (1, 1)]);
+    let bytes = sts(&sheet(vec![long, layer("é", "ee", &[(0, 1), (1, 1)])])).unwrap();
+    let names = &bytes[23 + 2 * 2 * 2..];
+    assert_eq!(names[0], 254);
+    assert_eq!(SHIFT_JIS.decode(&names[1..255]).0, "腕".repeat(127));
+    assert_eq!(&names[255..], b"\x01_");
+}
+
+#[test]
+fn sts_refuses_what_it_has_no_room_for() {
+    let long = layer("A", "ee", &[(0, 65_535), (1, 1)]);
+    let many = vec![layer("A", "ee", &[(0, 1), (1, 1)]); 256];
+    for sheet in [sheet(vec![long]), sheet(many), sheet(vec![])] {
+        assert!(sts(&sheet).unwrap_err().to_string().contains("65535"));
+    }
+}
+
+#[test]
+fn a_table_of_columns_has_a_row_a_koma() {
+    for sheet in sheets() {
+        let text = columns_csv(&sheet).unwrap();
+        assert!(text.lines().flat_map(|line| line.split(',')).all(|cell| cell.starts_with('"')));
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
+        let rows: Vec<Vec<String>> =
+            reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect();
+        let layers = sheet.layers.len();
+        assert_eq!(
+            (&rows[0][0][..], &rows[0][1][..], &rows[0][1 + layers][..]),
+            ("Frame", "原画", "動画")
+        );
+        assert_eq!(rows.len(), 2 + sheet.length());
+        assert!(rows[2..].iter().enumerate().all(|(koma, row)| row[0] == (koma + 1).to_string()));
+        let column = |at: usize| rows[2..].iter().map(move |row| &row[at][..]).enumerate();
+        let numbers = |at| {
+            let number = |(koma, cell): (usize, &str)| match cell {
+                "" | "○" => None,
+                "×" => Some((koma, 0)),
+                number => Some((koma, number.parse().unwrap())),
+            };
+            held(sheet.length(), column(at).filter_map(number))
+        };
+        for (at, layer) in sheet.layers.iter().enumerate() {
+            assert_eq!((&rows[1][1 + at], &rows[1][1 + layers + at]), (&layer.name, &layer.name));
+            assert_eq!(numbers(1 + at), genga(layer, sheet.length()));
+            assert_eq!(numbers(1 + layers + at), douga(layer, sheet.length()));
+            let found: Vec<usize> =
+                column(1 + at).filter(|(_, cell)| *cell == "○").map(|(koma, _)| koma).collect();
+            assert_eq!(found, marks(layer));
+        }
+    }
+}
+
+#[test]
+fn after_effects_plays_each_picture_on_its_koma() {
+    for layer in sheets().iter().flat_map(|sheet| &sheet.layers) {
+        let text = time_remap(layer);
+        let (head, keys) = text.split_once("Time Remap\n\tFrame\tseconds\n").unwrap();
+        assert!(
+            head.starts_with("Adobe After Effects 9.0 Keyframe Data\n\n\tUnits Per Second\t24\n")
+        );
+        let keys = keys.strip_suffix("\n\nEnd of Keyframe Data\n").unwrap();
+        let key = |line: &str| {
+            let (koma, seconds) = line.strip_prefix('\t').unwrap().split_once('\t').unwrap();
+            // A picture is shown from its own start time.
+            let seconds: f64 = seconds.parse().unwrap();
+            (koma.parse().unwrap(), (24.0 * seconds).round() as usize + 1)
+        };
+        let length = layer.length();
+        assert_eq!(held(length, keys.lines().map(key)), douga(layer, length));
+    }
+}
+
+#[test]
+fn a_file_a_column_even_if_two_have_one_name() {
+    let twins = sheet(vec![
+        layer("A", "ee", &[(0, 1), (1, 1)]),
+        layer("a", "ee", &[(0, 1), (1, 1)]),
+        layer("a/b", "ee", &[(0, 1), (1, 1)]),
+    ]);
+    let mut names = Vec::new();
+    super::after_effects::write(&twins, &mut |name, _| {
+        names.push(name.to_owned());
+        Ok(())
+    })
+    .unwrap();
+    assert_eq!(names, ["ae/A.txt", "ae/a~2.txt", "ae/a_b.txt"]);
+    assert_eq!(Cut::file_of("", "CUT"), "cut");
+}

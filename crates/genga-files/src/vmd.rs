@@ -1,0 +1,435 @@
+//! The limited motion for MikuMikuDance (MMD): a VMD file for any model with the standard bones, or for a given one.
+
+mod record;
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+use glam::DQuat;
+use serde::{Deserialize, Serialize};
+
+use crate::csv_table;
+use crate::humanoid::capture::Capture;
+use crate::humanoid::cast::Cast;
+pub use crate::humanoid::cast::{STILL_LIMB, VmdBones};
+use crate::humanoid::rest_alignment::Stance;
+use crate::humanoid::retarget::{Local, Retarget};
+use genga::error::{Error, Warning};
+use genga::knob::{Knobs, knob, knobs};
+pub use genga::motion::BoneMap;
+use genga::motion::body::names::bones::{Model, cp932};
+use genga::motion::body::names::{Found, SHAPE};
+use genga::motion::{Clip, Composite, JointId, Skeleton};
+use genga::sheet::{Exposure, Sheet};
+pub use genga_read::MmdModel;
+pub use record::{VmdKey, VmdMotion};
+
+/// Maximum length of a model's name, in bytes of CP932.
+const LONGEST_MODEL: usize = 20;
+
+/// The default model name.
+const NAMELESS: &str = "genga";
+
+/// File extensions of models.
+const ENDINGS: [&str; 2] = [".pmx", ".pmd"];
+
+/// Settings of the motion for MMD.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Vmd {
+    /// Playback rate in frames per second, 1 to 1000; default 30, MMD's own. At the sheet's own rate, each koma
+    /// is one frame.
+    pub fps: f64,
+    /// Angle of the model's upper arms below the horizontal at rest, in degrees, 0 to 90; default 35. Models
+    /// range from 30 to 45. A given model's own angle takes precedence.
+    pub arm_angle: f64,
+    /// Length of the model's leg from its root (足) to the ankle (足首), in MMD units; default 9.7, that of a
+    /// figure of 158 cm at 8 cm per unit. Translations are scaled by this over the capture's own leg length, so
+    /// that feet do not slide. A given model's own leg takes precedence.
+    pub leg: f64,
+    /// Name of the model; default genga. MMD warns if another model loads the motion, but loads it.
+    pub model: String,
+    /// The bone set to write; default `standard`. A given model's own bones take precedence.
+    pub bones: VmdBones,
+    /// Map from joints to bones; `None`, the default, is the built-in table.
+    #[serde(skip)]
+    pub map: Option<BoneMap>,
+    /// The model the motion is for; `None`, the default, is any with the standard bones.
+    #[serde(skip)]
+    pub body: Option<MmdModel>,
+}
+
+/// A motion for MMD, with a report on the joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VmdMade {
+    /// The contents of the file; [`VmdMotion::bytes`] encodes them.
+    pub motion: VmdMotion,
+    /// The mapping of joints to bones.
+    pub report: VmdReport,
+    /// Notes for the user.
+    pub notes: Vec<Warning>,
+}
+
+/// The mapping of joints to bones.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VmdReport {
+    /// The naming dialect that matched best.
+    pub dialect: String,
+    /// Bones with the joints that drive each, from the body outward.
+    pub bones: Vec<(String, Vec<String>)>,
+    /// Joints without a bone whose rotation is included in that of mapped joints further out.
+    pub carried: Vec<String>,
+    /// Joints whose motion is not in the file.
+    pub left_out: Vec<String>,
+    /// MMD units per unit of the clip.
+    pub scale: f64,
+}
+
+impl VmdReport {
+    /// Writes `joint,bone,what` as CSV, in the order of the lists. `what` is `drives` for a joint that drives a bone,
+    /// `carried` for one whose rotation is in that of joints further out, or `left_out`.
+    ///
+    /// # Errors
+    /// Fails only if memory runs out.
+    pub fn csv(&self) -> Result<String, Error> {
+        let driving = self.bones.iter().flat_map(|(bone, joints)| {
+            joints.iter().map(move |joint| [joint.clone(), bone.clone(), "drives".into()])
+        });
+        let without = |joints: &'static str, list: &[String]| {
+            list.iter()
+                .map(|joint| [joint.clone(), String::new(), joints.into()])
+                .collect::<Vec<_>>()
+        };
+        let carried = without("carried", &self.carried);
+        let left_out = without("left_out", &self.left_out);
+        csv_table(&["joint", "bone", "what"], driving.chain(carried).chain(left_out))
+    }
+}
+
+impl Default for Vmd {
+    fn default() -> Self {
+        Self {
+            fps: 30.0,
+            arm_angle: 35.0,
+            leg: 9.7,
+            model: NAMELESS.into(),
+            bones: VmdBones::Standard,
+            map: None,
+            body: None,
+        }
+    }
+}
+
+knobs!(vmd::Vmd {
+    fps: knob(
+        "フレームレート",
+        "Frames per second at which the motion is played. MMD uses 30.",
+        "再生する毎秒フレーム数。MMDでは30。",
+    )
+    .unit("frames a second")
+    .at_least(1.0)
+    .at_most(1000.0),
+    arm_angle: knob(
+        "腕の角度",
+        "Angle of the model's upper arms below the horizontal in its rest pose.",
+        "モデルの初期姿勢で上腕が水平から下がる角度。",
+    )
+    .unit("degrees")
+    .at_most(90.0),
+    leg: knob(
+        "脚の長さ",
+        "Length of the model's leg, from 足 to 足首.",
+        "モデルの足から足首までの長さ。",
+    )
+    .unit("MMD units")
+    .above(0.0)
+    .at_most(1e6),
+    model: knob(
+        "モデル",
+        "The model: its file (.pmx, .pmd), to whose skeleton the motion is fitted, or only its \
+         name.",
+        "モデル。ファイル（.pmx、.pmd）ならその骨格に合わせる。名前だけでもよい。",
+    )
+    .unit("words"),
+    bones: knob(
+        "ボーン",
+        "Bones that the motion drives: only those of every model, or also 上半身2 and 親指０.",
+        "動かすボーン。全モデル共通の標準ボーンだけ、または上半身2と親指０も。",
+    ),
+    ..map, body
+});
+
+impl Vmd {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the first setting that is out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.check()
+    }
+
+    /// Converts the motion of a sheet for the model, or for any with the standard bones, with all layers combined.
+    ///
+    /// MMD has no stepped keys. A held drawing's pose is written again on the last frame before the next drawing.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] as [`Sheet::first_layer`]; [`Error::Clip`] if the clip has no frame, the map knows none of
+    /// its joints, or the model has none of the bones they drive; [`Error::Setting`] if a setting is out of its
+    /// range, or two koma would fall on the same frame.
+    pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
+        self.validate()?;
+        let composite = Composite::new(clip, sheet)?;
+        if clip.is_empty() {
+            return Err(Error::clip("the clip has no frame: there is no pose to write"));
+        }
+        let frames = Frames::new(self.fps, sheet.clock.koma_rate)?;
+        let cast = self.cast(clip)?;
+        let Cast { model, found, .. } = &cast;
+        let capture = Capture::new(clip, model, found);
+        let stance = Stance::new(&capture, self.arm_angle.to_radians());
+        let leg = cast.leg.unwrap_or(self.leg);
+        let mut retarget = Retarget::new(&composite, model, &capture, &stance, leg);
+        let report = report(clip.skeleton(), model, found, retarget.scale);
+        let (name, _) = self.name()?;
+        let notes = self.notes(clip, sheet)?;
+        let keys = keys(&composite, &frames, &mut retarget)?;
+        Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
+    }
+
+    /// Collects the notes of [`Vmd::make`] without making the motion.
+    ///
+    /// # Errors
+    /// [`Error::Clip`] if the map knows none of the joints, or the model has none of the bones they drive;
+    /// [`Error::Setting`] if the model's name cannot be encoded, or two koma would fall on the same frame.
+    pub fn notes(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<Warning>, Error> {
+        Frames::new(self.fps, sheet.clock.koma_rate)?;
+        let cast = self.cast(clip)?;
+        let report = report(clip.skeleton(), &cast.model, &cast.found, 1.0);
+        let mut notes = notes(&report, &cast.found);
+        notes.extend(cast.still_limbs());
+        notes.extend(self.name()?.1);
+        notes.extend((!cast.has_leg()).then(no_legs));
+        notes.extend(cast.notes);
+        Ok(notes)
+    }
+
+    /// Whether a value of [`Vmd::model`] names a model file, which only the program can read.
+    pub fn is_file(model: &str) -> bool {
+        let lower = model.to_ascii_lowercase();
+        ENDINGS.iter().any(|ending| lower.ends_with(ending))
+    }
+
+    /// Sets the model that the motion is for, and its name.
+    pub fn play(&mut self, body: MmdModel) {
+        self.model.clone_from(&body.name);
+        self.body = Some(body);
+    }
+
+    fn cast(&self, clip: &Clip) -> Result<Cast, Error> {
+        let map = self.map();
+        Cast::new(&map, map.locate(clip)?, self.bones, self.body.as_ref())
+    }
+
+    /// The model's name as encoded in the file, with a warning if it had to change.
+    fn name(&self) -> Result<(String, Option<Warning>), Error> {
+        if self.body.is_none() && Self::is_file(&self.model) {
+            let message =
+                "this is a file: the program reads it, in the library MmdModel::read does";
+            return Err(Error::setting("vmd.model", message));
+        }
+        match (cut(&self.model), &self.body) {
+            (Err(_), Some(body)) if body.name == self.model => {
+                let message = format!(
+                    "the model's name {} has letters that no VMD holds: MMD will say that the motion is for another",
+                    body.name
+                );
+                Ok((NAMELESS.into(), Some(Warning::new("W_VMD_MODEL_NAME", message))))
+            }
+            (named, _) => named,
+        }
+    }
+
+    fn map(&self) -> Cow<'_, BoneMap> {
+        self.map.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
+    }
+}
+
+/// Conversion of koma to frames.
+struct Frames {
+    in_koma: f64,
+}
+
+impl Frames {
+    fn new(fps: f64, koma_rate: f64) -> Result<Self, Error> {
+        if koma_rate > fps {
+            let message = format!(
+                "{koma_rate} koma a second do not go into {fps} frames: two would be one; take {koma_rate} or more"
+            );
+            return Err(Error::setting("vmd.fps", message));
+        }
+        Ok(Self { in_koma: fps / koma_rate })
+    }
+
+    /// The frame on which a koma begins: its time, rounded half up.
+    fn frame_at(&self, koma: usize) -> Result<u32, Error> {
+        let frame = (koma as f64 * self.in_koma + 0.5).floor();
+        if frame <= f64::from(u32::MAX) {
+            Ok(frame as u32)
+        } else {
+            Err(Error::clip("the sheet is too long for a VMD file"))
+        }
+    }
+}
+
+/// Keys every bone on the first frame of each drawing, and on its last frame if that differs. If the root moves
+/// while a drawing is held, the centre is keyed on every koma too. If the feet stay planted meanwhile, every bone is.
+fn keys(
+    composite: &Composite<'_>,
+    frames: &Frames,
+    retarget: &mut Retarget<'_>,
+) -> Result<Vec<VmdKey>, Error> {
+    let layer = composite.layer();
+    let bones = retarget.bones();
+    let slides = composite.slides() && retarget.has_center();
+    let mut before = vec![DQuat::IDENTITY; bones.len()];
+    let exposures: Vec<(usize, Exposure)> = if composite.steppers().is_empty() {
+        layer.timed().collect()
+    } else {
+        layer.koma().map(|drawing| Exposure { drawing, koma: 1 }).enumerate().collect()
+    };
+    let mut keys = Vec::with_capacity(2 * bones.len() * exposures.len());
+    for (begin, exposure) in exposures {
+        let mut pose = retarget.take(exposure.drawing, begin);
+        for (local, before) in pose.iter_mut().zip(&mut before) {
+            // q and −q are the same rotation, but MMD would interpolate between them the long way round.
+            if local.rotation.dot(*before) < 0.0 {
+                local.rotation = -local.rotation;
+            }
+            *before = local.rotation;
+        }
+        let (first, last) = (frames.frame_at(begin)?, frames.frame_at(begin + exposure.koma)? - 1);
+        keys.extend(posed(retarget, &bones, &pose, first));
+        let held = usize::from(slides)..bones.len() * usize::from(last > first);
+        if !held.is_empty() {
+            keys.extend(posed(retarget, &bones[held.clone()], &pose[held], last));
+        }
+        if slides {
+            keys.extend(slide(retarget, exposure, begin, frames)?);
+        }
+    }
+    keys.sort_by_key(|key| key.frame);
+    Ok(keys)
+}
+
+/// Keys some bones on a frame.
+fn posed<'a>(
+    retarget: &'a Retarget<'_>,
+    bones: &'a [usize],
+    pose: &'a [Local],
+    frame: u32,
+) -> impl Iterator<Item = VmdKey> + 'a {
+    bones.iter().zip(pose).map(move |(bone, local)| retarget.key(*bone, frame, *local))
+}
+
+/// Keys the centre on each koma after the first of an exposure.
+fn slide(
+    retarget: &mut Retarget<'_>,
+    exposure: Exposure,
+    begin: usize,
+    frames: &Frames,
+) -> Result<Vec<VmdKey>, Error> {
+    let center = retarget.bones()[0];
+    let key = |koma: usize| {
+        let local = retarget.take(exposure.drawing, koma)[0];
+        Ok(retarget.key(center, frames.frame_at(koma)?, local))
+    };
+    (begin + 1..begin + exposure.koma).map(key).collect()
+}
+
+impl Retarget<'_> {
+    /// Converts a pose to MMD's left-handed axes, in which z is reversed.
+    fn key(&self, bone: usize, frame: u32, local: Local) -> VmdKey {
+        let Local { translation: t, rotation: q } = local;
+        // Adding 0 turns −0 into 0.
+        let single = |value: f64| value as f32 + 0.0;
+        VmdKey {
+            bone: self.name(bone).into(),
+            frame,
+            translation: [t.x, t.y, -t.z].map(single),
+            rotation: [-q.x, -q.y, q.z, q.w].map(single),
+        }
+    }
+}
+
+/// Cuts the model's name to the length a VMD holds, never within a character.
+fn cut(name: &str) -> Result<(String, Option<Warning>), Error> {
+    let mut short = name.to_owned();
+    while cp932(&short, usize::MAX)?.len() > LONGEST_MODEL {
+        short.pop();
+    }
+    let note = (short != name).then(|| {
+        let message = format!("the model's name is cut to \"{short}\": a VMD holds 20 bytes");
+        Warning::new("W_VMD_MODEL_NAME", message)
+    });
+    Ok((short, note))
+}
+
+fn no_legs() -> Warning {
+    let message = "no legs to measure: the unit is guessed by the body's size, 8 cm to an MMD unit";
+    Warning::new("W_VMD_NO_LEGS", message)
+}
+
+fn report(skeleton: &Skeleton, model: &Model, found: &Found, scale: f64) -> VmdReport {
+    let name = |joint: &JointId| skeleton.joints[joint.0].name.clone();
+    let driven = model.bones.iter().zip(&found.joints).filter(|(_, joints)| !joints.is_empty());
+    let bones = driven.map(|(bone, joints)| (bone.name.clone(), joints.iter().map(name).collect()));
+    let mapped: HashSet<usize> = found.joints.iter().flatten().map(|joint| joint.0).collect();
+    let mut carrying = vec![false; skeleton.len()];
+    for (JointId(joint), data) in skeleton.iter().rev() {
+        if let Some(JointId(parent)) = data.parent {
+            carrying[parent] |= carrying[joint] || mapped.contains(&joint);
+        }
+    }
+    let others = |carries: bool| {
+        let joints = skeleton.iter().filter(|(joint, _)| !mapped.contains(&joint.0));
+        let joints = joints.filter(|(joint, _)| carrying[joint.0] == carries);
+        joints.map(|(_, joint)| joint.name.clone()).collect::<Vec<_>>()
+    };
+    VmdReport {
+        dialect: found.dialect.clone(),
+        bones: bones.collect(),
+        carried: others(true),
+        left_out: others(false),
+        scale,
+    }
+}
+
+fn notes(report: &VmdReport, found: &Found) -> Vec<Warning> {
+    let mut notes = Vec::new();
+    if !found.by_shape.is_empty() {
+        let message = if found.dialect == SHAPE {
+            "vmd: no joint has a name that is known: the shape of the body says which is which"
+                .into()
+        } else {
+            let bones = found.by_shape.join(", ");
+            format!(
+                "vmd: the shape of the body says which joints are {bones}: names do not, or do not fit it"
+            )
+        };
+        notes.push(Warning::new("W_BY_SHAPE", message));
+    }
+    if !report.left_out.is_empty() {
+        let joints = report.left_out.join(", ");
+        let message = format!(
+            "vmd: no bone for {joints}: their motion is not in it (a file of bones says where it belongs)"
+        );
+        notes.push(Warning::new("W_VMD_LEFT_OUT", message));
+    }
+    if !found.missing.is_empty() {
+        let message = format!("vmd: the clip has no joint {}", found.missing.join(", "));
+        notes.push(Warning::new("W_VMD_NO_JOINT", message));
+    }
+    notes
+}

@@ -1,0 +1,9 @@
+//! Tests of the MMD motion, as a file and as a posed body.
+
+mod body;
+mod file;
+mod given;
+mod names;
+mod reader;
+mod rests;
+mod structure;

@@ -1,0 +1,72 @@
+//! Converts keys that a person marked on a timesheet to pins.
+
+use super::read::{Change, Column, Mark};
+use genga::edits::Pin;
+use genga::error::Error;
+use genga::sheet::Sheet;
+use genga::time::Frame;
+
+/// The meaning of a number without a circle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Numbered {
+    /// A key: the sheet lists genga (ACTION).
+    Keys,
+    /// Any drawing: the sheet lists douga (CELL), and only circled numbers are keys.
+    Drawings,
+}
+
+/// Returns the keys of a column. If any number is circled, only circled ones are keys, whatever the sheet.
+pub fn marked_keys(column: &Column, numbered: Numbered) -> Vec<&Change> {
+    let drawings = column.changes.iter().filter(|change| matches!(change.mark, Mark::Drawing(_)));
+    let circled =
+        numbered == Numbered::Drawings || column.changes.iter().any(|change| change.circled);
+    drawings.filter(|change| change.circled || !circled).collect()
+}
+
+/// Converts the marked keys of a column to pins, named by column and number, such as `A3`.
+///
+/// `sheet` is the sheet without these pins, and provides the clock. If one of its kept drawings begins on a
+/// marked koma, the pin is that drawing's source frame. Otherwise it is the source frame nearest to the
+/// koma, between `first` and `last`.
+///
+/// # Errors
+/// [`Error::Edits`] for a key beyond the sheet's last koma: the file belongs to another clip, or to another
+/// part of it.
+pub fn pins(
+    column: &Column,
+    numbered: Numbered,
+    sheet: &Sheet,
+    (first, last): (Frame, Frame),
+) -> Result<Vec<Pin>, Error> {
+    let pin = |change: &Change| {
+        let koma = change.koma;
+        if koma >= sheet.length() {
+            let message = format!(
+                "column {} has a key on koma {}, and the sheet of this clip has {}; is the file of \
+                 the same clip, and the same --trim?",
+                column.name,
+                koma + 1,
+                sheet.length()
+            );
+            return Err(Error::Edits { message });
+        }
+        let place =
+            kept_on(sheet, &column.name, koma).unwrap_or_else(|| sheet.clock.place_from_koma(koma));
+        let frame = Frame((place.round().max(0.0) as usize).clamp(first.0, last.0));
+        let Mark::Drawing(number) = &change.mark else { unreachable!("only drawings are keys") };
+        // Command-line syntax of pins is FRAME:NAME,… so names must not contain these characters.
+        let name = format!("{}{number}", column.name).replace([',', ':'], "_");
+        Ok(Pin { frame, name: Some(name), weight: None })
+    };
+    marked_keys(column, numbered).into_iter().map(pin).collect()
+}
+
+/// The source place of the kept drawing that begins on a koma, if there is one, in the layer of that name or else in
+/// the first layer.
+fn kept_on(sheet: &Sheet, column: &str, koma: usize) -> Option<f64> {
+    let named = sheet.layers.iter().find(|layer| layer.name == column);
+    let layer = named.or(sheet.layers.first())?;
+    let (_, shown) = layer.timed().find(|(begin, _)| *begin == koma)?;
+    let drawing = &layer.drawings[shown.drawing];
+    drawing.role.is_kept().then(|| drawing.source.place())
+}

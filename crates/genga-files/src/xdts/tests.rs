@@ -1,0 +1,10 @@
+//! The two files of a sheet, and reading them back.
+
+mod examples;
+mod laws;
+mod marked;
+mod open_toonz;
+mod reading;
+pub(crate) mod sheets;
+mod spoken;
+mod writing;

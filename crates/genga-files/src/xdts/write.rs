@@ -1,0 +1,222 @@
+//! Writes a sheet as XDTS.
+
+use std::io;
+
+use serde::{Deserialize, Serialize};
+use serde_json::ser::{CompactFormatter, Formatter, Serializer};
+
+use super::file::{Datum, Entry, Field, Header, Names, Root, TimeTable, Track};
+use super::{BLANK, CELS, CIRCLED, EXTENDED, INBETWEEN, SIGNATURE, speech};
+use genga::error::Error;
+use genga::knob::{knob, knobs};
+use genga::sheet::{Layer, Sheet, column_name};
+
+/// Settings of a sheet as XDTS version 5.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Xdts {
+    /// Whether the douga file marks which numbers are keys; default no. It is an extension of OpenToonz,
+    /// which other programs may be unable to read.
+    pub circled: bool,
+}
+
+knobs!(xdts::Xdts {
+    circled: knob(
+        "丸囲みの原画",
+        "Whether the douga file marks the numbers of keys. This is an OpenToonz extension; other \
+         programs may not read the file.",
+        "動画のファイルに原画の番号の印を付けるか。OpenToonzの拡張で、読めないソフトもある。",
+    ),
+});
+
+/// The two XDTS files of a sheet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct XdtsPair {
+    /// The file for the ACTION column: keys and ends numbered as in `keys.csv`, and a mark per inbetween.
+    pub genga: String,
+    /// The file for the CELL column: every drawing numbered as in `drawings.csv`.
+    pub douga: String,
+}
+
+/// A column of the paper, as a field of a time table.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Column {
+    /// ACTION: keys are numbered; an inbetween is a mark, or is left out.
+    Genga { has_marks: bool },
+    /// CELL: every drawing is numbered, and keys may be circled.
+    Douga { has_circles: bool },
+}
+
+impl Xdts {
+    /// Writes the sheet as two files, with one track per layer in the sheet's order, from back to front. The header
+    /// gets only the digits of `cut`, because it has no room for more; the time table has the whole name.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] for a sheet without koma, and as [`Sheet::check`].
+    pub fn write(&self, sheet: &Sheet, cut: &str) -> Result<XdtsPair, Error> {
+        checked(sheet)?;
+        Ok(XdtsPair {
+            genga: text(SIGNATURE, &self.file(sheet, cut, Column::Genga { has_marks: true }))?,
+            douga: text(
+                SIGNATURE,
+                &self.file(sheet, cut, Column::Douga { has_circles: self.circled }),
+            )?,
+        })
+    }
+
+    fn file(&self, sheet: &Sheet, cut: &str, column: Column) -> Root {
+        let extended = column == Column::Douga { has_circles: true };
+        Root {
+            header: header(cut),
+            subversion: extended.then(|| EXTENDED.into()),
+            time_tables: vec![time_table(sheet, cut, &[(CELS, column)])],
+            time_sheets: vec![],
+            version: 5,
+        }
+    }
+}
+
+/// The time table of a sheet: a field per column of the paper, with a track per layer, and a field of dialogue if any.
+pub(super) fn time_table(sheet: &Sheet, cut: &str, columns: &[(u32, Column)]) -> TimeTable {
+    let names = sheet.layers.iter().enumerate().map(|(track, layer)| name(track, &layer.name));
+    let names: Vec<String> = names.collect();
+    let field = |&(field_id, column): &(u32, Column)| {
+        let tracks = sheet.layers.iter().enumerate();
+        let tracks =
+            tracks.map(|(track_no, layer)| Track { frames: entries(layer, column), track_no });
+        Field { field_id, tracks: tracks.collect() }
+    };
+    let named = |&(field_id, _): &(u32, Column)| Names { field_id, names: names.clone() };
+    let (spoken, spoken_names) = speech::field(&sheet.lines).unzip();
+    TimeTable {
+        duration: sheet.length() as u64,
+        fields: columns.iter().map(field).chain(spoken).collect(),
+        name: cut.into(),
+        time_table_headers: columns.iter().map(named).chain(spoken_names).collect(),
+    }
+}
+
+/// The changes of a layer as entries, closed by a blank after its last koma.
+fn entries(layer: &Layer, column: Column) -> Vec<Entry> {
+    let genga = layer.genga_numbers();
+    let mut entries = Vec::new();
+    for (koma, drawing) in layer.changes() {
+        let key = genga[drawing];
+        match (column, key) {
+            (Column::Genga { .. }, Some(number)) => {
+                entries.push(entry(koma, number.to_string(), false));
+            }
+            (Column::Genga { has_marks: true }, None) => {
+                entries.push(entry(koma, INBETWEEN.into(), false));
+            }
+            (Column::Genga { has_marks: false }, None) => {}
+            (Column::Douga { has_circles }, _) => {
+                let number = (drawing + 1).to_string();
+                entries.push(entry(koma, number, has_circles && key.is_some()));
+            }
+        }
+    }
+    entries.push(entry(layer.length(), BLANK.into(), false));
+    entries
+}
+
+/// Rejects sheets from which no time table can be made.
+pub(super) fn checked(sheet: &Sheet) -> Result<(), Error> {
+    if sheet.length() == 0 {
+        return Err(Error::sheet("the sheet has no koma, and a time table needs one"));
+    }
+    sheet.check()
+}
+
+fn entry(koma: usize, value: String, circled: bool) -> Entry {
+    let options = if circled { vec![CIRCLED.into()] } else { vec![] };
+    Entry { data: vec![Datum { id: 0, options, values: vec![value] }], frame: koma as i64 }
+}
+
+/// A column name that programs accept: never empty, and never `S0` to `S9`, which Clip Studio takes for
+/// sound.
+pub(crate) fn name(track: usize, name: &str) -> String {
+    let is_sound = |name: &str| {
+        name.strip_prefix(['S', 's'])
+            .is_some_and(|rest| matches!(rest.as_bytes(), [digit] if digit.is_ascii_digit()))
+    };
+    match name.trim() {
+        "" => column_name(track),
+        name if is_sound(name) => format!("cel_{name}"),
+        name => name.into(),
+    }
+}
+
+/// Extracts the numbers of cut and scene, with 1 to 4 digits as the format requires. `None` if the name has no such
+/// number, because no number is better than a wrong one.
+///
+/// The cut is the number after a `c`, or else the first one. The scene is the number after an `s`, or else 1.
+pub(super) fn header(cut: &str) -> Option<Header> {
+    let numbers = numbers(cut);
+    let after = |letter: char| numbers.iter().find(|(before, _)| *before == Some(letter));
+    let scene = after('s');
+    let first = numbers.iter().find(|number| Some(*number) != scene);
+    let cut = after('c').or(first)?.1.clone();
+    Some(Header { cut, scene: scene.map_or("1".into(), |scene| scene.1.clone()) })
+}
+
+/// All runs of at most four digits, without leading zeros. Each comes with the character before it in lower case,
+/// unless a further letter precedes that.
+fn numbers(text: &str) -> Vec<(Option<char>, String)> {
+    let letters: Vec<char> = text.chars().collect();
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < letters.len() {
+        let run = letters[at..].iter().take_while(|letter| letter.is_ascii_digit()).count();
+        if (1..=4).contains(&run) {
+            let digits: String = letters[at..at + run].iter().collect();
+            let number = digits.trim_start_matches('0');
+            let number = if number.is_empty() { "0" } else { number };
+            let alone = at < 2 || !letters[at - 2].is_alphabetic();
+            let before = at.checked_sub(1).map(|before| letters[before].to_ascii_lowercase());
+            found.push((before.filter(|_| alone), number.into()));
+        }
+        at += run.max(1);
+    }
+    found
+}
+
+pub(super) fn text(signature: &str, file: &Root) -> Result<String, Error> {
+    let mut bytes = format!("{signature}\n").into_bytes();
+    // Number of lists around an entry: time tables, fields, tracks and frames, plus the time sheets if used.
+    let entries = if file.time_sheets.is_empty() { 4 } else { 5 };
+    let mut writer = Serializer::with_formatter(&mut bytes, LineAnEntry { lists: 0, entries });
+    file.serialize(&mut writer)
+        .map_err(|error| Error::Encoding { what: "the time table", source: error.into() })?;
+    bytes.push(b'\n');
+    Ok(String::from_utf8(bytes).expect("JSON is text"))
+}
+
+/// Compact JSON with a line per track entry, so that a person can read and compare it.
+struct LineAnEntry {
+    /// Number of open lists.
+    lists: usize,
+    /// Number of open lists around an entry.
+    entries: usize,
+}
+
+impl Formatter for LineAnEntry {
+    fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.lists += 1;
+        CompactFormatter.begin_array(writer)
+    }
+
+    fn end_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.lists -= 1;
+        CompactFormatter.end_array(writer)
+    }
+
+    fn begin_array_value<W: ?Sized + io::Write>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        CompactFormatter.begin_array_value(writer, first)?;
+        if self.lists == self.entries { writer.write_all(b"\n") } else { Ok(()) }
+    }
+}

@@ -1,0 +1,158 @@
+//! Labels the drawings of a sheet for pictures: numbers, koma, names.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use crate::points::Showing;
+use crate::style;
+use genga::error::Error;
+use genga::motion::{Clip, Composite, Point};
+use genga::sheet::{Drawing, Exposure, Layer, Reason, Sheet};
+
+/// A drawing on screen.
+#[derive(Debug, Clone, Copy)]
+pub struct ShownDrawing<'a> {
+    /// The drawing.
+    pub drawing: &'a Drawing,
+    /// Index in the layer.
+    pub index: usize,
+    /// Number among the kept drawings, from 1, as in the key table; `None` for an inbetween.
+    pub genga: Option<usize>,
+    /// Koma on which it begins, from 0.
+    pub koma: usize,
+    /// Number of koma on screen.
+    pub held: usize,
+}
+
+impl ShownDrawing<'_> {
+    /// Returns the number in the CELL column, from 1.
+    pub fn number(&self) -> usize {
+        self.index + 1
+    }
+
+    /// Whether a person pinned it.
+    pub(super) fn is_pinned(&self) -> bool {
+        self.drawing.why.pinned.is_some()
+    }
+
+    /// Returns, in a few words each, a person's name for the drawing and the reasons why it exists.
+    pub(super) fn reasons(&self) -> Vec<String> {
+        let why = &self.drawing.why;
+        let mut reasons = Vec::new();
+        match why.pinned.as_deref() {
+            Some("") => reasons.push("pinned".to_owned()),
+            Some(name) => reasons.push(name.to_owned()),
+            None => {}
+        }
+        if why.hold_set {
+            reasons.push("hold 止め".to_owned());
+        }
+        if why.omitted_before > 0 {
+            reasons.push(format!("抜いた中割 {}", why.omitted_before));
+        }
+        match why.reason {
+            Some(reason @ (Reason::Fill | Reason::Rest | Reason::Contact | Reason::Step)) => {
+                reasons.push(format!("{} {}", reason.word(), reason.japanese()));
+            }
+            Some(Reason::Turn | Reason::Pin) | None => {}
+        }
+        match &*why.voters {
+            [] => {}
+            [one] => reasons.push(one.to_string()),
+            [first, others @ ..] => reasons.push(format!("{first} +{}", others.len())),
+        }
+        // There is no room for both.
+        if let Some(price) = why.price.filter(|_| why.omitted_before == 0) {
+            reasons.push(format!("{price:.1} %"));
+        }
+        reasons
+    }
+}
+
+/// Returns the exposures of a layer, labelled.
+pub fn shown_drawings(layer: &Layer) -> Vec<ShownDrawing<'_>> {
+    let numbers = layer.genga_numbers();
+    let cell = |(koma, exposure): (usize, Exposure)| {
+        let index = exposure.drawing;
+        let drawing = &layer.drawings[index];
+        ShownDrawing { drawing, index, genga: numbers[index], koma, held: exposure.koma }
+    };
+    layer.timed().map(cell).collect()
+}
+
+/// Combines all layers of a sheet as figures show them, after checking that they can be shown.
+///
+/// # Errors
+/// [`Error::Sheet`] as in [`Sheet::first_layer`], and if a joint does not exist; [`Error::Picture`] if there
+/// is no frame or no joint, or if a drawing's place is not a number.
+pub(super) fn composed<'a>(clip: &'a Clip, sheet: &'a Sheet) -> Result<Composite<'a>, Error> {
+    check(clip, &sheet.layers)?;
+    Composite::new(clip, sheet)
+}
+
+/// Returns the layer that curves show, the first, after the check of [`composed`].
+///
+/// # Errors
+/// As [`composed`].
+pub(super) fn shown<'a>(clip: &Clip, sheet: &'a Sheet) -> Result<&'a Layer, Error> {
+    check(clip, &sheet.layers)?;
+    sheet.first_layer()
+}
+
+fn check(clip: &Clip, layers: &[Layer]) -> Result<(), Error> {
+    if clip.is_empty() || clip.skeleton().is_empty() {
+        return Err(style::cannot("a clip without frames or joints has no pose to draw"));
+    }
+    let mut drawings = layers.iter().flat_map(|layer| &layer.drawings);
+    if drawings.all(|drawing| drawing.source.place().is_finite()) {
+        Ok(())
+    } else {
+        Err(style::cannot("a drawing's place in the source must be a number"))
+    }
+}
+
+/// Returns the first `most` koma of a layer, with the drawings up to the last one seen there. Drawings keep
+/// their numbers.
+pub(super) fn beginning(layer: &Layer, most: usize) -> Cow<'_, Layer> {
+    if layer.length() <= most {
+        return Cow::Borrowed(layer);
+    }
+    let on_screen = layer.timed().take_while(|(koma, _)| *koma < most);
+    let exposures: Vec<Exposure> = on_screen
+        .map(|(koma, exposure)| Exposure { koma: exposure.koma.min(most - koma), ..exposure })
+        .collect();
+    let drawings = exposures.iter().map(|exposure| exposure.drawing + 1).max().unwrap_or(0);
+    let drawings = layer.drawings[..drawings].to_vec();
+    let (name, joints) = (layer.name.clone(), layer.joints.clone());
+    Cow::Owned(Layer { name, joints, drawings, exposures })
+}
+
+/// Returns the points of the first drawings of a composite, each on its first koma on screen.
+pub(super) fn drawn_poses(
+    composite: &Composite<'_>,
+    marks: &[Point],
+    drawings: usize,
+) -> Vec<Vec<DVec3>> {
+    let mut showing = Showing::new(composite, marks);
+    let first = composite.first_koma().into_iter().take(drawings).enumerate();
+    first.map(|(drawing, koma)| showing.points(drawing, koma)).collect()
+}
+
+/// Returns the points on screen koma by koma; `None` if held drawings do not slide.
+pub(super) fn sliding_poses(
+    composite: &Composite<'_>,
+    marks: &[Point],
+    koma: usize,
+) -> Option<Vec<Vec<DVec3>>> {
+    let mut showing = Showing::new(composite, marks);
+    let drawings = composite.layer().koma().take(koma).enumerate();
+    let poses = drawings.map(|(koma, drawing)| showing.points(drawing, koma));
+    composite.slides().then(|| poses.collect())
+}
+
+/// Formats a length of time as on a sheet: seconds + koma.
+pub(super) fn seconds_and_koma(koma: usize, koma_rate: f64) -> String {
+    let second = koma_rate.round().max(1.0) as usize;
+    format!("{}+{}", koma / second, koma % second)
+}

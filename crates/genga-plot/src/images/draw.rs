@@ -1,0 +1,154 @@
+//! Draws the numbered images as pixels.
+
+use super::NumberedImages;
+use crate::canvas::{Canvas, Inks};
+use crate::drawings::{composed, drawn_poses};
+use crate::figure::{Drawn, Figure};
+use crate::paper_point::Point;
+use crate::pixels::{Digits, Pixels};
+use crate::points::Showing;
+use crate::stage::{Bounds, Stage};
+use crate::style;
+use genga::error::Error;
+use genga::motion::{Clip, Composite, layer_of};
+use genga::sheet::Sheet;
+
+/// Share of the picture on each side that figures stay out of: the edge of the safe area.
+const SAFE: f64 = 0.05;
+
+/// Stage and backdrop of all images, and the pixels of the current one.
+struct Easel {
+    stage: Stage,
+    backdrop: Pixels,
+    pixels: Pixels,
+    /// End of the number's base line and its digits, if the number is written.
+    number: Option<(Point, Digits)>,
+}
+
+impl Easel {
+    /// Draws a figure with its number, and returns the PNG.
+    fn picture(&mut self, drawn: &Drawn, number: usize) -> Result<Vec<u8>, Error> {
+        self.pixels.copy(&self.backdrop);
+        self.pixels.figure(drawn, Inks::Sides);
+        if let Some((at, digits)) = &self.number {
+            digits.write(&mut self.pixels, number, *at);
+        }
+        self.pixels.png()
+    }
+}
+
+impl NumberedImages {
+    /// Draws one image per drawing and passes each with its file name to `take`, in order.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as in [`NumberedImages::validate`]; [`Error::Sheet`] or [`Error::Picture`] if clip
+    /// and sheet have nothing to show; any error of `take`.
+    pub fn draw<E: From<Error>>(
+        &self,
+        clip: &Clip,
+        sheet: &Sheet,
+        mut take: impl FnMut(&str, Vec<u8>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let composite = composed(clip, sheet)?;
+        let figure = Figure::new(clip, self.body);
+        let mut easel = self.easel(&composite, &figure)?;
+        let stage = easel.stage.clone();
+        let mut showing = Showing::new(&composite, figure.marks());
+        let name: String = composite.layer().name.chars().map(plain).collect();
+        for (at, koma) in composite.first_koma().into_iter().enumerate() {
+            let picture = easel.picture(&stage.draw(&showing.points(at, koma)), at + 1)?;
+            take(&format!("{name}_{:04}.png", at + 1), picture)?;
+        }
+        Ok(())
+    }
+
+    /// Draws each column alone, with only the parts of the body that its joints turn. Passes each drawing
+    /// that is on screen to `take`, with the index of its layer and its own, from 0. All images fit on each
+    /// other.
+    ///
+    /// # Errors
+    /// As [`NumberedImages::draw`].
+    pub fn draw_columns<E: From<Error>>(
+        &self,
+        clip: &Clip,
+        sheet: &Sheet,
+        mut take: impl FnMut(usize, usize, Vec<u8>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let composite = composed(clip, sheet)?;
+        let figure = Figure::new(clip, self.body);
+        let mut easel = self.easel(&composite, &figure)?;
+        let mut showing = Showing::new(&composite, figure.marks());
+        let on_screen: Vec<usize> = composite.layer().koma().collect();
+        let columns = layer_of(clip.skeleton(), sheet)?;
+        for (column, layer) in sheet.layers.iter().enumerate() {
+            let own = columns.iter().map(|of| *of == column).collect();
+            let stage = Stage { figure: figure.only(own), ..easel.stage.clone() };
+            let mut drawn = vec![false; layer.drawings.len()];
+            for (koma, exposure) in layer.timed() {
+                if std::mem::replace(&mut drawn[exposure.drawing], true) {
+                    continue;
+                }
+                let pose = showing.points(on_screen[koma], koma);
+                let picture = easel.picture(&stage.draw(&pose), exposure.drawing + 1)?;
+                take(column, exposure.drawing, picture)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn easel(&self, composite: &Composite<'_>, figure: &Figure) -> Result<Easel, Error> {
+        self.validate()?;
+        let stage = self.stage(composite, figure);
+        let backdrop = Pixels::new(&self.backdrop(&stage))?;
+        let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
+        let number = self.marks.then(|| (self.inside(0.99 - SAFE), digits));
+        Ok(Easel { stage, pixels: backdrop.clone(), backdrop, number })
+    }
+
+    /// Returns the point at a share of the picture's width and height, from its upper left corner.
+    fn inside(&self, share: f64) -> (f64, f64) {
+        (share * f64::from(self.width), share * f64::from(self.height))
+    }
+
+    fn stage(&self, composite: &Composite<'_>, figure: &Figure) -> Stage {
+        let clip = composite.clip();
+        let poses = drawn_poses(composite, figure.marks(), composite.layer().drawings.len());
+        let view = self.camera.view(clip, &poses);
+        let bounds = Bounds::new(figure, &view, &poses);
+        let (wide, high) = self.inside(1.0 - 4.0 * SAFE);
+        let (width, height) = self.inside(1.0);
+        let floor = (1.0 - 2.0 * SAFE) * height;
+        Stage::filling(figure.clone(), view, &bounds, (0.5 * width, floor), (wide, high))
+    }
+
+    /// Draws the backdrop that all images share.
+    fn backdrop(&self, stage: &Stage) -> String {
+        let (width, height) = self.inside(1.0);
+        let mut canvas = if self.transparent {
+            Canvas::clear((width, height))
+        } else {
+            Canvas::new((width, height))
+        };
+        if !self.marks {
+            return canvas.finish();
+        }
+        let (x, y) = self.inside(SAFE);
+        canvas.frame((x, y), (width - 2.0 * x, height - 2.0 * y), style::GRID, 0.0);
+        canvas.line((x, stage.at.1), (width - x, stage.at.1), style::GRID, 1.25);
+        let arm = 0.02 * height;
+        for x in [1.5 * arm, width - 1.5 * arm] {
+            for y in [1.5 * arm, height - 1.5 * arm] {
+                canvas.line((x - arm, y), (x + arm, y), style::INK, 1.0);
+                canvas.line((x, y - arm), (x, y + arm), style::INK, 1.0);
+                canvas.hoop((x, y), 0.5 * arm, style::INK, 1.0);
+            }
+        }
+        canvas.finish()
+    }
+}
+
+/// Replaces a letter by `_` unless every system allows it in file names.
+fn plain(letter: char) -> char {
+    let kept = letter.is_alphanumeric() || letter == '-';
+    if kept { letter } else { '_' }
+}

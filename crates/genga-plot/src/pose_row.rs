@@ -1,0 +1,200 @@
+//! Draws poses in a row.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::canvas::{Align, Canvas, Inks, Type};
+use crate::chart::number;
+use crate::drawings::{ShownDrawing, composed, shown_drawings};
+use crate::figure::{Figure, FigureBody};
+use crate::legend::{self, SIDES};
+use crate::paper_point::Point;
+use crate::points::{Posing, Showing};
+use crate::stage::{Bounds, Stage, fitting, largest};
+use crate::{style, title};
+use genga::error::Error;
+use genga::motion::{Camera, Clip};
+use genga::sheet::{Role, Sheet, Source};
+
+/// Figures of some drawings, side by side, on one floor and of one scale.
+///
+/// Each figure stands in the middle of its own cell; its place in the world is not shown.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PoseRow {
+    /// Name of the clip, below the title; default empty, not shown.
+    pub clip: String,
+    /// Maximum width in px, 200 to 20000; default 1200.
+    pub width: u32,
+    /// Height of the tallest figure in px, 40 to 2000; default 170.
+    pub figure_height: u32,
+    /// Maximum number of figures on a line, 1 to 1000; default 12. Wide poses reduce it.
+    pub in_line: usize,
+    /// Maximum number of figures, counted from the first, 1 to 1000; default 300. The picture says if some
+    /// are left out.
+    pub most: usize,
+    /// How figures are drawn; default mannequin.
+    #[serde(skip)]
+    pub body: FigureBody,
+}
+
+impl Default for PoseRow {
+    fn default() -> Self {
+        Self {
+            clip: String::new(),
+            width: 1200,
+            figure_height: 170,
+            in_line: 12,
+            most: 300,
+            body: FigureBody::default(),
+        }
+    }
+}
+
+const HEAD: f64 = title::HIGH + 4.0;
+const GAP: f64 = 14.0;
+const LABELS: f64 = 42.0;
+const BETWEEN_LINES: f64 = 16.0;
+/// Minimum width of a picture in px, so that its title fits.
+const NARROWEST: f64 = 380.0;
+
+impl PoseRow {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if a size or a count is out of range.
+    pub fn validate(&self) -> Result<(), Error> {
+        style::check_size("width", self.width, 200)?;
+        style::check_figure(self.figure_height)?;
+        style::check_count("in_line", self.in_line, style::MOST)?;
+        style::check_count("most", self.most, style::MOST)
+    }
+
+    /// Draws poses of a clip as SVG. Each is given by its place in the source, its label and its role.
+    ///
+    /// The camera stands on the side that shows most of the movement.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] as in [`PoseRow::validate`]; [`Error::Picture`] if there is no joint, no frame or
+    /// no pose, or if a place is not finite.
+    pub fn draw(&self, clip: &Clip, frames: &[(f64, String, Role)]) -> Result<String, Error> {
+        self.validate()?;
+        if clip.is_empty() || clip.skeleton().is_empty() {
+            return Err(style::cannot("a clip without frames or joints has no pose to draw"));
+        }
+        if !frames.iter().all(|(place, ..)| place.is_finite()) {
+            return Err(style::cannot("a pose's place in the source must be a number"));
+        }
+        let shown = frames.iter().take(self.most);
+        let figure = Figure::new(clip, self.body);
+        let poses = Posing::new(clip, figure.marks()).all(shown.map(|frame| Source::At(frame.0)));
+        self.row(clip, &figure, frames, &poses)
+    }
+
+    /// Draws the genga and ends of a sheet as SVG, all layers combined, numbered as in the key table.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] or [`Error::Picture`] if clip and sheet have nothing to show.
+    ///
+    /// ```
+    /// # use genga::{edits::Edits, pipeline::Engine, recipe::Recipe};
+    /// use genga_plot::PoseRow;
+    ///
+    /// # let clip = genga::motion::bvh::open("../../data/kick.bvh".as_ref())?.clip;
+    /// # let mut engine = Engine::new(clip)?;
+    /// let breakdown = engine.run(&Recipe::default(), &Edits::default())?;
+    /// let svg = PoseRow::default().draw_kept(breakdown.clip, breakdown.sheet)?;
+    /// assert!(svg.starts_with("<svg"));
+    /// # Ok::<(), genga::Error>(())
+    /// ```
+    pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
+        self.validate()?;
+        let composite = composed(clip, sheet)?;
+        let mut kept = shown_drawings(composite.layer());
+        kept.retain(|cell| cell.genga.is_some());
+        let frame = |cell: &ShownDrawing<'_>| {
+            let label = format!("{} · koma {}", cell.genga.unwrap_or_default(), cell.koma + 1);
+            (cell.drawing.source.place(), label, cell.drawing.role)
+        };
+        let figure = Figure::new(clip, self.body);
+        let mut showing = Showing::new(&composite, figure.marks());
+        let shown = kept.iter().take(self.most);
+        let poses: Vec<_> = shown.map(|cell| showing.points(cell.index, cell.koma)).collect();
+        self.row(clip, &figure, &kept.iter().map(frame).collect::<Vec<_>>(), &poses)
+    }
+
+    /// Draws the row of some poses, which belong to the first of `frames`.
+    fn row(
+        &self,
+        clip: &Clip,
+        figure: &Figure,
+        frames: &[(f64, String, Role)],
+        poses: &[Vec<DVec3>],
+    ) -> Result<String, Error> {
+        if poses.is_empty() {
+            return Err(style::cannot("no pose to draw"));
+        }
+        let (all, frames) = (frames.len(), &frames[..poses.len()]);
+        let view = Camera::Auto.view(clip, poses);
+        let floor = Bounds::new(figure, &view, poses).floor;
+        let size = largest(figure, &view, poses, floor);
+        let room = f64::from(self.width) - 2.0 * style::MARGIN - GAP;
+        let scale = fitting(size, (room, f64::from(self.figure_height)));
+        let figure = figure.clone();
+        let stage = Stage { figure, view, scale, origin: (0.0, floor), at: (0.0, 0.0) };
+        let high = size.1 * scale;
+        let least = (size.0 * scale + GAP).max(70.0);
+        let fit = ((room + GAP) / least).floor().max(1.0) as usize;
+        let in_line = fit.min(self.in_line).min(frames.len());
+        let cell = if frames.len() >= in_line.max(8) {
+            (room + GAP) / in_line as f64
+        } else {
+            least + GAP
+        };
+        let lines = frames.len().div_ceil(in_line);
+        let line = high + LABELS + BETWEEN_LINES + 12.0;
+        let width = (cell * in_line as f64 + 2.0 * style::MARGIN).max(NARROWEST);
+        let width = width.min(f64::from(self.width).max(NARROWEST));
+        let height = HEAD + line * lines as f64 + 10.0;
+        let mut canvas = Canvas::new((width, height));
+        self.head(&mut canvas, (frames.len(), all), width - style::MARGIN);
+        for (at, row) in frames.chunks(in_line).enumerate() {
+            let floor = HEAD + line * at as f64 + 12.0 + high;
+            let end = style::MARGIN + cell * row.len() as f64;
+            canvas.line((style::MARGIN, floor), (end, floor), style::RAW, 1.25);
+            for (column, frame) in row.iter().enumerate() {
+                let x = style::MARGIN + cell * (column as f64 + 0.5);
+                let pose = &poses[at * in_line + column];
+                canvas.figure(&stage.draw_over(pose, (x, floor)), Inks::Sides);
+                label(&mut canvas, frame, (x, floor), cell);
+            }
+        }
+        Ok(canvas.finish())
+    }
+
+    /// Draws the title, the clip, how many of the figures are shown, and the legend of the sides.
+    fn head(&self, canvas: &mut Canvas, (shown, all): (usize, usize), right: f64) {
+        let first = if shown < all { format!("the first {shown} of {all}") } else { String::new() };
+        let words = [self.clip.as_str(), &first];
+        let words: Vec<&str> = words.into_iter().filter(|words| !words.is_empty()).collect();
+        title::draw(canvas, "Poses ポーズ", &words.join("  ·  "), right);
+        legend::draw(canvas, right, &SIDES);
+    }
+}
+
+/// Draws the label in its role's colour, and the frame below it.
+fn label(
+    canvas: &mut Canvas,
+    (place, label, role): &(f64, String, Role),
+    (x, floor): Point,
+    cell: f64,
+) {
+    let color = if *role == Role::Inbetween { style::FAINT } else { style::of_role(*role) };
+    let look = Type::new(style::WORDS).color(color).align(Align::Center);
+    let look = if *role == Role::Inbetween { look } else { look.bold() };
+    let text = style::fitted(label, style::WORDS, cell - 4.0);
+    canvas.text(&text, (x, floor + 18.0), look);
+    let frame = format!("frame {}", number((place * 10.0).round() / 10.0));
+    let look = Type::new(style::SMALL).color(style::FAINT).align(Align::Center);
+    canvas.text(&frame, (x, floor + 34.0), look);
+}

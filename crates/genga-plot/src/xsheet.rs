@@ -1,0 +1,151 @@
+//! Draws the X-sheet (タイムシート) as it lies on an animator's desk: time runs down, 144 koma a page in two
+//! halves, ACTION beside CELL.
+
+mod column;
+mod gauge_page;
+mod gauge_strip;
+mod grid;
+mod half_page;
+mod head;
+mod layout;
+mod page;
+mod paper_layer;
+mod speech;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use crate::xsheet::layout::Page;
+use crate::xsheet::paper_layer::Leaf;
+use genga::error::Error;
+use genga::knob::{choices, knob, knobs};
+use genga::motion::Clip;
+use genga::sheet::Sheet;
+use genga::timing::Gauge;
+
+/// The X-sheet (タイムシート): pages for A4 or B4, followed by the spacing gauges (ツメ指示).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct XSheet {
+    /// The work's title (作品). It and the next three are empty by default, to be written in by hand.
+    pub title: String,
+    /// The episode (話数).
+    pub episode: String,
+    /// The scene (シーン).
+    pub scene: String,
+    /// The key animator (原画).
+    pub animator: String,
+    /// How an inbetween is marked in ACTION; default a dot.
+    pub inbetween: InbetweenMark,
+    /// Drawings that have a line down the koma for which they are held; default the long ones.
+    pub hold_line: HoldLine,
+    /// Whether pages with the spacing gauges follow; default yes.
+    pub gauges: bool,
+}
+
+/// How an inbetween is marked in the ACTION column.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum InbetweenMark {
+    /// ・, as by hand.
+    #[default]
+    Dot,
+    /// ○, as programs show it.
+    Circle,
+}
+
+choices!(InbetweenMark { Dot: "dot", Circle: "circle" });
+
+/// The drawings that have a hold line.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum HoldLine {
+    /// Drawings on screen for more than 3 koma.
+    #[default]
+    Long,
+    /// Drawings on screen for more than 1 koma.
+    Always,
+    /// No drawing.
+    Never,
+}
+
+choices!(HoldLine { Long: "long", Always: "always", Never: "never" });
+
+impl Default for XSheet {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            episode: String::new(),
+            scene: String::new(),
+            animator: String::new(),
+            inbetween: InbetweenMark::default(),
+            hold_line: HoldLine::default(),
+            gauges: true,
+        }
+    }
+}
+
+knobs!(xsheet::XSheet {
+    title: knob(
+        "作品",
+        "Title of the work. If empty, it is written in by hand.",
+        "作品名。空欄なら手で書き込む。"
+    )
+    .unit("words"),
+    episode: knob("話数", "The episode.", "話数。").unit("words"),
+    scene: knob("シーン", "The scene.", "シーン。").unit("words"),
+    animator: knob("原画", "The key animator.", "原画担当。").unit("words"),
+    inbetween: knob(
+        "中割りの印",
+        "Mark of an inbetween in the ACTION column.",
+        "ACTION欄の中割りの印。"
+    ),
+    hold_line: knob(
+        "止めの線",
+        "Drawings with a line down their koma: those held for more than 3 koma (long), for more \
+         than 1 koma (always), or none (never).",
+        "止めの線を引く絵。3コマを超えるもの（long）、1コマを超えるもの（always）、\
+         引かない（never）。",
+    ),
+    gauges: knob(
+        "ツメ指示",
+        "Whether pages with spacing gauges are added.",
+        "ツメ指示のページを付けるか。"
+    ),
+});
+
+impl HoldLine {
+    fn draws(self, koma: usize) -> bool {
+        match self {
+            Self::Long => koma > 3,
+            Self::Always => koma > 1,
+            Self::Never => false,
+        }
+    }
+}
+
+impl XSheet {
+    /// Draws the pages as SVG, each of 1000 × 1440 px and with at most eight layers. The pages of the first
+    /// eight layers come first, then those of the next eight, then the gauges. An empty sheet has one page.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] as in [`Sheet::check`].
+    pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
+        sheet.check()?;
+        let gauges: Vec<_> =
+            sheet.layers.iter().map(|layer| Gauge::from_layer(clip, layer)).collect();
+        let leaves: Vec<Leaf<'_>> = sheet
+            .layers
+            .iter()
+            .zip(&gauges)
+            .map(|(layer, gauges)| Leaf::new(layer, gauges))
+            .collect();
+        let mut pages = Vec::new();
+        for page in Page::all(self, cut, sheet, &leaves) {
+            pages.push(page::draw(&page));
+        }
+        if self.gauges {
+            pages.extend(gauge_page::draw(self, cut, clip, sheet, &leaves));
+        }
+        Ok(pages)
+    }
+}

@@ -1,0 +1,118 @@
+//! Draws the spacing gauges (ツメ指示) again, lying and large enough to copy onto the keys.
+
+use crate::canvas::{Align, Canvas, Type};
+use crate::style;
+use crate::xsheet::XSheet;
+use crate::xsheet::column::key;
+use crate::xsheet::grid::{FRAME, WIDTH};
+use crate::xsheet::head::boxes;
+use crate::xsheet::layout::{Page, SIZE};
+use crate::xsheet::paper_layer::Leaf;
+use genga::motion::Clip;
+use genga::sheet::Sheet;
+use genga::timing::{Gauge, fraction};
+
+const TOP: f64 = 118.0;
+const HIGH: f64 = 56.0;
+const ROWS: usize = 23;
+const WIDE: f64 = 492.0;
+/// Distance from the left edge of an entry to the first key, and from there to the second, in px.
+const BEFORE: f64 = 112.0;
+const LONG: f64 = 244.0;
+
+/// Draws the pages of gauges. Gauges without a drawing between their keys are left out; if none remain, there
+/// is no page.
+pub(super) fn draw(
+    settings: &XSheet,
+    cut: &str,
+    clip: &Clip,
+    sheet: &Sheet,
+    leaves: &[Leaf<'_>],
+) -> Vec<String> {
+    let all = leaves.iter().flat_map(|leaf| leaf.gauges.iter().map(move |gauge| (leaf, gauge)));
+    let all: Vec<_> = all.filter(|(_, gauge)| !gauge.between().is_empty()).collect();
+    let of = all.len().div_ceil(2 * ROWS);
+    let page = |(at, gauges): (usize, &[(&Leaf<'_>, &Gauge)])| {
+        let number = at + 1;
+        let page = Page { settings, cut, sheet, leaves, begin: 0, number, of };
+        let mut canvas = Canvas::new(SIZE);
+        boxes(&mut canvas, &page, &format!("ツメ {number} / {of}"));
+        title(&mut canvas);
+        for (at, (leaf, gauge)) in gauges.iter().enumerate() {
+            let left = WIDTH.0 + (at / ROWS) as f64 * WIDE;
+            let top = TOP + (at % ROWS) as f64 * HIGH;
+            entry(&mut canvas, clip, leaf, gauge, (left, top));
+        }
+        canvas.finish()
+    };
+    all.chunks(2 * ROWS).enumerate().map(page).collect()
+}
+
+fn title(canvas: &mut Canvas) {
+    let words = "ツメ指示 spacing gauges";
+    canvas.text(words, (WIDTH.0 + 2.0, 82.0), Type::new(15.0).bold());
+    let words = "From key to key, along the path of the joint that travels furthest. Above a tick the \
+                 drawing (CELL number), below it the nearest fraction. Keys without inbetweens (中割なし) \
+                 are left out.";
+    canvas.text(words, (WIDTH.0 + 2.0, 101.0), Type::new(11.5).color(style::FAINT));
+}
+
+fn entry(
+    canvas: &mut Canvas,
+    clip: &Clip,
+    leaf: &Leaf<'_>,
+    gauge: &Gauge,
+    (left, top): (f64, f64),
+) {
+    let layer = leaf.layer;
+    let koma = |exposure: usize| leaf.begins[exposure] + 1;
+    let last = gauge.first + gauge.shares.len() - 1;
+    let base = top + 0.5 * HIGH;
+    canvas.line((left, top), (left + WIDE - 8.0, top), style::GRID, 1.0);
+    let range = format!("{}  {}–{}", layer.name, koma(gauge.first), koma(last));
+    canvas.text(&range, (left + 4.0, base - 3.0), Type::new(12.0).bold());
+    let joint = style::fitted(&clip.skeleton().joints[gauge.joint.0].name, 10.0, BEFORE - 22.0);
+    canvas.text(&joint, (left + 4.0, base + 12.0), Type::new(10.0).color(style::FAINT));
+    let from = left + BEFORE;
+    canvas.line((from, base), (from + LONG, base), FRAME, 1.3);
+    ticks(canvas, leaf, gauge, (from, base));
+    for (exposure, x) in [(gauge.first, from), (last, from + LONG)] {
+        let drawing = layer.exposures[exposure].drawing;
+        if let Some(number) = leaf.genga[drawing] {
+            key(canvas, leaf, drawing, number, (x, base));
+        }
+    }
+    let Some(packing) = gauge.packing() else { return };
+    let x = from + LONG + 16.0;
+    canvas.text(packing.japanese(), (x, base - 3.0), Type::new(12.0).bold());
+    let room = left + WIDE - 8.0 - x;
+    let english = style::fitted(packing.english(), 9.5, room);
+    canvas.text(&english, (x, base + 12.0), Type::new(9.5).color(style::FAINT));
+}
+
+/// Returns the fraction that a person would write; `None` close to a key, where it would be 0 or 1.
+pub(super) fn written(share: f64) -> Option<&'static str> {
+    Some(fraction(share)).filter(|fraction| !matches!(*fraction, "0" | "1"))
+}
+
+/// Draws a tick for each drawing, with its number above and its fraction below if they have room.
+fn ticks(canvas: &mut Canvas, leaf: &Leaf<'_>, gauge: &Gauge, (from, base): (f64, f64)) {
+    let small = Type::new(10.0).align(Align::Center);
+    // Numbers have room above the circles of the keys. Below the circles no fraction is written.
+    let mut free = [from - 9.0; 2];
+    for (at, share) in gauge.between().iter().enumerate() {
+        let x = from + share * LONG;
+        // The tick is longer than a circle is high, so that a drawing close to a key does not hide behind it.
+        canvas.line((x, base - 10.5), (x, base + 10.5), style::INK, 1.2);
+        let number = (leaf.layer.exposures[gauge.first + 1 + at].drawing + 1).to_string();
+        let below = written(*share).unwrap_or_default();
+        let labels = [(number.as_str(), base - 13.0), (below, base + 21.0)];
+        for ((text, y), free) in labels.into_iter().zip(&mut free) {
+            let half = 0.5 * style::text_width(text, 10.0);
+            if x - half >= *free && x + half <= from + LONG + 9.0 {
+                canvas.text(text, (x, y), small);
+                *free = x + half + 2.0;
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Draws the spacing gauges (ツメ指示) beside ACTION, upright like the time.
+
+use crate::canvas::{Align, Canvas, Type};
+use crate::style;
+use crate::xsheet::gauge_page::written;
+use crate::xsheet::half_page::{Half, ROW};
+use crate::xsheet::layout::{NUMBERS, Page, STRIP};
+use crate::xsheet::paper_layer::Leaf;
+use genga::timing::{Gauge, Packing};
+
+/// Half the length of a tick between keys and of a tick at a key, in px.
+const TICK: f64 = 3.5;
+const KEY_TICK: f64 = 5.5;
+/// Minimum distance of two fractions, in px: closer ones would overlap.
+const APART: f64 = 9.5;
+
+/// Draws the strip of one layer. Words and fractions have room only if no other layer is on the page.
+pub(super) fn draw(canvas: &mut Canvas, page: &Page<'_>, leaf: &Leaf<'_>, half: Half, at: usize) {
+    let lane = STRIP / page.leaves.len() as f64;
+    let alone = page.leaves.len() == 1;
+    let left = half.left + NUMBERS + lane * at as f64;
+    let x = left + if alone { 12.0 } else { 0.5 * lane };
+    for (gauge, from, to) in leaf.gauges_on(half) {
+        let span = Span { half, x, from, to };
+        span.line(canvas, gauge);
+        if alone {
+            span.words(canvas, gauge, left + STRIP);
+        }
+    }
+}
+
+/// A span from the middle of a key's koma to the middle of the next key's koma.
+struct Span {
+    half: Half,
+    x: f64,
+    from: usize,
+    to: usize,
+}
+
+impl Span {
+    /// Returns the y of a share of the way, if it lies on this half.
+    fn y(&self, share: f64) -> Option<f64> {
+        let koma = self.from as f64 + 0.5 + share * (self.to - self.from) as f64;
+        let here = koma >= self.half.begin as f64 && koma <= self.half.end() as f64;
+        here.then(|| self.half.y_at(koma))
+    }
+
+    fn line(&self, canvas: &mut Canvas, gauge: &Gauge) {
+        let (x, half) = (self.x, self.half);
+        let top = self.y(0.0).unwrap_or(half.y(half.begin));
+        let bottom = self.y(1.0).unwrap_or(half.y(half.end()));
+        canvas.line((x, top), (x, bottom), style::FAINT, 1.0);
+        for y in [self.y(0.0), self.y(1.0)].into_iter().flatten() {
+            canvas.line((x - KEY_TICK, y), (x + KEY_TICK, y), style::INK, 1.3);
+        }
+        for y in gauge.between().iter().filter_map(|share| self.y(*share)) {
+            canvas.line((x - TICK, y), (x + TICK, y), style::INK, 1.0);
+        }
+    }
+
+    /// Writes the fractions beside the ticks, and the kind of packing.
+    fn words(&self, canvas: &mut Canvas, gauge: &Gauge, right: f64) {
+        let mut last = self.y(0.0).unwrap_or(f64::NEG_INFINITY) - 0.5 * APART;
+        let end = self.y(1.0).unwrap_or(f64::INFINITY) + 0.5 * APART;
+        let small = Type::new(8.5).color(style::FAINT);
+        for share in gauge.between() {
+            let room = |y: &f64| y - last >= APART && end - y >= APART;
+            let (Some(y), Some(fraction)) = (self.y(*share).filter(room), written(*share)) else {
+                continue;
+            };
+            let (left, width) = (self.x + KEY_TICK + 1.0, style::text_width(fraction, 8.5) + 2.0);
+            canvas.rect((left, y - 4.0), (left + width, y + 4.5), style::PAPER);
+            canvas.text(fraction, (self.x + KEY_TICK + 2.0, y + 3.0), small);
+            last = y;
+        }
+        // Written in the koma in the middle: clear of the lines between koma, and on one half only.
+        let middle = (self.from + self.to) / 2;
+        if !self.half.shows(middle) {
+            return;
+        }
+        let y = self.half.y(middle) + 0.5 * ROW;
+        let look = Type::new(11.0).align(Align::Right);
+        match gauge.packing() {
+            None if self.to - self.from > 1 => {
+                let word = "中割なし";
+                canvas.text(word, (right - 2.0, y + 3.2), Type::new(9.0).align(Align::Right))
+            }
+            Some(packing) if (self.to - self.from) as f64 * ROW > 20.0 => {
+                canvas.text(kanji(packing), (right - 3.0, y + 4.0), look.bold())
+            }
+            _ => {}
+        }
+    }
+}
+
+fn kanji(packing: Packing) -> &'static str {
+    match packing {
+        Packing::Even => "均",
+        Packing::Sakizume => "先",
+        Packing::Atozume => "後",
+        Packing::Both => "両",
+    }
+}

@@ -1,0 +1,51 @@
+//! Prepares a layer for the sheet on paper, in one pass.
+
+use crate::xsheet::half_page::Half;
+use genga::sheet::{Exposure, Layer};
+use genga::timing::Gauge;
+
+/// A layer with facts about its drawings.
+pub(super) struct Leaf<'a> {
+    pub(super) layer: &'a Layer,
+    pub(super) gauges: &'a [Gauge],
+    /// Number of each drawing among the keys; `None` for an inbetween.
+    pub(super) genga: Vec<Option<usize>>,
+    /// Koma on which each exposure begins.
+    pub(super) begins: Vec<usize>,
+    /// Koma on which the highest drawing begins for the last time: END is written under it.
+    pub(super) end: Option<usize>,
+}
+
+impl<'a> Leaf<'a> {
+    pub(super) fn new(layer: &'a Layer, gauges: &'a [Gauge]) -> Self {
+        let begins = layer.timed().map(|(begin, _)| begin).collect();
+        let last = layer.timed().max_by_key(|(_, shown)| shown.drawing);
+        let end = last.map(|(begin, _)| begin);
+        Self { layer, gauges, genga: layer.genga_numbers(), begins, end }
+    }
+
+    /// Returns the exposures on screen in a half, each with the koma on which it begins.
+    pub(super) fn on(&self, half: Half) -> impl Iterator<Item = (usize, Exposure)> + '_ {
+        let after = self.begins.partition_point(|begin| *begin < half.end());
+        // The last one that begins before the half may extend into it.
+        let first = self.begins[..after].partition_point(|begin| *begin <= half.begin);
+        let shown = first.saturating_sub(1)..after;
+        let begins = self.begins[shown.clone()].iter().copied();
+        let shown = begins.zip(self.layer.exposures[shown].iter().copied());
+        shown.filter(move |(begin, shown)| begin + shown.koma > half.begin)
+    }
+
+    /// Returns the gauges that overlap a half, each with the koma of its two keys.
+    pub(super) fn gauges_on(&self, half: Half) -> impl Iterator<Item = (&'a Gauge, usize, usize)> {
+        let keys = |gauge: &Gauge| {
+            (self.begins[gauge.first], self.begins[gauge.first + gauge.shares.len() - 1])
+        };
+        let first = self.gauges.partition_point(|gauge| keys(gauge).1 <= half.begin);
+        let after = self.gauges.partition_point(|gauge| keys(gauge).0 < half.end());
+        let with_keys = move |gauge| {
+            let (from, to) = keys(gauge);
+            (gauge, from, to)
+        };
+        self.gauges[first.min(after)..after].iter().map(with_keys)
+    }
+}

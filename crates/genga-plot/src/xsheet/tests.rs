@@ -1,0 +1,245 @@
+//! Tests the contents of the X-sheet.
+
+use super::*;
+use genga::motion::bvh;
+use genga::sheet::{Drawing, Exposure, Layer, Role, Source, SpokenLine, Why};
+
+fn clip() -> Clip {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/kick.bvh");
+    bvh::read(&std::fs::read(path).unwrap()).unwrap().clip
+}
+
+/// Returns a layer of drawings by role (`e`nd, `g`enga, `i`nbetween), each with its number of koma on screen.
+fn layer(name: &str, shown: &[(char, usize)]) -> Layer {
+    let role = |letter| match letter {
+        'e' => Role::End,
+        'g' => Role::Genga,
+        _ => Role::Inbetween,
+    };
+    let drawing = |(at, (letter, _)): (usize, &(char, usize))| Drawing {
+        source: Source::At(at as f64),
+        role: role(*letter),
+        why: Why::default(),
+    };
+    let exposure =
+        |(drawing, (_, koma)): (usize, &(char, usize))| Exposure { drawing, koma: *koma };
+    Layer {
+        name: name.into(),
+        joints: vec![],
+        drawings: shown.iter().enumerate().map(drawing).collect(),
+        exposures: shown.iter().enumerate().map(exposure).collect(),
+    }
+}
+
+fn sheet(layers: Vec<Layer>) -> Sheet {
+    Sheet::new(clip().clock(24.0), layers)
+}
+
+fn pages(settings: &XSheet, layers: Vec<Layer>) -> Vec<String> {
+    settings.draw("c012 蹴り", &clip(), &sheet(layers)).unwrap()
+}
+
+/// Returns the words of a page, without the koma numbers, which are right-aligned.
+fn words(page: &str) -> Vec<String> {
+    let text = |line: &'_ str| {
+        let (look, word) = line.strip_suffix("</text>")?.rsplit_once('>')?;
+        let is_koma = look.contains("\"end\"") && word.parse::<usize>().is_ok();
+        (!is_koma).then(|| word.to_owned())
+    };
+    page.lines().filter_map(text).collect()
+}
+
+/// Counts the upright lines in ink: hold lines, and the one in the legend.
+fn hold_lines(page: &str) -> usize {
+    let number = |line: &str, name: &str| {
+        let rest = line.split(&format!(" {name}=\"")).nth(1).unwrap();
+        rest.split('"').next().unwrap().parse::<f64>().unwrap()
+    };
+    let upright = |line: &&str| {
+        let ink = line.contains("stroke=\"#22252b\"");
+        ink && number(line, "x1") == number(line, "x2") && number(line, "y1") != number(line, "y2")
+    };
+    page.lines().filter(|line| line.starts_with("<line")).filter(upright).count()
+}
+
+const CUT: [(char, usize); 7] =
+    [('e', 6), ('i', 2), ('i', 2), ('g', 3), ('g', 3), ('i', 3), ('e', 5)];
+
+#[test]
+fn the_words_of_a_small_sheet_are_as_they_were() {
+    let pages = pages(&XSheet::default(), vec![layer("A", &CUT)]);
+    assert_eq!(pages.len(), 2, "the koma, and the gauges");
+    let words: Vec<_> = pages.iter().map(|page| words(page).join("\n")).collect();
+    insta::assert_snapshot!(words.join("\n\n"));
+}
+
+#[test]
+fn a_page_has_144_koma_and_eight_layers_at_most() {
+    let long = |koma| vec![layer("A", &vec![('i', 1); koma])];
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    for (koma, count) in [(0, 1), (1, 1), (144, 1), (145, 2), (288, 2), (289, 3)] {
+        assert_eq!(pages(&settings, long(koma)).len(), count, "{koma} koma");
+    }
+    let many = (0..9).map(|at| layer(&format!("L{at}"), &[('e', 150)])).collect();
+    let pages = pages(&settings, many);
+    assert_eq!(pages.len(), 4);
+    for (at, page) in pages.iter().enumerate() {
+        let words = words(page);
+        assert!(words.contains(&format!("{} / 4", at + 1)));
+        assert_eq!(words.contains(&"L7".to_owned()), at < 2);
+        assert_eq!(words.contains(&"L8".to_owned()), at >= 2);
+    }
+    assert_eq!(self::pages(&settings, vec![]).len(), 1, "an empty sheet is a page to write on");
+}
+
+#[test]
+fn a_hold_line_stands_under_what_stays_for_more_than_three_koma() {
+    let lines = |hold_line, shown: &[(char, usize)]| {
+        let settings = XSheet { hold_line, gauges: false, ..XSheet::default() };
+        // One line is in the legend; each drawing has a line in both columns.
+        (hold_lines(&pages(&settings, vec![layer("A", shown)])[0]) - 1) / 2
+    };
+    for (shown, count) in [
+        (&[('e', 3), ('i', 3), ('e', 3)][..], 0),
+        (&[('e', 4), ('i', 3), ('e', 3)], 1),
+        (&[('e', 4), ('i', 4), ('e', 9)], 3),
+    ] {
+        assert_eq!(lines(HoldLine::Long, shown), count, "{shown:?}");
+        assert_eq!(lines(HoldLine::Always, shown), 3);
+        assert_eq!(lines(HoldLine::Never, shown), 0);
+    }
+    assert_eq!(lines(HoldLine::Long, &[('e', 70), ('e', 20)]), 3, "on in the second half");
+    assert_eq!(lines(HoldLine::Always, &[('e', 1), ('i', 1), ('e', 1)]), 0);
+}
+
+#[test]
+fn keys_are_circled_in_both_columns_and_inbetweens_are_marks_in_one() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let circles = |settings: &XSheet, radius: f64| {
+        let page = &pages(settings, vec![layer("A", &CUT)])[0];
+        let circle = format!(" r=\"{radius}\"");
+        let outer = |line: &&str| line.starts_with("<circle") && line.contains(&circle);
+        page.lines().filter(outer).filter(|line| line.contains("stroke=\"#")).count()
+    };
+    // Four keys in two columns, and two in the legend.
+    let rings = |settings| circles(settings, 7.2);
+    assert_eq!(rings(&settings), 10);
+    let dots = pages(&settings, vec![layer("A", &CUT)])[0].matches(" r=\"2.2\"").count();
+    assert_eq!(dots, 4, "three inbetweens and the legend");
+    let round = XSheet { inbetween: InbetweenMark::Circle, ..settings };
+    assert_eq!(circles(&round, 4.0), 4);
+}
+
+#[test]
+fn the_highest_number_carries_end_once() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    for koma in [2, 72, 73, 144] {
+        let mut shown = vec![('i', 1); koma - 1];
+        shown.push(('e', 1));
+        let page = &pages(&settings, vec![layer("A", &shown)])[0];
+        assert_eq!(words(page).iter().filter(|word| *word == "END").count(), 1, "{koma} koma");
+    }
+}
+
+#[test]
+fn what_goes_on_into_the_next_half_is_named_there_in_brackets() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let page = &pages(&settings, vec![layer("A", &[('e', 10), ('g', 80), ('e', 1)])])[0];
+    assert_eq!(words(page).iter().filter(|word| *word == "(2)").count(), 2);
+    let inbetween = &pages(&settings, vec![layer("A", &[('e', 10), ('i', 80), ('e', 1)])])[0];
+    assert_eq!(words(inbetween).iter().filter(|word| *word == "(・)").count(), 1);
+    let cut = &pages(&settings, vec![layer("A", &[('e', 72), ('g', 80)])])[0];
+    let in_brackets = words(cut).iter().filter(|word| word.starts_with('(')).count();
+    assert_eq!(in_brackets, 1, "the legend alone: a drawing of its own begins there");
+}
+
+#[test]
+fn a_layer_that_ends_early_is_crossed_and_one_drawing_says_hold() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let page = |layers| pages(&settings, layers).remove(0);
+    let waves = |page: &str| page.matches("<polyline").count();
+    let even = page(vec![layer("A", &CUT), layer("B", &[('e', 12), ('e', 12)])]);
+    let short = page(vec![layer("A", &CUT), layer("B", &[('e', 6), ('e', 6)])]);
+    assert_eq!((waves(&even), waves(&short)), (0, 2));
+    let hold = page(vec![layer("A", &[('e', 24)])]);
+    let down = ["止", "メ", "H", "O", "L", "D"];
+    for letter in down {
+        assert_eq!(words(&hold).iter().filter(|word| *word == letter).count(), 2, "{letter}");
+    }
+    assert!(!words(&even).iter().any(|word| word == "止"));
+}
+
+#[test]
+fn a_half_has_the_exposures_and_gauges_that_a_look_at_all_finds() {
+    let letters = ['e', 'i', 'g', 'i', 'i', 'g', 'i', 'e'];
+    for seed in 0..40 {
+        let shown: Vec<_> =
+            (0..60).map(|at| (letters[(at * 5 + seed) % 8], 1 + at * (seed + 3) % 11)).collect();
+        let mut layer = layer("A", &shown);
+        layer.exposures.swap(seed, 59 - seed / 2);
+        let koma = layer.timed().map(|(begin, _)| begin).collect::<Vec<_>>();
+        let gauges: Vec<_> = (0..59 / 4)
+            .map(|at| Gauge {
+                first: 4 * at,
+                joint: genga::motion::JointId(0),
+                shares: vec![0.5; 5],
+            })
+            .collect();
+        let leaf = Leaf::new(&layer, &gauges);
+        let highest = layer.exposures.iter().map(|shown| shown.drawing).max();
+        let end = layer.timed().filter(|(_, shown)| Some(shown.drawing) == highest).last();
+        assert_eq!(leaf.end, end.map(|(begin, _)| begin));
+        for begin in (0..layer.length() + 200).step_by(17) {
+            let half = half_page::Half { left: 0.0, begin };
+            let here = |from: usize, to: usize| from < half.end() && to > begin;
+            let all = layer.timed().filter(|(from, shown)| here(*from, from + shown.koma));
+            assert_eq!(
+                leaf.on(half).collect::<Vec<_>>(),
+                all.collect::<Vec<_>>(),
+                "{seed}, {begin}"
+            );
+            let all = gauges.iter().map(|gauge| (gauge, koma[gauge.first], koma[gauge.first + 4]));
+            let all: Vec<_> = all.filter(|(_, from, to)| here(*from, *to)).collect();
+            assert_eq!(leaf.gauges_on(half).collect::<Vec<_>>(), all, "{seed}, {begin}");
+        }
+    }
+}
+
+#[test]
+fn a_sheet_that_shows_what_it_has_not_is_refused() {
+    let mut lying = layer("A", &CUT);
+    lying.exposures[0].drawing = 7;
+    let error = XSheet::default().draw("c1", &clip(), &sheet(vec![lying])).unwrap_err();
+    assert!(error.to_string().contains("layer A shows drawing 7"), "{error}");
+}
+
+/// Returns the words in the S column of a page, from top to bottom.
+fn speech(page: &str) -> Vec<&str> {
+    let downwards = page.lines().filter(|line| line.contains("writing-mode"));
+    downwards.filter_map(|line| Some(line.strip_suffix("</text>")?.rsplit_once('>')?.1)).collect()
+}
+
+#[test]
+fn what_is_spoken_stands_in_the_s_column_on_every_half_it_is_heard_in() {
+    let line = |begin, koma, speaker: &str, words: &str| SpokenLine {
+        begin,
+        koma,
+        speaker: speaker.into(),
+        words: words.into(),
+    };
+    let lines = [
+        line(10, 20, "アキ", "えい！"),
+        line(20, 40, "Ken", "No <way>"),
+        line(60, 30, "", "待って"),
+        line(143, 1, "", "a line that is far too long for one koma"),
+    ];
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let sheet = sheet(vec![layer("A", &[('e', 144)])]).with_lines(&lines);
+    let page = &settings.draw("c1", &clip(), &sheet).unwrap()[0];
+    let found = speech(page);
+    assert_eq!(found[..3], ["アキ「えい！」", "Ken: No &lt;way&gt;", "「待って」"]);
+    assert_eq!(found[3], "(「待って」)", "it goes on in the second half");
+    assert!(found[4].ends_with('…'), "{found:?}");
+    let silent = &settings.draw("c1", &clip(), &self::sheet(vec![layer("A", &CUT)])).unwrap()[0];
+    assert!(speech(silent).is_empty());
+}

@@ -1,0 +1,142 @@
+//! Lists the motion file formats, one row each.
+
+use std::path::Path;
+
+use crate::reading::{Given, Options, Read};
+use crate::{acclaim, fbx, gltf, mmd};
+use genga::error::{Error, Place};
+
+/// A motion file format (形式).
+#[derive(Debug)]
+pub struct Format {
+    /// The common name of the format.
+    pub name: &'static str,
+    /// File extensions, in lower case and without the dot. Folder searches look for these.
+    pub endings: &'static [&'static str],
+    /// The kind of data that it can hold, in words.
+    pub holds: &'static str,
+    /// Whether its motion consists of curves, which can be sampled at any rate.
+    pub(super) has_curves: bool,
+    /// Whether its bones are in a separate file, which the user can name.
+    pub(super) has_skeleton_file: bool,
+    /// Tests whether the first bytes of a file are of this format.
+    pub(super) begins: fn(&[u8]) -> bool,
+    /// Reads a file of this format.
+    pub(super) read: fn(&Given<'_>, &Options) -> Result<Read, Error>,
+}
+
+/// All formats, the native one first.
+pub const FORMATS: &[Format] = &[
+    Format {
+        name: "BVH",
+        endings: &["bvh"],
+        holds: "one take of joints, a row of angles a frame",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: is_bvh,
+        read: |given, options| Ok(options.for_bvh().read(given.bytes)?.into()),
+    },
+    Format {
+        name: "FBX",
+        endings: &["fbx"],
+        holds: "takes of bones or nodes, as curves",
+        has_curves: true,
+        has_skeleton_file: false,
+        begins: fbx::begins,
+        read: fbx::read,
+    },
+    Format {
+        name: "glTF",
+        endings: &["glb", "gltf", "vrma", "vrm"],
+        holds: "animations of joints or nodes, as curves; GLB and VRM are glTF",
+        has_curves: true,
+        has_skeleton_file: false,
+        begins: gltf::begins,
+        read: gltf::read,
+    },
+    Format {
+        name: "VMD",
+        endings: &["vmd"],
+        holds: "keys of the bones of an MMD model, with curves between them",
+        has_curves: false,
+        has_skeleton_file: true,
+        begins: mmd::is_motion,
+        read: mmd::read,
+    },
+    Format {
+        name: "ASF/AMC",
+        endings: &["amc"],
+        holds: "one take of bones, a row of angles a frame; the skeleton is an .asf beside it",
+        has_curves: false,
+        has_skeleton_file: true,
+        begins: |head| acclaim::is_motion(head) || acclaim::is_skeleton(head),
+        read: acclaim::read,
+    },
+    Format {
+        name: "TRC, C3D",
+        // Folder searches skip these formats, since they cannot be read.
+        endings: &[],
+        holds: "points, which are no skeleton: they are refused",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: is_points,
+        read: |_, _| Err(refused(POINTS)),
+    },
+    Format {
+        name: "PMX, PMD",
+        endings: &[],
+        holds: "a model of MMD, which has no motion: it is refused, and goes with a VMD",
+        has_curves: false,
+        has_skeleton_file: false,
+        begins: |head| head.starts_with(b"PMX ") || head.starts_with(b"Pmd"),
+        read: |_, _| Err(refused(MODEL)),
+    },
+];
+
+impl Format {
+    /// Determines the format of a file from its first bytes, or else from its extension. A file of an
+    /// unknown extension is taken for a BVH.
+    pub(super) fn detect(head: &[u8], path: Option<&Path>) -> &'static Self {
+        let by_content = FORMATS.iter().find(|format| (format.begins)(head));
+        let by_ending = || FORMATS.iter().find(|format| path.is_some_and(|path| format.ends(path)));
+        by_content.or_else(by_ending).unwrap_or(&FORMATS[0])
+    }
+
+    /// Whether a path has an extension of this format.
+    pub fn ends(&self, path: &Path) -> bool {
+        let ending = path.extension().unwrap_or_default();
+        self.endings.iter().any(|own| ending.eq_ignore_ascii_case(own))
+    }
+
+    /// Whether this is BVH, which is opened by its own reader.
+    pub(super) fn is_native(&self) -> bool {
+        std::ptr::eq(self, &FORMATS[0]) || self.name == FORMATS[0].name
+    }
+}
+
+/// Whether the text begins with the BVH keyword. Other bytes are skipped, since UTF-16 puts zeros between
+/// the letters.
+fn is_bvh(head: &[u8]) -> bool {
+    let letters = head.iter().filter(|byte| byte.is_ascii_alphabetic());
+    let word = letters.take(9).map(u8::to_ascii_uppercase);
+    word.eq(*b"HIERARCHY")
+}
+
+/// Whether a file holds marker positions. TRC begins with a keyword, C3D with the number of its first block
+/// and then 80.
+fn is_points(head: &[u8]) -> bool {
+    head.starts_with(b"PathFileType")
+        || matches!(head, [2..=10, 0x50, _, _, ..]) && head.len() >= 512
+}
+
+/// Message for marker files.
+const POINTS: &str = "these are the paths of markers and no skeleton: solve them in the program of the capture, and give what \
+                      it exports with joints (BVH, FBX, glTF, AMC)";
+
+/// Message for models.
+const MODEL: &str =
+    "this is a model of MMD and no motion: give a motion for it (.vmd), and this with --skeleton";
+
+fn refused(message: &str) -> Error {
+    Error::Motion { place: Place::Whole, message: message.into() }
+}

@@ -1,0 +1,137 @@
+//! The list of corrections (修正の一覧), each with a link to its place and a button to take it back.
+
+use egui::{CollapsingHeader, RichText, Ui};
+
+use super::command::Command;
+use super::corrections::Correction;
+use super::icon::{self, Icon};
+use super::view_state::Shown;
+use super::words::Words;
+use genga::edits::{LayerEdits, Pin};
+use genga::keys::{Key, Origin};
+use genga::time::Frame;
+
+/// Shows the list, unless there are no corrections.
+pub(super) fn show(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    let (edits, words) = (&shown.wanted.edits, shown.words);
+    let all = LayerEdits {
+        pins: edits.pins.clone(),
+        forbidden: edits.forbidden.clone(),
+        moves: edits.moves.clone(),
+        frozen: vec![],
+    };
+    let own = edits.layers.iter().map(|(name, own)| (Some(name.as_str()), own));
+    let lists: Vec<_> = [(None, &all)].into_iter().chain(own).collect();
+    let keys = lists.iter().map(|(_, own)| count(own)).sum::<usize>();
+    let count = keys + edits.holds.len();
+    if count == 0 && !edits.again {
+        return;
+    }
+    let title = format!("{} ({count})", words.say("Corrections", "修正"));
+    let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt("corrections");
+    header.default_open(true).show_unindented(ui, |ui| {
+        again(ui, shown, commands);
+        for (column, own) in lists {
+            keys_of(ui, column, own, shown, commands);
+        }
+        for hold in &edits.holds {
+            let koma = shown.words.say("koma", "コマ");
+            let what =
+                format!("{} {}: {} {koma}", words.say("held", "止め"), hold.frame, hold.koma);
+            let back = Correction::LetGo(hold.frame);
+            Row { column: None, what, at: Some(hold.frame) }.show(ui, back, shown, commands);
+        }
+    });
+}
+
+/// Number of corrected keys.
+fn count(own: &LayerEdits) -> usize {
+    own.pins.len() + own.moves.len() + own.forbidden.len()
+}
+
+/// Lists the corrected keys of one column, or of all columns.
+fn keys_of(
+    ui: &mut Ui,
+    column: Option<&str>,
+    own: &LayerEdits,
+    shown: &Shown<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let words = shown.words;
+    let mut row = |what, at, back| Row { column, what, at }.show(ui, back, shown, commands);
+    for pin in &own.pins {
+        let what = format!("{} {}", words.say("pinned", "固定"), pin.frame);
+        let back = Correction::TakeBack(key(pin.frame, Origin::Pinned));
+        row(with_mark(what, pin, words), Some(pin.frame), back);
+    }
+    for moved in &own.moves {
+        let (from, to) = (moved.from, moved.to);
+        let (moves, arrow) = (words.say("moved", "移動"), words.say("to", "→"));
+        let what = with_mark(format!("{moves} {from} {arrow} {to}"), &moved.pin(), words);
+        let back = Correction::TakeBack(key(moved.to, Origin::Moved { from: moved.from }));
+        row(what, Some(moved.to), back);
+    }
+    for range in &own.forbidden {
+        let what = format!("{} {range}", words.say("no genga", "原画にしない"));
+        let at = Some(range.from).filter(|frame| shown.breakdown.clip.contains(*frame));
+        row(what, at, Correction::Allow(*range));
+    }
+}
+
+/// A checkbox: whether all keys are chosen again around the corrections, or each changes only its own neighbourhood.
+fn again(ui: &mut Ui, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+    if shown.wanted.edits.freeze() {
+        return;
+    }
+    let mut again = shown.wanted.edits.again;
+    let label = shown.words.say("Find all genga again", "原画を全部選び直す");
+    let hint = shown.words.say(
+        "On: all genga are chosen again around the corrections. Off: a correction only changes the genga next to it.",
+        "オン: 修正に合わせて原画をすべて選び直す。オフ: 修正した前後の原画の間だけが変わる。",
+    );
+    if ui.checkbox(&mut again, label).on_hover_text(hint).changed() {
+        commands.push(Command::Correct(Correction::Again(again)));
+    }
+}
+
+/// Appends the name and the spacing weight that a person gave.
+fn with_mark(what: String, pin: &Pin, words: Words) -> String {
+    let name = pin.name.as_ref().map(|name| format!(" {name}")).unwrap_or_default();
+    let spacing = words.say("spacing", "詰め");
+    let weight = pin.weight.map(|weight| format!(", {spacing} {weight:.2}")).unwrap_or_default();
+    what + &name + &weight
+}
+
+/// A correction in the list.
+struct Row<'a> {
+    /// The column it belongs to. `None` for all columns.
+    column: Option<&'a str>,
+    what: String,
+    at: Option<Frame>,
+}
+
+impl Row<'_> {
+    /// Shows a button that takes it back, and a link to its place.
+    fn show(self, ui: &mut Ui, back: Correction, shown: &Shown<'_>, commands: &mut Vec<Command>) {
+        let what = self.column.map(|name| format!("{name} ")).unwrap_or_default() + &self.what;
+        ui.horizontal(|ui| {
+            let name = format!("{}: {what}", shown.words.say("Remove", "取り消す"));
+            if icon::button(ui, Icon::Cross, &name).clicked() {
+                commands.push(Command::CorrectOf(self.column.map(String::from), back));
+            }
+            if ui.link(&what).clicked()
+                && let Some(frame) = self.at
+            {
+                let column = shown.columns.iter().position(|own| Some(own.name) == self.column);
+                commands.extend(column.and_then(|column| shown.choose(column)));
+                commands.push(Command::Go(shown.column().clock.koma_from_frame(frame)));
+            }
+        });
+    }
+}
+
+/// A key with only frame and origin, by which corrections identify keys.
+fn key(frame: Frame, origin: Origin) -> Key {
+    let (voters, weight, name) = (Vec::new(), None, None);
+    Key { frame, strength: 1.0, price: f64::INFINITY, voters, weight, name, origin }
+}

@@ -1,0 +1,148 @@
+//! The panels (パネル) around the views: which are shown, and how large they may be.
+
+use std::ops::RangeInclusive;
+
+use egui::{Context, Ui, Vec2};
+
+/// A panel that can be hidden.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Knobs,
+    Curves,
+    Sheet,
+}
+
+impl Side {
+    pub(super) const ALL: [Self; 3] = [Self::Knobs, Self::Curves, Self::Sheet];
+
+    /// Whether it is shown by default. In a small window the views come first.
+    fn has_room(self, window: Vec2) -> bool {
+        match self {
+            Self::Knobs => window.x >= 1000.0,
+            Self::Curves => window.y >= 420.0,
+            Self::Sheet => window.x >= 640.0,
+        }
+    }
+
+    /// Allowed width or height, which leaves room for the views.
+    pub(super) fn range(self, window: Vec2) -> RangeInclusive<f32> {
+        let (least, most, views) = match self {
+            // In a small window it replaces the sheet, so that the longest names fit.
+            Self::Knobs if !self.has_room(window) => (364.0, 460.0, window.x - 360.0),
+            Self::Knobs => (280.0, 460.0, window.x - 560.0),
+            Self::Curves => (120.0, 640.0, window.y - 400.0),
+            Self::Sheet => (236.0, 640.0, window.x - 480.0),
+        };
+        least..=f32::clamp(views, least, most)
+    }
+}
+
+/// The person's choice for each panel. `None` shows the panel if the window has room for it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Panels([Option<bool>; 3]);
+
+impl Panels {
+    pub(super) fn is_shown(&self, side: Side, window: Vec2) -> bool {
+        self.0[side as usize].unwrap_or_else(|| side.has_room(window))
+    }
+
+    /// Hides or shows a panel. In a narrow window, showing the knobs hides the sheet and the other way round.
+    pub(super) fn toggle(&mut self, side: Side, window: Vec2) {
+        let is_wanted = !self.is_shown(side, window);
+        self.0[side as usize] = Some(is_wanted);
+        let other = match side {
+            Side::Knobs => Side::Sheet,
+            Side::Sheet => Side::Knobs,
+            Side::Curves => return,
+        };
+        if is_wanted && !Side::Knobs.has_room(window) {
+            self.0[other as usize] = Some(false);
+        }
+    }
+}
+
+/// Number of panels filled since the first clip was opened (登場), one more each frame. In a browser code is slow the
+/// first time it runs, and drawing all panels at once would block the page.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Arrival(usize);
+
+/// Number of panels that may still be filled in this frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turns(usize);
+
+impl Arrival {
+    /// Panels that take turns: those at the sides, the transport, and the views.
+    const PANELS: usize = Side::ALL.len() + 2;
+
+    /// Returns the turns of this frame. Requests another frame while not all panels have a turn.
+    pub(super) fn turns(&mut self, context: &Context) -> Turns {
+        let turns = Turns(self.0);
+        if self.0 < Self::PANELS {
+            self.0 += 1;
+            context.request_repaint();
+        }
+        turns
+    }
+}
+
+impl Turns {
+    /// Takes a turn. Returns whether there was one.
+    pub(super) fn take(&mut self) -> bool {
+        let is_there = self.0 > 0;
+        self.0 -= usize::from(is_there);
+        is_there
+    }
+
+    /// Fills a panel if it has a turn; otherwise only reserves its space.
+    pub(super) fn fill(&mut self, ui: &mut Ui, fill: impl FnOnce(&mut Ui)) {
+        match self.take() {
+            true => fill(ui),
+            false => ui.take_available_space(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::vec2;
+
+    #[test]
+    fn panels_are_filled_one_more_each_frame() {
+        let (mut arrival, context) = (Arrival::default(), Context::default());
+        let filled = |arrival: &mut Arrival| {
+            let mut turns = arrival.turns(&context);
+            (0..10).filter(|_| turns.take()).count()
+        };
+        let frames: [usize; 7] = std::array::from_fn(|_| filled(&mut arrival));
+        assert_eq!(frames, [0, 1, 2, 3, 4, 5, 5]);
+    }
+
+    #[test]
+    fn a_panel_is_there_as_there_is_room_until_a_person_says_otherwise() {
+        let (large, small) = (vec2(1440.0, 900.0), vec2(720.0, 450.0));
+        let mut panels = Panels::default();
+        let shown = |panels: &Panels, window| Side::ALL.map(|side| panels.is_shown(side, window));
+        assert_eq!(shown(&panels, large), [true, true, true]);
+        assert_eq!(shown(&panels, small), [false, true, true]);
+        panels.toggle(Side::Knobs, small);
+        panels.toggle(Side::Curves, small);
+        assert_eq!(shown(&panels, small), [true, false, false], "one of the two");
+        panels.toggle(Side::Sheet, small);
+        assert_eq!(shown(&panels, small), [false, false, true]);
+        panels.toggle(Side::Knobs, large);
+        assert_eq!(shown(&panels, large), [true, false, true]);
+    }
+
+    #[test]
+    fn views_have_room_beside_the_widest_panels() {
+        for window in [vec2(720.0, 450.0), vec2(1024.0, 700.0), vec2(1440.0, 900.0)] {
+            let most = |side: Side| *side.range(window).end();
+            assert!(window.y - most(Side::Curves) >= 320.0, "{window}");
+            assert!(window.x - most(Side::Sheet) >= 480.0, "{window}");
+            for side in Side::ALL {
+                assert!(!side.range(window).is_empty(), "{side:?} {window}");
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Everything that is shown in a frame (表示). All panels read it, and none changes it.
+
+use egui::{TextureId, Vec2};
+
+use super::column::Column;
+use super::command::Command;
+use super::composite_poses::OnScreen;
+use super::document::Document;
+use super::footage_cache::FrameCache;
+use super::scene::Scene;
+use super::sound_track::Track;
+use super::theme::Look;
+use super::waveform::Waveform;
+use super::words::Words;
+use genga::motion::JointId;
+use genga::pipeline::Breakdown;
+use genga::recipe::Footage;
+use genga::time::Frame;
+
+/// Reference footage at a koma.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Beside<'a> {
+    /// Number of pictures, 0 while they are being listed. `None` if the document names none.
+    pub(super) pictures: Option<usize>,
+    /// Number of the koma's picture, from 0; `picture` is its texture, or a nearby one while it is read.
+    pub(super) number: Option<usize>,
+    pub(super) picture: Option<(TextureId, Vec2)>,
+    pub(super) waveform: Option<&'a Waveform>,
+}
+
+impl<'a> Beside<'a> {
+    /// Looks up the footage at a koma.
+    pub(super) fn at(
+        reel: &FrameCache,
+        track: &'a Track,
+        footage: &Footage,
+        at: usize,
+        koma_rate: f64,
+    ) -> Self {
+        let number = footage.picture(at, koma_rate).filter(|number| *number < reel.count());
+        let picture = reel.shown().map(|texture| (texture.id(), texture.size_vec2()));
+        Self {
+            pictures: (!footage.pictures.is_empty()).then(|| reel.count()),
+            number,
+            picture: picture.filter(|_| number.is_some()),
+            waveform: track.waveform.as_ref(),
+        }
+    }
+}
+
+/// The results as shown at one koma.
+pub(super) struct Shown<'a> {
+    pub(super) breakdown: Breakdown<'a>,
+    /// All columns laid on one another.
+    pub(super) on_screen: OnScreen<'a>,
+    /// Every column; `chosen` is the index of the selected one.
+    pub(super) columns: Vec<Column<'a>>,
+    pub(super) chosen: usize,
+    pub(super) scene: &'a Scene,
+    /// The document asked for. The results of a slow clip may lag behind it.
+    pub(super) wanted: &'a Document,
+    /// The joints whose curves and trails are drawn.
+    pub(super) joints: &'a [JointId],
+    /// The koma of the play head.
+    pub(super) at: usize,
+    /// Whether source frames are counted instead of koma.
+    pub(super) counts_frames: bool,
+    /// Reference footage at the koma.
+    pub(super) beside: Beside<'a>,
+    pub(super) look: Look,
+    pub(super) words: Words,
+}
+
+impl<'a> Shown<'a> {
+    /// The selected column.
+    pub(super) fn column(&self) -> &Column<'a> {
+        &self.columns[self.chosen]
+    }
+
+    /// Whether the motion is exaggerated before it is drawn.
+    pub(super) fn is_exaggerated(&self) -> bool {
+        !self.wanted.recipe.exaggerate.is_off()
+    }
+
+    /// Loudness between two koma, 0 to 1. `None` without a sound.
+    pub(super) fn level(&self, from: f64, to: f64) -> Option<f32> {
+        let second = |koma| self.wanted.footage.second(koma, self.column().clock.koma_rate);
+        self.beside.waveform.map(|waveform| waveform.level(second(from), second(to)))
+    }
+
+    /// The command that moves the play head to a koma. `None` if it stands there already.
+    pub(super) fn go(&self, koma: usize) -> Option<Command> {
+        let koma = koma.min(self.column().length.saturating_sub(1));
+        (koma != self.at).then_some(Command::Go(koma))
+    }
+
+    /// The command that selects a column. `None` if it is selected already.
+    pub(super) fn choose(&self, column: usize) -> Option<Command> {
+        (column != self.chosen).then_some(Command::Column(column))
+    }
+
+    /// The source frame nearest to a place, within the clip.
+    pub(super) fn frame(&self, place: f64) -> Frame {
+        let clip = self.breakdown.clip;
+        let frame = place.round().max(0.0) as usize;
+        Frame(frame.clamp(clip.first().0, clip.last().0))
+    }
+
+    /// The source frame nearest to a koma, within the clip.
+    pub(super) fn frame_of_koma(&self, koma: usize) -> Frame {
+        self.frame(self.column().clock.place_from_koma(koma))
+    }
+}

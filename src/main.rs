@@ -1,7 +1,0 @@
-//! The `genga` program: parse, run, one exit mapping.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    genga::cli::main()
-}

@@ -1,4 +1,0 @@
-//! What is measured on paper, in px.
-
-/// A point in px, from the upper left corner.
-pub(super) type Point = (f64, f64);
