@@ -433,7 +433,7 @@ impl Choose {
         let over_limit = if edits.only_pins { 0 } else { chosen.over_limit };
         let rests = rest::rest_frames(chords, rests);
         let holds_end = self.at_rests == AtRests::Keys;
-        let (walls, gaits) = (walls.to_vec(), walks.regular);
+        let (walls, gaits) = (walls.to_vec(), walks.into_regular());
         LayerKeys { keys, walls, rests, holds_end, gaits, over_limit }
     }
 }

@@ -51,7 +51,7 @@ pub struct Walk {
     pub shares: Vec<f64>,
     /// Length of a step in koma: the median of all steps.
     pub koma: f64,
-    /// Its steps, except those that a person corrects.
+    /// Its steps.
     pub steps: Vec<WalkStep>,
 }
 
@@ -64,6 +64,15 @@ pub struct WalkStep {
     pub next: f64,
     /// Frame that shows each phase and, last, the next contact; `None` if it lies outside the clip.
     pub frames: Vec<Option<Frame>>,
+    /// Whether a person corrects it. Then it has the keys that were found, and not its phases.
+    pub is_corrected: bool,
+}
+
+impl Walk {
+    /// Returns the steps that have their phases: those that no person corrects.
+    pub fn regular(&self) -> impl Iterator<Item = &WalkStep> {
+        self.steps.iter().filter(|step| !step.is_corrected)
+    }
 }
 
 impl Phase {
@@ -101,34 +110,29 @@ pub(super) struct Choosable<'a> {
     pub(super) ends: (Frame, Frame),
 }
 
-/// The gaits as drawn, and the phases of steps that a person corrects.
+/// The gaits as drawn.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Walks {
-    pub(super) regular: Vec<Walk>,
-    corrected: Vec<Frame>,
-}
+pub(super) struct Walks(pub(super) Vec<Walk>);
 
 impl Walks {
     /// Finds the gaits of a layer on its sheet.
     pub(super) fn new(gaits: &[Gait], chosen: Choosable<'_>) -> Self {
-        let mut walks = Self::default();
-        for gait in gaits {
-            let walk = chosen.walk(gait);
-            let (corrected, steps): (Vec<_>, Vec<_>) =
-                walk.steps.into_iter().partition(|step| chosen.corrects(step));
-            walks.corrected.extend(corrected.into_iter().flat_map(|step| step.frames).flatten());
-            if !steps.is_empty() {
-                walks.regular.push(Walk { steps, ..walk });
-            }
-        }
-        walks
+        Self(gaits.iter().map(|gait| chosen.walk(gait)).collect())
+    }
+
+    /// Returns the gaits of which some steps have their phases.
+    pub(super) fn into_regular(self) -> Vec<Walk> {
+        self.0.into_iter().filter(|walk| walk.regular().next().is_some()).collect()
     }
 
     /// Adds phases that a person moves to the keys, if no other key is near. They were on the sheet before.
     pub(super) fn give(&self, keys: &mut Vec<Key>, edits: &Edits, apart: f64) {
+        let steps = self.0.iter().flat_map(|walk| &walk.steps).filter(|step| step.is_corrected);
+        let corrected: Vec<Frame> =
+            steps.flat_map(|step| &step.frames).flatten().copied().collect();
         for moved in &edits.moves {
             let near = |frame: &Frame| (frame.0.abs_diff(moved.from.0) as f64) < apart;
-            let phase = self.corrected.iter().filter(|frame| near(frame));
+            let phase = corrected.iter().filter(|frame| near(frame));
             let phase = phase.min_by_key(|frame| frame.0.abs_diff(moved.from.0));
             if let Some(phase) = phase.filter(|_| !keys.iter().any(|key| near(&key.frame))) {
                 keys.push(Key { origin: Origin::Step, ..Key::set(*phase) });
@@ -140,7 +144,7 @@ impl Walks {
     /// Replaces the keys found in regular steps by the steps' phases. Keys that a person set stay, and phases nearer to
     /// a key than a koma (`apart` frames) are dropped.
     pub(super) fn lay(&self, keys: &mut Vec<Key>, apart: f64) {
-        let steps = || self.regular.iter().flat_map(|walk| &walk.steps);
+        let steps = || self.0.iter().flat_map(Walk::regular);
         let turns: Vec<Key> =
             keys.iter().filter(|key| key.origin == Origin::Turn).cloned().collect();
         let is_within = |frame: Frame| steps().any(|step| step.covers(frame, NEAR * apart));
@@ -190,11 +194,12 @@ impl Choosable<'_> {
                 gait.steps.iter().map(|step| (instant(step, *phase) - step.contact) / length(step));
             middle(shares)
         };
-        let step = |step: &Step| WalkStep {
-            contact: step.contact,
-            next: step.next,
-            frames: self
-                .frames(phases.iter().map(|phase| instant(step, *phase)).chain([step.next])),
+        let step = |step: &Step| {
+            let instants: Vec<f64> =
+                phases.iter().map(|phase| instant(step, *phase)).chain([step.next]).collect();
+            let frames = self.frames(&instants);
+            let is_corrected = self.corrects(&frames);
+            WalkStep { contact: step.contact, next: step.next, frames, is_corrected }
         };
         Walk {
             phases: phases.to_vec(),
@@ -204,31 +209,38 @@ impl Choosable<'_> {
         }
     }
 
-    /// Returns the frame nearest to each instant, given in koma, or a turn found within a koma of it.
-    fn frames(&self, instants: impl Iterator<Item = f64>) -> Vec<Option<Frame>> {
+    /// Returns the frame nearest to each instant, given in koma, or a turn found within a koma of it and no nearer to
+    /// another of them.
+    fn frames(&self, instants: &[f64]) -> Vec<Option<Frame>> {
         let koma = self.koma;
         let (first, last) = (self.ends.0.0 as f64, self.ends.1.0 as f64);
+        let place = |instant: f64| first + instant * koma;
         let mut before = self.ends.0;
-        let frame = |instant: f64| {
-            let place = first + instant * koma;
-            let off = |frame: Frame| (frame.0 as f64 - place).abs();
+        let frame = |(at, instant): (usize, &f64)| {
+            let own = place(*instant);
+            let off = |frame: Frame| (frame.0 as f64 - own).abs();
+            let is_own = |frame: &Frame| {
+                let others = [at.wrapping_sub(1), at + 1].into_iter();
+                let mut others = others.filter_map(|other| instants.get(other));
+                others.all(|other| off(*frame) <= (frame.0 as f64 - place(*other)).abs())
+            };
             let turns = self.keys.iter().filter(|key| key.origin == Origin::Turn);
             let turn = turns.map(|key| key.frame).min_by(|a, b| off(*a).total_cmp(&off(*b)));
-            let is_inside = first < place.round() && place.round() < last;
-            let nearest = is_inside.then(|| Frame(place.round() as usize))?;
-            let turn = turn.filter(|turn| off(*turn) <= koma && before < *turn);
+            let is_inside = first < own.round() && own.round() < last;
+            let nearest = is_inside.then(|| Frame(own.round() as usize))?;
+            let turn = turn.filter(|turn| off(*turn) <= koma && before < *turn && is_own(turn));
             before = turn.unwrap_or(nearest.max(Frame(before.0 + 1)));
             (before < self.ends.1).then_some(before)
         };
-        instants.map(frame).collect()
+        instants.iter().enumerate().map(frame).collect()
     }
 
-    /// Whether a person corrects a step. Such a step keeps the keys found in it.
-    fn corrects(&self, step: &WalkStep) -> bool {
+    /// Whether a person corrects the step that shows these frames. Such a step keeps the keys found in it.
+    fn corrects(&self, frames: &[Option<Frame>]) -> bool {
         let Edits { pins, moves, forbidden, frozen, only_pins, .. } = self.edits;
         let set = pins.iter().map(|pin| pin.frame);
         let set = set.chain(moves.iter().flat_map(|moved| [moved.from, moved.to]));
-        let shown = || step.frames.iter().flatten();
+        let shown = || frames.iter().flatten();
         let is_forbidden =
             shown().any(|frame| forbidden.iter().any(|range| range.reaches(*frame, self.koma)));
         // Next to the clip's ends, a sheet has no room for a genga.
@@ -237,28 +249,28 @@ impl Choosable<'_> {
             |frame: &&Frame| (self.ends.1.0 - frame.0).min(frame.0 - self.ends.0.0) as f64 > room;
         let was_there =
             frozen.is_empty() || shown().filter(far).all(|frame| frozen.contains(frame));
-        *only_pins || !was_there || is_forbidden || set.into_iter().any(|frame| step.has(frame))
+        *only_pins || !was_there || is_forbidden || set.into_iter().any(|frame| has(frames, frame))
     }
 }
 
 impl WalkStep {
-    /// Whether a frame is in the step: from its contact on, before the next.
-    fn has(&self, frame: Frame) -> bool {
-        let [from, to] = self.bounds();
-        from.is_none_or(|from| from <= frame) && to.is_none_or(|to| frame < to)
-    }
-
     /// Whether a frame is in the step, or nearer to it than `near` frames.
     fn covers(&self, frame: Frame, near: f64) -> bool {
-        let [from, to] = self.bounds();
+        let [from, to] = bounds(&self.frames);
         let is_past = |end: Frame, frame: Frame| (end.0 as f64 - frame.0 as f64) < near;
         from.is_none_or(|from| is_past(from, frame)) && to.is_none_or(|to| is_past(frame, to))
     }
+}
 
-    /// Returns the frames of its two contacts.
-    fn bounds(&self) -> [Option<Frame>; 2] {
-        [self.frames.first().copied().flatten(), self.frames.last().copied().flatten()]
-    }
+/// Whether a frame is in the step that shows these: from its contact on, before the next.
+fn has(frames: &[Option<Frame>], frame: Frame) -> bool {
+    let [from, to] = bounds(frames);
+    from.is_none_or(|from| from <= frame) && to.is_none_or(|to| frame < to)
+}
+
+/// Returns the frames of a step's two contacts.
+fn bounds(frames: &[Option<Frame>]) -> [Option<Frame>; 2] {
+    [frames.first().copied().flatten(), frames.last().copied().flatten()]
 }
 
 /// Returns the koma from contact to contact.

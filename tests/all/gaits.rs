@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use genga::edits::{Edits, Pin};
-use genga::keys::{AtGaits, Choose, Origin};
+use genga::keys::{AtGaits, Choose, Origin, WalkStep};
 use genga::motion::{Clip, Gait, Step};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
@@ -133,13 +133,16 @@ fn walked(clip: Clip, edits: &Edits) -> Walked {
     let mut engine = Engine::new(clip).unwrap();
     let breakdown = engine.run(&Recipe::default(), edits).unwrap();
     let first = breakdown.first_layer();
-    let koma = |instant: f64| (instant + 1e-6).floor() as usize;
-    // A genga closer than that to the last drawing gives way to it.
-    let last = first.layer.length() as f64 - 3.0;
-    let steps = first.keys.gaits.iter().map(|walk| {
-        let whole = walk.steps.iter().filter(|step| step.contact >= 2.0 && step.next < last);
-        whole.map(|step| (koma(step.contact), koma(step.next))).collect()
-    });
+    let koma = |frame: Frame| {
+        let shows = |drawing: usize| first.layer.drawings[drawing].source.place() == frame.0 as f64;
+        first.layer.timed().find(|(_, exposure)| shows(exposure.drawing)).map(|(begin, _)| begin)
+    };
+    let whole = |step: &WalkStep| {
+        let [contact, next] =
+            [step.frames.first(), step.frames.last()].map(|frame| koma((*frame?)?));
+        Some((contact?, next?))
+    };
+    let steps = first.keys.gaits.iter().map(|walk| walk.regular().filter_map(whole).collect());
     Walked { layer: first.layer.clone(), steps: steps.collect() }
 }
 

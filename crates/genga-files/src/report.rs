@@ -106,7 +106,7 @@ pub struct GaitReport {
 impl From<&Walk> for GaitReport {
     fn from(walk: &Walk) -> Self {
         Self {
-            steps: walk.steps.len(),
+            steps: walk.regular().count(),
             koma: (walk.koma * 100.0).round() / 100.0,
             phases: walk.phases.iter().copied().map(Phase::word).collect(),
         }

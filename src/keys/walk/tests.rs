@@ -64,6 +64,26 @@ fn every_step_has_the_same_phases_and_takes_the_turns_that_were_found() {
 }
 
 #[test]
+fn a_turn_at_the_next_contact_is_not_the_phase_before_it() {
+    // The body is highest half a koma before the next foot comes down, and turns as it does.
+    let mut gait = gait();
+    gait.steps
+        .iter_mut()
+        .for_each(|step| (step.passing, step.up) = (step.contact + 8.0, step.next));
+    gait.steps.iter_mut().for_each(|step| step.up = step.next - 1.2);
+    let keys: Vec<Key> =
+        gait.steps.iter().map(|step| found(step.next - 0.4, Origin::Turn)).collect();
+    let (edits, ends) = (Edits::default(), (Frame(0), Frame(450)));
+    let walks = Walks::new(&[gait], Choosable { keys: &keys, edits: &edits, koma: KOMA, ends });
+    for step in &walks.0[0].steps {
+        let frames: Vec<f64> = step.frames.iter().flatten().map(|at| at.0 as f64 / KOMA).collect();
+        assert_eq!(frames.len(), 5, "{step:?}");
+        assert!((frames[3] - (step.next - 1.2)).abs() <= 0.5, "up: {frames:?}");
+        assert!((frames[4] - (step.next - 0.4)).abs() <= 0.5, "contact: {frames:?}");
+    }
+}
+
+#[test]
 fn a_correction_breaks_the_step_in_which_it_is_and_no_other() {
     let pin = Pin { frame: Frame(5 * 33), ..Pin::parse("1").unwrap() };
     let laid_with = laid(&Edits { pins: vec![pin], ..Edits::default() });

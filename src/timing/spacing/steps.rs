@@ -5,13 +5,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::Spacing;
-use crate::keys::{Phase, Walk};
+use crate::keys::{Phase, Walk, WalkStep};
 use crate::maths::median;
 use crate::time::Frame;
 use crate::timing::koma_per_drawing::{Pace, STAY};
 
 /// Instants closer than this, in koma, are equal.
 const HAIR: f64 = 1e-6;
+
+/// Koma that a contact may stand from its place, so that its step is as long as the others.
+const ONE: f64 = 1.0 - HAIR;
 
 /// The drawings of gaits on a sheet.
 #[derive(Debug, Default)]
@@ -94,11 +97,33 @@ impl Placing {
         Self { exposures: Exposures::new(&walk.shares, walk.koma, rhythm), comes_early }
     }
 
+    /// Returns the koma of each step. As long as a contact stays within a koma of its place, all steps are equally long:
+    /// rounded one by one, steps of 12.4 and 13.3 koma would become 12 and 14.
+    fn koma_of_steps(&self, walk: &Walk) -> Vec<Range<isize>> {
+        let usual = nearest(walk.koma) as isize;
+        let centre = if self.comes_early { 0.5 } else { 0.0 };
+        let mut before: Option<(f64, isize)> = None;
+        let step = |step: &WalkStep| {
+            let begin = match before {
+                Some((next, end)) if (next - step.contact).abs() < HAIR => end,
+                _ => koma(step.contact, self.comes_early),
+            };
+            let off = (begin + usual) as f64 + centre - step.next;
+            let end =
+                if off.abs() < ONE { begin + usual } else { koma(step.next, self.comes_early) };
+            before = Some((step.next, end));
+            begin..end
+        };
+        walk.steps.iter().map(step).collect()
+    }
+
     /// Puts a gait's drawings on a sheet of `length` koma.
     fn put(&self, walk: &Walk, length: usize, steps: &mut Steps) {
         let on_sheet = |koma: isize| usize::try_from(koma).ok().filter(|koma| *koma < length);
-        for step in &walk.steps {
-            let [begin, end] = [step.contact, step.next].map(|at| koma(at, self.comes_early));
+        for (step, Range { start: begin, end }) in walk.steps.iter().zip(self.koma_of_steps(walk)) {
+            if step.is_corrected {
+                continue;
+            }
             let mut at = begin;
             let mut begins = Vec::new();
             for exposure in self.exposures.of_step((end - begin).max(0) as usize) {

@@ -1,6 +1,7 @@
 //! Builds chains (連なり) of alternating steps and splits them into gaits.
 
 use std::array;
+use std::cmp::Ordering;
 use std::mem;
 use std::ops::{Range, RangeInclusive};
 
@@ -17,8 +18,8 @@ const SECONDS: RangeInclusive<f64> = 0.15..=2.0;
 /// Longest time in a step with both feet on the ground, in seconds: after more the body has stopped.
 const LONGEST_STAND: f64 = 0.4;
 
-/// Largest difference of a step from the median step of its foot, as a share of the median and in seconds; the larger
-/// of both applies. The time is a koma and a half of film, because a step of a run lasts only a few koma.
+/// Largest difference of a step, and of its way to the passing, from the median of its foot, as a share of the median
+/// step and in seconds; the larger of both applies. The time is a koma and a half of film, because a step of a run lasts only a few koma.
 const ALIKE: (f64, f64) = (0.25, 0.0625);
 
 /// Least distance of the ankles at a contact, as a share of their largest distance, in the median step of a gait.
@@ -50,11 +51,34 @@ impl Seen {
     fn length(&self) -> Option<f64> {
         Some(self.next? - self.contact?)
     }
+
+    /// Returns the time from contact to passing, if both are observed.
+    fn swing(&self) -> Option<f64> {
+        Some(self.passing? - self.contact?)
+    }
 }
 
-/// Finds the gaits of two legs, in instants.
+/// Finds the gaits of two legs, in instants: strides, and steps on the spot where there are none.
 pub(super) fn gaits(legs: &Legs) -> Vec<Gait> {
+    let mut found = gaits_by(legs);
+    let on_spot = gaits_by(&legs.on_spot());
+    let strides: Vec<_> = found.iter().filter_map(bounds).collect();
+    let is_free = |gait: &Gait| {
+        let Some((from, to)) = bounds(gait) else { return false };
+        strides.iter().all(|(begin, end)| to <= *begin || *end <= from)
+    };
+    found.extend(on_spot.into_iter().filter(is_free));
+    found.sort_by(|a, b| bounds(a).partial_cmp(&bounds(b)).unwrap_or(Ordering::Equal));
+    found
+}
+
+fn gaits_by(legs: &Legs) -> Vec<Gait> {
     chains(legs).iter().flat_map(|chain| parts(chain)).filter_map(|part| gait(legs, part)).collect()
+}
+
+/// Returns the first and the last contact of a gait.
+fn bounds(gait: &Gait) -> Option<(f64, f64)> {
+    Some((gait.steps.first()?.contact, gait.steps.last()?.next))
 }
 
 /// Finds the longest chains of alternating steps of a body that keeps walking.
@@ -66,11 +90,15 @@ fn chains(legs: &Legs) -> Vec<Vec<Seen>> {
         let foot = 1 - passing.swings;
         let before = at.checked_sub(1);
         let goes_on = before.is_none_or(|at| passings[at].is_step && passings[at].swings == foot);
-        let contact = match before {
-            Some(before) => downs[before].filter(|_| goes_on),
-            None => legs.touchdown(foot, 0.0, passing.at).filter(|at| legs.was_lifted(foot, *at)),
-        };
         let from = before.map_or(0.0, |before| passings[before].at);
+        let contact = match before {
+            Some(before) if passings[before].is_step => downs[before].filter(|_| goes_on),
+            // The foot sets out from a stand, or does so before the clip begins.
+            _ => {
+                let down = legs.touchdown(foot, from, passing.at);
+                down.filter(|down| legs.was_lifted(foot, from, *down))
+            }
+        };
         let still_apart = contact.map(|contact| legs.still_apart(from, contact, passing.at));
         let (passed, next) = (Some(passing.at), downs[at]);
         let step = Seen { foot, contact, passing: passed, next, still_apart };
@@ -144,11 +172,13 @@ fn longest(chain: &[Seen]) -> Option<Range<usize>> {
 
 fn are_alike(steps: &[Seen]) -> bool {
     (0..2).all(|foot| {
-        let own = steps.iter().filter(|step| step.foot == foot);
-        let lengths: Vec<f64> = own.filter_map(Seen::length).collect();
-        let middle = median(lengths.iter().copied()).unwrap_or(0.0);
-        let most = f64::max(ALIKE.0 * middle, ALIKE.1 * RATE);
-        lengths.iter().all(|length| (length - middle).abs() <= most)
+        let own = || steps.iter().filter(|step| step.foot == foot);
+        let length = median(own().filter_map(Seen::length)).unwrap_or(0.0);
+        let swing = median(own().filter_map(Seen::swing)).unwrap_or(0.0);
+        let most = f64::max(ALIKE.0 * length, ALIKE.1 * RATE);
+        let is_alike =
+            |own: Option<f64>, usual: f64| own.is_none_or(|own| (own - usual).abs() <= most);
+        own().all(|step| is_alike(step.length(), length) && is_alike(step.swing(), swing))
     })
 }
 
@@ -159,7 +189,7 @@ fn gait(legs: &Legs, steps: &[Seen]) -> Option<Gait> {
         return None;
     }
     let parts: [fn(&Seen) -> Option<f64>; 2] =
-        [|step| Some(step.passing? - step.contact?), |step| Some(step.next? - step.passing?)];
+        [Seen::swing, |step| Some(step.next? - step.passing?)];
     let usual = |foot: usize| parts.map(|part| middle(steps, foot, part));
     let usual: [[Option<f64>; 2]; 2] = array::from_fn(usual);
     let whole = |step: &Seen| {
@@ -187,10 +217,14 @@ fn middle(steps: &[Seen], foot: usize, part: fn(&Seen) -> Option<f64>) -> Option
     of(foot).or_else(|| of(1 - foot))
 }
 
+/// Adds down and up: the extremes of the pelvis about a line that climbs as the gait does from contact to contact, which
+/// it does on stairs.
 fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
     let last = legs.last() as f64;
+    let climbs = steps.iter().filter_map(|(_, [contact, _, next])| legs.climb(*contact, *next));
+    let climb = median(climbs).unwrap_or(0.0);
     let extreme = |sign: f64, from: f64, to: f64| {
-        let at = most(&legs.pelvis, (from, to), sign);
+        let at = most(&legs.pelvis, (from, to), climb, sign);
         // At an end of the clip the pelvis may continue to rise or fall, so this is no extreme.
         (at > 0.0 && at < last && from < last && to > 0.0).then_some((at - from) / (to - from))
     };

@@ -11,8 +11,8 @@ pub(super) const RATE: f64 = 96.0;
 /// missing frames of a low rate, from creating extremes.
 const SMOOTH: usize = 3;
 
-/// Weight of the ankles' squared vertical distance against their squared horizontal one. With this weight, a march on
-/// the spot has its passing where a foot is highest; with more, a run would pass half a koma early.
+/// Weight of the ankles' squared vertical distance against their squared horizontal one in a stride. With more, a run
+/// would pass half a koma early.
 const RISE: f64 = 0.25;
 
 /// Least change of the ankles' distance in a step, in %H: standing feet have less.
@@ -52,8 +52,11 @@ pub(super) struct Paths {
 /// Relative movement of two legs; all lengths in %H, one entry per instant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Legs {
-    /// Distance of the ankles: its squared horizontal part minus [`RISE`] times its squared vertical part.
+    /// Distance of the ankles, which is least at a passing. In a stride: its squared horizontal part minus [`RISE`] times
+    /// its squared vertical part. On the spot: minus its squared vertical part alone, because a raised knee takes the
+    /// foot ahead.
     apart: Vec<f64>,
+    is_on_spot: bool,
     /// Height of the left ankle above the right one.
     rise: Vec<f64>,
     /// Distance of the left ankle ahead of the right one, perpendicular to the line through the hips. The sign of the
@@ -89,11 +92,18 @@ impl Legs {
         let ahead = across.map(|across| up.cross(across).normalize_or_zero());
         Self {
             apart: apart.collect(),
+            is_on_spot: false,
             before: ways.iter().zip(ahead).map(|(way, ahead)| way.dot(ahead)).collect(),
             rise,
             levels: array::from_fn(|foot| [level(&ankles[foot]), level(&soles[foot])]),
             pelvis: hips[0].iter().zip(&hips[1]).map(|(a, b)| a.midpoint(*b).dot(up)).collect(),
         }
+    }
+
+    /// Returns the same legs, for steps on the spot.
+    pub(super) fn on_spot(&self) -> Self {
+        let apart = self.rise.iter().map(|rise| -rise.powi(2)).collect();
+        Self { apart, is_on_spot: true, ..self.clone() }
     }
 
     /// Returns the last instant.
@@ -163,11 +173,12 @@ impl Legs {
         Some(lands.max(crossing(begin, |at| goal - self.apart[at])))
     }
 
-    /// Whether a foot was in the air before it came down.
-    pub(super) fn was_lifted(&self, foot: usize, down: f64) -> bool {
+    /// Whether a foot was in the air from an instant on, before it came down.
+    pub(super) fn was_lifted(&self, foot: usize, from: f64, down: f64) -> bool {
         let down = down as usize;
+        let from = (from.ceil() as usize).min(down);
         let is_lifted = |levels: &Vec<f64>| {
-            levels[..=down].iter().any(|level| *level >= levels[down] + LEAST_LIFT)
+            levels[from..=down].iter().any(|level| *level >= levels[down] + LEAST_LIFT)
         };
         self.levels[foot].iter().all(is_lifted)
     }
@@ -193,7 +204,8 @@ impl Legs {
     pub(super) fn is_overtaken(&self, contact: f64, next: f64) -> bool {
         let [first, second] =
             [contact, next].map(|at| self.before[(at.round() as usize).min(self.last())]);
-        first * second < 0.0 || (first.abs() < BEFORE && second.abs() < BEFORE)
+        let are_level = first.abs() < BEFORE && second.abs() < BEFORE;
+        are_level || (!self.is_on_spot && first * second < 0.0)
     }
 
     /// Whether, between a foot's contact and the end of the clip, the other foot has come at least half of the way to
@@ -204,6 +216,14 @@ impl Legs {
         let [near, far, end] = [from, furthest, last].map(|at| self.apart[at]);
         let rise = if foot == 0 { -self.rise[last] } else { self.rise[last] };
         contact < last as f64 && far - end >= 0.5 * (far - near) && rise >= LEAST_RISE
+    }
+
+    /// Returns how much the pelvis climbs an instant from contact to contact; `None` for a step that the clip cuts.
+    pub(super) fn climb(&self, contact: f64, next: f64) -> Option<f64> {
+        let is_whole = 0.0 <= contact && next <= self.last() as f64;
+        let [from, to] =
+            is_whole.then_some([contact, next])?.map(|at| self.pelvis[at.round() as usize]);
+        Some((to - from) / (next.round() - contact.round()).max(1.0))
     }
 
     fn furthest(&self, from: usize, to: usize) -> Option<usize> {
@@ -220,20 +240,27 @@ fn crossing(at: usize, value: impl Fn(usize) -> f64) -> f64 {
     at as f64 - 1.0 + before / (before - value(at))
 }
 
-/// Finds the maximum of some values between two instants, or the minimum if `sign` is −1.
-pub(super) fn most(values: &[f64], (from, to): (f64, f64), sign: f64) -> f64 {
+/// Finds the maximum of some values between two instants, or the minimum if `sign` is −1, about a line that climbs so
+/// much an instant.
+pub(super) fn most(values: &[f64], (from, to): (f64, f64), climb: f64, sign: f64) -> f64 {
     let last = values.len().saturating_sub(1) as f64;
     let within = (from.clamp(0.0, last).ceil() as usize)..=(to.clamp(0.0, last).floor() as usize);
-    let most = within.max_by(|a, b| (sign * values[*a]).total_cmp(&(sign * values[*b])));
-    most.map_or(from, |at| extreme(values, at).clamp(from, to))
+    let off = |at: usize| sign * (values[at] - climb * at as f64);
+    let most = within.max_by(|a, b| off(*a).total_cmp(&off(*b)));
+    most.map_or(from, |at| vertex(values, at, climb).clamp(from, to))
 }
 
 /// Refines an extreme to the vertex of the parabola through it and its neighbours.
 fn extreme(values: &[f64], at: usize) -> f64 {
+    vertex(values, at, 0.0)
+}
+
+/// Refines an extreme about a line that climbs so much an instant.
+fn vertex(values: &[f64], at: usize, climb: f64) -> f64 {
     let around = at.checked_sub(1).and_then(|before| values.get(before..=at + 1));
     let Some(&[before, own, after]) = around else { return at as f64 };
     let bend = before - 2.0 * own + after;
-    let off = if bend == 0.0 { 0.0 } else { 0.5 * (before - after) / bend };
+    let off = if bend == 0.0 { 0.0 } else { (0.5 * (before - after) + climb) / bend };
     at as f64 + off.clamp(-0.5, 0.5)
 }
 

@@ -22,14 +22,23 @@ struct Walker {
     /// Half of a stride, and the lift of a foot, in %H.
     reach: f64,
     lift: f64,
-    /// Distance travelled in a cycle, in %H.
+    /// How far a raised knee takes the foot ahead, in %H.
+    ahead: f64,
+    /// Distance travelled and climbed in a cycle, in %H.
     travels: f64,
+    climbs: f64,
     /// Number of cycles completed by an instant.
     cycle: fn(f64) -> f64,
 }
 
-const WALKER: Walker =
-    Walker { reach: 20.0, lift: 12.0, travels: 0.0, cycle: |at| at / (2.0 * STEP) + 0.9 };
+const WALKER: Walker = Walker {
+    reach: 20.0,
+    lift: 12.0,
+    ahead: 0.0,
+    travels: 0.0,
+    climbs: 0.0,
+    cycle: |at| at / (2.0 * STEP) + 0.9,
+};
 
 impl Walker {
     /// Position of an ankle along the way and upwards at a phase of its cycle, which begins at the contact.
@@ -39,7 +48,14 @@ impl Walker {
             return (self.reach * (1.0 - 2.0 * part / STANDS), 5.0);
         }
         let swing = (part - STANDS) / (1.0 - STANDS);
-        (-self.reach * (PI * swing).cos(), 5.0 + self.lift * (PI * swing).sin())
+        let raised = (PI * swing).sin();
+        (-self.reach * (PI * swing).cos() + self.ahead * raised, 5.0 + self.lift * raised)
+    }
+
+    /// Height climbed by a foot: it stands until it swings up to the next step.
+    fn climbed(&self, cycle: f64) -> f64 {
+        let swing = ((cycle.rem_euclid(1.0) - STANDS) / (1.0 - STANDS)).max(0.0);
+        self.climbs * (cycle.floor() + swing * swing * (3.0 - 2.0 * swing))
     }
 
     fn paths(&self, instants: usize) -> Paths {
@@ -49,11 +65,12 @@ impl Walker {
             // The pelvis is lowest a twelfth of a cycle after a contact, and highest a quarter later.
             let pelvis = DVec3::new(
                 self.travels * cycle,
-                53.0 - 1.5 * (TAU * (2.0 * cycle - 1.0 / 6.0)).cos(),
+                53.0 - 1.5 * (TAU * (2.0 * cycle - 1.0 / 6.0)).cos() + self.climbs * cycle,
                 0.0,
             );
             for (foot, (side, later)) in [(-5.0, 0.0), (5.0, 0.5)].into_iter().enumerate() {
                 let (along, up) = self.ankle(cycle + later);
+                let up = up + self.climbed(cycle + later) - self.climbs * later;
                 let ankle = DVec3::new(self.travels * cycle + along, up, side);
                 paths.hips[foot].push(pelvis + side * DVec3::Z);
                 paths.ankles[foot].push(ankle);
@@ -117,6 +134,76 @@ fn every_step_has_its_phases_even_the_one_that_the_clip_cuts() {
 fn on_the_spot_a_foot_passes_where_it_is_highest() {
     let gaits = Walker { reach: 0.0, lift: 20.0, ..WALKER }.gaits((4.9 * STEP) as usize);
     assert!(are_near(&gaits, &expected(5), NEAR), "{gaits:?}");
+}
+
+#[test]
+fn on_the_spot_a_raised_knee_takes_the_foot_ahead() {
+    let walker = Walker { reach: 0.0, lift: 22.0, ahead: 20.0, ..WALKER };
+    let gaits = walker.gaits((4.9 * STEP) as usize);
+    assert!(are_near(&gaits, &expected(5), NEAR), "{gaits:?}");
+    let low = Walker { lift: 7.0, ahead: 3.0, ..walker }.gaits((4.9 * STEP) as usize);
+    assert!(are_near(&low, &expected(5), NEAR), "{low:?}");
+}
+
+#[test]
+fn on_stairs_down_and_up_are_about_the_climb() {
+    for climbs in [30.0, -30.0] {
+        let gaits = Walker { travels: 40.0, climbs, ..WALKER }.gaits((4.9 * STEP) as usize);
+        let off = |(own, expected): (&Step, &Step)| {
+            f64::max((own.down - expected.down).abs(), (own.up - expected.up).abs())
+        };
+        assert_eq!(gaits.len(), 1, "{climbs}");
+        let flat = expected(5);
+        let steps = gaits[0].steps.iter().zip(&flat[0].steps);
+        assert!(steps.clone().count() == 5 && steps.map(off).all(|off| off <= NEAR), "{gaits:?}");
+    }
+}
+
+#[test]
+fn the_first_step_out_of_a_stand_counts() {
+    // Stands with the feet side by side; then the left foot goes ahead.
+    let (stand, half) = (96, 24);
+    let mut paths = Walker { cycle: |at| at / (2.0 * STEP), ..WALKER }.paths(300);
+    let begin = |path: &Vec<DVec3>, foot: usize| {
+        let place = |at: usize| {
+            let share = (at as f64 - f64::from(stand)).max(0.0) / f64::from(half);
+            let lift = if foot == 0 { 12.0 * (PI * share).sin() } else { 0.0 };
+            let rest = DVec3::new(path[0].x * share, path[0].y + lift, path[0].z);
+            // A tremble, at which the feet are nearest.
+            if at == 40 {
+                rest + DVec3::Z * 0.01 * if foot == 0 { 1.0 } else { -1.0 }
+            } else {
+                rest
+            }
+        };
+        let all = (0..(stand + half) as usize).map(place);
+        all.chain(path.iter().copied()).collect::<Vec<_>>()
+    };
+    for foot in 0..2 {
+        let sole = paths.soles[foot][0] - paths.ankles[foot][0];
+        paths.ankles[foot] = begin(&paths.ankles[foot], foot);
+        paths.soles[foot] = paths.ankles[foot].iter().map(|ankle| *ankle + sole).collect();
+        let hip = paths.hips[foot][0];
+        let stood = vec![hip; (stand + half) as usize];
+        paths.hips[foot] = stood.into_iter().chain(paths.hips[foot].iter().copied()).collect();
+    }
+    let gaits = found(&paths);
+    let first = gaits[0].steps[0];
+    assert_eq!(first.foot, 0);
+    assert!((first.contact - f64::from(stand + half)).abs() <= NEAR, "{first:?}");
+}
+
+#[test]
+fn a_step_whose_passing_comes_late_is_not_like_the_others() {
+    // As long as the others, but most of its way is done at its end.
+    let late = |at: f64| {
+        let (step, part) = ((at / STEP).floor(), at / STEP % 1.0);
+        0.5 * (step + if step == 5.0 { part.powi(5) } else { part })
+    };
+    let gaits = Walker { cycle: late, ..WALKER }.gaits((6.3 * STEP) as usize);
+    assert_eq!(gaits.len(), 1);
+    let last = gaits[0].steps.last().unwrap();
+    assert!((last.next - 5.0 * STEP).abs() <= NEAR, "{gaits:?}");
 }
 
 #[test]

@@ -29,6 +29,37 @@ fn a_step_has_exposures_by_its_length_alone() {
 }
 
 #[test]
+fn steps_are_equally_long_while_their_contacts_stay_within_a_koma() {
+    let walk = |lengths: &[f64]| {
+        let mut at = 24.8;
+        let step = |length: &f64| {
+            let contact = at;
+            at += length;
+            WalkStep { contact, next: at, frames: vec![], is_corrected: false }
+        };
+        let steps = lengths.iter().map(step).collect();
+        Walk { phases: vec![Phase::Contact], shares: vec![0.0], koma: 12.9, steps }
+    };
+    let placing =
+        |comes_early| Placing { exposures: Exposures::new(&[0.0], 12.9, ON_TWOS), comes_early };
+    let lengths = |of: &[f64], comes_early| {
+        let steps = placing(comes_early).koma_of_steps(&walk(of));
+        assert!(steps.windows(2).all(|pair| pair[0].end == pair[1].start));
+        let is_near = |(step, koma): (&WalkStep, &Range<isize>)| {
+            (koma.end as f64 - step.next).abs() <= if comes_early { 1.5 } else { 1.0 }
+        };
+        assert!(walk(of).steps.iter().zip(&steps).all(is_near));
+        steps.iter().map(Range::len).collect::<Vec<_>>()
+    };
+    let marched = [13.2, 12.9, 13.2, 12.3, 12.8, 12.7, 13.3, 12.4];
+    assert_eq!(lengths(&marched, true), [13; 8]);
+    let on_ones = lengths(&marched, false);
+    assert_eq!(on_ones.iter().filter(|length| **length == 13).count(), 7, "a koma less once");
+    let slows = [12.9, 12.9, 14.9, 12.9];
+    assert_eq!(lengths(&slows, true), [13, 13, 15, 13], "a longer step is longer");
+}
+
+#[test]
 fn a_drawing_stays_a_koma_longer_rather_than_one_stays_for_one() {
     let drawings =
         |on, inbetweens| [1, 2, 3, 4, 5, 6, 7].map(|koma| Rhythm { on, inbetweens }.drawings(koma));
