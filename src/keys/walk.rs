@@ -257,6 +257,10 @@ impl WalkStep {
     /// Whether a frame is in the step, or nearer to it than `near` frames.
     fn covers(&self, frame: Frame, near: f64) -> bool {
         let [from, to] = bounds(&self.frames);
+        // A step that shows nothing of the clip covers nothing of it.
+        if self.frames.iter().all(Option::is_none) {
+            return false;
+        }
         let is_past = |end: Frame, frame: Frame| (end.0 as f64 - frame.0 as f64) < near;
         from.is_none_or(|from| is_past(from, frame)) && to.is_none_or(|to| is_past(frame, to))
     }
@@ -265,7 +269,9 @@ impl WalkStep {
 /// Whether a frame is in the step that shows these: from its contact on, before the next.
 fn has(frames: &[Option<Frame>], frame: Frame) -> bool {
     let [from, to] = bounds(frames);
-    from.is_none_or(|from| from <= frame) && to.is_none_or(|to| frame < to)
+    frames.iter().any(Option::is_some)
+        && from.is_none_or(|from| from <= frame)
+        && to.is_none_or(|to| frame < to)
 }
 
 /// Returns the frames of a step's two contacts.

@@ -84,6 +84,15 @@ fn a_turn_at_the_next_contact_is_not_the_phase_before_it() {
 }
 
 #[test]
+fn a_step_that_shows_nothing_of_the_clip_takes_no_key() {
+    let step = WalkStep { contact: 95.0, next: 108.0, frames: vec![None; 5], is_corrected: false };
+    assert!(!step.covers(Frame(0), KOMA) && !has(&step.frames, Frame(450)));
+    let begun = WalkStep { frames: vec![None, None, None, None, Some(Frame(40))], ..step };
+    assert!(begun.covers(Frame(10), KOMA) && has(&begun.frames, Frame(10)));
+    assert!(!begun.covers(Frame(60), KOMA) && !has(&begun.frames, Frame(60)));
+}
+
+#[test]
 fn a_correction_breaks_the_step_in_which_it_is_and_no_other() {
     let pin = Pin { frame: Frame(5 * 33), ..Pin::parse("1").unwrap() };
     let laid_with = laid(&Edits { pins: vec![pin], ..Edits::default() });

@@ -271,7 +271,7 @@ impl Exposures {
         }
         for _ in koma..usual {
             let phase = self.first_to_give(&step);
-            step[phase].koma -= 1;
+            step[phase].koma = step[phase].koma.saturating_sub(1);
         }
         for phase in &mut step {
             phase.drawings = self.rhythm.like(phase.drawings, phase.koma);
@@ -291,7 +291,7 @@ impl Exposures {
         let rank = |phase: &&usize| {
             let Exposed { koma, drawings } = step[**phase];
             let spares = koma > drawings * self.rhythm.least();
-            (!spares, koma <= STAY, self.usual[**phase].koma - koma)
+            (!spares, koma <= STAY, STAY - koma.min(STAY), self.usual[**phase].koma - koma)
         };
         self.order.iter().rev().min_by_key(rank).copied().unwrap_or_default()
     }

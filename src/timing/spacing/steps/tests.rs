@@ -96,17 +96,17 @@ proptest! {
         usual in 8.0..40.0_f64,
         count in prop::sample::select(vec![1_usize, 2, 4]),
         on in 1_usize..4,
-        off in -6_isize..6,
+        off in -40_isize..6,
     ) {
         shares.sort_by(f64::total_cmp);
         let shares = [vec![0.0], shares].concat();
         let exposures = Exposures::new(&shares[..count], usual, Rhythm { on, inbetweens: None });
-        let length = (usual.round() as usize).saturating_add_signed(off).max(count);
+        let length = (usual.round() as usize).saturating_add_signed(off);
         let [one, more] = [0, 1].map(|more| exposures.of_step(length + more));
-        prop_assert_eq!(&more, &exposures.of_step(length + 1), "the same again");
         prop_assert!(one.iter().all(|phase| phase.drawings * on.min(2) <= phase.koma.max(2)));
         let [one, more] = [koma(&one), koma(&more)];
         prop_assert_eq!(one.iter().sum::<usize>(), length);
+        prop_assert!(length < count || one.iter().all(|koma| *koma >= 1), "{:?}", one);
         prop_assert!(length < 2 * count || one.iter().all(|koma| *koma >= 2), "{:?}", one);
         let apart: usize = one.iter().zip(&more).map(|(a, b)| a.abs_diff(*b)).sum();
         prop_assert_eq!(apart, 1);
