@@ -12,7 +12,7 @@ use crate::keys::correct::{corrected, moved};
 use crate::keys::local_corrections::{Chosen, Word};
 use crate::keys::selection::{By, Choice};
 use crate::keys::voters::voters;
-use crate::keys::walk::{Choosable, Walks};
+use crate::keys::walk::{Drawable, Walks};
 use crate::keys::{
     Alike, AtContacts, AtGaits, AtRests, Candidates, Chords, JointTurns, JointWeights, Key,
     LayerKeys, Origin, Reference, Wall, rest,
@@ -150,7 +150,9 @@ pub struct Judges<'a> {
 /// The drawn keys, walls and gaits of a layer before a person moves keys.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Picks<'a> {
-    /// The keys that are worth a drawing.
+    /// The keys that are worth a drawing before a person's corrections.
+    pub(crate) found: &'a Chosen,
+    /// The keys after them.
     pub(crate) chosen: &'a Chosen,
     pub(crate) walls: &'a [Wall],
     /// The gaits whose steps are to have the same phases.
@@ -313,17 +315,17 @@ impl Choose {
         let pick =
             |keys: &[Key]| Chosen::new(keys, &self.choice(clip, judges, keys, apart).pick(chords));
         let corrected = may_be(edits);
+        let free = may_be(&Edits::default());
+        let found = match edits.frozen.as_slice() {
+            [] => pick(&free),
+            frames => self.frozen((clip, chords), frames, &free),
+        };
         let chosen = if edits.again {
             pick(&corrected)
         } else {
-            let free = may_be(&Edits::default());
-            let before = match edits.frozen.as_slice() {
-                [] => pick(&free),
-                frames => self.frozen((clip, chords), frames, &free),
-            };
             self.correct(
                 (clip, chords),
-                &before,
+                &found,
                 &corrected,
                 Word { edits, koma: apart, apart, alike: judges.alike },
             )
@@ -333,7 +335,8 @@ impl Choose {
             true => Gait::find(clip, clip.clock(clip.rate().fps() / apart)),
             false => Vec::new(),
         };
-        let picked = Picks { chosen: &chosen, walls: &candidates.walls, gaits: &gaits };
+        let walls = &candidates.walls;
+        let picked = Picks { found: &found, chosen: &chosen, walls, gaits: &gaits };
         self.drawn(still, picked, heard, ((clip.first(), clip.last()), edits, apart))
     }
 
@@ -417,15 +420,15 @@ impl Choose {
     pub(crate) fn drawn(
         &self,
         (chords, rests): (&Chords, &[RangeInclusive<usize>]),
-        Picks { chosen, walls, gaits }: Picks<'_>,
+        Picks { found, chosen, walls, gaits }: Picks<'_>,
         (turns, weights): (&[Vec<Turn>], &[f64]),
         (ends, edits, apart): ((Frame, Frame), &Edits, f64),
     ) -> LayerKeys {
         let mut keys = chosen.keys.clone();
-        let walks = Walks::new(gaits, Choosable { keys: &keys, edits, koma: apart, ends });
+        let walks = Walks::new(gaits, Drawable { found: &found.keys, edits, koma: apart, ends });
         walks.give(&mut keys, edits, apart);
         moved(&mut keys, edits, apart);
-        walks.lay(&mut keys, apart);
+        walks.lay(&mut keys, &found.keys, apart);
         let reach = self.reach.frames(chords.clock().frame_rate).max(apart);
         let frames: Vec<Frame> = keys.iter().map(|key| key.frame).collect();
         let voters = voters(turns, weights, &frames, reach);

@@ -302,8 +302,9 @@ impl LayerStages {
             let (chords, rests, corrected, candidates, turns, voices, gaits) = inputs;
             let heard = (voices.turns(turns.value()), &voices.weights[..]);
             let still = (chords.value(), &rests[..]);
-            let picked =
-                Picks { chosen: &corrected[1], walls: &candidates.walls, gaits: gaits.value() };
+            let [found, chosen] = &*corrected;
+            let (walls, gaits) = (&candidates.walls, gaits.value());
+            let picked = Picks { found, chosen, walls, gaits };
             choose.drawn(still, picked, heard, (*ends, edits, *apart))
         });
     }

@@ -8,7 +8,7 @@ use genga::keys::{AtGaits, Choose, Origin, WalkStep};
 use genga::motion::{Clip, Gait, Step};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::{Layer, Reason};
+use genga::sheet::{Exposure, Layer, Reason};
 use genga::time::Frame;
 use genga_lab::study::Noise;
 
@@ -216,20 +216,47 @@ fn passings_are_drawn() {
     });
 }
 
+/// The drawings that begin within a range: their koma, and the frames that they show.
+fn shown(layer: &Layer, (from, to): (usize, usize)) -> Vec<(usize, f64)> {
+    let inside = layer.timed().filter(|(begin, _)| (from..to).contains(begin));
+    let shown = |(begin, exposure): (usize, Exposure)| {
+        (begin, layer.drawings[exposure.drawing].source.place())
+    };
+    inside.map(shown).collect()
+}
+
 #[test]
-fn a_pin_breaks_one_step() {
+fn a_pin_breaks_its_own_step_alone() {
     clips::with(["cmu-07_01-walk"], |[path]| {
         let clip = clips::read(&path);
+        let koma = clip.rate().fps() / 24.0;
         let before = walked(clip.clone(), &Edits::default());
-        let (from, to) = before.steps[0][1];
-        let frame = clip.clock(24.0).frame_from_koma(usize::midpoint(from, to));
-        let pin = Pin::parse(&frame.to_string()).unwrap();
-        let after = walked(clip, &Edits { pins: vec![pin], ..Edits::default() });
-        let own = |step: &&(usize, usize)| step.0 != from;
-        let others: Vec<_> = before.steps[0].iter().filter(own).copied().collect();
-        assert_eq!(after.steps[0], others);
-        for step in others {
-            assert_eq!(exposures(&before.layer, step), exposures(&after.layer, step), "{step:?}");
+        let steps = &before.steps[0];
+        let frame = |(begin, _): (usize, usize)| shown(&before.layer, (begin, begin + 1))[0].1;
+        // In the midst of each step, and so near its contact that the pin takes its place: then two steps share the pin.
+        for (at, (from, to)) in steps.iter().enumerate() {
+            let middle = clip.clock(24.0).frame_from_koma(usize::midpoint(*from, *to)).0 as f64;
+            let contact = frame((*from, *to));
+            let both = at.saturating_sub(1)..at + 1;
+            let places = [
+                (middle, at..at + 1),
+                (contact + 0.7 * koma, both.clone()),
+                (contact - 0.7 * koma, both),
+            ];
+            for (place, broken) in places {
+                let pin = Pin::parse(&place.round().to_string()).unwrap();
+                let edits = Edits { pins: vec![pin], ..Edits::default() };
+                let after = walked(clip.clone(), &edits);
+                let others = steps.iter().enumerate().filter(|(at, _)| !broken.contains(at));
+                for (_, step) in others {
+                    let [own, other] = [&before, &after].map(|walked| shown(&walked.layer, *step));
+                    assert_eq!(own, other, "{at}: {place}");
+                }
+                if place == middle {
+                    let left: Vec<_> = steps.iter().filter(|step| step.0 != *from).collect();
+                    assert_eq!(after.steps.iter().flatten().collect::<Vec<_>>(), left, "{at}");
+                }
+            }
         }
     });
 }

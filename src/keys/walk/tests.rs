@@ -1,5 +1,9 @@
+use std::ops::Range;
+
+use super::drawable::has;
 use super::*;
 use crate::edits::{Forbidden, Move, Pin};
+use crate::motion::Step;
 
 /// Frames in a koma.
 const KOMA: f64 = 5.0;
@@ -29,12 +33,13 @@ fn laid(edits: &Edits) -> Vec<(f64, Origin)> {
         })
         .collect();
     let ends = (Frame(0), Frame(450));
-    let walks = Walks::new(&[gait()], Choosable { keys: &keys, edits, koma: KOMA, ends });
+    let found = keys.clone();
+    let walks = Walks::new(&[gait()], Drawable { found: &found, edits, koma: KOMA, ends });
     walks.give(&mut keys, edits, KOMA);
     crate::keys::correct::moved(&mut keys, edits, KOMA);
     keys.extend(edits.pins.iter().map(|pin| Key::set(pin.frame)));
     keys.sort_by_key(|key| key.frame);
-    walks.lay(&mut keys, KOMA);
+    walks.lay(&mut keys, &found, KOMA);
     keys.iter().map(|key| (key.frame.0 as f64 / KOMA, key.origin)).collect()
 }
 
@@ -43,14 +48,14 @@ fn koma_of(laid: &[(f64, Origin)], origin: Origin) -> Vec<f64> {
     laid.iter().filter(|key| key.1 == origin).map(|key| key.0).collect()
 }
 
-/// Returns the phases of a gait except those of one step.
-fn all_but(broken: usize) -> Vec<f64> {
+/// Returns the phases of a gait except those of some steps in a row.
+fn all_but(broken: Range<usize>) -> Vec<f64> {
     let phases = |at: usize| [0.8, 3.0, 6.0, 9.6].map(|koma| 2.0 + 13.0 * at as f64 + koma);
-    let steps = (0..6).filter(|at| *at != broken).flat_map(phases);
+    let steps = (0..6).filter(|at| !broken.contains(at)).flat_map(phases);
     let mut all: Vec<f64> = steps.chain([80.0]).collect();
-    if broken < 6 {
-        // The step before it ends with its contact.
-        all.push(2.8 + 13.0 * broken as f64);
+    if !broken.is_empty() {
+        // The step before them ends with their first contact.
+        all.push(2.8 + 13.0 * broken.start as f64);
     }
     all.sort_by(f64::total_cmp);
     all.iter().map(|koma| (koma * KOMA).round() / KOMA).collect()
@@ -60,7 +65,7 @@ fn all_but(broken: usize) -> Vec<f64> {
 fn every_step_has_the_same_phases_and_takes_the_turns_that_were_found() {
     let laid = laid(&Edits::default());
     assert_eq!(laid.len(), koma_of(&laid, Origin::Step).len(), "{laid:?}");
-    assert_eq!(koma_of(&laid, Origin::Step), all_but(6), "up is half-way to the next contact");
+    assert_eq!(koma_of(&laid, Origin::Step), all_but(0..0), "up is half-way to the next contact");
 }
 
 #[test]
@@ -74,13 +79,48 @@ fn a_turn_at_the_next_contact_is_not_the_phase_before_it() {
     let keys: Vec<Key> =
         gait.steps.iter().map(|step| found(step.next - 0.4, Origin::Turn)).collect();
     let (edits, ends) = (Edits::default(), (Frame(0), Frame(450)));
-    let walks = Walks::new(&[gait], Choosable { keys: &keys, edits: &edits, koma: KOMA, ends });
+    let walks = Walks::new(&[gait], Drawable { found: &keys, edits: &edits, koma: KOMA, ends });
     for step in &walks.0[0].steps {
         let frames: Vec<f64> = step.frames.iter().flatten().map(|at| at.0 as f64 / KOMA).collect();
         assert_eq!(frames.len(), 5, "{step:?}");
         assert!((frames[3] - (step.next - 1.2)).abs() <= 0.5, "up: {frames:?}");
         assert!((frames[4] - (step.next - 0.4)).abs() <= 0.5, "contact: {frames:?}");
     }
+}
+
+#[test]
+fn two_steps_share_the_frame_of_their_contact() {
+    // The body is highest shortly before each contact, and each turn between the two is shown once.
+    let mut gait = gait();
+    gait.steps.iter_mut().for_each(|step| step.up = step.next - 1.4);
+    let (edits, ends) = (Edits::default(), (Frame(0), Frame(450)));
+    for off in (-10..=10).map(|tenths| f64::from(tenths) / 5.0) {
+        let turn = |step: &Step| found(step.contact + off, Origin::Turn);
+        let keys: Vec<Key> = gait.steps.iter().map(turn).collect();
+        let drawable = Drawable { found: &keys, edits: &edits, koma: KOMA, ends };
+        let walks = Walks::new(&[gait.clone()], drawable);
+        let steps = &walks.0[0].steps;
+        assert!(steps.windows(2).all(|pair| pair[0].frames[4] == pair[1].frames[0]), "{off}");
+        let frames: Vec<Frame> =
+            steps.iter().flat_map(|step| &step.frames[..4]).copied().flatten().collect();
+        assert!(frames.len() == 24 && frames.is_sorted_by(|a, b| a < b), "{off}: {frames:?}");
+    }
+}
+
+#[test]
+fn gaits_that_meet_share_the_frame_of_their_contact() {
+    let mut quick = gait();
+    let begin = gait().steps[5].next;
+    for (at, step) in quick.steps.iter_mut().enumerate() {
+        let contact = begin + 9.0 * at as f64;
+        let [down, passing, up, next] = [2.0, 4.0, 6.6, 9.0].map(|koma| contact + koma);
+        *step = Step { foot: step.foot, contact, down, passing, up, next };
+    }
+    let keys = [found(begin - 0.9, Origin::Turn), found(begin + 0.8, Origin::Turn)];
+    let (edits, ends) = (Edits::default(), (Frame(0), Frame(900)));
+    let drawable = Drawable { found: &keys, edits: &edits, koma: KOMA, ends };
+    let walks = Walks::new(&[gait(), quick], drawable);
+    assert_eq!(walks.0[0].steps[5].frames[4], walks.0[1].steps[0].frames[0]);
 }
 
 #[test]
@@ -98,10 +138,37 @@ fn a_correction_breaks_the_step_in_which_it_is_and_no_other() {
     let laid_with = laid(&Edits { pins: vec![pin], ..Edits::default() });
     assert_eq!(koma_of(&laid_with, Origin::Pinned), [33.0]);
     assert_eq!(koma_of(&laid_with, Origin::Fill), [32.6, 35.4], "what was found is there again");
-    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2..3));
     let forbidden = Forbidden { from: Frame(5 * 34), past: Frame(5 * 34 + 1) };
     let laid_with = laid(&Edits { forbidden: vec![forbidden], ..Edits::default() });
-    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&laid_with, Origin::Step), all_but(2..3));
+}
+
+#[test]
+fn a_pin_in_the_place_of_a_contact_corrects_both_steps_that_share_it() {
+    // The third contact is at 28.8; the pin is in the step before it.
+    let pin = Pin { frame: Frame(5 * 28 + 1), ..Pin::parse("1").unwrap() };
+    let laid = laid(&Edits { pins: vec![pin], ..Edits::default() });
+    assert_eq!(koma_of(&laid, Origin::Pinned), [28.2]);
+    assert_eq!(koma_of(&laid, Origin::Step), all_but(1..3));
+}
+
+#[test]
+fn a_correction_of_one_step_moves_no_phase_of_another() {
+    let keys: Vec<Key> =
+        gait().steps.iter().map(|step| found(step.passing + 0.6, Origin::Turn)).collect();
+    let frames = |edits: &Edits| {
+        let ends = (Frame(0), Frame(450));
+        let walks = Walks::new(&[gait()], Drawable { found: &keys, edits, koma: KOMA, ends });
+        let mut laid: Vec<Key> = edits.pins.iter().map(|pin| Key::set(pin.frame)).collect();
+        walks.lay(&mut laid, &keys, KOMA);
+        laid
+    };
+    let free = frames(&Edits::default());
+    let pin = Pin { frame: Frame(5 * 33), ..Pin::parse("1").unwrap() };
+    let pinned = frames(&Edits { pins: vec![pin], ..Edits::default() });
+    let is_other = |key: &&Key| !(5 * 29..5 * 41).contains(&key.frame.0);
+    assert!(free.iter().filter(is_other).eq(pinned.iter().filter(is_other)));
 }
 
 #[test]
@@ -109,15 +176,15 @@ fn a_phase_can_be_moved() {
     let moved = Move { from: Frame(5 * 31), to: Frame(5 * 32), name: None, weight: None };
     let laid = laid(&Edits { moves: vec![moved], ..Edits::default() });
     assert_eq!(koma_of(&laid, Origin::Moved { from: Frame(155) }), [32.0]);
-    assert_eq!(koma_of(&laid, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&laid, Origin::Step), all_but(2..3));
 }
 
 #[test]
 fn where_keys_are_frozen_steps_stay_that_were_there_and_no_others_come() {
     let steps: Vec<Frame> =
-        all_but(2).iter().map(|koma| Frame((koma * KOMA).round() as usize)).collect();
+        all_but(2..3).iter().map(|koma| Frame((koma * KOMA).round() as usize)).collect();
     let frozen = laid(&Edits { frozen: steps, ..Edits::default() });
-    assert_eq!(koma_of(&frozen, Origin::Step), all_but(2));
+    assert_eq!(koma_of(&frozen, Origin::Step), all_but(2..3));
     let frozen = laid(&Edits { frozen: vec![Frame(10)], ..Edits::default() });
     assert!(koma_of(&frozen, Origin::Step).is_empty());
     let alone = laid(&Edits { only_pins: true, ..Edits::default() });

@@ -31,11 +31,12 @@ pub struct Step {
     pub foot: usize,
     /// Contact (接地): this foot comes down. Its ankle or its sole is within 0.75 %H of its ground level.
     pub contact: f64,
-    /// Down (沈み): the pelvis is lowest between contact and passing.
+    /// Down (沈み): the pelvis is lowest between contact and passing. Like *up*, it is measured from a line that climbs
+    /// as the gait does, which it does on stairs.
     pub down: f64,
-    /// Passing (すれ違い): the other foot passes this one, and the ankles are nearest. Minimizes the squared horizontal
-    /// distance of the ankles minus a quarter of their squared vertical distance. In a stride the ankles cross there;
-    /// in a march on the spot the foot is highest there.
+    /// Passing (すれ違い): the other foot passes this one, and the ankles are nearest. In a stride the ankles cross
+    /// there: their squared horizontal distance minus a quarter of their squared vertical one is least. On the spot the
+    /// passing foot is highest there.
     pub passing: f64,
     /// Up (伸び): the pelvis is highest between passing and the next contact. A walk may reach its top at the passing
     /// or even before; then this equals the passing.

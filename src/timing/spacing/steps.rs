@@ -39,8 +39,12 @@ impl Steps {
     /// Lays out the drawings of gaits on a sheet of `length` koma.
     pub(super) fn new(walks: &[Walk], length: usize, spacing: &Spacing, pace: &Pace<'_>) -> Self {
         let mut steps = Self::default();
+        // The last contact on the sheet: a gait that begins with it begins there.
+        let mut before = None;
         for walk in walks {
-            Placing::new(walk, spacing, pace).put(walk, length, &mut steps);
+            let placing = Placing::new(walk, spacing, pace);
+            let koma = placing.koma_of_steps(walk, &mut before);
+            placing.put((walk, koma), length, &mut steps);
         }
         steps
     }
@@ -99,28 +103,29 @@ impl Placing {
 
     /// Returns the koma of each step. As long as a contact stays within a koma of its place, all steps are equally long:
     /// rounded one by one, steps of 12.4 and 13.3 koma would become 12 and 14.
-    fn koma_of_steps(&self, walk: &Walk) -> Vec<Range<isize>> {
+    ///
+    /// `before` is the contact before the gait, and becomes its last: its time and its koma.
+    fn koma_of_steps(&self, walk: &Walk, before: &mut Option<(f64, isize)>) -> Vec<Range<isize>> {
         let usual = nearest(walk.koma) as isize;
         let centre = if self.comes_early { 0.5 } else { 0.0 };
-        let mut before: Option<(f64, isize)> = None;
         let step = |step: &WalkStep| {
-            let begin = match before {
+            let begin = match *before {
                 Some((next, end)) if (next - step.contact).abs() < HAIR => end,
                 _ => koma(step.contact, self.comes_early),
             };
             let off = (begin + usual) as f64 + centre - step.next;
             let end =
                 if off.abs() < ONE { begin + usual } else { koma(step.next, self.comes_early) };
-            before = Some((step.next, end));
+            *before = Some((step.next, end));
             begin..end
         };
         walk.steps.iter().map(step).collect()
     }
 
-    /// Puts a gait's drawings on a sheet of `length` koma.
-    fn put(&self, walk: &Walk, length: usize, steps: &mut Steps) {
+    /// Puts a gait's drawings on a sheet of `length` koma; `koma` are those of its steps.
+    fn put(&self, (walk, koma): (&Walk, Vec<Range<isize>>), length: usize, steps: &mut Steps) {
         let on_sheet = |koma: isize| usize::try_from(koma).ok().filter(|koma| *koma < length);
-        for (step, Range { start: begin, end }) in walk.steps.iter().zip(self.koma_of_steps(walk)) {
+        for (step, Range { start: begin, end }) in walk.steps.iter().zip(koma) {
             if step.is_corrected {
                 continue;
             }
@@ -271,7 +276,7 @@ impl Exposures {
         }
         for _ in koma..usual {
             let phase = self.first_to_give(&step);
-            step[phase].koma = step[phase].koma.saturating_sub(1);
+            step[phase].koma -= 1;
         }
         for phase in &mut step {
             phase.drawings = self.rhythm.like(phase.drawings, phase.koma);

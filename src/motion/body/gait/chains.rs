@@ -61,24 +61,54 @@ impl Seen {
 /// Finds the gaits of two legs, in instants: strides, and steps on the spot where there are none.
 pub(super) fn gaits(legs: &Legs) -> Vec<Gait> {
     let mut found = gaits_by(legs);
+    let strides: Vec<[Step; 2]> = found.iter().filter_map(outer).collect();
     let on_spot = gaits_by(&legs.on_spot());
-    let strides: Vec<_> = found.iter().filter_map(bounds).collect();
-    let is_free = |gait: &Gait| {
-        let Some((from, to)) = bounds(gait) else { return false };
-        strides.iter().all(|(begin, end)| to <= *begin || *end <= from)
-    };
-    found.extend(on_spot.into_iter().filter(is_free));
-    found.sort_by(|a, b| bounds(a).partial_cmp(&bounds(b)).unwrap_or(Ordering::Equal));
+    found.extend(on_spot.iter().flat_map(|gait| beside(gait, &strides)));
+    let begin = |gait: &Gait| gait.steps.first().map(|step| step.contact);
+    found.sort_by(|a, b| begin(a).partial_cmp(&begin(b)).unwrap_or(Ordering::Equal));
     found
+}
+
+/// Returns the first and the last step of a gait.
+fn outer(gait: &Gait) -> Option<[Step; 2]> {
+    Some([*gait.steps.first()?, *gait.steps.last()?])
+}
+
+/// Returns the parts of a gait on the spot in which the feet pass outside the bounds of all strides.
+fn beside(gait: &Gait, strides: &[[Step; 2]]) -> Vec<Gait> {
+    let is_stride = |step: &Step| {
+        strides.iter().any(|[first, last]| (first.contact..=last.next).contains(&step.passing))
+    };
+    let parts = gait.steps.split(is_stride).filter(|part| part.len() >= LEAST_STEPS);
+    parts.map(|part| joined(part.to_vec(), strides)).collect()
+}
+
+/// Joins steps on the spot to the strides before and behind them. Both measure the contact between them, each by its
+/// own distance of the ankles; that of the stride counts.
+fn joined(mut steps: Vec<Step>, strides: &[[Step; 2]]) -> Gait {
+    let are_one = |a: &Step, b: &Step, gap: f64| {
+        gap < 0.0
+            || (a.foot != b.foot && gap < 0.5 * f64::min(a.next - a.contact, b.next - b.contact))
+    };
+    for [begin, end] in strides {
+        if let Some(first) = steps.first_mut().filter(|first| end.next < first.passing)
+            && are_one(end, first, first.contact - end.next)
+        {
+            first.contact = end.next;
+            first.down = first.down.max(end.next);
+        }
+        if let Some(last) = steps.last_mut().filter(|last| last.passing < begin.contact)
+            && are_one(last, begin, begin.contact - last.next)
+        {
+            last.next = begin.contact;
+            last.up = last.up.min(begin.contact);
+        }
+    }
+    Gait { steps }
 }
 
 fn gaits_by(legs: &Legs) -> Vec<Gait> {
     chains(legs).iter().flat_map(|chain| parts(chain)).filter_map(|part| gait(legs, part)).collect()
-}
-
-/// Returns the first and the last contact of a gait.
-fn bounds(gait: &Gait) -> Option<(f64, f64)> {
-    Some((gait.steps.first()?.contact, gait.steps.last()?.next))
 }
 
 /// Finds the longest chains of alternating steps of a body that keeps walking.

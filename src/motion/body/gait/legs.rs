@@ -143,7 +143,7 @@ impl Legs {
                 (low, is_falling) = (at, true);
             }
         }
-        if is_falling && low < self.last() {
+        if is_falling && (1..self.last()).contains(&low) {
             found.push(low);
         }
         found

@@ -145,6 +145,42 @@ fn on_the_spot_a_raised_knee_takes_the_foot_ahead() {
     assert!(are_near(&low, &expected(5), NEAR), "{low:?}");
 }
 
+/// Goes over from one movement to another within a step.
+fn mixed(from: &Paths, to: &Paths, begin: f64) -> Paths {
+    let mix = |from: &Vec<DVec3>, to: &Vec<DVec3>| {
+        let share = |at: usize| ((at as f64 - begin) / STEP + 0.5).clamp(0.0, 1.0);
+        (0..from.len()).map(|at| from[at].lerp(to[at], share(at))).collect()
+    };
+    let pair = |from: &[Vec<DVec3>; 2], to: &[Vec<DVec3>; 2]| {
+        array::from_fn(|foot| mix(&from[foot], &to[foot]))
+    };
+    Paths {
+        hips: pair(&from.hips, &to.hips),
+        ankles: pair(&from.ankles, &to.ankles),
+        soles: pair(&from.soles, &to.soles),
+    }
+}
+
+#[test]
+fn a_march_on_the_spot_goes_on_from_a_walk() {
+    let (walk, spot) = (WALKER, Walker { reach: 0.0, lift: 22.0, ahead: 10.0, ..WALKER });
+    let [walk, spot] = [walk, spot].map(|walker| walker.paths((14.4 * STEP) as usize));
+    for at in 0..20 {
+        let begin = (6.5 + 0.05 * f64::from(at)) * STEP;
+        for [from, to] in [[&walk, &spot], [&spot, &walk]] {
+            let gaits = found(&mixed(from, to, begin));
+            assert_eq!(gaits.len(), 2, "{at}: {gaits:?}");
+            let [first, second] = [&gaits[0].steps, &gaits[1].steps];
+            assert!(first.len() + second.len() >= 13, "{at}: {gaits:?}");
+            let (last, next) = (first[first.len() - 1], second[0]);
+            assert!(last.next <= next.contact, "{at}: {gaits:?}");
+            if next.contact - last.next < 0.5 * STEP {
+                assert_eq!((last.next, 1 - last.foot), (next.contact, next.foot), "{at}");
+            }
+        }
+    }
+}
+
 #[test]
 fn on_stairs_down_and_up_are_about_the_climb() {
     for climbs in [30.0, -30.0] {

@@ -43,7 +43,7 @@ fn steps_are_equally_long_while_their_contacts_stay_within_a_koma() {
     let placing =
         |comes_early| Placing { exposures: Exposures::new(&[0.0], 12.9, ON_TWOS), comes_early };
     let lengths = |of: &[f64], comes_early| {
-        let steps = placing(comes_early).koma_of_steps(&walk(of));
+        let steps = placing(comes_early).koma_of_steps(&walk(of), &mut None);
         assert!(steps.windows(2).all(|pair| pair[0].end == pair[1].start));
         let is_near = |(step, koma): (&WalkStep, &Range<isize>)| {
             (koma.end as f64 - step.next).abs() <= if comes_early { 1.5 } else { 1.0 }
@@ -57,6 +57,36 @@ fn steps_are_equally_long_while_their_contacts_stay_within_a_koma() {
     assert_eq!(on_ones.iter().filter(|length| **length == 13).count(), 7, "a koma less once");
     let slows = [12.9, 12.9, 14.9, 12.9];
     assert_eq!(lengths(&slows, true), [13, 13, 15, 13], "a longer step is longer");
+}
+
+#[test]
+fn a_gait_begins_on_the_koma_on_which_the_one_before_ends() {
+    let walk = |from: f64, koma: f64| {
+        let step = |at: usize| {
+            let contact = from + koma * at as f64;
+            WalkStep { contact, next: contact + koma, frames: vec![], is_corrected: false }
+        };
+        Walk {
+            phases: vec![Phase::Contact],
+            shares: vec![0.0],
+            koma,
+            steps: (0..4).map(step).collect(),
+        }
+    };
+    for tenths in 0..10 {
+        for comes_early in [true, false] {
+            let placing = |koma: f64| Placing {
+                exposures: Exposures::new(&[0.0], koma, ON_TWOS),
+                comes_early,
+            };
+            let first = walk(0.1 * f64::from(tenths), 12.7);
+            let second = walk(first.steps[3].next, 9.3);
+            let mut before = None;
+            let slow = placing(12.7).koma_of_steps(&first, &mut before);
+            let quick = placing(9.3).koma_of_steps(&second, &mut before);
+            assert_eq!(slow[3].end, quick[0].start, "{tenths} {comes_early}");
+        }
+    }
 }
 
 #[test]
