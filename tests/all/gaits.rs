@@ -233,7 +233,7 @@ fn a_pin_breaks_its_own_step_alone() {
         let before = walked(clip.clone(), &Edits::default());
         let steps = &before.steps[0];
         let frame = |(begin, _): (usize, usize)| shown(&before.layer, (begin, begin + 1))[0].1;
-        // In the midst of each step, and so near its contact that the pin takes its place: then two steps share the pin.
+        // In the midst of each step, and in the place of its contact, which two steps share.
         for (at, (from, to)) in steps.iter().enumerate() {
             let middle = clip.clock(24.0).frame_from_koma(usize::midpoint(*from, *to)).0 as f64;
             let contact = frame((*from, *to));

@@ -73,8 +73,8 @@ impl Phasing {
     }
 }
 
-/// Moves a phase between two others so far behind the first that its drawing has room. Any sooner, the drawing before is
-/// still on screen, and its pose is nearly the same.
+/// Moves a phase between two others so far behind the first that its drawing has room. Any sooner, the drawing before
+/// is still on screen, and its pose is nearly the same.
 fn behind(at: f64, from: f64, to: f64) -> f64 {
     at.max((from + ROOM).min(f64::midpoint(from, to)))
 }

@@ -109,17 +109,19 @@ fn two_steps_share_the_frame_of_their_contact() {
 
 #[test]
 fn gaits_that_meet_share_the_frame_of_their_contact() {
-    let mut quick = gait();
-    let begin = gait().steps[5].next;
+    // The turn is nearer to the *up* before the contact.
+    let (mut slow, mut quick) = (gait(), gait());
+    slow.steps.iter_mut().for_each(|step| step.up = step.next - 1.4);
+    let begin = slow.steps[5].next;
     for (at, step) in quick.steps.iter_mut().enumerate() {
         let contact = begin + 9.0 * at as f64;
         let [down, passing, up, next] = [2.0, 4.0, 6.6, 9.0].map(|koma| contact + koma);
         *step = Step { foot: step.foot, contact, down, passing, up, next };
     }
-    let keys = [found(begin - 0.9, Origin::Turn), found(begin + 0.8, Origin::Turn)];
+    let keys = [found(begin - 0.8, Origin::Turn)];
     let (edits, ends) = (Edits::default(), (Frame(0), Frame(900)));
     let drawable = Drawable { found: &keys, edits: &edits, koma: KOMA, ends };
-    let walks = Walks::new(&[gait(), quick], drawable);
+    let walks = Walks::new(&[slow, quick], drawable);
     assert_eq!(walks.0[0].steps[5].frames[4], walks.0[1].steps[0].frames[0]);
 }
 
@@ -169,6 +171,11 @@ fn a_correction_of_one_step_moves_no_phase_of_another() {
     let pinned = frames(&Edits { pins: vec![pin], ..Edits::default() });
     let is_other = |key: &&Key| !(5 * 29..5 * 41).contains(&key.frame.0);
     assert!(free.iter().filter(is_other).eq(pinned.iter().filter(is_other)));
+    assert_eq!(
+        pinned.iter().filter(|key| key.strength == 0.5).count(),
+        5,
+        "the turns that were found"
+    );
 }
 
 #[test]

@@ -101,8 +101,8 @@ impl Placing {
         Self { exposures: Exposures::new(&walk.shares, walk.koma, rhythm), comes_early }
     }
 
-    /// Returns the koma of each step. As long as a contact stays within a koma of its place, all steps are equally long:
-    /// rounded one by one, steps of 12.4 and 13.3 koma would become 12 and 14.
+    /// Returns the koma of each step. As long as a contact stays within a koma of its place, all steps are equally
+    /// long: rounded one by one, steps of 12.4 and 13.3 koma would become 12 and 14.
     ///
     /// `before` is the contact before the gait, and becomes its last: its time and its koma.
     fn koma_of_steps(&self, walk: &Walk, before: &mut Option<(f64, isize)>) -> Vec<Range<isize>> {

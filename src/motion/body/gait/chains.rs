@@ -19,7 +19,8 @@ const SECONDS: RangeInclusive<f64> = 0.15..=2.0;
 const LONGEST_STAND: f64 = 0.4;
 
 /// Largest difference of a step, and of its way to the passing, from the median of its foot, as a share of the median
-/// step and in seconds; the larger of both applies. The time is a koma and a half of film, because a step of a run lasts only a few koma.
+/// step and in seconds; the larger of both applies. The time is a koma and a half of film, because a step of a run
+/// lasts only a few koma.
 const ALIKE: (f64, f64) = (0.25, 0.0625);
 
 /// Least distance of the ankles at a contact, as a share of their largest distance, in the median step of a gait.
@@ -247,8 +248,8 @@ fn middle(steps: &[Seen], foot: usize, part: fn(&Seen) -> Option<f64>) -> Option
     of(foot).or_else(|| of(1 - foot))
 }
 
-/// Adds down and up: the extremes of the pelvis about a line that climbs as the gait does from contact to contact, which
-/// it does on stairs.
+/// Adds down and up: the extremes of the pelvis about a line that climbs as the gait does from contact to contact,
+/// which it does on stairs.
 fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
     let last = legs.last() as f64;
     let climbs = steps.iter().filter_map(|(_, [contact, _, next])| legs.climb(*contact, *next));

@@ -52,8 +52,8 @@ pub(super) struct Paths {
 /// Relative movement of two legs; all lengths in %H, one entry per instant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Legs {
-    /// Distance of the ankles, which is least at a passing. In a stride: its squared horizontal part minus [`RISE`] times
-    /// its squared vertical part. On the spot: minus its squared vertical part alone, because a raised knee takes the
+    /// Distance of the ankles, which is least at a passing. In a stride: its squared horizontal part minus [`RISE`]
+    /// times its squared vertical part. On the spot: minus its squared vertical part alone, because a raised knee takes the
     /// foot ahead.
     apart: Vec<f64>,
     is_on_spot: bool,
