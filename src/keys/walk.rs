@@ -66,7 +66,7 @@ pub struct WalkStep {
     pub next: f64,
     /// Frame that shows each phase and, last, the next contact; `None` if it lies outside the clip.
     pub frames: Vec<Option<Frame>>,
-    /// Whether a person corrects it. Then it has the keys that were found, and not its phases.
+    /// Whether a person corrects it. Then it keeps the keys found in it and gets no phases.
     pub is_corrected: bool,
 }
 

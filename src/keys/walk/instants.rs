@@ -14,7 +14,7 @@ pub(super) type Instants = Vec<Vec<f64>>;
 pub(super) fn walk(gait: &Gait) -> (Walk, Instants) {
     let phasing = Phasing::new(gait);
     let instants: Instants = gait.steps.iter().map(|step| phasing.instants(step)).collect();
-    let share = |phase: usize| {
+    let usual_share = |phase: usize| {
         let of_step = |(step, instants): (&Step, &Vec<f64>)| share(step, instants[phase]);
         middle(gait.steps.iter().zip(&instants).map(of_step))
     };
@@ -24,7 +24,7 @@ pub(super) fn walk(gait: &Gait) -> (Walk, Instants) {
     };
     let walk = Walk {
         phases: phasing.phases.to_vec(),
-        shares: (0..phasing.phases.len()).map(share).collect(),
+        shares: (0..phasing.phases.len()).map(usual_share).collect(),
         koma: phasing.koma,
         steps: gait.steps.iter().map(step).collect(),
     };

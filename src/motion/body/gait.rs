@@ -31,8 +31,8 @@ pub struct Step {
     pub foot: usize,
     /// Contact (接地): this foot comes down. Its ankle or its sole is within 0.75 %H of its ground level.
     pub contact: f64,
-    /// Down (沈み): the pelvis is lowest between contact and passing. Like *up*, it is measured from a line that climbs
-    /// as the gait does, which it does on stairs.
+    /// Down (沈み): the pelvis is lowest between contact and passing. Like *up*, it is measured from a line that rises
+    /// with the gait, so that stairs do not move it.
     pub down: f64,
     /// Passing (すれ違い): the other foot passes this one, and the ankles are nearest. In a stride the ankles cross
     /// there: their squared horizontal distance minus a quarter of their squared vertical one is least. On the spot the

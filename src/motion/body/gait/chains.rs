@@ -59,7 +59,7 @@ impl Seen {
     }
 }
 
-/// Finds the gaits of two legs, in instants: strides, and steps on the spot where there are none.
+/// Finds the gaits of two legs, in instants. Steps on the spot count only outside the strides.
 pub(super) fn gaits(legs: &Legs) -> Vec<Gait> {
     let mut found = gaits_by(legs);
     let strides: Vec<[Step; 2]> = found.iter().filter_map(outer).collect();
@@ -248,8 +248,8 @@ fn middle(steps: &[Seen], foot: usize, part: fn(&Seen) -> Option<f64>) -> Option
     of(foot).or_else(|| of(1 - foot))
 }
 
-/// Adds down and up: the extremes of the pelvis about a line that climbs as the gait does from contact to contact,
-/// which it does on stairs.
+/// Adds down and up: the extremes of the pelvis about a line that rises with the gait from contact to contact, so that
+/// stairs do not move them.
 fn with_heights(legs: &Legs, steps: &[(usize, [f64; 3])]) -> Gait {
     let last = legs.last() as f64;
     let climbs = steps.iter().filter_map(|(_, [contact, _, next])| legs.climb(*contact, *next));

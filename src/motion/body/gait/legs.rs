@@ -52,9 +52,9 @@ pub(super) struct Paths {
 /// Relative movement of two legs; all lengths in %H, one entry per instant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Legs {
-    /// Distance of the ankles, which is least at a passing. In a stride: its squared horizontal part minus [`RISE`]
-    /// times its squared vertical part. On the spot: minus its squared vertical part alone, because a raised knee takes the
-    /// foot ahead.
+    /// Distance of the ankles, least at a passing. In a stride: its squared horizontal part minus [`RISE`] times its
+    /// squared vertical part. On the spot: minus its squared vertical part alone, because a raised knee takes the foot
+    /// ahead.
     apart: Vec<f64>,
     is_on_spot: bool,
     /// Height of the left ankle above the right one.
