@@ -22,24 +22,29 @@ fn table_1_has_a_row_a_cell_and_persistence_runs_fastest() {
         assert!(total.iter().zip(&union).all(|(total, union)| total >= union));
         assert!(union.chunks(2).all(|cells| cells[1] <= cells[0]), "M costs keys");
     }
-    place.done("study data/kick.bvh --out s.csv --plot s.png --heat h.svg -q");
-    for (picture, begin) in [("s.png", "\u{89}PNG"), ("h.svg", "<svg")] {
-        let begin: Vec<u8> = begin.chars().map(|letter| letter as u8).collect();
-        assert!(fs::read(place.path(picture)).unwrap().starts_with(&begin), "{picture}");
+    place.done("study data/kick.bvh --out s.csv --plot s.svg --heat h.svg -q");
+    for picture in ["s.svg", "h.svg"] {
+        assert!(fs::read(place.path(picture)).unwrap().starts_with(b"<svg"), "{picture}");
     }
     let written = fs::read_to_string(place.path("s.csv")).unwrap();
     assert_eq!(written, place.done("study data/kick.bvh"));
 }
 
 #[test]
-fn a_pdf_is_made_or_it_is_said_how_to_get_it() {
+fn pictures_in_other_formats_are_made_or_it_is_said_how_to_get_them() {
     let place = Place::new();
-    let study = "study data/kick.bvh --plot s.pdf --quiet";
-    if cfg!(feature = "pdf") {
-        place.done(study);
-        assert!(fs::read(place.path("s.pdf")).unwrap().starts_with(b"%PDF"));
-    } else {
-        assert!(place.refused(2, study).contains("--features pdf"));
+    for (ending, feature, is_here, begin) in [
+        ("pdf", "pdf", cfg!(feature = "pdf"), &b"%PDF"[..]),
+        ("png", "pictures", cfg!(feature = "pictures"), b"\x89PNG"),
+    ] {
+        let study = format!("study data/kick.bvh --plot s.{ending} --quiet");
+        if is_here {
+            place.done(&study);
+            let picture = fs::read(place.path(&format!("s.{ending}"))).unwrap();
+            assert!(picture.starts_with(begin), "{ending}");
+        } else {
+            assert!(place.refused(2, &study).contains(&format!("--features {feature} ")));
+        }
     }
 }
 

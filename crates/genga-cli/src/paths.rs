@@ -103,8 +103,8 @@ pub(super) fn check_picture(option: &str, path: Option<&PathBuf>) -> Result<(), 
              cargo install --path crates/genga-cli --features pdf --locked"
         ))),
         Some("png") if !cfg!(feature = "pictures") => Err(Failure::AskedWrongly(format!(
-            "--{option}: this genga was built without pictures in pixels; name an .svg, or build it with \
-             cargo install --path crates/genga-cli --locked"
+            "--{option}: this genga was built without PNG; name an .svg, or build it with \
+             cargo install --path crates/genga-cli --features pictures --locked"
         ))),
         Some("pdf" | "png" | "svg") | None => Ok(()),
         Some(other) => Err(Failure::AskedWrongly(format!(

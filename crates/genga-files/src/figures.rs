@@ -76,7 +76,7 @@ pub(super) fn preview(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) ->
 }
 
 /// Draws one picture per drawing.
-#[cfg(feature = "pictures")]
+#[cfg(feature = "images")]
 pub(super) fn images(cut: &Cut<'_>, settings: &Settings, put: &mut Sink<'_>) -> Result<(), Error> {
     let each = |name: &str, png: Vec<u8>| put(&format!("images/{name}"), &png);
     genga_plot::NumberedImages { body: settings.figures.body, ..settings.images.clone() }
@@ -107,7 +107,8 @@ fn png(svg: &str) -> Result<Vec<u8>, Error> {
 
 #[cfg(not(feature = "pictures"))]
 fn png(_: &str) -> Result<Vec<u8>, Error> {
-    Err(Error::setting("figures.png", "this build has no fonts and no pixels; it writes SVG alone"))
+    let message = "this genga was built without the feature `pictures`; it writes the SVG alone";
+    Err(Error::setting("figures.png", message))
 }
 
 impl Settings {
@@ -167,9 +168,16 @@ mod tests {
 
     #[test]
     fn the_formats_of_figures_are_there_by_name() {
-        let pixels: &[&str] = if cfg!(feature = "pictures") { &["preview", "images"] } else { &[] };
-        for name in ["strip", "contact", "onion", "flipbook"].iter().chain(pixels) {
-            assert_eq!(&Format::find(name).unwrap().name, name);
+        for name in ["strip", "contact", "onion", "flipbook"] {
+            assert_eq!(Format::find(name).unwrap().name, name);
+        }
+        for (name, is_here) in
+            [("images", cfg!(feature = "images")), ("preview", cfg!(feature = "pictures"))]
+        {
+            match Format::find(name) {
+                Ok(format) => assert!(is_here && format.name == name),
+                Err(error) => assert!(!is_here && error.to_string().contains("the feature `")),
+            }
         }
         assert_eq!(genga_plot::Strip::default(), Settings::default().strip);
     }

@@ -10,7 +10,7 @@ mod after_effects;
 mod column_table;
 mod comparison_table;
 mod cut;
-#[cfg(feature = "pictures")]
+#[cfg(feature = "images")]
 mod cut_folder;
 mod drawing_table;
 mod figures;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-#[cfg(feature = "pictures")]
+#[cfg(feature = "images")]
 use crate::cut_folder;
 use crate::settings::Settings;
 use crate::{
@@ -265,7 +265,7 @@ pub const FORMATS: &[Format] = &[
         notes: |_, settings| settings.mp4.notes(),
         ..PLAIN
     },
-    #[cfg(feature = "pictures")]
+    #[cfg(feature = "images")]
     Format {
         name: "images",
         help: "one picture per drawing, numbered as on the sheet, to draw over",
@@ -275,7 +275,7 @@ pub const FORMATS: &[Format] = &[
         make: figures::images,
         ..PLAIN
     },
-    #[cfg(feature = "pictures")]
+    #[cfg(feature = "images")]
     Format {
         name: "cut",
         help: "cut folder: timesheets, and the pictures of each column under their cel numbers",
@@ -287,15 +287,27 @@ pub const FORMATS: &[Format] = &[
     },
 ];
 
+/// The formats that not every build has, with the feature that they need.
+const OPTIONAL: [(&str, &str); 4] =
+    [("images", "images"), ("cut", "images"), ("preview", "pictures"), ("mp4", "pictures")];
+
 impl Format {
     /// Finds a format by name.
     ///
     /// # Errors
-    /// [`Error::Setting`] that lists the known formats.
+    /// [`Error::Setting`] that lists the known formats, or names the feature that a build lacks.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         FORMATS.iter().find(|format| format.name == name).ok_or_else(|| {
             let known: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
-            let message = format!("there is no such format; there are {}", known.join(", "));
+            let feature = OPTIONAL.iter().find(|(format, _)| *format == name);
+            let message = match feature {
+                Some((_, feature)) => {
+                    format!(
+                        "this genga was built without it, that is, without the feature `{feature}`"
+                    )
+                }
+                None => format!("there is no such format; there are {}", known.join(", ")),
+            };
             Error::setting(name, message)
         })
     }

@@ -95,22 +95,17 @@ pub(super) struct Canvas {
 impl Canvas {
     /// Creates white paper of a size in px.
     pub(super) fn new((width, height): (f64, f64)) -> Self {
-        let mut canvas = Self::clear((width, height));
-        canvas.rect((0.0, 0.0), (width.ceil(), height.ceil()), style::PAPER);
-        canvas
-    }
-
-    /// Creates a transparent canvas of a size in px.
-    pub(super) fn clear((width, height): (f64, f64)) -> Self {
         let (width, height) = (width.ceil(), height.ceil());
         let fonts = escaped(style::FONTS);
-        Self {
+        let mut canvas = Self {
             svg: format!(
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
                  viewBox=\"0 0 {width} {height}\" font-family=\"{fonts}\" stroke-linejoin=\"round\" \
                  fill=\"none\">\n"
             ),
-        }
+        };
+        canvas.rect((0.0, 0.0), (width, height), style::PAPER);
+        canvas
     }
 
     pub(super) fn finish(mut self) -> String {
@@ -188,12 +183,6 @@ impl Canvas {
     /// Draws a circle, white inside.
     pub(super) fn ring(&mut self, center: Point, radius: f64, color: RGBColor, width: f64) {
         self.circle(center, radius, Some(style::PAPER), Some((color, width)));
-    }
-
-    /// Draws a circle without a fill.
-    #[cfg(feature = "pictures")]
-    pub(super) fn hoop(&mut self, center: Point, radius: f64, color: RGBColor, width: f64) {
-        self.circle(center, radius, None, Some((color, width)));
     }
 
     fn circle(

@@ -171,7 +171,7 @@ impl Figure {
     }
 
     /// Returns this figure with only the parts that some joints turn.
-    #[cfg(feature = "pictures")]
+    #[cfg(feature = "images")]
     pub fn only(&self, joints: Vec<bool>) -> Self {
         Self { only: Some(joints), ..self.clone() }
     }

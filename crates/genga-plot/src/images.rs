@@ -1,6 +1,6 @@
 //! The numbered images: one per drawing, to draw over. The settings exist in every build.
 
-#[cfg(feature = "pictures")]
+#[cfg(feature = "images")]
 mod draw;
 
 use serde::{Deserialize, Serialize};

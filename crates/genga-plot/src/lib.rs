@@ -27,7 +27,7 @@ mod page_head;
 mod paper_point;
 #[doc(hidden)]
 pub mod parts;
-#[cfg(feature = "pictures")]
+#[cfg(feature = "images")]
 mod pixels;
 mod points;
 mod pose_row;

@@ -1,16 +1,19 @@
 //! Draws figures straight onto pixels, for pictures made by the hundred: none of them needs an SVG.
 
-use plotters::style::RGBColor;
-use resvg::tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8,
-    Rect, Stroke, Transform,
-};
+mod digits;
 
-use crate::canvas::{Align, Canvas, Inks, Type};
-use crate::convert::pixels_from_svg;
+use plotters::style::RGBColor;
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform,
+};
+#[cfg(feature = "pictures")]
+use tiny_skia::{PremultipliedColorU8, Rect};
+
+use crate::canvas::Inks;
 use crate::figure::{Drawn, Shape};
 use crate::paper_point::Point;
 use crate::style;
+pub(super) use digits::Digits;
 use genga::error::Error;
 use genga::motion::BodySide;
 
@@ -21,20 +24,44 @@ pub(super) struct Pixels {
 }
 
 impl Pixels {
+    /// Creates a transparent bitmap of a size in px.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] if it has no pixels.
+    pub(super) fn clear((width, height): (u32, u32)) -> Result<Self, Error> {
+        let map = Pixmap::new(width, height);
+        let map =
+            map.ok_or_else(|| style::cannot(format!("{width} × {height} px is no picture")))?;
+        Ok(Self { map })
+    }
+
+    /// Creates white paper of a size in px.
+    ///
+    /// # Errors
+    /// As [`Pixels::clear`].
+    pub(super) fn paper(size: (u32, u32)) -> Result<Self, Error> {
+        let mut paper = Self::clear(size)?;
+        paper.map.fill(Color::WHITE);
+        Ok(paper)
+    }
+
     /// Renders an SVG.
     ///
     /// # Errors
     /// [`Error::Picture`] if it is too large.
-    pub(super) fn new(svg: &str) -> Result<Self, Error> {
-        Ok(Self { map: pixels_from_svg(svg, 1.0)? })
+    #[cfg(feature = "pictures")]
+    pub(super) fn from_svg(svg: &str) -> Result<Self, Error> {
+        Ok(Self { map: crate::convert::pixels_from_svg(svg, 1.0)? })
     }
 
     /// Returns red, green, blue and opacity of each pixel, row after row.
+    #[cfg(feature = "pictures")]
     pub(super) fn colors(&self) -> &[PremultipliedColorU8] {
         self.map.pixels()
     }
 
     /// Returns the pixels as bytes.
+    #[cfg(feature = "pictures")]
     pub(super) fn bytes(&self) -> &[u8] {
         self.map.data()
     }
@@ -73,6 +100,23 @@ impl Pixels {
         }
     }
 
+    /// Draws a circle without a fill.
+    pub(super) fn hoop(&mut self, (x, y): Point, radius: f64, color: RGBColor, width: f64) {
+        if let Some(path) = PathBuilder::from_circle(x as f32, y as f32, radius as f32) {
+            let stroke = Stroke { width: width as f32, ..Stroke::default() };
+            self.map.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
+        }
+    }
+
+    /// Draws the four sides of a rectangle, 1 px wide.
+    pub(super) fn frame(&mut self, (left, top): Point, (right, bottom): Point, color: RGBColor) {
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        for (at, corner) in corners.into_iter().enumerate() {
+            self.line(corner, corners[(at + 1) % 4], color, 1.0);
+        }
+    }
+
+    #[cfg(feature = "pictures")]
     pub(super) fn rect(&mut self, (x, y): Point, (width, height): (f64, f64), color: RGBColor) {
         if let Some(rect) = Rect::from_xywh(x as f32, y as f32, width as f32, height as f32) {
             self.map.fill_rect(rect, &paint(color), Transform::identity(), None);
@@ -120,43 +164,4 @@ fn paint(color: RGBColor) -> Paint<'static> {
     let mut paint = Paint::default();
     paint.set_color_rgba8(color.0, color.1, color.2, 255);
     paint
-}
-
-/// The ten digits, drawn once with the system's fonts, to write numbers on pixels.
-pub(super) struct Digits {
-    digits: Vec<Pixmap>,
-    /// Width of a digit, in px.
-    wide: f64,
-    /// Distance from the top to the base line, in px.
-    base: f64,
-}
-
-impl Digits {
-    /// Draws the digits in a size and a colour.
-    ///
-    /// # Errors
-    /// [`Error::Picture`] if memory runs out.
-    pub(super) fn new(size: f64, color: RGBColor) -> Result<Self, Error> {
-        let wide = (0.62 * size).ceil();
-        let base = size.ceil();
-        let digit = |digit: u8| {
-            let mut canvas = Canvas::clear((wide, base + 2.0));
-            let look = Type::new(size).bold().color(color).align(Align::Center);
-            canvas.text(&digit.to_string(), (0.5 * wide, base), look);
-            pixels_from_svg(&canvas.finish(), 1.0)
-        };
-        Ok(Self { digits: (0..10).map(digit).collect::<Result<_, _>>()?, wide, base })
-    }
-
-    /// Writes a number that ends at a point on its base line.
-    pub(super) fn write(&self, pixels: &mut Pixels, number: usize, (x, base): Point) {
-        let mut x = x.round();
-        for digit in number.to_string().bytes().rev() {
-            x -= self.wide;
-            let at = (x as i32, (base - self.base).round() as i32);
-            let digit = self.digits[usize::from(digit - b'0')].as_ref();
-            let paint = PixmapPaint::default();
-            pixels.map.draw_pixmap(at.0, at.1, digit, &paint, Transform::identity(), None);
-        }
-    }
 }

@@ -50,7 +50,7 @@ impl Bounds {
         self.right - self.left
     }
 
-    #[cfg(feature = "pictures")]
+    #[cfg(feature = "images")]
     pub(crate) fn height(&self) -> f64 {
         self.top - self.floor
     }
@@ -73,7 +73,7 @@ pub struct Stage {
 
 impl Stage {
     /// Builds the stage on which a box fills a picture as far as it can, centred and standing on the floor.
-    #[cfg(feature = "pictures")]
+    #[cfg(feature = "images")]
     pub fn filling(
         figure: Figure,
         view: View,

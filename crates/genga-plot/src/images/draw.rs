@@ -1,7 +1,7 @@
 //! Draws the numbered images as pixels.
 
 use super::NumberedImages;
-use crate::canvas::{Canvas, Inks};
+use crate::canvas::Inks;
 use crate::drawings::{composed, drawn_poses};
 use crate::figure::{Drawn, Figure};
 use crate::paper_point::Point;
@@ -99,9 +99,9 @@ impl NumberedImages {
     fn easel(&self, composite: &Composite<'_>, figure: &Figure) -> Result<Easel, Error> {
         self.validate()?;
         let stage = self.stage(composite, figure);
-        let backdrop = Pixels::new(&self.backdrop(&stage))?;
-        let digits = Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT)?;
-        let number = self.marks.then(|| (self.inside(0.99 - SAFE), digits));
+        let backdrop = self.backdrop(&stage)?;
+        let digits = || Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT);
+        let number = self.marks.then(|| (self.inside(0.99 - SAFE), digits()));
         Ok(Easel { stage, pixels: backdrop.clone(), backdrop, number })
     }
 
@@ -122,28 +122,29 @@ impl NumberedImages {
     }
 
     /// Draws the backdrop that all images share.
-    fn backdrop(&self, stage: &Stage) -> String {
-        let (width, height) = self.inside(1.0);
-        let mut canvas = if self.transparent {
-            Canvas::clear((width, height))
-        } else {
-            Canvas::new((width, height))
-        };
-        if !self.marks {
-            return canvas.finish();
+    fn backdrop(&self, stage: &Stage) -> Result<Pixels, Error> {
+        let size = (self.width, self.height);
+        let mut pixels = if self.transparent { Pixels::clear(size)? } else { Pixels::paper(size)? };
+        if self.marks {
+            self.mark(&mut pixels, stage);
         }
+        Ok(pixels)
+    }
+
+    /// Draws the safe area, the floor and a register mark in each corner.
+    fn mark(&self, pixels: &mut Pixels, stage: &Stage) {
+        let (width, height) = self.inside(1.0);
         let (x, y) = self.inside(SAFE);
-        canvas.frame((x, y), (width - 2.0 * x, height - 2.0 * y), style::GRID, 0.0);
-        canvas.line((x, stage.at.1), (width - x, stage.at.1), style::GRID, 1.25);
+        pixels.frame((x, y), (width - x, height - y), style::GRID);
+        pixels.line((x, stage.at.1), (width - x, stage.at.1), style::GRID, 1.25);
         let arm = 0.02 * height;
         for x in [1.5 * arm, width - 1.5 * arm] {
             for y in [1.5 * arm, height - 1.5 * arm] {
-                canvas.line((x - arm, y), (x + arm, y), style::INK, 1.0);
-                canvas.line((x, y - arm), (x, y + arm), style::INK, 1.0);
-                canvas.hoop((x, y), 0.5 * arm, style::INK, 1.0);
+                pixels.line((x - arm, y), (x + arm, y), style::INK, 1.0);
+                pixels.line((x, y - arm), (x, y + arm), style::INK, 1.0);
+                pixels.hoop((x, y), 0.5 * arm, style::INK, 1.0);
             }
         }
-        canvas.finish()
     }
 }
 

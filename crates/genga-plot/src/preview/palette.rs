@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use plotters::style::RGBColor;
-use resvg::tiny_skia::PremultipliedColorU8;
+use tiny_skia::PremultipliedColorU8;
 
 use crate::style;
 

@@ -58,7 +58,7 @@ impl<'a> Scene<'a> {
         let at = |panel: f64| (size.0 * (0.25 + 0.5 * panel), size.1 - BOTTOM);
         let stages = [0.0, 1.0].map(|panel| Stage { at: at(panel), ..stage.clone() });
         let cells = shown_drawings(layer);
-        let backdrop = Pixels::new(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
+        let backdrop = Pixels::from_svg(&backdrop(cut, sheet, layer, &cells, koma, size, follows))?;
         Ok(Self {
             posing: Posing::new(clip, figure.marks()),
             showing: Showing::new(composite, figure.marks()),
@@ -68,9 +68,9 @@ impl<'a> Scene<'a> {
             follows,
             pixels: backdrop.clone(),
             backdrop,
-            small: Digits::new(style::WORDS, style::INK)?,
-            genga: Digits::new(style::TITLE, style::GENGA)?,
-            plain: Digits::new(style::TITLE, style::INBETWEEN)?,
+            small: Digits::new(style::WORDS, style::INK),
+            genga: Digits::new(style::TITLE, style::GENGA),
+            plain: Digits::new(style::TITLE, style::INBETWEEN),
             size,
             koma,
         })
