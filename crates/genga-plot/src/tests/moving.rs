@@ -97,6 +97,26 @@ fn images_are_transparent_or_paper_as_asked_and_marks_stay_in_place() {
     assert!(tops.iter().all(|other| *other == tops[0]));
 }
 
+#[test]
+fn each_image_with_marks_has_its_own_number_below_the_floor() {
+    let (clip, sheet) = walk();
+    let marked =
+        NumberedImages { marks: true, width: 640, height: 360, ..NumberedImages::default() };
+    let number = |png: &[u8]| {
+        let map = Pixmap::decode_png(png).unwrap();
+        let corner = map.data()[4 * 640 * 330..4 * 640 * 340].to_vec();
+        let faint = |pixel: &[u8]| pixel[0] < 160;
+        let inked = corner.chunks(4).filter(|pixel| faint(pixel)).count();
+        (corner, inked)
+    };
+    let images = images(&marked, &clip, &sheet);
+    let numbers: Vec<_> = images.iter().map(|(_, png)| number(png)).collect();
+    assert!(numbers.iter().all(|(_, inked)| *inked > 5), "a number is written");
+    for (at, number) in numbers.iter().enumerate() {
+        assert!(numbers[..at].iter().all(|other| other.0 != number.0), "drawing {}", at + 1);
+    }
+}
+
 /// Returns every picture of a GIF as it is shown on the screen, with its time in hundredths of a second.
 fn played(bytes: &[u8]) -> Vec<(Vec<u8>, u16)> {
     let mut options = DecodeOptions::new();
