@@ -97,3 +97,10 @@ fn what_is_not_there_is_found_however_it_is_written() {
     assert_eq!(missing("see [a](data/READ.md)", code), ["data/READ.md"]);
     assert_eq!(missing("```sh\ntests/others/none/run\n```", code), ["tests/others/none/run"]);
 }
+
+#[test]
+fn the_citation_is_of_this_version() {
+    let citation = fs::read_to_string(here("CITATION.cff")).unwrap();
+    let version = citation.lines().find_map(|line| line.strip_prefix("version: "));
+    assert_eq!(version, Some(env!("CARGO_PKG_VERSION")));
+}

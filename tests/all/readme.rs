@@ -29,8 +29,11 @@ use page::{Block, Piece, bare, commands, page, pieces};
 use reader::{TESTS, UNINSTALLED, place, said};
 
 /// The pages, each with its translation.
-const PAGES: [[&str; 2]; 2] =
-    [["README.md", "README.ja.md"], ["docs/guide.md", "docs/guide.ja.md"]];
+const PAGES: [[&str; 2]; 3] = [
+    ["README.md", "README.ja.md"],
+    ["docs/guide.md", "docs/guide.ja.md"],
+    ["docs/for-me.md", "docs/for-me.ja.md"],
+];
 
 /// Runs a command and returns its output.
 type Say<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;

@@ -9,7 +9,10 @@ PACKAGE, TARGET, *OPTIONS = sys.argv[1:]
 ROOT = Path(__file__).resolve().parents[2]
 
 # What comes without a text of its licence, and may not be taken by Apache's: by which it is, and whose it is.
-TAKEN = {"ufbx": ("MIT", "Copyright (c) 2022 Samuli Raivio")}
+TAKEN = {
+    "ufbx": ("MIT", "Copyright (c) 2022 Samuli Raivio"),
+    **dict.fromkeys(("block2", "objc2", "objc2-encode"), ("MIT", "Copyright Mads Marquart")),
+}
 # What no package of Cargo is and is linked all the same, where a target's name has the word.
 BESIDE = [
     ("", "the standard library of Rust, MIT OR Apache-2.0", ("APACHE", "")),
@@ -47,8 +50,11 @@ def texts_of(package):
     return [by_name(*taken)] if taken else sys.exit(f"{name}, {licence}, has no text of it: give it a row in {__file__}")
 
 
-everything = json.loads(told("metadata", "--locked", "--format-version", "1"))["packages"]
+everything = json.loads(told("metadata", "--locked", "--all-features", "--format-version", "1"))["packages"]
 is_in, texts = linked(), {}
+unknown = is_in - {(one["name"], f"v{one['version']}") for one in everything}
+if unknown:
+    sys.exit(f"cargo metadata does not know {sorted(unknown)}")
 
 
 def add(title, text):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """genga in Blender: finds the key drawings of an armature's take, and applies timesheets to rigs."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Applies a sheet to the rig: a separate action with constant keys. The take's action stays unchanged."""
 
 import math

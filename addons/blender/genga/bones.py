@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The list of bones, in which a person ticks those to leave out."""
 
 from bpy.props import BoolProperty, EnumProperty

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Exports the result as timesheets and other files, written by genga itself."""
 
 from bpy.props import EnumProperty, StringProperty

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Held feet (接地): how far the leg bones turn away from a drawing's own pose. Independent of Blender."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads those parts of genga's files that the add-on needs. Independent of Blender."""
 
 import json

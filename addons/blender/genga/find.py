@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Find Keys: samples the rig, runs genga, and writes the keys into a separate action."""
 
 import time

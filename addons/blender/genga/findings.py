@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sampled takes and last results of each armature, kept until another file is opened.
 
 Stores names instead of Blender's data, because an undo recreates that data.

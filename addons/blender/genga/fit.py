@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Checks whether an action is the take that a sheet was made from. Independent of Blender.
 
 A sheet stores the joint names and the length of its take. Two takes with the same length and skeleton cannot be

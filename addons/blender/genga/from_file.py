@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the program's files: applies a timesheet to an action, and imports a stepped GLB with key roles."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Leg rotations of a rig that hold its feet."""
 
 from mathutils import Matrix

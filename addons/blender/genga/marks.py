@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Marks on the timeline: keys of type Extreme, selected frames, and markers for the genga."""
 
 import bisect

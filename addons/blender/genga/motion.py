@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Converts poses, as matrices, to a genga clip. Independent of Blender."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The panels in the sidebars of the 3-D view and the dope sheet."""
 
 from bpy.types import Menu, Panel

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A person's corrections: pinned and forbidden frames. Independent of Blender.
 
 They use the program's notation, `40:contact` and `50..60`, with frames of Blender's timeline.

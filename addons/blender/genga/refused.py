@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Errors for users, and operators that report them to Blender. Independent of Blender."""
 
 

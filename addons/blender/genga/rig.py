@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Selects a rig's bones for a clip, and their hierarchy. Independent of Blender.
 
 Rigs also have controls, targets and mechanisms. Each selected bone becomes a child of its nearest selected ancestor.

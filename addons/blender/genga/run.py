@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs genga on a sampled take, on a separate thread, and reruns changed stages. Independent of Blender."""
 
 import json

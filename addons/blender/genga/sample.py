@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Samples a rig's evaluated pose on every frame, with constraints, drivers and NLA tracks."""
 
 import time

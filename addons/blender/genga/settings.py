@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Converts the panel's settings to genga's settings and targets. Independent of Blender."""
 
 from .refused import Refused, engine

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes actions stepped: writes a sheet's poses as constant keys, and roles as keyframe types."""
 
 from itertools import groupby

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The take that an object plays: its action in its slot, or a mix of NLA tracks."""
 
 from .refused import Refused

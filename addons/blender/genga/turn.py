@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small operators of the panel: switch take and sheet, apply presets, mark frames."""
 
 from bpy.props import EnumProperty

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Japanese translations of the panel, in the form that Blender expects."""
 
 # Context of labels that Blender translates otherwise, such as Snap.
