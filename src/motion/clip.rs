@@ -107,9 +107,14 @@ impl Clip {
             return Err(Error::clip(format!("frame {frame} holds {value:e}, which is no motion")));
         }
         let is_wild = |length: &f64| length.is_nan() || length.abs() > LARGEST;
-        let wild = |joint: &&Joint| joint.offset.to_array().iter().any(is_wild);
+        let wild = |joint: &&Joint| {
+            let tips = joint.end_sites.iter().map(|tip| tip.offset);
+            tips.chain([joint.offset]).any(|offset| offset.to_array().iter().any(is_wild))
+        };
         match self.skeleton.joints.iter().find(wild) {
-            Some(joint) => Err(Error::clip(format!("the offset of {} is no length", joint.name))),
+            Some(joint) => {
+                Err(Error::clip(format!("the offset of {} or of its tip is no length", joint.name)))
+            }
             None => Ok(()),
         }
     }
@@ -318,7 +323,12 @@ mod tests {
         assert_eq!(error.to_string(), "frame 1 holds a value that is not a number");
         let wild = clip(&[0.0, 0.0, 1e300, 0.0]).unwrap();
         assert!(wild.check_size().unwrap_err().to_string().starts_with("frame 2 holds"));
-        assert!(clip(&[0.0, 0.0, 1e9, 0.0]).unwrap().check_size().is_ok());
+        let mut long = clip(&[0.0, 0.0, 1e9, 0.0]).unwrap();
+        assert!(long.check_size().is_ok());
+        let offset = glam::DVec3::new(0.0, 1e308, 0.0);
+        long.skeleton.joints[0].end_sites = vec![EndSite { name: "Site".into(), offset }];
+        let error = long.check_size().unwrap_err().to_string();
+        assert_eq!(error, "the offset of root or of its tip is no length");
     }
 
     #[test]

@@ -186,6 +186,10 @@ fn parts_on_several_machines_are_joined_to_what_one_gives() {
     assert_eq!(parts, whole);
     let said = place.refused(2, "batch --join parts whole --out joined");
     assert!(said.contains("different lists"), "{said}");
+    for again in ["parts parts other", "parts other parts/../other"] {
+        let said = place.refused(2, &format!("batch --join {again} --out joined"));
+        assert!(said.contains("of 3 is there twice: ") && said.contains("name it once"), "{said}");
+    }
 }
 
 #[test]

@@ -73,6 +73,47 @@ fn names_that_differ_in_capitals_alone_have_folders_of_their_own() {
 
 #[cfg(unix)]
 #[test]
+fn a_name_too_long_to_write_is_a_row_and_the_others_are_done() {
+    let place = Place::new();
+    fs::create_dir(place.path("lib")).unwrap();
+    // The clip has 255 bytes in its name; CUT_genga_ts.xdts has more.
+    let long = "x".repeat(251);
+    for name in [&*long, "run"] {
+        fs::write(place.path("lib").join(format!("{name}.bvh")), kick()).unwrap();
+    }
+    for again in ["", " again"] {
+        let (exit, said) = code(&place, "batch lib --out out --deliver json,xdts");
+        assert_eq!(exit, 1, "{said}{again}");
+        assert!(said.contains("1 of 2 failed: "), "{said}{again}");
+        assert!(place.path("out/clips/run.bvh/sheet.json").is_file());
+    }
+    let table = fs::read_to_string(place.path("out/summary.csv")).unwrap();
+    assert!(table.contains("the file system refuses"), "{table}");
+}
+
+#[test]
+fn a_journal_that_was_changed_is_not_believed() {
+    let place = Place::new();
+    fs::create_dir(place.path("lib")).unwrap();
+    for name in ["a.bvh", "b.bvh"] {
+        fs::write(place.path("lib").join(name), kick()).unwrap();
+    }
+    place.done("batch lib --out out");
+    let first = results(&place, "out");
+    let journal = place.path("out/batch.jsonl");
+    let text = fs::read_to_string(&journal).unwrap();
+    assert_eq!(text.matches("\"genga\":13").count(), 2, "{text}");
+    fs::write(&journal, text.replacen("\"genga\":13", "\"genga\":99", 1)).unwrap();
+    let said = place.refused(1, "batch --join out --out joined");
+    assert!(said.contains("batch.jsonl: 1 line not as a batch wrote it"), "{said}");
+    assert!(said.contains("1 of 2 clips not in these folders"), "{said}");
+    let (exit, said) = code(&place, "batch lib --out out");
+    assert_eq!(exit, 0, "{said}");
+    assert!(said.contains("1 line not as a batch wrote it"), "{said}");
+    assert_eq!(results(&place, "out"), first, "the clip was done again");
+}
+
+#[test]
 fn links_in_a_circle_end() {
     let place = Place::new();
     fs::create_dir_all(place.path("lib/a/b")).unwrap();

@@ -15,6 +15,7 @@ mod tests;
 pub(super) use document::Document;
 pub(super) use scene::read;
 
+use crate::reading::shortened;
 use genga::error::{Error, Place};
 
 /// Whether a file begins like glTF: a GLB, or a JSON object.
@@ -25,7 +26,8 @@ pub(super) fn begins(head: &[u8]) -> bool {
     }
 }
 
-/// Builds an error about a part of a document.
+/// Builds an error about a part of a document. Words of the file in it are cut off at a length that can be read.
 fn wrong(part: impl Into<String>, message: impl Into<String>) -> Error {
-    Error::Motion { place: Place::Part(part.into()), message: message.into() }
+    let message = shortened(&message.into(), 400).into_owned();
+    Error::Motion { place: Place::Part(part.into()), message }
 }

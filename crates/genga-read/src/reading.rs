@@ -11,6 +11,7 @@ use genga::motion::{Axis, BoneMap, Clip, StreamLimit};
 use genga::time::FrameRate;
 
 pub use given::Given;
+pub(crate) use given::{read_beside, shortened};
 pub use takes::{TAKES, Take};
 
 /// Options for reading a motion file.

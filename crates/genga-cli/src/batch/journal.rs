@@ -1,20 +1,22 @@
 //! The journal of finished clips (作業記録): one line per clip, written when its folder is in place. The next batch reads
 //! it and continues from there.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::super::console::counted;
 use super::super::failure::Failure;
 use super::super::files;
 use super::row::Line;
 use super::shard::Shard;
+use genga_files::Manifest;
 
 /// Version of the format, as written in the file.
-const SCHEMA: &str = "genga-batch-1";
+const SCHEMA: &str = "genga-batch-2";
 
 /// The first line: identifies the list and the part.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,6 +77,8 @@ pub(crate) struct Journal {
     end: u64,
     pub(crate) header: Header,
     known: HashMap<String, Known>,
+    /// Number of lines that are not as a batch wrote them.
+    changed: usize,
 }
 
 impl Journal {
@@ -103,7 +107,7 @@ impl Journal {
 
     fn begin(path: &Path, header: Header, lines: &[Line]) -> Result<Self, Failure> {
         let mut text = encoded(&header);
-        lines.iter().for_each(|line| text.push_str(&encoded(line)));
+        lines.iter().for_each(|line| text.push_str(&sealed(line)));
         files::write(path, text.as_bytes())?;
         Self::held(path)
     }
@@ -140,19 +144,24 @@ impl Journal {
         let header: Header = header.ok_or_else(|| {
             Failure::at(path, "is no journal of a batch that this version can read")
         })?;
-        let mut known = HashMap::new();
+        let (mut known, mut changed) = (HashMap::new(), 0);
         loop {
             text.clear();
             let length = lines.read_line(&mut text).map_err(io)?;
-            let line = serde_json::from_str::<Line>(&text).ok().filter(|_| text.ends_with('\n'));
-            let Some(line) = line else { break };
-            let span = Span { begin: end, length };
-            let Line { at, clip, file, asked, row, .. } = line;
-            known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+            if !text.ends_with('\n') {
+                break;
+            }
+            match unsealed(&text) {
+                Some(Line { at, clip, file, asked, row, .. }) => {
+                    let span = Span { begin: end, length };
+                    known.insert(clip, Known { at, span, file, asked, is_done: row.is_done() });
+                }
+                None => changed += 1,
+            }
             end += length as u64;
         }
         drop(lines);
-        Ok(Self { path: path.into(), file, end, header, known })
+        Ok(Self { path: path.into(), file, end, header, known, changed })
     }
 
     /// Whether this clip was done with the same file and options; its line is then not needed.
@@ -171,13 +180,24 @@ impl Journal {
         let mut text = vec![0; span.length];
         let mut file = &self.file;
         let read = file.seek(SeekFrom::Start(span.begin)).and_then(|_| file.read_exact(&mut text));
-        let line = read.and_then(|()| serde_json::from_slice(&text).map_err(io::Error::other));
+        let line = read.and_then(|()| {
+            let line = str::from_utf8(&text).ok().and_then(unsealed);
+            line.ok_or_else(|| io::Error::other("a line has changed while it was read"))
+        });
         line.map_err(|error| Failure::at(&self.path, error))
+    }
+
+    /// A note on lines that do not count because somebody changed them; `None` if there are none.
+    pub(crate) fn note(&self) -> Option<String> {
+        let (path, lines) = (self.path.display(), counted(self.changed, "line"));
+        (self.changed > 0).then(|| {
+            format!("{path}: {lines} not as a batch wrote it; such clips count as not done")
+        })
     }
 
     /// Appends the line of a clip.
     pub(crate) fn add(&mut self, line: Line) -> Result<(), Failure> {
-        let text = encoded(&line);
+        let text = sealed(&line);
         let span = Span { begin: self.end, length: text.len() };
         let written = self.file.write_all(text.as_bytes());
         written.map_err(|error| Failure::at(&self.path, error))?;
@@ -206,13 +226,41 @@ pub(crate) fn check_parts(journals: &[Journal]) -> Result<(), Failure> {
             "these folders are of different lists, or of lists that were dealt differently".into(),
         );
     }
-    let there: HashSet<usize> = journals.iter().map(|journal| journal.header.part).collect();
-    match (1..=parts).find(|part| !there.contains(part)) {
+    let mut there: HashMap<usize, &Path> = HashMap::new();
+    for journal in journals {
+        if let Some(other) = there.insert(journal.header.part, &journal.path) {
+            let (part, path) = (journal.header.part, journal.path.display());
+            let both = if other == journal.path {
+                format!("{path} twice")
+            } else {
+                format!("{} and {path}", other.display())
+            };
+            return wrongly(format!("part {part} of {parts} is there twice: {both}; name it once"));
+        }
+    }
+    match (1..=parts).find(|part| !there.contains_key(part)) {
         Some(part) => wrongly(format!(
             "part {part} of {parts} is missing: genga batch … --shard {part}/{parts}"
         )),
         None => Ok(()),
     }
+}
+
+/// Separates a line from its digest, which is its last field.
+const SEAL: &str = ",\"digest\":\"";
+
+/// Encodes the line of a clip with a digest of it, so that a line that was changed by hand is not believed.
+fn sealed(line: &Line) -> String {
+    let text = encoded(line);
+    let body = text.trim_end().strip_suffix('}').unwrap_or_default();
+    format!("{body}{SEAL}{}\"}}\n", Manifest::digest(body.as_bytes()))
+}
+
+/// Decodes the line of a clip; `None` if it is not as [`sealed`] wrote it.
+fn unsealed(text: &str) -> Option<Line> {
+    let (body, digest) = text.trim_end().rsplit_once(SEAL)?;
+    let is_ours = digest.strip_suffix("\"}") == Some(&*Manifest::digest(body.as_bytes()));
+    is_ours.then(|| serde_json::from_str(&format!("{body}}}")).ok()).flatten()
 }
 
 fn encoded(data: &impl Serialize) -> String {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use walkdir::WalkDir;
@@ -44,7 +45,11 @@ impl Places<'_> {
         before: &Files,
     ) -> Result<(), Failure> {
         let place = self.clip_folder(name);
-        let failed = |error| Failure::at(&place, error);
+        let failed = |error: io::Error| match is_too_long(&error) {
+            // The clip's own fault, which becomes its row.
+            true => Failure::AskedWrongly(too_long(&place)),
+            false => Failure::at(&place, error),
+        };
         if place.exists() {
             self.spare(&place, come, before)?;
             fs::rename(&place, old).map_err(failed)?;
@@ -75,6 +80,17 @@ impl Places<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether the file system refuses a name, usually one of more than 255 bytes.
+pub(super) fn is_too_long(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::InvalidFilename
+}
+
+/// The message for a name that the file system refuses.
+pub(super) fn too_long(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    format!("{name}: the file system refuses this name; give the clip a shorter one")
 }
 
 /// The failure for something that no batch wrote and that would be overwritten.

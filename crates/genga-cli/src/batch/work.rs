@@ -16,6 +16,7 @@ use super::super::plan::{Plan, PlanArgs};
 use super::super::{corrections, files, paths, stop};
 use super::list::Item;
 use super::pack::Parcel;
+use super::place;
 use super::row::{Line, Row};
 use genga::edits::Edits;
 use genga::error::Error;
@@ -146,11 +147,16 @@ impl<'a> Begun<'a> {
         let digest = asked.as_ref().map(|(_, digest)| digest.clone()).unwrap_or_default();
         let (mut warnings, mut is_unwritten) = (Vec::new(), false);
         let drawn = asked.and_then(|(own, digest)| {
-            let put = &mut |name: &str, bytes: &[u8], of: &str| match &mut parcel {
+            let put = &mut |name: &str, bytes: &[u8], of: &str| {
+                match &mut parcel {
                 Some(parcel) => parcel
                     .add(&item.name, name, of, bytes)
                     .map_err(|source| Error::Io { path: item.path.clone(), source }),
-                None => write(&ready.join(name), bytes).inspect_err(|_| is_unwritten = true),
+                None => write(&ready.join(name), bytes).inspect_err(|error| {
+                    is_unwritten =
+                        !matches!(error, Error::Io { source, .. } if place::is_too_long(source));
+                }),
+            }
             };
             let work = || drawn(&own, &digest, formats, put, &mut warnings);
             let fault = |_| {

@@ -110,6 +110,7 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     let asked = Asked::new(&plan, &formats)?;
     let items = list::items(&args.clips, &args.out)?;
     let batch = Batch::begin(args, &items, &asked, &formats)?;
+    batch.state().journal.note().iter().for_each(|note| words.say(note));
     batch.work(words)?;
     batch.close(args, words)
 }
@@ -317,6 +318,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         files.sort();
         for file in files {
             let journal = Journal::read(&file)?;
+            journal.note().iter().for_each(|note| words.say(note));
             packs.push(Pack::read(folder, &journal.header)?);
             journals.push(journal);
         }
@@ -333,7 +335,13 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
     if packs.iter().any(Pack::is_there) {
         pack::all(&args.out.join(ARCHIVE), &packs, &journals, names())?;
     }
-    end(&count, of, args, words)
+    end(&count, of, args, words)?;
+    match of.saturating_sub(clips.len()) {
+        0 => Ok(()),
+        missing => Err(Failure::CouldNot(format!(
+            "{missing} of {of} clips not in these folders; run the batches of the parts to their ends"
+        ))),
+    }
 }
 
 /// Reports the outcome.

@@ -59,6 +59,13 @@ pub(crate) fn read(given: &Given<'_>, options: &Options) -> Result<Read, Error> 
     Ok(Read { clip, warnings, written_frame_time: None, found, takes })
 }
 
+/// Bytes that the scene may take. Zeros pack to a thousandth, so a small file could else fill the memory; motion packs to
+/// a twentieth at best.
+fn most_unpacked(packed: usize, options: &Options) -> usize {
+    let allowed = usize::try_from(options.stream.bytes).unwrap_or(usize::MAX);
+    packed.saturating_mul(64).saturating_add(64 << 20).min(allowed)
+}
+
 /// Loads the scene without the data that no motion needs, within the memory limit.
 fn loaded(bytes: &[u8], options: &Options) -> Result<SceneRoot, Error> {
     let read = Cell::new(0);
@@ -79,7 +86,7 @@ fn loaded(bytes: &[u8], options: &Options) -> Result<SceneRoot, Error> {
         progress_interval_hint: STEP,
         ..LoadOpts::default()
     };
-    let most = usize::try_from(options.stream.bytes).unwrap_or(usize::MAX);
+    let most = most_unpacked(bytes.len(), options);
     wanted.temp_allocator.memory_limit = most;
     wanted.result_allocator.memory_limit = most;
     let mut progress = |progress: &ufbx::Progress| {
