@@ -113,6 +113,16 @@ fn a_journal_that_was_changed_is_not_believed() {
     assert_eq!(results(&place, "out"), first, "the clip was done again");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_device_is_no_folder_of_results() {
+    let place = Place::new();
+    for command in ["run data/kick.bvh", "batch data/kick.bvh", "split data/kick.bvh"] {
+        let said = place.refused(2, &format!("{command} --out /dev/null"));
+        assert!(said.contains("writes a folder of files, not to /dev/null"), "{said}");
+    }
+}
+
 #[test]
 fn links_in_a_circle_end() {
     let place = Place::new();

@@ -82,16 +82,20 @@ pub(super) fn named(path: &Path) -> PathBuf {
     if is_stream(path) { PathBuf::from("stdin") } else { path.to_owned() }
 }
 
-/// Refuses stdout as `--out` of a `command` that writes a folder. `instead` names an alternative.
+/// Refuses stdout, a device or a pipe as `--out` of a `command` that writes a folder. `instead` names an alternative.
 pub(super) fn check_folder(
     out: Option<&Path>,
     command: &str,
     instead: &str,
 ) -> Result<(), Failure> {
-    if !out.is_some_and(is_stream) {
-        return Ok(());
-    }
-    let message = format!("--out: {command} writes a folder of files, not to stdout{instead}");
+    let Some(out) = out else { return Ok(()) };
+    let is_device = std::fs::metadata(out).is_ok_and(|about| !about.is_file() && !about.is_dir());
+    let what = match is_stream(out) {
+        true => "stdout".to_owned(),
+        false if is_device => out.display().to_string(),
+        false => return Ok(()),
+    };
+    let message = format!("--out: {command} writes a folder of files, not to {what}{instead}");
     Err(Failure::AskedWrongly(message))
 }
 

@@ -3,11 +3,12 @@
 mod digits;
 
 use plotters::style::RGBColor;
-use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform,
-};
 #[cfg(feature = "pictures")]
-use tiny_skia::{PremultipliedColorU8, Rect};
+use tiny_skia::Rect;
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
+    Transform,
+};
 
 use crate::canvas::Inks;
 use crate::figure::{Drawn, Shape};
@@ -66,12 +67,25 @@ impl Pixels {
         self.map.data()
     }
 
-    /// Encodes the bitmap as PNG.
+    /// Encodes the bitmap as PNG, quickly: figures are flat colours, which any compression makes small.
     ///
     /// # Errors
     /// [`Error::Picture`] if memory runs out.
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
-        self.map.encode_png().map_err(style::failed)
+        let straight = |pixel: &PremultipliedColorU8| {
+            let pixel = pixel.demultiply();
+            [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
+        };
+        let colors: Vec<u8> = self.map.pixels().iter().flat_map(straight).collect();
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.map.width(), self.map.height());
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        let mut writer = encoder.write_header().map_err(style::failed)?;
+        writer.write_image_data(&colors).map_err(style::failed)?;
+        writer.finish().map_err(style::failed)?;
+        Ok(bytes)
     }
 
     /// Copies the contents of another bitmap of the same size.

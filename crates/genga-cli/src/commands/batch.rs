@@ -20,11 +20,11 @@ use crate::clip::{ClipArgs, Part};
 use crate::console::{Bar, Words, counted};
 use crate::corrections::Corrections;
 use crate::failure::Failure;
-use crate::files;
 use crate::format_args::{FormatArgs, Formats, help, long_help};
 use crate::plan::{PlanArgs, TargetArgs};
 use crate::staging::Staging;
 use crate::stop;
+use crate::{files, paths};
 use genga_files::Manifest;
 
 #[derive(Debug, Args)]
@@ -94,6 +94,7 @@ const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 const LEAST: u64 = 1 << 14;
 
 pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
+    paths::check_folder(Some(&args.out), "batch", "")?;
     if !args.list {
         fs::create_dir_all(&args.out).map_err(|error| Failure::at(&args.out, error))?;
     }

@@ -1,5 +1,7 @@
 //! Draws the numbered images as pixels.
 
+use rayon::prelude::*;
+
 use super::NumberedImages;
 use crate::canvas::Inks;
 use crate::drawings::{composed, drawn_poses};
@@ -11,29 +13,38 @@ use crate::stage::{Bounds, Stage};
 use crate::style;
 use genga::error::Error;
 use genga::motion::{Clip, Composite, layer_of};
-use genga::sheet::Sheet;
+use genga::sheet::{Layer, Sheet};
 
 /// Share of the picture on each side that figures stay out of: the edge of the safe area.
 const SAFE: f64 = 0.05;
 
-/// Stage and backdrop of all images, and the pixels of the current one.
+/// Number of images that are drawn at once: work for many cores, and little memory.
+const AT_ONCE: usize = 64;
+
+/// Stage, backdrop and digits of all images.
 struct Easel {
     stage: Stage,
     backdrop: Pixels,
-    pixels: Pixels,
     /// End of the number's base line and its digits, if the number is written.
     number: Option<(Point, Digits)>,
 }
 
 impl Easel {
-    /// Draws a figure with its number, and returns the PNG.
-    fn picture(&mut self, drawn: &Drawn, number: usize) -> Result<Vec<u8>, Error> {
-        self.pixels.copy(&self.backdrop);
-        self.pixels.figure(drawn, Inks::Sides);
+    /// Draws figures, each with its number, on all cores. Returns the PNGs in the same order.
+    fn pictures(&self, figures: &[(Drawn, usize)]) -> Result<Vec<Vec<u8>>, Error> {
+        let draw = |pixels: &mut Pixels, (drawn, number): &(Drawn, usize)| {
+            self.picture(pixels, drawn, *number)
+        };
+        figures.par_iter().map_init(|| self.backdrop.clone(), draw).collect()
+    }
+
+    fn picture(&self, pixels: &mut Pixels, drawn: &Drawn, number: usize) -> Result<Vec<u8>, Error> {
+        pixels.copy(&self.backdrop);
+        pixels.figure(drawn, Inks::Sides);
         if let Some((at, digits)) = &self.number {
-            digits.write(&mut self.pixels, number, *at);
+            digits.write(pixels, number, *at);
         }
-        self.pixels.png()
+        pixels.png()
     }
 }
 
@@ -51,13 +62,19 @@ impl NumberedImages {
     ) -> Result<(), E> {
         let composite = composed(clip, sheet)?;
         let figure = Figure::new(clip, self.body);
-        let mut easel = self.easel(&composite, &figure)?;
-        let stage = easel.stage.clone();
+        let easel = self.easel(&composite, &figure)?;
         let mut showing = Showing::new(&composite, figure.marks());
         let name: String = composite.layer().name.chars().map(plain).collect();
-        for (at, koma) in composite.first_koma().into_iter().enumerate() {
-            let picture = easel.picture(&stage.draw(&showing.points(at, koma)), at + 1)?;
-            take(&format!("{name}_{:04}.png", at + 1), picture)?;
+        let drawings: Vec<(usize, usize)> =
+            composite.first_koma().into_iter().enumerate().collect();
+        for some in drawings.chunks(AT_ONCE) {
+            let figure = |(at, koma): &(usize, usize)| {
+                (easel.stage.draw(&showing.points(*at, *koma)), at + 1)
+            };
+            let figures: Vec<_> = some.iter().map(figure).collect();
+            for ((at, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
+                take(&format!("{name}_{:04}.png", at + 1), picture)?;
+            }
         }
         Ok(())
     }
@@ -76,21 +93,21 @@ impl NumberedImages {
     ) -> Result<(), E> {
         let composite = composed(clip, sheet)?;
         let figure = Figure::new(clip, self.body);
-        let mut easel = self.easel(&composite, &figure)?;
+        let easel = self.easel(&composite, &figure)?;
         let mut showing = Showing::new(&composite, figure.marks());
         let on_screen: Vec<usize> = composite.layer().koma().collect();
         let columns = layer_of(clip.skeleton(), sheet)?;
         for (column, layer) in sheet.layers.iter().enumerate() {
             let own = columns.iter().map(|of| *of == column).collect();
             let stage = Stage { figure: figure.only(own), ..easel.stage.clone() };
-            let mut drawn = vec![false; layer.drawings.len()];
-            for (koma, exposure) in layer.timed() {
-                if std::mem::replace(&mut drawn[exposure.drawing], true) {
-                    continue;
+            for some in first_shown(layer).chunks(AT_ONCE) {
+                let figure = |(drawing, koma): &(usize, usize)| {
+                    (stage.draw(&showing.points(on_screen[*koma], *koma)), drawing + 1)
+                };
+                let figures: Vec<_> = some.iter().map(figure).collect();
+                for ((drawing, _), picture) in some.iter().zip(easel.pictures(&figures)?) {
+                    take(column, *drawing, picture)?;
                 }
-                let pose = showing.points(on_screen[koma], koma);
-                let picture = easel.picture(&stage.draw(&pose), exposure.drawing + 1)?;
-                take(column, exposure.drawing, picture)?;
             }
         }
         Ok(())
@@ -102,7 +119,7 @@ impl NumberedImages {
         let backdrop = self.backdrop(&stage)?;
         let digits = || Digits::new(0.03 * f64::from(self.height).max(300.0), style::FAINT);
         let number = self.marks.then(|| (self.inside(0.99 - SAFE), digits()));
-        Ok(Easel { stage, pixels: backdrop.clone(), backdrop, number })
+        Ok(Easel { stage, backdrop, number })
     }
 
     /// Returns the point at a share of the picture's width and height, from its upper left corner.
@@ -146,6 +163,13 @@ impl NumberedImages {
             }
         }
     }
+}
+
+/// Returns the drawings of a layer that are on screen, each with its first koma, in the order of time.
+fn first_shown(layer: &Layer) -> Vec<(usize, usize)> {
+    let mut seen = vec![false; layer.drawings.len()];
+    let shown = layer.timed().map(|(koma, exposure)| (exposure.drawing, koma));
+    shown.filter(|(drawing, _)| !std::mem::replace(&mut seen[*drawing], true)).collect()
 }
 
 /// Replaces a letter by `_` unless every system allows it in file names.
