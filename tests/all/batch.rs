@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use crate::folders::all;
-use crate::program::{Place, text};
+use crate::program::{Place, column, text};
 
 /// Makes a library: the sample clips, folders with clips of the same name, broken clips, and files that are no clips.
 /// Returns the number of clips.
@@ -43,6 +43,25 @@ pub(crate) fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> 
 pub(crate) fn code(place: &Place, args: &str) -> (i32, String) {
     let output = place.genga(args);
     (output.status.code().unwrap_or(-1), text(&output.stderr))
+}
+
+#[test]
+fn a_format_that_cannot_be_made_is_said_in_the_clips_row_and_stops_no_other() {
+    let place = Place::new();
+    let batch = "batch data/kick.bvh data/pitch.bvh --deliver json,vmd --set rate=60 --out out";
+    // The second time nothing is left to do, and it is still said.
+    for _ in 0..2 {
+        let (code, said) = code(&place, batch);
+        assert_eq!(code, 1, "{said}");
+        assert!(said.contains("2 of 2 lack a format: kick.bvh: vmd is not made: "), "{said}");
+    }
+    let summary = text(&results(&place, "out")["summary.csv"]);
+    assert_eq!(column(&summary, "status"), ["done", "done"]);
+    assert!(column(&summary, "message")[0].starts_with("vmd is not made: vmd.fps: 60 koma"));
+    assert_eq!(column(&summary, "warnings")[0], "W_NOT_MADE");
+    assert!(place.path("out/clips/kick.bvh/sheet.json").exists());
+    let (code, said) = self::code(&place, &format!("{batch} --allow-failures"));
+    assert_eq!(code, 0, "{said}");
 }
 
 #[test]

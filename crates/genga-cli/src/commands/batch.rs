@@ -338,7 +338,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, failed, failures } = count;
+    let Count { done, failed, failures, lacking, lacks } = count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -346,11 +346,15 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         "batch       一括       {} of {of} done into {out}: {tables}",
         counted(*done, "clip")
     ));
-    if *failures == 0 {
+    let named = |count: usize, what: &str, clips: &[String]| {
+        let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
+        (count > 0).then(|| format!("{count} of {of} {what}: {}{more}", clips.join("; ")))
+    };
+    let faults = [named(*failures, "failed", failed), named(*lacks, "lack a format", lacking)];
+    let message = faults.into_iter().flatten().collect::<Vec<_>>().join("; ");
+    if message.is_empty() {
         return Ok(());
     }
-    let more = if *failures > NAMED { "; …, all in summary.csv" } else { "" };
-    let message = format!("{failures} of {of} failed: {}{more}", failed.join("; "));
     if args.progress == Progress::Openjd {
         let word = if args.allow_failures { "openjd_status" } else { "openjd_fail" };
         let _ = writeln!(stdout(), "{word}: {message}");

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::Folder;
-use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::format_args::{FormatArgs, Formats, all_made, help, long_help};
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
 use crate::{camera_args, corrections, files, paths, pin_args};
@@ -45,7 +45,7 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::from_args(&args.plan)?;
-    let mut formats = Formats::new(
+    let formats = Formats::new(
         "deliver",
         &args.deliver,
         &Run::FORMATS,
@@ -86,14 +86,14 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         kept: kept(given(args, &folder), (recipe, edits)),
         tell: &|_| Ok(()),
     };
-    let Outcome { report, files, left } = results.write(&mut formats, place)?;
+    let Outcome { report, files, unmade, left } = results.write(&formats, place)?;
     drop(working);
 
     summary(words, &name, &report);
     shortfalls(words, &report, &breakdown);
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
-    Ok(())
+    all_made(&unmade)
 }
 
 /// Refuses to overwrite an input or an edited sheet.
