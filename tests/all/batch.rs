@@ -65,6 +65,34 @@ fn a_format_that_cannot_be_made_is_said_in_the_clips_row_and_stops_no_other() {
 }
 
 #[test]
+fn results_of_genga_are_no_clips_and_it_is_said() {
+    let place = Place::new();
+    fs::create_dir(place.path("lib")).unwrap();
+    for sample in ["kick", "pitch"] {
+        let from = crate::clips::here(&format!("data/{sample}.bvh"));
+        fs::copy(from, place.path(&format!("lib/{sample}.bvh"))).unwrap();
+    }
+    place.done("run lib/kick.bvh --out lib/kick-genga");
+    place.done("batch lib/pitch.bvh --deliver bvh --out lib/before");
+    let note = "note        results of genga, not taken for clips: ";
+    let (code, said) = code(&place, "batch lib --out lib/now");
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains(&format!("{note}lib/before lib/kick-genga\n")), "{said}");
+    let clips = |out: &str| column(&text(&results(&place, out)["summary.csv"]), "clip");
+    assert_eq!(clips("lib/now"), ["kick.bvh", "pitch.bvh"]);
+    // A pattern finds no more than the folder does.
+    place.done("batch lib/**/*.bvh --out lib/matched");
+    assert_eq!(clips("lib/matched"), ["kick.bvh", "pitch.bvh"]);
+    // A folder of clips that a run wrote into is still one of clips.
+    place.done("run lib/pitch.bvh --out lib");
+    place.done("batch lib --out flat");
+    assert_eq!(clips("flat"), ["kick.bvh", "pitch.bvh"]);
+    let (code, said) = self::code(&place, "batch lib/kick-genga --out none");
+    assert_eq!(code, 2, "{said}");
+    assert!(said.contains("no clip in lib/kick-genga, only results of genga"), "{said}");
+}
+
+#[test]
 fn a_library_is_a_row_and_a_folder_a_clip_and_the_broken_do_not_end_it() {
     let place = Place::new();
     let clips = library(&place);

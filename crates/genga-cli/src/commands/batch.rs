@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use clap::{Args, ValueEnum};
 
 use crate::batch::journal::{Header, Journal, check_parts, is_journal};
-use crate::batch::list::{self, Item};
+use crate::batch::list::{self, Clips, Item};
 use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
 use crate::batch::place::Places;
 use crate::batch::pool::Pool;
@@ -21,7 +21,7 @@ use crate::console::{Bar, Words, counted};
 use crate::corrections::Corrections;
 use crate::failure::Failure;
 use crate::files;
-use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::format_args::{FormatArgs, Formats, help, long_help, shortened};
 use crate::plan::{PlanArgs, TargetArgs};
 use crate::staging::Staging;
 use crate::stop;
@@ -101,17 +101,27 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         return join(args, words);
     }
     if args.list {
-        return files::to_stdout(&list::written(&list::items(&args.clips, &args.out)?));
+        return files::to_stdout(&list::written(&clips(args, words)?));
     }
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
     let bones = clip.part.reading().bones()?;
     let formats = Formats::new("deliver", &args.deliver, &[], &args.formats, bones.as_ref())?;
     let plan = PlanArgs::new(clip, args.corrections.clone(), args.targets.clone());
     let asked = Asked::new(&plan, &formats)?;
-    let items = list::items(&args.clips, &args.out)?;
+    let items = clips(args, words)?;
     let batch = Batch::begin(args, &items, &asked, &formats)?;
     batch.work(words)?;
     batch.close(args, words)
+}
+
+/// Returns the clips that are named, and says which results of genga are not taken for clips.
+fn clips(args: &BatchArgs, words: &Words) -> Result<Vec<Item>, Failure> {
+    let Clips { items, skipped } = list::clips(&args.clips, &args.out)?;
+    if !skipped.is_empty() {
+        let skipped = shortened(skipped).join(" ");
+        words.say(format_args!("note        results of genga, not taken for clips: {skipped}"));
+    }
+    Ok(items)
 }
 
 /// A batch in progress.
