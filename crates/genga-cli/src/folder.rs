@@ -90,6 +90,11 @@ impl<'a> Folder<'a> {
         )))
     }
 
+    /// Whether it holds the results of a run of this clip.
+    pub(super) fn has_run_of(&self, clip: &ClipMark) -> bool {
+        self.before.as_ref().is_some_and(|run| run.recipe.is_some() && run.clip.is_of(clip))
+    }
+
     /// The folder's path.
     pub(super) fn path(&self) -> &'a Path {
         self.path

@@ -373,14 +373,14 @@ impl Format {
     /// others can go on.
     ///
     /// # Errors
-    /// [`Error::Sheet`] as [`Sheet::check`]; any error that `put` returns, or that comes after the first file.
+    /// [`Error::Sheet`] as [`Sheet::first_layer`]; any error that `put` returns, or that comes after the first file.
     pub fn try_write(
         &self,
         cut: &Cut<'_>,
         settings: &Settings,
         put: &mut Sink<'_>,
     ) -> Result<Attempt, Error> {
-        cut.sheet.check()?;
+        cut.sheet.first_layer()?;
         let mut has_begun = false;
         let mut put_one = |name: &str, bytes: &[u8]| {
             has_begun = true;
