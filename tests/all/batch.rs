@@ -173,6 +173,23 @@ fn what_a_person_changed_is_kept_and_is_a_row() {
     assert_ne!(fs::read_to_string(&sheet).unwrap(), "mine");
 }
 
+#[test]
+fn a_painted_picture_stays_in_a_batch_unless_it_is_named() {
+    let place = Place::new();
+    let batch = "batch data/kick.bvh data/pitch.bvh --deliver json,bars --out out";
+    place.done(batch);
+    let picture = place.path("out/clips/kick.bvh/sheet.svg");
+    fs::write(&picture, "mine").unwrap();
+    for args in ["--set spacing.on=3", "--set spacing.on=3 --force --with csv.bom=true"] {
+        place.done(&format!("{batch} {args}"));
+        assert_eq!(fs::read_to_string(&picture).unwrap(), "mine", "{args}");
+        let warnings = column(&text(&results(&place, "out")["summary.csv"]), "warnings");
+        assert_eq!(warnings, ["W_PAINTED", ""]);
+    }
+    place.done(&format!("{batch} --overwrite sheet.svg"));
+    assert_ne!(fs::read_to_string(&picture).unwrap(), "mine");
+}
+
 /// Begins a batch twenty times and kills it. Every fifth time, `lose` removes something as well.
 #[cfg(unix)]
 pub(crate) fn killed_again_and_again(place: &Place, args: &str, lose: impl Fn()) {

@@ -1,5 +1,6 @@
 //! The output formats of a command, and their files.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
@@ -26,9 +27,57 @@ pub(super) struct FormatArgs {
     /// Set one setting of a format: --with csv.bom=true (repeatable).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
     with: Vec<(String, String)>,
-    /// Overwrite files that were changed since genga wrote them, and write into the folder of another clip.
+    /// Overwrite files that were changed since genga wrote them, and write into the folder of another clip. Painted
+    /// pictures stay.
     #[arg(long)]
-    pub(super) force: bool,
+    force: bool,
+    /// Overwrite these painted pictures too, or those of a folder: --overwrite images/A_0003.png (repeatable).
+    #[arg(long, value_name = "PICTURE|FOLDER,…", value_delimiter = ',')]
+    overwrite: Vec<String>,
+}
+
+/// What a person changed and is to be overwritten all the same.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Over<'a> {
+    /// All files but pictures.
+    pub(super) is_forced: bool,
+    /// Pictures, or folders of pictures.
+    pictures: &'a [String],
+}
+
+impl Over<'_> {
+    /// Whether a picture of a results folder may be overwritten: it, or a folder that it is in, is named.
+    pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
+        self.pictures.iter().any(|name| is_named(name, folder, picture))
+    }
+
+    /// Refuses a name that is that of no file which comes into the folder.
+    pub(super) fn check(
+        &self,
+        folder: &Path,
+        come: &BTreeMap<String, String>,
+    ) -> Result<(), Failure> {
+        let is_of_none = |name: &&String| !come.keys().any(|file| is_named(name, folder, file));
+        match self.pictures.iter().find(is_of_none) {
+            None => Ok(()),
+            Some(name) => Err(Failure::AskedWrongly(format!(
+                "--overwrite {name}: this run writes no such picture or folder into {}",
+                folder.display()
+            ))),
+        }
+    }
+}
+
+/// Whether a name, from the results folder or from where the program runs, means a file or a folder that it is in.
+fn is_named(name: &str, folder: &Path, file: &str) -> bool {
+    Path::new(file).starts_with(name) || folder.join(file).starts_with(name)
+}
+
+impl FormatArgs {
+    /// What is to be overwritten.
+    pub(super) fn over(&self) -> Over<'_> {
+        Over { is_forced: self.force, pictures: &self.overwrite }
+    }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]

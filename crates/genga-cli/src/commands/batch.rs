@@ -90,6 +90,9 @@ enum Progress {
 /// Memory for all clips in progress, unless --memory is given.
 const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
+/// Warning in the row of a clip whose folder has painted pictures, which stay.
+const PAINTED: &str = "W_PAINTED";
+
 /// Cost of a clip besides its bytes, in bytes. The progress bar estimates the time left from this and the file size.
 const LEAST: u64 = 1 << 14;
 
@@ -167,7 +170,7 @@ impl<'a> Batch<'a> {
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
             .pack
-            .then(|| Pack::open(&args.out, &journal.header, args.formats.force))
+            .then(|| Pack::open(&args.out, &journal.header, args.formats.over().is_forced))
             .transpose()?;
         // From here on a signal lets clips in progress finish.
         stop::gently();
@@ -178,7 +181,7 @@ impl<'a> Batch<'a> {
             items,
             asked,
             formats,
-            places: Places { out: &args.out, is_forced: args.formats.force },
+            places: Places { out: &args.out, over: args.formats.over() },
             staging,
             own: shard.deal(&sizes),
             crew: Pool { jobs, room },
@@ -254,7 +257,10 @@ impl<'a> Batch<'a> {
                     line.files = before;
                     line.keys.clear();
                 }
-                put => put?,
+                put => {
+                    let painted = put?;
+                    line.row.warnings.extend((!painted.is_empty()).then(|| PAINTED.into()));
+                }
             }
             let is_done = line.row.is_done();
             state.journal.add(line).map(|()| is_done)

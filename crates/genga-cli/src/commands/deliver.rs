@@ -57,7 +57,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         formats.spare(what, path, folder, &file.cut)?;
     }
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
-    let place = Folder::look(folder, args.formats.force);
+    let place = Folder::look(folder, args.formats.over());
     place.check(&motion.of)?;
     let cut = Cut {
         name: &file.cut,

@@ -67,7 +67,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         words.warn_if_quiet(warning);
         notes.push(warning.to_string());
     })?;
-    let place = Folder::look(&folder, args.formats.force);
+    let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
     let keeps =
         !args.fresh && args.plan.corrections.settings.recipe.is_none() && place.has_run_of(&of);

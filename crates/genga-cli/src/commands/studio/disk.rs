@@ -14,7 +14,7 @@ use super::{pictures, sound};
 use crate::clip::Part;
 use crate::failure::Failure;
 use crate::folder::Folder;
-use crate::format_args::{FormatArgs, Formats};
+use crate::format_args::{FormatArgs, Formats, Over};
 use crate::results::{OWN, Outcome, Results};
 use crate::{files, paths};
 use genga::error::Error;
@@ -193,7 +193,7 @@ fn written(
         tell: &tell,
     };
     let Outcome { mut files, unmade, left, .. } =
-        results.write(&formats, Folder::look(folder, false))?;
+        results.write(&formats, Folder::look(folder, Over::default()))?;
     let unmade = unmade.into_iter().map(|warning| warning.message);
     files.extend(unmade.chain(left.notes()).map(|note| format!("({note})")));
     Ok(files)
