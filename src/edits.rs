@@ -4,6 +4,7 @@ mod forbidden;
 mod hold;
 mod layer;
 mod marks;
+mod over;
 mod speech;
 
 use std::collections::BTreeMap;

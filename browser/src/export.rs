@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use genga_files::{ClipMark, FORMATS, Format, Manifest, Report, Run, zip};
+use genga_files::{Attempt, ClipMark, FORMATS, Format, Manifest, Report, Run, zip};
 use genga_studio::Export;
 
-/// Returns the archive of a folder, and the names of its files.
+/// Returns the archive of a folder, and the names of its files, then a sentence in brackets for each format that cannot
+/// be made of this clip.
 pub(crate) fn archive(
     folder: &str,
     export: &Export<'_>,
@@ -20,20 +21,23 @@ pub(crate) fn archive(
     let mut report = Report::new(breakdown, export.notes.to_vec());
     let names = Run::FORMATS.iter().chain(export.formats).copied();
     let formats = Format::find_all(names).map_err(said)?;
+    let mut unmade = Vec::new();
     run.with_cut(|cut| {
         for format in formats {
             tell(format.name);
-            report
-                .notes
-                .extend(format.notes(cut, export.settings)?.iter().map(ToString::to_string));
-            format.write(cut, export.settings, &mut |name, bytes| {
+            let attempt = format.try_write(cut, export.settings, &mut |name, bytes| {
                 files.add(name, bytes.to_vec());
                 Ok(())
             })?;
+            match attempt {
+                Attempt::Made(notes) => report.notes.extend(notes.iter().map(ToString::to_string)),
+                Attempt::NotMade(error) => unmade.push(format.unmade(&error)),
+            }
         }
         Ok(())
     })
     .map_err(|error: genga::Error| said(error))?;
+    report.losses.extend(unmade.iter().map(ToString::to_string));
     tell(Run::SPEEDS);
     files.add(Run::SPEEDS, run.speeds().map_err(said)?.into_bytes());
     let recipe = recipe.write(edits);
@@ -43,7 +47,9 @@ pub(crate) fn archive(
     files.add(Run::REPORT, report.write().map_err(said)?.into_bytes());
     manifest.files = files.digests();
     files.add(Run::MANIFEST, manifest.write().map_err(said)?.into_bytes());
-    files.packed(folder).map_err(said)
+    let (archive, mut names) = files.packed(folder).map_err(said)?;
+    names.extend(unmade.into_iter().map(|warning| format!("({})", warning.message)));
+    Ok((archive, names))
 }
 
 /// Looks up the formats that a text names, separated by spaces.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use crate::folders::all;
-use crate::program::{Place, text};
+use crate::program::{Place, column, text};
 
 /// Makes a library: the sample clips, folders with clips of the same name, broken clips, and files that are no clips.
 /// Returns the number of clips.
@@ -43,6 +43,53 @@ pub(crate) fn results(place: &Place, folder: &str) -> BTreeMap<String, Vec<u8>> 
 pub(crate) fn code(place: &Place, args: &str) -> (i32, String) {
     let output = place.genga(args);
     (output.status.code().unwrap_or(-1), text(&output.stderr))
+}
+
+#[test]
+fn a_format_that_cannot_be_made_is_said_in_the_clips_row_and_stops_no_other() {
+    let place = Place::new();
+    let batch = "batch data/kick.bvh data/pitch.bvh --deliver json,vmd --set rate=60 --out out";
+    // The second time nothing is left to do, and it is still said.
+    for _ in 0..2 {
+        let (code, said) = code(&place, batch);
+        assert_eq!(code, 1, "{said}");
+        assert!(said.contains("2 of 2 lack a format: kick.bvh: vmd is not made: "), "{said}");
+    }
+    let summary = text(&results(&place, "out")["summary.csv"]);
+    assert_eq!(column(&summary, "status"), ["done", "done"]);
+    assert!(column(&summary, "message")[0].starts_with("vmd is not made: vmd.fps: 60 koma"));
+    assert_eq!(column(&summary, "warnings")[0], "W_NOT_MADE");
+    assert!(place.path("out/clips/kick.bvh/sheet.json").exists());
+    let (code, said) = self::code(&place, &format!("{batch} --allow-failures"));
+    assert_eq!(code, 0, "{said}");
+}
+
+#[test]
+fn results_of_genga_are_no_clips_and_it_is_said() {
+    let place = Place::new();
+    fs::create_dir(place.path("lib")).unwrap();
+    for sample in ["kick", "pitch"] {
+        let from = crate::clips::here(&format!("data/{sample}.bvh"));
+        fs::copy(from, place.path(&format!("lib/{sample}.bvh"))).unwrap();
+    }
+    place.done("run lib/kick.bvh --out lib/kick-genga");
+    place.done("batch lib/pitch.bvh --deliver bvh --out lib/before");
+    let note = "note        results of genga, not taken for clips: ";
+    let (code, said) = code(&place, "batch lib --out lib/now");
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains(&format!("{note}lib/before lib/kick-genga\n")), "{said}");
+    let clips = |out: &str| column(&text(&results(&place, out)["summary.csv"]), "clip");
+    assert_eq!(clips("lib/now"), ["kick.bvh", "pitch.bvh"]);
+    // A pattern finds no more than the folder does.
+    place.done("batch lib/**/*.bvh --out lib/matched");
+    assert_eq!(clips("lib/matched"), ["kick.bvh", "pitch.bvh"]);
+    // A folder of clips that a run wrote into is still one of clips.
+    place.done("run lib/pitch.bvh --out lib");
+    place.done("batch lib --out flat");
+    assert_eq!(clips("flat"), ["kick.bvh", "pitch.bvh"]);
+    let (code, said) = self::code(&place, "batch lib/kick-genga --out none");
+    assert_eq!(code, 2, "{said}");
+    assert!(said.contains("no clip in lib/kick-genga, only results of genga"), "{said}");
 }
 
 #[test]
@@ -124,6 +171,23 @@ fn what_a_person_changed_is_kept_and_is_a_row() {
     let (exit, said) = code(&place, "batch lib/a --out out --set spacing.on=3 --force");
     assert_eq!(exit, 0, "{said}");
     assert_ne!(fs::read_to_string(&sheet).unwrap(), "mine");
+}
+
+#[test]
+fn a_painted_picture_stays_in_a_batch_unless_it_is_named() {
+    let place = Place::new();
+    let batch = "batch data/kick.bvh data/pitch.bvh --deliver json,bars --out out";
+    place.done(batch);
+    let picture = place.path("out/clips/kick.bvh/sheet.svg");
+    fs::write(&picture, "mine").unwrap();
+    for args in ["--set spacing.on=3", "--set spacing.on=3 --force --with csv.bom=true"] {
+        place.done(&format!("{batch} {args}"));
+        assert_eq!(fs::read_to_string(&picture).unwrap(), "mine", "{args}");
+        let warnings = column(&text(&results(&place, "out")["summary.csv"]), "warnings");
+        assert_eq!(warnings, ["W_PAINTED", ""]);
+    }
+    place.done(&format!("{batch} --overwrite sheet.svg"));
+    assert_ne!(fs::read_to_string(&picture).unwrap(), "mine");
 }
 
 /// Begins a batch twenty times and kills it. Every fifth time, `lose` removes something as well.

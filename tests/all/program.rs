@@ -928,10 +928,32 @@ fn all_goes_without_what_cannot_be_made_and_says_so() {
         let clip = args.split(' ').next().unwrap();
         let output = place.genga(&format!("deliver {o}/sheet.json {clip} --to all --out {o}-all"));
         assert!(text(&output.stderr).contains(note) && output.status.success());
-        let output =
-            place.genga(&format!("deliver {o}/sheet.json {clip} --to all,vmd --out {o}-vmd"));
-        assert!(!output.status.success() && !place.path(&format!("{o}-vmd")).exists());
+        let by_name = format!("deliver {o}/sheet.json {clip} --to all,vmd --out {o}-vmd");
+        assert!(place.refused(1, &by_name).contains("vmd is not made: "));
+        assert!(place.path(&format!("{o}-vmd/flipbook.html")).exists(), "the rest is written");
     }
+}
+
+#[test]
+fn a_format_that_cannot_be_made_stops_no_other() {
+    let place = Place::new();
+    let fast = "run data/kick.bvh --trim 0..12 --set rate=60";
+    let why = "vmd is not made: vmd.fps: 60 koma a second do not go into 30 frames";
+    let said = place.refused(1, &format!("{fast} --deliver xdts,vmd,glb --out o --quiet"));
+    assert!(said.contains(why) && said.contains("take 60 or more"), "{said}");
+    assert!(said.ends_with("genga: one format is not made, as said above; all else is written\n"));
+    assert!(read(&place.path("o/report.json")).contains(why));
+    let files = place.files("o");
+    for file in ["kick_douga_ts.xdts", "limited.glb", "sheet.json", "manifest.json"] {
+        assert!(files.contains_key(file), "{file}");
+    }
+    assert!(!files.contains_key("kick.vmd") && !files.contains_key("kick-bones.csv"));
+    // The way out that the reason names.
+    place.done(&format!("{fast} --deliver xdts,vmd,glb --with vmd.fps=60 --out o"));
+    assert!(place.path("o/kick.vmd").exists());
+    // Of nothing that was asked for can anything be made: no folder.
+    place.refused(2, "deliver o/sheet.json data/kick.bvh --to vmd --out p");
+    assert!(!place.path("p").exists());
 }
 
 #[test]

@@ -109,6 +109,55 @@ def apply(folder=FOLDER, **options):
     return bpy.ops.genga.apply_sheet(filepath=str(folder / "sheet.json"), **options)
 
 
+def own_frame(koma):
+    """The frame of a scene of 30 a second that begins a koma, with koma 0 on frame 1."""
+    return 1 + -(-koma * 30 // round(SHEET["fps"]))
+
+
+def scene_of_30():
+    empty(30)
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, 300
+    scene.frame_set(7)
+    return scene
+
+
+def stays(scene):
+    found = (scene.frame_start, scene.frame_end, scene.render.fps, scene.render.fps_base, scene.frame_current)
+    assert found == (1, 300, 30, 1.0, 7), found
+
+
+def check_own_scene(names, wanted):
+    """In a scene of another rate a sheet goes onto two characters, and the scene stays as it is."""
+    scene = scene_of_30()
+    for scaled in (False, True):
+        before = set(bpy.data.objects)
+        bpy.ops.import_anim.bvh(filepath=str(CLIP), use_fps_scale=scaled)
+        (thing,) = set(bpy.data.objects) - before
+        bpy.context.view_layer.objects.active = thing
+        scene.frame_set(7)
+        assert apply(scaled=scaled) == {"FINISHED"}
+        stays(scene)
+        check_keys(thing, [own_frame(koma) - 1 for koma in BEGINS], 1, f"add-on, 30 a second, scaled: {scaled}")
+        if not scaled:
+            size = max((p - q).length for p in wanted[0] for q in wanted[0])
+            off = max(furthest(places(thing, names, own_frame(koma)), pose) for koma, pose in enumerate(wanted)) / size
+            assert off < CLOSE, off
+
+    scene = scene_of_30()
+    assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb")) == {"FINISHED"}
+    stays(scene)
+    check_keys(armature(), [own_frame(koma) - 1 for koma in [*BEGINS, len(SHOWN)]], 1, "add-on, limited.glb, 30 a second")
+
+    empty(8)
+    assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb")) == {"FINISHED"}
+    last = {1 + -(-koma * 8 // round(SHEET["fps"])): TYPES[ROLES[SHOWN[koma]]] for koma in BEGINS}
+    assert len(last) < len(BEGINS)
+    for curve in curves(armature()):
+        found = {point.co.x: point.type for point in curve.keyframe_points}
+        assert all(found[frame] == role for frame, role in last.items()), "of drawings on one frame the last is kept"
+
+
 def check_layers():
     """Each layer is on its own bones, and together they are the body."""
     names, wanted = stood()
@@ -175,7 +224,7 @@ def main():
     genga.register()
     played = source.animation_data.action
     before = [[tuple(point.co) for point in curve.keyframe_points] for curve in curves(source)]
-    assert apply() == {"FINISHED"}
+    assert apply(set_scene=True) == {"FINISHED"}
     check_keys(source, BEGINS, 1, "add-on, sheet.json")
     check_types(source, 1, True)
     compare(source, names, wanted, 1, 1.0, "add-on, sheet.json")
@@ -188,7 +237,7 @@ def main():
     empty()
     scene = bpy.context.scene
     scene.render.fps = 30
-    assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb")) == {"FINISHED"}
+    assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb"), set_scene=True) == {"FINISHED"}
     imported = armature()
     check_keys(imported, [*BEGINS, len(SHOWN)], 1, "add-on, limited.glb")
     check_types(imported, 1, False)
@@ -200,6 +249,7 @@ def main():
         assert found == [koma + 1 for koma in [*KEYS, len(SHOWN)]], found
         assert {point.type for point in list(curve.keyframe_points)[:-1]} == {"EXTREME"}
     say(f"add-on, limited.glb: animation genga, {len(KEYS)} extremes")
+    check_own_scene(names, wanted)
     genga.unregister()
 
 

@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Applies a sheet to the rig: a separate action with constant keys. The take's action stays unchanged."""
 
-import math
-
 import bpy
 
 from . import fit, stepping
 from .legs import Legs
 from .take import BEGINS, OWNER, PLACES, SOURCE, STEPPED, show
-
-
-# Tolerance in frames, because rates are often written with few digits.
-SAME = 0.01
+from .timing import Timing
 
 
 class OnSheet:
@@ -29,7 +24,7 @@ def apply(thing, take, sampled, sheet, turns):
     target = ensure_curves(action, slot, take.channels())
     legs = Legs(thing, take.channels(), turns)
     parts, _ = fit.by_layer(sheet.layers, sheet.joints, {curve.data_path for curve in target})
-    timing = Timing(sampled, sheet.fps)
+    timing = Timing(sampled.start, sampled.rate, sheet.fps)
     for layer, paths in zip(sheet.layers, parts):
         exposures, frames = timing.of(layer.exposures)
         own = [curve for curve in target if curve.data_path in paths]
@@ -41,21 +36,6 @@ def apply(thing, take, sampled, sheet, turns):
     action.frame_start, action.frame_end = sampled.start, timing.frame(sheet.length)
     play(thing, action, slot)
     return OnSheet(action, exposures, frames, legs.left_out())
-
-
-class Timing:
-    """Converts a koma to the first scene frame that shows it."""
-
-    def __init__(self, sampled, fps):
-        self.start, self.ratio = sampled.start, sampled.rate / fps
-
-    def frame(self, koma):
-        return self.start + math.ceil(koma * self.ratio - SAME)
-
-    def of(self, exposures):
-        """Returns exposures with their frames. If several share a frame, keeps the last."""
-        shown = {self.frame(exposure.koma): exposure for exposure in exposures}
-        return list(shown.values()), list(shown)
 
 
 def source_of(thing, take, sampled, channels):

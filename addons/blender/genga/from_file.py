@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the program's files: applies a timesheet to an action, and imports a stepped GLB with key roles."""
 
+from contextlib import contextmanager
+
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
 from bpy.types import Operator
@@ -9,13 +11,35 @@ from bpy_extras.io_utils import ImportHelper
 from . import files, fit, stepping
 from .refused import Reported
 from .take import STEPPED
+from .timing import Timing
+
+
+def rate_of(scene):
+    return scene.render.fps / scene.render.fps_base
+
+
+def set_rate(scene, fps):
+    scene.render.fps = max(1, round(fps))
+    scene.render.fps_base = scene.render.fps / fps
 
 
 def set_scene(scene, fps, start, koma):
     """Sets the scene to the sheet's rate and length."""
-    scene.render.fps = max(1, round(fps))
-    scene.render.fps_base = scene.render.fps / fps
+    set_rate(scene, fps)
     scene.frame_start, scene.frame_end = start, start + koma - 1
+
+
+@contextmanager
+def at_rate(scene, fps):
+    """Gives the scene a rate for a while, and leaves its rate, range and frame as they were."""
+    render = scene.render
+    before = (render.fps, render.fps_base, scene.frame_start, scene.frame_end, scene.frame_current)
+    set_rate(scene, fps)
+    try:
+        yield
+    finally:
+        render.fps, render.fps_base, scene.frame_start, scene.frame_end, frame = before
+        scene.frame_set(frame)
 
 
 class Koma(Reported, ImportHelper):
@@ -25,6 +49,11 @@ class Koma(Reported, ImportHelper):
         name="First Koma",
         description="Frame of the sheet's first koma; 1 numbers frames as on paper",
         default=1,
+    )
+    set_scene: BoolProperty(
+        name="Set Scene",
+        description="Give the scene the sheet's rate and range; otherwise keys go to the scene's own frames, by time",
+        default=False,
     )
 
 
@@ -69,7 +98,7 @@ class GENGA_OT_apply_sheet(Operator, Koma):
         layers = sheet.of(self.layer)
         thing, scene = context.active_object, context.scene
         action, slot = self.take_of(thing)
-        step = scene.render.fps / scene.render.fps_base / sheet.source_fps if self.scaled else 1.0
+        step = rate_of(scene) / sheet.source_fps if self.scaled else 1.0
         self.compare(sheet, thing, action, step)
         take = stepping.curves(action, slot)
         parts, strangers = fit.by_layer(layers, sheet.joints, {curve.data_path for curve in take})
@@ -82,14 +111,15 @@ class GENGA_OT_apply_sheet(Operator, Koma):
         if slot:
             thing.animation_data.action_slot = stepped.slots[slot.identifier]
         target = stepping.curves(stepped, getattr(thing.animation_data, "action_slot", None))
+        if self.set_scene:
+            set_scene(scene, sheet.fps, self.start, sheet.length)
+        timing = Timing(self.start, rate_of(scene), sheet.fps)
         for layer, paths in zip(layers, parts):
             own = lambda curves: [curve for curve in curves if curve.data_path in paths]
             source = stepping.Source.of_curves(thing, own(take), self.first_frame, step)
-            frames = [self.start + exposure.koma for exposure in layer.exposures]
-            stepping.write(own(target), source, layer.exposures, frames)
+            stepping.write(own(target), source, *timing.of(layer.exposures))
         stepped.use_frame_range = True
-        stepped.frame_start, stepped.frame_end = self.start, self.start + sheet.length
-        set_scene(scene, sheet.fps, self.start, sheet.length)
+        stepped.frame_start, stepped.frame_end = self.start, timing.frame(sheet.length)
         for sentence in fit.left_out(sheet):
             self.report({"WARNING"}, sentence)
         if strangers:
@@ -135,17 +165,20 @@ class GENGA_OT_import_glb(Operator, Koma):
     def run(self, context):
         animations = files.glb_animations(self.filepath)
         extras = next(iter(animations.values()))
-        # Must precede the import: only at the sheet's rate do keys land on whole frames.
-        set_scene(context.scene, extras["fps"], self.start, extras["koma"])
-        before = set(bpy.data.actions)
-        bpy.ops.import_scene.gltf(filepath=self.filepath)
+        scene, before = context.scene, set(bpy.data.actions)
+        # Only at the sheet's rate do keys land on whole frames: a frame a koma.
+        with at_rate(scene, extras["fps"]):
+            bpy.ops.import_scene.gltf(filepath=self.filepath)
+        if self.set_scene:
+            set_scene(scene, extras["fps"], self.start, extras["koma"])
+        timing = Timing(self.start, rate_of(scene), extras["fps"])
         # Longest name first: an action has its animation's name, sometimes with a suffix.
         names = sorted(animations, key=len, reverse=True)
         for action in set(bpy.data.actions) - before:
             name = next((name for name in names if action.name.startswith(name)), None)
             if name is not None:
-                stepping.name_roles(stepping.curves(action), animations[name], self.start)
-        context.scene.frame_set(self.start)
+                stepping.name_roles(stepping.curves(action), animations[name], timing)
+        scene.frame_set(self.start if self.set_scene else scene.frame_current)
         return {"FINISHED"}
 
 

@@ -164,13 +164,14 @@ def number(name, word):
     return bpy.types.Keyframe.bl_rna.properties[name].enum_items[word].value
 
 
-def name_roles(action_curves, extras, start):
-    """Sets keyframe types by role in an action from a GLB, and moves koma 0 to `start`."""
+def name_roles(action_curves, extras, timing):
+    """Sets keyframe types by role in an action from a GLB whose keys are on koma, and moves them to their frames.
+
+    If several share a frame, keeps the last.
+    """
     roles = {key["koma"]: key["role"] for key in extras["keys"]}
     for curve in action_curves:
-        for point in curve.keyframe_points:
-            role = roles.get(round(point.co.x))
-            point.type = KEYFRAME_TYPES.get(role, "KEYFRAME")
-            point.interpolation = "CONSTANT"
-            point.co.x += start
-        curve.update()
+        shown = {timing.frame(round(point.co.x)): point for point in curve.keyframe_points}
+        values = [(frame, point.co.y) for frame, point in shown.items()]
+        types = [KEYFRAME_TYPES.get(roles.get(round(point.co.x)), "KEYFRAME") for point in shown.values()]
+        put(curve, [number for place in values for number in place], types)

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! list     the clips, their names, and the options of each
+//! own_results  what genga wrote, which is no clip
 //! shard    a part of the list; all parts have about the same number of bytes
 //! row      a clip's row in the summary
 //! work     one clip: reads it, draws it, writes it to staging
@@ -14,6 +15,7 @@
 
 pub(super) mod journal;
 pub(super) mod list;
+mod own_results;
 pub(super) mod pack;
 pub(super) mod place;
 pub(super) mod pool;

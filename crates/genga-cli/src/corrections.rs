@@ -121,7 +121,25 @@ impl Corrections {
     pub(super) fn read(&self) -> Result<(Recipe, Edits), Failure> {
         let (mut recipe, mut edits) = self.settings.read(Recipe::default())?;
         self.layers.put(&mut recipe)?;
-        self.keys(&mut edits)?;
+        self.put(&mut edits)?;
+        Ok((recipe, edits))
+    }
+
+    /// Lays corrections that were read over those of an earlier run. A switch that is off on the command line stays
+    /// off.
+    pub(super) fn over(&self, now: Edits, mut earlier: Edits) -> Edits {
+        if self.freeze.is_some() {
+            earlier = Edits { again: false, ..earlier.without_frozen() };
+        }
+        let mut both = now.over(earlier);
+        both.again = self.again.unwrap_or(both.again);
+        both.only_pins = self.only_pins.unwrap_or(both.only_pins);
+        both
+    }
+
+    /// Puts the corrections of the command line on top of those of a recipe.
+    fn put(&self, edits: &mut Edits) -> Result<(), Failure> {
+        self.keys(edits)?;
         for hold in &self.holds {
             let hold = Hold::parse(hold).map_err(|error| wrongly("hold", error))?;
             edits.holds.retain(|other| other.frame != hold.frame);
@@ -138,7 +156,7 @@ impl Corrections {
         }
         edits.again = self.again.unwrap_or(edits.again);
         edits.only_pins = self.only_pins.unwrap_or(edits.only_pins);
-        Ok((recipe, edits))
+        Ok(())
     }
 
     /// Adds the pins, forbidden frames and moves of the command line.

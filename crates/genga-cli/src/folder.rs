@@ -7,7 +7,8 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use super::failure::Failure;
-use super::format_args::shortened;
+use super::format_args::{Over, shortened};
+use super::paths;
 use super::staging::{self, Bundle};
 use genga_files::{ClipMark, Manifest, Run};
 
@@ -16,8 +17,8 @@ pub(super) struct Folder<'a> {
     path: &'a Path,
     /// Manifest of the previous run. `None` if there is no manifest, or if genga did not write it in this form.
     before: Option<Manifest>,
-    /// Whether files that a person changed may be overwritten.
-    is_forced: bool,
+    /// What a person changed and may be overwritten.
+    over: Over<'a>,
 }
 
 /// Products of a run besides its files.
@@ -37,6 +38,8 @@ pub(super) struct Made<'a> {
 pub(super) struct Left {
     /// Files of an earlier run that were removed.
     gone: Vec<String>,
+    /// Pictures that a person painted on, which this run would have written.
+    painted: Vec<String>,
     /// Files of an earlier run that a person changed.
     changed: Vec<String>,
     /// Files of an earlier run that lie behind a link to another folder.
@@ -53,6 +56,7 @@ impl Left {
             (!files.is_empty()).then_some(named)
         };
         let groups = [
+            ("painted, kept and not written again (--overwrite NAME does)", self.painted),
             ("of an earlier run, removed", self.gone),
             ("of an earlier run, kept because they were changed since", self.changed),
             ("of an earlier run, kept because a link leads to them", self.linked),
@@ -64,12 +68,12 @@ impl Left {
 
 impl<'a> Folder<'a> {
     /// Reads the folder's manifest, after finishing what a killed run had begun there.
-    pub(super) fn look(path: &'a Path, is_forced: bool) -> Self {
+    pub(super) fn look(path: &'a Path, over: Over<'a>) -> Self {
         staging::sweep(path);
         let text = fs::read_to_string(path.join(Run::MANIFEST)).unwrap_or_default();
         let before = Manifest::read(&text).ok();
         let is_as_written = |read: &Manifest| read.write().is_ok_and(|written| written == text);
-        Self { path, before: before.filter(is_as_written), is_forced }
+        Self { path, before: before.filter(is_as_written), over }
     }
 
     /// Refuses a folder that holds the results of another clip.
@@ -77,7 +81,7 @@ impl<'a> Folder<'a> {
         let Some(before) = self.before.as_ref().filter(|before| !before.clip.is_of(clip)) else {
             return Ok(());
         };
-        if self.is_forced {
+        if self.over.is_forced {
             return Ok(());
         }
         let (folder, theirs, ours) = (self.path.display(), &before.clip.file, &clip.file);
@@ -90,16 +94,28 @@ impl<'a> Folder<'a> {
         )))
     }
 
+    /// Whether it holds the results of a run of this clip.
+    pub(super) fn has_run_of(&self, clip: &ClipMark) -> bool {
+        self.before.as_ref().is_some_and(|run| run.recipe.is_some() && run.clip.is_of(clip))
+    }
+
     /// The folder's path.
     pub(super) fn path(&self) -> &'a Path {
         self.path
     }
 
     /// Moves the files of a run into their places, the manifest last. Files that only the previous run wrote are
-    /// removed; those that a person changed stay and are reported.
+    /// removed; those that a person changed stay and are reported, and so do painted pictures.
     pub(super) fn finish(self, mut bundle: Bundle<'_>, made: Made<'_>) -> Result<Left, Failure> {
         let come = bundle.files();
-        self.spare(&come, made.given)?;
+        self.over.check(self.path, &come)?;
+        let painted: Vec<String> = come
+            .iter()
+            .filter(|file| self.is_painted(file))
+            .map(|(name, _)| name.clone())
+            .collect();
+        self.spare(&come, &painted, made.given)?;
+        painted.iter().try_for_each(|name| bundle.leave(name))?;
         let (stay, rest) = self.others(&come, &made);
         let is_as_written =
             |name: &String| self.digest(name).is_some_and(|digest| self.has(name, &digest));
@@ -114,7 +130,7 @@ impl<'a> Folder<'a> {
         manifest.files = stay.into_iter().chain(come).collect();
         bundle.add(Run::MANIFEST, manifest.write()?)?;
         bundle.finish(gone.clone())?;
-        Ok(Left { gone, changed, linked, stale })
+        Ok(Left { painted, gone, changed, linked, stale })
     }
 
     /// Splits the previous run's files that this run does not write into those that stay in the manifest and the names
@@ -132,13 +148,33 @@ impl<'a> Folder<'a> {
         (stay, rest.into_keys().collect())
     }
 
-    /// Refuses to overwrite files that differ from what a run wrote.
-    fn spare(&self, come: &BTreeMap<String, String>, given: Option<&str>) -> Result<(), Failure> {
-        if self.is_forced {
+    /// Whether the picture in the place of a file, given with its digest, is neither that file nor as a run wrote it,
+    /// and not to be overwritten.
+    fn is_painted(&self, (name, digest): &(&String, &String)) -> bool {
+        let is_results = self.before.is_some() || self.over.is_forced;
+        let stays = paths::is_picture(Path::new(name)) && !self.over.has(self.path, name);
+        let is_other = |there: String| there != **digest && !self.has(name, &there);
+        is_results && stays && self.digest(name).is_some_and(is_other)
+    }
+
+    /// Refuses to overwrite files, but painted pictures, that differ from what a run wrote.
+    fn spare(
+        &self,
+        come: &BTreeMap<String, String>,
+        painted: &[String],
+        given: Option<&str>,
+    ) -> Result<(), Failure> {
+        if self.over.is_forced {
             return Ok(());
         }
         let is_ours = |name: &str, digest: &String| match self.digest(name) {
             None => true,
+            Some(_)
+                if painted.iter().any(|picture| picture == name)
+                    || self.over.has(self.path, name) =>
+            {
+                true
+            }
             Some(there) => there == *digest || self.has(name, &there) || given == Some(name),
         };
         let mut others: Vec<&str> = Vec::new();

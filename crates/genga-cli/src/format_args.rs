@@ -1,5 +1,6 @@
 //! The output formats of a command, and their files.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
@@ -9,7 +10,9 @@ use super::failure::Failure;
 use super::staging::Bundle;
 use super::{files, paths};
 use genga::error::{Error, Warning};
-use genga_files::{BoneMap, Cut, FORMATS, Format, MmdModel, Settings, Sink, Vmd, sheet_json};
+use genga_files::{
+    Attempt, BoneMap, Cut, FORMATS, Format, MmdModel, Settings, Sink, Vmd, sheet_json,
+};
 use genga_plot::Camera;
 
 /// What both commands that write formats take.
@@ -24,9 +27,57 @@ pub(super) struct FormatArgs {
     /// Set one setting of a format: --with csv.bom=true (repeatable).
     #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
     with: Vec<(String, String)>,
-    /// Overwrite files that were changed since genga wrote them, and write into the folder of another clip.
+    /// Overwrite files that were changed since genga wrote them, and write into the folder of another clip. Painted
+    /// pictures stay.
     #[arg(long)]
-    pub(super) force: bool,
+    force: bool,
+    /// Overwrite these painted pictures too, or those of a folder: --overwrite images/A_0003.png (repeatable).
+    #[arg(long, value_name = "PICTURE|FOLDER,…", value_delimiter = ',')]
+    overwrite: Vec<String>,
+}
+
+/// What a person changed and is to be overwritten all the same.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Over<'a> {
+    /// All files but pictures.
+    pub(super) is_forced: bool,
+    /// Pictures, or folders of pictures.
+    pictures: &'a [String],
+}
+
+impl Over<'_> {
+    /// Whether a picture of a results folder may be overwritten: it, or a folder that it is in, is named.
+    pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
+        self.pictures.iter().any(|name| is_named(name, folder, picture))
+    }
+
+    /// Refuses a name that is that of no file which comes into the folder.
+    pub(super) fn check(
+        &self,
+        folder: &Path,
+        come: &BTreeMap<String, String>,
+    ) -> Result<(), Failure> {
+        let is_of_none = |name: &&String| !come.keys().any(|file| is_named(name, folder, file));
+        match self.pictures.iter().find(is_of_none) {
+            None => Ok(()),
+            Some(name) => Err(Failure::AskedWrongly(format!(
+                "--overwrite {name}: this run writes no such picture or folder into {}",
+                folder.display()
+            ))),
+        }
+    }
+}
+
+/// Whether a name, from the results folder or from where the program runs, means a file or a folder that it is in.
+fn is_named(name: &str, folder: &Path, file: &str) -> bool {
+    Path::new(file).starts_with(name) || folder.join(file).starts_with(name)
+}
+
+impl FormatArgs {
+    /// What is to be overwritten.
+    pub(super) fn over(&self) -> Over<'_> {
+        Over { is_forced: self.force, pictures: &self.overwrite }
+    }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -64,11 +115,40 @@ const SHEET: &str = "sheet.json";
 pub(super) type Tell<'a> = &'a dyn Fn(&str) -> Result<(), Error>;
 
 /// The result of writing.
+#[derive(Default)]
 pub(super) struct Written {
     /// The written files, as shown to the user.
     pub(super) files: Vec<String>,
     /// Numbered files beside them that are left over from a longer sheet.
     pub(super) stale: Vec<String>,
+    /// What is to be said of the formats.
+    pub(super) said: Said,
+}
+
+/// What is to be said of formats.
+#[derive(Default)]
+pub(super) struct Said {
+    /// Notes on the files, and on what `all` goes without.
+    pub(super) notes: Vec<Warning>,
+    /// Formats that were asked for by name and cannot be made of this cut.
+    unmade: Vec<(&'static Format, Error)>,
+}
+
+impl Said {
+    /// Returns a warning for each format that is not made.
+    pub(super) fn unmade(&self) -> Vec<Warning> {
+        self.unmade.iter().map(|(format, error)| format.unmade(error)).collect()
+    }
+}
+
+/// Fails, after all else is written, if formats are not made.
+pub(super) fn all_made(unmade: &[Warning]) -> Result<(), Failure> {
+    let what = match unmade.len() {
+        0 => return Ok(()),
+        1 => "one format is".to_owned(),
+        many => format!("{many} formats are"),
+    };
+    Err(Failure::CouldNot(format!("{what} not made, as said above; all else is written")))
 }
 
 /// Formats and their settings.
@@ -179,48 +259,59 @@ impl Formats {
         bundle: &mut Bundle<'_>,
         tell: Tell<'_>,
     ) -> Result<Written, Failure> {
-        let (mut files, mut stale) = (Vec::new(), Vec::new());
+        let mut written = Written::default();
         for format in &self.formats {
             tell(format.name)?;
             let mut names = Vec::new();
-            format.write(cut, &self.settings, &mut |name, bytes| {
+            self.make(format, cut, &mut written.said, &mut |name, bytes| {
                 tell(name)?;
                 names.push(name.to_owned());
                 bundle.add(name, bytes)
             })?;
             if format.is_numbered {
-                stale.extend(paths::stale(bundle.folder(), &names));
+                written.stale.extend(paths::stale(bundle.folder(), &names));
             }
-            files.extend(shortened(names));
+            written.files.extend(shortened(names));
         }
-        Ok(Written { files, stale })
+        written.said = self.some_made(written.said)?;
+        Ok(written)
     }
 
     /// Passes the files of every format to `put`, in turn.
-    pub(super) fn each(&self, cut: &Cut<'_>, put: &mut Sink<'_>) -> Result<(), Failure> {
-        for format in &self.formats {
-            format.write(cut, &self.settings, put)?;
+    pub(super) fn each(&self, cut: &Cut<'_>, put: &mut Sink<'_>) -> Result<Said, Failure> {
+        let mut said = Said::default();
+        self.formats.iter().try_for_each(|format| self.make(format, cut, &mut said, put))?;
+        self.some_made(said)
+    }
+
+    /// Makes the files of a format, or says that it cannot be made of this cut.
+    fn make(
+        &self,
+        format: &'static Format,
+        cut: &Cut<'_>,
+        said: &mut Said,
+        put: &mut Sink<'_>,
+    ) -> Result<(), Error> {
+        match format.try_write(cut, &self.settings, put)? {
+            Attempt::Made(notes) => said.notes.extend(notes),
+            Attempt::NotMade(error) if self.is_named(format.name) => {
+                said.unmade.push((format, error));
+            }
+            Attempt::NotMade(error) => {
+                let message = format!("all goes without {}: {error}", format.name);
+                said.notes.push(Warning::new("W_LEFT_OUT_OF_ALL", message));
+            }
         }
         Ok(())
     }
 
-    /// Drops formats that cannot be made of this cut if only `all` asked for them. Returns notes on the files for the
-    /// user.
-    pub(super) fn settle(&mut self, cut: &Cut<'_>) -> Result<Vec<Warning>, Failure> {
-        let mut notes = Vec::new();
-        for format in std::mem::take(&mut self.formats) {
-            match format.notes(cut, &self.settings) {
-                Ok(of_format) => notes.extend(of_format),
-                Err(error) if !self.is_named(format.name) => {
-                    let message = format!("all goes without {}: {error}", format.name);
-                    notes.push(Warning::new("W_LEFT_OUT_OF_ALL", message));
-                    continue;
-                }
-                Err(error) => return Err(error.into()),
-            }
-            self.formats.push(format);
+    /// Fails with the first reason if no format at all is made.
+    fn some_made(&self, mut said: Said) -> Result<Said, Failure> {
+        match said.unmade.len() {
+            0 => Ok(said),
+            count if count < self.formats.len() => Ok(said),
+            _ => Err(said.unmade.swap_remove(0).1.into()),
         }
-        Ok(notes)
     }
 }
 

@@ -33,6 +33,8 @@ mod files;
 mod folder;
 mod format_args;
 mod freeze_args;
+mod kept;
+mod outcomes;
 mod paths;
 mod pin_args;
 mod plan;

@@ -47,6 +47,12 @@ pub(super) fn is_motion(path: &Path) -> bool {
     FORMATS.iter().any(|format| format.ends(path))
 }
 
+/// Whether a path has the extension of a picture that genga writes, on which a person may paint.
+pub(super) fn is_picture(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    ["png", "svg", "gif"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
 /// The first motion file of a folder, by name.
 pub(super) fn first_clip(folder: &Path) -> Option<PathBuf> {
     let entries = folder.read_dir().ok()?.flatten().map(|entry| entry.path());

@@ -134,6 +134,16 @@ impl<'a> Plan<'a> {
         Ok((engine, source.of))
     }
 
+    /// Returns the corrections over those of an earlier run. A number of keys that is asked for now overrules switches
+    /// that leave none to find.
+    pub(super) fn over(&self, earlier: Edits) -> Edits {
+        let earlier = match self.args.targets.of_keys() {
+            None => earlier,
+            Some(_) => Edits { only_pins: false, ..earlier.without_frozen() },
+        };
+        self.args.corrections.over(self.edits.clone(), earlier)
+    }
+
     /// Adds the keys that are marked in a file, and finds the settings that meet the targets.
     pub(super) fn settle(
         &mut self,
@@ -194,8 +204,7 @@ impl PlanArgs {
 impl TargetArgs {
     /// Refuses a target for the number of keys together with `--only-pins`, which finds none.
     fn check(&self, corrections: &Corrections) -> Result<(), Failure> {
-        let of_keys = |target: &&Target| !matches!(target, Target::DrawingsPerSecond(_));
-        match self.targets().iter().find(of_keys) {
+        match self.of_keys() {
             Some(target) if corrections.only_pins == Some(true) => {
                 Err(Failure::AskedWrongly(format!(
                     "--{}: cannot be asked for together with --only-pins, which wants no keys but your own; leave one of \
@@ -209,6 +218,12 @@ impl TargetArgs {
             ))),
             _ => Ok(()),
         }
+    }
+
+    /// The target that decides how many keys there are.
+    fn of_keys(&self) -> Option<Target> {
+        let of_keys = |target: &Target| !matches!(target, Target::DrawingsPerSecond(_));
+        self.targets().into_iter().find(of_keys)
     }
 
     fn targets(&self) -> Vec<Target> {

@@ -37,30 +37,26 @@ pub(super) struct Outcome {
     pub(super) report: Report,
     /// The written files, as shown to the user.
     pub(super) files: Vec<String>,
+    /// A warning for each format that is not made.
+    pub(super) unmade: Vec<Warning>,
     /// Other files in the folder.
     pub(super) left: Left,
 }
 
 impl Results<'_> {
-    /// Writes the results and the other formats asked for: all files or none.
-    pub(super) fn write(
-        self,
-        formats: &mut Formats,
-        folder: Folder<'_>,
-    ) -> Result<Outcome, Failure> {
+    /// Writes the results and the other formats asked for, but those that cannot be made: all files or none.
+    pub(super) fn write(self, formats: &Formats, folder: Folder<'_>) -> Result<Outcome, Failure> {
         let Self { name, breakdown, recipe, edits, .. } = self;
         let run = Run { name, clip: &self.clip, breakdown, recipe, edits };
         folder.check(&self.clip)?;
         let mut report = Report::new(breakdown, self.notes);
         let mut bundle = Bundle::begin(folder.path())?;
-        let mut written = run.with_cut(|cut| {
-            let (losses, notes): (Vec<Warning>, _) =
-                formats.settle(cut)?.into_iter().partition(is_loss);
-            report.losses.extend(losses.iter().map(ToString::to_string));
-            report.notes.extend(notes.iter().map(ToString::to_string));
-            report.notes.extend(self.kept.map(str::to_owned));
-            formats.write(cut, &mut bundle, self.tell)
-        })?;
+        let mut written = run.with_cut(|cut| formats.write(cut, &mut bundle, self.tell))?;
+        let unmade = written.said.unmade();
+        let (losses, notes): (Vec<_>, Vec<_>) = written.said.notes.into_iter().partition(is_loss);
+        report.losses.extend(losses.iter().chain(&unmade).map(ToString::to_string));
+        report.notes.extend(notes.iter().map(ToString::to_string));
+        report.notes.extend(self.kept.map(str::to_owned));
         (self.tell)(Run::SPEEDS)?;
         bundle.add(Run::SPEEDS, run.speeds()?)?;
         let settings = recipe.write(edits);
@@ -78,6 +74,6 @@ impl Results<'_> {
         };
         let left = folder.finish(bundle, made)?;
         written.files.extend(OWN.map(str::to_owned));
-        Ok(Outcome { report, files: written.files, left })
+        Ok(Outcome { report, files: written.files, unmade, left })
     }
 }

@@ -168,6 +168,13 @@ impl<'a> Bundle<'a> {
         Ok(())
     }
 
+    /// Takes a file back, so that the one in its place stays.
+    pub(super) fn leave(&mut self, name: &str) -> Result<(), Error> {
+        self.files.retain(|(other, _)| other != name);
+        let staged = self.staging.place(name);
+        stop::undisturbed(|| fs::remove_file(&staged)).map_err(|source| io_error(&staged, source))
+    }
+
     /// Moves all files into their places, and removes those in `gone`.
     pub(super) fn finish(self, gone: Vec<String>) -> Result<(), Failure> {
         let Self { folder, staging, is_there, files } = self;

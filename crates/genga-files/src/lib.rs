@@ -55,7 +55,7 @@ pub use limited_bvh::{keys_bvh, limited, limited_bvh};
 pub use manifest::{ClipMark, Manifest};
 pub use marked::{pins_from_sheet, pins_from_table};
 pub use mp4::Mp4;
-pub use output_formats::{FORMATS, Format};
+pub use output_formats::{Attempt, FORMATS, Format};
 pub use pictures::{bars, poses};
 pub use reference_keys::reference_keys;
 pub use remap::{Remap, remap_csv};

@@ -32,6 +32,15 @@ pub struct Format {
     notes: fn(&Cut<'_>, &Settings) -> Result<Vec<Warning>, Error>,
 }
 
+/// What became of a format that [`Format::try_write`] was asked for.
+#[derive(Debug)]
+pub enum Attempt {
+    /// Its files are made, with warnings about them.
+    Made(Vec<Warning>),
+    /// It cannot be made of this cut, and none of its files is.
+    NotMade(Error),
+}
+
 /// The defaults of most rows: no numbered files and no notes.
 const PLAIN: Format = Format {
     name: "",
@@ -370,6 +379,35 @@ impl Format {
     ) -> Result<(), Error> {
         cut.sheet.check()?;
         (self.make)(cut, settings, put)
+    }
+
+    /// Makes the files as [`Format::write`], but takes a format that cannot be made of this cut for no error, so that
+    /// others can go on.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] as [`Sheet::first_layer`]; any error that `put` returns, or that comes after the first file.
+    pub fn try_write(
+        &self,
+        cut: &Cut<'_>,
+        settings: &Settings,
+        put: &mut Sink<'_>,
+    ) -> Result<Attempt, Error> {
+        cut.sheet.first_layer()?;
+        let mut has_begun = false;
+        let mut put_one = |name: &str, bytes: &[u8]| {
+            has_begun = true;
+            put(name, bytes)
+        };
+        let made = self.notes(cut, settings).and_then(|notes| {
+            (self.make)(cut, settings, &mut put_one)?;
+            Ok(Attempt::Made(notes))
+        });
+        made.or_else(|error| if has_begun { Err(error) } else { Ok(Attempt::NotMade(error)) })
+    }
+
+    /// Returns the warning `W_NOT_MADE`: which format cannot be made, and why.
+    pub fn unmade(&self, error: &Error) -> Warning {
+        Warning::new("W_NOT_MADE", format!("{} is not made: {error}", self.name))
     }
 
     /// Collects warnings about the files, such as what they cannot hold.

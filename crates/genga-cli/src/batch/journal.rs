@@ -38,6 +38,11 @@ impl Header {
         Self { schema: SCHEMA.into(), genga, list, clips, part: shard.index, parts: shard.count }
     }
 
+    /// Whether a line is the header of a journal.
+    pub(crate) fn is_header(line: &str) -> bool {
+        serde_json::from_str(line).is_ok_and(|header: Self| header.schema == SCHEMA)
+    }
+
     /// Path of this part's journal in a folder.
     pub(crate) fn file(&self, folder: &Path) -> PathBuf {
         match self.parts {

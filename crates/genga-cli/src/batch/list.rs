@@ -10,6 +10,7 @@ use walkdir::WalkDir;
 use super::super::failure::Failure;
 use super::super::files;
 use super::super::paths::is_motion;
+use super::own_results::{is_in_batch, is_result, is_results};
 use genga::sanitize::is_hidden;
 
 /// A clip of a batch.
@@ -28,22 +29,41 @@ pub(crate) struct Item {
 /// A clip's path and its own options.
 type Named = (PathBuf, Vec<String>);
 
-/// Returns all named clips. Folders are walked in order of name; `out` is left out.
-pub(crate) fn items(words: &[String], out: &Path) -> Result<Vec<Item>, Failure> {
-    let mut named = Vec::new();
-    for word in words {
-        named.extend(of_word(word, out)?);
-    }
-    if named.is_empty() {
-        let words = words.join(" ");
-        return Err(Failure::AskedWrongly(format!(
-            "there is no clip in {words}: name motion files or folders of them"
-        )));
-    }
-    Ok(called(named))
+/// All clips of a batch.
+pub(crate) struct Clips {
+    pub(crate) items: Vec<Item>,
+    /// Results of genga among them, folders or files, which were left out.
+    pub(crate) skipped: Vec<String>,
 }
 
-fn of_word(word: &str, out: &Path) -> Result<Vec<Named>, Failure> {
+/// Returns all named clips. Folders are walked in order of name; `out` and the results of genga are left out.
+pub(crate) fn clips(words: &[String], out: &Path) -> Result<Clips, Failure> {
+    let mut walk = Walk { out: fs::canonicalize(out).ok(), skipped: Vec::new() };
+    let mut named = Vec::new();
+    for word in words {
+        named.extend(of_word(word, &mut walk)?);
+    }
+    let skipped: Vec<String> = walk.skipped.iter().map(|path| path.display().to_string()).collect();
+    if named.is_empty() {
+        let (words, but) = (words.join(" "), if skipped.is_empty() { "" } else { BUT_RESULTS });
+        return Err(Failure::AskedWrongly(format!(
+            "there is no clip in {words}{but}: name motion files or folders of them"
+        )));
+    }
+    Ok(Clips { items: called(named), skipped })
+}
+
+/// Part of the message if all that was found are results.
+const BUT_RESULTS: &str = ", only results of genga";
+
+/// Finds clips in folders.
+struct Walk {
+    /// The real path of the output folder, if it exists.
+    out: Option<PathBuf>,
+    skipped: Vec<PathBuf>,
+}
+
+fn of_word(word: &str, walk: &mut Walk) -> Result<Vec<Named>, Failure> {
     if word == "-" {
         let mut bytes = Vec::new();
         let read = io::stdin().lock().read_to_end(&mut bytes);
@@ -55,10 +75,10 @@ fn of_word(word: &str, out: &Path) -> Result<Vec<Named>, Failure> {
     }
     let path = Path::new(word);
     if path.is_dir() {
-        return walked(path, out);
+        return walk.folder(path);
     }
     if !path.exists() && word.contains(['*', '?', '[']) {
-        return matched(word, out);
+        return walk.pattern(word);
     }
     match path.exists() {
         true => Ok(vec![(path.into(), vec![])]),
@@ -173,50 +193,84 @@ fn of_cells<'a>(cells: impl Iterator<Item = (&'a str, String)>) -> Result<Named,
     Ok((path.into(), own))
 }
 
-fn walked(folder: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
-    let out = fs::canonicalize(out).ok();
-    let is_out = |path: &Path| path.is_dir() && out.is_some() && fs::canonicalize(path).ok() == out;
-    let walk = WalkDir::new(folder).follow_links(true).sort_by_file_name();
-    let mut found = Vec::new();
-    for entry in walk.into_iter().filter_entry(|entry| !is_out(entry.path())) {
-        // A link loop is skipped, a dangling link becomes a clip that fails, and an unreadable folder is an error.
-        match entry {
-            Ok(entry) if entry.file_type().is_file() && is_motion(entry.path()) => {
-                found.push((entry.into_path(), vec![]));
+impl Walk {
+    /// Finds the clips of a folder that was named. Of its own results only the files are left out, for it may be where
+    /// the clips are.
+    fn folder(&mut self, folder: &Path) -> Result<Vec<Named>, Failure> {
+        let walk = WalkDir::new(folder).follow_links(true).sort_by_file_name();
+        let mut found = Vec::new();
+        let mut entries = walk.into_iter();
+        while let Some(entry) = entries.next() {
+            // A link loop is skipped, a dangling link becomes a clip that fails, and an unreadable folder is an error.
+            match entry {
+                Ok(entry) if entry.file_type().is_dir() => {
+                    let is_named = entry.depth() == 0;
+                    if self.is_out(entry.path()) || !is_named && self.skips_folder(entry.path()) {
+                        entries.skip_current_dir();
+                    }
+                }
+                Ok(entry) if entry.file_type().is_file() && is_motion(entry.path()) => {
+                    if !self.skips_file(entry.path()) {
+                        found.push((entry.into_path(), vec![]));
+                    }
+                }
+                Ok(_) => {}
+                Err(error) if error.loop_ancestor().is_some() => {}
+                Err(error) if error.path().is_some_and(Path::is_symlink) => {
+                    found.extend(
+                        error
+                            .path()
+                            .filter(|path| is_motion(path))
+                            .map(|path| (path.into(), vec![])),
+                    );
+                }
+                Err(error) => return Err(Failure::CouldNot(error.to_string())),
             }
-            Ok(_) => {}
-            Err(error) if error.loop_ancestor().is_some() => {}
-            Err(error) if error.path().is_some_and(Path::is_symlink) => {
-                found.extend(
-                    error.path().filter(|path| is_motion(path)).map(|path| (path.into(), vec![])),
-                );
-            }
-            Err(error) => return Err(Failure::CouldNot(error.to_string())),
         }
+        Ok(found)
     }
-    Ok(found)
-}
 
-fn matched(pattern: &str, out: &Path) -> Result<Vec<Named>, Failure> {
-    let paths = glob::glob(pattern)
-        .map_err(|error| Failure::AskedWrongly(format!("{pattern}: {error}")))?;
-    let out = fs::canonicalize(out).ok();
-    let is_in_out = |path: &Path| {
-        let real = fs::canonicalize(path).ok();
-        real.zip(out.as_ref()).is_some_and(|(real, out)| real.starts_with(out))
-    };
-    let mut found = Vec::new();
-    for path in paths {
-        let path = path.map_err(|error| Failure::CouldNot(error.to_string()))?;
-        match path.is_dir() {
-            true => found.extend(walked(&path, out.as_deref().unwrap_or(Path::new("")))?),
-            false if is_motion(&path) && !is_in_out(&path) => found.push((path, vec![])),
-            false => {}
+    fn pattern(&mut self, pattern: &str) -> Result<Vec<Named>, Failure> {
+        let paths = glob::glob(pattern)
+            .map_err(|error| Failure::AskedWrongly(format!("{pattern}: {error}")))?;
+        let mut found = Vec::new();
+        for path in paths {
+            let path = path.map_err(|error| Failure::CouldNot(error.to_string()))?;
+            if is_in_batch(&path) {
+                self.skipped.push(path);
+            } else if path.is_dir() {
+                if !self.skips_folder(&path) {
+                    found.extend(self.folder(&path)?);
+                }
+            } else if is_motion(&path) && !self.is_in_out(&path) && !self.skips_file(&path) {
+                found.push((path, vec![]));
+            }
+        }
+        match found.is_empty() && self.skipped.is_empty() {
+            true => Err(Failure::CouldNot(format!("{pattern}: no motion file matches"))),
+            false => Ok(found),
         }
     }
-    match found.is_empty() {
-        true => Err(Failure::CouldNot(format!("{pattern}: no motion file matches"))),
-        false => Ok(found),
+
+    fn is_out(&self, folder: &Path) -> bool {
+        self.out.is_some() && fs::canonicalize(folder).ok() == self.out
+    }
+
+    fn is_in_out(&self, path: &Path) -> bool {
+        let real = fs::canonicalize(path).ok();
+        real.zip(self.out.as_ref()).is_some_and(|(real, out)| real.starts_with(out))
+    }
+
+    fn skips_folder(&mut self, folder: &Path) -> bool {
+        let skips = is_results(folder);
+        self.skipped.extend(skips.then(|| folder.to_owned()));
+        skips
+    }
+
+    fn skips_file(&mut self, file: &Path) -> bool {
+        let skips = is_result(file);
+        self.skipped.extend(skips.then(|| file.to_owned()));
+        skips
     }
 }
 

@@ -11,7 +11,7 @@ use genga_files::Report;
 pub(crate) struct Row {
     /// `done` or `failed`.
     pub(crate) status: String,
-    /// Why it failed.
+    /// Why it failed, or which formats of a clip that is done are not made, and why.
     pub(crate) message: String,
     /// Figures of a clip that is done.
     #[serde(flatten)]
@@ -89,6 +89,11 @@ impl Row {
 
     pub(crate) fn is_done(&self) -> bool {
         self.status == DONE
+    }
+
+    /// Whether it is done but for formats that cannot be made of it.
+    pub(crate) fn lacks_formats(&self) -> bool {
+        self.is_done() && !self.message.is_empty()
     }
 
     /// The cells after the clip's name.

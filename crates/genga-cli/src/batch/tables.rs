@@ -14,13 +14,16 @@ use genga::sanitize::cell;
 /// The tables, in the order in which they are moved into place.
 const FILES: [&str; 3] = ["keys.csv", "times.csv", "summary.csv"];
 
-/// The number of finished clips, and the failed ones.
+/// The number of finished clips, and those that failed or lack a format.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Count {
     pub(crate) done: usize,
     /// The first failures with their reasons, one a line.
     pub(crate) failed: Vec<String>,
     pub(crate) failures: usize,
+    /// The first clips of which a format is not made, with the reasons, one a line.
+    pub(crate) lacking: Vec<String>,
+    pub(crate) lacks: usize,
 }
 
 /// Most failures listed in full.
@@ -112,13 +115,22 @@ impl Count {
     }
 
     fn add(&mut self, line: &Line) {
+        let message = &line.row.message;
         if line.row.is_done() {
             self.done += 1;
-            return;
+            if line.row.lacks_formats() {
+                name(&mut self.lacking, &mut self.lacks, format!("{}: {message}", line.clip));
+            }
+        } else {
+            name(&mut self.failed, &mut self.failures, message.clone());
         }
-        self.failures += 1;
-        if self.failed.len() < NAMED {
-            self.failed.push(line.row.message.clone());
-        }
+    }
+}
+
+/// Counts a clip, and lists it if it is among the first.
+fn name(first: &mut Vec<String>, count: &mut usize, clip: String) {
+    *count += 1;
+    if first.len() < NAMED {
+        first.push(clip);
     }
 }

@@ -230,12 +230,9 @@ fn drawn(
         Drawings { cut: name.clone(), rows: Rows::Keys }.write(breakdown.clip, breakdown.sheet)?;
     let found = Instant::now();
     let mut files = BTreeMap::new();
-    let mut formats = formats.clone();
     let motion = clip.motion.clone();
     let run = Run { name: &name, clip: &clip, breakdown: &breakdown, recipe, edits };
-    run.with_cut(|cut| {
-        let losses = formats.settle(cut)?.into_iter().filter(is_loss);
-        warnings.extend(losses.map(|warning| warning.code.into()));
+    let said = run.with_cut(|cut| {
         formats.each(cut, &mut |name, bytes| {
             let digest = Manifest::digest(bytes);
             put(name, bytes, &digest)?;
@@ -243,7 +240,12 @@ fn drawn(
             Ok(())
         })
     })?;
-    let row = Row::done(&report, motion, digest.to_owned(), std::mem::take(warnings));
+    let unmade = said.unmade();
+    let lost = said.notes.iter().filter(|note| is_loss(note)).chain(unmade.first());
+    warnings.extend(lost.map(|warning| warning.code.into()));
+    let mut row = Row::done(&report, motion, digest.to_owned(), std::mem::take(warnings));
+    let reasons: Vec<String> = unmade.into_iter().map(|warning| warning.message).collect();
+    row.message = reasons.join("; ");
     let ms = [read - begin, found - read, found.elapsed()].map(|time| time.as_secs_f64() * 1e3);
     Ok(Drawn { row, keys, files, ms })
 }

@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use clap::{Args, ValueEnum};
 
 use crate::batch::journal::{Header, Journal, check_parts, is_journal};
-use crate::batch::list::{self, Item};
+use crate::batch::list::{self, Clips, Item};
 use crate::batch::pack::{self, ARCHIVE, Pack, Parcel};
 use crate::batch::place::Places;
 use crate::batch::pool::Pool;
@@ -20,7 +20,7 @@ use crate::clip::{ClipArgs, Part};
 use crate::console::{Bar, Words, counted};
 use crate::corrections::Corrections;
 use crate::failure::Failure;
-use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::format_args::{FormatArgs, Formats, help, long_help, shortened};
 use crate::plan::{PlanArgs, TargetArgs};
 use crate::staging::Staging;
 use crate::stop;
@@ -90,6 +90,9 @@ enum Progress {
 /// Memory for all clips in progress, unless --memory is given.
 const ROOM: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
 
+/// Warning in the row of a clip whose folder has painted pictures, which stay.
+const PAINTED: &str = "W_PAINTED";
+
 /// Cost of a clip besides its bytes, in bytes. The progress bar estimates the time left from this and the file size.
 const LEAST: u64 = 1 << 14;
 
@@ -102,18 +105,28 @@ pub(super) fn run(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
         return join(args, words);
     }
     if args.list {
-        return files::to_stdout(&list::written(&list::items(&args.clips, &args.out)?));
+        return files::to_stdout(&list::written(&clips(args, words)?));
     }
     let clip = ClipArgs { path: PathBuf::new(), part: args.part.clone() };
     let bones = clip.part.reading().bones()?;
     let formats = Formats::new("deliver", &args.deliver, &[], &args.formats, bones.as_ref())?;
     let plan = PlanArgs::new(clip, args.corrections.clone(), args.targets.clone());
     let asked = Asked::new(&plan, &formats)?;
-    let items = list::items(&args.clips, &args.out)?;
+    let items = clips(args, words)?;
     let batch = Batch::begin(args, &items, &asked, &formats)?;
     batch.state().journal.note().iter().for_each(|note| words.say(note));
     batch.work(words)?;
     batch.close(args, words)
+}
+
+/// Returns the clips that are named, and says which results of genga are not taken for clips.
+fn clips(args: &BatchArgs, words: &Words) -> Result<Vec<Item>, Failure> {
+    let Clips { items, skipped } = list::clips(&args.clips, &args.out)?;
+    if !skipped.is_empty() {
+        let skipped = shortened(skipped).join(" ");
+        words.say(format_args!("note        results of genga, not taken for clips: {skipped}"));
+    }
+    Ok(items)
 }
 
 /// A batch in progress.
@@ -159,7 +172,7 @@ impl<'a> Batch<'a> {
         let journal = Journal::open(&args.out, header, &names)?;
         let pack = args
             .pack
-            .then(|| Pack::open(&args.out, &journal.header, args.formats.force))
+            .then(|| Pack::open(&args.out, &journal.header, args.formats.over().is_forced))
             .transpose()?;
         // From here on a signal lets clips in progress finish.
         stop::gently();
@@ -170,7 +183,7 @@ impl<'a> Batch<'a> {
             items,
             asked,
             formats,
-            places: Places { out: &args.out, is_forced: args.formats.force },
+            places: Places { out: &args.out, over: args.formats.over() },
             staging,
             own: shard.deal(&sizes),
             crew: Pool { jobs, room },
@@ -246,7 +259,10 @@ impl<'a> Batch<'a> {
                     line.files = before;
                     line.keys.clear();
                 }
-                put => put?,
+                put => {
+                    let painted = put?;
+                    line.row.warnings.extend((!painted.is_empty()).then(|| PAINTED.into()));
+                }
             }
             let is_done = line.row.is_done();
             state.journal.add(line).map(|()| is_done)
@@ -347,7 +363,7 @@ fn join(args: &BatchArgs, words: &Words) -> Result<(), Failure> {
 
 /// Reports the outcome.
 fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), Failure> {
-    let Count { done, failed, failures } = count;
+    let Count { done, failed, failures, lacking, lacks } = count;
     let out = args.out.display();
     let tables =
         if args.shard.is_none() { "summary.csv keys.csv times.csv" } else { "next --join" };
@@ -355,11 +371,15 @@ fn end(count: &Count, of: usize, args: &BatchArgs, words: &Words) -> Result<(), 
         "batch       一括       {} of {of} done into {out}: {tables}",
         counted(*done, "clip")
     ));
-    if *failures == 0 {
+    let named = |count: usize, what: &str, clips: &[String]| {
+        let more = if count > NAMED { "; …, all in summary.csv" } else { "" };
+        (count > 0).then(|| format!("{count} of {of} {what}: {}{more}", clips.join("; ")))
+    };
+    let faults = [named(*failures, "failed", failed), named(*lacks, "lack a format", lacking)];
+    let message = faults.into_iter().flatten().collect::<Vec<_>>().join("; ");
+    if message.is_empty() {
         return Ok(());
     }
-    let more = if *failures > NAMED { "; …, all in summary.csv" } else { "" };
-    let message = format!("{failures} of {of} failed: {}{more}", failed.join("; "));
     if args.progress == Progress::Openjd {
         let word = if args.allow_failures { "openjd_status" } else { "openjd_fail" };
         let _ = writeln!(stdout(), "{word}: {message}");

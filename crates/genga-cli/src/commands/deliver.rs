@@ -8,7 +8,7 @@ use crate::clip::Reading;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::{Folder, Made};
-use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::format_args::{FormatArgs, Formats, all_made, help, long_help};
 use crate::staging::Bundle;
 use crate::{files, paths};
 use genga_files::sheet_json::SheetFile;
@@ -57,7 +57,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         formats.spare(what, path, folder, &file.cut)?;
     }
     let motion = args.reading.read_for((&args.sheet, &file), &args.clip, words)?;
-    let place = Folder::look(folder, args.formats.force);
+    let place = Folder::look(folder, args.formats.over());
     place.check(&motion.of)?;
     let cut = Cut {
         name: &file.cut,
@@ -69,9 +69,11 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
         splits: &[],
         made_with: file.made_with.as_ref(),
     };
-    formats.settle(&cut)?.iter().for_each(|note| words.warn(note));
     let mut bundle = Bundle::begin(folder)?;
     let written = formats.write(&cut, &mut bundle, &|_| Ok(()))?;
+    let unmade = written.said.unmade();
+    written.said.notes.iter().for_each(|note| words.warn(note));
+    unmade.iter().for_each(|warning| words.lose(warning));
     let (clip, stale) = (motion.of.clone(), written.stale);
     let made = Made { clip, recipe: None, stale, adds: true, given: None };
     let left = place.finish(bundle, made)?;
@@ -84,7 +86,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     }
     left.notes().iter().for_each(|note| words.say(note));
     words.say(format_args!("files       {}: {}", folder.display(), written.files.join(" ")));
-    Ok(())
+    all_made(&unmade)
 }
 
 /// Reads the sheet, with the timing of a timesheet if one was given.

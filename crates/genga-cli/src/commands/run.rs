@@ -7,10 +7,10 @@ use clap::Args;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::Folder;
-use crate::format_args::{FormatArgs, Formats, help, long_help};
+use crate::format_args::{FormatArgs, Formats, all_made, help, long_help};
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
-use crate::{camera_args, corrections, files, paths, pin_args};
+use crate::{camera_args, corrections, files, kept, outcomes, paths, pin_args};
 use genga::edits::Edits;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
@@ -29,6 +29,9 @@ pub(super) struct RunArgs {
     /// Output folder [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Go without the corrections of the run before in the same folder, which otherwise stay unless --recipe is given.
+    #[arg(long)]
+    fresh: bool,
 }
 
 /// Note when the recipe in the folder is the input and was written by hand: overwriting it would lose comments that the
@@ -45,7 +48,7 @@ const KEPT_WITHOUT: &str = "recipe.toml is the recipe that was given, in your ow
 
 pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     let mut plan = Plan::from_args(&args.plan)?;
-    let mut formats = Formats::new(
+    let formats = Formats::new(
         "deliver",
         &args.deliver,
         &Run::FORMATS,
@@ -64,8 +67,11 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         words.warn_if_quiet(warning);
         notes.push(warning.to_string());
     })?;
-    let place = Folder::look(&folder, args.formats.force);
+    let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
+    let keeps =
+        !args.fresh && args.plan.corrections.settings.recipe.is_none() && place.has_run_of(&of);
+    let kept_corrections = if keeps { kept::keep(&mut plan, &folder, &engine)? } else { vec![] };
     working.on("finding the key drawings");
     plan.settle(&mut engine, words, &mut |note| notes.push(note))?;
     let Plan { recipe, edits, .. } = &plan;
@@ -86,14 +92,18 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         kept: kept(given(args, &folder), (recipe, edits)),
         tell: &|_| Ok(()),
     };
-    let Outcome { report, files, left } = results.write(&mut formats, place)?;
+    let Outcome { report, files, unmade, left } = results.write(&formats, place)?;
     drop(working);
 
     summary(words, &name, &report);
+    kept_corrections.iter().for_each(|line| words.say(format_args!("note        {line}")));
+    outcomes::of_corrections(edits, &breakdown)
+        .iter()
+        .for_each(|line| words.say(format_args!("correction  修正       {line}")));
     shortfalls(words, &report, &breakdown);
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
-    Ok(())
+    all_made(&unmade)
 }
 
 /// Refuses to overwrite an input or an edited sheet.

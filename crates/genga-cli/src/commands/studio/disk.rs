@@ -14,7 +14,7 @@ use super::{pictures, sound};
 use crate::clip::Part;
 use crate::failure::Failure;
 use crate::folder::Folder;
-use crate::format_args::{FormatArgs, Formats};
+use crate::format_args::{FormatArgs, Formats, Over};
 use crate::results::{OWN, Outcome, Results};
 use crate::{files, paths};
 use genga::error::Error;
@@ -165,7 +165,7 @@ fn written(
 ) -> Result<Vec<String>, Failure> {
     let names: Vec<String> = export.formats.iter().map(|name| (*name).to_owned()).collect();
     let formats = Formats::new("deliver", &names, &Run::FORMATS, &FormatArgs::default(), None)?;
-    let mut formats = formats.set(export.settings);
+    let formats = formats.set(export.settings);
     let tell = |name: &str| {
         tell(name);
         match export.stop.load(Ordering::Relaxed) {
@@ -192,9 +192,10 @@ fn written(
         kept: None,
         tell: &tell,
     };
-    let Outcome { mut files, left, .. } =
-        results.write(&mut formats, Folder::look(folder, false))?;
-    files.extend(left.notes().into_iter().map(|note| format!("({note})")));
+    let Outcome { mut files, unmade, left, .. } =
+        results.write(&formats, Folder::look(folder, Over::default()))?;
+    let unmade = unmade.into_iter().map(|warning| warning.message);
+    files.extend(unmade.chain(left.notes()).map(|note| format!("({note})")));
     Ok(files)
 }
 

@@ -1,0 +1,79 @@
+//! Corrections that stay from run to run (前の修正): those in the recipe of the results folder, unless `--fresh`.
+
+use std::path::Path;
+
+use super::failure::Failure;
+use super::files;
+use super::format_args::shortened;
+use super::plan::Plan;
+use genga::edits::{Edits, Forbidden, Move, Pin};
+use genga::pipeline::Engine;
+use genga::recipe::Recipe;
+use genga_files::Run;
+
+/// Lays the corrections of a run over those of the run before in the same folder. Returns what to say of those that
+/// stay and of those that do not.
+pub(super) fn keep(
+    plan: &mut Plan<'_>,
+    folder: &Path,
+    engine: &Engine,
+) -> Result<Vec<String>, Failure> {
+    let path = folder.join(Run::RECIPE);
+    let Ok(text) = std::fs::read_to_string(&path) else { return Ok(vec![]) };
+    let (_, before) = Recipe::parse(&text).map_err(files::fault_of(&path)).map_err(|failure| {
+        Failure::AskedWrongly(format!(
+            "{failure}; its corrections cannot be kept: --fresh goes without"
+        ))
+    })?;
+    let listed = list(&before);
+    plan.edits = plan.over(usable(before, &plan.recipe, engine)?);
+    let now = list(&plan.edits);
+    let (stay, gone): (Vec<_>, Vec<_>) = listed.into_iter().partition(|one| now.contains(one));
+    let from = path.display();
+    let said = [
+        (stay, format!("kept from {from} (--fresh goes without)")),
+        (gone, format!("of {from}, replaced or not of this clip any more")),
+    ];
+    let said = said.into_iter().filter(|(which, _)| !which.is_empty());
+    Ok(said.map(|(which, what)| format!("{what}: {}", shortened_list(which))).collect())
+}
+
+/// Leaves out what this part of the clip, or these layers, do not have.
+fn usable(before: Edits, recipe: &Recipe, engine: &Engine) -> Result<Edits, Failure> {
+    let clip = engine.clip();
+    let layers = recipe.layers.split(clip)?;
+    let mut before = before.within(clip.first(), clip.last());
+    before.layers.retain(|name, _| layers.iter().any(|layer| layer.name == *name));
+    Ok(before)
+}
+
+/// Most corrections that are listed one by one.
+const MOST: usize = 12;
+
+fn shortened_list(corrections: Vec<String>) -> String {
+    let count = corrections.len();
+    let shown = if count > MOST { shortened(corrections) } else { corrections };
+    shown.join(", ")
+}
+
+/// Lists corrections, as they are asked for.
+fn list(edits: &Edits) -> Vec<String> {
+    let mut list = marks("", &edits.pins, &edits.forbidden, &edits.moves);
+    for (name, own) in &edits.layers {
+        list.extend(marks(&format!("{name}/"), &own.pins, &own.forbidden, &own.moves));
+    }
+    list.extend(edits.holds.iter().map(|hold| format!("hold {}:{}", hold.frame, hold.koma)));
+    list.extend(edits.splits.iter().map(|split| format!("split {split}")));
+    list.extend(edits.speech.iter().map(|line| format!("say {}..{}", line.from, line.past)));
+    let switches =
+        [("only-pins", edits.only_pins), ("again", edits.again), ("freeze", edits.freeze())];
+    list.extend(switches.into_iter().filter(|(_, is_on)| *is_on).map(|(name, _)| name.into()));
+    list
+}
+
+fn marks(layer: &str, pins: &[Pin], forbidden: &[Forbidden], moves: &[Move]) -> Vec<String> {
+    let pins = pins.iter().map(|pin| format!("pin {layer}{}", pin.frame));
+    let forbidden = forbidden.iter().map(|frames| format!("forbid {layer}{frames}"));
+    let moves = moves.iter().map(|moved| format!("move {layer}{}:{}", moved.from, moved.to));
+    pins.chain(forbidden).chain(moves).collect()
+}

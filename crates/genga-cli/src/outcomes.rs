@@ -1,0 +1,157 @@
+//! What each correction did (修正の結果), in a line each. Those that did nothing are notes of [`super::corrections`].
+
+use genga::edits::{Edits, Forbidden, Move, Pin};
+use genga::keys::{Key, Origin};
+use genga::pipeline::{Breakdown, LayerBreakdown};
+use genga::sheet::{Drawing, Layer};
+use genga::time::{Clock, Frame};
+use genga::timing::held_for;
+
+/// Most lines; of more, the rest is counted.
+const MOST: usize = 24;
+
+/// Returns a line for each pin, ban, move and hold with an effect, in the order of frames.
+pub(super) fn of_corrections(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
+    let layers: Vec<_> = breakdown.layers().collect();
+    let mut lines: Vec<(Frame, String)> = Vec::new();
+    for (own, sheet) in layers.iter().zip(&breakdown.sheet.layers) {
+        let outcomes = Outcomes {
+            own,
+            sheet,
+            clock: breakdown.clock,
+            layer: if layers.len() > 1 { format!("{}/", own.layer.name) } else { String::new() },
+        };
+        let of_layer = edits.of_layer(&own.layer.name);
+        lines.extend(of_layer.pins.iter().filter_map(|pin| outcomes.of_pin(pin)));
+        lines.extend(of_layer.forbidden.iter().filter_map(|ban| outcomes.of_ban(*ban)));
+        lines.extend(of_layer.moves.iter().filter_map(|moved| outcomes.of_move(moved)));
+        let holds = edits.holds.iter().filter_map(|hold| {
+            let koma = held_for(sheet, *hold, breakdown.clock)?;
+            Some((hold.frame, outcomes.line("hold", hold.frame, &format!("stays for {koma} koma"))))
+        });
+        lines.extend(holds);
+    }
+    lines.sort_by_key(|(frame, _)| *frame);
+    let more = lines.len().saturating_sub(MOST);
+    let mut lines: Vec<String> = lines.into_iter().take(MOST).map(|(_, line)| line).collect();
+    lines.extend((more > 0).then(|| format!("… {more} more")));
+    lines
+}
+
+/// The keys of a layer before and after the corrections.
+struct Outcomes<'a> {
+    own: &'a LayerBreakdown<'a>,
+    /// Its column of the sheet.
+    sheet: &'a Layer,
+    clock: Clock,
+    /// Prefix of frames, if there are several layers.
+    layer: String,
+}
+
+impl Outcomes<'_> {
+    fn line(&self, what: &str, frame: impl std::fmt::Display, outcome: &str) -> String {
+        format!("{what} {}{frame}: {outcome}", self.layer)
+    }
+
+    fn of_pin(&self, pin: &Pin) -> Option<(Frame, String)> {
+        let frame = pin.frame;
+        let number = self.number(frame)?;
+        let instead = match self.lost_near(frame).join(" and ") {
+            _ if self.is_found(frame) => ", found without it too".to_owned(),
+            none if none.is_empty() => none,
+            frames => format!(" in place of {frames}"),
+        };
+        Some((frame, self.line("pin", frame, &format!("genga {number}{instead}"))))
+    }
+
+    fn of_ban(&self, ban: Forbidden) -> Option<(Frame, String)> {
+        let koma = self.clock.frames_in_koma();
+        let reached = self.own.uncorrected.iter().filter(|key| ban.reaches(key.frame, koma));
+        let outcomes: Vec<String> = reached.map(|key| self.of_banned(key.frame)).collect();
+        let line = self.line("forbid", ban, &outcomes.join(", "));
+        (!outcomes.is_empty()).then_some((ban.from, line))
+    }
+
+    /// Says what became of the key at a frame that is forbidden.
+    fn of_banned(&self, frame: Frame) -> String {
+        if self.has(frame) {
+            let number = self.number(frame).unwrap_or_default();
+            return format!("genga {number} stays at {frame}, as it is pinned");
+        }
+        match self.instead_of(frame).and_then(|to| Some((to, self.number(to)?))) {
+            Some((to, number)) => format!("genga {number} moved from {frame} to {to}"),
+            None => format!("the genga at {frame} is gone"),
+        }
+    }
+
+    fn of_move(&self, moved: &Move) -> Option<(Frame, String)> {
+        let Move { from, to, .. } = *moved;
+        let is_moved = |key: &&Key| key.origin == Origin::Moved { from };
+        self.own.keys.keys.iter().find(is_moved)?;
+        let number = self.number(to)?;
+        Some((from, self.line("move", format!("{from}:{to}"), &format!("genga {number}"))))
+    }
+
+    /// The number on the sheet of the genga that shows a frame.
+    fn number(&self, frame: Frame) -> Option<usize> {
+        let away = |drawing: &Drawing| (drawing.source.place() - frame.0 as f64).abs();
+        let numbered = self.sheet.drawings.iter().zip(self.sheet.genga_numbers());
+        let kept = numbered.filter_map(|(drawing, number)| Some((away(drawing), number?)));
+        let (away, number) = kept.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (away < self.clock.frames_in_koma()).then_some(number)
+    }
+
+    /// Whether a key is at a frame now.
+    fn has(&self, frame: Frame) -> bool {
+        self.own.keys.keys.iter().any(|key| key.frame == frame)
+    }
+
+    /// Whether a key was at a frame before the corrections.
+    fn is_found(&self, frame: Frame) -> bool {
+        self.own.uncorrected.iter().any(|key| key.frame == frame)
+    }
+
+    /// The keys next to a frame, of those that are there with and without corrections.
+    fn between(&self, frame: Frame) -> (Option<Frame>, Option<Frame>) {
+        let frames = self.own.keys.keys.iter().map(|key| key.frame);
+        let both: Vec<Frame> = frames.filter(|at| *at != frame && self.is_found(*at)).collect();
+        let after = both.partition_point(|at| *at < frame);
+        (after.checked_sub(1).map(|at| both[at]), both.get(after).copied())
+    }
+
+    /// Keys that are gone since the corrections.
+    fn lost(&self) -> impl Iterator<Item = Frame> {
+        self.own.uncorrected.iter().map(|key| key.frame).filter(|at| !self.has(*at))
+    }
+
+    /// Whether a key was moved away from a frame.
+    fn is_moved(&self, frame: Frame) -> bool {
+        let koma = self.clock.frames_in_koma();
+        let from = |key: &Key| match key.origin {
+            Origin::Moved { from } => Some(from),
+            _ => None,
+        };
+        let mut begins = self.own.keys.keys.iter().filter_map(from);
+        begins.any(|from| (from.0.abs_diff(frame.0) as f64) < koma)
+    }
+
+    /// Frames of the keys that a pin took the place of.
+    fn lost_near(&self, frame: Frame) -> Vec<String> {
+        let (before, after) = self.between(frame);
+        let is_near = |at: &Frame| before.is_none_or(|b| b < *at) && after.is_none_or(|a| *at < a);
+        let lost = self.lost().filter(is_near).filter(|at| !self.is_moved(*at));
+        lost.map(|at| at.to_string()).collect()
+    }
+
+    /// The nearest new key between the neighbours of one that is gone, if nobody set it and none that is gone was
+    /// nearer.
+    fn instead_of(&self, frame: Frame) -> Option<Frame> {
+        let (before, after) = self.between(frame);
+        let is_near = |at: Frame| before.is_none_or(|b| b < at) && after.is_none_or(|a| at < a);
+        let of_lost = |at: Frame| self.lost().min_by_key(|lost| at.0.abs_diff(lost.0));
+        let new = self.own.keys.keys.iter().filter(|key| !key.origin.is_set());
+        new.map(|key| key.frame)
+            .filter(|at| is_near(*at) && !self.is_found(*at) && of_lost(*at) == Some(frame))
+            .min_by_key(|at| at.0.abs_diff(frame.0))
+    }
+}
