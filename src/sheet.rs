@@ -2,6 +2,7 @@
 //!
 //! Plain data: every delivered file is a function of (clip, sheet).
 
+mod source_time;
 mod spoken;
 mod why;
 
@@ -57,8 +58,8 @@ pub enum RootMotion {
     /// With the drawings: the body stays where its drawing has it for as long as the drawing is held.
     #[default]
     Drawings,
-    /// With the source, on ones (1コマ打ち): a held drawing slides on with the performer's travel. Only the position
-    /// follows the source, not the orientation.
+    /// With the source, on ones (1コマ打ち): a held drawing slides on with the performer's travel, by the source time that
+    /// the sheet shows ([`Layer::source_places`]). Only the position follows the source, not the orientation.
     Ones,
 }
 

@@ -16,7 +16,8 @@ Tested with a mock of maya.cmds, not yet in Maya itself.
 import json
 import math
 
-SCHEMA = "genga-sheet-1"
+# Drawings are found by their numbers, whether these count from 1 or, in the first version, from 0.
+SCHEMAS = ("genga-sheet-2", "genga-sheet-1")
 TIME_UNITS = {"game": 15, "film": 24, "pal": 25, "ntsc": 30, "show": 48, "palf": 50, "ntscf": 60}
 # Units that a scene may have but a sheet never uses, in units per second.
 OTHER_UNITS = {"hour": 1 / 3600, "min": 1 / 60, "sec": 1, "millisec": 1000}
@@ -54,6 +55,8 @@ def lay(cmds, sheet, nodes, first_frame, start):
             track.write(cmds, poses, [start + koma for koma, _ in sheet["exposures"]])
         end = start + sheet["length"] - 1
         cmds.playbackOptions(minTime=start, animationStartTime=start, maxTime=end, animationEndTime=end)
+        if sheet["root_on_ones"]:
+            cmds.warning("the sheet has the root on ones, but here it moves with its drawings; limited.bvh has it")
     finally:
         cmds.undoInfo(closeChunk=True)
     return len(sheet["exposures"])
@@ -63,13 +66,13 @@ def read(path, layer_name=""):
     """Reads a layer of the sheet at `path`, in the form of `layer_of`."""
     with open(path, encoding="utf-8-sig") as file:
         sheet = json.load(file)
-    if not isinstance(sheet, dict) or sheet.get("schema") != SCHEMA:
-        raise ValueError(f"{path} is not a genga timesheet ({SCHEMA})")
+    if not isinstance(sheet, dict) or sheet.get("schema") not in SCHEMAS:
+        raise ValueError(f"{path} is not a genga timesheet ({' or '.join(SCHEMAS)})")
     return layer_of(sheet, layer_name)
 
 
 def layer_of(sheet, layer_name=""):
-    """Returns a layer as fps, source_fps, length in koma, and exposures (first koma, source).
+    """Returns a layer as fps, source_fps, length in koma, root_on_ones, and exposures (first koma, source).
 
     A source is a place in the take, or (place, place, share) for a blend of two.
     """
@@ -89,7 +92,13 @@ def layer_of(sheet, layer_name=""):
     if not exposures:
         raise ValueError(f"layer {layer['name']} has no drawing")
     source_fps = sheet["clip"]["frame_rate"]
-    return {"fps": sheet["fps"], "source_fps": source_fps, "length": koma, "exposures": exposures}
+    return {
+        "fps": sheet["fps"],
+        "source_fps": source_fps,
+        "length": koma,
+        "root_on_ones": sheet.get("root") == "ones",
+        "exposures": exposures,
+    }
 
 
 def scene_rate(cmds):

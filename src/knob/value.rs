@@ -80,21 +80,26 @@ macro_rules! numbers {
 }
 numbers! { f64, false; usize, true; u32, true; }
 
-impl Setting for Option<usize> {
-    const KIND: Kind = Kind::Number { min: 0.0, max: 0.0, whole: true, optional: true };
+macro_rules! optional_numbers {
+    ($($of:ty, $whole:literal;)+) => {$(
+        impl Setting for Option<$of> {
+            const KIND: Kind = Kind::Number { min: 0.0, max: 0.0, whole: $whole, optional: true };
 
-    fn word(&self) -> String {
-        self.map_or_else(|| "none".into(), |count| count.to_string())
-    }
+            fn word(&self) -> String {
+                self.map_or_else(|| "none".into(), |number| number.to_string())
+            }
 
-    fn of_word(word: &str) -> Option<Self> {
-        if word == "none" { Some(None) } else { word.parse().ok().map(Some) }
-    }
+            fn of_word(word: &str) -> Option<Self> {
+                if word == "none" { Some(None) } else { word.parse().ok().map(Some) }
+            }
 
-    fn is_in(&self, range: Range) -> bool {
-        self.is_none_or(|count| count.is_in(range))
-    }
+            fn is_in(&self, range: Range) -> bool {
+                self.is_none_or(|number| number.is_in(range))
+            }
+        }
+    )+};
 }
+optional_numbers! { f64, false; usize, true; }
 
 impl Setting for bool {
     const KIND: Kind = Kind::Flag;

@@ -31,6 +31,10 @@ pub struct Cels {
     layer_of: Vec<usize>,
     /// Joints that take their position from the source on every koma.
     travellers: Vec<usize>,
+    /// Places in the source of the koma of each layer, if there are such joints.
+    places: Vec<Vec<f64>>,
+    /// Whether each drawing is on screen at some time.
+    is_shown: Vec<bool>,
     /// Feet that stay in place while they stand, if the sheet holds feet.
     feet: Option<Arc<HeldFeet>>,
 }
@@ -69,6 +73,14 @@ impl Cels {
         let rank = |layer: &usize| layers.partition_point(|other| other < layer);
         let layer_of = layer_of.iter().map(rank).collect();
         let layers: Vec<&Layer> = layers.iter().map(|layer| &sheet.layers[*layer]).collect();
+        let travellers = match sheet.root {
+            RootMotion::Drawings => Vec::new(),
+            RootMotion::Ones => travellers(clip),
+        };
+        let places = match travellers.as_slice() {
+            [] => Vec::new(),
+            _ => layers.iter().map(|layer| layer.source_places(sheet.clock)).collect(),
+        };
         let (layer, drawings) = match layers.as_slice() {
             [_] => {
                 let alone = first.drawings.iter().map(|drawing| vec![drawing.source]).collect();
@@ -76,11 +88,10 @@ impl Cels {
             }
             layers => flat::flattened(layers),
         };
-        let travellers = match sheet.root {
-            RootMotion::Drawings => Vec::new(),
-            RootMotion::Ones => travellers(clip),
-        };
-        Ok(Self { clock: sheet.clock, layer, drawings, layer_of, travellers, feet })
+        let mut is_shown = vec![false; layer.drawings.len()];
+        layer.exposures.iter().for_each(|shown| is_shown[shown.drawing] = true);
+        let clock = sheet.clock;
+        Ok(Self { clock, layer, drawings, layer_of, travellers, places, is_shown, feet })
     }
 
     /// Returns all layers merged into one.
@@ -98,9 +109,12 @@ impl Cels {
         self.drawings[drawing][self.layer_of[joint]]
     }
 
-    /// Returns the place of a koma in the source.
-    fn place(&self, koma: usize) -> f64 {
-        self.clock.place_from_koma(koma)
+    /// Returns the place in the source to which a joint has come on a koma: that which its layer shows there. A drawing
+    /// that is never shown has its own.
+    fn place(&self, joint: usize, drawing: usize, koma: usize) -> f64 {
+        let places = &self.places[self.layer_of[joint]];
+        let shown = places.get(koma).or(places.last()).filter(|_| self.is_shown[drawing]);
+        shown.copied().unwrap_or_else(|| self.source(drawing, joint).place())
     }
 
     /// Number of layers.

@@ -7,9 +7,11 @@ use crate::timing::Stills;
 /// A gap at an end counts as packed (詰め) if it is smaller than this share of the mean gap.
 const PACKED: f64 = 0.75;
 
-/// The fractions that an animator writes on a gauge.
-const FRACTIONS: [(f64, &str); 13] = [
-    (0.0, "0"),
+/// The fractions that an animator writes on a gauge for drawings between two keys.
+const FRACTIONS: [(f64, &str); 17] = [
+    (1.0 / 64.0, "1/64"),
+    (1.0 / 32.0, "1/32"),
+    (1.0 / 16.0, "1/16"),
     (0.125, "1/8"),
     (1.0 / 6.0, "1/6"),
     (0.25, "1/4"),
@@ -21,7 +23,9 @@ const FRACTIONS: [(f64, &str); 13] = [
     (0.75, "3/4"),
     (5.0 / 6.0, "5/6"),
     (0.875, "7/8"),
-    (1.0, "1"),
+    (15.0 / 16.0, "15/16"),
+    (31.0 / 32.0, "31/32"),
+    (63.0 / 64.0, "63/64"),
 ];
 
 /// The gauge between two consecutive kept drawings.
@@ -121,8 +125,15 @@ impl Packing {
     }
 }
 
-/// Returns the nearest fraction that an animator writes: halves, thirds, quarters, sixths, eighths.
+/// Returns the nearest fraction that an animator writes: halves, thirds, quarters, sixths, eighths, and near a key
+/// halves of these down to 1/64. Only a share of 0 or 1 is `0` or `1`: the drawing is then where the key is.
 pub fn fraction(share: f64) -> &'static str {
+    if share <= 0.0 {
+        return "0";
+    }
+    if share >= 1.0 {
+        return "1";
+    }
     let apart = |fraction: &&(f64, &str)| (fraction.0 - share).abs();
     let nearest = FRACTIONS.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
     nearest.map_or("", |fraction| fraction.1)
@@ -162,7 +173,14 @@ mod tests {
     fn a_share_reads_as_the_nearest_fraction() {
         assert_eq!(fraction(0.26), "1/4");
         assert_eq!(fraction(0.34), "1/3");
-        assert_eq!(fraction(0.99), "1");
+        assert_eq!([0.07, 0.04, 0.99, 0.95].map(fraction), ["1/16", "1/32", "63/64", "15/16"]);
+    }
+
+    #[test]
+    fn what_lies_between_two_keys_is_on_neither() {
+        assert_eq!([0.0, 1.0].map(fraction), ["0", "1"]);
+        assert_eq!([1e-9, 0.005].map(fraction), ["1/64"; 2]);
+        assert_eq!([1.0 - 1e-9, 0.995].map(fraction), ["63/64"; 2]);
     }
 
     fn packing(between: &[f64]) -> Option<Packing> {

@@ -7,7 +7,7 @@ use genga::edits::Edits;
 use genga::motion::{Axis, Channel, Clip, bvh};
 use genga::pipeline::Engine;
 use genga::recipe::Recipe;
-use genga::sheet::{RootMotion, Sheet};
+use genga::sheet::{Reason, Role, RootMotion, Sheet};
 use genga::time::Frame;
 use genga_files::limited_bvh;
 
@@ -54,6 +54,13 @@ fn on_real_clips_every_joint_is_in_one_layer_and_has_its_drawing_s_numbers() {
     }
 }
 
+/// Whether a column is one of the root's position.
+fn is_root_position(clip: &Clip, column: usize) -> bool {
+    let root = &clip.skeleton().joints[0];
+    let channel = root.channels.get(column.wrapping_sub(root.first_channel));
+    matches!(channel, Some(Channel::Position(Axis::X | Axis::Y | Axis::Z)))
+}
+
 #[test]
 fn on_real_clips_a_root_on_ones_is_where_the_source_is_on_each_koma() {
     for path in clips::all() {
@@ -63,11 +70,7 @@ fn on_real_clips_a_root_on_ones_is_where_the_source_is_on_each_koma() {
         let held = Sheet { root: RootMotion::Drawings, ..ones.clone() };
         let source = shown(&clip, &Sheet::on_ones(ones.clock, ones.length()));
         let (result, held) = (shown(&clip, &ones), shown(&clip, &held));
-        let root = &clip.skeleton().joints[0];
-        let is_position = |column: usize| {
-            let channel = root.channels.get(column.wrapping_sub(root.first_channel));
-            matches!(channel, Some(Channel::Position(Axis::X | Axis::Y | Axis::Z)))
-        };
+        let is_position = |column: usize| is_root_position(&clip, column);
         for koma in (0..result.len()).map(Frame) {
             for (column, value) in result.row(koma).iter().enumerate() {
                 let expected = if is_position(column) { &source } else { &held };
@@ -76,6 +79,51 @@ fn on_real_clips_a_root_on_ones_is_where_the_source_is_on_each_koma() {
         }
         assert_ne!(result, held, "{name}: it travels");
     }
+}
+
+/// Checks that the take passes every genga that tells its time while that is on screen, within three koma.
+fn meets_its_genga(name: &str, sheet: &Sheet) {
+    let layer = &sheet.layers[0];
+    let places = layer.source_places(sheet.clock);
+    for (begin, exposure) in layer.timed() {
+        let drawing = &layer.drawings[exposure.drawing];
+        if drawing.role == Role::Genga && drawing.why.reason != Some(Reason::Fill) {
+            let slack = 3.01 * sheet.clock.frames_in_koma();
+            let [from, to] = [begin, begin + exposure.koma - 1].map(|koma| places[koma]);
+            let place = drawing.source.place();
+            let is_met = (from - slack..=to + 1.4 * slack).contains(&place);
+            assert!(is_met, "{name}, koma {}: {place} from {from} to {to}", begin + 1);
+        }
+    }
+}
+
+#[test]
+fn on_real_clips_of_another_length_the_root_on_ones_keeps_up_with_its_genga() {
+    let mut shorter = 0;
+    for path in clips::all() {
+        let (name, clip) = (clips::name(&path), clips::read(&path));
+        let settings =
+            [("root", "ones"), ("omission.keep_length", "false"), ("omission.naka_nashi", "50%")];
+        let mut ones = sheet(&clip, &settings);
+        let koma = clip.rate().koma_from_frames(clip.len(), 24.0);
+        shorter += usize::from(ones.length() + 6 < koma);
+        meets_its_genga(&name, &ones);
+        // A person holds a drawing, and has the whole shown again.
+        let exposures = &mut ones.layers[0].exposures;
+        let middle = exposures.len() / 2;
+        exposures[middle].koma += 24;
+        let once = shown(&clip, &ones);
+        meets_its_genga(&name, &ones);
+        ones.layers[0].exposures = ones.layers[0].exposures.repeat(2);
+        let twice = shown(&clip, &ones);
+        for koma in 0..once.len() {
+            let row = |koma: usize| twice.row(Frame(koma)).iter();
+            for (first, again) in row(koma).zip(row(koma + once.len())) {
+                assert!((first - again).abs() < 1e-4, "{name}: koma {}", koma + 1);
+            }
+        }
+    }
+    assert!(clips::all().is_empty() || shorter > 0, "some sheet is shorter than its take");
 }
 
 #[test]

@@ -32,7 +32,7 @@ const FILES: [(&str, &str); 13] = [
     ("remap.ffconcat", "ffconcat version 1.0\n"),
     ("report.json", "{\n  \"frames\": "),
     ("sheet.csv", "koma,layer,drawing,role,source_frame,why\n"),
-    ("sheet.json", "{\n  \"schema\": \"genga-sheet-1\",\n"),
+    ("sheet.json", "{\n  \"schema\": \"genga-sheet-2\",\n"),
     ("sheet.svg", "<svg "),
     ("speed.svg", "<svg "),
 ];
@@ -1054,7 +1054,7 @@ fn a_sheet_that_does_not_fit_says_what_and_leaves_nothing() {
     let sheet = read(&place.path("a/sheet.json"));
     fs::write(place.path("short.bvh"), read(&place.path("short/limited.bvh"))).unwrap();
     fs::write(place.path("slip.json"), sheet.replacen("\"koma\": 3", "\"koma\": 0", 1)).unwrap();
-    fs::write(place.path("later.json"), sheet.replacen("genga-sheet-1", "genga-sheet-2", 1))
+    fs::write(place.path("later.json"), sheet.replacen("genga-sheet-2", "genga-sheet-3", 1))
         .unwrap();
     fs::write(place.path("kick.bvh"), read(&here("data/kick.bvh")).replace("LeftArm", "Arm_L"))
         .unwrap();

@@ -6,7 +6,8 @@ import struct
 
 from .refused import Refused
 
-SHEET_SCHEMA = "genga-sheet-1"
+# Drawings are found by their numbers, whether these count from 1 or, in the first version, from 0.
+SHEET_SCHEMAS = ("genga-sheet-2", "genga-sheet-1")
 
 
 class NotAFile(Refused):
@@ -62,8 +63,8 @@ class Sheet:
     """A sheet.json: its layers, its length in koma, and its take."""
 
     def __init__(self, sheet):
-        if sheet["schema"] != SHEET_SCHEMA:
-            raise NotAFile(f"the sheet has schema {sheet['schema']}; this add-on reads {SHEET_SCHEMA}")
+        if sheet["schema"] not in SHEET_SCHEMAS:
+            raise NotAFile(f"the sheet has schema {sheet['schema']}; this add-on reads {' and '.join(SHEET_SCHEMAS)}")
         clip = sheet["clip"]
         self.fps, self.source_fps = float(sheet["fps"]), float(clip["frame_rate"])
         self.take = str(clip["file"])

@@ -7,22 +7,25 @@ use serde::{Deserialize, Serialize};
 use crate::{Cut, Sink, csv_table, number};
 use genga::error::Error;
 use genga::knob::{Knobs, knob, knobs};
-use genga::sheet::{Layer, Sheet};
+use genga::sheet::{Layer, RootMotion, Sheet};
+use genga::time::{Frame, FrameRate};
 
-/// Naming of the picture sequence that the timing is applied to: the rendered source, one picture per frame.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+/// The picture sequence that the timing is applied to: the rendered source.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Remap {
     /// Name pattern of a picture, with `%d` for its number, or `%04d` for at least four digits; default
     /// `%04d.png`, as Blender names them.
     pub pictures: String,
+    /// Rendered pictures per second, 0.001 to 1,000,000; `None`, the default, is one per frame of the source.
+    pub fps: Option<f64>,
     /// Number of the picture of the clip's frame 0, from 0; default 1, because Blender imports it as frame 1.
     pub first: usize,
 }
 
 impl Default for Remap {
     fn default() -> Self {
-        Self { pictures: "%04d.png".into(), first: 1 }
+        Self { pictures: "%04d.png".into(), fps: None, first: 1 }
     }
 }
 
@@ -33,6 +36,14 @@ knobs!(remap::Remap {
         "素材をレンダリングした連番のファイル名。%04dが4桁の番号。",
     )
     .unit("words"),
+    fps: knob(
+        "毎秒の枚数",
+        "Pictures per second at which the source was rendered; none is one picture per frame.",
+        "素材をレンダリングした毎秒の枚数。noneは1フレームに1枚。",
+    )
+    .unit("pictures a second")
+    .at_least(1e-3)
+    .at_most(1e6),
     first: knob(
         "最初の番号",
         "Number of the picture of frame 0 of the clip.",
@@ -52,15 +63,28 @@ impl Remap {
     }
 
     /// Writes a layer as a list for ffmpeg's *concat* demuxer: which source picture is shown, and for how long.
-    /// Each drawing becomes the picture of the nearest frame.
+    /// Each drawing becomes the picture nearest to its instant. A comment says which pictures the list expects, up to
+    /// the one of the source frame `last`.
     ///
     /// # Errors
     /// The errors of [`Remap::validate`].
-    pub fn ffconcat(&self, sheet: &Sheet, layer: &Layer) -> Result<String, Error> {
+    pub fn ffconcat(&self, sheet: &Sheet, layer: &Layer, last: Frame) -> Result<String, Error> {
         let (rate, naming) = (sheet.clock.koma_rate, self.naming()?);
-        let mut list = String::from("ffconcat version 1.0\n");
+        let source = sheet.clock.frame_rate;
+        let rendered = self.fps.map_or(Ok(source), FrameRate::new)?;
+        let per_frame = rendered.fps() / source.fps();
+        let picture = |place: f64| (place * per_frame).round().max(0.0) as usize;
+        let name = |picture: usize| quoted(&naming.format(self.first + picture));
+        let last = picture(last.0 as f64);
+        let mut list = format!(
+            "ffconcat version 1.0\n\
+             # {} pictures, {rendered} a second: {} is the clip's frame 0, {} its last\n",
+            last + 1,
+            name(0),
+            name(last)
+        );
         for (at, exposure) in layer.exposures.iter().enumerate() {
-            let picture = quoted(&naming.format(nearest(layer, exposure.drawing) + self.first));
+            let picture = name(picture(layer.drawings[exposure.drawing].source.place()));
             // ffmpeg assumes 25 pictures per second unless told otherwise.
             let file = format!("file {picture}\noption framerate {rate}\n");
             let is_last = at + 1 == layer.exposures.len();
@@ -95,7 +119,7 @@ impl Remap {
     pub(super) fn write(&self, cut: &Cut<'_>, put: &mut Sink<'_>) -> Result<(), Error> {
         let layers = &cut.sheet.layers;
         for (at, layer) in layers.iter().enumerate() {
-            let list = self.ffconcat(cut.sheet, layer)?;
+            let list = self.ffconcat(cut.sheet, layer, cut.clip.last())?;
             let name = match layers.len() {
                 1 => "remap.ffconcat".into(),
                 _ => Cut::file_of(&layer.name, &format!("remap-{}-CUT.ffconcat", at + 1)),
@@ -134,31 +158,38 @@ fn quoted(word: &str) -> String {
 /// source. Koma count from 1. A sheet of several layers has one row per koma and layer, with a second column
 /// `layer`.
 ///
-/// A root on ones is not listed, because it follows the source frame by frame.
+/// A root on ones adds the column `root_frame`: the source frame of the root's position.
 ///
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::check`].
 pub fn remap_csv(sheet: &Sheet) -> Result<String, Error> {
     sheet.check()?;
     let has_layers = sheet.layers.len() > 1;
+    let is_on_ones = sheet.root == RootMotion::Ones;
     let rows = sheet.layers.iter().flat_map(|layer| {
-        layer.koma().enumerate().map(move |(koma, index)| {
-            let place = layer.drawings[index].source.place();
-            let seconds = number(sheet.clock.seconds_from_place(place));
-            let name = has_layers.then(|| layer.name.clone());
-            let row = [
-                Some((koma + 1).to_string()),
-                name,
-                Some(number(place)),
-                Some(seconds),
-                Some(nearest(layer, index).to_string()),
-            ];
-            row.into_iter().flatten()
-        })
+        layer.koma().zip(layer.source_places(sheet.clock)).enumerate().map(
+            move |(koma, (index, root))| {
+                let place = layer.drawings[index].source.place();
+                let seconds = number(sheet.clock.seconds_from_place(place));
+                let name = has_layers.then(|| layer.name.clone());
+                let row = [
+                    Some((koma + 1).to_string()),
+                    name,
+                    Some(number(place)),
+                    Some(seconds),
+                    Some(nearest(layer, index).to_string()),
+                    is_on_ones.then(|| number(root)),
+                ];
+                row.into_iter().flatten()
+            },
+        )
     });
     let mut header = vec!["koma", "source_frame", "source_time_s", "nearest_frame"];
     if has_layers {
         header.insert(1, "layer");
+    }
+    if is_on_ones {
+        header.push("root_frame");
     }
     csv_table(&header, rows)
 }
@@ -171,14 +202,51 @@ mod tests {
     #[test]
     fn a_list_shows_the_nearest_picture_for_as_long_as_the_drawing() {
         let sheet = sheet(vec![layer("A", "eie", &[(0, 3), (1, 1), (2, 2)])]);
-        let remap = Remap { pictures: "it's/%03d.exr".into(), first: 0 };
-        let list = remap.ffconcat(&sheet, &sheet.layers[0]).unwrap();
+        let remap = Remap { pictures: "it's/%03d.exr".into(), first: 0, ..Remap::default() };
+        let list = remap.ffconcat(&sheet, &sheet.layers[0], Frame(19)).unwrap();
         let expected = "ffconcat version 1.0\n\
+            # 20 pictures, 120 a second: 'it'\\''s/000.exr' is the clip's frame 0, 'it'\\''s/019.exr' its last\n\
             file 'it'\\''s/010.exr'\noption framerate 24\nduration 0.125000\n\
             file 'it'\\''s/013.exr'\noption framerate 24\nduration 0.041667\n\
             file 'it'\\''s/016.exr'\noption framerate 24\nduration 0.041667\n\
             file 'it'\\''s/016.exr'\noption framerate 24\n";
         assert_eq!(list, expected);
+    }
+
+    #[test]
+    fn a_root_on_ones_has_a_source_frame_of_its_own_on_every_koma() {
+        let layers = vec![layer("A", "eie", &[(0, 3), (1, 1), (2, 2), (0, 1)])];
+        let sheet = Sheet { root: RootMotion::Ones, ..sheet(layers) };
+        let table = remap_csv(&sheet).unwrap();
+        let roots: Vec<&str> = table.lines().map(|row| row.rsplit(',').next().unwrap()).collect();
+        assert_eq!(roots, ["root_frame", "10", "11", "12", "13", "16", "16", "10"]);
+    }
+
+    #[test]
+    fn pictures_of_another_rate_are_those_of_the_same_instants() {
+        // Frames 10, 13 and 16 of a take of 120 a second.
+        let sheet = sheet(vec![layer("A", "eie", &[(0, 3), (1, 1), (2, 2)])]);
+        let shown = |fps: f64, first| {
+            let remap = Remap { fps: Some(fps), first, ..Remap::default() };
+            let list = remap.ffconcat(&sheet, &sheet.layers[0], Frame(599)).unwrap();
+            let files: Vec<String> =
+                list.lines().filter(|line| line.starts_with("file")).map(String::from).collect();
+            (list.lines().nth(1).unwrap().to_owned(), files)
+        };
+        let (expects, files) = shown(24.0, 1);
+        assert_eq!(
+            expects,
+            "# 121 pictures, 24 a second: '0001.png' is the clip's frame 0, '0121.png' its last"
+        );
+        assert_eq!(
+            files,
+            ["file '0003.png'", "file '0004.png'", "file '0004.png'", "file '0004.png'"]
+        );
+        let (expects, files) = shown(23.976, 101);
+        assert!(expects.starts_with("# 121 pictures, 23.976 a second: '0101.png' is"), "{expects}");
+        assert_eq!(files[..2], ["file '0103.png'", "file '0104.png'"]);
+        let usual = Remap::default().ffconcat(&sheet, &sheet.layers[0], Frame(599)).unwrap();
+        assert!(shown(120.0, 1).1.iter().all(|file| usual.contains(file)), "{usual}");
     }
 
     #[test]
@@ -191,10 +259,10 @@ mod tests {
             ("%d_%d.png", false),
             ("%99d.png", false),
         ] {
-            let remap = Remap { pictures: pictures.into(), first: 1 };
+            let remap = Remap { pictures: pictures.into(), ..Remap::default() };
             assert_eq!(remap.validate().is_ok(), is_good, "{pictures}");
         }
-        let said = Remap { pictures: "a.png".into(), first: 1 }.validate().unwrap_err();
+        let said = Remap { pictures: "a.png".into(), ..Remap::default() }.validate().unwrap_err();
         assert!(said.to_string().contains("%04d"), "{said}");
     }
 }

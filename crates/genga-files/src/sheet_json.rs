@@ -1,7 +1,7 @@
 //! `sheet.json` (タイムシート): the sheet itself, which a person can edit by hand and deliver again.
 //!
 //! Each drawing and each exposure has a line of its own. A written sheet reads back identically, to the last
-//! digit. The schema is `docs/schema/sheet-1.json`.
+//! digit. The schema is `docs/schema/sheet-2.json`.
 
 mod check;
 pub(super) mod digest;
@@ -25,8 +25,11 @@ pub use made::MadeWith;
 pub use read::read;
 pub use write::write;
 
-/// The schema version, the only one that is written or read.
-pub const SCHEMA: &str = "genga-sheet-1";
+/// The schema version that is written: drawings and koma count from 1, frames from 0.
+pub const SCHEMA: &str = "genga-sheet-2";
+
+/// The version before, which is still read: drawings and koma count from 0.
+pub const SCHEMA_FROM_0: &str = "genga-sheet-1";
 
 /// The contents of a `sheet.json`.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,6 +11,7 @@ mod layout;
 mod page;
 mod paper_layer;
 mod speech;
+mod spread;
 #[cfg(test)]
 mod tests;
 

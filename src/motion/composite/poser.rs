@@ -36,11 +36,9 @@ impl<'a> CompositePoser<'a> {
             self.pose.rotations[joint] = own.rotations[joint];
             self.pose.translations[joint] = own.translations[joint];
         }
-        if composite.slides() {
-            let root = self.root.place(composite.place(koma));
-            for &joint in composite.travellers() {
-                self.pose.translations[joint] = root.translations[joint];
-            }
+        for &joint in composite.travellers() {
+            let root = self.root.place(composite.place(joint, drawing, koma));
+            self.pose.translations[joint] = root.translations[joint];
         }
         if let Some(feet) = &mut self.feet {
             feet.hold(|joint| composite.source(drawing, joint).place(), &mut self.pose);

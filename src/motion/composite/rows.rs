@@ -12,7 +12,7 @@ pub struct CompositeRows<'a> {
     writer: RowWriter<'a>,
     /// Last source of each layer and the whole body's row of it: a layer's drawing often stays while others change.
     layers: Vec<(Option<Source>, Vec<f64>)>,
-    /// Row of the source at the current koma.
+    /// Row of the source where a traveller takes its position.
     root: Vec<f64>,
     /// Foot hold and a pose buffer for it.
     feet: Option<(FootHold<'a>, Pose)>,
@@ -45,13 +45,13 @@ impl<'a> CompositeRows<'a> {
             let columns = joint.first_channel..joint.first_channel + joint.channels.len();
             row[columns.clone()].copy_from_slice(&self.layers[*layer].1[columns]);
         }
-        if composite.slides() {
-            self.writer.write(Source::At(composite.place(koma)), &mut self.root);
-            for joint in composite.travellers().iter().map(|joint| &joints[*joint]) {
-                let positions = joint.channels.iter().zip(joint.first_channel..);
-                for (_, column) in positions.filter(|(channel, _)| is_position(**channel)) {
-                    row[column] = self.root[column];
-                }
+        for &traveller in composite.travellers() {
+            let place = composite.place(traveller, drawing, koma);
+            self.writer.write(Source::At(place), &mut self.root);
+            let joint = &joints[traveller];
+            let positions = joint.channels.iter().zip(joint.first_channel..);
+            for (_, column) in positions.filter(|(channel, _)| is_position(**channel)) {
+                row[column] = self.root[column];
             }
         }
         self.hold_feet(drawing, row);

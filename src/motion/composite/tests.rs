@@ -1,4 +1,4 @@
-//! Tests that each joint follows its own layer's drawing, and that a root on ones follows the source.
+//! Tests that each joint follows its own layer's drawing, and that a root on ones follows the source time shown.
 
 use proptest::prelude::*;
 
@@ -104,6 +104,28 @@ fn the_joint_that_travels_is_the_first_whose_place_changes() {
     assert!(!Composite::new(&still, &sheet).unwrap().slides(), "nothing slides that never moves");
 }
 
+#[test]
+fn a_root_on_ones_never_leaves_what_the_sheet_shows() {
+    let clip = kick();
+    use Role::{End, Genga};
+    let shown = [(20.0, End, 2), (22.0, Genga, 24), (23.0, End, 2), (50.0, Genga, 1)];
+    let mut sheet = Sheet::new(clip.clock(24.0), vec![layer("A", &[], &shown)]);
+    sheet.root = RootMotion::Ones;
+    sheet.layers[0].exposures.pop();
+    let composite = Composite::new(&clip, &sheet).unwrap();
+    let (mut posed, mut source) = (CompositePoser::new(&composite), Poser::new(&clip));
+    let mut at = |drawing, koma, place| {
+        let root = posed.drawing(drawing, koma).translations[0];
+        assert_eq!(root, source.place(place).translations[0], "koma {koma}");
+    };
+    at(0, 1, 21.0);
+    at(1, 2, 22.0);
+    at(1, 14, 22.5);
+    at(2, 27, 23.0);
+    at(0, 14, 22.5);
+    at(3, 60, 50.0);
+}
+
 proptest! {
     #![proptest_config(cases(6, 24))]
 
@@ -141,7 +163,8 @@ proptest! {
                 prop_assert_eq!(local_rotation(data, &row), local_rotation(data, &own));
                 prop_assert_eq!(shown.rotations[joint], own_pose.pose().rotations[joint]);
                 if ones && joint == 0 {
-                    let there = Source::At(sheet.clock.place_from_koma(koma));
+                    let places = layer.source_places(sheet.clock);
+                    let there = Source::At(*places.get(koma).or(places.last()).unwrap());
                     writer.write(there, &mut own);
                     own_pose.drawing(there);
                 }

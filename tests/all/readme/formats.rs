@@ -34,7 +34,7 @@ fn the_sheet_that_is_shown_is_the_one_that_is_written() {
     let place = place();
     said("genga run data/kick.bvh", place.path()).unwrap();
     let written = fs::read_to_string(place.path().join("kick-genga/sheet.json")).unwrap();
-    let block = block_with("  \"schema\": \"genga-sheet-1\",");
+    let block = block_with("  \"schema\": \"genga-sheet-2\",");
     assert_eq!(missing(&block, &written), None);
     assert!(missing(&block.replace("92", "93"), &written).is_some(), "a wrong one is seen");
 }

@@ -27,13 +27,13 @@ class Sheet:
 
     @staticmethod
     def layer(read):
-        numbers = {drawing["drawing"]: at for at, drawing in enumerate(read["drawings"], 1)}
+        assert [drawing["drawing"] for drawing in read["drawings"]] == list(range(1, len(read["drawings"]) + 1))
         kept = [drawing["drawing"] for drawing in read["drawings"] if drawing["role"] != "inbetween"]
         shown, genga = [], []
         for exposure in read["exposures"]:
             drawing = exposure["drawing"]
             began = kept.index(drawing) + 1 if drawing in kept else genga[-1]
-            shown += [numbers[drawing]] * exposure["koma"]
+            shown += [drawing] * exposure["koma"]
             genga += [began] * exposure["koma"]
         return Layer(read["name"], shown, genga)
 

@@ -17,6 +17,7 @@ class Cmds(types.ModuleType):
         self.selected = []
         self.ranges = {}
         self.chunks = []
+        self.warnings = []
 
     def add(self, node, parent=None, order=0, kind="transform", **values):
         self.kinds[node] = kind
@@ -84,6 +85,9 @@ class Cmds(types.ModuleType):
             (name,) = ranges
             return self.ranges[name]
         self.ranges = ranges
+
+    def warning(self, message):
+        self.warnings.append(message)
 
     def undoInfo(self, openChunk=False, closeChunk=False, chunkName=None):
         self.chunks.append("open" if openChunk else "close")

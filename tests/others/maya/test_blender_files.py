@@ -64,7 +64,7 @@ def sheet(**changed):
     """A sheet of a take of 40 frames, from its frame 10 on, in two layers."""
     clip = {"file": "kick.bvh", "frame_rate": 24, "first_frame": 10, "frames": 40}
     clip["joints"] = ["Hips", "Spine", "L Arm"]
-    whole = {"schema": "genga-sheet-1", "fps": 24, "clip": clip, "layers": [TRUNK, ARM]}
+    whole = {"schema": "genga-sheet-2", "fps": 24, "clip": clip, "layers": [TRUNK, ARM]}
     return files.Sheet({**whole, **changed})
 
 

@@ -22,7 +22,7 @@ def drawing(number, role="inbetween", **source):
 
 
 SHEET = {
-    "schema": "genga-sheet-1",
+    "schema": "genga-sheet-2",
     "genga": "0.1.0",
     "cut": "test",
     "fps": 24,
@@ -32,15 +32,15 @@ SHEET = {
         {
             "name": "A",
             "drawings": [
-                drawing(0, "end", frame=0),
-                drawing(1, frame=12.5),
-                drawing(2, "genga", frame=50),
-                drawing(3, between=[50, 100], share=0.25),
-                drawing(4, "end", frame=100),
+                drawing(1, "end", frame=0),
+                drawing(2, frame=12.5),
+                drawing(3, "genga", frame=50),
+                drawing(4, between=[50, 100], share=0.25),
+                drawing(5, "end", frame=100),
             ],
-            "exposures": [{"drawing": at, "koma": koma} for at, koma in enumerate([3, 2, 10, 4, 2])],
+            "exposures": [{"drawing": at, "koma": koma} for at, koma in enumerate([3, 2, 10, 4, 2], 1)],
         },
-        {"name": "B", "drawings": [drawing(0, frame=7)], "exposures": [{"drawing": 0, "koma": 5}]},
+        {"name": "B", "drawings": [drawing(1, frame=7)], "exposures": [{"drawing": 1, "koma": 5}]},
     ],
 }
 BEGINS = [1, 4, 6, 16, 20]
@@ -84,7 +84,26 @@ class Applied(unittest.TestCase):
         for koma, number in enumerate(shown):
             for part in (0.0, 0.5, 0.99):
                 value = self.cmds.getAttr("|hips.translateY", time=1 + koma + part)
-                self.assertAlmostEqual(value, places[number])
+                self.assertAlmostEqual(value, places[number - 1])
+
+    def test_a_sheet_of_the_first_version_counts_drawings_from_0(self):
+        old = copy.deepcopy(SHEET)
+        old["schema"] = "genga-sheet-1"
+        for layer in old["layers"]:
+            for numbered in layer["drawings"] + layer["exposures"]:
+                numbered["drawing"] -= 1
+        self.apply(old)
+        keys = self.cmds.keys
+        self.setUp()
+        self.apply()
+        self.assertEqual(self.cmds.keys, keys)
+
+    def test_a_root_on_ones_is_left_out_and_said(self):
+        self.apply()
+        self.assertEqual(self.cmds.warnings, [])
+        self.setUp()
+        self.apply({**SHEET, "root": "ones"})
+        self.assertIn("the sheet has the root on ones", self.cmds.warnings[0])
 
     def test_rotations_go_on_the_shortest_arc_and_get_all_three_axes(self):
         self.apply()

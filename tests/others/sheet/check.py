@@ -18,10 +18,12 @@ def spoilt(sheet):
     def layer(sheet):
         return sheet["layers"][0]
 
-    yield but("another version", lambda s: s.update(schema="genga-sheet-2"))
+    yield but("another version", lambda s: s.update(schema="genga-sheet-1"))
     yield but("no version", lambda s: s.pop("schema"))
     yield but("a field nobody knows", lambda s: s.update(note="mine"))
-    yield but("koma from 1", lambda s: s.update(frame_base=1))
+    yield but("frames from 1", lambda s: s.update(frame_base=1))
+    yield but("drawings from 0", lambda s: layer(s)["drawings"][0].update(drawing=0))
+    yield but("drawings from 0 on screen", lambda s: layer(s)["exposures"][0].update(drawing=0))
     yield but("no clip", lambda s: s.pop("clip"))
     yield but("half a frame to begin with", lambda s: s["clip"].update(first_frame=0.5))
     yield but("a setting that is no word", lambda s: s["made_with"]["recipe"].update(rate=24))
@@ -34,6 +36,8 @@ def spoilt(sheet):
     yield but("two sources", lambda s: layer(s)["drawings"][0].update(between=[0, 1], share=0.5))
     yield but("half a blend", lambda s: layer(s)["drawings"][0].update(share=0.5))
     yield but("a reason nobody knows", lambda s: layer(s)["drawings"][0].update(why={"because": 1}))
+    if "lines" in sheet:
+        yield but("koma from 0", lambda s: s["lines"][0].update(begin=0))
     if "exaggerate" in sheet:
         yield but("more ease than all", lambda s: s["exaggerate"].update(ease=1.5))
 

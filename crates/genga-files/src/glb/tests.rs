@@ -111,6 +111,9 @@ fn layers_and_a_root_on_ones_stand_where_limited_bvh_has_them() {
     }
     let (clip, sheet) = made("kick", &[("root", "ones")]);
     check_positions(&clip, &sheet, &Glb::default());
+    let mut twice = sheet.clone();
+    twice.layers[0].exposures = sheet.layers[0].exposures.repeat(2);
+    check_positions(&clip, &twice, &Glb::default());
     let read = read(&clip, &sheet);
     let own_times =
         read.samplers(0).iter().filter(|own| own["input"] != read.samplers(0)[0]["input"]);

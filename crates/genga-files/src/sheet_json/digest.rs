@@ -62,12 +62,13 @@ pub(crate) fn bytes(bytes: &[u8]) -> String {
     digest.text()
 }
 
-/// Digest of the layers as they are written, the spoken lines, the exaggeration, and root and feet if they are
-/// not moved with their drawings.
+/// Digest of the layers as lines with drawings from 0, as in the first schema, the spoken lines, the exaggeration, and
+/// root and feet if they are not moved with their drawings.
 pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     let mut digest = Digest::new();
     for layer in &sheet.layers {
-        let text = serde_json::to_string(&LayerLines::new(layer)).expect("a layer is plain data");
+        let text =
+            serde_json::to_string(&LayerLines::new(layer, 0)).expect("a layer is plain data");
         text.bytes().for_each(|byte| digest.word(u64::from(byte)));
     }
     if sheet.root == RootMotion::Ones {

@@ -3,12 +3,14 @@
 use super::{MadeOf, SheetFile, digest};
 use genga::error::{Error, Warning};
 use genga::motion::Clip;
-use genga::time::Frame;
+use genga::time::{Clock, Frame};
 
 /// Warning code: the clip's joints have the sheet's names, but other bones.
 pub const OTHER_BONES: &str = "W_SHEET_BONES";
 /// Warning code: the clip's motion differs from the one the sheet was made from.
 pub const OTHER_MOTION: &str = "W_SHEET_MOTION";
+/// Warning code: a person's edit changed the length of the sheet.
+pub const OTHER_LENGTH: &str = "W_SHEET_LENGTH";
 
 impl MadeOf {
     /// Describes a clip.
@@ -71,7 +73,24 @@ impl SheetFile {
                  taken from this one",
             ));
         }
+        notes.extend(self.other_length());
         Ok((clip, notes))
+    }
+
+    /// Warns of the layers of an edited sheet that have another length than its clip.
+    fn other_length(&self) -> Option<Warning> {
+        let Clock { frame_rate, koma_rate, .. } = self.sheet.clock;
+        let whole = frame_rate.koma_from_frames(self.clip.frames, koma_rate);
+        let layers = self.sheet.layers.iter().filter(|layer| layer.length() != whole);
+        let layers: Vec<String> =
+            layers.map(|layer| format!("layer {} has {}", layer.name, layer.length())).collect();
+        let is_changed = !self.is_as_made() && !layers.is_empty();
+        is_changed.then(|| {
+            let layers = layers.join(", ");
+            let message =
+                format!("the sheet's length was changed: the clip has {whole} koma, {layers}");
+            Warning::new(OTHER_LENGTH, message)
+        })
     }
 
     /// Applies the sheet's exaggeration to the fitted clip; `None` if there is none.

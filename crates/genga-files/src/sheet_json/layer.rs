@@ -32,13 +32,16 @@ pub(super) struct DrawingLine {
 }
 
 impl LayerLines {
-    pub(super) fn new(layer: &Layer) -> Self {
-        let drawings = layer.drawings.iter().enumerate();
+    /// Lays out a layer whose drawings have the numbers from `first` on.
+    pub(super) fn new(layer: &Layer, first: usize) -> Self {
+        let numbered =
+            |exposure: &Exposure| Exposure { drawing: first + exposure.drawing, ..*exposure };
+        let drawings = (first..).zip(&layer.drawings);
         Self {
             name: layer.name.clone(),
             joints: layer.joints.clone(),
             drawings: drawings.map(|(number, drawing)| DrawingLine::new(number, drawing)).collect(),
-            exposures: layer.exposures.clone(),
+            exposures: layer.exposures.iter().map(numbered).collect(),
         }
     }
 }

@@ -7,10 +7,10 @@ use serde_json::value::RawValue;
 
 use super::layer::DrawingLine;
 use super::text::Text;
-use super::{MadeOf, MadeWith, SCHEMA, SheetFile, check};
+use super::{MadeOf, MadeWith, SCHEMA, SCHEMA_FROM_0, SheetFile, check};
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Exposure, Layer, Sheet};
+use genga::sheet::{Exposure, Layer, Sheet, SpokenLine};
 use genga::time::{Clock, Frame, FrameRate};
 
 /// The part common to all versions of the schema.
@@ -74,10 +74,10 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let text = std::str::from_utf8(bytes)
         .map_err(|_| Error::sheet("this is not text in UTF-8; a sheet is JSON"))?;
     let text = Text(text);
-    check_version(text)?;
+    let first = first_number(text)?;
     let written: Written<'_> = text.whole()?;
     if written.frame_base.get() != "0" {
-        let message = "frame_base is 0 in this schema: frames, koma and drawings count from 0";
+        let message = "frame_base is 0 in this schema: frames count from 0";
         return Err(text.error(written.frame_base, message));
     }
     let clip: MadeOf = text.value(written.clip)?;
@@ -87,11 +87,12 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     check::koma_rate(koma_rate).map_err(|message| text.error(written.fps, message))?;
     let clock = Clock { first: Frame(clip.first_frame), frame_rate, koma_rate };
     let mut length = 0;
-    let layers = written.layers.into_iter().map(|raw| layer(text, raw, &clip, &mut length));
+    let layers =
+        written.layers.into_iter().map(|raw| layer(text, raw, (&clip, first), &mut length));
     let layers = layers.collect::<Result<_, _>>()?;
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
-    let lines = written.lines.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
+    let lines = written.lines.map(|raw| lines(text, raw, first)).transpose()?.unwrap_or_default();
     let exaggerate = match written.exaggerate {
         None => Exaggerate::default(),
         Some(raw) => exaggeration(text, raw)?,
@@ -115,7 +116,8 @@ fn exaggeration(text: Text<'_>, raw: &RawValue) -> Result<Exaggerate, Error> {
     Ok(exaggerate)
 }
 
-fn check_version(text: Text<'_>) -> Result<(), Error> {
+/// Checks the version, and returns the number of the first drawing and koma in it.
+fn first_number(text: Text<'_>) -> Result<usize, Error> {
     if !text.0.trim_start().starts_with('{') {
         let is_motion = text.0.trim_start().starts_with("HIERARCHY");
         let way_out = if is_motion { "; a sheet stands first, its motion second" } else { "" };
@@ -129,22 +131,34 @@ fn check_version(text: Text<'_>) -> Result<(), Error> {
         return Err(Error::sheet(message));
     };
     match text.value::<String>(raw)? {
-        version if version == SCHEMA => Ok(()),
+        version if version == SCHEMA => Ok(1),
+        version if version == SCHEMA_FROM_0 => Ok(0),
         other => Err(text.error(
             raw,
             format!(
-                "the sheet is of the schema {other}, and this genga reads {SCHEMA}; the genga that wrote \
-                 it reads it"
+                "the sheet is of the schema {other}, and this genga reads {SCHEMA_FROM_0} and {SCHEMA}; the \
+                 genga that wrote it reads it"
             ),
         )),
     }
 }
 
-/// Reads a layer. `length` is the total koma of the layers before it, to which its own are added.
+/// Reads the spoken lines, whose koma count from `first`.
+fn lines(text: Text<'_>, raw: &RawValue, first: usize) -> Result<Vec<SpokenLine>, Error> {
+    let written: Vec<SpokenLine> = text.value(raw)?;
+    let line = |line: SpokenLine| match line.begin.checked_sub(first) {
+        Some(begin) => Ok(SpokenLine { begin, ..line }),
+        None => Err(text.error(raw, "a spoken line begins on koma 0; koma count from 1")),
+    };
+    written.into_iter().map(line).collect()
+}
+
+/// Reads a layer, whose drawings count from `first`. `length` is the total koma of the layers before it, to which its
+/// own are added.
 fn layer(
     text: Text<'_>,
     raw: &RawValue,
-    clip: &MadeOf,
+    (clip, first): (&MadeOf, usize),
     length: &mut usize,
 ) -> Result<Layer, Error> {
     let written: WrittenLayer<'_> = text.value(raw)?;
@@ -154,6 +168,10 @@ fn layer(
     for raw in written.drawings {
         let line: DrawingLine = text.value(raw)?;
         let number = line.drawing;
+        if number < first {
+            let message = format!("this is drawing {number}; drawings count from {first}");
+            return Err(text.error(raw, message));
+        }
         if numbers.insert(number, drawings.len()).is_some() {
             let message =
                 format!("there is a drawing {number} before; give this one another number");

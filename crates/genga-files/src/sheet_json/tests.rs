@@ -8,7 +8,7 @@ use super::*;
 use crate::Cut;
 use crate::tests::{edits, recipe, wave};
 use genga::pipeline::Engine;
-use genga::sheet::{Role, Source};
+use genga::sheet::{Role, Source, SpokenLine};
 
 /// The sheet of the wave.
 fn file() -> SheetFile {
@@ -43,6 +43,49 @@ fn what_is_written_reads_back() {
     let again = read(text().as_bytes()).unwrap();
     assert_eq!(again, file());
     assert_eq!(again.write().unwrap(), text());
+}
+
+/// The wave's sheet with a spoken line.
+fn spoken() -> SheetFile {
+    let mut file = file();
+    let line = SpokenLine { begin: 3, koma: 5, speaker: "Aki".into(), words: "Ready?".into() };
+    file.sheet.lines = vec![line];
+    file
+}
+
+#[test]
+fn drawings_and_koma_count_from_1_as_in_the_tables() {
+    let text = spoken().write().unwrap();
+    let written: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((&written["schema"], &written["lines"][0]["begin"]), (&SCHEMA.into(), &4.into()));
+    let layer = &written["layers"][0];
+    let numbers = |list: &str| -> Vec<u64> {
+        let items = layer[list].as_array().unwrap().iter();
+        items.map(|item| item["drawing"].as_u64().unwrap()).collect()
+    };
+    assert_eq!(numbers("drawings"), (1..=17).collect::<Vec<_>>());
+    let shown = &file().sheet.layers[0].exposures;
+    let shown: Vec<u64> = shown.iter().map(|shown| shown.drawing as u64 + 1).collect();
+    assert_eq!(numbers("exposures"), shown);
+    assert_eq!(read(text.as_bytes()).unwrap(), spoken());
+    let early = text.replacen("\"begin\": 4", "\"begin\": 0", 1);
+    let error = read(early.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("begins on koma 0; koma count from 1"), "{error}");
+}
+
+#[test]
+fn a_file_of_the_first_version_counts_from_0() {
+    let text = spoken().write().unwrap().replacen(SCHEMA, SCHEMA_FROM_0, 1);
+    let old = text.lines().map(|line| match line.split_once("{\"drawing\": ") {
+        Some((head, rest)) => {
+            let (number, rest) = rest.split_once(',').unwrap();
+            format!("{head}{{\"drawing\": {},{rest}\n", number.parse::<usize>().unwrap() - 1)
+        }
+        None => format!("{}\n", line.replace("\"begin\": 4", "\"begin\": 3")),
+    });
+    let read = read(old.collect::<String>().as_bytes()).unwrap();
+    assert_eq!(read, spoken());
+    assert_eq!(read.sheet.lines[0].begin, 3);
 }
 
 #[test]
@@ -104,7 +147,7 @@ fn a_person_may_write_it_otherwise() {
         .replace("{\"drawing\": 1, ", "{\"drawing\": 2, ");
     assert_eq!(read(renamed.as_bytes()).unwrap(), file());
     // A drawing may be shown again, or never.
-    let again = text.replace("{\"drawing\": 2, \"koma\"", "{\"drawing\": 5, \"koma\"");
+    let again = text.replace("{\"drawing\": 3, \"koma\"", "{\"drawing\": 6, \"koma\"");
     assert_eq!(read(again.as_bytes()).unwrap().sheet.layers[0].exposures[2].drawing, 5);
     // Leave out the optional fields.
     let (head, tail) = text.split_once("  \"made_with\"").unwrap();
@@ -120,7 +163,7 @@ fn a_blend_is_written_as_two_frames_and_a_share() {
     let mut file = file();
     file.sheet.layers[0].drawings[7].source = Source::Between { from: 4.0, to: 23.5, share: 0.1 };
     let text = file.write().unwrap();
-    let line = "{\"drawing\": 7, \"role\": \"inbetween\", \"between\": [4, 23.5], \"share\": 0.1}";
+    let line = "{\"drawing\": 8, \"role\": \"inbetween\", \"between\": [4, 23.5], \"share\": 0.1}";
     assert!(text.contains(line), "{text}");
     assert_eq!(read(text.as_bytes()).unwrap(), file);
 }

@@ -36,8 +36,8 @@ struct Written<'a> {
     root: RootMotion,
     #[serde(skip_serializing_if = "is_default")]
     feet: Feet,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    lines: &'a [SpokenLine],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    lines: Vec<SpokenLine>,
     layers: Vec<LayerLines>,
 }
 
@@ -83,8 +83,8 @@ impl SheetFile {
             exaggerate: &self.exaggerate,
             root: self.sheet.root,
             feet: self.sheet.feet,
-            lines: &self.sheet.lines,
-            layers: self.sheet.layers.iter().map(LayerLines::new).collect(),
+            lines: self.sheet.lines.iter().map(from_1).collect(),
+            layers: self.sheet.layers.iter().map(|layer| LayerLines::new(layer, 1)).collect(),
         };
         let mut bytes = Vec::new();
         file.serialize(&mut Serializer::with_formatter(&mut bytes, Lines::default()))
@@ -92,4 +92,9 @@ impl SheetFile {
         bytes.push(b'\n');
         Ok(String::from_utf8(bytes).expect("JSON is text"))
     }
+}
+
+/// Counts the koma of a spoken line from 1.
+fn from_1(line: &SpokenLine) -> SpokenLine {
+    SpokenLine { begin: line.begin + 1, ..line.clone() }
 }

@@ -8,6 +8,7 @@ use crate::xdts::tests::sheets::{cut_of_24, layer, sheet};
 use crate::xdts::{self, Tdts};
 use crate::{Cut, columns_csv, sts, time_remap};
 use genga::sheet::{Layer, Sheet};
+use genga::time::Clock;
 
 /// Sheets with difficult cases: a drawing shown again, one that continues over two exposures, layers of unequal length.
 fn sheets() -> Vec<Sheet> {
@@ -193,18 +194,21 @@ fn a_table_of_columns_has_a_row_a_koma() {
 
 #[test]
 fn after_effects_plays_each_picture_on_its_koma() {
-    for layer in sheets().iter().flat_map(|sheet| &sheet.layers) {
-        let text = time_remap(layer);
+    let rates = [(24.0, "24"), (25.0, "25"), (30.0, "30"), (23.976, "23.976")];
+    let sheets = sheets();
+    let layers = sheets.iter().flat_map(|sheet| &sheet.layers);
+    for ((rate, written), layer) in layers.flat_map(|layer| rates.map(|rate| (rate, layer))) {
+        let text = time_remap(layer, rate);
         let (head, keys) = text.split_once("Time Remap\n\tFrame\tseconds\n").unwrap();
-        assert!(
-            head.starts_with("Adobe After Effects 9.0 Keyframe Data\n\n\tUnits Per Second\t24\n")
-        );
+        let expected =
+            format!("Adobe After Effects 9.0 Keyframe Data\n\n\tUnits Per Second\t{written}\n");
+        assert!(head.starts_with(&expected), "{head}");
         let keys = keys.strip_suffix("\n\nEnd of Keyframe Data\n").unwrap();
         let key = |line: &str| {
             let (koma, seconds) = line.strip_prefix('\t').unwrap().split_once('\t').unwrap();
             // A picture is shown from its own start time.
             let seconds: f64 = seconds.parse().unwrap();
-            (koma.parse().unwrap(), (24.0 * seconds).round() as usize + 1)
+            (koma.parse().unwrap(), (rate * seconds).round() as usize + 1)
         };
         let length = layer.length();
         assert_eq!(held(length, keys.lines().map(key)), douga(layer, length));
@@ -219,8 +223,10 @@ fn a_file_a_column_even_if_two_have_one_name() {
         layer("a/b", "ee", &[(0, 1), (1, 1)]),
     ]);
     let mut names = Vec::new();
-    super::after_effects::write(&twins, &mut |name, _| {
+    let at_25 = Clock { koma_rate: 25.0, ..twins.clock };
+    super::after_effects::write(&Sheet { clock: at_25, ..twins }, &mut |name, bytes| {
         names.push(name.to_owned());
+        assert!(String::from_utf8_lossy(bytes).contains("Units Per Second\t25\n"));
         Ok(())
     })
     .unwrap();

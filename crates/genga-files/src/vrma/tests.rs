@@ -6,6 +6,7 @@ use serde_json::Value;
 use super::*;
 use crate::real;
 use genga::motion::{Body, Pose, RowWriter, bvh, local_rotation, local_translation};
+use genga::sheet::RootMotion;
 
 /// A parsed file: its JSON document, and the floats behind each accessor.
 struct File {
@@ -134,6 +135,21 @@ fn limbs_point_where_the_capture_s_do(path: &Path) {
             }
         }
     }
+}
+
+#[test]
+fn a_repeat_has_a_root_on_ones_where_the_first_round_had_it() {
+    let bytes = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/kick.bvh")).unwrap();
+    let clip = bvh::read(&bytes).unwrap().clip;
+    let mut sheet = Sheet { root: RootMotion::Ones, ..Sheet::on_ones(clip.clock(24.0), 37) };
+    let on_threes = [0, 12, 24, 36].map(|drawing| Exposure { drawing, koma: 3 });
+    sheet.layers[0].exposures = on_threes.repeat(2);
+    let file = File::parse(&write(&clip, &sheet, None).unwrap());
+    let hips = |koma: usize| place(&file.at((koma as f64 + 0.5) / 24.0), "hips");
+    for koma in 0..12 {
+        assert!(hips(koma).abs_diff_eq(hips(koma + 12), 1e-6), "koma {koma}");
+    }
+    assert!(!hips(0).abs_diff_eq(hips(1), 1e-4), "it slides");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::xsheet::grid::{FRAME, WIDTH};
 use crate::xsheet::head::boxes;
 use crate::xsheet::layout::{Page, SIZE};
 use crate::xsheet::paper_layer::Leaf;
+use crate::xsheet::spread::Spread;
 use genga::motion::Clip;
 use genga::sheet::Sheet;
 use genga::timing::{Gauge, fraction};
@@ -19,6 +20,9 @@ const WIDE: f64 = 492.0;
 /// Distance from the left edge of an entry to the first key, and from there to the second, in px.
 const BEFORE: f64 = 112.0;
 const LONG: f64 = 244.0;
+/// Font size of the labels at the ticks, and how far they may reach beyond the keys, in px.
+const LABEL: f64 = 10.0;
+const OVER: f64 = 11.0;
 
 /// Draws the pages of gauges. Gauges without a drawing between their keys are left out; if none remain, there
 /// is no page.
@@ -90,29 +94,29 @@ fn entry(
     canvas.text(&english, (x, base + 12.0), Type::new(9.5).color(style::FAINT));
 }
 
-/// Returns the fraction that a person would write; `None` close to a key, where it would be 0 or 1.
-pub(super) fn written(share: f64) -> Option<&'static str> {
-    Some(fraction(share)).filter(|fraction| !matches!(*fraction, "0" | "1"))
-}
-
-/// Draws a tick for each drawing, with its number above and its fraction below if they have room.
+/// Draws a tick for each drawing, with its number above and its fraction below.
 fn ticks(canvas: &mut Canvas, leaf: &Leaf<'_>, gauge: &Gauge, (from, base): (f64, f64)) {
-    let small = Type::new(10.0).align(Align::Center);
-    // Numbers have room above the circles of the keys. Below the circles no fraction is written.
-    let mut free = [from - 9.0; 2];
-    for (at, share) in gauge.between().iter().enumerate() {
-        let x = from + share * LONG;
+    let wanted: Vec<f64> = gauge.between().iter().map(|share| from + share * LONG).collect();
+    for &x in &wanted {
         // The tick is longer than a circle is high, so that a drawing close to a key does not hide behind it.
         canvas.line((x, base - 10.5), (x, base + 10.5), style::INK, 1.2);
-        let number = (leaf.layer.exposures[gauge.first + 1 + at].drawing + 1).to_string();
-        let below = written(*share).unwrap_or_default();
-        let labels = [(number.as_str(), base - 13.0), (below, base + 21.0)];
-        for ((text, y), free) in labels.into_iter().zip(&mut free) {
-            let half = 0.5 * style::text_width(text, 10.0);
-            if x - half >= *free && x + half <= from + LONG + 9.0 {
-                canvas.text(text, (x, y), small);
-                *free = x + half + 2.0;
-            }
-        }
+    }
+    let exposures = &leaf.layer.exposures[gauge.first + 1..][..wanted.len()];
+    let numbers = exposures.iter().map(|shown| (shown.drawing + 1).to_string()).collect();
+    let fractions = gauge.between().iter().map(|share| fraction(*share).to_owned()).collect();
+    let rows: [(Vec<String>, f64); 2] = [(numbers, base - 13.0), (fractions, base + 21.0)];
+    for (labels, y) in rows {
+        row(canvas, &wanted, &labels, (from, y));
+    }
+}
+
+/// Writes a row of labels, each as near to its tick as its neighbours allow. `from` is the x of the first key.
+fn row(canvas: &mut Canvas, wanted: &[f64], labels: &[String], (from, y): (f64, f64)) {
+    let lengths: Vec<f64> =
+        labels.iter().map(|label| style::text_width(label, LABEL) + 2.0).collect();
+    let spread = Spread::new(wanted, &lengths, (from - OVER, from + LONG + OVER));
+    let small = Type::new(LABEL * spread.scale).align(Align::Center);
+    for (label, x) in labels.iter().zip(spread.middles) {
+        canvas.text(label, (x, y), small);
     }
 }

@@ -2,16 +2,16 @@
 
 use crate::canvas::{Align, Canvas, Type};
 use crate::style;
-use crate::xsheet::gauge_page::written;
 use crate::xsheet::half_page::{Half, ROW};
 use crate::xsheet::layout::{NUMBERS, Page, STRIP};
 use crate::xsheet::paper_layer::Leaf;
-use genga::timing::{Gauge, Packing};
+use crate::xsheet::spread::Spread;
+use genga::timing::{Gauge, Packing, fraction};
 
 /// Half the length of a tick between keys and of a tick at a key, in px.
 const TICK: f64 = 3.5;
 const KEY_TICK: f64 = 5.5;
-/// Minimum distance of two fractions, in px: closer ones would overlap.
+/// Height of a fraction, in px.
 const APART: f64 = 9.5;
 
 /// Draws the strip of one layer. Words and fractions have room only if no other layer is on the page.
@@ -60,18 +60,20 @@ impl Span {
 
     /// Writes the fractions beside the ticks, and the kind of packing.
     fn words(&self, canvas: &mut Canvas, gauge: &Gauge, right: f64) {
-        let mut last = self.y(0.0).unwrap_or(f64::NEG_INFINITY) - 0.5 * APART;
-        let end = self.y(1.0).unwrap_or(f64::INFINITY) + 0.5 * APART;
-        let small = Type::new(8.5).color(style::FAINT);
-        for share in gauge.between() {
-            let room = |y: &f64| y - last >= APART && end - y >= APART;
-            let (Some(y), Some(fraction)) = (self.y(*share).filter(room), written(*share)) else {
-                continue;
-            };
-            let (left, width) = (self.x + KEY_TICK + 1.0, style::text_width(fraction, 8.5) + 2.0);
-            canvas.rect((left, y - 4.0), (left + width, y + 4.5), style::PAPER);
-            canvas.text(fraction, (self.x + KEY_TICK + 2.0, y + 3.0), small);
-            last = y;
+        let here =
+            gauge.between().iter().filter_map(|share| Some((self.y(*share)?, fraction(*share))));
+        let (wanted, fractions): (Vec<f64>, Vec<&str>) = here.unzip();
+        let top = self.y(0.0).unwrap_or(self.half.y(self.half.begin));
+        let bottom = self.y(1.0).unwrap_or(self.half.y(self.half.end()));
+        let room = (top - 0.5 * APART, bottom + 0.5 * APART);
+        let spread = Spread::new(&wanted, &vec![APART; wanted.len()], room);
+        let scale = spread.scale;
+        let size = 8.5 * scale;
+        for (fraction, y) in fractions.into_iter().zip(spread.middles) {
+            let (left, width) = (self.x + KEY_TICK + 1.0, style::text_width(fraction, size) + 2.0);
+            canvas.rect((left, y - 4.0 * scale), (left + width, y + 4.5 * scale), style::PAPER);
+            let look = Type::new(size).color(style::FAINT);
+            canvas.text(fraction, (left + 1.0, y + 3.0 * scale), look);
         }
         // Written in the koma in the middle: clear of the lines between koma, and on one half only.
         let middle = (self.from + self.to) / 2;

@@ -74,6 +74,21 @@ fn the_words_of_a_small_sheet_are_as_they_were() {
 }
 
 #[test]
+fn every_inbetween_has_a_fraction_beside_action_and_among_the_gauges() {
+    let is_fraction = |word: &&String| {
+        let parts = word.split_once('/').map(|(of, whole)| [of, whole].map(str::parse::<u32>));
+        parts.is_some_and(|parts| parts.iter().all(Result::is_ok))
+    };
+    for count in [2, 12, 40] {
+        let inbetweens = vec![('i', 1); count];
+        let shown = [&[('e', 1)], &inbetweens[..], &[('e', 1)]].concat();
+        let pages = pages(&XSheet::default(), vec![layer("A", &shown)]);
+        let fractions = pages.iter().map(|page| words(page).iter().filter(is_fraction).count());
+        assert_eq!(fractions.collect::<Vec<_>>(), [count; 2]);
+    }
+}
+
+#[test]
 fn a_page_has_144_koma_and_eight_layers_at_most() {
     let long = |koma| vec![layer("A", &vec![('i', 1); koma])];
     let settings = XSheet { gauges: false, ..XSheet::default() };

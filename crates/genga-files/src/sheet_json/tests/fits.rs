@@ -101,6 +101,27 @@ fn what_does_not_fit_is_named() {
 }
 
 #[test]
+fn a_length_that_was_changed_is_said() {
+    let noted = |from: &str, to: &str| {
+        let text = text();
+        assert!(text.contains(from), "{from}");
+        read(text.replacen(from, to, 1).as_bytes()).unwrap().fit(wave()).unwrap().1
+    };
+    assert_eq!(noted("\"koma\": 4", "\"koma\": 4"), []);
+    let [note] = &noted("\"koma\": 4", "\"koma\": 6")[..] else { panic!("one note") };
+    assert_eq!(note.code, fit::OTHER_LENGTH);
+    let words = "the sheet's length was changed: the clip has 49 koma, layer A has 51";
+    assert_eq!(note.message, words);
+    // Another edit that keeps the length is not one of it.
+    assert_eq!(noted("\"role\": \"genga\"", "\"role\": \"inbetween\""), []);
+    // Nor is a length that the run itself made.
+    let mut made = file();
+    made.sheet.layers[0].exposures[0].koma += 2;
+    made.made_with = Some(MadeWith::new(&recipe(), &edits(), &made.sheet));
+    assert_eq!(made.fit(wave()).unwrap().1, []);
+}
+
+#[test]
 fn other_bones_and_another_motion_are_noted() {
     let noted = |clip: Clip| {
         let notes = file().fit(clip).unwrap().1;

@@ -111,6 +111,19 @@ fn held_feet_are_keys_on_every_koma_only_where_the_body_goes_on_above_them() {
 }
 
 #[test]
+fn a_repeat_has_a_root_on_ones_where_the_first_round_had_it() {
+    let mut sheet = Sheet { root: RootMotion::Ones, ..limited(kick()).0 };
+    let exposures = sheet.layers[0].exposures.repeat(2);
+    sheet.layers[0].exposures = exposures;
+    let keys = Vmd::default().make(&kick(), &sheet).unwrap().motion.keys;
+    let center = keys.iter().filter(|key| key.bone == "センター");
+    let places: Vec<[f32; 3]> = center.map(|key| key.translation).collect();
+    let (first, second) = places.split_at(places.len() / 2);
+    assert_eq!(first, second);
+    assert_ne!(first[0], first[1], "it slides");
+}
+
+#[test]
 fn a_root_on_ones_is_the_centre_on_every_koma_and_nothing_else() {
     let (sheet, held) = limited(kick());
     let ones = Sheet { root: RootMotion::Ones, ..sheet.clone() };
