@@ -1076,7 +1076,7 @@ fn a_sheet_that_does_not_fit_says_what_and_leaves_nothing() {
         ("slip.json data/kick.bvh", ": an exposure of 0 koma is not seen"),
         (
             "later.json data/kick.bvh",
-            "genga: later.json:2:13: the sheet is of the schema genga-sheet-2",
+            "genga: later.json:2:13: the sheet is of the schema genga-sheet-3",
         ),
         ("data/kick.bvh data/kick.bvh", "data/kick.bvh: this is no sheet of genga"),
         ("none.json data/kick.bvh", "genga: none.json: "),
