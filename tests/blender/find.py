@@ -5,6 +5,7 @@ import os
 import subprocess
 import tempfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -193,6 +194,31 @@ def knobs_and_marks():
     say("knobs, presets, marks and files")
 
 
+def presets():
+    """Each preset does on the kick what it is called."""
+    found = {}
+    for name in ("", *(preset[0] for preset in genga.knobs.PRESETS)):
+        thing = begin(rigs.of_bvh, KICK)
+        name and bpy.ops.genga.preset(preset=name)
+        action = find(thing)
+        begins = list(action[take.BEGINS])
+        stays = [round(until - at) for at, until in zip(begins, begins[1:])]
+        found[name] = SimpleNamespace(genga=len(action.pose_markers), drawings=len(begins), stays=stays)
+    usual = lambda name: max(set(found[name].stays), key=found[name].stays.count)
+    laws = {
+        "twos": lambda own: usual("twos") == min(own.stays) == 2,
+        "threes": lambda own: usual("threes") == 3 and 1 not in own.stays and own.drawings < found["twos"].drawings,
+        "modulated": lambda own: {1, 2, 3} <= set(own.stays),
+        "snappy": lambda own: own.drawings < found["soft"].drawings,
+        "soft": lambda own: own.drawings > found[""].drawings,
+        "few": lambda own: own.genga < found[""].genga,
+    }
+    assert set(laws) == set(found) - {""}, "each preset has a law"
+    for name, law in laws.items():
+        assert law(found[name]), (name, found)
+    say(f"presets: {', '.join(laws)} do what they are called")
+
+
 def feet_held(name, thing):
     """With held feet the rig stands as genga's own motion on the sheet does, and a sole on one place while it stands."""
     thing.genga.feet = True
@@ -366,6 +392,7 @@ def main():
         say(f"LEFT OUT: Find Keys does not look at {run.stem}")
     undone()
     knobs_and_marks()
+    presets()
     feet_held("BVH", begin(rigs.of_bvh, KICK))
     ticked()
     told_kindly()

@@ -13,7 +13,7 @@ PRESETS = (
     ("modulated", "Ones to Threes", "Chosen for the motion of each interval", {"on": "1-3"}),
     ("snappy", "Snappy", "Faster in the middle of a movement", {"snap": 0.5, "naka_nashi": 4.0}),
     ("soft", "Soft", "Even spacing, no inbetweens left out", {"snap": 0.1, "naka_nashi": 0.0}),
-    ("few", "Few Genga", "Only genga that prevent a large error", {"rest": "keys.min_price=12"}),
+    ("few", "Few Genga", "Only genga that prevent a large error", {"rest": "keys.min_price=16"}),
 )
 
 # Whether several settings are being changed together, which must run only once.
