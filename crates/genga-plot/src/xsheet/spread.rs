@@ -12,7 +12,8 @@ impl Spread {
     /// Places labels of the given lengths as near to their `wanted` middles, which never fall, as their neighbours and
     /// the ends of the line allow. All are in px.
     pub(super) fn new(wanted: &[f64], lengths: &[f64], (from, to): (f64, f64)) -> Self {
-        let scale = ((to - from) / lengths.iter().sum::<f64>()).min(1.0);
+        let room = to - from;
+        let scale = room / lengths.iter().sum::<f64>().max(room);
         let halves: Vec<f64> = lengths.iter().map(|length| 0.5 * scale * length).collect();
         let mut middles = wanted.to_vec();
         let mut free = from;
