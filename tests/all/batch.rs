@@ -186,7 +186,9 @@ fn a_painted_picture_stays_in_a_batch_unless_it_is_named() {
         let warnings = column(&text(&results(&place, "out")["summary.csv"]), "warnings");
         assert_eq!(warnings, ["W_PAINTED", ""]);
     }
-    place.done(&format!("{batch} --overwrite sheet.svg"));
+    place.done(&format!(
+        "{batch} --set spacing.on=3 --force --with csv.bom=true --overwrite sheet.svg"
+    ));
     assert_ne!(fs::read_to_string(&picture).unwrap(), "mine");
 }
 

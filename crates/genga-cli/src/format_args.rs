@@ -46,6 +46,11 @@ pub(super) struct Over<'a> {
 }
 
 impl Over<'_> {
+    /// Whether pictures are named.
+    pub(super) fn has_any(&self) -> bool {
+        !self.pictures.is_empty()
+    }
+
     /// Whether a picture of a results folder may be overwritten: it, or a folder that it is in, is named.
     pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
         self.pictures.iter().any(|name| is_named(name, folder, picture))

@@ -70,6 +70,10 @@ mod welcome;
 mod why;
 mod words;
 
+#[cfg(test)]
+#[path = "../../../tests/real/mod.rs"]
+mod real;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -235,7 +235,8 @@ impl<'a> Batch<'a> {
                 None => self.places.has(&item.name, &line.files),
             };
             let is_there = line.as_ref().is_some_and(has);
-            if is_there && state.journal.has(&item.name, file, asked) {
+            let is_as_wanted = is_there && !self.places.over.has_any();
+            if is_as_wanted && state.journal.has(&item.name, file, asked) {
                 return Ok(true);
             }
             line.map(|line| line.files).unwrap_or_default()

@@ -8,6 +8,9 @@ mod disk;
 mod pictures;
 #[cfg(feature = "studio-files")]
 mod sound;
+#[cfg(feature = "studio-files")]
+#[cfg_attr(not(feature = "studio"), allow(dead_code, reason = "this build has no window"))]
+mod start;
 
 use std::path::PathBuf;
 
@@ -22,8 +25,8 @@ pub use disk::Disk;
 #[derive(Debug, Args)]
 #[cfg_attr(not(feature = "studio"), allow(dead_code, reason = "this build has no studio"))]
 pub(super) struct StudioArgs {
-    /// Motion file. Without one, the window waits for a dropped file.
-    #[arg(value_name = "CLIP")]
+    /// Motion file, or a folder of takes. Without one, the window waits for a dropped file.
+    #[arg(value_name = "CLIP|FOLDER")]
     clip: Option<PathBuf>,
     #[command(flatten)]
     part: Part,
@@ -50,7 +53,7 @@ mod shell {
 
     use eframe::egui::{Ui, Vec2, ViewportBuilder, ViewportCommand};
 
-    use super::{Disk, Failure, StudioArgs};
+    use super::{Disk, Failure, StudioArgs, start};
     use crate::paths;
     use genga_studio::{Host, Language, Studio};
 
@@ -105,11 +108,14 @@ mod shell {
         for path in clip.iter().chain(&recipe) {
             there_is(path)?;
         }
+        if let Some(clip) = &clip {
+            start::check(clip, recipe.as_deref())?;
+        }
         let desk = Arc::new(Disk::with(clip.clone(), part));
         let size = size_of(&desk.noted(WINDOW).unwrap_or_default());
         let mut studio = Studio::new(Arc::clone(&desk) as _, language());
         if let Some(clip) = &clip {
-            studio.open(clip, recipe.as_deref());
+            start::open(&mut studio, clip, recipe.as_deref());
         }
         let viewport = ViewportBuilder::default()
             .with_app_id("genga")

@@ -52,7 +52,8 @@ impl Disk {
 impl Host for Disk {
     fn open(&self, clip: &Path) -> Result<Opened, String> {
         let whole = Part::default();
-        let part = self.named.as_ref().filter(|(named, _)| named == clip);
+        let is_meant = |named: &Path| named == clip || clip.parent() == Some(named);
+        let part = self.named.as_ref().filter(|(named, _)| is_meant(named));
         let read = part.map_or(&whole, |(_, part)| part).read(clip).map_err(said)?;
         let notes = read.notes.iter().map(ToString::to_string).collect();
         *self.opened.lock().unwrap_or_else(PoisonError::into_inner) =
