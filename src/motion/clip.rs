@@ -107,9 +107,12 @@ impl Clip {
             return Err(Error::clip(format!("frame {frame} holds {value:e}, which is no motion")));
         }
         let is_wild = |length: &f64| length.is_nan() || length.abs() > LARGEST;
-        let wild = |joint: &&Joint| joint.offset.to_array().iter().any(is_wild);
+        let wild = |joint: &&Joint| {
+            let tips = joint.end_sites.iter().map(|tip| tip.offset);
+            tips.chain([joint.offset]).any(|offset| offset.to_array().iter().any(is_wild))
+        };
         match self.skeleton.joints.iter().find(wild) {
-            Some(joint) => Err(Error::clip(format!("the offset of {} is no length", joint.name))),
+            Some(joint) => Err(Error::clip(format!("the offset of {} or of its end is no length", joint.name))),
             None => Ok(()),
         }
     }
