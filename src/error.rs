@@ -91,6 +91,9 @@ pub enum Error {
         /// Error of the operating system.
         source: io::Error,
     },
+    /// The work was [stopped](crate::pipeline::Stop) before it was done.
+    #[error("stopped before it was done")]
+    Stopped,
     /// A picture could not be drawn.
     #[error("picture: {message}")]
     Picture {

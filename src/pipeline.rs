@@ -5,6 +5,7 @@ mod joints;
 mod layer;
 mod moving;
 mod stage;
+mod stop;
 #[cfg(test)]
 pub(crate) mod tests;
 mod voters;
@@ -29,6 +30,7 @@ pub use layer::LayerBreakdown;
 use layer::{LayerStages, Measured};
 use moving::{Moving, MovingStages};
 use stage::{Of, Stage};
+pub use stop::Stop;
 
 /// Runs the chain and keeps each stage's last output with the settings that made it, so that a run restarts at the
 /// first stage whose input changed. A clone shares the outputs made so far.
@@ -36,6 +38,7 @@ use stage::{Of, Stage};
 pub struct Engine {
     clip: Arc<Clip>,
     budget: Budget,
+    stop: Stop,
     moving: MovingStages,
     /// The speeds, and the spectrum that the filters start from.
     speed: Stage<(Speed, Screen), Spectrum>,
@@ -120,6 +123,7 @@ impl Engine {
         Ok(Self {
             clip,
             budget: Budget::default(),
+            stop: Stop::default(),
             moving: MovingStages::default(),
             speed: Stage::default(),
             joints: JointStages::default(),
@@ -134,6 +138,12 @@ impl Engine {
     /// Replaces the memory budget.
     pub fn with_budget(self, budget: Budget) -> Self {
         Self { budget, ..self }
+    }
+
+    /// Makes further runs end with [`Error::Stopped`], after the stage in progress, once `stop` is asked. What was
+    /// made until then is kept.
+    pub fn stop_with(&mut self, stop: Stop) {
+        self.stop = stop;
     }
 
     /// Returns the source motion.
@@ -188,10 +198,13 @@ impl Engine {
         self.find(recipe, edits)?;
         self.split(recipe, edits);
         let later = self.actions.output().koma(self.clip.clock(recipe.rate));
+        let stop = self.stop.clone();
         let (measured, split, layers) = self.layers();
         for (joints, layer) in split.iter().zip(layers) {
+            stop.check()?;
             layer.take(&measured, joints, &recipe.keys.weights)?;
             layer.find(&measured, recipe, &edits.of_layer(&joints.name));
+            stop.check()?;
             layer.time(&measured, joints, recipe, &later)?;
             done(layer);
         }
@@ -367,6 +380,7 @@ impl Engine {
     pub fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
         recipe.validate()?;
         self.budget.check(&self.clip, recipe.rate)?;
+        self.stop.check()?;
         self.is_whole = false;
         self.moving.exaggerate(&self.clip, recipe)?;
         self.moving.see(recipe.seen_from);
@@ -378,7 +392,7 @@ impl Engine {
             let (speed, screen) = settings;
             speed.measure_on(&clip, screen).map(Spectrum::from)
         })?;
-        Ok(())
+        self.stop.check()
     }
 
     /// Builds the sheet before and after omission and a person's holds.

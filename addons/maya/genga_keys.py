@@ -3,7 +3,7 @@
 It samples the joints over the playback range as the rig poses them. genga finds and times the keys, and
 genga_sheet applies the timesheet. Only joints with keys are keyed, so bake joints that a control rig drives first.
 
-mayapy needs genga and NumPy: `mayapy -m pip install genga-0.1.0-….whl`. Select the root joint, then run in the
+mayapy needs genga and NumPy: `mayapy -m pip install genga_anime-0.1.0-….whl`. Select the root joint, then run in the
 script editor (Python):
 
     import genga_keys

@@ -1,8 +1,7 @@
 """Motion capture to Japanese limited animation (リミテッドアニメーション).
 
 >>> import genga
->>> clip = genga.read("data/kick.bvh")
->>> result = genga.run(clip, keys={"min_price": 15}, pins=[30])
+>>> result = genga.run("data/kick.bvh", keys={"min_price": 15}, pins=[30])
 >>> result.keys["frame"]
 
 Array shapes use F frames, J joints and K koma (コマ). Settings are in degrees, `Result.speeds` in radians per second,
@@ -15,6 +14,7 @@ from collections.abc import MutableMapping as _MutableMapping
 from ._genga import (
     Clip,
     Error,
+    Omitted,
     Recipe,
     Result,
     Sheet,
@@ -23,6 +23,7 @@ from ._genga import (
     evaluate,
     formats,
     knobs,
+    omit,
     read,
     run,
     study,
@@ -33,6 +34,7 @@ _MutableMapping.register(Recipe)
 __all__ = [
     "Clip",
     "Error",
+    "Omitted",
     "Recipe",
     "Result",
     "Sheet",
@@ -41,6 +43,7 @@ __all__ = [
     "evaluate",
     "formats",
     "knobs",
+    "omit",
     "read",
     "run",
     "study",

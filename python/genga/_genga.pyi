@@ -8,6 +8,7 @@ import numpy.typing as npt
 _Floats = npt.NDArray[np.float64]
 _Table = dict[str, npt.NDArray[Any]]
 _Frames = Union[int, str, tuple[Any, ...]]
+_Source = Union[Clip, str, PathLike[str], bytes]
 
 __version__: str
 __all__ = [
@@ -17,10 +18,12 @@ __all__ = [
     "Recipe",
     "Result",
     "Sheet",
+    "Omitted",
     "read",
     "run",
     "knobs",
     "formats",
+    "omit",
     "study",
     "evaluate",
     "compare",
@@ -65,6 +68,9 @@ class Clip:
         root: Optional[npt.ArrayLike] = None,
         translations: Optional[npt.ArrayLike] = None,
         tips: Optional[npt.ArrayLike] = None,
+        first: int = 0,
+        up: Optional[str] = None,
+        metres: Optional[float] = None,
         name: str = "clip",
     ) -> Clip: ...
     @property
@@ -76,7 +82,15 @@ class Clip:
     @property
     def rotations(self) -> _Floats: ...
     @property
+    def translations(self) -> _Floats: ...
+    @property
+    def tips(self) -> _Floats: ...
+    @property
     def positions(self) -> _Floats: ...
+    @property
+    def up(self) -> Optional[str]: ...
+    @property
+    def metres(self) -> Optional[float]: ...
     @property
     def rate(self) -> float: ...
     @property
@@ -93,6 +107,8 @@ class Recipe:
     def __new__(cls, **settings: Any) -> Recipe: ...
     @classmethod
     def parse(cls, text: str) -> Recipe: ...
+    @classmethod
+    def table_1(cls) -> Recipe: ...
     def correct(
         self,
         *,
@@ -131,9 +147,28 @@ class Sheet:
     def exposures(self) -> _Table: ...
 
 @final
+class Omitted:
+    """The result of `omit`."""
+
+    @property
+    def frames(self) -> int: ...
+    @property
+    def n_io(self) -> int: ...
+    @property
+    def n_hf(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def sheet(self) -> Sheet: ...
+    @property
+    def limited(self) -> Clip: ...
+
+@final
 class Result:
     """The result of a run."""
 
+    @property
+    def clip(self) -> Clip: ...
     @property
     def sheet(self) -> Sheet: ...
     @property
@@ -200,7 +235,7 @@ def read(
     trim: Optional[tuple[int, int]] = None,
 ) -> Clip: ...
 def run(
-    clip: Clip,
+    clip: _Source,
     recipe: Optional[Recipe] = None,
     *,
     pins: Sequence[_Frames] = ...,
@@ -212,24 +247,35 @@ def run(
     name: Optional[str] = None,
     **settings: Any,
 ) -> Result: ...
+def omit(
+    clip: _Source,
+    *,
+    naka_nashi: Union[int, str, None] = None,
+    koma_dori: Union[int, str, None] = None,
+    max_hold: int = 4,
+    all_at_once: bool = False,
+    koma_dori_first: bool = False,
+    keep_length: bool = True,
+) -> Omitted: ...
 def study(
-    clip: Clip,
+    clip: Union[_Source, Sequence[_Source]],
     recipe: Optional[Recipe] = None,
     *,
     x: Optional[tuple[str, Union[str, Sequence[Any]]]] = None,
     y: Optional[tuple[str, Union[str, Sequence[Any]]]] = None,
     measures: Optional[Sequence[str]] = None,
+    per_joint: bool = False,
     **settings: Any,
 ) -> _Table: ...
 def evaluate(
-    clip: Clip,
+    clip: _Source,
     sheet: Union[str, bytes, Mapping[str, bytes]],
     *,
     reference: Optional[Sequence[int]] = None,
     tolerance: float = 1.0,
 ) -> dict[str, Any]: ...
 def compare(
-    clip: Clip,
+    clip: _Source,
     recipe: Optional[Recipe] = None,
     *,
     keys: Sequence[int] = ...,

@@ -3,7 +3,8 @@
 use genga::Error;
 use genga::glam::{DQuat, DVec3};
 use genga::motion::{
-    Axis, Body, Channel, Clip, EndSite, Joint, JointId, Pose, Skeleton, set_local_rotation,
+    Axis, Body, Channel, Clip, Declared, EndSite, Joint, JointId, Pose, Skeleton, Word,
+    set_local_rotation,
 };
 use genga::time::{Frame, FrameRate};
 
@@ -24,10 +25,16 @@ pub struct Arrays<'a> {
     /// Frames × joints × 4, xyzw.
     pub rotations: &'a [f64],
     pub places: Places<'a>,
-    /// Joints × 3: the end of each joint's bone, NaN if unknown.
+    /// Joints × tips of a joint × 3: the ends of each joint's bones, NaN for those that it does not have.
     pub tips: Option<&'a [f64]>,
     pub frames: usize,
+    /// Number of the first frame.
+    pub first: usize,
     pub rate: f64,
+    /// The axis that points up, if it is known.
+    pub up: Option<Axis>,
+    /// Metres per unit of length, if they are known.
+    pub metres: Option<f64>,
 }
 
 /// Positions of joints relative to their parents.
@@ -40,6 +47,11 @@ pub enum Places<'a> {
 }
 
 impl Places<'_> {
+    fn values(&self) -> &[f64] {
+        let (Self::Root(flat) | Self::Each(flat)) = self;
+        flat
+    }
+
     fn row(&self, frame: usize, joints: usize, index: usize) -> &[f64] {
         match self {
             Self::Root(flat) => &flat[3 * frame..3 * frame + 3],
@@ -51,6 +63,7 @@ impl Places<'_> {
 impl Arrays<'_> {
     /// Builds the clip. Its angles continue past ±180°, so that speeds have no jumps.
     pub fn clip(&self) -> Result<Clip, Error> {
+        self.check()?;
         let skeleton = Skeleton { joints: self.joints()? };
         let (joints, channels) = (skeleton.len(), skeleton.channels());
         let mut values = vec![0.0; self.frames * channels];
@@ -69,7 +82,49 @@ impl Arrays<'_> {
                 set_local_rotation(joint, self.rotation(at, frame, joint)?, row);
             }
         }
-        Clip::new(skeleton, FrameRate::new(self.rate)?, Frame(0), self.frames, values)
+        let rate = FrameRate::new(self.rate)?;
+        let clip = Clip::new(skeleton, rate, Frame(self.first), self.frames, values)?;
+        clip.check_size()?;
+        let up = self.up.map(|axis| (axis, Word::Person));
+        Ok(clip.with_declared(Declared { up, metres: self.metres, ..Declared::default() }))
+    }
+
+    /// Refuses what is no motion.
+    fn check(&self) -> Result<(), Error> {
+        if self.names.is_empty() || self.frames == 0 {
+            return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
+        }
+        if self.metres.is_some_and(|metres| !(metres > 0.0 && metres.is_finite())) {
+            return Err(Error::clip("metres is the length of a unit: above 0, as in 0.01"));
+        }
+        let numbers = [("offsets", self.offsets), ("translations", self.places.values())];
+        for (what, values) in numbers {
+            self.finite(what, values)?;
+        }
+        let tips = self.tips.unwrap_or_default().chunks_exact(3);
+        let mut halves = tips.filter(|tip| !is_unknown(tip));
+        match halves.find(|tip| tip.iter().any(|value| !value.is_finite())) {
+            None => Ok(()),
+            Some(tip) => Err(Error::clip(format!(
+                "tips holds {tip:?}: a tip is three numbers, or three NaN if it is unknown"
+            ))),
+        }
+    }
+
+    fn finite(&self, what: &str, values: &[f64]) -> Result<(), Error> {
+        let Some(at) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+        let (joints, value) = (self.names.len(), values[at]);
+        let place = match (what, self.places) {
+            ("offsets", _) => format!("offsets of {}", self.names[at / 3]),
+            (_, Places::Root(_)) => format!("root, frame {}", at / 3),
+            (_, Places::Each(_)) => {
+                let joint = &self.names[at / 3 % joints];
+                format!("translations of {joint}, frame {}", at / 3 / joints)
+            }
+        };
+        Err(Error::clip(format!(
+            "{place}: {value} is not a length; fill gaps of the capture first"
+        )))
     }
 
     fn rotation(&self, at: usize, frame: usize, joint: &Joint) -> Result<DQuat, Error> {
@@ -107,7 +162,7 @@ impl Arrays<'_> {
                 offset: DVec3::from_slice(&self.offsets[3 * index..]),
                 channels,
                 first_channel: first,
-                end_sites: self.tip(index).into_iter().collect(),
+                end_sites: self.tips_of(index).collect(),
             })
         };
         self.names.iter().enumerate().map(joint).collect()
@@ -125,10 +180,17 @@ impl Arrays<'_> {
         matches!(self.places, Places::Each(_)) && (0..self.frames).any(is_off)
     }
 
-    fn tip(&self, index: usize) -> Option<EndSite> {
-        let offset = DVec3::from_slice(&self.tips?[3 * index..]);
-        offset.is_finite().then(|| EndSite { name: "Site".into(), offset })
+    fn tips_of(&self, index: usize) -> impl Iterator<Item = EndSite> {
+        let tips = self.tips.unwrap_or_default();
+        let width = tips.len() / self.names.len();
+        let own = tips[index * width..(index + 1) * width].chunks_exact(3);
+        own.filter(|tip| !is_unknown(tip))
+            .map(|tip| EndSite { name: "Site".into(), offset: DVec3::from_slice(tip) })
     }
+}
+
+fn is_unknown(tip: &[f64]) -> bool {
+    tip.iter().all(|value| value.is_nan())
 }
 
 /// Frames × joints × 4, xyzw: the rotation of each joint relative to its parent.
@@ -140,6 +202,28 @@ pub fn rotations(clip: &Clip) -> Vec<f64> {
         flat.extend(pose.rotations.iter().flat_map(|rotation| rotation.to_array()));
     }
     flat
+}
+
+/// Frames × joints × 3: the position of each joint relative to its parent.
+pub fn translations(clip: &Clip) -> Vec<f64> {
+    let mut flat = Vec::with_capacity(clip.len() * clip.skeleton().len() * 3);
+    let mut pose = Pose::rest(clip.skeleton());
+    for frame in frames(clip) {
+        pose.take_frame(clip, frame);
+        flat.extend(pose.translations.iter().flat_map(|place| place.to_array()));
+    }
+    flat
+}
+
+/// Joints × T × 3: the ends of each joint's bones, NaN for those that it does not have; and T, at least 1.
+pub fn tips(clip: &Clip) -> (Vec<f64>, usize) {
+    let joints = &clip.skeleton().joints;
+    let most = joints.iter().map(|joint| joint.end_sites.len()).max().unwrap_or(0).max(1);
+    let of_joint = |joint: &Joint| {
+        let own = joint.end_sites.iter().map(|tip| tip.offset.to_array());
+        own.chain(std::iter::repeat([f64::NAN; 3])).take(most).flatten().collect::<Vec<_>>()
+    };
+    (joints.iter().flat_map(of_joint).collect(), most)
 }
 
 /// Frames × joints × 3: the position of each joint in the world.

@@ -5,18 +5,21 @@ use std::sync::Arc;
 
 use genga::Warning;
 use genga::motion::clean::Cleaning;
-use genga::motion::{Clip as Motion, bvh};
+use genga::motion::{Axis, Clip as Motion, bvh};
 use genga::time::FrameRate;
 use genga_read as file;
 use numpy::{
-    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArrayDyn,
+    PyUntypedArrayMethods,
 };
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyType};
 
 use crate::arrays::{self, Arrays, Places};
 use crate::error::{asked_wrongly, raised, raised_of};
+use crate::pickle::{Head, Reduced};
 use crate::work;
 
 /// A motion clip of F frames and J joints.
@@ -25,28 +28,51 @@ use crate::work;
 /// rest; `rotations` (F, J, 4) relative to the parent, as unit quaternions x, y, z, w; `root` (F, 3), the positions of
 /// the roots; `rate` in frames per second. `translations` (F, J, 3) replaces `root`: it holds the position of every
 /// joint relative to its parent, for rigs whose hips move relative to a root on the floor. `tips` (J, 3) holds the end
-/// of each joint's bone, NaN if unknown; soles and hands are found from it. Float64 arrays in C order are read in
-/// place; NumPy copies all others first.
+/// of each joint's bone, NaN if unknown; soles and hands are found from it. (J, T, 3) holds up to T ends of each.
+/// `first` is the number of the first frame. `up` ("x", "y", "z") and `metres` per unit of length are found in the
+/// motion if they are not given. Float64 arrays in C order are read in place; NumPy copies all others first. The
+/// attributes of a clip, given again, are the same motion with the same keys.
 #[pyclass(frozen, module = "genga")]
 pub struct Clip {
     pub motion: Arc<Motion>,
     /// The name of the file, without folders.
     pub file: String,
-    warnings: Vec<Warning>,
+    warnings: Vec<Told>,
     rotations: PyOnceLock<Py<PyArray3<f64>>>,
+    translations: PyOnceLock<Py<PyArray3<f64>>>,
     positions: PyOnceLock<Py<PyArray3<f64>>>,
 }
+
+/// A warning about a clip: code, message, line and column.
+type Told = (String, String, Option<(usize, usize)>);
 
 impl Clip {
     /// Wraps the motion of a file.
     pub fn new(motion: Arc<Motion>, file: String, warnings: Vec<Warning>) -> Self {
-        Self { motion, file, warnings, rotations: PyOnceLock::new(), positions: PyOnceLock::new() }
+        let told = |Warning { code, message, place }| (String::from(code), message, place);
+        Self::with_told(motion, file, warnings.into_iter().map(told).collect())
+    }
+
+    fn with_told(motion: Arc<Motion>, file: String, warnings: Vec<Told>) -> Self {
+        Self {
+            motion,
+            file,
+            warnings,
+            rotations: PyOnceLock::new(),
+            translations: PyOnceLock::new(),
+            positions: PyOnceLock::new(),
+        }
     }
 
     /// The name of the clip's cut: its file name without the extension.
     pub fn cut(&self) -> String {
         let stem = Path::new(&self.file).file_stem();
         stem.map_or("cut".into(), |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// The names of the joints.
+    pub fn joints(&self) -> Vec<String> {
+        self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()
     }
 
     fn cube<'py>(
@@ -79,7 +105,7 @@ fn read_only(py: Python<'_>, array: &Bound<'_, PyAny>) -> PyResult<()> {
 #[pymethods]
 impl Clip {
     #[new]
-    #[pyo3(signature = (*, names, parents, offsets, rotations, rate, root=None, translations=None, tips=None, name="clip"))]
+    #[pyo3(signature = (*, names, parents, offsets, rotations, rate, root=None, translations=None, tips=None, first=0, up=None, metres=None, name="clip"))]
     #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
     fn from_arrays(
         py: Python<'_>,
@@ -91,6 +117,9 @@ impl Clip {
         root: Option<&Bound<'_, PyAny>>,
         translations: Option<&Bound<'_, PyAny>>,
         tips: Option<&Bound<'_, PyAny>>,
+        first: usize,
+        up: Option<&str>,
+        metres: Option<f64>,
         name: &str,
     ) -> PyResult<Self> {
         let (Some(places), true) =
@@ -110,8 +139,9 @@ impl Clip {
                 Some(_) => ("root", places.shape().to_vec(), vec![frames, 3]),
                 None => ("translations", places.shape().to_vec(), vec![frames, joints, 3]),
             },
-            match &tips {
-                Some(tips) => ("tips", tips.shape().to_vec(), vec![joints, 3]),
+            match tips.as_ref().map(|tips| tips.shape().to_vec()) {
+                Some(is) if is.len() == 3 => ("tips", is.clone(), vec![joints, is[1], 3]),
+                Some(is) => ("tips", is, vec![joints, 3]),
                 None => ("tips", vec![], vec![]),
             },
         ];
@@ -119,6 +149,10 @@ impl Clip {
             let message = format!(
                 "{what} has the shape {is:?}; {joints} names and {frames} frames of rotations need {asked:?}"
             );
+            return Err(asked_wrongly(py, message));
+        }
+        if let Some(parent) = parents.iter().find(|parent| **parent < -1) {
+            let message = format!("{parent} is no parent: list parents first, and give a root -1");
             return Err(asked_wrongly(py, message));
         }
         let made = Arrays {
@@ -132,7 +166,10 @@ impl Clip {
             },
             tips: tips.as_ref().map(|tips| tips.as_slice()).transpose()?,
             frames,
+            first,
             rate,
+            up: up.map(|name| axis(py, name)).transpose()?,
+            metres,
         };
         let motion = py.detach(|| made.clip()).map_err(|error| raised(py, error))?;
         Ok(Self::new(Arc::new(motion), format!("{name}.bvh"), Vec::new()))
@@ -141,7 +178,7 @@ impl Clip {
     /// Names of the J joints, parents first.
     #[getter]
     fn names(&self) -> Vec<String> {
-        self.motion.skeleton().joints.iter().map(|joint| joint.name.clone()).collect()
+        self.joints()
     }
 
     /// Index of each joint's parent, -1 for a root: int64 (J,).
@@ -170,6 +207,38 @@ impl Clip {
         Ok(self.rotations.get_or_try_init(py, make)?.bind(py).clone())
     }
 
+    /// Position of each joint relative to its parent, in the unit of the file: float64 (F, J, 3). Computed on first
+    /// access, then cached and read-only.
+    #[getter]
+    fn translations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let make = || self.cube(py, py.detach(|| arrays::translations(&self.motion)), 3);
+        Ok(self.translations.get_or_try_init(py, make)?.bind(py).clone())
+    }
+
+    /// End of each joint's bone, relative to the joint, NaN if it has none: float64 (J, 3); (J, T, 3) if a joint has T
+    /// ends.
+    #[getter]
+    fn tips<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (flat, most) = arrays::tips(&self.motion);
+        let (flat, joints) = (PyArray1::from_vec(py, flat), self.motion.skeleton().len());
+        Ok(match most {
+            1 => flat.reshape([joints, 3])?.into_any(),
+            _ => flat.reshape([joints, most, 3])?.into_any(),
+        })
+    }
+
+    /// The axis that points up ("x", "y" or "z"), if the file or a person says so; else None.
+    #[getter]
+    fn up(&self) -> Option<&'static str> {
+        self.motion.declared().up.map(|(axis, _)| AXES[axis as usize])
+    }
+
+    /// Metres per unit of length, if the file or a person says so; else None.
+    #[getter]
+    fn metres(&self) -> Option<f64> {
+        self.motion.declared().metres
+    }
+
     /// World position of each joint, in the unit of the file: float64 (F, J, 3). Computed on first access, then cached
     /// and read-only.
     #[getter]
@@ -193,12 +262,12 @@ impl Clip {
     /// Warnings about the clip: dicts with `code`, `message`, `line` and `column`.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let of_one = |warning: &Warning| {
+        let of_one = |(code, message, place): &Told| {
             let told = PyDict::new(py);
-            told.set_item("code", warning.code)?;
-            told.set_item("message", &warning.message)?;
-            told.set_item("line", warning.place.map(|(line, _)| line))?;
-            told.set_item("column", warning.place.map(|(_, column)| column))?;
+            told.set_item("code", code)?;
+            told.set_item("message", message)?;
+            told.set_item("line", place.map(|(line, _)| line))?;
+            told.set_item("column", place.map(|(_, column)| column))?;
             Ok(told)
         };
         self.warnings.iter().map(of_one).collect()
@@ -207,6 +276,30 @@ impl Clip {
     /// The clip as BVH.
     fn to_bvh(&self) -> String {
         bvh::write(&self.motion)
+    }
+
+    /// For pickle: the values as an array, the rest as JSON.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let head = serde_json::to_string(&Head::of(&self.motion)).map_err(unpickled)?;
+        let values = PyArray1::from_iter(py, self.motion.rows().flatten().copied());
+        let made = py.get_type::<Self>().getattr("_from_parts")?;
+        let parts = (head, values, &self.file, self.warnings.clone());
+        Ok((made, parts.into_pyobject(py)?.into_any()))
+    }
+
+    #[classmethod]
+    fn _from_parts(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        head: &str,
+        values: PyReadonlyArray1<'_, f64>,
+        file: String,
+        warnings: Vec<Told>,
+    ) -> PyResult<Self> {
+        let head: Head = serde_json::from_str(head).map_err(unpickled)?;
+        let motion = head.motion(values.as_slice()?.to_vec());
+        let motion = Arc::new(motion.map_err(|error| raised(py, error))?);
+        Ok(Self::with_told(motion, file, warnings))
     }
 
     /// Number of frames, F.
@@ -222,6 +315,32 @@ impl Clip {
             self.rate()
         )
     }
+}
+
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+fn axis(py: Python<'_>, name: &str) -> PyResult<Axis> {
+    let at = AXES.iter().position(|own| *own == name);
+    let axis = at.map(|at| [Axis::X, Axis::Y, Axis::Z][at]);
+    axis.ok_or_else(|| asked_wrongly(py, format!("up is x, y or z, not {name}")))
+}
+
+fn unpickled(error: serde_json::Error) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Returns a clip as it is, and reads one that is given as a path or as bytes.
+pub fn taken<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Clip>> {
+    if let Ok(clip) = source.cast::<Clip>() {
+        return Ok(clip.clone());
+    }
+    let py = source.py();
+    let read = source.extract().map_err(|_| {
+        let kind = source.get_type();
+        PyTypeError::new_err(format!("expected a genga.Clip, a path or bytes, not {kind}"))
+    });
+    Bound::new(py, self::read(py, read?, None, None, None, None, false, false, false, false, None)?)
 }
 
 /// The argument of `read`: a path or the file's bytes.

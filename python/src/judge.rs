@@ -1,18 +1,17 @@
 //! Studies of settings, judgements of sheets, comparisons of methods.
 
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
 
-use genga::pipeline::Budget;
+use genga::motion::Clip as Motion;
+use genga::pipeline::{Budget, Stop};
 use genga::time::Frame;
 use genga_files::sheet_json;
 use genga_lab::quality::{Compare, Evaluation, Row};
-use genga_lab::study::{Axis, Grid, Measure, Noise, Study, table_1_recipe};
-use numpy::PyArray1;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use genga_lab::study::{Axis, Grid, Measure, Noise, Study, is_table_1, table_1_recipe};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::clip::Clip;
+use crate::clip::{Clip, taken};
 use crate::error::{asked_wrongly, raised, warned};
 use crate::recipe::Recipe;
 use crate::table::{Column, plain, table};
@@ -21,47 +20,98 @@ use crate::work;
 
 /// Varies one or two settings and measures the result for each combination. `x` and `y` are a name with its values:
 /// `("filter.width", "10..60:5")` or `("filter.width", [10, 20, 30])`. Without both, computes Table 1 of the first
-/// paper, with the paper's settings. Returns a dict of columns with one row per combination: both settings (text), then
-/// one column for each of `measures` (`genga study --help` lists them).
+/// paper. Axes that are those of Table 1 have the paper's settings (`Recipe.table_1()`), all others the usual ones,
+/// unless a recipe is given. Returns a dict of columns with one row per combination: both settings (text), then one
+/// column for each of `measures` (`genga study --help` lists them). With `per_joint` the columns are `joint` and `keys`
+/// and the rows one per joint. Several clips, or motion files, have a column `clip` first.
 #[pyfunction]
-#[pyo3(signature = (clip, recipe=None, *, x=None, y=None, measures=None, **settings))]
+#[pyo3(signature = (clip, recipe=None, *, x=None, y=None, measures=None, per_joint=false, **settings))]
+#[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn study<'py>(
     py: Python<'py>,
-    clip: &Clip,
+    clip: &Bound<'py, PyAny>,
     recipe: Option<Recipe>,
     x: Option<(String, Bound<'py, PyAny>)>,
     y: Option<(String, Bound<'py, PyAny>)>,
     measures: Option<Vec<String>>,
+    per_joint: bool,
     settings: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let is_table_1 = x.is_none() && y.is_none();
-    let own = if is_table_1 { table_1_recipe() } else { Recipe::default().recipe };
+    let (x, y) = axes(py, x, y)?;
+    let own = match is_table_1(&x, y.as_ref()) {
+        true => table_1_recipe(),
+        false => Recipe::default().recipe,
+    };
     let own = Recipe { recipe: own, ..Recipe::default() };
     let recipe = settings_alone(py, recipe.unwrap_or(own).with(py, settings)?)?;
-    let parse =
-        |(name, values): (&str, &str)| Axis::new(name, values).map_err(|error| raised(py, error));
-    let (x, y) = match (x, y) {
-        (None, None) => {
-            (parse(("filter.width", "10,20,30"))?, Some(parse(("turns.persistence", "5,10"))?))
-        }
-        (Some(x), y) => (axis(py, x)?, y.map(|y| axis(py, y)).transpose()?),
-        (None, Some(_)) => {
-            return Err(asked_wrongly(py, "y is varied for each value of x: give x too"));
-        }
-    };
+    if per_joint && measures.is_some() {
+        let message = "per_joint counts the keys of each joint: leave measures out";
+        return Err(asked_wrongly(py, message));
+    }
     let measures = measures.unwrap_or_else(|| vec!["union".into(), "total".into()]);
     let measures: std::result::Result<Vec<Measure>, _> =
         measures.iter().map(|name| name.parse()).collect();
     let measures = measures.map_err(|error| raised(py, error))?;
     let study = Study { recipe, x, y, measures, keep_keys: false, budget: Budget::default() };
-    let motion = clip.motion.clone();
-    let made = work::done(py, move |is_ended| {
-        study.run_while(motion, || !is_ended.load(Ordering::Relaxed))
-    })?;
-    match made.map_err(|error| raised(py, error))? {
-        Some(grid) => columns(py, &grid),
-        None => Err(PyKeyboardInterrupt::new_err(())),
+    let (clips, are_several) = several(clip)?;
+    let names: Vec<String> = clips.iter().map(|clip| clip.get().cut()).collect();
+    let names = are_several.then_some(&*names);
+    if per_joint {
+        let joints: Vec<Vec<String>> = clips.iter().map(|clip| clip.get().joints()).collect();
+        let counts = each(py, &study, &clips, |study, motion, stop| {
+            study.joints_while(motion, || !stop.is_asked())
+        })?;
+        return of_joints(py, (&study, names), &joints, &counts);
     }
+    let grids = each(py, &study, &clips, |study, motion, stop| {
+        study.run_while(motion, || !stop.is_asked())
+    })?;
+    of_cells(py, (&study, names), &grids)
+}
+
+/// Parses the axes; those of Table 1 by default.
+fn axes<'py>(
+    py: Python<'py>,
+    x: Option<(String, Bound<'py, PyAny>)>,
+    y: Option<(String, Bound<'py, PyAny>)>,
+) -> PyResult<(Axis, Option<Axis>)> {
+    let parse =
+        |(name, values): (&str, &str)| Axis::new(name, values).map_err(|error| raised(py, error));
+    match (x, y) {
+        (None, None) => {
+            Ok((parse(("filter.width", "10,20,30"))?, Some(parse(("turns.persistence", "5,10"))?)))
+        }
+        (Some(x), y) => Ok((axis(py, x)?, y.map(|y| axis(py, y)).transpose()?)),
+        (None, Some(_)) => Err(asked_wrongly(py, "y is varied for each value of x: give x too")),
+    }
+}
+
+/// Returns the clips of a list, or the one that is given, and whether it is a list.
+fn several<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Vec<Bound<'py, Clip>>, bool)> {
+    if !source.is_instance_of::<PyList>() && !source.is_instance_of::<PyTuple>() {
+        return Ok((vec![taken(source)?], false));
+    }
+    let clips: Vec<_> = source.try_iter()?.map(|clip| taken(&clip?)).collect::<PyResult<_>>()?;
+    match clips.is_empty() {
+        true => Err(asked_wrongly(source.py(), "there is no clip in the list")),
+        false => Ok((clips, true)),
+    }
+}
+
+/// Studies one clip after another.
+fn each<T: Send + 'static>(
+    py: Python<'_>,
+    study: &Study,
+    clips: &[Bound<'_, Clip>],
+    run: fn(&Study, Arc<Motion>, &Stop) -> std::result::Result<Option<T>, genga::Error>,
+) -> PyResult<Vec<T>> {
+    let study = study.clone();
+    let motions: Vec<_> = clips.iter().map(|clip| Arc::clone(&clip.get().motion)).collect();
+    let made = work::done(py, move |stop| {
+        let of_one = |motion| run(&study, motion, stop)?.ok_or(genga::Error::Stopped);
+        motions.into_iter().map(of_one).collect::<std::result::Result<Vec<T>, _>>()
+    })?;
+    made.map_err(|error| raised(py, error))
 }
 
 /// Returns the settings of a recipe, and warns that its corrections do not count here.
@@ -87,19 +137,64 @@ fn axis(py: Python<'_>, (name, values): (String, Bound<'_, PyAny>)) -> PyResult<
     Axis::new(&name, &words).map_err(|error| raised(py, error))
 }
 
-fn columns<'py>(py: Python<'py>, grid: &Grid) -> PyResult<Bound<'py, PyDict>> {
-    let rows = grid.rows();
-    let cells = 0..grid.cells.len();
-    let of_x = Column::words(cells.clone().map(|at| &*grid.x.values()[at / rows]));
-    let made = table(py, [(grid.x.name(), of_x)])?;
-    if let Some(y) = &grid.y {
-        let of_y = Column::words(cells.map(|at| &*y.values()[at % rows]));
+/// Builds the columns that say which cell of which clip a row is of; `rows` is how many each cell of a clip has.
+fn cells<'py>(
+    py: Python<'py>,
+    (study, names): (&Study, Option<&[String]>),
+    rows: &[usize],
+) -> PyResult<Bound<'py, PyDict>> {
+    let of_y = study.y.as_ref().map_or(1, Axis::len);
+    let each = || {
+        let cells = rows
+            .iter()
+            .enumerate()
+            .flat_map(|(clip, rows)| (0..study.len()).map(move |cell| (clip, cell, *rows)));
+        cells.flat_map(|(clip, cell, rows)| std::iter::repeat_n((clip, cell), rows))
+    };
+    let made = PyDict::new(py);
+    if let Some(names) = names {
+        let of_clip = Column::words(each().map(|(clip, _)| &*names[clip]));
+        made.update(table(py, [("clip", of_clip)])?.as_mapping())?;
+    }
+    let of_x = Column::words(each().map(|(_, cell)| &*study.x.values()[cell / of_y]));
+    made.update(table(py, [(study.x.name(), of_x)])?.as_mapping())?;
+    if let Some(y) = &study.y {
+        let of_y = Column::words(each().map(|(_, cell)| &*y.values()[cell % of_y]));
         made.update(table(py, [(y.name(), of_y)])?.as_mapping())?;
     }
-    for measure in &grid.measures {
-        let values = grid.values(*measure).unwrap_or_default();
-        made.set_item(measure.name(), PyArray1::from_vec(py, values))?;
+    Ok(made)
+}
+
+fn of_cells<'py>(
+    py: Python<'py>,
+    (study, names): (&Study, Option<&[String]>),
+    grids: &[Grid],
+) -> PyResult<Bound<'py, PyDict>> {
+    let made = cells(py, (study, names), &vec![1; grids.len()])?;
+    for measure in &study.measures {
+        let values = grids.iter().flat_map(|grid| grid.values(*measure).unwrap_or_default());
+        let column = match measure.is_whole() {
+            true => Column::counts(values.map(|value| value as usize)),
+            false => Column::numbers(values),
+        };
+        made.update(table(py, [(measure.name(), column)])?.as_mapping())?;
     }
+    Ok(made)
+}
+
+/// Builds one row per joint of each cell; `counts` has a list of joints for each cell of each clip.
+fn of_joints<'py>(
+    py: Python<'py>,
+    (study, names): (&Study, Option<&[String]>),
+    joints: &[Vec<String>],
+    counts: &[Vec<Vec<usize>>],
+) -> PyResult<Bound<'py, PyDict>> {
+    let rows: Vec<usize> = joints.iter().map(Vec::len).collect();
+    let made = cells(py, (study, names), &rows)?;
+    let of_clips = joints.iter().zip(counts);
+    let joint = of_clips.flat_map(|(joints, cells)| cells.iter().flat_map(|_| joints.clone()));
+    let keys = Column::counts(counts.iter().flatten().flatten().copied());
+    made.update(table(py, [("joint", Column::words(joint)), ("keys", keys)])?.as_mapping())?;
     Ok(made)
 }
 
@@ -110,7 +205,7 @@ fn columns<'py>(py: Python<'py>, grid: &Grid) -> PyResult<Bound<'py, PyDict>> {
 #[pyo3(signature = (clip, sheet, *, reference=None, tolerance=1.0))]
 pub fn evaluate<'py>(
     py: Python<'py>,
-    clip: &Clip,
+    clip: &Bound<'py, PyAny>,
     sheet: &Bound<'py, PyAny>,
     reference: Option<Vec<usize>>,
     tolerance: f64,
@@ -123,7 +218,7 @@ pub fn evaluate<'py>(
         sheet.extract::<String>().map(String::into_bytes).or_else(|_| sheet.extract())?;
     let reference: Option<Vec<Frame>> =
         reference.map(|frames| frames.into_iter().map(Frame).collect());
-    let motion = clip.motion.clone();
+    let motion = taken(clip)?.get().motion.clone();
     let made = work::done(py, move |_| {
         let file = sheet_json::read(&text)?;
         let (source, notes) = file.fit((*motion).clone())?;
@@ -142,7 +237,7 @@ pub fn evaluate<'py>(
 #[pyo3(signature = (clip, recipe=None, *, keys=vec![], noise=0.1, **settings))]
 pub fn compare<'py>(
     py: Python<'py>,
-    clip: &Clip,
+    clip: &Bound<'py, PyAny>,
     recipe: Option<Recipe>,
     keys: Vec<usize>,
     noise: f64,
@@ -151,8 +246,9 @@ pub fn compare<'py>(
     let recipe = settings_alone(py, recipe.unwrap_or_default().with(py, settings)?)?;
     let noise = Noise { degrees: noise, ..Noise::default() };
     let asked = Compare { recipe, counts: keys, noise, ..Compare::default() };
-    let motion = clip.motion.clone();
-    let made = work::done(py, move |_| asked.run(motion))?.map_err(|error| raised(py, error))?;
+    let motion = taken(clip)?.get().motion.clone();
+    let made = work::done(py, move |stop| asked.run_until(motion, stop))?
+        .map_err(|error| raised(py, error))?;
     let rows: Vec<&Row> = made.rows.iter().chain(&made.paces).collect();
     let number = |of: fn(&Row) -> Option<f64>| {
         Column::numbers(rows.iter().map(|row| of(row).unwrap_or(f64::NAN)))

@@ -10,6 +10,8 @@ mod error;
 mod files;
 mod judge;
 mod knobs;
+mod omit;
+mod pickle;
 mod recipe;
 mod result;
 mod table;
@@ -28,10 +30,12 @@ fn _genga(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<recipe::Recipe>()?;
     module.add_class::<result::Result>()?;
     module.add_class::<result::Sheet>()?;
+    module.add_class::<omit::Omitted>()?;
     module.add_function(wrap_pyfunction!(clip::read, module)?)?;
     module.add_function(wrap_pyfunction!(result::run, module)?)?;
     module.add_function(wrap_pyfunction!(knobs::knobs, module)?)?;
     module.add_function(wrap_pyfunction!(files::formats, module)?)?;
+    module.add_function(wrap_pyfunction!(omit::omit, module)?)?;
     module.add_function(wrap_pyfunction!(judge::study, module)?)?;
     module.add_function(wrap_pyfunction!(judge::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(judge::compare, module)?)

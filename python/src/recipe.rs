@@ -2,12 +2,14 @@
 
 use genga::edits::Edits;
 use genga::recipe::Recipe as Settings;
+use genga_lab::study::table_1_recipe;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
 use crate::corrections::Corrections;
 use crate::error::raised;
+use crate::pickle::Reduced;
 use crate::words::{settings, value, word};
 
 /// All settings of the chain, and a person's corrections. A mapping whose keys are the names in the recipe file
@@ -53,6 +55,12 @@ impl Recipe {
         Ok(Self { recipe, edits })
     }
 
+    /// Returns the settings of Table 1 of the first paper: those of `genga.study` by itself.
+    #[classmethod]
+    fn table_1(_class: &Bound<'_, PyType>) -> Self {
+        Self { recipe: table_1_recipe(), edits: Edits::default() }
+    }
+
     /// Adds corrections, in the notation of `genga.run`.
     #[pyo3(signature = (*, pins=vec![], forbid=vec![], moves=vec![], holds=vec![], only_pins=false))]
     fn correct<'py>(
@@ -70,6 +78,12 @@ impl Recipe {
     /// Returns the recipe file as the program writes it.
     fn to_toml(&self) -> String {
         self.recipe.write(&self.edits)
+    }
+
+    /// For pickle: the recipe file.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let parse = py.get_type::<Self>().getattr("parse")?;
+        Ok((parse, (self.to_toml(),).into_pyobject(py)?.into_any()))
     }
 
     /// Returns an independent copy.

@@ -5,35 +5,38 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use genga::keys::Key;
-use genga::pipeline::{Breakdown, Engine, LayerBreakdown};
-use genga::sheet::{Drawing, Layer};
+use genga::motion::Joint;
+use genga::pipeline::{Breakdown, Engine, LayerBreakdown, Stop};
+use genga::sheet::{Drawing, Layer, Role};
 use genga::signal::{Signals, Turn, TurnKind};
 use genga::target::{Outcome, Target, meet};
 use genga_files::{Format, Report, Settings, limited};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyType};
 
-use crate::clip::Clip;
+use crate::clip::{Clip, taken};
 use crate::corrections::Corrections;
 use crate::error::{raised, warned};
 use crate::files::{Files, Handed};
+use crate::pickle::Reduced;
 use crate::recipe::Recipe;
 use crate::table::{Column, plain, table};
-use crate::targets::{targets as targets_of, told};
+use crate::targets::{Plain, outcome_of, plain_of, targets as targets_of, told};
 use crate::words::settings;
 use crate::work;
 
 /// The result of a run. Each attribute is computed on access.
 #[pyclass(frozen, module = "genga")]
 pub struct Result {
+    /// The source motion.
+    #[pyo3(get)]
+    clip: Py<Clip>,
     /// The cached stages: running again with the same settings computes nothing.
-    engine: Mutex<Engine>,
+    engine: Arc<Mutex<Engine>>,
     settings: Recipe,
     outcomes: Vec<Outcome>,
     cut: String,
-    file: String,
 }
 
 /// The timesheet (タイムシート): which drawing is shown on which koma.
@@ -52,33 +55,34 @@ pub struct Sheet {
 
 /// The input of a run.
 struct Begun {
+    clip: Py<Clip>,
     engine: Engine,
     settings: Recipe,
     targets: Vec<Target>,
     cut: String,
-    file: String,
 }
 
 impl Begun {
     /// Finds the settings that meet the targets, and runs the clip with them.
-    fn run(mut self) -> std::result::Result<Result, genga::Error> {
-        let Recipe { recipe, edits } = &mut self.settings;
-        let mut outcomes = Vec::new();
-        if !self.targets.is_empty() {
-            let met = meet(&mut self.engine, recipe, edits, &self.targets)?;
-            (*recipe, outcomes) = (met.recipe, met.outcomes);
-        }
-        self.engine.run(recipe, edits)?;
-        let Self { engine, settings, cut, file, .. } = self;
-        Ok(Result { engine: Mutex::new(engine), settings, outcomes, cut, file })
-    }
-
     fn done(self, py: Python<'_>) -> PyResult<Result> {
-        work::done(py, move |_| self.run())?.map_err(|error| raised(py, error))
+        let Self { clip, mut engine, settings, targets, cut } = self;
+        let made = work::done(py, move |stop| {
+            engine.stop_with(stop.clone());
+            let Recipe { mut recipe, edits } = settings;
+            let mut outcomes = Vec::new();
+            if !targets.is_empty() {
+                let met = meet(&mut engine, &recipe, &edits, &targets)?;
+                (recipe, outcomes) = (met.recipe, met.outcomes);
+            }
+            engine.run(&recipe, &edits)?;
+            Ok((engine, Recipe { recipe, edits }, outcomes))
+        })?;
+        let (engine, settings, outcomes) = made.map_err(|error| raised(py, error))?;
+        Ok(Result { clip, engine: Arc::new(Mutex::new(engine)), settings, outcomes, cut })
     }
 }
 
-/// Finds the key drawings of a clip and times them. Settings have the recipe's names: `keys={"min_price": 15}`,
+/// Finds the key drawings of a clip, or of a motion file, and times them. Settings have the recipe's names: `keys={"min_price": 15}`,
 /// `keys__min_price=15` and `**{"keys.min_price": 15}` are the same. `pins` are frames that are always keys (42,
 /// (42, "contact"), "42:contact@0.5"); `forbid` are frames without a key nearby (42, "120..140"); `moves` are pairs
 /// (from, to), `holds` pairs (frame, koma). `targets` are wanted properties of the sheet, `{"keys": 9}`,
@@ -89,7 +93,7 @@ impl Begun {
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub fn run<'py>(
     py: Python<'py>,
-    clip: &Clip,
+    clip: &Bound<'py, PyAny>,
     recipe: Option<Recipe>,
     pins: Vec<Bound<'py, PyAny>>,
     forbid: Vec<Bound<'py, PyAny>>,
@@ -102,29 +106,40 @@ pub fn run<'py>(
 ) -> PyResult<Result> {
     let mut asked = recipe.unwrap_or_default().with(py, settings)?;
     Corrections { pins, forbid, moves, holds, only_pins }.add_to(py, &mut asked.edits)?;
+    let targets = targets_of(py, targets)?;
+    let clip = taken(clip)?;
+    let own = clip.get();
     let begun = Begun {
-        engine: Engine::new(clip.motion.clone()).map_err(|error| raised(py, error))?,
+        engine: Engine::new(own.motion.clone()).map_err(|error| raised(py, error))?,
         settings: asked,
-        targets: targets_of(py, targets)?,
-        cut: name.unwrap_or_else(|| clip.cut()),
-        file: clip.file.clone(),
+        targets,
+        cut: name.unwrap_or_else(|| own.cut()),
+        clip: clip.unbind(),
     };
     begun.done(py)
 }
 
 impl Result {
     /// Passes the breakdown to `at`, with Python's lock released.
-    fn look<T: Send>(
+    fn look<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        at: impl FnOnce(&Breakdown<'_>) -> std::result::Result<T, genga::Error> + Send,
+        at: impl FnOnce(&Breakdown<'_>) -> std::result::Result<T, genga::Error> + Send + 'static,
     ) -> PyResult<T> {
-        let Recipe { recipe, edits } = &self.settings;
-        let looked = py.detach(|| {
-            let mut engine = self.engine.lock().ok()?;
-            Some(engine.run(recipe, edits).and_then(|breakdown| at(&breakdown)))
-        });
-        let looked = looked.ok_or_else(|| PyRuntimeError::new_err("an earlier access failed"))?;
+        self.look_until(py, |breakdown, _| at(breakdown))
+    }
+
+    /// Like [`Self::look`], for long work, which ends once the [`Stop`] is asked.
+    fn look_until<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        at: impl FnOnce(&Breakdown<'_>, &Stop) -> std::result::Result<T, genga::Error> + Send + 'static,
+    ) -> PyResult<T> {
+        let Recipe { recipe, edits } = self.settings.clone();
+        let looked = work::done_with(py, &self.engine, move |engine: &mut Engine, stop| {
+            engine.stop_with(stop.clone());
+            engine.run(&recipe, &edits).and_then(|breakdown| at(&breakdown, stop))
+        })?;
         looked.map_err(|error| raised(py, error))
     }
 
@@ -140,18 +155,12 @@ impl Result {
         for (name, word) in settings(asked)? {
             own.set(&name, &word).map_err(|error| raised(py, error))?;
         }
-        let Recipe { recipe, edits } = &self.settings;
-        let handed = Handed { cut: &self.cut, file: &self.file, recipe, edits };
-        let mut interrupt = None;
-        let go_on = || {
-            // Ctrl-C reaches only the caller's thread, which is this one.
-            Python::attach(|py| py.check_signals()).map_err(|error| {
-                interrupt = Some(error);
-                genga::Error::clip("interrupted by Ctrl-C")
-            })
-        };
-        let files = self.look(py, |breakdown| handed.files(breakdown, (&formats, &own), go_on));
-        let (files, notes) = interrupt.map_or(files, Err)?;
+        let Recipe { recipe, edits } = self.settings.clone();
+        let (cut, file) = (self.cut.clone(), self.clip.get().file.clone());
+        let (files, notes) = self.look_until(py, move |breakdown, stop| {
+            let handed = Handed { cut: &cut, file: &file, recipe: &recipe, edits: &edits };
+            handed.files(breakdown, (&formats, &own), || stop.check())
+        })?;
         notes.iter().try_for_each(|note| warned(py, note))?;
         Ok(files)
     }
@@ -172,9 +181,9 @@ impl Result {
     fn matrix<'py>(
         &self,
         py: Python<'py>,
-        of: impl Fn(&Breakdown<'_>) -> Signals + Send + Sync,
+        of: fn(&Breakdown<'_>) -> Signals,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let signals = self.look(py, |breakdown| Ok(of(breakdown)))?;
+        let signals = self.look(py, move |breakdown| Ok(of(breakdown)))?;
         let (frames, joints) = (signals.frames(), signals.joints());
         // A single copy of the run's data. Each joint is contiguous, so the array is in Fortran order.
         let flat: Vec<f64> = signals.values.data.into();
@@ -227,31 +236,26 @@ impl Result {
     /// The timesheet.
     #[getter]
     fn sheet(&self, py: Python<'_>) -> PyResult<Sheet> {
-        let sheet = self.look(py, |breakdown| Ok(breakdown.sheet.clone()))?;
-        Ok(Sheet {
-            rate: sheet.clock.koma_rate,
-            koma: sheet.length(),
-            drawings: drawings(py, &sheet.layers)?.unbind(),
-            exposures: exposures(py, &sheet.layers)?.unbind(),
-        })
+        Sheet::new(py, &self.look(py, |breakdown| Ok(breakdown.sheet.clone()))?)
     }
 
-    /// The keys, one row each: `layer`, `frame`, `strength` (0 to 1), `price` (the error without the key, in % of body
-    /// height; infinite for a key that always stays), `reason`, `name`, `joints`.
+    /// The keys, one row each, as `report` counts them: the first and the last drawing too, whose reason is `end`.
+    /// `layer`, `frame`, `strength` (0 to 1), `price` (the error without the key, in % of body height; infinite for a
+    /// key that always stays), `reason`, `name`, `joints`.
     #[getter]
     fn keys<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = self.look(py, |breakdown| Ok(key_rows(breakdown)))?;
-        let of_key = || rows.iter().map(|row| &row.key);
+        let each = || rows.iter();
         table(
             py,
             [
-                ("layer", Column::words(rows.iter().map(|row| &*row.layer))),
-                ("frame", Column::counts(of_key().map(|key| key.frame.0))),
-                ("strength", Column::numbers(of_key().map(|key| key.strength))),
-                ("price", Column::numbers(of_key().map(|key| key.price))),
-                ("reason", Column::words(of_key().map(|key| key.origin.reason().word()))),
-                ("name", Column::words(of_key().map(|key| key.name.clone().unwrap_or_default()))),
-                ("joints", Column::words(rows.iter().map(|row| &*row.joints))),
+                ("layer", Column::words(each().map(|row| &*row.layer))),
+                ("frame", Column::counts(each().map(|row| row.frame))),
+                ("strength", Column::numbers(each().map(|row| row.strength))),
+                ("price", Column::numbers(each().map(|row| row.price))),
+                ("reason", Column::words(each().map(|row| row.reason))),
+                ("name", Column::words(each().map(|row| &*row.name))),
+                ("joints", Column::words(each().map(|row| &*row.joints))),
             ],
         )
     }
@@ -336,11 +340,10 @@ impl Result {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let asked = recipe.unwrap_or_else(|| self.settings.clone()).with(py, settings)?;
-        let engine = py.detach(|| self.engine.lock().map(|engine| engine.clone()).ok());
-        let engine = engine.ok_or_else(|| PyRuntimeError::new_err("an earlier access failed"))?;
-        let (cut, file) = (self.cut.clone(), self.file.clone());
         let targets = targets_of(py, targets)?;
-        Begun { engine, settings: asked, targets, cut, file }.done(py)
+        let engine = work::done_with(py, &self.engine, |engine: &mut Engine, _| engine.clone())?;
+        let (clip, cut) = (self.clip.clone_ref(py), self.cut.clone());
+        Begun { clip, engine, settings: asked, targets, cut }.done(py)
     }
 
     /// Writes files of the given formats into a folder, which it creates. Returns their paths.
@@ -362,6 +365,34 @@ impl Result {
         Ok(written)
     }
 
+    /// For pickle: the clip and what was asked of it. What was found is computed again on first access.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let outcomes: Vec<Plain> = self.outcomes.iter().map(plain_of).collect();
+        let made = py.get_type::<Self>().getattr("_from_parts")?;
+        let clip = self.clip.bind(py);
+        Ok((made, (clip, self.settings.clone(), outcomes, &self.cut).into_pyobject(py)?.into_any()))
+    }
+
+    #[classmethod]
+    fn _from_parts(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        clip: Py<Clip>,
+        settings: Recipe,
+        outcomes: Vec<Plain>,
+        cut: String,
+    ) -> PyResult<Self> {
+        let engine = Engine::new(clip.get().motion.clone()).map_err(|error| raised(py, error))?;
+        let outcomes = outcomes.into_iter().map(|plain| outcome_of(py, plain));
+        Ok(Self {
+            clip,
+            engine: Arc::new(Mutex::new(engine)),
+            settings,
+            outcomes: outcomes.collect::<PyResult<_>>()?,
+            cut,
+        })
+    }
+
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let (koma, drawings) = self.look(py, |breakdown| {
             let shown = breakdown.sheet.layers.iter().map(|layer| layer.shown().count());
@@ -371,23 +402,77 @@ impl Result {
     }
 }
 
-/// A key and the texts that need the clip.
+#[pymethods]
+impl Sheet {
+    /// For pickle.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let made = py.get_type::<Self>().getattr("_from_parts")?;
+        let parts = (self.rate, self.koma, self.drawings.bind(py), self.exposures.bind(py));
+        Ok((made, parts.into_pyobject(py)?.into_any()))
+    }
+
+    #[classmethod]
+    fn _from_parts(
+        _class: &Bound<'_, PyType>,
+        rate: f64,
+        koma: usize,
+        drawings: Py<PyDict>,
+        exposures: Py<PyDict>,
+    ) -> Self {
+        Self { rate, koma, drawings, exposures }
+    }
+}
+
+impl Sheet {
+    /// Builds the tables of a sheet.
+    pub fn new(py: Python<'_>, sheet: &genga::sheet::Sheet) -> PyResult<Self> {
+        Ok(Self {
+            rate: sheet.clock.koma_rate,
+            koma: sheet.length(),
+            drawings: drawings(py, &sheet.layers)?.unbind(),
+            exposures: exposures(py, &sheet.layers)?.unbind(),
+        })
+    }
+}
+
+/// A row of the keys.
 struct KeyRow {
     layer: String,
-    key: Key,
+    frame: usize,
+    strength: f64,
+    price: f64,
+    reason: &'static str,
+    name: String,
     joints: String,
+}
+
+impl KeyRow {
+    /// Builds the row of a drawing, of the key that it shows if it is no end.
+    fn new(layer: &str, drawing: &Drawing, keys: &[Key], joints: &[Joint]) -> Self {
+        let frame = drawing.source.place().round() as usize;
+        let key =
+            keys.iter().find(|key| key.frame.0 == frame).filter(|_| drawing.role != Role::End);
+        let voters = key.iter().flat_map(|key| &key.voters);
+        Self {
+            layer: layer.into(),
+            frame,
+            strength: key.map_or(1.0, |key| key.strength),
+            price: key.map_or(f64::INFINITY, |key| key.price),
+            reason: key.map_or(drawing.role.word(), |key| key.origin.reason().word()),
+            name: key.and_then(|key| key.name.clone()).unwrap_or_default(),
+            joints: voters.map(|voter| &*joints[voter.0].name).collect::<Vec<_>>().join(" "),
+        }
+    }
 }
 
 fn key_rows(breakdown: &Breakdown<'_>) -> Vec<KeyRow> {
     let joints = &breakdown.clip.skeleton().joints;
-    let row = |of: &LayerBreakdown<'_>, key: &Key| KeyRow {
-        layer: of.layer.name.clone(),
-        key: key.clone(),
-        joints: key.voters.iter().map(|voter| &*joints[voter.0].name).collect::<Vec<_>>().join(" "),
+    let of_layer = |(of, layer): (LayerBreakdown<'_>, &Layer)| {
+        let kept = layer.drawings.iter().filter(|drawing| drawing.role.is_kept());
+        let keys = &of.keys.keys;
+        kept.map(|drawing| KeyRow::new(&layer.name, drawing, keys, joints)).collect::<Vec<_>>()
     };
-    let of_layer =
-        |of: LayerBreakdown<'_>| of.keys.keys.iter().map(|key| row(&of, key)).collect::<Vec<_>>();
-    breakdown.layers().flat_map(of_layer).collect()
+    breakdown.layers().zip(&breakdown.sheet.layers).flat_map(of_layer).collect()
 }
 
 fn drawings<'py>(py: Python<'py>, layers: &[Layer]) -> PyResult<Bound<'py, PyDict>> {

@@ -14,31 +14,60 @@ pub fn targets(py: Python<'_>, asked: Option<&Bound<'_, PyDict>>) -> PyResult<Ve
         if value.is_none() {
             continue;
         }
-        found.push(match name.extract::<String>()?.as_str() {
-            "keys" => Target::Keys(value.extract()?),
-            "drawings_per_second" => Target::DrawingsPerSecond(value.extract()?),
-            "max_error" => Target::MaxError(value.extract()?),
-            other => {
-                let message = "there is no such target: use keys, drawings_per_second or max_error";
-                return Err(raised(py, Error::setting(other, message)));
-            }
-        });
+        found.push(target(py, &name.extract::<String>()?, value.extract()?)?);
     }
     Ok(found)
+}
+
+/// An outcome as pickle takes it: `target`, `asked`, `reached`, `why`.
+pub type Plain = (String, f64, f64, Option<String>);
+
+/// Takes an outcome apart.
+pub fn plain_of(outcome: &Outcome) -> Plain {
+    let (name, asked) = named(outcome.target);
+    (name.into(), asked, outcome.reached, outcome.shortfall.clone())
+}
+
+/// Puts an outcome together.
+pub fn outcome_of(py: Python<'_>, (name, asked, reached, shortfall): Plain) -> PyResult<Outcome> {
+    Ok(Outcome { target: target(py, &name, asked)?, reached, shortfall })
+}
+
+fn target(py: Python<'_>, name: &str, asked: f64) -> PyResult<Target> {
+    Ok(match name {
+        "keys" if asked >= 0.0 && asked.fract() == 0.0 => Target::Keys(asked as usize),
+        "keys" => {
+            return Err(raised(py, Error::setting(name, "expected a whole number, 0 or more")));
+        }
+        "drawings_per_second" => Target::DrawingsPerSecond(asked),
+        "max_error" => Target::MaxError(asked),
+        other => {
+            let message = "there is no such target: use keys, drawings_per_second or max_error";
+            return Err(raised(py, Error::setting(other, message)));
+        }
+    })
+}
+
+fn named(target: Target) -> (&'static str, f64) {
+    match target {
+        Target::Keys(count) => ("keys", count as f64),
+        Target::DrawingsPerSecond(rate) => ("drawings_per_second", rate),
+        Target::MaxError(most) => ("max_error", most),
+    }
 }
 
 /// Describes the outcome of a target: `target`, `asked`, `reached`, `why` (None if it was met), and `words` for a
 /// person.
 pub fn told<'py>(py: Python<'py>, outcome: &Outcome) -> PyResult<Bound<'py, PyDict>> {
-    let (name, asked) = match outcome.target {
-        Target::Keys(count) => ("keys", count as f64),
-        Target::DrawingsPerSecond(rate) => ("drawings_per_second", rate),
-        Target::MaxError(most) => ("max_error", most),
-    };
+    let (name, asked) = named(outcome.target);
     let told = PyDict::new(py);
     told.set_item("target", name)?;
-    told.set_item("asked", asked)?;
-    told.set_item("reached", outcome.reached)?;
+    for (what, value) in [("asked", asked), ("reached", outcome.reached)] {
+        match outcome.target {
+            Target::Keys(_) => told.set_item(what, value as usize)?,
+            _ => told.set_item(what, value)?,
+        }
+    }
     told.set_item("why", outcome.shortfall.as_ref())?;
     told.set_item("words", outcome.to_string())?;
     Ok(told)

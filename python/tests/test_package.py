@@ -1,8 +1,10 @@
 """The built wheel: the same as the program, in Python's manners."""
 
 import contextlib
+import copy
 import json
 import math
+import multiprocessing
 import os
 import pickle
 import signal
@@ -114,6 +116,39 @@ def test_a_clip_from_arrays_is_the_same_motion(clip):
     # End sites are not in the arrays, so that speeds are compared and not keys.
     assert np.allclose(genga.run(made).speeds, genga.run(clip).speeds, atol=1e-6)
     assert np.allclose(genga.read(made.to_bvh().encode()).positions, clip.positions, atol=1e-6)
+
+
+def arrays_of(clip):
+    """All that a clip says of itself."""
+    names = ["names", "parents", "offsets", "rotations", "translations", "tips", "rate", "first", "up", "metres"]
+    return {name: getattr(clip, name) for name in names}
+
+
+def real(*names):
+    paths = [REAL / f"{name}.bvh" for name in names]
+    return [path for path in paths if path.exists()]
+
+
+def test_arrays_out_and_in_again_give_the_same_keys():
+    for path in [KICK, ROOT / "data" / "kuroda-pitch.bvh", *real(*CLIPS)]:
+        clip = genga.read(path)
+        made = genga.Clip(**arrays_of(clip))
+        asked, wanted = genga.run(made).keys, genga.run(clip).keys
+        assert asked["frame"].tolist() == wanted["frame"].tolist(), path.name
+        assert asked["reason"].tolist() == wanted["reason"].tolist(), path.name
+
+
+def test_what_a_clip_says_of_itself_is_what_it_was_made_of(clip):
+    tips = np.full((len(clip.names), 2, 3), np.nan)
+    tips[-1] = [(0, -7, 0), (1, 0, 0)]
+    made = genga.Clip(**{**arrays_of(clip), "tips": tips, "first": 12, "up": "z", "metres": 0.01})
+    assert np.array_equal(made.tips, tips, equal_nan=True) and made.to_bvh().count("End Site") == 2
+    assert (made.first, made.up, made.metres) == (12, "z", 0.01)
+    assert np.allclose(made.translations, clip.translations, atol=1e-9)
+    assert made.translations is made.translations and not made.translations.flags.writeable
+    assert (clip.up, clip.metres, clip.tips.shape) == (None, None, (len(clip.names), 3))
+    with pytest.raises(genga.Error, match="up is x, y or z"):
+        genga.Clip(**{**arrays_of(clip), "up": "w"})
 
 
 def test_joints_that_travel_and_tips_are_kept(clip):
@@ -276,6 +311,35 @@ def test_wrong_arrays_are_refused_in_words(clip):
         genga.Clip(**good, rotations=unit * 0.0)
     with pytest.raises(genga.Error, match="comes before its parent"):
         genga.Clip(**{**good, "parents": [1, -1]}, rotations=unit)
+    with pytest.raises(genga.Error, match="-2 is no parent"):
+        genga.Clip(**{**good, "parents": [-1, -2]}, rotations=unit)
+    with pytest.raises(genga.Error, match="needs a joint and a frame"):
+        genga.Clip(**{**good, "root": np.zeros((0, 3))}, rotations=unit[:0])
+
+
+@pytest.mark.parametrize(
+    "name, shape, at, says",
+    [
+        ("offsets", (2, 3), (1, 2), "offsets of b: nan is not a length"),
+        ("rotations", (5, 2, 4), (3, 1, 0), "frame 3: the rotation of b has length NaN"),
+        ("root", (5, 3), (4, 1), "root, frame 4: nan is not a length"),
+        ("translations", (5, 2, 3), (2, 1, 1), "translations of b, frame 2: nan is not a length"),
+        ("tips", (2, 3), (0, 1), "a tip is three numbers, or three NaN"),
+    ],
+)
+def test_no_clip_is_made_of_what_is_not_a_number(name, shape, at, says):
+    arrays = dict(names=["a", "b"], parents=[-1, 0], offsets=np.zeros((2, 3)), root=np.zeros((5, 3)), rate=30.0)
+    arrays["rotations"] = np.tile([0.0, 0.0, 0.0, 1.0], (5, 2, 1))
+    if name == "translations":
+        del arrays["root"]
+    arrays[name] = np.array(arrays.get(name, np.zeros(shape)))
+    genga.Clip(**arrays)
+    arrays[name][at] = np.nan
+    with pytest.raises(genga.Error, match=f"(?i){says}"):
+        genga.Clip(**arrays)
+    arrays[name][at] = 1e300
+    with pytest.raises(genga.Error):
+        genga.Clip(**arrays)
 
 
 def test_a_study_is_the_programs(clip, tmp_path):
@@ -288,6 +352,99 @@ def test_a_study_is_the_programs(clip, tmp_path):
         assert [float(row[at]) for row in rows] == table[measure].tolist()
     own = genga.study(clip, x=("spacing.on", [1, 2, 3]), measures=["drawings"])
     assert own["spacing.on"].tolist() == ["1", "2", "3"] and own["drawings"][0] > own["drawings"][2]
+
+
+def same_table(a, b):
+    assert list(a) == list(b)
+    for name in a:
+        assert a[name].tolist() == b[name].tolist(), name
+
+
+def test_the_same_axes_are_the_same_study_however_they_are_given(clip):
+    table = genga.study(clip)
+    width, persistence = "filter.width", "turns.persistence"
+    for values in ("10,20,30", "10..30:10", [10, 20, 30], np.array([10, 20, 30])):
+        same_table(genga.study(clip, x=(width, values), y=(persistence, [5, 10])), table)
+    same_table(genga.study(clip, genga.Recipe.table_1()), table)
+    turned = genga.study(clip, x=(persistence, [5, 10]), y=(width, [10, 20, 30]))
+    assert sorted(turned["union"].tolist()) == sorted(table["union"].tolist())
+    own = genga.study(clip, genga.Recipe(), x=(width, [10, 20, 30]), y=(persistence, [5, 10]))
+    assert own["union"].tolist() != table["union"].tolist(), "a recipe is taken at its word"
+    out = subprocess.run([PROGRAM, "recipe", "--study"], check=True, capture_output=True, text=True, encoding="utf-8")
+    assert genga.Recipe.table_1() == genga.Recipe.parse(out.stdout)
+
+
+def test_counts_are_whole_numbers(clip):
+    measures = ["union", "genga", "drawings", "longest_hold", "held_koma", "drawings_per_second", "peak_ssd"]
+    table = genga.study(clip, x=("spacing.on", [1, 2]), measures=measures)
+    assert [table[measure].dtype.kind for measure in measures] == list("iiiiiff")
+    told = genga.run(clip, targets={"keys": 9}).outcomes[0]
+    assert [type(told[what]) for what in ("asked", "reached")] == [int, int]
+
+
+def test_a_study_per_joint_adds_up_to_the_total(clip):
+    table, joints = genga.study(clip), genga.study(clip, per_joint=True)
+    assert list(joints) == ["filter.width", "turns.persistence", "joint", "keys"]
+    cells = joints["keys"].reshape(6, len(clip.names))
+    assert cells.sum(axis=1).tolist() == table["total"].tolist()
+    assert joints["joint"][: len(clip.names)].tolist() == clip.names
+    turns = genga.run(clip, genga.Recipe.table_1(), filter__width=20, turns__persistence=5).turns
+    of_joint = np.bincount(turns["joint"][turns["kind"] == "key"], minlength=len(clip.names))
+    assert cells[2].tolist() == of_joint.tolist()
+    with pytest.raises(genga.Error, match="leave measures out"):
+        genga.study(clip, per_joint=True, measures=["union"])
+
+
+def test_a_study_takes_several_clips(clip):
+    pitch = ROOT / "data" / "kuroda-pitch.bvh"
+    table = genga.study([clip, str(pitch)])
+    assert table["clip"].tolist() == ["kick"] * 6 + ["kuroda-pitch"] * 6
+    alone = [genga.study(one)["union"].tolist() for one in (clip, pitch)]
+    assert table["union"].tolist() == alone[0] + alone[1]
+    joints = genga.study([clip, pitch], per_joint=True)
+    assert len(joints["keys"]) == 6 * (len(clip.names) + len(genga.read(pitch).names))
+    assert joints["clip"].tolist() == sorted(joints["clip"].tolist())
+    with pytest.raises(genga.Error, match="no clip in the list"):
+        genga.study([])
+
+
+@pytest.mark.parametrize("settings", [{}, {"rate": 12}, {"keys": {"min_price": 1}}, {"layers": "limbs"}])
+def test_the_keys_and_the_report_count_alike(settings):
+    for path in [KICK, *real(*CLIPS)]:
+        result = genga.run(path, **settings)
+        report = result.report
+        layers = report.get("layers") or [{"name": "A", "genga": report["genga"]}]
+        for layer in layers:
+            assert (result.keys["layer"] == layer["name"]).sum() == layer["genga"], (path.name, layer["name"])
+        kept = result.sheet.drawings["role"] != "inbetween"
+        assert len(result.keys["frame"]) == kept.sum(), path.name
+
+
+def test_one_call_leads_from_a_file_to_its_keys(clip):
+    wanted = genga.run(clip)
+    for source in (KICK, str(KICK), KICK.read_bytes()):
+        assert genga.run(source).keys["frame"].tolist() == wanted.keys["frame"].tolist()
+    assert genga.run(KICK).to_json() == wanted.to_json()
+    assert genga.evaluate(KICK, wanted.to_json()) == genga.evaluate(clip, wanted.to_json())
+    assert genga.run(KICK).clip.warnings == clip.warnings
+    with pytest.raises(TypeError, match="a path or bytes"):
+        genga.run(7)
+    with pytest.raises(FileNotFoundError):
+        genga.run("nothing.bvh")
+
+
+def test_omission_alone_is_the_programs(clip, tmp_path):
+    found = genga.omit(clip, naka_nashi=6, koma_dori="30%")
+    out = tmp_path / "omitted.bvh"
+    command = [PROGRAM, "omit", str(KICK), "--naka-nashi", "6", "--koma-dori", "30%", "--out", str(out), "--table"]
+    table = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+    assert table[0] == "clip,frames,n_io,n_hf,time_ms" and len(table) == 2
+    assert table[1].split(",")[:4] == ["kick", str(found.frames), str(found.n_io), str(found.n_hf)]
+    assert found.limited.to_bvh() == out.read_text(encoding="utf-8")
+    assert (found.n_io, found.frames, found.seconds > 0) == (6, 92, True)
+    assert len(np.unique(found.sheet.exposures["drawing"])) == found.frames - found.n_io - found.n_hf
+    with pytest.raises(genga.Error, match="naka_nashi"):
+        genga.omit(KICK, naka_nashi="many")
 
 
 def test_evaluation_and_comparison(clip):
@@ -352,10 +509,39 @@ def test_ctrl_c_ends_a_study(clip):
 
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise there")
 def test_ctrl_c_ends_the_drawing_of_pictures(clip):
-    arrays = dict(names=clip.names, parents=clip.parents, offsets=clip.offsets, rate=clip.rate)
-    arrays.update(rotations=np.tile(clip.rotations, (20, 1, 1)), root=np.tile(clip.positions[:, 0], (20, 1)))
-    result = genga.run(genga.Clip(**arrays), spacing={"on": 1})
+    result = genga.run(many_times(clip, 20), spacing={"on": 1})
     assert interrupted(result.to_images) < 8.0
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise there")
+@pytest.mark.parametrize(
+    "work",
+    [
+        lambda clip: genga.run(clip, targets={"max_error": 2, "drawings_per_second": 11.37}),
+        lambda clip: genga.compare(clip, keys=[10, 30, 90]),
+    ],
+    ids=["run", "compare"],
+)
+def test_ctrl_c_ends_the_work_and_not_the_wait(work, clip):
+    """Soon after, the process is idle: what was asked for does not go on behind the back."""
+    long = many_times(clip, 10)
+    assert interrupted(lambda: work(long)) < 1.5
+    deadline = time.monotonic() + 60
+    while (spent := busy(0.5)) > 0.1:
+        assert time.monotonic() < deadline, f"still at work: {spent} s of processor in 0.5 s"
+
+
+def busy(seconds):
+    """Seconds of processor that the process spends in so many seconds."""
+    before = time.process_time()
+    time.sleep(seconds)
+    return time.process_time() - before
+
+
+def many_times(clip, times):
+    arrays = dict(names=clip.names, parents=clip.parents, offsets=clip.offsets, rate=clip.rate)
+    arrays.update(rotations=np.tile(clip.rotations, (times, 1, 1)), root=np.tile(clip.positions[:, 0], (times, 1)))
+    return genga.Clip(**arrays)
 
 
 def test_any_readers_matrices_give_the_keys_of_the_clip(clip, tmp_path):
@@ -428,6 +614,41 @@ def test_an_error_goes_through_a_pool_of_processes_with_its_place(tmp_path):
     again = pickle.loads(pickle.dumps(raised.value))
     assert type(again) is genga.Error and str(again) == str(raised.value)
     assert (again.file, again.line, again.column) == (str(broken), 2, 1)
+
+
+def test_everything_can_be_pickled(clip):
+    other = pickle.loads(pickle.dumps(clip))
+    assert other.to_bvh() == clip.to_bvh() and repr(other) == repr(clip) and other.warnings == clip.warnings
+    assert np.array_equal(other.rotations, clip.rotations) and other.first == clip.first
+    recipe = genga.Recipe(spacing={"on": 3})
+    recipe.correct(pins=[(30, "wind-up")])
+    assert copy.deepcopy(recipe) == pickle.loads(pickle.dumps(recipe)) == recipe != genga.Recipe()
+    result = genga.run(clip, recipe, targets={"keys": 9})
+    again = pickle.loads(pickle.dumps(result))
+    assert again.to_json() == result.to_json() and again.outcomes == result.outcomes and repr(again) == repr(result)
+    assert again.recipe == result.recipe and again.clip.to_bvh() == clip.to_bvh()
+    sheet = pickle.loads(pickle.dumps(result.sheet))
+    assert (sheet.rate, sheet.koma) == (result.sheet.rate, result.sheet.koma)
+    assert sheet.drawings["why"].tolist() == result.sheet.drawings["why"].tolist()
+
+
+def test_a_clip_that_begins_late_and_says_its_up_is_pickled_with_it(clip):
+    made = genga.Clip(**{**arrays_of(clip), "first": 12, "up": "y", "metres": 0.01})
+    other = pickle.loads(pickle.dumps(made))
+    assert (other.first, other.up, other.metres) == (12, "y", 0.01)
+    assert genga.run(other).to_json() == genga.run(made).to_json()
+
+
+@pytest.mark.parametrize("method", [method for method in multiprocessing.get_all_start_methods()])
+def test_clips_and_results_go_through_pools_of_processes(method, clip):
+    wanted = genga.run(clip)
+    # A fork has none of the threads that have just worked here.
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        jobs = [pool.apply_async(genga.run, (clip, genga.Recipe(rate=rate))) for rate in (24, 12)]
+        first, second = (job.get(timeout=120) for job in jobs)
+        assert first.to_json() == wanted.to_json() != second.to_json()
+        with pytest.raises(genga.Error, match="pinned frame 1000 is not in the clip"):
+            pool.apply_async(genga.run, (clip,), {"pins": [1000]}).get(timeout=120)
 
 
 def test_what_is_lost_or_does_not_count_is_told_as_a_warning(clip):

@@ -168,6 +168,20 @@ fn an_engine_that_forgot_what_it_could_runs_on_as_before() {
 }
 
 #[test]
+fn a_run_that_was_stopped_goes_on_as_if_it_had_not_been() {
+    let (clip, recipe, edits) = (pitch(), recipe(&[("layers", "limbs")]), Edits::default());
+    let mut engine = Engine::new(clip.clone()).unwrap();
+    let stop = Stop::default();
+    engine.stop_with(stop.clone());
+    run(&mut engine, &Recipe::default(), &edits);
+    stop.ask();
+    assert!(matches!(engine.run(&recipe, &edits), Err(Error::Stopped)));
+    assert!(matches!(engine.find_turns(&recipe), Err(Error::Stopped)));
+    engine.stop_with(Stop::default());
+    assert_eq!(run(&mut engine, &recipe, &edits), fresh(&clip, &recipe, &edits));
+}
+
+#[test]
 fn a_hold_changes_the_sheet_and_nothing_that_is_found() {
     let mut engine = Engine::new(pitch()).unwrap();
     let (recipe, none) = (Recipe::default(), Edits::default());

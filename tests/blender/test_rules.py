@@ -109,9 +109,9 @@ class Zips(unittest.TestCase):
 
     def test_each_platform_has_a_zip_with_its_own_wheel_alone(self):
         wheels = {
-            "linux-x64": "genga-9.8.7-cp39-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl",
-            "macos-arm64": "genga-9.8.7-cp39-abi3-macosx_11_0_arm64.whl",
-            "windows-x64": "genga-9.8.7-cp39-abi3-win_amd64.whl",
+            "linux-x64": "genga_anime-9.8.7-cp39-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl",
+            "macos-arm64": "genga_anime-9.8.7-cp39-abi3-macosx_11_0_arm64.whl",
+            "windows-x64": "genga_anime-9.8.7-cp39-abi3-win_amd64.whl",
         }
         with tempfile.TemporaryDirectory() as folder:
             done = self.build(Path(folder), *wheels.values())
@@ -130,7 +130,7 @@ class Zips(unittest.TestCase):
 
     def test_two_wheels_of_a_system_are_refused(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = self.build(Path(folder), "genga-1.0-cp39-abi3-linux_x86_64.whl", "genga-1.0-cp39-abi3-manylinux2014_x86_64.whl")
+            done = self.build(Path(folder), "genga_anime-1.0-cp39-abi3-linux_x86_64.whl", "genga_anime-1.0-cp39-abi3-manylinux2014_x86_64.whl")
             self.assertIn("one wheel per system", done.stderr)
             self.assertNotEqual(done.returncode, 0)
 

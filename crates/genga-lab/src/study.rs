@@ -41,6 +41,13 @@ pub fn table_1_recipe() -> Recipe {
     recipe
 }
 
+/// Whether axes are those of Table 1: filter width and persistence, in either order.
+pub fn is_table_1(x: &Axis, y: Option<&Axis>) -> bool {
+    let names = [Some(x.name()), y.map(Axis::name)];
+    let both = [Some("filter.width"), Some("turns.persistence")];
+    both.into_iter().all(|name| names.contains(&name))
+}
+
 /// Counts keys summed over the joints.
 pub fn total(turns: &[Vec<Turn>]) -> usize {
     keys(turns).count()
@@ -58,6 +65,12 @@ pub fn union(turns: &[Vec<Turn>]) -> usize {
         is_key[row] = true;
     }
     is_key.into_iter().filter(|is_key| *is_key).count()
+}
+
+/// Counts the keys of each joint.
+pub fn of_each(turns: &[Vec<Turn>]) -> Vec<usize> {
+    let of_joint = |turns: &Vec<Turn>| keys(std::slice::from_ref(turns)).count();
+    turns.iter().map(of_joint).collect()
 }
 
 fn keys(turns: &[Vec<Turn>]) -> impl Iterator<Item = &Turn> {

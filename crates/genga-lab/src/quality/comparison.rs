@@ -13,7 +13,7 @@ use chooser::Chooser;
 use genga::error::Error;
 use genga::keys::{Matching, Reconstruction};
 use genga::motion::Clip;
-use genga::pipeline::Budget;
+use genga::pipeline::{Budget, Stop};
 use genga::recipe::Recipe;
 use genga::time::{Clock, Frame};
 
@@ -129,10 +129,18 @@ impl Compare {
     /// # Ok::<(), genga::Error>(())
     /// ```
     pub fn run(&self, clip: impl Into<Arc<Clip>>) -> Result<Comparison, Error> {
+        self.run_until(clip, &Stop::default())
+    }
+
+    /// Like [`Compare::run`], until `stop` is asked; it ends after the method in progress.
+    ///
+    /// # Errors
+    /// As for [`Compare::run`], and [`Error::Stopped`].
+    pub fn run_until(&self, clip: impl Into<Arc<Clip>>, stop: &Stop) -> Result<Comparison, Error> {
         self.validate()?;
         let clip = clip.into();
         let noisy = Arc::new(self.noise.on(&clip));
-        let mut chooser = Chooser::new(clip, self, self.longest)?;
+        let mut chooser = Chooser::new(clip, (self, stop), self.longest)?;
         let own_keys = chooser.own_keys()?;
         let counts = self.counts_of(own_keys, chooser.grid().inner());
         let paces = chooser.paces();
@@ -140,7 +148,7 @@ impl Compare {
             counts.iter().copied().chain(paces.iter().map(|(_, keys)| keys.len())).collect();
         let chosen = chooser.choose(&all)?;
         let again = if self.noise.degrees > 0.0 {
-            Some(Chooser::new(noisy, self, self.longest / 3)?.choose(&counts)?)
+            Some(Chooser::new(noisy, (self, stop), self.longest / 3)?.choose(&counts)?)
         } else {
             None
         };

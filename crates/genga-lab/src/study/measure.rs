@@ -145,6 +145,11 @@ impl Measure {
         self.unit().is_empty() || self == Self::HeldKoma
     }
 
+    /// Whether its values are whole numbers.
+    pub fn is_whole(self) -> bool {
+        self.is_count() || self == Self::LongestHold
+    }
+
     pub(super) fn reach(self) -> Reach {
         match self {
             Self::Union | Self::Total => Reach::Joints,

@@ -9,6 +9,7 @@ use crate::study::axis::{Axis, Setting};
 use crate::study::grid::{Cell, Grid};
 use crate::study::measure::{Found, Measure, Reach};
 use crate::study::noise::Noise;
+use crate::study::of_each;
 use genga::edits::Edits;
 use genga::error::Error;
 use genga::motion::Clip;
@@ -133,14 +134,42 @@ impl Study {
         clip: impl Into<Arc<Clip>>,
         goes_on: impl Fn() -> bool + Sync,
     ) -> Result<Option<Grid>, Error> {
+        let clip = clip.into();
+        let measured = self.cells(&clip, goes_on, |bench, at| self.measured(bench, at))?;
+        Ok(measured.map(|cells| self.grid(&clip, cells)))
+    }
+
+    /// Counts the keys of every joint in every cell, as long as `goes_on` returns true; the measures do not matter.
+    /// Returns one list per cell, `y` fastest, with one count per joint; `None` if the study was ended.
+    ///
+    /// # Errors
+    /// As for [`Study::run`].
+    pub fn joints_while(
+        &self,
+        clip: impl Into<Arc<Clip>>,
+        goes_on: impl Fn() -> bool + Sync,
+    ) -> Result<Option<Vec<Vec<usize>>>, Error> {
+        self.cells(&clip.into(), goes_on, |bench, at| {
+            let setting = self.setting(at)?;
+            Ok(of_each(bench.found(&setting, Reach::Joints)?.turns))
+        })
+    }
+
+    /// Measures every cell on all cores, in the order of the cells; `None` if it was ended.
+    fn cells<T: Send>(
+        &self,
+        clip: &Arc<Clip>,
+        goes_on: impl Fn() -> bool + Sync,
+        measure: impl Fn(&mut Bench, usize) -> Result<T, Error> + Sync,
+    ) -> Result<Option<Vec<T>>, Error> {
         self.validate()?;
         let is_ended = AtomicBool::new(false);
         let order = self.chain_order();
         // The first cell makes the shared stages; each thread starts with a clone of them.
-        let mut bench = Bench::new(clip.into(), self.budget)?;
-        self.measured(&mut bench, order[0])?;
+        let mut bench = Bench::new(Arc::clone(clip), self.budget)?;
+        measure(&mut bench, order[0])?;
         let piece = order.len().div_ceil(PIECES * rayon::current_num_threads());
-        let measured: Option<Vec<(usize, Result<Cell, Error>)>> = order
+        let measured: Option<Vec<(usize, Result<T, Error>)>> = order
             .into_par_iter()
             .with_min_len(piece)
             .map_init(
@@ -149,20 +178,17 @@ impl Study {
                     if is_ended.load(Ordering::Relaxed) {
                         return None;
                     }
-                    let cell = self.measured(bench, at);
+                    let cell = measure(bench, at);
                     is_ended.fetch_or(!goes_on(), Ordering::Relaxed);
                     Some((at, cell))
                 },
             )
             .collect();
-        let Some(measured) = measured.filter(|_| !is_ended.load(Ordering::Relaxed)) else {
+        let Some(mut measured) = measured.filter(|_| !is_ended.load(Ordering::Relaxed)) else {
             return Ok(None);
         };
-        let mut cells = vec![None; self.len()];
-        for (at, cell) in measured {
-            cells[at] = Some(cell?);
-        }
-        Ok(Some(self.grid(&bench.clean, cells)))
+        measured.sort_unstable_by_key(|(at, _)| *at);
+        measured.into_iter().map(|(_, cell)| cell).collect::<Result<_, _>>().map(Some)
     }
 
     /// Starts measuring [a cell at a time](Walk), for callers with one core and other work to do on it.
@@ -176,7 +202,7 @@ impl Study {
         Ok(Walk { study: self, bench, order, cells })
     }
 
-    fn grid(&self, clip: &Clip, cells: Vec<Option<Cell>>) -> Grid {
+    fn grid(&self, clip: &Clip, cells: Vec<Cell>) -> Grid {
         Grid {
             x: self.x.clone(),
             y: self.y.clone(),
@@ -184,7 +210,7 @@ impl Study {
             own: self.own_cell(clip.rate()),
             seconds: clip.len() as f64 / clip.rate().fps(),
             frames_in_koma: clip.clock(self.recipe.rate).frames_in_koma(),
-            cells: cells.into_iter().flatten().collect(),
+            cells,
         }
     }
 
@@ -255,6 +281,7 @@ impl Walk {
     pub fn step(&mut self) -> Result<Option<Grid>, Error> {
         let Some(at) = self.order.next() else {
             let cells = std::mem::take(&mut self.cells);
+            let cells = cells.into_iter().flatten().collect();
             return Ok(Some(self.study.grid(&self.bench.clean, cells)));
         };
         self.cells[at] = Some(self.study.measured(&mut self.bench, at)?);

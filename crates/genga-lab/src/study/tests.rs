@@ -248,6 +248,26 @@ fn a_study_ends_when_somebody_wants_it_to() {
 }
 
 #[test]
+fn the_keys_of_each_joint_add_up_to_the_total() {
+    let study = study("filter.width=1,5", Some("turns.persistence=1..3:1"), &[Measure::Total]);
+    let clip = swinging(60);
+    let joints = study.joints_while(clip.clone(), || true).unwrap().unwrap();
+    assert!(joints.iter().all(|cell| cell.len() == clip.skeleton().len()));
+    let sums: Vec<f64> = joints.iter().map(|cell| cell.iter().sum::<usize>() as f64).collect();
+    assert_eq!(study.run(clip, || ()).unwrap().values(Measure::Total), Some(sums));
+    assert!(study.joints_while(swinging(60), || false).unwrap().is_none());
+}
+
+#[test]
+fn the_axes_of_table_1_are_known_in_either_order() {
+    let (width, persistence) = (axis("filter.width=10"), axis("turns.persistence=5"));
+    assert!(is_table_1(&width, Some(&persistence)) && is_table_1(&persistence, Some(&width)));
+    for y in [None, Some(&width), Some(&axis("spacing.on=2"))] {
+        assert!(!is_table_1(&width, y));
+    }
+}
+
+#[test]
 fn what_the_chain_uses_first_changes_last() {
     let order = |x: &str, y: &str| study(x, Some(y), &COUNTS).chain_order();
     let (width, persistence) = ("filter.width=1..2:1", "turns.persistence=1..3:1");

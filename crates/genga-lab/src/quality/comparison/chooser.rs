@@ -12,7 +12,7 @@ use genga::edits::Edits;
 use genga::error::Error;
 use genga::keys::Rank;
 use genga::motion::Clip;
-use genga::pipeline::Engine;
+use genga::pipeline::{Engine, Stop};
 use genga::recipe::Recipe;
 use genga::target::with_found;
 use genga::time::Frame;
@@ -32,15 +32,21 @@ pub(super) struct Chooser<'a> {
     /// Length in koma of the longest clip on which methods with cubic work are run.
     longest: usize,
     engine: Engine,
+    stop: &'a Stop,
     grid: KomaFrames,
 }
 
 impl<'a> Chooser<'a> {
-    pub(super) fn new(clip: Arc<Clip>, of: &'a Compare, longest: usize) -> Result<Self, Error> {
+    pub(super) fn new(
+        clip: Arc<Clip>,
+        (of, stop): (&'a Compare, &'a Stop),
+        longest: usize,
+    ) -> Result<Self, Error> {
         let recipe = &of.recipe;
-        let engine = Engine::new(Arc::clone(&clip))?.with_budget(of.budget);
+        let mut engine = Engine::new(Arc::clone(&clip))?.with_budget(of.budget);
+        engine.stop_with(stop.clone());
         let clock = clip.clock(recipe.rate);
-        Ok(Self { recipe, longest, engine, grid: KomaFrames::new(clip, clock) })
+        Ok(Self { recipe, longest, engine, stop, grid: KomaFrames::new(clip, clock) })
     }
 
     pub(super) fn grid(&self) -> &KomaFrames {
@@ -73,6 +79,7 @@ impl<'a> Chooser<'a> {
         let mut segments = None;
         let is_long = self.grid.reference.koma() > self.longest;
         for method in Method::ALL.into_iter().filter(|method| !(is_long && method.is_cubic())) {
+            self.stop.check()?;
             let begin = Instant::now();
             let keys = match method {
                 Method::Own => self.own(self.recipe, counts)?,
@@ -162,7 +169,7 @@ mod tests {
             let skeleton = swing.skeleton().clone();
             let clip = Clip::new(skeleton, rate, Frame(0), 13, angles.clone()).unwrap();
             let asked = Compare::default();
-            let chooser = Chooser::new(Arc::new(clip), &asked, 100).unwrap();
+            let chooser = Chooser::new(Arc::new(clip), (&asked, &Stop::default()), 100).unwrap();
             let numbers = |keys: Vec<Frame>| keys.iter().map(|key| key.0).collect::<Vec<_>>();
             chooser.paces().into_iter().map(|(_, keys)| numbers(keys)).collect::<Vec<_>>()
         };

@@ -1,0 +1,99 @@
+//! The second paper's omission alone.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use genga::Error;
+use genga::motion::Screen;
+use genga::pipeline::Budget;
+use genga::sheet::Sheet as Timed;
+use genga::time::KOMA_RATE;
+use genga::timing::{Omission, Omitted as Left, Order, Stills};
+use genga_files::limited;
+use pyo3::prelude::*;
+
+use crate::clip::{Clip, taken};
+use crate::error::{raised, warned};
+use crate::result::Sheet;
+use crate::words::word;
+use crate::work;
+
+/// The result of `omit`: a row of the second paper's Table 1, and what it counts.
+#[pyclass(frozen, get_all, module = "genga")]
+pub struct Omitted {
+    /// Length of the clip in frames at 24 per second.
+    frames: usize,
+    /// Number of frames that naka-nashi left out, N_io.
+    n_io: usize,
+    /// Number of frames that koma-dori replaced by the one before, N_hf.
+    n_hf: usize,
+    /// Seconds that both stages took, positions of the joints included.
+    seconds: f64,
+    /// The timesheet.
+    sheet: Py<Sheet>,
+    /// The stepped motion at 24 frames per second.
+    limited: Py<Clip>,
+}
+
+/// Applies only naka-nashi and koma-dori, as `genga omit` does: to the clip, or motion file, at 24 drawings per second.
+/// `naka_nashi` is a count (4) or a share of the koma ("4%"), `koma_dori` a count (33) or a share of the inbetweens
+/// ("1/3"), `max_hold` the longest hold in koma. `keep_length=False` lets naka-nashi shorten the motion.
+#[pyfunction]
+#[pyo3(signature = (clip, *, naka_nashi=None, koma_dori=None, max_hold=4, all_at_once=false, koma_dori_first=false, keep_length=true))]
+#[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
+pub fn omit(
+    py: Python<'_>,
+    clip: &Bound<'_, PyAny>,
+    naka_nashi: Option<&Bound<'_, PyAny>>,
+    koma_dori: Option<&Bound<'_, PyAny>>,
+    max_hold: usize,
+    all_at_once: bool,
+    koma_dori_first: bool,
+    keep_length: bool,
+) -> PyResult<Omitted> {
+    let amount = |name, given: Option<&Bound<'_, PyAny>>, usual: &str| {
+        let text = given.map_or_else(|| Ok(usual.to_owned()), word)?;
+        text.parse().map_err(|error| raised(py, Error::setting(name, format!("{error}"))))
+    };
+    let omission = Omission {
+        naka_nashi: amount("naka_nashi", naka_nashi, "4")?,
+        koma_dori: amount("koma_dori", koma_dori, "1/3")?,
+        max_hold,
+        keep_length,
+        all_at_once,
+        order: if koma_dori_first { Order::KomaDoriFirst } else { Order::NakaNashiFirst },
+        ..Omission::default()
+    };
+    let clip = taken(clip)?;
+    let motion = Arc::clone(&clip.get().motion);
+    let made = work::done(py, move |_| {
+        Budget::default().check(&motion, KOMA_RATE)?;
+        let koma = motion.rate().koma_from_frames(motion.len(), KOMA_RATE);
+        let ones = Timed::on_ones(motion.clock(KOMA_RATE), koma);
+        let began = Instant::now();
+        let stills = Stills::on(&motion, &ones.layers[0], &Screen::WORLD);
+        let Left { layer, report } = omission.apply(&ones.layers[0], &stills, 1)?;
+        let seconds = began.elapsed().as_secs_f64();
+        let sheet = Timed::new(ones.clock, vec![layer]);
+        Ok((limited(&motion, &sheet)?, sheet, report, koma, seconds))
+    })?;
+    let (stepped, sheet, report, frames, seconds) = made.map_err(|error| raised(py, error))?;
+    report.shortfalls().try_for_each(|reason| warned(py, reason))?;
+    let file = format!("{}_limited.bvh", clip.get().cut());
+    Ok(Omitted {
+        frames,
+        n_io: report.naka_nashi.done,
+        n_hf: report.koma_dori.done,
+        seconds,
+        sheet: Py::new(py, Sheet::new(py, &sheet)?)?,
+        limited: Py::new(py, Clip::new(Arc::new(stepped), file, Vec::new()))?,
+    })
+}
+
+#[pymethods]
+impl Omitted {
+    fn __repr__(&self) -> String {
+        let Self { frames, n_io, n_hf, .. } = self;
+        format!("<genga.Omitted: {frames} frames, {n_io} left out, {n_hf} held>")
+    }
+}
