@@ -13,7 +13,7 @@ use genga_read::GltfCamera;
 /// Extensions of files that may contain a camera.
 const ENDINGS: [&str; 2] = [".glb", ".gltf"];
 
-/// From where movement is measured, over the recipe.
+/// The camera that measures movement, in place of the recipe's.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct SeenArgs {
     /// Measure movement on the screen (画面) of a camera instead of in the world. The camera is front, side,

@@ -18,7 +18,7 @@ use genga_files::ClipMark;
 use genga_files::sheet_json::SheetFile;
 use genga_read::{Found, Take};
 
-/// The clip, and which part of it.
+/// Arguments for a clip and the part of it to read.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ClipArgs {
     /// Motion file: BVH, FBX, glTF (GLB, VRM, VRMA), VMD or ASF/AMC, detected by content; - is stdin.
@@ -118,7 +118,7 @@ pub(super) struct Source {
     pub(super) written_frame_time: Option<f64>,
     /// Facts found in the file, if it is not a BVH.
     pub(super) found: Vec<Found>,
-    /// The file's takes, if the format has any.
+    /// The file's takes; empty for formats without takes.
     pub(super) takes: Vec<Take>,
     /// Identifies the whole file.
     pub(super) of: ClipMark,

@@ -44,7 +44,7 @@ pub(super) struct Args {
 enum Command {
     /// Run the whole chain: write key tables, timesheet, limited motion and pictures to a folder.
     Run(run::RunArgs),
-    /// Process many clips: a sheet of each, and tables of all.
+    /// Process many clips: one sheet per clip, and tables of the whole batch.
     Batch(batch::BatchArgs),
     /// Open the window: view the motion, change settings, correct keys, export.
     Studio(studio::StudioArgs),

@@ -241,7 +241,7 @@ pub(super) fn unmoved(edits: &Edits, breakdown: &Breakdown<'_>) -> Vec<String> {
     said.collect()
 }
 
-/// Says that there was no key to move, and where the nearest are.
+/// Builds the note for a move without a key at its source; it names the nearest keys.
 fn unmoved_one(moved: &Move, layer: Option<&str>, keys: &[Key]) -> String {
     let (from, to) = (moved.from, moved.to);
     let after = keys.partition_point(|key| key.frame < from);

@@ -7,7 +7,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use super::failure::Failure;
-use super::format_args::{Over, shortened};
+use super::format_args::{Overwrites, shortened};
 use super::paths;
 use super::staging::{self, Bundle};
 use genga_files::{ClipMark, Manifest, Run};
@@ -15,10 +15,10 @@ use genga_files::{ClipMark, Manifest, Run};
 /// A results folder as it is before a run writes to it.
 pub(super) struct Folder<'a> {
     path: &'a Path,
-    /// Manifest of the previous run. `None` if there is no manifest, or if genga did not write it in this form.
+    /// Manifest of the previous run. `None` without a manifest, or with one that somebody edited.
     before: Option<Manifest>,
-    /// What a person changed and may be overwritten.
-    over: Over<'a>,
+    /// Changed files that this run may overwrite.
+    over: Overwrites<'a>,
 }
 
 /// Products of a run besides its files.
@@ -68,7 +68,7 @@ impl Left {
 
 impl<'a> Folder<'a> {
     /// Reads the folder's manifest, after finishing what a killed run had begun there.
-    pub(super) fn look(path: &'a Path, over: Over<'a>) -> Self {
+    pub(super) fn look(path: &'a Path, over: Overwrites<'a>) -> Self {
         staging::sweep(path);
         let text = fs::read_to_string(path.join(Run::MANIFEST)).unwrap_or_default();
         let before = Manifest::read(&text).ok();

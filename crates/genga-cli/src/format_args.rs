@@ -15,7 +15,7 @@ use genga_files::{
 };
 use genga_plot::Camera;
 
-/// What both commands that write formats take.
+/// Arguments of every command that writes formats.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct FormatArgs {
     /// Write a BVH with these rows, like the formats bvh and bvh-keys.
@@ -36,22 +36,22 @@ pub(super) struct FormatArgs {
     overwrite: Vec<String>,
 }
 
-/// What a person changed and is to be overwritten all the same.
+/// Changed files that the user allows to overwrite.
 #[derive(Debug, Default, Clone, Copy)]
-pub(super) struct Over<'a> {
+pub(super) struct Overwrites<'a> {
     /// All files but pictures.
     pub(super) is_forced: bool,
     /// Pictures, or folders of pictures.
     pictures: &'a [String],
 }
 
-impl Over<'_> {
+impl Overwrites<'_> {
     /// Whether pictures are named.
     pub(super) fn has_any(&self) -> bool {
         !self.pictures.is_empty()
     }
 
-    /// Whether a picture of a results folder may be overwritten: it, or a folder that it is in, is named.
+    /// Whether the user named this picture of a results folder, or a folder above it.
     pub(super) fn has(&self, folder: &Path, picture: &str) -> bool {
         self.pictures.iter().any(|name| is_named(name, folder, picture))
     }
@@ -79,9 +79,9 @@ fn is_named(name: &str, folder: &Path, file: &str) -> bool {
 }
 
 impl FormatArgs {
-    /// What is to be overwritten.
-    pub(super) fn over(&self) -> Over<'_> {
-        Over { is_forced: self.force, pictures: &self.overwrite }
+    /// Changed files that the arguments allow to overwrite.
+    pub(super) fn over(&self) -> Overwrites<'_> {
+        Overwrites { is_forced: self.force, pictures: &self.overwrite }
     }
 }
 
@@ -126,20 +126,20 @@ pub(super) struct Written {
     pub(super) files: Vec<String>,
     /// Numbered files beside them that are left over from a longer sheet.
     pub(super) stale: Vec<String>,
-    /// What is to be said of the formats.
-    pub(super) said: Said,
+    /// Notes on the formats.
+    pub(super) said: FormatNotes,
 }
 
-/// What is to be said of formats.
+/// Notes on formats, for the user.
 #[derive(Default)]
-pub(super) struct Said {
+pub(super) struct FormatNotes {
     /// Notes on the files, and on what `all` goes without.
     pub(super) notes: Vec<Warning>,
     /// Formats that were asked for by name and cannot be made of this cut.
     unmade: Vec<(&'static Format, Error)>,
 }
 
-impl Said {
+impl FormatNotes {
     /// Returns a warning for each format that is not made.
     pub(super) fn unmade(&self) -> Vec<Warning> {
         self.unmade.iter().map(|(format, error)| format.unmade(error)).collect()
@@ -160,7 +160,7 @@ pub(super) fn all_made(unmade: &[Warning]) -> Result<(), Failure> {
 #[derive(Debug, Clone)]
 pub(super) struct Formats {
     formats: Vec<&'static Format>,
-    /// Names of formats that were asked for by name, not only by `all`.
+    /// Formats requested by name, not only through `all`.
     named: Vec<&'static str>,
     settings: Settings,
     is_forced: bool,
@@ -283,8 +283,8 @@ impl Formats {
     }
 
     /// Passes the files of every format to `put`, in turn.
-    pub(super) fn each(&self, cut: &Cut<'_>, put: &mut Sink<'_>) -> Result<Said, Failure> {
-        let mut said = Said::default();
+    pub(super) fn each(&self, cut: &Cut<'_>, put: &mut Sink<'_>) -> Result<FormatNotes, Failure> {
+        let mut said = FormatNotes::default();
         self.formats.iter().try_for_each(|format| self.make(format, cut, &mut said, put))?;
         self.some_made(said)
     }
@@ -294,7 +294,7 @@ impl Formats {
         &self,
         format: &'static Format,
         cut: &Cut<'_>,
-        said: &mut Said,
+        said: &mut FormatNotes,
         put: &mut Sink<'_>,
     ) -> Result<(), Error> {
         match format.try_write(cut, &self.settings, put)? {
@@ -311,7 +311,7 @@ impl Formats {
     }
 
     /// Fails with the first reason if no format at all is made.
-    fn some_made(&self, mut said: Said) -> Result<Said, Failure> {
+    fn some_made(&self, mut said: FormatNotes) -> Result<FormatNotes, Failure> {
         match said.unmade.len() {
             0 => Ok(said),
             count if count < self.formats.len() => Ok(said),

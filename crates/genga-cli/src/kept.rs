@@ -11,8 +11,8 @@ use genga::pipeline::Engine;
 use genga::recipe::Recipe;
 use genga_files::Run;
 
-/// Lays the corrections of a run over those of the run before in the same folder. Returns what to say of those that
-/// stay and of those that do not.
+/// Lays a run's corrections over those of the previous run in the same folder. Returns notes on kept and dropped
+/// corrections.
 pub(super) fn keep(
     plan: &mut Plan<'_>,
     folder: &Path,
@@ -47,7 +47,7 @@ fn usable(before: Edits, recipe: &Recipe, engine: &Engine) -> Result<Edits, Fail
     Ok(before)
 }
 
-/// Most corrections that are listed one by one.
+/// Maximum number of corrections in a full list.
 const MOST: usize = 12;
 
 fn shortened_list(corrections: Vec<String>) -> String {
@@ -56,7 +56,7 @@ fn shortened_list(corrections: Vec<String>) -> String {
     shown.join(", ")
 }
 
-/// Lists corrections, as they are asked for.
+/// Lists corrections in command-line form.
 fn list(edits: &Edits) -> Vec<String> {
     let mut list = marks("", &edits.pins, &edits.forbidden, &edits.moves);
     for (name, own) in &edits.layers {

@@ -1,4 +1,5 @@
-//! What each correction did (修正の結果), in a line each. Those that did nothing are notes of [`super::corrections`].
+//! Describes the effect of each correction (修正の結果), one line each. [`super::corrections`] notes corrections without
+//! effect.
 
 use genga::edits::{Edits, Forbidden, Move, Pin};
 use genga::keys::{Key, Origin};

@@ -17,7 +17,7 @@ use genga::recipe::{KNOBS, Recipe};
 use genga::target::{self, Met, Target};
 use genga_files::ClipMark;
 
-/// The motion, and all that is asked of it, whichever clip it is.
+/// Arguments for a clip, its corrections and its targets.
 #[derive(Debug, Clone, Args)]
 pub(super) struct PlanArgs {
     #[command(flatten)]
@@ -28,7 +28,7 @@ pub(super) struct PlanArgs {
     targets: TargetArgs,
 }
 
-/// What the sheet is to be, instead of the settings that make it so.
+/// Properties that the sheet must reach; a search finds the settings.
 #[derive(Debug, Clone, Args)]
 pub(super) struct TargetArgs {
     /// Number of genga on the sheet, including pins, fixed keys (ends of rests), and the first and the last drawing.
@@ -234,7 +234,7 @@ impl TargetArgs {
     }
 }
 
-/// The largest error if one was asked for and reached: no other message prints it.
+/// Largest error of a `--max-error` that was reached: no other message prints it.
 fn furthest_off(met: &Met) -> Option<f64> {
     let mut met_ones = met.outcomes.iter().filter(|outcome| outcome.shortfall.is_none());
     let of_error = met_ones.find(|outcome| matches!(outcome.target, Target::MaxError(_)));

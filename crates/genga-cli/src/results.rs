@@ -24,7 +24,7 @@ pub(super) struct Results<'a> {
     pub(super) edits: &'a Edits,
     /// Notes for the user.
     pub(super) notes: Vec<String>,
-    /// Whether the recipe in the folder is the one that was given, so that it may be overwritten.
+    /// Whether `--recipe` names the recipe in the folder, which may then be overwritten.
     pub(super) is_own_recipe: bool,
     /// Why the recipe in the folder is kept as it is. `None` if it is written.
     pub(super) kept: Option<&'static str>,

@@ -261,7 +261,7 @@ fn sealed(line: &Line) -> String {
     format!("{body}{SEAL}{}\"}}\n", Manifest::digest(body.as_bytes()))
 }
 
-/// Decodes the line of a clip; `None` if it is not as [`sealed`] wrote it.
+/// Decodes a clip's line. Returns `None` unless [`sealed`] wrote exactly this text.
 fn unsealed(text: &str) -> Option<Line> {
     let (body, digest) = text.trim_end().rsplit_once(SEAL)?;
     let is_ours = digest.strip_suffix("\"}") == Some(&*Manifest::digest(body.as_bytes()));

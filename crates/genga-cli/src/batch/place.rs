@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
 
 use super::super::failure::Failure;
-use super::super::format_args::Over;
+use super::super::format_args::Overwrites;
 use super::super::paths;
 use genga_files::Manifest;
 
@@ -21,8 +21,8 @@ type Files = BTreeMap<String, String>;
 /// The output folder of a batch, with the clips' folders.
 pub(crate) struct Places<'a> {
     pub(crate) out: &'a Path,
-    /// What a person changed and may be overwritten.
-    pub(crate) over: Over<'a>,
+    /// Changed files that this batch may overwrite.
+    pub(crate) over: Overwrites<'a>,
 }
 
 impl Places<'_> {

@@ -89,7 +89,7 @@ pub(super) fn run(args: &DeliverArgs, words: &Words) -> Result<(), Failure> {
     all_made(&unmade)
 }
 
-/// Reads the sheet, with the timing of a timesheet if one was given.
+/// Reads the sheet, with the timing of an edited timesheet where the arguments name one.
 fn read(args: &DeliverArgs, words: &Words) -> Result<SheetFile, Failure> {
     let (bytes, of_sheet) = (files::read(&args.sheet)?, files::fault_of(&args.sheet));
     if !xdts::is_timesheet(&bytes) {

@@ -124,14 +124,14 @@ fn spare(args: &RunArgs, formats: &Formats, folder: &Path, cut: &str) -> Result<
     formats.spare_edited(folder)
 }
 
-/// The recipe that was given, if it is the one in the folder.
+/// Path of the `--recipe`, if it names the recipe in the results folder.
 fn given<'a>(args: &'a RunArgs, folder: &Path) -> Option<&'a Path> {
     let given = args.plan.corrections.settings.recipe.as_deref()?;
     paths::is_same(given, &folder.join(Run::RECIPE)).then_some(given)
 }
 
-/// Why the recipe in the folder is kept as it is. `None` if it is to be written: none was given, or overwriting it
-/// loses nothing.
+/// Reason to keep the folder's recipe unchanged. `None` to write it: there was no `--recipe`, or overwriting it loses
+/// nothing.
 fn kept(given: Option<&Path>, used: (&Recipe, &Edits)) -> Option<&'static str> {
     let text = String::from_utf8(files::read(given?).ok()?).ok()?;
     match Recipe::parse(&text) {
@@ -169,7 +169,7 @@ fn summary(words: &Words, cut: &str, report: &Report) {
     }
 }
 
-/// Share of the motion that counts as drawn, per layer if they differ. `None` if all of it is captured.
+/// Share of the motion that counts as drawn, per layer if they differ. `None` for a pure capture.
 fn drawn(report: &Report) -> Option<String> {
     let percent = |drawn: f64| format!("{:.0} %", 100.0 * drawn);
     let first = report.drawn;

@@ -91,7 +91,7 @@ mod shell {
         format!("{} {}\n", size.x.round(), size.y.round())
     }
 
-    /// Parses the stored size; the usual one if it is invalid.
+    /// Parses the stored window size. An invalid text gives the default size.
     fn size_of(text: &str) -> Vec2 {
         let mut sides = text.split_whitespace().map(|side| side.parse().ok());
         let size = sides.next().flatten().zip(sides.next().flatten());

@@ -96,7 +96,7 @@ pub(super) struct StudyArgs {
 }
 
 impl StudyArgs {
-    /// The measure to be drawn, if one is given.
+    /// Measure to draw, if the arguments name one.
     fn shown(&self) -> Option<Measure> {
         self.show.or(self.paper.then_some(Measure::Union))
     }
@@ -187,7 +187,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The regions in which the keys of the clips are identical, and in which they are nearly so.
+/// Regions of settings with identical keys, and with nearly identical keys, of all clips.
 struct Plateaus {
     koma: [f64; 2],
     found: [Option<Plateau>; 2],

@@ -14,7 +14,7 @@ use super::{pictures, sound};
 use crate::clip::Part;
 use crate::failure::Failure;
 use crate::folder::Folder;
-use crate::format_args::{FormatArgs, Formats, Over};
+use crate::format_args::{FormatArgs, Formats, Overwrites};
 use crate::results::{OWN, Outcome, Results};
 use crate::{files, paths};
 use genga::error::Error;
@@ -194,7 +194,7 @@ fn written(
         tell: &tell,
     };
     let Outcome { mut files, unmade, left, .. } =
-        results.write(&formats, Folder::look(folder, Over::default()))?;
+        results.write(&formats, Folder::look(folder, Overwrites::default()))?;
     let unmade = unmade.into_iter().map(|warning| warning.message);
     files.extend(unmade.chain(left.notes()).map(|note| format!("({note})")));
     Ok(files)
@@ -204,11 +204,11 @@ fn said(failure: Failure) -> String {
     failure.to_string()
 }
 
-/// Length of the list of recent clips: as many as can be taken in at a glance.
+/// Length of the list of recent clips, short enough to read at a glance.
 const MOST: usize = 8;
 
-/// The clips opened last: the file that lists them, one path a line, newest first. `None` if the system has no place
-/// for it.
+/// Path of the list of recent clips: one path a line, newest first. `None` if the system has no folder for such
+/// files.
 #[derive(Debug, Default)]
 struct Recent(Option<PathBuf>);
 

@@ -1,4 +1,4 @@
-//! What the studio begins with: a clip, or a folder of takes.
+//! Opens the studio's first clip or folder of takes.
 
 use std::path::Path;
 
