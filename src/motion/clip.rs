@@ -112,7 +112,9 @@ impl Clip {
             tips.chain([joint.offset]).any(|offset| offset.to_array().iter().any(is_wild))
         };
         match self.skeleton.joints.iter().find(wild) {
-            Some(joint) => Err(Error::clip(format!("the offset of {} or of its end is no length", joint.name))),
+            Some(joint) => {
+                Err(Error::clip(format!("the offset of {} or of its end is no length", joint.name)))
+            }
             None => Ok(()),
         }
     }
