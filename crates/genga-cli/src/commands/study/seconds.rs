@@ -26,8 +26,11 @@ pub(super) fn lines(study: &Study, rates: &[FrameRate]) -> Vec<String> {
 
 /// `None` for an axis without frames.
 fn line(axis: &Axis, rate: FrameRate) -> Option<String> {
-    let frames: Vec<f64> = (axis.knob().kind == Kind::Span)
-        .then(|| axis.values().iter().map(|value| value.parse().ok()).collect())??;
+    if axis.knob().kind != Kind::Span {
+        return None;
+    }
+    let numbers = axis.values().iter().map(|value| value.parse().ok());
+    let frames: Vec<f64> = numbers.collect::<Option<_>>()?;
     let seconds = |frames: &f64| rounded(Span::Frames(*frames).frames(rate) / rate.fps());
     let (frames, seconds) =
         (frames.iter().map(f64::to_string).collect(), frames.iter().map(seconds).collect());
