@@ -271,6 +271,21 @@ fn omit_does_what_the_second_paper_counts() {
 }
 
 #[test]
+fn omit_prints_a_row_of_the_second_papers_table_1() {
+    let place = Place::new();
+    let omit = "omit data/kick.bvh --naka-nashi 4 --koma-dori 30";
+    let table = place.done(&format!("{omit} --table"));
+    for (name, value) in [("clip", "kick"), ("frames", "92"), ("n_io", "4"), ("n_hf", "30")] {
+        assert_eq!(column(&table, name), [value], "{table}");
+    }
+    assert!(column(&table, "time_ms")[0].parse::<f64>().unwrap() > 0.0, "{table}");
+    place.done(&format!("{omit} --table=t.csv --out o.bvh"));
+    assert_eq!(column(&read(&place.path("t.csv")), "n_hf"), ["30"]);
+    assert!(place.path("o.bvh").exists());
+    place.refused(2, &format!("{omit} --table --out -"));
+}
+
+#[test]
 fn the_flags_of_omit_do_something_each() {
     let place = Place::new();
     let sheet = |flags: &str| {
@@ -505,6 +520,50 @@ fn what_cannot_be_done_is_code_1_and_what_is_asked_wrongly_is_code_2() {
     assert!(!place.path("o").exists() && !place.path("o.bvh").exists(), "nothing was written");
     for args in ["--help", "--version", "run --help", "help omit"] {
         assert!(place.done(args).len() > 5, "{args}");
+    }
+}
+
+#[test]
+fn the_help_of_a_run_is_short_and_grouped_and_the_long_one_has_everything() {
+    let place = Place::new();
+    let (short, long) = (place.done("run --help"), place.done("help run"));
+    assert_eq!(short, place.done("run -h"));
+    let lines: Vec<&str> = short.lines().collect();
+    assert!(lines.len() <= 80, "{} lines:\n{short}", lines.len());
+    assert!(lines.iter().all(|line| line.chars().count() <= 100), "{short}");
+    let headings: Vec<&str> = lines
+        .iter()
+        .filter(|line| line.ends_with(':') && !line.starts_with(' '))
+        .copied()
+        .collect();
+    let groups =
+        ["Arguments:", "Options:", "Files:", "Sheet:", "Corrections:", "Reading the motion:"];
+    assert_eq!(headings[..6], groups, "{short}");
+    let first = lines[lines.iter().position(|line| *line == "Options:").unwrap() + 1];
+    assert!(first.contains("--out <DIR>"), "{first}");
+    for format in genga_files::FORMATS {
+        let is_named = |line: &&str| line.split_whitespace().any(|word| word == format.name);
+        assert!(lines.iter().any(is_named), "{}", format.name);
+    }
+    let options = |text: &str| -> std::collections::BTreeSet<String> {
+        let names = text.split_whitespace().filter(|word| word.starts_with("--") && word.len() > 2);
+        let letter = |letter: char| letter.is_ascii_lowercase() || letter == '-';
+        names.map(|word| word.chars().take_while(|at| letter(*at)).collect()).collect()
+    };
+    let missing: Vec<_> = options(&long).difference(&options(&short)).cloned().collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    assert!(long.contains("xsheet.gauges") && long.contains("circled ones"), "{long}");
+}
+
+#[test]
+fn help_in_the_place_of_formats_lists_them() {
+    let place = Place::new();
+    for args in ["run --deliver help", "batch --deliver json,help", "deliver --to help"] {
+        let list = place.done(args);
+        assert!(list.starts_with("Formats:\n  json ") && list.contains("xsheet.gauges"), "{list}");
+        for format in genga_files::FORMATS {
+            assert!(list.contains(format.help), "{args}: {}", format.name);
+        }
     }
 }
 

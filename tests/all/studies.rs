@@ -154,6 +154,9 @@ fn what_the_axes_can_change_is_drawn_unless_it_is_said() {
     let place = Place::new();
     for (axes, title) in [
         ("--x filter.width=0.1s,0.2s", "Turns of the body"),
+        ("--filter-width 10,20 --persistence 5,10", "Frames with a key of any"),
+        ("--x turns.persistence=5,10 --y filter.width=10,20", "Frames with a key of any"),
+        ("--x filter.width=10,20 --y turns.persistence=5,10 --stability", "Genga  原画"),
         ("--x keys.per_second=2,4", "Genga  原画"),
         ("--x filter.width=0.1s,0.2s --y spacing.on=2,3", "Drawings on the sheet"),
         ("--x keys.per_second=2,4 --show turns", "Turns of the body"),
@@ -163,6 +166,26 @@ fn what_the_axes_can_change_is_drawn_unless_it_is_said() {
         let svg = fs::read_to_string(place.path("p.svg")).unwrap();
         assert!(svg.contains(&format!(">{title}")), "{axes}: {svg}");
     }
+}
+
+#[test]
+fn frames_on_an_axis_are_said_in_seconds() {
+    let place = Place::new();
+    let said = |args: &str| text(&place.genga(&format!("study {args} --measure union")).stderr);
+    let table_1 = said("data/kuroda-pitch.bvh");
+    assert!(
+        table_1.contains("filter.width: 10, 20, 30 frames are 0.1s, 0.2s, 0.3s at 100 a second")
+    );
+    assert!(table_1.contains("(the paper: 10 frames at 100 a second are 0.1s)"), "{table_1}");
+    let two = said("data/kick.bvh data/kuroda-pitch.bvh --x filter.width=1..9:1");
+    for says in
+        ["1 to 9 frames are 0.042s to 0.375s at 24", "1 to 9 frames are 0.01s to 0.09s at 100"]
+    {
+        assert!(two.contains(says), "{two}");
+    }
+    assert!(!two.contains("the paper"), "{two}");
+    let others = said("data/kick.bvh --x filter.width=0.1s,0.2s --y spacing.on=2,3");
+    assert!(!others.contains("frames are"), "{others}");
 }
 
 #[test]
@@ -202,6 +225,7 @@ fn stability_compares_cells_and_names_the_plateau() {
     // A koma is a frame in this clip, and a key that moved further counts as another.
     assert!(numbers(&table, "largest_move").iter().all(|frames| *frames <= 1.0));
     let lines: Vec<&str> = said.lines().collect();
+    let lines = &lines[2..];
     assert_eq!((lines.len(), lines[3]), (4, "files       h.svg"), "{said}");
     assert!(lines[1].starts_with("kick: the very same keys at filter.width "), "{said}");
     assert!(lines[2].starts_with("kick: the same keys within 1 koma at filter.width "), "{said}");

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::files;
+use super::headings::SHEET;
 use genga::error::{Error, Warning};
 use genga::motion::{Clip, SeenFrom};
 use genga_read::GltfCamera;
@@ -16,10 +17,12 @@ const ENDINGS: [&str; 2] = [".glb", ".gltf"];
 /// The camera that measures movement, in place of the recipe's.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct SeenArgs {
-    /// Measure movement on the screen (画面) of a camera instead of in the world. The camera is front, side,
-    /// three-quarter or auto (which sees most); a place, X,Y,Z:X,Y,Z (position and target, in the file's unit); or the
-    /// first camera of a .glb or .gltf file, or the one with the given name: --seen-from cut.glb:Camera.001
-    #[arg(long, value_name = "WORD|PLACE|FILE[:NAME]", allow_hyphen_values = true)]
+    /// Measure on the screen (画面) of a camera: auto, cut.glb …
+    ///
+    /// Otherwise movement is measured in the world. The camera is front, side, three-quarter or auto (which sees most);
+    /// a place, X,Y,Z:X,Y,Z (position and target, in the file's unit); or the first camera of a .glb or .gltf file, or
+    /// the one with the given name: --seen-from cut.glb:Camera.001
+    #[arg(long, value_name = "CAMERA", allow_hyphen_values = true, help_heading = SHEET)]
     seen_from: Option<String>,
 }
 

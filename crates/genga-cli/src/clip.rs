@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::console::Words;
 use super::failure::Failure;
+use super::headings::READING;
 use super::{files, paths};
 use genga::error::{Error, Warning};
 use genga::motion::clean::{Cleaning, glitches};
@@ -21,7 +22,7 @@ use genga_read::{Found, Take};
 /// Arguments for a clip and the part of it to read.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ClipArgs {
-    /// Motion file: BVH, FBX, glTF (GLB, VRM, VRMA), VMD or ASF/AMC, detected by content; - is stdin.
+    /// Motion file: BVH, FBX, glTF (GLB, VRM, VRMA), VMD or ASF/AMC; - is stdin.
     #[arg(id = "clip", value_name = "CLIP")]
     pub(super) path: PathBuf,
     #[command(flatten)]
@@ -32,10 +33,10 @@ pub(super) struct ClipArgs {
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct Part {
     /// Keep a T-pose that was inserted before or after the motion.
-    #[arg(long)]
+    #[arg(long, help_heading = READING)]
     keep_lead_in: bool,
-    /// Use only source frames A up to but not including B, numbered from 0 as in the file.
-    #[arg(long, value_name = "A..B", value_parser = frames)]
+    /// Only frames A up to but not including B, from 0.
+    #[arg(long, value_name = "A..B", value_parser = frames, help_heading = READING)]
     trim: Option<Frames>,
     #[command(flatten)]
     reading: Reading,
@@ -44,37 +45,49 @@ pub(super) struct Part {
 /// How a clip is read.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct Reading {
-    /// Override the file's frames per second. Rows are played at this rate; curves (FBX, glTF) are sampled at it.
-    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
+    /// Frames per second, over the file's.
+    ///
+    /// Rows are played at this rate; curves (FBX, glTF) are sampled at it.
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true, help_heading = READING)]
     fps: Option<FrameRate>,
-    /// Use only the tree of joints whose root has this name, if there are several.
-    #[arg(long, value_name = "NAME")]
+    /// The tree of joints to use, by the name of its root.
+    #[arg(long, value_name = "NAME", help_heading = READING)]
     root: Option<String>,
-    /// Use the take with this name, if the file has several; inspect lists them.
-    #[arg(long, value_name = "NAME")]
+    /// The take to use, of several; inspect lists them.
+    #[arg(long, value_name = "NAME", help_heading = READING)]
     take: Option<String>,
-    /// Override the up axis: y or z, whatever the file says and however the body stands.
-    #[arg(long, value_name = "AXIS", value_parser = up)]
+    /// The axis that points up: y or z.
+    ///
+    /// Whatever the file says and however the body stands.
+    #[arg(long, value_name = "AXIS", value_parser = up, help_heading = READING)]
     up: Option<Axis>,
-    /// Table of bones, over the built-in one: which joints are head and limbs, and which joints drive which bones of
-    /// vmd and vrma.
-    #[arg(long, value_name = "BONES.toml")]
+    /// Table of bones: head, limbs, bones of vmd and vrma.
+    ///
+    /// Over the built-in one: which joints are head and limbs, and which joints drive which bones of vmd and vrma.
+    #[arg(long, value_name = "BONES.toml", help_heading = READING)]
     pub(super) bones: Option<PathBuf>,
-    /// Skeleton for a motion without one: the model (.pmx, .pmd) for a VMD, or the .asf for an AMC if not beside it.
-    #[arg(long, value_name = "FILE")]
+    /// Skeleton of a VMD (.pmx, .pmd) or an AMC (.asf).
+    ///
+    /// For a motion without one; an .asf beside its .amc is found.
+    #[arg(long, value_name = "FILE", help_heading = READING)]
     skeleton: Option<PathBuf>,
-    /// Keep glitches: single frames that fly off, and ends at which the tracker comes from the origin.
-    #[arg(long)]
+    /// Keep frames that fly off, and broken ends.
+    ///
+    /// Glitches are single frames that fly off, and ends at which the tracker comes from the origin.
+    #[arg(long, help_heading = READING)]
     keep_glitches: bool,
-    /// Replace nan and inf by the value before them, and drop surplus values of a row. A note reports each repair.
-    #[arg(long, conflicts_with = "strict")]
+    /// Repair nan, inf and rows that are too long.
+    ///
+    /// nan and inf get the value before them, and surplus values of a row are dropped. A note reports each repair.
+    #[arg(long, conflicts_with = "strict", help_heading = READING)]
     repair: bool,
     /// Reject a file that has warnings (see inspect --warnings).
-    #[arg(long)]
+    #[arg(long, help_heading = READING)]
     strict: bool,
-    /// Memory limit of the work, and size limit of input from a pipe, in GiB [default: 1 for a pipe; for the work 1
-    /// plus 16 times the values of the clip].
-    #[arg(long, value_name = "GIB", value_parser = gib)]
+    /// Memory limit in GiB.
+    ///
+    /// Of the work [default: 1 plus 16 times the values of the clip], and of input from a pipe [default: 1].
+    #[arg(long, value_name = "GIB", value_parser = gib, help_heading = READING)]
     memory: Option<f64>,
 }
 

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::camera_args::SeenArgs;
 use super::failure::Failure;
+use super::headings::{CORRECTIONS, SHEET};
 use super::{files, paths};
 use genga::edits::{Edits, Forbidden, Hold, Move, Pin, Speech, layer_of};
 use genga::error::Error;
@@ -21,7 +22,7 @@ pub(super) struct Settings {
     /// Recipe file; see `genga recipe`.
     #[arg(long, value_name = "R.toml")]
     pub(super) recipe: Option<PathBuf>,
-    /// Set one setting, over the recipe: --set spacing.on=3 (repeatable).
+    /// One setting, over the recipe: --set spacing.on=3 (repeatable).
     #[arg(long, value_name = "KEY=VALUE", value_parser = assignment)]
     pub(super) set: Vec<(String, String)>,
 }
@@ -35,56 +36,77 @@ pub(super) struct Corrections {
     layers: LayerArgs,
     #[command(flatten)]
     pub(super) seen: SeenArgs,
-    /// Pin frames as keys, with an optional name and spacing weight: --pin 12,150:wrist-top,180@0.5,200:hit@0. B/150
-    /// pins only in layer B; --forbid and --move accept a layer too.
-    #[arg(long, value_name = "[LAYER/]FRAME[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    /// Pin frames as keys: --pin 12,150:wrist-top,180@0.5
+    ///
+    /// Each is [LAYER/]FRAME[:NAME][@WEIGHT], with a name and a spacing weight: 200:hit@0. B/150 pins only in layer B;
+    /// --forbid and --move accept a layer too.
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', help_heading = CORRECTIONS)]
     pin: Vec<String>,
-    /// Forbid keys within two koma of these frames. A range excludes its last frame: --forbid 12,120..140
-    #[arg(long, value_name = "FRAME|A..B,…", value_delimiter = ',')]
+    /// No keys near these frames: --forbid 12,120..140
+    ///
+    /// Near is within two koma. A range excludes its last frame.
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', help_heading = CORRECTIONS)]
     forbid: Vec<String>,
-    /// Move keys: the key found near FROM is drawn at TO: --move 41:42,80:84:hit@0.2
-    #[arg(long = "move", value_name = "FROM:TO[:NAME][@WEIGHT],…", value_delimiter = ',')]
+    /// Draw the key near FROM at TO: --move 41:42,80:84
+    ///
+    /// A name and a spacing weight may follow, as in --pin: 80:84:hit@0.2
+    #[arg(long = "move", value_name = "FROM:TO,…", value_delimiter = ',', help_heading = CORRECTIONS)]
     moves: Vec<String>,
-    /// Set how many koma drawings stay, each given by the source frame it shows: --hold 42:4,60:1
-    #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',')]
+    /// How many koma drawings stay: --hold 42:4,60:1
+    ///
+    /// Each drawing is given by the source frame that it shows.
+    #[arg(long = "hold", value_name = "FRAME:KOMA,…", value_delimiter = ',', help_heading = CORRECTIONS)]
     holds: Vec<String>,
-    /// Source frames at which actions begin, instead of the detected ones (see genga split): --split 310,774
-    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame)]
+    /// Frames at which actions begin: --split 310,774
+    ///
+    /// They replace the detected ones, which genga split lists.
+    #[arg(long, value_name = "FRAME,…", value_delimiter = ',', value_parser = frame, help_heading = CORRECTIONS)]
     split: Vec<Frame>,
-    /// Add a spoken line to the S column, over source frames A up to but not including B:
-    /// --say "120..210:アキ:えい！" (repeatable).
-    #[arg(long, value_name = "A..B:[SPEAKER:]WORDS")]
+    /// Add a spoken line: --say "120..210:アキ:えい！" (repeatable).
+    ///
+    /// A..B:[SPEAKER:]WORDS, in the S column, over source frames A up to but not including B.
+    #[arg(long, value_name = "A..B:WORDS", help_heading = CORRECTIONS)]
     say: Vec<String>,
-    /// Choose all keys anew around pins and forbidden frames, instead of only the neighbouring keys. =false overrides
-    /// the recipe.
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    /// Choose all keys anew around the corrections.
+    ///
+    /// Otherwise only the neighbours of pins and forbidden frames change. =false overrides the recipe.
+    #[arg(long, help_heading = CORRECTIONS, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     again: Option<bool>,
-    /// Keep the genga of an earlier run, whatever the settings: its folder, its sheet.json, or one you edited. Pins,
-    /// moves and forbidden frames then change only their own neighbourhood.
-    #[arg(long, value_name = "FOLDER|SHEET.json", conflicts_with = "again")]
+    /// Keep the genga of an earlier run: its folder or sheet.json.
+    ///
+    /// Also of a sheet that you edited, and whatever the settings. Pins, moves and forbidden frames then change only
+    /// their own neighbourhood.
+    #[arg(long, value_name = "SHEET.json", conflicts_with = "again", help_heading = CORRECTIONS)]
     pub(super) freeze: Option<PathBuf>,
-    /// Pin the keys marked in a file of this clip: the genga of an edited keys.csv, drawings.csv, sheet.csv or
-    /// sheet.json, or the numbers on an XDTS timesheet (only the circled ones, if there are any).
-    #[arg(long, value_name = "FILE")]
+    /// Pin the keys marked in a table, a sheet or a timesheet.
+    ///
+    /// The genga of an edited keys.csv, drawings.csv, sheet.csv or sheet.json of this clip, or the numbers on an XDTS
+    /// timesheet (only the circled ones, if there are any).
+    #[arg(long, value_name = "FILE", help_heading = CORRECTIONS)]
     pub(super) pin_from: Option<PathBuf>,
-    /// Use only pinned and moved keys, and the clip's ends. =false overrides the recipe.
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    /// Only pinned and moved keys, and the clip's ends.
+    ///
+    /// =false overrides the recipe.
+    #[arg(long, help_heading = CORRECTIONS, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     pub(super) only_pins: Option<bool>,
     /// Column of the --pin-from file [default: the only one, or A].
-    #[arg(long, value_name = "NAME", requires = "pin_from")]
+    #[arg(long, value_name = "NAME", requires = "pin_from", help_heading = CORRECTIONS)]
     pub(super) pin_column: Option<String>,
 }
 
 /// The cels of the sheet, over the recipe.
 #[derive(Debug, Clone, Args)]
 pub(super) struct LayerArgs {
-    /// Layers (セル) with their own keys and timing: body (one), limbs (trunk with head A, arms B and C, legs D and E),
-    /// joints (one per moving joint), or a TOML file of [[layers]] with name and joints.
-    #[arg(long, value_name = "body|limbs|joints|FILE")]
+    /// Layers (セル) with their own keys: body, limbs, joints, FILE.
+    ///
+    /// body (one), limbs (trunk with head A, arms B and C, legs D and E), joints (one per moving joint), or a TOML file
+    /// of [[layers]] with name and joints.
+    #[arg(long, value_name = "LAYERS", help_heading = SHEET)]
     layers: Option<String>,
-    /// How the body travels through space: drawings (with its drawings), or ones (on every koma as in the source, so
-    /// held drawings slide; 移動を1コマで).
-    #[arg(long, value_name = "drawings|ones")]
+    /// The body travels with its drawings (drawings), or on ones.
+    ///
+    /// On ones it moves on every koma as in the source, so held drawings slide (移動を1コマで).
+    #[arg(long, value_name = "HOW", help_heading = SHEET)]
     root_on: Option<String>,
 }
 

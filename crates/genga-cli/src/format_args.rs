@@ -1,12 +1,16 @@
 //! The output formats of a command, and their files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
+use std::ffi::OsStr;
 use std::path::Path;
 
-use clap::{Args, ValueEnum};
+use clap::builder::{StringValueParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Args, Command, ValueEnum};
 
 use super::corrections::assignment;
 use super::failure::Failure;
+use super::headings::FILES;
 use super::staging::Bundle;
 use super::{files, paths};
 use genga::error::{Error, Warning};
@@ -18,21 +22,26 @@ use genga_plot::Camera;
 /// Arguments of every command that writes formats.
 #[derive(Debug, Default, Clone, Args)]
 pub(super) struct FormatArgs {
-    /// Write a BVH with these rows, like the formats bvh and bvh-keys.
-    #[arg(long, value_name = "ROWS")]
+    /// Write a BVH, like the formats bvh and bvh-keys.
+    #[arg(long, value_name = "ROWS", help_heading = FILES)]
     bvh: Option<BvhRows>,
-    /// Camera of the figures: front, side, three-quarter, or auto, which sees most of the movement.
-    #[arg(long, value_name = "CAMERA")]
+    /// Camera of the figures: front, side, three-quarter, auto.
+    ///
+    /// auto sees most of the movement.
+    #[arg(long, value_name = "CAMERA", help_heading = FILES)]
     camera: Option<Camera>,
-    /// Set one setting of a format: --with csv.bom=true (repeatable).
-    #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment)]
+    /// One setting of a format: --with csv.bom=true (repeatable).
+    #[arg(long, value_name = "FORMAT.KEY=VALUE", value_parser = assignment, help_heading = FILES)]
     with: Vec<(String, String)>,
-    /// Overwrite files that were changed since genga wrote them, and write into the folder of another clip. Painted
-    /// pictures stay.
-    #[arg(long)]
+    /// Overwrite changed files, and those of another clip; painted pictures stay.
+    ///
+    /// Files that were changed since genga wrote them, and the folder of another clip.
+    #[arg(long, help_heading = FILES)]
     force: bool,
-    /// Overwrite these painted pictures too, or those of a folder: --overwrite images/A_0003.png (repeatable).
-    #[arg(long, value_name = "PICTURE|FOLDER,…", value_delimiter = ',')]
+    /// Overwrite these painted pictures too (repeatable).
+    ///
+    /// A picture or a folder of pictures: --overwrite images/A_0003.png.
+    #[arg(long, value_name = "PICTURE|FOLDER,…", value_delimiter = ',', help_heading = FILES)]
     overwrite: Vec<String>,
 }
 
@@ -93,8 +102,42 @@ enum BvhRows {
     Keys,
 }
 
-/// Returns the list of formats, one a line.
+/// Parses the name of a format; `help` prints the list of formats instead of doing anything.
+#[derive(Debug, Clone)]
+pub(super) struct FormatName;
+
+impl TypedValueParser for FormatName {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        match value.to_str().map(str::trim) {
+            Some("help") => Err(clap::Error::raw(ErrorKind::DisplayHelp, long_help() + "\n")),
+            _ => StringValueParser::new().parse_ref(command, arg, value),
+        }
+    }
+}
+
+/// Returns the names of the formats, by where they go.
 pub(super) fn help() -> String {
+    let mut places: Vec<&str> = FORMATS.iter().map(|format| format.goes_to).collect();
+    let mut seen = HashSet::new();
+    places.retain(|place| seen.insert(*place));
+    let line = |place: &str| {
+        let there = FORMATS.iter().filter(|format| format.goes_to == place);
+        let names: Vec<&str> = there.map(|format| format.name).collect();
+        format!("\n  {place:<22}{}", names.join(" "))
+    };
+    let lines: String = places.into_iter().map(line).collect();
+    format!("Formats, by where they go; the word help in their place describes each:{lines}")
+}
+
+/// Returns the list of formats, one a line.
+fn list() -> String {
     let lines = FORMATS.iter().map(|format| {
         let (name, help, japanese) = (format.name, format.help, format.japanese);
         format!("\n  {name:<12}{help} ({japanese}): {}", format.files.join(" "))
@@ -107,7 +150,7 @@ pub(super) fn long_help() -> String {
     let settings = Settings::default().knobs().into_iter().map(|knob| {
         format!("\n  {:<22}{} ({}): {}", knob.name, knob.help, knob.japanese, knob.takes())
     });
-    format!("{}\n\nSettings of formats (--with):{}", help(), settings.collect::<String>())
+    format!("{}\n\nSettings of formats (--with):{}", list(), settings.collect::<String>())
 }
 
 /// Most file names listed in full; of more, only the first and the last are named.

@@ -33,6 +33,7 @@ mod files;
 mod folder;
 mod format_args;
 mod freeze_args;
+mod headings;
 mod kept;
 mod outcomes;
 mod paths;

@@ -21,26 +21,29 @@ use genga_files::ClipMark;
 #[derive(Debug, Clone, Args)]
 pub(super) struct PlanArgs {
     #[command(flatten)]
-    pub(super) clip: ClipArgs,
+    targets: TargetArgs,
     #[command(flatten)]
     pub(super) corrections: Corrections,
     #[command(flatten)]
-    targets: TargetArgs,
+    pub(super) clip: ClipArgs,
 }
 
 /// Properties that the sheet must reach; a search finds the settings.
 #[derive(Debug, Clone, Args)]
 pub(super) struct TargetArgs {
-    /// Number of genga on the sheet, including pins, fixed keys (ends of rests), and the first and the last drawing.
-    /// Overrides keys.min_price and keys.per_second.
+    /// Number of genga, the first and the last drawing included.
+    ///
+    /// Pins and fixed keys (ends of rests) count too. Overrides keys.min_price and keys.per_second.
     #[arg(long, value_name = "N", value_parser = genga, allow_negative_numbers = true)]
     keys: Option<usize>,
-    /// Largest error of the body, slerped from key to key, as a share of its height: 5%. Few keys are chosen that stay
-    /// within it. Overrides keys.min_price and keys.per_second.
+    /// As few keys as stay within this error: 5% of body height.
+    ///
+    /// The body is slerped from key to key, and the worst koma counts. Overrides keys.min_price and keys.per_second.
     #[arg(long, value_name = "P%", value_parser = percent, allow_negative_numbers = true, conflicts_with = "keys")]
     max_error: Option<f64>,
-    /// Number of drawings per second. It is reached with koma-dori, then spacing.on, naka-nashi and, unless it is
-    /// given, the number of keys.
+    /// Number of drawings per second.
+    ///
+    /// It is reached with koma-dori, then spacing.on, naka-nashi and, unless it is given, the number of keys.
     #[arg(long, value_name = "X", value_parser = drawings, allow_negative_numbers = true)]
     drawings_per_second: Option<f64>,
 }

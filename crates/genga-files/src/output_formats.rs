@@ -21,6 +21,8 @@ pub struct Format {
     pub help: &'static str,
     /// The Japanese term of the trade.
     pub japanese: &'static str,
+    /// Where its files go: the kind of program, or of use.
+    pub goes_to: &'static str,
     /// Patterns of the files it writes. `CUT` stands for the name of the cut, `0001` for the number of a
     /// drawing or a page.
     pub files: &'static [&'static str],
@@ -46,6 +48,7 @@ const PLAIN: Format = Format {
     name: "",
     help: "",
     japanese: "",
+    goes_to: "",
     files: &[],
     is_numbered: false,
     make: |_, _, _| Ok(()),
@@ -58,6 +61,7 @@ pub const FORMATS: &[Format] = &[
         name: "json",
         help: "the timesheet, to edit by hand and deliver again",
         japanese: "タイムシート",
+        goes_to: "scripts, tables",
         files: &["sheet.json"],
         make: |cut, _, put| put("sheet.json", sheet_json::write(cut)?.as_bytes()),
         ..PLAIN
@@ -66,6 +70,7 @@ pub const FORMATS: &[Format] = &[
         name: "csv",
         help: "tables of keys, drawings and koma",
         japanese: "表",
+        goes_to: "scripts, tables",
         files: &["keys.csv", "drawings.csv", "sheet.csv"],
         make: |cut, settings, put| {
             let table = |rows| Drawings { cut: cut.name.into(), rows }.write(cut.clip, cut.sheet);
@@ -80,6 +85,7 @@ pub const FORMATS: &[Format] = &[
         name: "remap",
         help: "only the timing, for a rig or rendered pictures of the same take",
         japanese: "タイムリマップ",
+        goes_to: "scripts, tables",
         files: &["remap.csv", "remap.ffconcat"],
         make: |cut, settings, put| {
             put("remap.csv", &settings.csv.encode(remap_csv(cut.sheet)?))?;
@@ -91,6 +97,7 @@ pub const FORMATS: &[Format] = &[
         name: "bvh",
         help: "stepped motion: one row per koma, holds repeated",
         japanese: "リミテッドモーション",
+        goes_to: "3-D programs",
         files: &["limited.bvh"],
         make: |cut, _, put| put("limited.bvh", limited_bvh(cut.clip, cut.sheet)?.as_bytes()),
         ..PLAIN
@@ -99,6 +106,7 @@ pub const FORMATS: &[Format] = &[
         name: "bvh-keys",
         help: "key poses: one row per genga",
         japanese: "ポーズ集",
+        goes_to: "3-D programs",
         files: &["keys.bvh"],
         make: |cut, _, put| put("keys.bvh", keys_bvh(cut.clip, cut.sheet)?.as_bytes()),
         ..PLAIN
@@ -107,6 +115,7 @@ pub const FORMATS: &[Format] = &[
         name: "xdts",
         help: "timesheets for drawing programs: keys in ACTION, all drawings in CELL",
         japanese: "デジタルタイムシート",
+        goes_to: "drawing programs",
         files: &["CUT_genga_ts.xdts", "CUT_douga_ts.xdts"],
         make: |cut, settings, put| {
             let made = settings.xdts.write(cut.sheet, cut.name)?;
@@ -119,6 +128,7 @@ pub const FORMATS: &[Format] = &[
         name: "tdts",
         help: "one timesheet for drawing programs, with ACTION and CELL",
         japanese: "デジタルタイムシート",
+        goes_to: "drawing programs",
         files: &["CUT.tdts"],
         make: |cut, settings, put| {
             put(&cut.file("CUT.tdts"), settings.tdts.write(cut.sheet, cut.name)?.as_bytes())
@@ -129,6 +139,7 @@ pub const FORMATS: &[Format] = &[
         name: "sts",
         help: "all drawings, for programs that read ShiraheiTimeSheet",
         japanese: "タイムシート（STS）",
+        goes_to: "drawing programs",
         files: &["CUT.sts"],
         make: |cut, _, put| put(&cut.file("CUT.sts"), &sts(cut.sheet)?),
         ..PLAIN
@@ -137,6 +148,7 @@ pub const FORMATS: &[Format] = &[
         name: "columns",
         help: "timesheet table: one row per koma, one column per layer",
         japanese: "タイムシートの表",
+        goes_to: "scripts, tables",
         files: &["CUT_timesheet.csv"],
         make: |cut, settings, put| {
             let table = columns_csv(cut.sheet)?;
@@ -148,6 +160,7 @@ pub const FORMATS: &[Format] = &[
         name: "ae",
         help: "time remapping to paste into After Effects, one file per column",
         japanese: "タイムリマップ（After Effects）",
+        goes_to: "After Effects, paper",
         files: &["ae/A.txt"],
         make: |cut, _, put| after_effects::write(cut.sheet, put),
         ..PLAIN
@@ -156,6 +169,7 @@ pub const FORMATS: &[Format] = &[
         name: "xsheet",
         help: "timesheet to print on A4 or B4: HTML, and one SVG per page",
         japanese: "タイムシート用紙",
+        goes_to: "After Effects, paper",
         files: &["CUT_xsheet.html", "xsheet/0001.svg"],
         is_numbered: true,
         make: |cut, settings, put| {
@@ -171,6 +185,7 @@ pub const FORMATS: &[Format] = &[
         name: "vmd",
         help: "motion for MikuMikuDance, with a table of joints and their bones",
         japanese: "MMDモーション",
+        goes_to: "MMD, VRM",
         files: &["CUT.vmd", "CUT-bones.csv"],
         make: |cut, settings, put| {
             let made = settings.vmd.make(cut.clip, cut.sheet)?;
@@ -184,6 +199,7 @@ pub const FORMATS: &[Format] = &[
         name: "glb",
         help: "stepped motion with visible bones and the role of every drawing",
         japanese: "リミテッドモーション",
+        goes_to: "3-D programs",
         files: &["limited.glb"],
         make: |cut, settings, put| put("limited.glb", &settings.glb.write(cut.clip, cut.sheet)?),
         ..PLAIN
@@ -192,6 +208,7 @@ pub const FORMATS: &[Format] = &[
         name: "vrma",
         help: "stepped motion for VRM avatars",
         japanese: "VRMアニメーション",
+        goes_to: "MMD, VRM",
         files: &["CUT.vrma"],
         make: |cut, settings, put| {
             let made = vrma::write(cut.clip, cut.sheet, settings.vmd.map.as_ref())?;
@@ -204,6 +221,7 @@ pub const FORMATS: &[Format] = &[
         name: "bars",
         help: "picture: one bar per drawing over koma, with left-out drawings",
         japanese: "シートの図",
+        goes_to: "pictures",
         files: &["sheet.svg"],
         make: |cut, _, put| put("sheet.svg", pictures::bars(cut)?.as_bytes()),
         ..PLAIN
@@ -212,6 +230,7 @@ pub const FORMATS: &[Format] = &[
         name: "poses",
         help: "picture: poses of the genga and ends in a row",
         japanese: "ポーズの図",
+        goes_to: "pictures",
         files: &["poses.svg"],
         make: |cut, settings, put| {
             put("poses.svg", pictures::poses(cut, settings.figures.body)?.as_bytes())
@@ -222,6 +241,7 @@ pub const FORMATS: &[Format] = &[
         name: "strip",
         help: "picture: source above, result below, koma by koma",
         japanese: "素材と結果",
+        goes_to: "pictures",
         files: &["strip.svg"],
         is_numbered: true,
         make: figures::strip,
@@ -231,6 +251,7 @@ pub const FORMATS: &[Format] = &[
         name: "contact",
         help: "picture: contact sheet of the genga",
         japanese: "原画一覧",
+        goes_to: "pictures",
         files: &["contact.svg"],
         is_numbered: true,
         make: figures::contact,
@@ -240,6 +261,7 @@ pub const FORMATS: &[Format] = &[
         name: "onion",
         help: "picture: the drawings from each genga to the next, overlaid",
         japanese: "オニオンスキン",
+        goes_to: "pictures",
         files: &["onion.svg"],
         is_numbered: true,
         make: figures::onion,
@@ -249,6 +271,7 @@ pub const FORMATS: &[Format] = &[
         name: "flipbook",
         help: "web page that plays and steps through the drawings",
         japanese: "パラパラ",
+        goes_to: "films",
         files: &["flipbook.html"],
         make: figures::flipbook,
         notes: |cut, settings| Ok(shortened("flipbook", settings.flipbook.most, cut.sheet)),
@@ -259,6 +282,7 @@ pub const FORMATS: &[Format] = &[
         name: "preview",
         help: "animated picture: source beside result",
         japanese: "プレビュー",
+        goes_to: "films",
         files: &["preview.gif"],
         make: figures::preview,
         notes: |cut, settings| Ok(shortened("preview", settings.preview.most, cut.sheet)),
@@ -269,6 +293,7 @@ pub const FORMATS: &[Format] = &[
         name: "mp4",
         help: "video: source beside result; needs ffmpeg",
         japanese: "動画ファイル",
+        goes_to: "films",
         files: &["CUT.mp4"],
         make: |cut, settings, put| settings.mp4.write(settings.figures.body, cut, put),
         notes: |_, settings| settings.mp4.notes(),
@@ -279,6 +304,7 @@ pub const FORMATS: &[Format] = &[
         name: "images",
         help: "one picture per drawing, numbered as on the sheet, to draw over",
         japanese: "連番画像",
+        goes_to: "drawing programs",
         files: &["images/A_0001.png"],
         is_numbered: true,
         make: figures::images,
@@ -289,6 +315,7 @@ pub const FORMATS: &[Format] = &[
         name: "cut",
         help: "cut folder: timesheets, and the pictures of each column under their cel numbers",
         japanese: "カット袋",
+        goes_to: "drawing programs",
         files: &["CUT/CUT_genga_ts.xdts", "CUT/douga/A/A_0001.png"],
         is_numbered: true,
         make: cut_folder::write,

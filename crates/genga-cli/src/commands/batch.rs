@@ -20,7 +20,7 @@ use crate::clip::{ClipArgs, Part};
 use crate::console::{Bar, Words, counted};
 use crate::corrections::Corrections;
 use crate::failure::Failure;
-use crate::format_args::{FormatArgs, Formats, help, long_help, shortened};
+use crate::format_args::{FormatArgs, FormatName, Formats, help, long_help, shortened};
 use crate::plan::{PlanArgs, TargetArgs};
 use crate::staging::Staging;
 use crate::stop;
@@ -41,7 +41,7 @@ pub(super) struct BatchArgs {
     #[command(flatten)]
     targets: TargetArgs,
     /// Formats to write for each clip: --deliver json,xdts, or all.
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', default_value = "json")]
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName, default_value = "json")]
     deliver: Vec<String>,
     #[command(flatten)]
     formats: FormatArgs,

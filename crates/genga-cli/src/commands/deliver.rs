@@ -8,7 +8,7 @@ use crate::clip::Reading;
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::{Folder, Made};
-use crate::format_args::{FormatArgs, Formats, all_made, help, long_help};
+use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_help};
 use crate::staging::Bundle;
 use crate::{files, paths};
 use genga_files::sheet_json::SheetFile;
@@ -24,7 +24,7 @@ pub(super) struct DeliverArgs {
     #[arg(value_name = "CLIP")]
     clip: PathBuf,
     /// Formats to write: --to remap,bvh, or all.
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', required_unless_present = "bvh")]
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName, required_unless_present = "bvh")]
     to: Vec<String>,
     /// For an XDTS or TDTS timesheet: the sheet.json with the drawings that its numbers refer to [default: the one
     /// beside it, or one or two folders above].

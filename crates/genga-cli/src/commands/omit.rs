@@ -41,8 +41,12 @@ pub(super) struct OmitArgs {
     #[arg(long)]
     let_length_change: bool,
     /// Limited motion as a BVH file at 24 frames per second; - is stdout.
-    #[arg(long, short, value_name = "FILE.bvh")]
-    out: PathBuf,
+    #[arg(long, short, value_name = "FILE.bvh", required_unless_present = "table")]
+    out: Option<PathBuf>,
+    /// Print a row of the second paper's Table 1 as CSV, or write it to a file (--table=FILE.csv): frames at 24 per
+    /// second, left-out ones (N_io), held ones (N_hf), and the time in milliseconds, which differs from run to run.
+    #[arg(long, value_name = "FILE.csv", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
+    table: Option<PathBuf>,
     /// Timesheet as a CSV file.
     #[arg(long, value_name = "FILE.csv")]
     sheet: Option<PathBuf>,
@@ -52,7 +56,7 @@ pub(super) struct OmitArgs {
 }
 
 pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
-    let targets = || args.sheet.iter().chain(&args.plot).chain([&args.out]);
+    let targets = || args.sheet.iter().chain(&args.plot).chain(&args.out).chain(&args.table);
     let sources = [("motion", Some(&*args.clip.path)), ("camera", camera_args::file(&args.seen))];
     targets().try_for_each(|target| paths::spare(&sources, target))?;
     paths::check_picture("plot", args.plot.as_ref())?;
@@ -80,7 +84,14 @@ pub(super) fn run(args: &OmitArgs, words: &Words) -> Result<(), Failure> {
         let plot = SsdPlot { seen_from, ..SsdPlot::default() };
         files::write_picture(path, &plot.draw(&clip, &ones, &sheet)?)?;
     }
-    files::write(&args.out, motion.as_bytes())?;
+    if let Some(path) = &args.table {
+        let name = paths::stem(&args.clip.path);
+        let row = genga_files::omission_csv(&name, koma, &report, took.as_secs_f64())?;
+        files::write(path, row.as_bytes())?;
+    }
+    if let Some(path) = &args.out {
+        files::write(path, motion.as_bytes())?;
+    }
     if !seen_from.is_world() {
         words.say(format_args!("seen from   画面       {seen_from}"));
     }

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Arg, ArgAction, Args};
 
 use crate::console::{Words, counted};
 use crate::failure::Failure;
 use crate::folder::Folder;
-use crate::format_args::{FormatArgs, Formats, all_made, help, long_help};
+use crate::format_args::{FormatArgs, FormatName, Formats, all_made, help, long_help};
 use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
 use crate::{camera_args, corrections, files, kept, outcomes, paths, pin_args};
@@ -17,21 +17,29 @@ use genga::recipe::Recipe;
 use genga_files::{GaitReport, LayerReport, Report, Run};
 
 #[derive(Debug, Args)]
-#[command(after_help = help(), after_long_help = long_help())]
+#[command(after_help = help(), after_long_help = long_help(), disable_help_flag = true, arg = help_flag())]
 pub(super) struct RunArgs {
-    #[command(flatten)]
-    plan: PlanArgs,
-    /// Additional formats to write: --deliver remap,bvh, or all.
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
-    deliver: Vec<String>,
-    #[command(flatten)]
-    formats: FormatArgs,
     /// Output folder [default: the clip's name with -genga].
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go without the corrections of the run before in the same folder, which otherwise stay unless --recipe is given.
+    /// Drop the corrections of the previous run.
+    ///
+    /// Those in the recipe of the same folder stay otherwise, unless --recipe is given.
     #[arg(long)]
     fresh: bool,
+    /// Additional formats to write: --deliver remap,bvh, or all.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = FormatName)]
+    deliver: Vec<String>,
+    #[command(flatten)]
+    formats: FormatArgs,
+    #[command(flatten)]
+    plan: PlanArgs,
+}
+
+/// Both `-h` and `--help` print the page that fits on a screen or two.
+fn help_flag() -> Arg {
+    let help = "Print this; genga help run has every option in full";
+    Arg::new("help").short('h').long("help").action(ArgAction::HelpShort).help(help)
 }
 
 /// Note when the recipe in the folder is the input and was written by hand: overwriting it would lose comments that the

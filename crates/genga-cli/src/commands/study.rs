@@ -1,6 +1,7 @@
 //! `genga study`: counts keys and drawings while one or two settings vary.
 
 mod caption;
+mod seconds;
 
 use std::path::PathBuf;
 use std::slice::from_ref;
@@ -83,8 +84,8 @@ pub(super) struct StudyArgs {
     /// reproduce them.
     #[arg(long, value_name = "FILE.md")]
     caption: Option<PathBuf>,
-    /// Measure to draw [default: the first one counted; genga with --stability or a setting of keys, drawings with a
-    /// setting of the sheet, union with --paper].
+    /// Measure to draw [default: the first one counted; union with the axes of Table 1 or --paper, genga with
+    /// --stability or a setting of keys, drawings with a setting of the sheet].
     #[arg(long, value_name = "MEASURE")]
     show: Option<Measure>,
     /// Draw counts per second of the clip, so that clips of different lengths compare. The table keeps the counts.
@@ -154,6 +155,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         HeatMap::fits(&study.x, study.y.as_ref())?;
     }
     let clips = args.part.read_all(&args.clips, words)?;
+    let rates: Vec<_> = clips.iter().map(Clip::rate).collect();
     let grids = swept(&study, clips, &args.clips, words)?;
     let names = paths::names(&args.clips);
     let tolerance = args.stability.then_some(args.tolerance);
@@ -176,6 +178,7 @@ pub(super) fn run(args: &StudyArgs, words: &Words) -> Result<(), Failure> {
         files::write(path, drawn.caption(&study, &names, &grids).as_bytes())?;
     }
     files::write(&args.out, genga_files::study_csv(&names, &grids, tolerance)?.as_bytes())?;
+    seconds::lines(&study, &rates).iter().for_each(|line| words.say(line));
     if let Some(plateaus) = plateaus {
         say_plateaus(words, &names, &grids, &plateaus);
     }
@@ -297,13 +300,16 @@ fn usual(x: &Axis, y: Option<&Axis>) -> Vec<Measure> {
     vec![Measure::Turns, Measure::Genga, Measure::Fills, Measure::Union, Measure::Total]
 }
 
-/// The measure drawn by default: genga if keys are compared, else the first measure that the axes can change.
+/// The measure drawn by default: genga if keys are compared, what Table 1 counts with its axes, else the first measure
+/// that the axes can change.
 fn usually_shown(study: &Study) -> Measure {
     let sections = |axis: &Axis| axis.knob().path().0;
     let axes = [Some(&study.x), study.y.as_ref()].into_iter().flatten();
     let sections: Vec<&str> = axes.filter_map(sections).collect();
     let varies = |names: &[&str]| names.iter().any(|name| sections.contains(name));
+    let is_table_1 = study::is_table_1(&study.x, study.y.as_ref());
     let wanted = match study.keep_keys {
+        false if is_table_1 => Measure::Union,
         false if varies(&OF_THE_SHEET) => Measure::Drawings,
         false if !varies(&["keys"]) => study.measures[0],
         _ => Measure::Genga,

@@ -1,0 +1,10 @@
+//! Headings of the options in the help: what people use first stands above them, without one.
+
+/// Options of the files that are written.
+pub(super) const FILES: &str = "Files";
+/// Options of the sheet.
+pub(super) const SHEET: &str = "Sheet";
+/// Corrections of the keys and the timing.
+pub(super) const CORRECTIONS: &str = "Corrections";
+/// Rare options, of how the motion is read.
+pub(super) const READING: &str = "Reading the motion";
