@@ -3,6 +3,7 @@
 use super::{MadeOf, SheetFile, digest};
 use genga::error::{Error, Warning};
 use genga::motion::Clip;
+use genga::sheet::Layer;
 use genga::time::{Clock, Frame};
 
 /// Warning code: the clip's joints have the sheet's names, but other bones.
@@ -81,7 +82,9 @@ impl SheetFile {
     fn other_length(&self) -> Option<Warning> {
         let Clock { frame_rate, koma_rate, .. } = self.sheet.clock;
         let whole = frame_rate.koma_from_frames(self.clip.frames, koma_rate);
-        let layers = self.sheet.layers.iter().filter(|layer| layer.length() != whole);
+        // An empty layer is refused later, with a reason of its own.
+        let is_other = |layer: &&Layer| layer.length() > 0 && layer.length() != whole;
+        let layers = self.sheet.layers.iter().filter(is_other);
         let layers: Vec<String> =
             layers.map(|layer| format!("layer {} has {}", layer.name, layer.length())).collect();
         let is_changed = !self.is_as_made() && !layers.is_empty();
