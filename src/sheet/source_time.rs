@@ -229,7 +229,9 @@ mod tests {
             prop_assert_eq!(places.len(), layer.length());
             let least = shown.iter().map(|shown| shown.1).fold(f64::INFINITY, f64::min);
             let most = shown.iter().map(|shown| shown.1).fold(0.0, f64::max);
-            prop_assert!(places.iter().all(|place| (least - 1e-9..=most + 1e-9).contains(place)));
+            // Where the take misses the last drawing by no more than its slack, it keeps its pace.
+            let most = most + 3.0 * clock().frames_in_koma() + 1e-6;
+            prop_assert!(places.iter().all(|place| (least - 1e-9..=most).contains(place)));
             for (at, (begin, _)) in layer.timed().enumerate().skip(1) {
                 let held = layer.exposures[at].koma;
                 prop_assert!(places[begin..begin + held].is_sorted());
