@@ -106,7 +106,7 @@ fn lay(both: &mut LayerEdits, later: LayerEdits) {
     let ends: Vec<Frame> = both.moves.iter().chain(&moves).map(|moved| moved.to).collect();
     let is_kept = |frame: Frame| comes(frame) || ends.contains(&frame);
     both.forbidden
-        .retain(|ban| !later.forbidden.contains(ban) && !(ban.is_one() && is_kept(ban.from)));
+        .retain(|ban| !later.forbidden.contains(ban) && (!ban.is_one() || !is_kept(ban.from)));
     both.pins.extend(later.pins);
     both.forbidden.extend(later.forbidden);
     both.moves.extend(moves);

@@ -5,7 +5,6 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use clap::builder::{StringValueParser, TypedValueParser};
-use clap::error::ErrorKind;
 use clap::{Arg, Args, Command, ValueEnum};
 
 use super::corrections::assignment;
@@ -116,7 +115,11 @@ impl TypedValueParser for FormatName {
         value: &OsStr,
     ) -> Result<String, clap::Error> {
         match value.to_str().map(str::trim) {
-            Some("help") => Err(clap::Error::raw(ErrorKind::DisplayHelp, long_help() + "\n")),
+            // Clap prints a help as it is, but puts "error:" before a message of ours.
+            Some("help") => Err(Command::new("formats")
+                .override_help(long_help() + "\n")
+                .try_get_matches_from(["formats", "--help"])
+                .expect_err("a request for help is an error")),
             _ => StringValueParser::new().parse_ref(command, arg, value),
         }
     }
