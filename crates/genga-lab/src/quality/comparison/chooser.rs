@@ -169,7 +169,8 @@ mod tests {
             let skeleton = swing.skeleton().clone();
             let clip = Clip::new(skeleton, rate, Frame(0), 13, angles.clone()).unwrap();
             let asked = Compare::default();
-            let chooser = Chooser::new(Arc::new(clip), (&asked, &Stop::default()), 100).unwrap();
+            let stop = Stop::default();
+            let chooser = Chooser::new(Arc::new(clip), (&asked, &stop), 100).unwrap();
             let numbers = |keys: Vec<Frame>| keys.iter().map(|key| key.0).collect::<Vec<_>>();
             chooser.paces().into_iter().map(|(_, keys)| numbers(keys)).collect::<Vec<_>>()
         };
