@@ -92,7 +92,7 @@ impl Clip {
 /// Returns the array as C-ordered float64: itself if it already is, else a copy.
 fn floats<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
     let numpy = array.py().import("numpy")?;
-    Ok(numpy.call_method1("ascontiguousarray", (array, "float64"))?.extract()?)
+    numpy.call_method1("ascontiguousarray", (array, "float64"))?.extract()
 }
 
 /// Makes an array that is kept for later calls read-only.

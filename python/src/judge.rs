@@ -98,12 +98,15 @@ fn several<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Vec<Bound<'py, Clip>>, 
     }
 }
 
+/// Runs a study on a clip; `None` if it was stopped.
+type Run<T> = fn(&Study, Arc<Motion>, &Stop) -> std::result::Result<Option<T>, genga::Error>;
+
 /// Studies one clip after another.
 fn each<T: Send + 'static>(
     py: Python<'_>,
     study: &Study,
     clips: &[Bound<'_, Clip>],
-    run: fn(&Study, Arc<Motion>, &Stop) -> std::result::Result<Option<T>, genga::Error>,
+    run: Run<T>,
 ) -> PyResult<Vec<T>> {
     let study = study.clone();
     let motions: Vec<_> = clips.iter().map(|clip| Arc::clone(&clip.get().motion)).collect();

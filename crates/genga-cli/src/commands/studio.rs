@@ -111,7 +111,7 @@ mod shell {
         if let Some(clip) = &clip {
             start::check(clip, recipe.as_deref())?;
         }
-        let desk = Arc::new(Disk::with(clip.clone(), part));
+        let desk = Arc::new(Disk::with_recent(clip.clone(), part));
         let size = size_of(&desk.noted(WINDOW).unwrap_or_default());
         let mut studio = Studio::new(Arc::clone(&desk) as _, language());
         if let Some(clip) = &clip {

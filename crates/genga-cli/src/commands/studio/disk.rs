@@ -32,11 +32,16 @@ pub struct Disk {
 }
 
 impl Disk {
-    /// Builds a disk with a clip, the part of it to use, and the list of recent clips.
+    /// Builds a disk with a clip or a folder of clips, and the part of each to use.
+    #[cfg(any(feature = "studio", test))]
+    pub(super) fn with_clip(clip: Option<PathBuf>, part: Part) -> Self {
+        Self { named: clip.map(|clip| (clip, part)), ..Self::default() }
+    }
+
+    /// The same with the list of recent clips.
     #[cfg(feature = "studio")]
-    pub(super) fn with(clip: Option<PathBuf>, part: Part) -> Self {
-        let named = clip.map(|clip| (clip, part));
-        Self { named, opened: Mutex::default(), recent: Recent::of_person() }
+    pub(super) fn with_recent(clip: Option<PathBuf>, part: Part) -> Self {
+        Self { recent: Recent::of_person(), ..Self::with_clip(clip, part) }
     }
 
     /// The mark that identifies a clip: as it was when opened, even if the file has changed since.

@@ -86,7 +86,7 @@ mod tests {
         let take = place.path().join("take.bvh");
         fs::write(&take, kick()).unwrap();
         let part = Line::parse_from(["genga", "--trim", "10..40"]).part;
-        let desk = Disk::with(Some(place.path().to_owned()), part);
+        let desk = Disk::with_clip(Some(place.path().to_owned()), part);
         assert_eq!(desk.open(&take).unwrap().clip.len(), 30);
     }
 
