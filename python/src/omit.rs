@@ -53,7 +53,7 @@ pub fn omit(
 ) -> PyResult<Omitted> {
     let amount = |name, given: Option<&Bound<'_, PyAny>>, usual: &str| {
         let text = given.map_or_else(|| Ok(usual.to_owned()), word)?;
-        text.parse().map_err(|error| raised(py, Error::setting(name, error.to_string())))
+        text.parse().map_err(|error: String| raised(py, Error::setting(name, error)))
     };
     let omission = Omission {
         naka_nashi: amount("naka_nashi", naka_nashi, "4")?,
