@@ -288,7 +288,7 @@ fn a_hold_that_could_not_be_done_is_said() {
     let note = notes(&format!("--hold {genga}:30"));
     let begin = format!("the drawing of frame {genga} was to stay for 30 koma and stays for ");
     assert!(note[0].as_str().unwrap().starts_with(&begin), "{note}");
-    assert_eq!(notes("--hold 0:2"), serde_json::json!([]), "what was done is not told");
+    assert_eq!(notes("--hold 0:2 --fresh"), serde_json::json!([]), "what was done is not told");
 }
 
 #[test]
