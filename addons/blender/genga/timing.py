@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Converts koma of a sheet to frames of a scene. Independent of Blender."""
 
 import math
