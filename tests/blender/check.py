@@ -152,7 +152,8 @@ def check_own_scene(names, wanted):
     empty(8)
     assert bpy.ops.genga.import_glb(filepath=str(FOLDER / "limited.glb")) == {"FINISHED"}
     last = {1 + -(-koma * 8 // round(SHEET["fps"])): TYPES[ROLES[SHOWN[koma]]] for koma in BEGINS}
-    assert len(last) < len(BEGINS)
+    # In the kick some drawings share a frame; a slower motion may have none that do.
+    assert CLIP.stem != "kick" or len(last) < len(BEGINS)
     for curve in curves(armature()):
         found = {point.co.x: point.type for point in curve.keyframe_points}
         assert all(found[frame] == role for frame, role in last.items()), "of drawings on one frame the last is kept"
