@@ -167,11 +167,16 @@ def number(name, word):
 def name_roles(action_curves, extras, timing):
     """Sets keyframe types by role in an action from a GLB whose keys are on koma, and moves them to their frames.
 
-    If several share a frame, keeps the last.
+    If several share a frame, keeps the last drawing: the key at the end only repeats it.
     """
     roles = {key["koma"]: key["role"] for key in extras["keys"]}
     for curve in action_curves:
-        shown = {timing.frame(round(point.co.x)): point for point in curve.keyframe_points}
+        shown = {}
+        for point in curve.keyframe_points:
+            koma = round(point.co.x)
+            frame = timing.frame(koma)
+            if koma in roles or frame not in shown:
+                shown[frame] = point
         values = [(frame, point.co.y) for frame, point in shown.items()]
         types = [KEYFRAME_TYPES.get(roles.get(round(point.co.x)), "KEYFRAME") for point in shown.values()]
         put(curve, [number for place in values for number in place], types)

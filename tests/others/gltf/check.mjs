@@ -40,7 +40,8 @@ bvh.joints.forEach(({ name }, joint) => assert.equal(parser.json.nodes[joint].na
 // What stands on each koma by the sheet, and the last key before it.
 const [layer] = sheet.layers;
 const shown = layer.exposures.flatMap(({ drawing, koma }) => Array(koma).fill(drawing));
-const isKey = (drawing) => layer.drawings[drawing].role !== 'inbetween';
+const drawings = new Map(layer.drawings.map((entry) => [entry.drawing, entry]));
+const isKey = (drawing) => drawings.get(drawing).role !== 'inbetween';
 let key = 0;
 const keys = shown.map((drawing, koma) => (key = isKey(drawing) ? koma : key));
 assert.equal(bvh.rows.length, shown.length);
@@ -76,7 +77,7 @@ assert.deepEqual(listed, shown);
 for (const { keys: entries, koma, fps } of [all, genga]) {
   assert.deepEqual([koma, fps], [shown.length, sheet.fps]);
   for (const { drawing, role, frame, between, share } of entries) {
-    const { why, ...written } = layer.drawings[drawing];
+    const { why, ...written } = drawings.get(drawing);
     assert.deepEqual(JSON.parse(JSON.stringify({ drawing, role, frame, between, share })), written);
   }
 }

@@ -210,8 +210,8 @@ impl Local {
     }
 }
 
-/// The drawings of an animation with their koma, in the terms of `sheet.json`: koma, drawings and source frames
-/// count from 0. Only `genga_no` counts from 1, like the circled number on paper.
+/// The drawings of an animation with their koma, in the terms of `sheet.json`: drawings count from 1. Koma and source
+/// frames count from 0, like the times of the keys.
 fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
     let genga = layer.genga_numbers();
     let key = |shown: &Exposed| {
@@ -219,7 +219,7 @@ fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
         let mut key = json!({
             "koma": shown.begin,
             "length": shown.end - shown.begin,
-            "drawing": shown.drawing,
+            "drawing": shown.drawing + 1,
             "role": drawing.role.word(),
         });
         match drawing.source {
