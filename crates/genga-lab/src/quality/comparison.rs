@@ -132,7 +132,7 @@ impl Compare {
         self.run_until(clip, &Stop::default())
     }
 
-    /// Like [`Compare::run`], until `stop` is asked; it ends after the method in progress.
+    /// Like [`Compare::run`], until `stop` is asked.
     ///
     /// # Errors
     /// As for [`Compare::run`], and [`Error::Stopped`].

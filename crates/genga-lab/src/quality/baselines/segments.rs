@@ -3,7 +3,9 @@
 use rayon::prelude::*;
 
 use crate::quality::KomaFrames;
+use genga::error::Error;
 use genga::keys::Bridge;
+use genga::pipeline::Stop;
 
 /// The error between every two frames if those two alone are keys: the sum over the koma and the worst koma (区間の誤差), as
 /// a root mean square over the body's points in % of body height.
@@ -18,6 +20,14 @@ pub struct Segments {
 impl Segments {
     /// Measures every segment on all cores; the work is cubic in the length.
     pub fn new(grid: &KomaFrames) -> Self {
+        Self::until(grid, &Stop::default()).expect("no one asks to stop")
+    }
+
+    /// Like [`Segments::new`], until `stop` is asked.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    pub fn until(grid: &KomaFrames, stop: &Stop) -> Result<Self, Error> {
         let bridge = Bridge::new(&grid.clip, &grid.reference, &grid.frames);
         // The longest first, so that no thread is left with them at the end.
         let columns = (0..grid.frames.len()).into_par_iter().rev();
@@ -30,13 +40,11 @@ impl Segments {
                 });
                 (sum, worst)
             };
-            (0..to).map(segment).unzip()
+            stop.check().map(|()| (0..to).map(segment).unzip())
         };
-        let mut columns: Vec<(Vec<f64>, Vec<f64>)> =
-            columns.map_init(|| bridge.clone(), column).collect();
-        columns.reverse();
-        let (sums, worsts) = columns.into_iter().unzip();
-        Self { sums, worsts }
+        let columns = columns.map_init(|| bridge.clone(), column).collect::<Result<Vec<_>, _>>();
+        let (sums, worsts): (Vec<_>, Vec<_>) = columns?.into_iter().rev().unzip();
+        Ok(Self { sums, worsts })
     }
 
     /// Returns the number of frames.

@@ -85,8 +85,11 @@ impl<'a> Chooser<'a> {
                 Method::Own => self.own(self.recipe, counts)?,
                 Method::KurodaTokoi => self.own(&by_joints(self.recipe.rate), counts)?,
                 optimal if optimal.is_optimal() => {
-                    let segments = segments.get_or_insert_with(|| Segments::new(&self.grid));
-                    self.optimal(segments, method, counts)
+                    let measured = match segments.take() {
+                        Some(measured) => measured,
+                        None => Segments::until(&self.grid, self.stop)?,
+                    };
+                    self.optimal(segments.insert(measured), method, counts)
                 }
                 _ => self.simple(method, counts),
             };
