@@ -30,8 +30,7 @@ pub struct Curves {
 }
 
 /// The reason why there are no curves.
-pub(crate) const TOO_FEW: &str =
-    "keys with curves need two genga at the least: there is nothing between fewer";
+pub(crate) const TOO_FEW: &str = "a curve needs two genga, and the sheet has fewer";
 
 impl Default for Curves {
     fn default() -> Self {

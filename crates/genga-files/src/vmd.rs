@@ -203,8 +203,8 @@ impl Vmd {
     /// Converts the take for the model as keys at the genga of a sheet with MMD's curves between them, which stay within
     /// `curves.error` of body height of the take. The keys stand at the times of the take.
     ///
-    /// All bones have keys on the same frames, so each is a pose. The error of a bone is bounded by those of all bones
-    /// that carry it, on the body of the take.
+    /// All bones have keys on the same frames, so each is a pose. The error is measured on the body of the take, moved by
+    /// the bones of the model.
     ///
     /// # Errors
     /// Those of [`Vmd::make`]; [`Error::Sheet`] if fewer than two genga are on screen.

@@ -170,7 +170,7 @@ fn a_joint_that_turns_about_its_bone_is_followed() {
 fn fewer_than_two_genga_are_refused() {
     let clip = arm(5, |_, _| 0.0);
     let error = Curves::default().fit(&clip, &sheet(&clip, &[2.0])).unwrap_err().to_string();
-    assert!(error.contains("two genga"), "{error}");
+    assert!(error.contains("a curve needs two genga"), "{error}");
 }
 
 #[test]

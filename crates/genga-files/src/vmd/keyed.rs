@@ -1,11 +1,11 @@
 //! Keys at the genga with MMD's own curves (補間曲線) between them.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::record::{LINEAR_CURVE, VmdKey};
 use crate::curves::{GIRTH, body_height, turn_between};
 use crate::humanoid::retarget::{Local, Retarget};
-use genga::motion::Clip;
+use genga::motion::{Clip, JointId};
 
 /// First coordinates of the two handles of a fitted curve, of 127. At a third and two thirds of the time a curve's
 /// parameter is the time itself, so that its heights are found by linear least squares.
@@ -58,54 +58,104 @@ pub(super) fn keyed(
     }
 }
 
-/// The poses of a model on every frame, and what a wrong pose of a bone moves.
+/// The poses of a model on every frame, and the body that they move: the capture's, bone by bone.
 struct Motion {
-    bones: usize,
+    bones: Vec<BodyBone>,
+    /// The bones, each behind the one that carries it.
+    order: Vec<usize>,
     /// Poses, frame by frame and bone by bone.
     locals: Vec<Local>,
-    /// The bone that carries each.
-    carriers: Vec<Option<usize>>,
-    /// How far a turn by a radian moves what hangs on each bone, as a share of body height.
-    levers: Vec<f64>,
     /// Body heights in a unit of the model.
     heights_in_unit: f64,
 }
+
+/// A bone of the capture's body. Lengths are shares of body height.
+#[derive(Debug, Clone, Copy)]
+struct BodyBone {
+    carrier: Option<usize>,
+    /// Way from the carrier's joint, in the carrier's axes.
+    offset: DVec3,
+    /// How far the skin and what else hangs on it moves if it turns by a radian.
+    lever: f64,
+}
+
+/// A bone in the world.
+type World = (DQuat, DVec3);
 
 impl Motion {
     fn new(clip: &Clip, retarget: &mut Retarget<'_>, length: usize) -> Self {
         let reaches = clip.skeleton().reaches();
         let height = body_height(clip, &reaches);
-        let lever =
-            |joint: Option<usize>| joint.map_or(0.0, |joint| reaches[joint] / height + GIRTH);
-        let bones = retarget.bones().len();
-        let mut locals = Vec::with_capacity(length * bones);
-        for frame in 0..length {
+        let heights_in_unit = 1.0 / (retarget.scale * height);
+        let (joints, carriers) = (retarget.joints(), retarget.carriers());
+        let count = joints.len();
+        let mut locals = Vec::with_capacity(length * count);
+        for frame in 1..length {
             locals.extend(retarget.take(frame, frame));
         }
-        Self {
-            bones,
-            locals,
-            carriers: retarget.carriers(),
-            levers: retarget.joints().into_iter().map(lever).collect(),
-            heights_in_unit: 1.0 / (retarget.scale * height),
+        // The first frame last: the body stays in it.
+        locals.splice(0..0, retarget.take(0, 0));
+        let place = |bone: usize| {
+            joints[bone].map(|joint| retarget.place(JointId(joint)) / height).unwrap_or_default()
+        };
+        let up = |bone: &usize| carriers[*bone];
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by_key(|bone| std::iter::successors(Some(*bone), up).count());
+        let bones = Vec::with_capacity(count);
+        let mut motion = Self { bones, order, locals, heights_in_unit };
+        let worlds = motion.turns(&carriers);
+        for bone in 0..count {
+            let carrier = carriers[bone].filter(|carrier| joints[*carrier].is_some());
+            let offset = carrier.map_or(DVec3::ZERO, |carrier| {
+                worlds[carrier].inverse() * (place(bone) - place(carrier))
+            });
+            let is_last = !carriers.contains(&Some(bone));
+            let reach =
+                joints[bone].filter(|_| is_last).map_or(0.0, |joint| reaches[joint] / height);
+            motion.bones.push(BodyBone { carrier: carriers[bone], offset, lever: GIRTH + reach });
         }
+        motion
+    }
+
+    /// Rotations of all bones in the world on the first frame.
+    fn turns(&self, carriers: &[Option<usize>]) -> Vec<DQuat> {
+        let turn = |bone: usize| {
+            let up = |bone: &usize| carriers[*bone];
+            let chain = std::iter::successors(Some(bone), up);
+            chain.fold(DQuat::IDENTITY, |turn, bone| self.locals[bone].rotation * turn)
+        };
+        (0..carriers.len()).map(turn).collect()
     }
 
     fn local(&self, frame: usize, bone: usize) -> Local {
-        self.locals[frame * self.bones + bone]
+        self.locals[frame * self.bones.len() + bone]
     }
 
-    /// How far at the most anything that hangs on a bone is off, if the bone and all that carry it are off by `own`.
-    fn off(&self, own: &[f64], bone: usize) -> f64 {
-        let up = |bone: &usize| self.carriers[*bone];
-        std::iter::successors(Some(bone), up).map(|bone| own[bone]).sum()
+    /// Places the bones of a pose.
+    fn place(&self, pose: impl Fn(usize) -> Local, worlds: &mut Vec<World>) {
+        worlds.resize(self.bones.len(), World::default());
+        for &bone in &self.order {
+            let BodyBone { carrier, offset, .. } = self.bones[bone];
+            let Local { rotation, translation } = pose(bone);
+            let (turn, place) = carrier.map_or_else(World::default, |carrier| worlds[carrier]);
+            let moved = place + turn * offset + translation * self.heights_in_unit;
+            worlds[bone] = (turn * rotation, moved);
+        }
+    }
+
+    /// How far two poses are apart at most, as a share of body height.
+    fn apart(&self, a: &[World], b: &[World]) -> f64 {
+        let bones = self.bones.iter().zip(a).zip(b);
+        let off =
+            bones.map(|((bone, a), b)| a.1.distance(b.1) + bone.lever * turn_between(a.0, b.0));
+        off.fold(0.0, f64::max)
     }
 
     /// Writes the keys of all bones on some frames, each with the curve that leads to it.
     fn keys(&self, retarget: &Retarget<'_>, frames: &[u32]) -> Vec<VmdKey> {
         let bones = retarget.bones();
-        let mut before: Vec<Local> = (0..self.bones).map(|bone| self.local(0, bone)).collect();
-        let mut keys = Vec::with_capacity(self.bones * frames.len());
+        let mut before = self.locals[..bones.len()].to_vec();
+        let mut keys = Vec::with_capacity(bones.len() * frames.len());
         for (at, &frame) in frames.iter().enumerate() {
             let span = at
                 .checked_sub(1)
@@ -136,7 +186,7 @@ struct Span {
 
 impl Span {
     fn new(motion: &Motion, ends: [usize; 2]) -> Self {
-        let eases = (0..motion.bones).map(|bone| {
+        let eases = (0..motion.bones.len()).map(|bone| {
             let [from, to] = ends.map(|frame| motion.local(frame, bone));
             let ease = |done: &dyn Fn(Local) -> Option<f64>| {
                 Ease::fit(ends, |frame| done(motion.local(frame, bone)))
@@ -147,8 +197,8 @@ impl Span {
             };
             let turn = from.rotation.inverse() * to.rotation;
             let turned = |local: Local| {
-                let [part, whole] = [from.rotation.inverse() * local.rotation, turn]
-                    .map(glam::DQuat::to_scaled_axis);
+                let [part, whole] =
+                    [from.rotation.inverse() * local.rotation, turn].map(DQuat::to_scaled_axis);
                 share(part.dot(whole), whole.length_squared())
             };
             [axis(0), axis(1), axis(2), ease(&turned)]
@@ -156,23 +206,27 @@ impl Span {
         Self { ends, eases: eases.collect() }
     }
 
+    /// The pose of a bone at a share of the time, as the curves have it.
+    fn pose(&self, motion: &Motion, bone: usize, time: f64) -> Local {
+        let [from, to] = self.ends.map(|frame| motion.local(frame, bone));
+        let [x, y, z, turn] = self.eases[bone].map(|ease| ease.done(time));
+        let way = (to.translation - from.translation) * DVec3::new(x, y, z);
+        Local {
+            translation: from.translation + way,
+            rotation: from.rotation.slerp(to.rotation, turn),
+        }
+    }
+
     /// Returns the frame on which the curves are furthest off, and by how much of body height.
     fn worst(&self, motion: &Motion) -> (usize, f64) {
         let [first, last] = self.ends;
-        let mut own = vec![0.0; motion.bones];
+        let (mut made, mut taken) = (Vec::new(), Vec::new());
         let mut worst = (first, 0.0);
         for frame in first + 1..last {
             let time = (frame - first) as f64 / (last - first) as f64;
-            for (bone, own) in own.iter_mut().enumerate() {
-                let [from, to] = self.ends.map(|frame| motion.local(frame, bone));
-                let found = motion.local(frame, bone);
-                let [x, y, z, turn] = self.eases[bone].map(|ease| ease.done(time));
-                let way = (to.translation - from.translation) * DVec3::new(x, y, z);
-                let moved = from.translation + way - found.translation;
-                let turned = turn_between(from.rotation.slerp(to.rotation, turn), found.rotation);
-                *own = moved.length() * motion.heights_in_unit + turned * motion.levers[bone];
-            }
-            let off = (0..motion.bones).map(|bone| motion.off(&own, bone)).fold(0.0, f64::max);
+            motion.place(|bone| self.pose(motion, bone, time), &mut made);
+            motion.place(|bone| motion.local(frame, bone), &mut taken);
+            let off = motion.apart(&made, &taken);
             if off > worst.1 {
                 worst = (frame, off);
             }
