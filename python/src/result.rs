@@ -218,6 +218,8 @@ hand_over! {
     to_ae "ae" "Time remapping to paste into After Effects.",
     to_xsheet "xsheet" "The timesheet on paper: HTML, and each page as SVG.",
     to_vmd "vmd" "The motion for MikuMikuDance, and a list of joints and bones.",
+    to_keys_glb "keys-glb" "Few keys, at the genga, with smooth curves between them, as GLB.",
+    to_keys_vmd "keys-vmd" "Few keys for MikuMikuDance, at the genga, with its curves between them.",
     to_glb "glb" "The stepped motion as GLB, with visible bones and each drawing's role.",
     to_vrma "vrma" "The stepped motion for VRM avatars.",
     to_bars "bars" "Picture: one bar per drawing, over koma.",

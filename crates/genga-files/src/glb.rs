@@ -4,6 +4,7 @@ pub(crate) mod animation;
 pub(crate) mod binary;
 pub(crate) mod bones;
 mod hold;
+mod keyed;
 mod mesh;
 #[cfg(test)]
 mod tests;
@@ -12,6 +13,7 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::curves::Curves;
 use binary::Binary;
 use bones::Bones;
 use genga::error::Error;
@@ -168,6 +170,31 @@ impl Glb {
         let mut binary = Binary::default();
         let mut document = self.scene(&bones, &mut binary);
         document["animations"] = self.animations(&composite, sheet, space, &mut binary);
+        Ok(binary.into_glb(document))
+    }
+
+    /// Writes the take as keys at the genga with smooth curves between them: `CUBICSPLINE` samplers, `LINEAR` ones
+    /// where a straight line is close enough.
+    ///
+    /// The file has one animation, `keys`, on the same skeleton as that of [`Glb::write`]. Its `extras` list the keys.
+    ///
+    /// # Errors
+    /// Those of [`Glb::write`]; [`Error::Sheet`] if fewer than two genga are on screen.
+    pub fn write_keys(
+        &self,
+        clip: &Clip,
+        sheet: &Sheet,
+        curves: &Curves,
+    ) -> Result<Vec<u8>, Error> {
+        self.validate()?;
+        clip.check_size()?;
+        let space = self.space(clip);
+        let bones = Bones::new(clip.skeleton(), space)?;
+        let keyed = curves.fit(clip, sheet)?;
+        let mut binary = Binary::default();
+        let mut document = self.scene(&bones, &mut binary);
+        let animation = keyed::animation(clip, sheet, &keyed, (space, curves), &mut binary);
+        document["animations"] = json!([animation]);
         Ok(binary.into_glb(document))
     }
 

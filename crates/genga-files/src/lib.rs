@@ -9,6 +9,7 @@ mod action_table;
 mod after_effects;
 mod column_table;
 mod comparison_table;
+mod curves;
 mod cut;
 #[cfg(feature = "images")]
 mod cut_folder;
@@ -47,6 +48,7 @@ pub use action_table::actions_csv;
 pub use after_effects::time_remap;
 pub use column_table::columns_csv;
 pub use comparison_table::comparison_csv;
+pub use curves::Curves;
 pub use cut::{Cut, Sink};
 pub use drawing_table::{Drawings, Rows};
 pub use figures::FigureSettings;

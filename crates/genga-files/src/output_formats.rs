@@ -205,6 +205,34 @@ pub const FORMATS: &[Format] = &[
         ..PLAIN
     },
     Format {
+        name: "keys-vmd",
+        help: "few keys for MikuMikuDance, at the genga, with its curves between them",
+        japanese: "MMDのキーと補間曲線",
+        goes_to: "MMD, VRM",
+        files: &["CUT-keys.vmd"],
+        make: |cut, settings, put| {
+            let made = settings.vmd.make_keys(cut.clip, cut.sheet, &settings.curves)?;
+            put(&cut.file("CUT-keys.vmd"), &made.motion.bytes()?)
+        },
+        notes: |cut, settings| {
+            Ok(settings.vmd.make_keys(cut.clip, cut.sheet, &settings.curves)?.notes)
+        },
+        ..PLAIN
+    },
+    Format {
+        name: "keys-glb",
+        help: "few keys, at the genga, with smooth curves between them",
+        japanese: "キーとカーブ",
+        goes_to: "3-D programs",
+        files: &["keys.glb"],
+        make: |cut, settings, put| {
+            let made = settings.glb.write_keys(cut.clip, cut.sheet, &settings.curves)?;
+            put("keys.glb", &made)
+        },
+        notes: |cut, settings| settings.curves.notes(cut.clip, cut.sheet),
+        ..PLAIN
+    },
+    Format {
         name: "vrma",
         help: "stepped motion for VRM avatars",
         japanese: "VRMアニメーション",

@@ -186,6 +186,7 @@ mod tests {
             frame,
             translation: [0.0; 3],
             rotation: [0.0, 0.0, 0.0, 1.0],
+            curves: [[20, 20, 107, 107]; 4],
         };
         let keys = frames.map(key).collect();
         VmdMotion { model: "人形".into(), keys, ik_off: vec![] }.bytes().unwrap()

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::xdts::{Tdts, Xdts};
-use crate::{FigureSettings, Glb, Mp4, Remap, Vmd};
+use crate::{Curves, FigureSettings, Glb, Mp4, Remap, Vmd};
 use genga::error::Error;
 use genga::knob::{Knob, Knobs, knob, knobs};
 use genga_plot::{ContactSheet, FlipBook, NumberedImages, OnionSkin, Preview, Strip, XSheet};
@@ -42,6 +42,8 @@ pub struct Settings {
     pub images: NumberedImages,
     /// The stepped motion as GLB.
     pub glb: Glb,
+    /// Keys with curves between them.
+    pub curves: Curves,
 }
 
 /// Settings of the CSV tables.
@@ -70,7 +72,7 @@ impl CsvSettings {
 knobs!(Settings {
     ..[
         csv, remap, xdts, tdts, xsheet, vmd, figures, strip, contact, onion, flipbook, preview,
-        mp4, images, glb
+        mp4, images, glb, curves
     ]
 });
 

@@ -1,5 +1,6 @@
 //! The limited motion for MikuMikuDance (MMD): a VMD file for any model with the standard bones, or for a given one.
 
+mod keyed;
 mod record;
 #[cfg(test)]
 mod tests;
@@ -11,6 +12,7 @@ use glam::DQuat;
 use serde::{Deserialize, Serialize};
 
 use crate::csv_table;
+use crate::curves::Curves;
 use crate::humanoid::capture::Capture;
 use crate::humanoid::cast::Cast;
 pub use crate::humanoid::cast::{STILL_LIMB, VmdBones};
@@ -22,7 +24,7 @@ pub use genga::motion::BoneMap;
 use genga::motion::body::names::bones::{Model, cp932};
 use genga::motion::body::names::{Found, SHAPE};
 use genga::motion::{Clip, Composite, JointId, Skeleton};
-use genga::sheet::{Exposure, Sheet};
+use genga::sheet::{Exposure, Layer, Sheet, Source};
 pub use genga_read::MmdModel;
 pub use record::{VmdKey, VmdMotion};
 
@@ -198,6 +200,42 @@ impl Vmd {
         Ok(VmdMade { motion: VmdMotion { model: name, keys, ik_off: cast.ik_off }, report, notes })
     }
 
+    /// Converts the take for the model as keys at the genga of a sheet with MMD's curves between them, which stay within
+    /// `curves.error` of body height of the take. The keys stand at the times of the take.
+    ///
+    /// All bones have keys on the same frames, so each is a pose. The error is measured on the body of the take, moved by
+    /// the bones of the model.
+    ///
+    /// # Errors
+    /// Those of [`Vmd::make`]; [`Error::Sheet`] if fewer than two genga are on screen.
+    pub fn make_keys(&self, clip: &Clip, sheet: &Sheet, curves: &Curves) -> Result<VmdMade, Error> {
+        self.validate()?;
+        if clip.is_empty() {
+            return Err(Error::clip("the clip has no frame: there is no pose to write"));
+        }
+        let genga = genga_frames(clip, sheet, self.fps)?;
+        let length = genga[genga.len() - 1] as usize + 1;
+        let first = genga_places(clip, sheet)[0];
+        let mut ones = Sheet::on_ones(clip.clock(self.fps), length);
+        for drawing in &mut ones.layers[0].drawings {
+            let place = drawing.source.place() + first - clip.first().0 as f64;
+            drawing.source = Source::At(place.min(clip.last().0 as f64));
+        }
+        let composite = Composite::new(clip, &ones)?;
+        let cast = self.cast(clip)?;
+        let capture = Capture::new(clip, &cast.model, &cast.found);
+        let stance = Stance::new(&capture, self.arm_angle.to_radians());
+        let leg = cast.leg.unwrap_or(self.leg);
+        let mut retarget = Retarget::new(&composite, &cast.model, &capture, &stance, leg);
+        let report = report(clip.skeleton(), &cast.model, &cast.found, retarget.scale);
+        let (name, _) = self.name()?;
+        let made = keyed::keyed(clip, &mut retarget, (&genga, length), curves.error);
+        let mut notes = self.notes(clip, &ones)?;
+        notes.extend(curves.note("keys-vmd", made.frames, made.added, made.error_of_genga));
+        let motion = VmdMotion { model: name, keys: made.keys, ik_off: cast.ik_off };
+        Ok(VmdMade { motion, report, notes })
+    }
+
     /// Collects the notes of [`Vmd::make`] without making the motion.
     ///
     /// # Errors
@@ -254,6 +292,28 @@ impl Vmd {
     fn map(&self) -> Cow<'_, BoneMap> {
         self.map.as_ref().map_or_else(|| Cow::Owned(BoneMap::default()), Cow::Borrowed)
     }
+}
+
+/// Returns the places of the genga on all layers, in order of time.
+fn genga_places(clip: &Clip, sheet: &Sheet) -> Vec<f64> {
+    let (first, last) = (clip.first().0 as f64, clip.last().0 as f64);
+    let kept = sheet.layers.iter().flat_map(Layer::shown).filter(|drawing| drawing.role.is_kept());
+    let mut places: Vec<f64> =
+        kept.map(|drawing| drawing.source.place().clamp(first, last)).collect();
+    places.sort_by(f64::total_cmp);
+    places
+}
+
+/// Returns the frames of MMD that are nearest to the genga, each once. The first genga is on frame 0.
+fn genga_frames(clip: &Clip, sheet: &Sheet, fps: f64) -> Result<Vec<u32>, Error> {
+    let places = genga_places(clip, sheet);
+    let frame = |place: &f64| ((place - places[0]) * fps / clip.rate().fps()).round();
+    let mut frames: Vec<u32> = places.iter().map(|place| frame(place) as u32).collect();
+    frames.dedup();
+    if frames.len() < 2 {
+        return Err(Error::sheet(crate::curves::TOO_FEW));
+    }
+    Ok(frames)
 }
 
 /// Conversion of koma to frames.
@@ -359,6 +419,7 @@ impl Retarget<'_> {
             frame,
             translation: [t.x, t.y, -t.z].map(single),
             rotation: [-q.x, -q.y, q.z, q.w].map(single),
+            curves: record::LINEAR,
         }
     }
 }

@@ -86,6 +86,25 @@ def glb(path, sheet):
     assert abs(max(ends) * sheet.fps - sheet.length) < 1e-3, max(ends)
 
 
+def keys_glb(path, _):
+    """A cubic has two tangents a key."""
+    read = pygltflib.GLTF2().load_binary(str(path))
+    (animation,) = read.animations
+    for sampler in animation.samplers:
+        values = 3 if sampler.interpolation == "CUBICSPLINE" else 1
+        keys, found = read.accessors[sampler.input].count, read.accessors[sampler.output].count
+        assert found == values * keys, (sampler.interpolation, keys, found)
+
+
+def keys_vmd(path, _):
+    """Every bone has a key on the same frames."""
+    frames = {}
+    for frame in pypmxvmd.load_vmd(str(path)).bone_frames:
+        frames.setdefault(frame.bone_name, []).append(frame.frame_number)
+    (common,) = {tuple(numbers) for numbers in frames.values()}
+    assert len(common) > 1, common
+
+
 def vrma(path, sheet):
     """Holds end a hair before the change, and so does the last."""
     read = pygltflib.GLTF2().load_binary(str(path))
@@ -156,8 +175,10 @@ READERS = [
     (r".*\.toml", toml),
     (r".*\.ffconcat", concat),
     (r".*\.bvh", motion),
+    (r"keys\.glb", keys_glb),
     (r".*\.glb", glb),
     (r".*\.vrma", vrma),
+    (r".*-keys\.vmd", keys_vmd),
     (r".*\.vmd", vmd),
     (r".*\.[xt]dts", digital),
     (r".*\.sts", sts),

@@ -26,7 +26,7 @@ export function readBvh(text) {
       joints.at(-1).channels = rest.slice(1).map((name) => ({ name, column: columns++ }));
     }
   }
-  const rows = lines.slice(at + 3).filter(Boolean).map((line) => line.split(' ').map(Number));
+  const rows = lines.slice(at + 3).filter(Boolean).map((line) => line.split(/\s+/).map(Number));
   return { joints, rows };
 }
 

@@ -93,6 +93,25 @@ impl<'a> Retarget<'a> {
         self.center.is_some()
     }
 
+    /// Returns the joint that drives each of [`Retarget::bones`]; none for the centre, which only moves.
+    pub(crate) fn joints(&self) -> Vec<Option<usize>> {
+        let driven = self.driven.iter().map(|driven| Some(driven.joint.0));
+        self.center.iter().map(|_| None).chain(driven).collect()
+    }
+
+    /// Returns which of [`Retarget::bones`] carries each of them.
+    pub(crate) fn carriers(&self) -> Vec<Option<usize>> {
+        let bones = self.bones();
+        let up = |bone: &usize| self.model.bones[*bone].parent;
+        let carrier = |bone: &usize| {
+            let ancestors = std::iter::successors(up(bone), up);
+            let mut listed =
+                ancestors.filter_map(|bone| bones.iter().position(|other| *other == bone));
+            listed.next()
+        };
+        bones.iter().map(carrier).collect()
+    }
+
     /// Computes the pose of a drawing on a koma, with one entry for each of [`Retarget::bones`].
     pub(crate) fn take(&mut self, drawing: usize, koma: usize) -> Vec<Local> {
         self.rows.write(drawing, koma, &mut self.row);

@@ -8,25 +8,25 @@ use genga::motion::body::names::bones::{LONGEST_NAME, cp932};
 /// Maximum length of the name of a model or an IK bone, in bytes of CP932.
 const LONGEST_MODEL: usize = 20;
 
-/// Linear interpolation on all four channels, (20, 20) and (107, 107) of 127, in the layout that MMD writes. It
-/// is a row of 16 bytes, followed by the same row shifted left by 1, 2 and 3 and filled with zeros. Bytes 2 and 3
-/// of the first row are zero because newer versions keep a physics switch there.
-const LINEAR: [u8; 64] = {
+/// The handles of a straight line, as MMD writes it.
+pub(super) const LINEAR_CURVE: [u8; 4] = [20, 20, 107, 107];
+
+/// The curves of a key that moves straight in all channels.
+pub(crate) const LINEAR: [[u8; 4]; 4] = [LINEAR_CURVE; 4];
+
+/// Lays out the curves of a key as MMD writes them: a row of 16 bytes, each coordinate of all four curves, followed by
+/// the same row shifted left by 1, 2 and 3 and filled with zeros. Bytes 2 and 3 of the first row are zero because newer
+/// versions keep a physics switch there.
+fn interpolation(curves: &[[u8; 4]; 4]) -> [u8; 64] {
     let mut bytes = [0; 64];
-    let mut at = 0;
-    while at < 64 {
+    for (at, byte) in bytes.iter_mut().enumerate() {
         let place = at / 16 + at % 16;
-        bytes[at] = match place {
-            0..8 => 20,
-            8..16 => 107,
-            _ => 0,
-        };
-        at += 1;
+        if place < 16 && !(2..4).contains(&at) {
+            *byte = curves[place % 4][place / 4];
+        }
     }
-    bytes[2] = 0;
-    bytes[3] = 0;
     bytes
-};
+}
 
 /// A motion for MMD: the contents of a `.vmd` file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -50,6 +50,9 @@ pub struct VmdKey {
     pub translation: [f32; 3],
     /// Rotation relative to its parent and its rest: a unit quaternion x, y, z, w in the same axes.
     pub rotation: [f32; 4],
+    /// Interpolation from the key before (補間曲線), of x, y, z and the rotation: a Bézier curve over the time from (0, 0)
+    /// to (127, 127), by the coordinates x₁, y₁, x₂, y₂ of its two handles.
+    pub curves: [[u8; 4]; 4],
 }
 
 impl VmdMotion {
@@ -69,7 +72,7 @@ impl VmdMotion {
             bytes.extend(key.frame.to_le_bytes());
             let numbers = key.translation.iter().chain(&key.rotation);
             numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
-            bytes.extend(LINEAR);
+            bytes.extend(interpolation(&key.curves));
         }
         let (morphs, cameras, lights, shadows) = ([0; 4], [0; 4], [0; 4], [0; 4]);
         [morphs, cameras, lights, shadows].iter().for_each(|none| bytes.extend(none));
@@ -119,6 +122,6 @@ mod tests {
             [20, 20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0],
             [20, 20, 20, 20, 20, 107, 107, 107, 107, 107, 107, 107, 107, 0, 0, 0],
         ];
-        assert_eq!(LINEAR.to_vec(), rows.concat());
+        assert_eq!(interpolation(&LINEAR).to_vec(), rows.concat());
     }
 }

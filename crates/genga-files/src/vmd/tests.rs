@@ -3,6 +3,7 @@
 mod body;
 mod file;
 mod given;
+mod keyed;
 mod names;
 mod reader;
 mod rests;

@@ -42,17 +42,24 @@ fn what_is_read_is_what_was_meant_on_every_clip() {
 proptest! {
     #[test]
     fn any_motion_is_read_as_it_was_written(
-        keys in prop::collection::vec((0usize..50, any::<u32>(), prop::array::uniform7(-1e6f32..1e6)), 0..20),
+        keys in prop::collection::vec(
+            (
+                (0usize..50, any::<u32>(), prop::array::uniform7(-1e6f32..1e6)),
+                prop::array::uniform4(prop::array::uniform4(0u8..128)),
+            ),
+            0..20,
+        ),
         model in "[a-zA-Zぁ-んァ-ン一-龠]{0,10}",
         ik in prop::collection::vec(Just("左足ＩＫ".to_owned()), 0..3),
     ) {
         prop_assume!(cp932(&model, 20).is_ok());
         let bones = Model::standard().bones;
-        let key = |(bone, frame, [a, b, c, d, e, f, g]): (usize, u32, [f32; 7])| VmdKey {
+        let key = |((bone, frame, [a, b, c, d, e, f, g]), curves): ((usize, u32, [f32; 7]), _)| VmdKey {
             bone: bones[bone].name.clone(),
             frame,
             translation: [a, b, c],
             rotation: [d, e, f, g],
+            curves,
         };
         let motion = VmdMotion { model, keys: keys.into_iter().map(key).collect(), ik_off: ik };
         prop_assert_eq!(read(&motion.bytes().unwrap()).motion, motion);

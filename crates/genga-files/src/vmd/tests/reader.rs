@@ -48,8 +48,16 @@ pub(super) fn read(bytes: &[u8]) -> Read {
         let frame = bytes.whole();
         let translation = [0; 3].map(|_| bytes.single());
         let rotation = [0; 4].map(|_| bytes.single());
-        interpolation.push(bytes.take(64).to_vec());
-        keys.push(VmdKey { bone, frame, translation, rotation });
+        let rows = bytes.take(64).to_vec();
+        // Coordinate by coordinate, curve by curve. The second row begins with the second byte of the first.
+        let curves = [0, 1, 2, 3].map(|curve| {
+            [0, 1, 2, 3].map(|coordinate| match 4 * coordinate + curve {
+                0 => rows[0],
+                at => rows[16 + at - 1],
+            })
+        });
+        interpolation.push(rows);
+        keys.push(VmdKey { bone, frame, translation, rotation, curves });
     }
     for section in ["morphs", "camera", "light", "self-shadow"] {
         assert_eq!(bytes.whole(), 0, "{section}");

@@ -1,0 +1,86 @@
+//! The take as few keys with smooth curves between them (キーとカーブ): the other half of a stepped sheet.
+
+mod fit;
+mod samples;
+mod spline;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use genga::error::{Error, Warning};
+use genga::knob::{knob, knobs};
+use genga::motion::Clip;
+use genga::sheet::Sheet;
+
+pub(crate) use fit::{GIRTH, Key, KeyedTake, Track, body_height, turn_between};
+pub(crate) use samples::Path;
+pub(crate) use spline::Shape;
+
+/// Keys at the genga of a sheet, with smooth curves between them that stay close to the take.
+///
+/// The keys stand at the times of the take, not of the sheet: holds and omission belong to stepped motion. Where the
+/// genga alone do not bring the curves close enough, more keys are added, each where the curves are furthest off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Curves {
+    /// Largest distance between the curves' body and the take's, as a share of body height, 0.0001 to 1; default 0.01.
+    /// It holds for each joint, each tip, and the skin about a joint, which turns with it.
+    pub error: f64,
+}
+
+/// The reason why there are no curves.
+pub(crate) const TOO_FEW: &str = "a curve needs two genga, and the sheet has fewer";
+
+impl Default for Curves {
+    fn default() -> Self {
+        Self { error: 0.01 }
+    }
+}
+
+knobs!(curves::Curves {
+    error: knob(
+        "カーブの誤差",
+        "Largest distance between the motion of keys with curves and the take, as a share of body height. Keys are \
+         added to the genga where it is exceeded.",
+        "カーブ付きキーの動きと素材との差の上限。身長に対する割合。超える所では原画にキーを足す。",
+    )
+    .unit("of body height")
+    .at_least(0.0001)
+    .at_most(1.0),
+});
+
+impl Curves {
+    /// Finds the keys and the curves between them.
+    pub(crate) fn fit(&self, clip: &Clip, sheet: &Sheet) -> Result<KeyedTake, Error> {
+        KeyedTake::new(clip, sheet, self.error)
+    }
+
+    /// Says how many keys the curves need beside the genga.
+    pub(crate) fn notes(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<Warning>, Error> {
+        let keyed = self.fit(clip, sheet)?;
+        Ok(self
+            .note("keys-glb", keyed.keys(), keyed.added(), keyed.error_of_genga)
+            .into_iter()
+            .collect())
+    }
+
+    /// Says how many of the keys of a format are no genga, and why they are there.
+    pub(crate) fn note(
+        &self,
+        format: &str,
+        keys: usize,
+        added: usize,
+        error_of_genga: f64,
+    ) -> Option<Warning> {
+        let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+        let message = format!(
+            "{format}: {added} keys beside the {genga} genga. With those alone, the curves are up to {} of body height \
+             off the take; curves.error allows {}",
+            percent(error_of_genga),
+            percent(self.error),
+            genga = keys - added,
+        );
+        (added > 0).then(|| Warning::new("W_KEYS_ADDED", message))
+    }
+}
