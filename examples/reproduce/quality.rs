@@ -2,8 +2,11 @@
 
 use std::slice::from_ref;
 
+use genga::keys::with_ends;
 use genga::signal::{ContactFinder, Limb};
-use genga_lab::quality::{Compare, Comparison, Evaluation, Method, Row};
+use genga_files::{CurveErrors, Curves};
+use genga_lab::quality::baselines::{Objective, Optimal, Segments};
+use genga_lab::quality::{Compare, Comparison, Evaluation, KomaFrames, Method, Row};
 
 use crate::Outcome;
 use crate::on_screen;
@@ -48,6 +51,7 @@ pub(crate) fn from_takes(takes: &[Take]) -> Outcome<Part> {
     part.table("summary", summary(&judged));
     part.table("paces", paces(&judged));
     part.table("sheets", sheets(takes)?);
+    part.table("curves", curves(takes)?);
     on_screen::add(takes, &mut part)?;
     part.text("blind", list(takes.iter().filter_map(blind)));
     part.number("clips", judged.len());
@@ -128,6 +132,41 @@ fn summary(judged: &[Judged<'_>]) -> Table {
         }
     }
     table
+}
+
+/// A table of keys with curves beside as many keys with straight lines between them. Those are the best of all sets for
+/// the worst koma, as Salient Poses finds them.
+fn curves(takes: &[Take]) -> Outcome<Table> {
+    let header = [
+        "clip", ">frames", ">genga", ">keys", ">mean", ">largest", ">lines: mean", ">lines: largest",
+    ];
+    let mut table = Table::new(&header);
+    let share = |value: f64| number(100.0 * value, 2);
+    for take in takes {
+        let sheet = &take.runs[0].sheet;
+        let found = Curves::default().errors(&take.clip, sheet)?;
+        let mut cells = vec![
+            take.name.clone(),
+            take.clip.len().to_string(),
+            (found.keys - found.added).to_string(),
+            found.keys.to_string(),
+            share(found.mean),
+            share(found.largest),
+        ];
+        let grid = KomaFrames::new(take.clip.clone().into(), sheet.clock);
+        let is_long = grid.reference.koma() > Compare::default().longest;
+        cells.extend(match is_long {
+            true => ["–".to_owned(), "–".to_owned()],
+            false => {
+                let best = Optimal::new(&Segments::new(&grid), Objective::Worst, found.keys - 2);
+                let inner = grid.frames_at(&best.keys(found.keys - 2));
+                let lines = CurveErrors::from_lines(&take.clip, &with_ends(&take.clip, &inner));
+                [share(lines.mean), share(lines.largest)]
+            }
+        });
+        table.row(&cells);
+    }
+    Ok(table)
 }
 
 /// A table of keys on threes and on twos, medians over the clips.

@@ -12,6 +12,7 @@ use genga::error::{Error, Warning};
 use genga::knob::{knob, knobs};
 use genga::motion::Clip;
 use genga::sheet::Sheet;
+use genga::time::Frame;
 
 pub(crate) use fit::{GIRTH, Key, KeyedTake, Track, body_height, turn_between};
 pub(crate) use samples::Path;
@@ -27,6 +28,32 @@ pub struct Curves {
     /// Largest distance between the curves' body and the take's, as a share of body height, 0.0001 to 1; default 0.01.
     /// It holds for each joint, each tip, and the skin about a joint, which turns with it.
     pub error: f64,
+}
+
+/// How close the motion between some keys is to the take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveErrors {
+    /// Number of keys, on all layers.
+    pub keys: usize,
+    /// Number of those that are no genga.
+    pub added: usize,
+    /// Largest distance of a joint, a tip or skin, as a share of body height.
+    pub largest: f64,
+    /// Mean distance of the joints and tips over all frames, as a share of body height.
+    pub mean: f64,
+}
+
+impl CurveErrors {
+    /// Measures motion that goes straight from key to key, by slerp, as other programs do between sparse keys. `keys` are
+    /// two or more frames of the clip in order of time.
+    pub fn from_lines(clip: &Clip, keys: &[Frame]) -> Self {
+        Self::new(&KeyedTake::from_lines(clip, keys))
+    }
+
+    fn new(keyed: &KeyedTake) -> Self {
+        let (keys, added) = (keyed.keys(), keyed.added());
+        Self { keys, added, largest: keyed.largest, mean: keyed.mean }
+    }
 }
 
 /// The reason why there are no curves.
@@ -51,6 +78,14 @@ knobs!(curves::Curves {
 });
 
 impl Curves {
+    /// Measures how close the curves come to the take.
+    ///
+    /// # Errors
+    /// [`Error::Sheet`] if fewer than two genga are on screen, or a layer names a joint that the clip lacks.
+    pub fn errors(&self, clip: &Clip, sheet: &Sheet) -> Result<CurveErrors, Error> {
+        Ok(CurveErrors::new(&self.fit(clip, sheet)?))
+    }
+
     /// Finds the keys and the curves between them.
     pub(crate) fn fit(&self, clip: &Clip, sheet: &Sheet) -> Result<KeyedTake, Error> {
         KeyedTake::new(clip, sheet, self.error)

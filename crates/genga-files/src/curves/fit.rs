@@ -80,6 +80,20 @@ impl KeyedTake {
         }
     }
 
+    /// Goes straight between keys on some frames, two or more in order of time.
+    pub(super) fn from_lines(clip: &Clip, frames: &[Frame]) -> Self {
+        let key = |frame: &Frame| Key { place: frame.0 as f64, drawing: None };
+        let layers = vec![frames.iter().map(key).collect::<Vec<_>>()];
+        let layer_of = vec![0; clip.skeleton().len()];
+        let (first, last) = (frames[0], frames[frames.len() - 1]);
+        let take = Take::new(clip, first.0, last.0);
+        let ruler = Ruler::new(clip, &layer_of, first.0 as f64..=last.0 as f64);
+        let tracks = curves(&take, &layers, &layer_of, &vec![true; take.tracks().count()]);
+        let errors = ruler.measure(clip, &layers, &tracks);
+        let (largest, mean) = (errors.largest(), errors.mean());
+        Self { layers, tracks, height: ruler.height, error_of_genga: largest, largest, mean }
+    }
+
     /// Number of keys on all layers.
     pub(crate) fn keys(&self) -> usize {
         self.layers.iter().map(Vec::len).sum()
