@@ -138,7 +138,14 @@ fn summary(judged: &[Judged<'_>]) -> Table {
 /// the worst koma, as Salient Poses finds them.
 fn curves(takes: &[Take]) -> Outcome<Table> {
     let header = [
-        "clip", ">frames", ">genga", ">keys", ">mean", ">largest", ">lines: mean", ">lines: largest",
+        "clip",
+        ">frames",
+        ">genga",
+        ">keys",
+        ">mean",
+        ">largest",
+        ">lines: mean",
+        ">lines: largest",
     ];
     let mut table = Table::new(&header);
     let share = |value: f64| number(100.0 * value, 2);

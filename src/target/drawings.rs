@@ -21,6 +21,9 @@ const NEAR: f64 = 1.0 + 1e-9;
 /// Corrections of koma-dori's count. One is enough if naka-nashi goes first.
 const MOST_CORRECTIONS: usize = 16;
 
+/// Most steps of koma-dori that are tried beside a result.
+const MOST_BESIDE: usize = 8;
+
 /// Most drawings per action that naka-nashi leaves out by a share; fewer are tried if it has to give way.
 const MOST_SPARED: usize = 6;
 
@@ -105,6 +108,7 @@ impl Goal {
     /// Finds the settings nearest to the recipe; a fixed number of inbetweens is given up if no koma-dori suffices.
     fn search(&self, search: &mut Search<'_>, recipe: &Recipe) -> Result<Found, Error> {
         let found = self.descend(search, recipe)?;
+        let found = if found.excess.abs() > NEAR { search.beside(found)? } else { found };
         if found.excess.abs() <= NEAR || recipe.spacing.inbetweens.is_none() {
             return Ok(found);
         }
@@ -181,6 +185,18 @@ impl Search<'_> {
             count = next;
         }
         Ok(best.expect("it was looked at once"))
+    }
+
+    /// Tries the counts of koma-dori beside that of a result. If naka-nashi runs after koma-dori, one step more of it may
+    /// be several drawings less on the sheet or more, so the corrections of [`Self::hold`] may jump over the nearest.
+    fn beside(&mut self, from: Found) -> Result<Found, Error> {
+        let Amount::Count(count) = from.recipe.omission.koma_dori else { return Ok(from) };
+        let mut best = from.clone();
+        for count in count.saturating_sub(MOST_BESIDE)..=count + MOST_BESIDE {
+            let (found, done) = self.look(&with_koma_dori(&from.recipe, count))?;
+            best = if done < count { best } else { best.or(found) };
+        }
+        Ok(best)
     }
 
     /// Like [`Self::hold`], with a given number of found keys.

@@ -325,6 +325,17 @@ proptest! {
     }
 }
 
+#[test]
+fn where_a_step_of_koma_dori_is_several_drawings_the_nearest_count_is_found() {
+    let mut engine = engine("tennis");
+    let mut recipe = Recipe::default();
+    recipe.spacing.on = "1".parse::<On>().unwrap();
+    recipe.set("omission.order", "koma_dori_first").unwrap();
+    let targets = [Target::DrawingsPerSecond(10.444675938360787)];
+    let met = meet(&mut engine, &recipe, &Edits::default(), &targets).unwrap();
+    assert_eq!(met.outcomes[0].shortfall, None, "{}", met.outcomes[0]);
+}
+
 proptest! {
     #![proptest_config(cases(20, 150))]
 

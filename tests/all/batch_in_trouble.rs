@@ -123,6 +123,7 @@ fn a_device_is_no_folder_of_results() {
     }
 }
 
+#[cfg(unix)]
 #[test]
 fn links_in_a_circle_end() {
     let place = Place::new();
