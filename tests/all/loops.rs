@@ -90,7 +90,7 @@ mod program {
         let place = place();
         let said = |args: &str| text(&place.genga(args).stderr);
         let hint = "the last pose is the first: --loop makes a sheet that repeats";
-        assert!(said("run tennis.bvh --out plain").contains(&format!("W_CYCLE: {hint}")));
+        assert!(said("run tennis.bvh --out plain").contains(&format!("{hint} [W_CYCLE]")));
         assert!(!said("run kick.bvh --out kick").contains(hint));
         let looped = said("run tennis.bvh --loop --out looped");
         assert!(!looped.contains(hint), "{looped}");

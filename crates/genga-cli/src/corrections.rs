@@ -114,7 +114,7 @@ pub(super) struct LayerArgs {
     /// of a take. =false overrides the recipe.
     #[arg(long = "loop", help_heading = SHEET, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     repeat: Option<bool>,
-    /// Rounds of the loop on the sheet, all with the same drawings: --loop --cycles 4.
+    /// Rounds of the loop on the sheet: --loop --cycles 4.
     #[arg(long, value_name = "N", help_heading = SHEET)]
     cycles: Option<String>,
 }

@@ -108,13 +108,14 @@ fn corrections_act_in_the_loop_and_over_the_seam() {
     let keys = &run.first_layer().keys.keys;
     assert!(keys.iter().any(|key| key.frame == Frame(free)), "{keys:?}");
     // An inbetween gives way to the hold before it.
-    let plain = engine.run(&looped(), &Edits::default()).unwrap().sheet.layers[0].clone();
+    let ones = Recipe { r#loop: true, ..recipe(&[("spacing.on", "1")]) };
+    let plain = engine.run(&ones, &Edits::default()).unwrap().sheet.layers[0].clone();
     let is = |at: usize, role: Role| plain.drawings[plain.exposures[at].drawing].role == role;
     let mut pairs = 1..plain.exposures.len();
     let last = pairs.rfind(|at| is(at - 1, Role::Genga) && is(*at, Role::Inbetween)).unwrap() - 1;
     let (place, koma) = (plain.drawings[last].source.place(), plain.exposures[last].koma + 1);
     let holds = vec![Hold { frame: Frame(place as usize), koma }];
-    let held = engine.run(&looped(), &Edits { holds, ..Edits::default() }).unwrap();
+    let held = engine.run(&ones, &Edits { holds, ..Edits::default() }).unwrap();
     let layer = &held.sheet.layers[0];
     let is_held = |shown: &&crate::sheet::Exposure| {
         (layer.drawings[shown.drawing].source.place() - place).abs() < 1e-9

@@ -251,8 +251,10 @@ fn of_gait(gait: &GaitReport) -> String {
 /// Prints the figures of a sheet with one layer.
 fn of_body(words: &Words, report: &Report) {
     let koma = report.koma;
+    // A loop has no ends.
+    let ends = if report.repeat.is_none() { ", first and last among them" } else { "" };
     words.say(format_args!(
-        "genga       原画       {}, first and last among them, {:.1} a second",
+        "genga       原画       {}{ends}, {:.1} a second",
         report.genga, report.genga_per_second
     ));
     if report.genga_over_limit > 0 {
