@@ -54,7 +54,7 @@ pub struct Engine {
     /// The actions of the take, found in the body or its first layer.
     actions: Stage<(ActionFinder, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
-    /// What is shown of a loop.
+    /// The round that is shown of a loop.
     looped: Option<Arc<Looped>>,
     /// Whether all outputs belong to the same run.
     is_whole: bool,

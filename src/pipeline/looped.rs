@@ -122,7 +122,7 @@ impl Round {
     }
 }
 
-/// What a loop shows of the results of a run over laid rounds. Frames are those of the clip.
+/// The results that a loop shows of a run over laid rounds. Frames are those of the clip.
 #[derive(Debug, Clone)]
 pub(super) struct Looped {
     pub(super) clip: Arc<Clip>,

@@ -114,7 +114,7 @@ struct Parts<'a> {
     clip: &'a Clip,
     ranges: Vec<Range<usize>>,
     name: &'a str,
-    /// What they are called.
+    /// Their name: action or cycle.
     what: &'a str,
 }
 
