@@ -5,6 +5,7 @@ mod hold;
 mod layer;
 mod marks;
 mod over;
+mod rounds;
 mod speech;
 
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ pub use forbidden::Forbidden;
 pub use hold::Hold;
 pub use layer::{LayerEdits, layer_of};
 pub use marks::{Move, Pin};
+pub(crate) use rounds::Rounds;
 pub use speech::Speech;
 
 /// A person's corrections to the computed sheet.

@@ -105,6 +105,17 @@ pub const fn kind_of<S, V: Setting>(_field: fn(&S) -> &V) -> Kind {
     V::KIND
 }
 
+/// Returns the name of a field without the mark of a Rust keyword.
+pub const fn plain(field: &'static str) -> &'static str {
+    match field.as_bytes() {
+        [b'r', b'#', name @ ..] => match str::from_utf8(name) {
+            Ok(name) => name,
+            Err(_) => field,
+        },
+        _ => field,
+    }
+}
+
 /// Builder methods that declare a knob.
 impl Knob {
     /// Sets the lower bound of a number, inclusive.
@@ -260,7 +271,7 @@ macro_rules! knobs {
         impl $of {
             /// The knob of each setting.
             pub(crate) const KNOBS: &'static [$crate::knob::Knob] = &[$($knob.named(
-                concat!($section, stringify!($field)),
+                $crate::knob::plain(concat!($section, stringify!($field))),
                 $crate::knob::kind_of(|of: &Self| &of.$field),
             )),*];
         }

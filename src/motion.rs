@@ -1,7 +1,8 @@
 //! **Read** (読む): the file as written ⇄ [`Clip`], and the poses of a clip.
 //!
 //! Each module imports only those listed before it: `lanes` computes on several numbers at once, `clip` holds joints,
-//! channels and poses, `body` describes the performer, `seen` the camera, `composite` puts layers together again,
+//! channels and poses, `body` describes the performer, `seen` the camera, `composite` puts layers together again, `laid`
+//! repeats a cycle,
 //! `bvh` reads and writes the native format, and `clean` removes capture artefacts.
 
 mod axis;
@@ -16,6 +17,8 @@ pub mod body;
 pub mod seen;
 
 mod composite;
+
+mod laid;
 
 pub mod bvh;
 
@@ -45,7 +48,9 @@ pub use clip::{
 };
 pub use composite::Cels;
 pub use composite::layer_of;
+pub(crate) use composite::travellers;
 pub use composite::{Composite, CompositePoser, CompositeRows};
+pub use laid::{first_round, laid, middle_round, played_out};
 pub use seen::{Camera, Eye, Screen, SeenFrom};
 pub(crate) use stream::GIB;
 pub use stream::StreamLimit;

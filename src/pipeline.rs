@@ -3,6 +3,7 @@
 mod budget;
 mod joints;
 mod layer;
+mod looped;
 mod moving;
 mod stage;
 mod stop;
@@ -10,6 +11,7 @@ mod stop;
 pub(crate) mod tests;
 mod voters;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::edits::{Edits, Hold, Speech};
@@ -28,6 +30,7 @@ pub use budget::Budget;
 use joints::JointStages;
 pub use layer::LayerBreakdown;
 use layer::{LayerStages, Measured};
+use looped::{Laid, Looped, LoopedLayer, Rounded};
 use moving::{Moving, MovingStages};
 use stage::{Of, Stage};
 pub use stop::Stop;
@@ -39,6 +42,8 @@ pub struct Engine {
     clip: Arc<Clip>,
     budget: Budget,
     stop: Stop,
+    /// The clip that the chain runs over: the source, or its rounds for a loop, at a rate in koma per second.
+    laid: Stage<Option<f64>, Laid>,
     moving: MovingStages,
     /// The speeds, and the spectrum that the filters start from.
     speed: Stage<(Speed, Screen), Spectrum>,
@@ -49,6 +54,8 @@ pub struct Engine {
     /// The actions of the take, found in the body or its first layer.
     actions: Stage<(ActionFinder, Vec<Frame>), Actions>,
     sheets: Stage<SheetSettings, [Sheet; 2]>,
+    /// The round that is shown of a loop.
+    looped: Option<Arc<Looped>>,
     /// Whether all outputs belong to the same run.
     is_whole: bool,
 }
@@ -81,7 +88,14 @@ pub struct Breakdown<'a> {
     pub spaced: &'a Sheet,
     /// The final sheet.
     pub sheet: &'a Sheet,
-    layers: &'a [LayerStages],
+    layers: Shown<'a>,
+}
+
+/// The results of each layer: as the chain made them, or of the round of a loop.
+#[derive(Debug, Clone, Copy)]
+enum Shown<'a> {
+    Whole(&'a [LayerStages]),
+    Round(&'a [LoopedLayer]),
 }
 
 /// Results up to the keys of the first layer.
@@ -100,12 +114,22 @@ pub struct FoundKeys<'a> {
 impl<'a> Breakdown<'a> {
     /// Returns the results of each layer of the sheet.
     pub fn layers(&self) -> impl ExactSizeIterator<Item = LayerBreakdown<'a>> + use<'a> {
-        self.layers.iter().map(LayerStages::breakdown)
+        let (layers, count) = (self.layers, self.sheet.layers.len());
+        (0..count).map(move |at| layers.breakdown(at))
     }
 
     /// Returns the first layer of the sheet: the whole body, unless the recipe splits it.
     pub fn first_layer(&self) -> LayerBreakdown<'a> {
-        self.layers[0].breakdown()
+        self.layers.breakdown(0)
+    }
+}
+
+impl<'a> Shown<'a> {
+    fn breakdown(self, at: usize) -> LayerBreakdown<'a> {
+        match self {
+            Self::Whole(layers) => layers[at].breakdown(),
+            Self::Round(layers) => layers[at].breakdown(),
+        }
     }
 }
 
@@ -124,6 +148,7 @@ impl Engine {
             clip,
             budget: Budget::default(),
             stop: Stop::default(),
+            laid: Stage::default(),
             moving: MovingStages::default(),
             speed: Stage::default(),
             joints: JointStages::default(),
@@ -131,6 +156,7 @@ impl Engine {
             layers: Vec::new(),
             actions: Stage::default(),
             sheets: Stage::default(),
+            looped: None,
             is_whole: false,
         })
     }
@@ -195,9 +221,11 @@ impl Engine {
         edits: &Edits,
         done: impl Fn(&mut LayerStages),
     ) -> Result<Breakdown<'_>, Error> {
+        let own = edits;
+        let edits = &*self.in_rounds(recipe, own)?;
         self.find(recipe, edits)?;
         self.split(recipe, edits);
-        let later = self.actions.output().koma(self.clip.clock(recipe.rate));
+        let later = self.later(recipe);
         let stop = self.stop.clone();
         let (measured, split, layers) = self.layers();
         for (joints, layer) in split.iter().zip(layers) {
@@ -209,6 +237,7 @@ impl Engine {
             done(layer);
         }
         self.sheet(recipe, edits);
+        self.cut(recipe, own);
         self.is_whole = true;
         Ok(self.breakdown(recipe))
     }
@@ -220,6 +249,22 @@ impl Engine {
     }
 
     fn breakdown(&self, recipe: &Recipe) -> Breakdown<'_> {
+        if let Some(looped) = self.looped.as_deref() {
+            return Breakdown {
+                source: &self.clip,
+                clip: &looped.clip,
+                seen_from: recipe.seen_from,
+                screen: self.moving.screen().value(),
+                clock: looped.clock,
+                speed: &looped.speed,
+                filtered: &looped.filtered,
+                turns: &looped.turns,
+                actions: &looped.actions,
+                spaced: &looped.spaced,
+                sheet: &looped.sheet,
+                layers: Shown::Round(&looped.layers),
+            };
+        }
         let [spaced, sheet] = self.sheets.output().value();
         let layers = &self.layers[..sheet.layers.len()];
         Breakdown {
@@ -234,7 +279,7 @@ impl Engine {
             actions: self.actions.output().value(),
             spaced,
             sheet,
-            layers,
+            layers: Shown::Whole(layers),
         }
     }
 
@@ -253,6 +298,7 @@ impl Engine {
     /// # Errors
     /// As for [`Engine::run`].
     pub fn find_keys(&mut self, recipe: &Recipe, edits: &Edits) -> Result<FoundKeys<'_>, Error> {
+        let edits = &self.in_rounds(recipe, edits)?;
         self.find(recipe, edits)?;
         let (body, keys, uncorrected) = self.layers[0].keys();
         Ok(FoundKeys { turns: self.joints.turns.output().value(), body, keys, uncorrected })
@@ -292,6 +338,7 @@ impl Engine {
     /// # Errors
     /// As for [`Engine::run`].
     pub fn find_actions(&mut self, recipe: &Recipe, edits: &Edits) -> Result<&Actions, Error> {
+        let edits = &self.in_rounds(recipe, edits)?;
         self.find(recipe, edits)?;
         self.split(recipe, edits);
         Ok(self.actions.output().value())
@@ -306,8 +353,66 @@ impl Engine {
         recipe: &Recipe,
         edits: &Edits,
     ) -> Result<Reconstruction, Error> {
+        let edits = &self.in_rounds(recipe, edits)?;
         self.find(recipe, edits)?;
         Ok(self.layers[0].reconstruction())
+    }
+
+    /// Makes the clip that the chain runs over.
+    fn lay(&mut self, recipe: &Recipe) -> Result<(), Error> {
+        if recipe.cycles > 1 && !recipe.r#loop {
+            let message =
+                "only a loop has several rounds; --loop makes one, in a recipe loop = true";
+            return Err(Error::setting("cycles", message));
+        }
+        let rate = recipe.r#loop.then_some(recipe.rate);
+        self.laid.try_make((Of::given(&self.clip),), rate, |(clip,), rate| Laid::new(&clip, *rate))
+    }
+
+    /// Returns the corrections for the clip that the chain runs over: those of a loop in every round.
+    fn in_rounds<'e>(
+        &mut self,
+        recipe: &Recipe,
+        edits: &'e Edits,
+    ) -> Result<Cow<'e, Edits>, Error> {
+        if !recipe.r#loop {
+            return Ok(Cow::Borrowed(edits));
+        }
+        recipe.validate()?;
+        edits.validate(self.clip.first(), self.clip.last())?;
+        self.lay(recipe)?;
+        let round = self.laid.output().round;
+        Ok(round.map_or(Cow::Borrowed(edits), |round| Cow::Owned(round.spread(edits))))
+    }
+
+    /// Returns the koma on which each action after the first begins.
+    fn later(&self, recipe: &Recipe) -> Vec<usize> {
+        let (laid, actions) = (self.laid.output(), self.actions.output());
+        let clock = laid.clip.clock(recipe.rate);
+        match laid.round {
+            None => actions.koma(clock),
+            Some(round) => {
+                let frames = round.actions(&actions).into_iter();
+                frames.map(|frame| clock.koma_from_frame(frame)).collect()
+            }
+        }
+    }
+
+    /// Cuts the round of a loop out of the results.
+    fn cut(&mut self, recipe: &Recipe, edits: &Edits) {
+        let count = self.split.output().len();
+        self.looped = self.laid.output().round.map(|round| {
+            let all = Rounded {
+                source: &self.clip,
+                drawn: self.moving.drawn().value(),
+                speed: self.speed.output().value().unfiltered(),
+                filtered: self.joints.filtered.output().value(),
+                turns: self.joints.turns.output().value(),
+                sheets: self.sheets.output().value(),
+                layers: self.layers[..count].iter().map(LayerStages::breakdown).collect(),
+            };
+            Arc::new(round.cut(&all, recipe, edits))
+        });
     }
 
     /// Finds the keys of the first layer.
@@ -337,7 +442,9 @@ impl Engine {
         alone: impl FnOnce(&mut LayerStages, &Moving<'_>, &str) + Send,
     ) -> Result<(), Error> {
         recipe.validate()?;
-        edits.validate(self.clip.first(), self.clip.last())?;
+        self.lay(recipe)?;
+        let laid = Arc::clone(&self.laid.output().clip);
+        edits.validate(laid.first(), laid.last())?;
         // Reports invalid corrections before the expensive work.
         self.is_whole = false;
         self.split.try_make(
@@ -348,7 +455,7 @@ impl Engine {
         let split = self.split.output();
         let names: Vec<&str> = split.iter().map(|joints| joints.name.as_str()).collect();
         edits.check_layers(&names)?;
-        let clock = self.clip.clock(recipe.rate);
+        let clock = laid.clock(recipe.rate);
         names.iter().try_for_each(|name| one_pin_a_koma(&edits.of_layer(name), clock))?;
         recipe.keys.weights.resolve(self.clip.skeleton())?;
         let count = split.len();
@@ -379,10 +486,11 @@ impl Engine {
     /// Measures the speed of every joint.
     pub fn measure(&mut self, recipe: &Recipe) -> Result<(), Error> {
         recipe.validate()?;
-        self.budget.check(&self.clip, recipe.rate)?;
+        self.lay(recipe)?;
+        self.budget.check(&self.laid.output().clip, recipe.rate)?;
         self.stop.check()?;
         self.is_whole = false;
-        self.moving.exaggerate(&self.clip, recipe)?;
+        self.moving.exaggerate(self.laid.output(), recipe)?;
         self.moving.see(recipe.seen_from);
         // Rotations do not depend on the camera.
         let is_seen = recipe.speed.measure.is_seen();
@@ -399,7 +507,8 @@ impl Engine {
     fn sheet(&mut self, recipe: &Recipe, edits: &Edits) {
         let layers = &self.layers[..self.split.output().len()];
         let layers: Vec<_> = layers.iter().map(LayerStages::timed).collect();
-        let of = (self.clip.clock(recipe.rate), recipe.root, recipe.feet, self.clip.last());
+        let laid = &self.laid.output().value().clip;
+        let of = (laid.clock(recipe.rate), recipe.root, recipe.feet, laid.last());
         let settings = (of, edits.holds.clone(), edits.speech.clone());
         self.sheets.make(layers, settings, |layers, settings| {
             let ((clock, root, feet, last), holds, speech) = settings;

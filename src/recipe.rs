@@ -44,6 +44,11 @@ pub struct Recipe {
     /// Whether a standing foot is held in place. Default: it stays as drawn. A held foot does not slide as far as the
     /// leg reaches, but the leg's angles then differ from the performer's.
     pub feet: Feet,
+    /// Whether the sheet is a round of a loop (リピート), default no. The clip's last pose must be its first; the sheet
+    /// then goes on with its first drawing.
+    pub r#loop: bool,
+    /// How many rounds of the loop the sheet has, 1 to 1000; default 1.
+    pub cycles: usize,
     /// Exaggeration, applied before all other stages. Default: off.
     pub exaggerate: Exaggerate,
     /// Measures the speed of each joint.
@@ -70,6 +75,8 @@ impl Default for Recipe {
             root: RootMotion::default(),
             seen_from: SeenFrom::World,
             feet: Feet::default(),
+            r#loop: false,
+            cycles: 1,
             exaggerate: Exaggerate::default(),
             speed: Speed::default(),
             filter: LowPass::default(),
@@ -124,6 +131,20 @@ knobs!(Recipe {
         "接地した足の位置。freeは絵のまま。heldは素材で接地している間一か所に止め、\
          股と膝で合わせる。",
     ),
+    r#loop: knob(
+        "リピート",
+        "Whether the sheet is a round that repeats: the clip's last pose is its first, and after the \
+         last drawing the first comes again.",
+        "シートをリピートの一周分にするか。素材の最後のポーズが最初と同じで、最後の絵の次に最初の絵が来る。",
+    ),
+    cycles: knob(
+        "リピートの回数",
+        "How many rounds of the loop the sheet has. All show the same drawings.",
+        "シートに入れるリピートの回数。どの周も同じ絵を使う。",
+    )
+    .unit("rounds")
+    .at_least(1.0)
+    .at_most(1000.0),
     ..[exaggerate, speed, filter, turns, keys, actions, spacing, omission]
 });
 

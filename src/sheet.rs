@@ -6,13 +6,14 @@ mod source_time;
 mod spoken;
 mod why;
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::choices;
-use crate::time::Clock;
+use crate::time::{Clock, FrameRate};
 
 pub use spoken::SpokenLine;
 pub use why::{Names, Reason, Why};
@@ -37,6 +38,33 @@ pub struct Sheet {
     /// Spoken lines (セリフ), sorted by their first koma.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lines: Vec<SpokenLine>,
+    /// The round that repeats; `None` for a sheet that is played once.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub repeat: Option<Repeat>,
+}
+
+/// The round of a sheet that repeats (リピート): its last drawing goes on with the first.
+///
+/// The drawings of a round lie between the clip's first and last frame, which show one pose. Where a layer goes back in
+/// the source, it goes on in the next round.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a round {\"frames\", \"koma\"}")]
+pub struct Repeat {
+    /// Source frames from a pose to the same pose in the next round.
+    pub frames: usize,
+    /// Koma of a round.
+    pub koma: usize,
+}
+
+impl Repeat {
+    /// Returns the frames per second at which a round lasts its whole number of koma. The source may be a little slower
+    /// or faster.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if it is no valid [`FrameRate`], as for a round without frames or koma.
+    pub fn frame_rate(self, koma_rate: f64) -> Result<FrameRate, Error> {
+        FrameRate::new(self.frames as f64 * koma_rate / self.koma as f64)
+    }
 }
 
 /// How a foot on the ground (接地) behaves in the delivered motion.
@@ -124,6 +152,16 @@ impl Source {
         match self {
             Self::At(place) => place,
             Self::Between { from, to, share } => from + share * (to - from),
+        }
+    }
+
+    /// Returns the source so many frames later.
+    pub fn later(self, frames: f64) -> Self {
+        match self {
+            Self::At(place) => Self::At(place + frames),
+            Self::Between { from, to, share } => {
+                Self::Between { from: from + frames, to: to + frames, share }
+            }
         }
     }
 }
@@ -242,6 +280,13 @@ impl Layer {
             .flat_map(|exposure| std::iter::repeat_n(exposure.drawing, exposure.koma))
     }
 
+    /// Returns the drawing that is on screen on a koma.
+    pub fn shown_at(&self, koma: usize) -> Option<&Drawing> {
+        let shown = self.timed().take_while(|(begin, _)| *begin <= koma).last();
+        let shown = shown.filter(|(begin, shown)| koma < begin + shown.koma);
+        shown.and_then(|(_, shown)| self.drawings.get(shown.drawing))
+    }
+
     /// Returns the drawings that appear on screen, in order. A person's edits may leave others unused.
     pub fn shown(&self) -> impl Iterator<Item = &Drawing> {
         let mut is_shown = vec![false; self.drawings.len()];
@@ -289,7 +334,7 @@ impl Sheet {
     /// Creates a sheet of these layers, with the default motion of root and feet.
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
         let (root, feet) = (RootMotion::default(), Feet::default());
-        Self { clock, layers, root, feet, lines: vec![] }
+        Self { clock, layers, root, feet, lines: vec![], repeat: None }
     }
 
     /// Checks that each exposure lasts at least one koma and shows a drawing of its layer, that all layers together
@@ -330,6 +375,38 @@ impl Sheet {
         self.layers.iter().map(Layer::length).max().unwrap_or(0)
     }
 
+    /// Number of rounds of a loop that the sheet has: how often its exposures come again. 1 for a sheet that does not
+    /// repeat, and for one whose rounds a person made different.
+    pub fn rounds(&self) -> usize {
+        let of_layer = |layer: &Layer| {
+            let shown = &layer.exposures[..];
+            let is_round = |count: &usize| {
+                shown.len() % count == 0
+                    && shown.chunks(*count).all(|round| round == &shown[..*count])
+            };
+            (1..=shown.len()).find(is_round).map_or(1, |count| shown.len() / count)
+        };
+        match self.repeat {
+            None => 1,
+            Some(_) => self.layers.iter().map(of_layer).min().unwrap_or(1),
+        }
+    }
+
+    /// Returns the first round of a loop; any other sheet as it is.
+    pub fn first_round(&self) -> Cow<'_, Self> {
+        let rounds = self.rounds();
+        if rounds == 1 {
+            return Cow::Borrowed(self);
+        }
+        let mut round = self.clone();
+        for layer in &mut round.layers {
+            layer.exposures.truncate(layer.exposures.len() / rounds);
+        }
+        let length = round.length();
+        round.lines.retain(|line| line.past() <= length);
+        Cow::Owned(round)
+    }
+
     /// Creates a sheet of a clip on ones (1コマ打ち): one drawing per koma, without a search for keys. The first and the
     /// last drawing are ends.
     pub fn on_ones(clock: Clock, koma: usize) -> Self {
@@ -351,7 +428,7 @@ impl Sheet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::time::{Frame, FrameRate};
+    use crate::time::Frame;
 
     fn clock() -> Clock {
         Clock { first: Frame(0), frame_rate: FrameRate::new(120.0).unwrap(), koma_rate: 24.0 }
@@ -367,6 +444,25 @@ mod tests {
         assert_eq!((layer.count(Role::End), layer.count(Role::Inbetween)), (2, 1));
         assert_eq!(Sheet::on_ones(clock(), 0).length(), 0);
         assert_eq!(Sheet::on_ones(clock(), 1).layers[0].count(Role::End), 1);
+    }
+
+    #[test]
+    fn a_loop_has_as_many_rounds_as_all_its_layers() {
+        let mut sheet = Sheet::on_ones(clock(), 4);
+        sheet.layers[0].exposures = sheet.layers[0].exposures.repeat(6);
+        assert_eq!(sheet.rounds(), 1, "a plain sheet may show drawings again");
+        sheet.repeat = Some(Repeat { frames: 15, koma: 4 });
+        assert_eq!(sheet.rounds(), 6);
+        let held = Layer {
+            exposures: vec![Exposure { drawing: 2, koma: 12 }; 2],
+            ..sheet.layers[0].clone()
+        };
+        sheet.layers.push(held);
+        assert_eq!(sheet.rounds(), 2);
+        let round = sheet.first_round();
+        assert_eq!((round.length(), round.layers[1].exposures.len(), round.rounds()), (12, 1, 1));
+        sheet.layers[0].exposures[23].koma = 2;
+        assert_eq!(sheet.rounds(), 1);
     }
 
     #[test]

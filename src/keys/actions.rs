@@ -76,6 +76,11 @@ impl Actions {
         Self { first: clip.first(), past: Frame(clip.first().0 + clip.len()), splits }
     }
 
+    /// Takes a whole clip as one action.
+    pub(crate) fn whole(clip: &Clip) -> Self {
+        Self::split(clip, Vec::new())
+    }
+
     /// Returns the splits between the actions.
     pub fn splits(&self) -> &[Split] {
         &self.splits

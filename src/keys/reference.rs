@@ -159,7 +159,7 @@ impl Reference {
     }
 
     /// Returns the position of every point at a koma.
-    fn still(&self, koma: usize) -> impl Iterator<Item = DVec3> {
+    pub(super) fn still(&self, koma: usize) -> impl Iterator<Item = DVec3> {
         self.positions(koma / LANES).iter().map(move |position| position.lane(koma % LANES))
     }
 

@@ -216,7 +216,7 @@ pub fn layer_of(skeleton: &Skeleton, sheet: &Sheet) -> Result<Vec<usize>, Error>
 
 /// Finds the joints that carry the body through the room: those that change position and hang on no other such joint.
 /// Usually this is the root; some rigs have a still joint above the one that travels.
-fn travellers(clip: &Clip) -> Vec<usize> {
+pub(crate) fn travellers(clip: &Clip) -> Vec<usize> {
     let changes = clip.changing_channels();
     let mut carried: Vec<bool> = Vec::with_capacity(clip.skeleton().len());
     let mut travellers = Vec::new();
@@ -233,6 +233,6 @@ fn travellers(clip: &Clip) -> Vec<usize> {
 }
 
 /// Whether a channel is a position channel.
-fn is_position(channel: Channel) -> bool {
+pub(super) fn is_position(channel: Channel) -> bool {
     matches!(channel, Channel::Position(_))
 }

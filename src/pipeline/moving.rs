@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::looped::Laid;
 use super::stage::{Of, Stage};
 use crate::error::Error;
 use crate::exaggerate::Exaggerate;
@@ -46,12 +47,12 @@ impl Moving<'_> {
 
 impl MovingStages {
     /// Exaggerates the motion if the recipe asks for it.
-    pub(super) fn exaggerate(&mut self, clip: &Arc<Clip>, recipe: &Recipe) -> Result<(), Error> {
+    pub(super) fn exaggerate(&mut self, laid: Of<'_, Laid>, recipe: &Recipe) -> Result<(), Error> {
         // A disabled exaggeration must not invalidate the cache.
         let settings = (!recipe.exaggerate.is_off()).then(|| recipe.exaggerate.clone());
-        self.drawn.try_make((Of::given(clip),), settings, |(clip,), settings| match settings {
-            None => Ok(Arc::clone(&clip)),
-            Some(exaggerate) => exaggerate.apply(&clip).map(Arc::new),
+        self.drawn.try_make((laid,), settings, |(laid,), settings| match settings {
+            None => Ok(Arc::clone(&laid.clip)),
+            Some(exaggerate) => exaggerate.apply(&laid.clip).map(Arc::new),
         })
     }
 

@@ -40,6 +40,7 @@ mod lies; // lying files end fast
 mod links; // links between the pages of the documentation
 
 mod filter_persistence;
+mod loops; // sheets that repeat, and the cycles of a take
 mod lost_limbs; // an arm or a leg that a file will not move is reported on the first line
 mod lying_files; // makes lying files
 mod mutated; // real files with anything changed: no panic, and what is read is written

@@ -55,7 +55,9 @@ fn any_clip() -> impl Strategy<Value = Clip> {
 
 /// A value that a person could give a knob, sensible or not.
 fn any_setting() -> impl Strategy<Value = (String, String)> {
-    prop::sample::select(KNOBS).prop_flat_map(|knob| {
+    // A clip of random values is no cycle, and only a loop has several rounds.
+    let knobs = KNOBS.iter().filter(|knob| !["loop", "cycles"].contains(&knob.name));
+    prop::sample::select(knobs.collect::<Vec<_>>()).prop_flat_map(|knob| {
         let words: Vec<String> = match knob.kind {
             Kind::Number { .. } => {
                 ["0", "1", "2", "3", "0.5", "0.95", "17", "1000", "1e9", "none", "-1"]

@@ -108,6 +108,15 @@ pub(super) struct LayerArgs {
     /// On ones it moves on every koma as in the source, so held drawings slide (移動を1コマで).
     #[arg(long, value_name = "HOW", help_heading = SHEET)]
     root_on: Option<String>,
+    /// A round that repeats (リピート): the last pose is the first.
+    ///
+    /// After the last drawing the first comes again, and the body travels on. genga split --cycles lists the best rounds
+    /// of a take. =false overrides the recipe.
+    #[arg(long = "loop", help_heading = SHEET, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    repeat: Option<bool>,
+    /// Rounds of the loop on the sheet: --loop --cycles 4.
+    #[arg(long, value_name = "N", help_heading = SHEET)]
+    cycles: Option<String>,
 }
 
 pub(super) fn frame(text: &str) -> Result<Frame, String> {
@@ -222,6 +231,10 @@ impl LayerArgs {
         }
         if let Some(word) = &self.root_on {
             recipe.set("root", word)?;
+        }
+        recipe.r#loop = self.repeat.unwrap_or(recipe.r#loop);
+        if let Some(count) = &self.cycles {
+            recipe.set("cycles", count)?;
         }
         Ok(())
     }

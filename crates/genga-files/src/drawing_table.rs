@@ -2,7 +2,7 @@
 
 use crate::{csv_table, number};
 use genga::error::Error;
-use genga::motion::{Clip, JointId};
+use genga::motion::{Clip, JointId, played_out};
 use genga::sheet::{Drawing, Layer, Reason, Sheet};
 use genga::timing::{Gauge, fraction};
 
@@ -59,8 +59,10 @@ impl Drawings {
     pub fn write(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         sheet.check()?;
         let mut rows = Vec::new();
-        for layer in &sheet.layers {
-            let gauge = gauge(clip, layer);
+        // The way over a seam shows only where the rounds follow each other.
+        let (played_clip, played) = played_out(clip, sheet);
+        for (layer, played) in sheet.layers.iter().zip(&played.layers) {
+            let gauge = gauge(&played_clip, played);
             let genga = layer.genga_numbers();
             for ((begin, exposure), gauge) in layer.timed().zip(gauge) {
                 let drawing = &layer.drawings[exposure.drawing];

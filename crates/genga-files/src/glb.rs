@@ -18,8 +18,8 @@ use binary::Binary;
 use bones::Bones;
 use genga::error::Error;
 use genga::knob::{Knobs, choices, knob, knobs};
-use genga::motion::{Axis, Clip, Composite, Stature, Unit};
-use genga::sheet::Sheet;
+use genga::motion::{Axis, Cels, Clip, Composite, Stature, Unit, played_out};
+use genga::sheet::{Layer, Sheet};
 
 /// The limited motion as GLB: a skeleton that holds each drawing's pose for as long as the drawing is
 /// exposed, in metres and +Y up. By default every sampler is `STEP`.
@@ -164,12 +164,17 @@ impl Glb {
     pub fn write(&self, clip: &Clip, sheet: &Sheet) -> Result<Vec<u8>, Error> {
         self.validate()?;
         clip.check_size()?;
+        // The rounds of a loop are at other places and show the same drawings.
+        let named = Cels::new(clip, sheet)?;
+        let (clip, sheet) = played_out(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = Composite::new(clip, sheet)?;
         let space = self.space(clip);
         let bones = Bones::new(clip.skeleton(), space)?;
         let mut binary = Binary::default();
         let mut document = self.scene(&bones, &mut binary);
-        document["animations"] = self.animations(&composite, sheet, space, &mut binary);
+        document["animations"] =
+            self.animations(&composite, (sheet, named.layer()), space, &mut binary);
         Ok(binary.into_glb(document))
     }
 
@@ -235,14 +240,14 @@ impl Glb {
     fn animations(
         &self,
         composite: &Composite<'_>,
-        sheet: &Sheet,
+        (sheet, named): (&Sheet, &Layer),
         space: Space,
         binary: &mut Binary,
     ) -> Value {
         let layer = composite.layer();
         let poses = animation::Poses::new(composite, space);
         let write = |name: &str, shown: &[animation::Exposed], binary: &mut Binary| {
-            poses.animation(name, shown, (layer, sheet.clock.koma_rate), self.step, binary)
+            poses.animation(name, shown, (named, sheet.clock.koma_rate), self.step, binary)
         };
         let mut animations = vec![write("koma", &animation::all(layer), binary)];
         let genga = animation::genga(layer);

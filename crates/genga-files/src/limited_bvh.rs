@@ -1,19 +1,20 @@
 //! The motion of a sheet as BVH: stepped, or the key poses alone.
 
 use genga::error::Error;
-use genga::motion::{Clip, Composite, CompositeRows, bvh};
+use genga::motion::{Clip, Composite, CompositeRows, bvh, played_out};
 use genga::sheet::{Exposure, Sheet};
 use genga::time::{Frame, FrameRate};
 
 /// Writes the motion of a sheet as a BVH at the sheet's rate, 24 fps. Each row is a koma, with every joint
 /// posed as in its layer's drawing. A drawing at a source frame keeps the numbers it was read from. Holds repeat
-/// their row, except for a root on ones.
+/// their row, except for a root on ones. In a loop the body travels on from round to round.
 ///
 /// # Errors
 /// [`Error::Sheet`] as [`Sheet::first_layer`], and if a layer names a joint that the clip does not have.
 pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
-    let composite = Composite::new(clip, sheet)?;
-    written(&composite, sheet, on_screen(&composite))
+    let (clip, sheet) = played_out(clip, sheet);
+    let composite = Composite::new(&clip, &sheet)?;
+    written(&composite, &sheet, on_screen(&composite))
 }
 
 /// Returns the motion of [`limited_bvh`] as a clip whose frame 0 is koma 0.
@@ -21,7 +22,8 @@ pub fn limited_bvh(clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
 /// # Errors
 /// The errors of [`limited_bvh`]; [`Error::Clip`] for a sheet without koma.
 pub fn limited(clip: &Clip, sheet: &Sheet) -> Result<Clip, Error> {
-    let composite = Composite::new(clip, sheet)?;
+    let (clip, sheet) = played_out(clip, sheet);
+    let composite = Composite::new(&clip, &sheet)?;
     let skeleton = clip.skeleton();
     let (mut rows, mut row) = (CompositeRows::new(&composite), vec![0.0; skeleton.channels()]);
     let (mut koma, mut values) = (0, Vec::new());

@@ -3,7 +3,7 @@
 use crate::Cut;
 use crate::sheet_json::MadeWith;
 use genga::error::Error;
-use genga::motion::{Screen, SeenFrom};
+use genga::motion::{Screen, SeenFrom, played_out};
 use genga::sheet::Sheet;
 use genga::timing::Stills;
 use genga_plot::{FigureBody, PoseRow, SheetPlot};
@@ -14,9 +14,10 @@ use genga_plot::{FigureBody, PoseRow, SheetPlot};
 /// # Errors
 /// [`Error::Picture`] if it cannot be drawn.
 pub fn bars(cut: &Cut<'_>) -> Result<String, Error> {
-    let ones = Sheet::on_ones(cut.sheet.clock, cut.sheet.length());
+    let (motion, sheet) = played_out(cut.clip, cut.sheet);
+    let ones = Sheet::on_ones(sheet.clock, sheet.length());
     let seen_from = cut.made_with.map_or(SeenFrom::World, MadeWith::seen_from);
-    let stills = Stills::on(cut.clip, &ones.layers[0], &Screen::new(seen_from, cut.clip));
+    let stills = Stills::on(&motion, &ones.layers[0], &Screen::new(seen_from, cut.clip));
     let step = |koma: usize| if koma == 0 { 0.0 } else { stills.ssd(koma - 1, koma) };
     let steps: Vec<f64> = (0..stills.len()).map(step).collect();
     let (clip, splits) = (cut.name.to_owned(), cut.splits.to_vec());

@@ -56,6 +56,9 @@ pub struct Report {
     /// The actions of the take, in order; empty for a single action.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub actions: Vec<Action>,
+    /// The round of a loop; `None` for a sheet that is played once.
+    #[serde(rename = "loop", skip_serializing_if = "Option::is_none")]
+    pub repeat: Option<LoopReport>,
     /// The gaits whose steps have the same drawings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaits: Vec<GaitReport>,
@@ -69,6 +72,19 @@ pub struct Report {
     pub losses: Vec<String>,
     /// Notes for the user, as sentences.
     pub notes: Vec<String>,
+}
+
+/// The round of a loop (リピート).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LoopReport {
+    /// Number of koma of a round on the sheet.
+    pub koma: usize,
+    /// Koma that the round lasts in the source; a sheet has whole ones.
+    pub source_koma: f64,
+    /// Number of rounds on the sheet.
+    pub rounds: usize,
+    /// Source frame of the first drawing.
+    pub from_frame: f64,
 }
 
 /// The figures of one of several layers.
@@ -206,6 +222,7 @@ impl Report {
             held_koma: layer.held_koma(),
             inbetweens_that_did_not_fit: first.did_not_fit,
             actions: several(breakdown.actions),
+            repeat: repeat(breakdown),
             gaits: first.keys.gaits.iter().map(GaitReport::from).collect(),
             omission: first.omission.into(),
             layers: layers(breakdown),
@@ -218,6 +235,19 @@ impl Report {
 /// Camera in which movement was measured; `None` for world space.
 fn seen_from(seen_from: SeenFrom) -> Option<String> {
     (!seen_from.is_world()).then(|| seen_from.to_string())
+}
+
+/// The round of a loop; `None` if the sheet is played once.
+fn repeat(breakdown: &Breakdown<'_>) -> Option<LoopReport> {
+    let (sheet, clock) = (breakdown.sheet, breakdown.clock);
+    let frames = sheet.repeat?.frames as f64;
+    let rounds = sheet.rounds();
+    Some(LoopReport {
+        koma: sheet.length() / rounds,
+        source_koma: (1e3 * frames / clock.frames_in_koma()).round() / 1e3,
+        rounds,
+        from_frame: sheet.layers[0].shown_at(0)?.source.place(),
+    })
 }
 
 /// The actions of a take; empty if it is a single action.

@@ -23,7 +23,7 @@ use genga::knob::{Knobs, knob, knobs};
 pub use genga::motion::BoneMap;
 use genga::motion::body::names::bones::{Model, cp932};
 use genga::motion::body::names::{Found, SHAPE};
-use genga::motion::{Clip, Composite, JointId, Skeleton};
+use genga::motion::{Clip, Composite, JointId, Skeleton, played_out};
 use genga::sheet::{Exposure, Layer, Sheet, Source};
 pub use genga_read::MmdModel;
 pub use record::{VmdKey, VmdMotion};
@@ -182,6 +182,8 @@ impl Vmd {
     /// range, or two koma would fall on the same frame.
     pub fn make(&self, clip: &Clip, sheet: &Sheet) -> Result<VmdMade, Error> {
         self.validate()?;
+        let (clip, sheet) = played_out(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = Composite::new(clip, sheet)?;
         if clip.is_empty() {
             return Err(Error::clip("the clip has no frame: there is no pose to write"));

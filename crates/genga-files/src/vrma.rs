@@ -26,7 +26,7 @@ use crate::humanoid::rest_alignment::Stance;
 use crate::humanoid::retarget::{Local, Retarget};
 use genga::error::{Error, Warning};
 use genga::motion::body::names::{BoneMap, SHAPE};
-use genga::motion::{Clip, Composite, JointId, Stature};
+use genga::motion::{Clip, Composite, JointId, Stature, played_out};
 use genga::sheet::{Exposure, Sheet};
 use names::{HIPS, SPINE, needed, vrm_name};
 
@@ -52,6 +52,8 @@ pub(crate) fn write(clip: &Clip, sheet: &Sheet, map: Option<&BoneMap>) -> Result
     if clip.is_empty() {
         return Err(Error::clip("the clip has no frame: there is no pose to write"));
     }
+    let (clip, sheet) = played_out(clip, sheet);
+    let (clip, sheet) = (&*clip, &*sheet);
     let composite = Composite::new(clip, sheet)?;
     let cast = cast(clip, map)?;
     let capture = Capture::new(clip, &cast.model, &cast.found);

@@ -14,8 +14,7 @@ use crate::stage::{Bounds, Stage, fitting, largest};
 use crate::style;
 use genga::error::Error;
 use genga::knob::{Knobs, knob, knobs};
-use genga::motion::Camera;
-use genga::motion::Clip;
+use genga::motion::{Camera, Clip, first_round};
 use genga::sheet::{Role, Sheet};
 
 /// The contact sheet (原画一覧): one card per genga with its number, koma, frame and reasons. All figures have
@@ -91,6 +90,8 @@ impl ContactSheet {
     /// and sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
+        let (clip, sheet) = first_round(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
         let figure = Figure::new(clip, self.body);

@@ -23,12 +23,13 @@ pub struct ShownDrawing<'a> {
     pub koma: usize,
     /// Number of koma on screen.
     pub held: usize,
+    number: usize,
 }
 
 impl ShownDrawing<'_> {
     /// Returns the number in the CELL column, from 1.
     pub fn number(&self) -> usize {
-        self.index + 1
+        self.number
     }
 
     /// Whether a person pinned it.
@@ -76,9 +77,21 @@ pub fn shown_drawings(layer: &Layer) -> Vec<ShownDrawing<'_>> {
     let cell = |(koma, exposure): (usize, Exposure)| {
         let index = exposure.drawing;
         let drawing = &layer.drawings[index];
-        ShownDrawing { drawing, index, genga: numbers[index], koma, held: exposure.koma }
+        let (genga, held, number) = (numbers[index], exposure.koma, index + 1);
+        ShownDrawing { drawing, index, genga, koma, held, number }
     };
     layer.timed().map(cell).collect()
+}
+
+/// Lists the drawings of a loop that is played out, under the numbers that its sheet gives them.
+pub(super) fn shown_as<'a>(layer: &'a Layer, named: &Layer) -> Vec<ShownDrawing<'a>> {
+    let (on_screen, genga) = (named.koma().collect::<Vec<_>>(), named.genga_numbers());
+    let mut cells = shown_drawings(layer);
+    for cell in &mut cells {
+        let index = on_screen[cell.koma];
+        (cell.number, cell.genga) = (index + 1, genga[index]);
+    }
+    cells
 }
 
 /// Combines all layers of a sheet as figures show them, after checking that they can be shown.

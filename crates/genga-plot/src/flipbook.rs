@@ -12,7 +12,7 @@ use crate::points::Posing;
 use crate::shared;
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
-use genga::motion::{Camera, Clip, Composite};
+use genga::motion::{Camera, Clip, Composite, first_round};
 use genga::sheet::{Layer, Sheet, Source};
 
 /// A flip-book (パラパラ): source and result as one self-contained HTML file. It plays, steps by koma and by
@@ -98,6 +98,9 @@ impl FlipBook {
     /// sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
+        // The page itself plays again and again.
+        let (clip, sheet) = first_round(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = beginning(composite.layer(), self.most);
         let take = self.take(cut, &composite, sheet, &layer);

@@ -13,9 +13,8 @@ use crate::stage::{Bounds, Stage, fitting};
 use crate::style;
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
-use genga::motion::Camera;
-use genga::motion::Clip;
 use genga::motion::seen::view::View;
+use genga::motion::{Camera, Clip, first_round};
 use genga::sheet::Sheet;
 
 /// Onion skin (オニオンスキン): one panel from each genga to the next. It shows all drawings between them at their
@@ -81,6 +80,8 @@ impl OnionSkin {
     /// sheet have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
+        let (clip, sheet) = first_round(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
         let figure = Figure::new(clip, self.body);

@@ -13,7 +13,7 @@ use crate::points::{Posing, Showing};
 use crate::stage::{Bounds, Stage, fitting, largest};
 use crate::{style, title};
 use genga::error::Error;
-use genga::motion::{Camera, Clip};
+use genga::motion::{Camera, Clip, first_round};
 use genga::sheet::{Role, Sheet, Source};
 
 /// Figures of some drawings, side by side, on one floor and of one scale.
@@ -109,6 +109,8 @@ impl PoseRow {
     /// ```
     pub fn draw_kept(&self, clip: &Clip, sheet: &Sheet) -> Result<String, Error> {
         self.validate()?;
+        let (clip, sheet) = first_round(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let mut kept = shown_drawings(composite.layer());
         kept.retain(|cell| cell.genga.is_some());

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::canvas::{Align, Canvas, Inks, Type};
 use crate::drawings::{
-    ShownDrawing, beginning, composed, drawn_poses, seconds_and_koma, shown_drawings, sliding_poses,
+    ShownDrawing, beginning, composed, drawn_poses, seconds_and_koma, shown_as, sliding_poses,
 };
 use crate::figure::{Figure, FigureBody};
 use crate::page_head::{self, Head};
@@ -16,8 +16,7 @@ use crate::stage::{Bounds, Stage, fitting, largest};
 use crate::style;
 use genga::error::Error;
 use genga::knob::{Knobs, knobs};
-use genga::motion::Camera;
-use genga::motion::Clip;
+use genga::motion::{Camera, Clip, played_out};
 use genga::sheet::{Sheet, Source};
 
 /// The source above, the result below, koma by koma (\[KKMFT\] figures 4 to 7). A drawing that naka-nashi
@@ -101,6 +100,9 @@ impl Strip {
     /// have nothing to show.
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         self.validate()?;
+        let named = composed(clip, sheet)?.layer().clone();
+        let (clip, played) = played_out(clip, sheet);
+        let (clip, sheet) = (&*clip, &*played);
         let composite = composed(clip, sheet)?;
         let whole = composite.layer();
         let layer = &*beginning(whole, self.most);
@@ -111,7 +113,7 @@ impl Strip {
         let place = |koma| sheet.clock.place_from_koma(koma);
         let koma = layer.length();
         let source = Posing::new(clip, marks).all((0..koma).map(|koma| Source::At(place(koma))));
-        let cells = shown_drawings(layer);
+        let cells = shown_as(layer, &named);
         let all = sliding.as_ref().unwrap_or(&result);
         let (stage, in_line, column) = self.stage(clip, &figure, &source, all);
         let lines = koma.div_ceil(in_line);
@@ -130,7 +132,7 @@ impl Strip {
         };
         let pages = lines.div_ceil(self.rows);
         let page = |at: usize| {
-            let facts = page_head::facts(sheet, whole);
+            let facts = page_head::facts(sheet, &named);
             let title = "Source and result 素材と結果";
             let head = Head { title, cut, facts, page: (at + 1, pages) };
             let lines = at * self.rows..((at + 1) * self.rows).min(lines);

@@ -21,7 +21,7 @@ use crate::xsheet::layout::Page;
 use crate::xsheet::paper_layer::Leaf;
 use genga::error::Error;
 use genga::knob::{choices, knob, knobs};
-use genga::motion::Clip;
+use genga::motion::{Clip, played_out};
 use genga::sheet::Sheet;
 use genga::timing::Gauge;
 
@@ -126,19 +126,24 @@ impl HoldLine {
 
 impl XSheet {
     /// Draws the pages as SVG, each of 1000 × 1440 px and with at most eight layers. The pages of the first
-    /// eight layers come first, then those of the next eight, then the gauges. An empty sheet has one page.
+    /// eight layers come first, then those of the next eight, then the gauges. An empty sheet has one page. The rounds of a
+    /// loop after the first are written as a repeat (リピート).
     ///
     /// # Errors
     /// [`Error::Sheet`] as in [`Sheet::check`].
     pub fn draw(&self, cut: &str, clip: &Clip, sheet: &Sheet) -> Result<Vec<String>, Error> {
         sheet.check()?;
-        let gauges: Vec<_> =
-            sheet.layers.iter().map(|layer| Gauge::from_layer(clip, layer)).collect();
+        let rounds = sheet.rounds();
+        let repeat = (rounds > 1).then(|| sheet.length() / rounds);
+        // The way over a seam shows only where the rounds follow each other.
+        let (played_clip, played) = played_out(clip, sheet);
+        let gauges: Vec<Vec<Gauge>> =
+            played.layers.iter().map(|layer| Gauge::from_layer(&played_clip, layer)).collect();
         let leaves: Vec<Leaf<'_>> = sheet
             .layers
             .iter()
             .zip(&gauges)
-            .map(|(layer, gauges)| Leaf::new(layer, gauges))
+            .map(|(layer, gauges)| Leaf::new(layer, gauges, repeat))
             .collect();
         let mut pages = Vec::new();
         for page in Page::all(self, cut, sheet, &leaves) {

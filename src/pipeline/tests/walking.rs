@@ -39,8 +39,16 @@ fn leg(cycle: f64) -> [f64; 2] {
     [-SWING.0 * (std::f64::consts::TAU * part).cos(), if part > 0.5 { SWING.1 * bent } else { 0.0 }]
 }
 
+/// Frames of a cycle, two steps: 26 koma.
+pub(crate) const ROUND: usize = 2 * STEP as usize;
+
 /// Builds a clip of six steps.
 pub(crate) fn clip() -> Clip {
+    walk(0.3, (6.0 * STEP) as usize, 0.0)
+}
+
+/// Builds a walk that begins at a phase of the cycle, and travels so far in a frame.
+pub(crate) fn walk(phase: f64, frames: usize, travel: f64) -> Clip {
     let mut text = String::from(BODY);
     limb(&mut text, ["LeftUpLeg", "LeftLeg", "LeftFoot"], [9.0, 0.0, 0.0], [0.0, -42.0, 0.0]);
     limb(&mut text, ["RightUpLeg", "RightLeg", "RightFoot"], [-9.0, 0.0, 0.0], [0.0, -42.0, 0.0]);
@@ -56,10 +64,9 @@ pub(crate) fn clip() -> Clip {
     writeln!(text, "JOINT Head\n{{\nOFFSET 0 48 0\nCHANNELS 3 Zrotation Xrotation Yrotation")
         .unwrap();
     writeln!(text, "End Site\n{{\nOFFSET 0 20 0\n}}\n}}\n}}\n}}").unwrap();
-    let frames = (6.0 * STEP) as usize;
     writeln!(text, "MOTION\nFrames: {frames}\nFrame Time: {}", 1.0 / 48.0).unwrap();
     for frame in 0..frames {
-        let cycle = frame as f64 / (2.0 * STEP) + 0.3;
+        let cycle = frame as f64 / (2.0 * STEP) + phase;
         let [left, right] = [leg(cycle), leg(cycle + 0.5)];
         let stands = if cycle.rem_euclid(1.0) < 0.5 { left[0] } else { right[0] };
         let height = 84.0 * stands.to_radians().cos() + 5.0;
@@ -67,7 +74,8 @@ pub(crate) fn clip() -> Clip {
         let of_arm = |thigh: f64| format!("0 {thigh} 0 0 0 0 0 0 0");
         let (legs, spine) = (format!("{} {}", of_leg(left), of_leg(right)), "0 0 0");
         let arms = format!("{} {}", of_arm(right[0]), of_arm(left[0]));
-        writeln!(text, "0 {height} 0 0 0 0 {legs} {spine} {arms} 0 0 0").unwrap();
+        let z = frame as f64 * travel;
+        writeln!(text, "0 {height} {z} 0 0 0 {legs} {spine} {arms} 0 0 0").unwrap();
     }
     crate::motion::bvh::read(text.as_bytes()).unwrap().clip
 }

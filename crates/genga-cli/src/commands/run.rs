@@ -12,9 +12,11 @@ use crate::plan::{Plan, PlanArgs};
 use crate::results::{OWN, Outcome, Results};
 use crate::{camera_args, corrections, files, kept, outcomes, paths, pin_args};
 use genga::edits::Edits;
+use genga::keys::Cycle;
+use genga::motion::Clip;
 use genga::pipeline::Breakdown;
 use genga::recipe::Recipe;
-use genga_files::{GaitReport, LayerReport, Report, Run};
+use genga_files::{GaitReport, LayerReport, LoopReport, Report, Run};
 
 #[derive(Debug, Args)]
 #[command(after_help = help(), after_long_help = long_help(), disable_help_flag = true, arg = help_flag())]
@@ -75,6 +77,7 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
         words.warn_if_quiet(warning);
         notes.push(warning.to_string());
     })?;
+    notes.extend(of_cycle(engine.clip(), plan.recipe.r#loop));
     let place = Folder::look(&folder, args.formats.over());
     place.check(&of)?;
     let keeps =
@@ -112,6 +115,17 @@ pub(super) fn run(args: &RunArgs, words: &Words) -> Result<(), Failure> {
     left.notes().iter().for_each(|note| words.say(format_args!("note        {note}")));
     words.say(format_args!("files       {}: {}", folder.display(), files.join(" ")));
     all_made(&unmade)
+}
+
+/// Says that a clip can be repeated, or that the seam of a loop shows.
+fn of_cycle(clip: &Clip, is_loop: bool) -> Option<String> {
+    if !is_loop {
+        return Cycle::note(clip).map(|note| note.to_string());
+    }
+    let Cycle { pose, speed, .. } = Cycle::of_clip(clip).filter(|cycle| !cycle.is_closed())?;
+    Some(format!(
+        "the seam of the loop may show: the last pose is {pose:.1} % of body height and {speed:.0} % a second off the first"
+    ))
 }
 
 /// Refuses to overwrite an input or an edited sheet.
@@ -165,6 +179,9 @@ fn summary(words: &Words, cut: &str, report: &Report) {
     if let Some(seen_from) = &report.seen_from {
         words.say(format_args!("seen from   画面       {seen_from}"));
     }
+    if let Some(round) = &report.repeat {
+        words.say(of_loop(round));
+    }
     if report.layers.is_empty() {
         of_body(words, report);
     } else {
@@ -215,6 +232,15 @@ fn of_layer(layer: &LayerReport) -> String {
     )
 }
 
+/// Describes the round of a loop in one line.
+fn of_loop(round: &LoopReport) -> String {
+    let LoopReport { koma, source_koma, rounds, from_frame } = round;
+    let rounds = counted(*rounds, "round");
+    format!(
+        "loop        リピート   {koma} koma a round ({source_koma:.2} in the take), {rounds}; drawing 1 shows frame {from_frame}"
+    )
+}
+
 /// Describes a gait in one line.
 fn of_gait(gait: &GaitReport) -> String {
     let GaitReport { steps, koma, phases } = gait;
@@ -225,8 +251,10 @@ fn of_gait(gait: &GaitReport) -> String {
 /// Prints the figures of a sheet with one layer.
 fn of_body(words: &Words, report: &Report) {
     let koma = report.koma;
+    // A loop has no ends.
+    let ends = if report.repeat.is_none() { ", first and last among them" } else { "" };
     words.say(format_args!(
-        "genga       原画       {}, first and last among them, {:.1} a second",
+        "genga       原画       {}{ends}, {:.1} a second",
         report.genga, report.genga_per_second
     ));
     if report.genga_over_limit > 0 {

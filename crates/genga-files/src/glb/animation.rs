@@ -15,6 +15,8 @@ pub(super) struct Exposed {
     drawing: usize,
     begin: usize,
     end: usize,
+    /// Koma on which the sheet shows the drawing.
+    shows: usize,
 }
 
 /// All exposures of a layer.
@@ -23,6 +25,7 @@ pub(super) fn all(layer: &Layer) -> Vec<Exposed> {
         drawing: exposure.drawing,
         begin,
         end: begin + exposure.koma,
+        shows: begin,
     };
     layer.timed().map(shown).collect()
 }
@@ -211,15 +214,17 @@ impl Local {
 }
 
 /// The drawings of an animation with their koma, in the terms of `sheet.json`: drawings count from 1. Koma and source
-/// frames count from 0, like the times of the keys.
+/// frames count from 0, like the times of the keys. `layer` is that of the sheet, where all rounds of a loop show the same
+/// drawings.
 fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
-    let genga = layer.genga_numbers();
+    let (genga, on_screen) = (layer.genga_numbers(), layer.koma().collect::<Vec<_>>());
     let key = |shown: &Exposed| {
-        let drawing = &layer.drawings[shown.drawing];
+        let index = on_screen[shown.shows];
+        let drawing = &layer.drawings[index];
         let mut key = json!({
             "koma": shown.begin,
             "length": shown.end - shown.begin,
-            "drawing": shown.drawing + 1,
+            "drawing": index + 1,
             "role": drawing.role.word(),
         });
         match drawing.source {
@@ -229,7 +234,7 @@ fn extras(shown: &[Exposed], layer: &Layer, koma_rate: f64) -> Value {
                 key["share"] = (share + 0.0).into();
             }
         }
-        if let Some(number) = genga[shown.drawing] {
+        if let Some(number) = genga[index] {
             key["genga_no"] = number.into();
         }
         key

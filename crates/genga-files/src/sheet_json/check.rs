@@ -3,7 +3,7 @@
 use super::{MadeOf, SheetFile};
 use genga::error::{Error, nearest};
 use genga::recipe::Knob;
-use genga::sheet::{Source, Why};
+use genga::sheet::{Repeat, Source, Why};
 
 impl SheetFile {
     /// Checks the whole file.
@@ -21,6 +21,9 @@ impl SheetFile {
             return Err(Error::sheet(message));
         }
         koma_rate(clock.koma_rate).map_err(Error::sheet)?;
+        if let Some(round) = self.sheet.repeat {
+            repeat(round, &self.clip).map_err(Error::sheet)?;
+        }
         for layer in &self.sheet.layers {
             let named = |message: String| Error::sheet(format!("layer {}: {message}", layer.name));
             joints(&layer.joints, &self.clip).map_err(named)?;
@@ -41,6 +44,18 @@ pub(super) fn koma_rate(rate: f64) -> Result<(), String> {
     let range = Knob::find("rate").expect("it is a setting").range;
     let wrong = || format!("fps is {rate}; a sheet has {range} koma a second, 24 is usual");
     range.contains(rate).then_some(()).ok_or_else(wrong)
+}
+
+/// Checks that a round goes from the first frame of the clip to its last, in at least one koma.
+pub(super) fn repeat(round: Repeat, clip: &MadeOf) -> Result<(), String> {
+    let frames = clip.frames.saturating_sub(1);
+    match round {
+        Repeat { frames: own, .. } if own != frames || own == 0 => Err(format!(
+            "a round has {own} frames; it is the whole clip, {frames} frames from the first to the last"
+        )),
+        Repeat { koma: 0, .. } => Err("a round has 0 koma: 1 at the least".into()),
+        _ => Ok(()),
+    }
 }
 
 /// Checks that the clip has all the joints.

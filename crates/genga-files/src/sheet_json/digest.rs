@@ -77,6 +77,11 @@ pub(super) fn sheet(sheet: &Sheet, exaggerate: &Exaggerate) -> String {
     if sheet.feet == Feet::Held {
         digest.word(2);
     }
+    if let Some(round) = sheet.repeat {
+        digest.word(3);
+        digest.word(round.frames as u64);
+        digest.word(round.koma as u64);
+    }
     if !sheet.lines.is_empty() {
         let text = serde_json::to_string(&sheet.lines).expect("lines are plain data");
         text.bytes().for_each(|byte| digest.word(u64::from(byte)));

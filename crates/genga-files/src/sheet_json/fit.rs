@@ -2,7 +2,7 @@
 
 use super::{MadeOf, SheetFile, digest};
 use genga::error::{Error, Warning};
-use genga::motion::Clip;
+use genga::motion::{Clip, laid, middle_round};
 use genga::sheet::Layer;
 use genga::time::{Clock, Frame};
 
@@ -83,7 +83,11 @@ impl SheetFile {
         let Clock { frame_rate, koma_rate, .. } = self.sheet.clock;
         let whole = frame_rate.koma_from_frames(self.clip.frames, koma_rate);
         // An empty layer is refused later, with a reason of its own.
-        let is_other = |layer: &&Layer| layer.length() > 0 && layer.length() != whole;
+        let is_whole = |koma: usize| match self.sheet.repeat {
+            None => koma == whole,
+            Some(round) => koma % round.koma == 0,
+        };
+        let is_other = |layer: &&Layer| layer.length() > 0 && !is_whole(layer.length());
         let layers = self.sheet.layers.iter().filter(is_other);
         let layers: Vec<String> =
             layers.map(|layer| format!("layer {} has {}", layer.name, layer.length())).collect();
@@ -96,12 +100,21 @@ impl SheetFile {
         })
     }
 
-    /// Applies the sheet's exaggeration to the fitted clip; `None` if there is none.
+    /// Applies the sheet's exaggeration to the fitted clip; `None` if there is none. A loop is exaggerated in the midst of
+    /// its rounds.
     ///
     /// # Errors
     /// The errors of [`Exaggerate::apply`](genga::exaggerate::Exaggerate::apply).
     pub fn drawn(&self, clip: &Clip) -> Result<Option<Clip>, Error> {
-        (!self.exaggerate.is_off()).then(|| self.exaggerate.apply(clip)).transpose()
+        let drawn = || match self.sheet.repeat {
+            None => self.exaggerate.apply(clip),
+            Some(round) => {
+                let rate = round.frame_rate(self.sheet.clock.koma_rate)?;
+                let drawn = self.exaggerate.apply(&laid(clip, 3, 0).with_rate(rate))?;
+                Ok(middle_round(&drawn).with_rate(clip.rate()))
+            }
+        };
+        (!self.exaggerate.is_off()).then(drawn).transpose()
     }
 
     fn fit_joints(&self, clip: &Clip) -> Result<(), Error> {

@@ -10,7 +10,7 @@ use super::text::Text;
 use super::{MadeOf, MadeWith, SCHEMA, SCHEMA_FROM_0, SheetFile, check};
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Exposure, Layer, Sheet, SpokenLine};
+use genga::sheet::{Exposure, Layer, Repeat, Sheet, SpokenLine};
 use genga::time::{Clock, Frame, FrameRate};
 
 /// The part common to all versions of the schema.
@@ -43,6 +43,8 @@ struct Written<'a> {
     root: Option<&'a RawValue>,
     #[serde(borrow)]
     feet: Option<&'a RawValue>,
+    #[serde(borrow, rename = "loop")]
+    repeat: Option<&'a RawValue>,
     #[serde(borrow)]
     lines: Option<&'a RawValue>,
     #[serde(borrow)]
@@ -92,6 +94,7 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
     let layers = layers.collect::<Result<_, _>>()?;
     let root = written.root.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
     let feet = written.feet.map(|raw| text.value(raw)).transpose()?.unwrap_or_default();
+    let repeat = written.repeat.map(|raw| repeat(text, raw, &clip)).transpose()?;
     let lines = written.lines.map(|raw| lines(text, raw, first)).transpose()?.unwrap_or_default();
     let exaggerate = match written.exaggerate {
         None => Exaggerate::default(),
@@ -104,10 +107,17 @@ pub fn read(bytes: &[u8]) -> Result<SheetFile, Error> {
         clip,
         exaggerate,
         made_with,
-        sheet: Sheet { clock, layers, root, feet, lines },
+        sheet: Sheet { clock, layers, root, feet, lines, repeat },
     };
     file.check()?;
     Ok(file)
+}
+
+/// Reads the round of a loop, which is the whole clip.
+fn repeat(text: Text<'_>, raw: &RawValue, clip: &MadeOf) -> Result<Repeat, Error> {
+    let repeat: Repeat = text.value(raw)?;
+    check::repeat(repeat, clip).map_err(|message| text.error(raw, message))?;
+    Ok(repeat)
 }
 
 fn exaggeration(text: Text<'_>, raw: &RawValue) -> Result<Exaggerate, Error> {

@@ -9,7 +9,7 @@ use super::{MadeOf, MadeWith, SCHEMA, SheetFile, digest};
 use crate::Cut;
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
-use genga::sheet::{Feet, RootMotion, SpokenLine, is_default};
+use genga::sheet::{Feet, Repeat, RootMotion, SpokenLine, is_default};
 
 /// The sheet of a cut as `sheet.json`.
 ///
@@ -36,6 +36,8 @@ struct Written<'a> {
     root: RootMotion,
     #[serde(skip_serializing_if = "is_default")]
     feet: Feet,
+    #[serde(rename = "loop", skip_serializing_if = "Option::is_none")]
+    repeat: Option<Repeat>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     lines: Vec<SpokenLine>,
     layers: Vec<LayerLines>,
@@ -83,6 +85,7 @@ impl SheetFile {
             exaggerate: &self.exaggerate,
             root: self.sheet.root,
             feet: self.sheet.feet,
+            repeat: self.sheet.repeat,
             lines: self.sheet.lines.iter().map(from_1).collect(),
             layers: self.sheet.layers.iter().map(|layer| LayerLines::new(layer, 1)).collect(),
         };

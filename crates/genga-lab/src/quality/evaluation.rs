@@ -97,6 +97,11 @@ impl Evaluation {
         if clip.is_empty() || clip.skeleton().is_empty() {
             return Err(Error::clip("the clip has no motion: it needs a joint and a frame"));
         }
+        if sheet.repeat.is_some() {
+            return Err(Error::sheet(
+                "a loop does not keep the time of its take, by which sheets are judged; judge one made without --loop",
+            ));
+        }
         let composite = Composite::new(clip, sheet)?;
         let layer = sheet.first_layer()?;
         let source = Reference::new(clip, sheet.clock);

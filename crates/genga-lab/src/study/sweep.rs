@@ -25,7 +25,7 @@ const PIECES: usize = 4;
 const MOST: usize = 1_000_000;
 
 /// Sections of the recipe and top-level settings, in the order in which the chain uses them.
-const CHAIN: [&str; 13] = [
+const CHAIN: [&str; 15] = [
     "noise",
     "exaggerate",
     "seen_from",
@@ -39,6 +39,8 @@ const CHAIN: [&str; 13] = [
     "omission",
     "root",
     "feet",
+    "loop",
+    "cycles",
 ];
 
 /// A study (調査): a recipe with one or two of its settings varied, and the measures of each cell.

@@ -10,7 +10,7 @@ use crate::drawings::composed;
 use crate::figure::Figure;
 use crate::pixels::Pixels;
 use genga::error::Error;
-use genga::motion::Clip;
+use genga::motion::{Clip, played_out};
 use genga::sheet::Sheet;
 
 impl Preview {
@@ -61,13 +61,17 @@ impl Preview {
         most: usize,
         mut show: impl FnMut(usize, &Pixels) -> Result<(), Error>,
     ) -> Result<usize, Error> {
+        // The rounds of a loop are at other places and show the same drawings.
+        let named: Vec<usize> = composed(clip, sheet)?.layer().koma().take(most).collect();
+        let (clip, sheet) = played_out(clip, sheet);
+        let (clip, sheet) = (&*clip, &*sheet);
         let composite = composed(clip, sheet)?;
         let layer = composite.layer();
         let koma = layer.length().min(most);
         let figure = Figure::new(clip, self.body);
         let mut scene = Scene::new(self, cut, (&composite, &figure), sheet, koma)?;
         for (at, drawing) in layer.koma().take(koma).enumerate() {
-            show(at, scene.draw(at, drawing))?;
+            show(at, scene.draw(at, drawing, named[at] + 1))?;
         }
         Ok(koma)
     }

@@ -76,8 +76,8 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Draws a koma on which a drawing is shown.
-    pub(super) fn draw(&mut self, koma: usize, drawing: usize) -> &Pixels {
+    /// Draws a koma on which a drawing is shown, with its number.
+    pub(super) fn draw(&mut self, koma: usize, drawing: usize, number: usize) -> &Pixels {
         self.pixels.copy(&self.backdrop);
         let source = Source::At(self.clock.place_from_koma(koma));
         let poses = [self.posing.points(source), self.showing.points(drawing, koma)];
@@ -85,7 +85,7 @@ impl<'a> Scene<'a> {
         let (width, height) = self.size;
         let is_kept = self.layer.drawings[drawing].role.is_kept();
         let digits = if is_kept { &self.genga } else { &self.plain };
-        digits.write(&mut self.pixels, drawing + 1, (width - PAD, 28.0));
+        digits.write(&mut self.pixels, number, (width - PAD, 28.0));
         self.small.write(&mut self.pixels, koma + 1, (PAD + 68.0, height - 10.0));
         let bar = bar_width(self.size, self.koma);
         let x = PAD + bar * (koma as f64 + 0.5);

@@ -1,5 +1,7 @@
 //! Fills the columns: key numbers and marks in ACTION, every drawing in CELL.
 
+use std::ops::Range;
+
 use crate::canvas::{Align, Canvas, Type};
 use crate::paper_point::Point;
 use crate::style;
@@ -66,9 +68,10 @@ fn column(
 ) {
     let x = place.middle();
     let one_for_all = leaf.layer.exposures.len() == 1 && leaf.layer.length() > 3;
-    for (begin, shown) in leaf.on(half) {
+    for (begin, shown) in leaf.on(half).filter(|(begin, _)| !leaf.is_repeated(*begin)) {
         let end = begin + shown.koma;
-        if page.settings.hold_line.draws(shown.koma) {
+        let is_again = leaf.repeat == Some(begin);
+        if page.settings.hold_line.draws(shown.koma) && !is_again {
             let (from, to) = ((begin + 1).max(half.begin), end.min(half.end()));
             if from < to {
                 let top = half.y(from) + if from == begin + 1 { 0.5 } else { 0.0 };
@@ -82,7 +85,32 @@ fn column(
             held(canvas, half, x, begin, end);
         }
     }
+    if let Some(begin) = leaf.repeat {
+        repeated(canvas, half, x, begin + 1..leaf.layer.length());
+    }
     empty(canvas, page, half, place, leaf.layer.length());
+}
+
+/// Writes リピート down the koma of a repeat, and draws its arrow to the last of them.
+fn repeated(canvas: &mut Canvas, half: Half, x: f64, koma: Range<usize>) {
+    const WORD: [&str; 4] = ["リ", "ピ", "｜", "ト"];
+    let look = Type::new(11.0).bold().align(Align::Center);
+    let has_room = koma.len() > WORD.len() + 1;
+    let word = if has_room { &WORD[..] } else { &[] };
+    for (letter, koma) in word.iter().zip(koma.clone()).filter(|(_, koma)| half.shows(*koma)) {
+        canvas.text(letter, (x, half.y(koma) + 0.5 * ROW + 4.0), look);
+    }
+    let (from, to) = ((koma.start + word.len()).max(half.begin), koma.end.min(half.end()));
+    if from >= to {
+        return;
+    }
+    let bottom = half.y(to) - 3.0;
+    canvas.line((x, half.y(from) + 2.0), (x, bottom), style::INK, 1.4);
+    if to == koma.end {
+        for side in [-4.5, 4.5] {
+            canvas.line((x + side, bottom - 7.0), (x, bottom), style::INK, 1.4);
+        }
+    }
 }
 
 /// Writes HOLD (止メ) down a column with only one drawing.
@@ -126,6 +154,7 @@ fn carried_over(
     number: &dyn Fn(usize) -> Option<usize>,
 ) {
     let before = leaf.on(half).next().filter(|(begin, _)| *begin < half.begin);
+    let before = before.filter(|(begin, _)| leaf.repeat.is_none_or(|repeat| *begin < repeat));
     let Some((_, shown)) = before else { return };
     let center = (place.middle(), half.y(half.begin) + 0.5 * ROW);
     let text = number(shown.drawing).map_or("(・)".into(), |number| format!("({number})"));

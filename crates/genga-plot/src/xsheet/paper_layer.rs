@@ -14,14 +14,25 @@ pub(super) struct Leaf<'a> {
     pub(super) begins: Vec<usize>,
     /// Koma on which the highest drawing begins for the last time: END is written under it.
     pub(super) end: Option<usize>,
+    /// Koma on which the second round of a loop begins, with the first drawing again; all later koma are one repeat.
+    pub(super) repeat: Option<usize>,
 }
 
 impl<'a> Leaf<'a> {
-    pub(super) fn new(layer: &'a Layer, gauges: &'a [Gauge]) -> Self {
-        let begins = layer.timed().map(|(begin, _)| begin).collect();
-        let last = layer.timed().max_by_key(|(_, shown)| shown.drawing);
+    /// `repeat` is the koma on which the second round of a loop begins. Gauges of later rounds are left out.
+    pub(super) fn new(layer: &'a Layer, gauges: &'a [Gauge], repeat: Option<usize>) -> Self {
+        let begins: Vec<usize> = layer.timed().map(|(begin, _)| begin).collect();
+        let is_written = |begin: usize| repeat.is_none_or(|repeat| begin < repeat);
+        let written = layer.timed().filter(|(begin, _)| is_written(*begin));
+        let last = written.max_by_key(|(_, shown)| shown.drawing);
         let end = last.map(|(begin, _)| begin);
-        Self { layer, gauges, genga: layer.genga_numbers(), begins, end }
+        let own = gauges.partition_point(|gauge| is_written(begins[gauge.first]));
+        Self { layer, gauges: &gauges[..own], genga: layer.genga_numbers(), begins, end, repeat }
+    }
+
+    /// Whether a koma lies in a repeat, behind its first drawing.
+    pub(super) fn is_repeated(&self, koma: usize) -> bool {
+        self.repeat.is_some_and(|repeat| koma > repeat)
     }
 
     /// Returns the exposures on screen in a half, each with the koma on which it begins.

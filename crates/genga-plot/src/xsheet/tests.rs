@@ -258,3 +258,31 @@ fn what_is_spoken_stands_in_the_s_column_on_every_half_it_is_heard_in() {
     let silent = &settings.draw("c1", &clip(), &self::sheet(vec![layer("A", &CUT)])).unwrap()[0];
     assert!(speech(silent).is_empty());
 }
+
+#[test]
+fn the_rounds_of_a_loop_are_written_once_and_then_repeated_with_an_arrow() {
+    let settings = XSheet { gauges: false, ..XSheet::default() };
+    let round = layer("A", &[('g', 4), ('i', 3), ('g', 3), ('i', 2)]);
+    let draw = |times: usize| {
+        let exposures = round.exposures.repeat(times);
+        let looped = Sheet {
+            repeat: Some(genga::sheet::Repeat { frames: 91, koma: 12 }),
+            ..sheet(vec![Layer { exposures, ..round.clone() }])
+        };
+        settings.draw("c012", &clip(), &looped).unwrap()
+    };
+    let count = |page: &str, word: &str| words(page).iter().filter(|own| **own == word).count();
+    let (once, thrice) = (&draw(1)[0], &draw(3)[0]);
+    assert_eq!([count(once, "ピ"), count(thrice, "ピ")], [0, 2], "ACTION and CELL");
+    // The first drawing comes again where the repeat begins, and no other does.
+    assert_eq!(
+        [count(thrice, "1") - count(once, "1"), count(thrice, "3") - count(once, "3")],
+        [2, 0]
+    );
+    assert_eq!(hold_lines(thrice) - hold_lines(once), 2, "the arrow of either column");
+    // Its arrow goes on over pages to the last koma.
+    let long = draw(15);
+    assert_eq!(long.len(), 2);
+    assert_eq!(long.iter().map(|page| count(page, "ピ")).collect::<Vec<_>>(), [2, 0]);
+    assert_eq!(hold_lines(&long[1]), 3, "one is in the legend");
+}
