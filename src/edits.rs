@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::sheet::is_default;
+use crate::slate::Slate;
 use crate::time::Frame;
 
 pub use forbidden::Forbidden;
@@ -53,6 +54,16 @@ pub struct Edits {
     /// Spoken lines (セリフ) for the S column. They change no drawing.
     #[serde(skip_serializing_if = "is_default")]
     pub speech: Vec<Speech>,
+    /// The koma of the cut, from 1, on which the first drawing stands. Default: the first; later ones leave blank koma
+    /// (カラ) before it.
+    #[serde(skip_serializing_if = "is_default")]
+    pub at: Option<usize>,
+    /// Number of koma of the cut (尺). Default: it ends with the drawings; a longer one leaves blank koma after them.
+    #[serde(skip_serializing_if = "is_default")]
+    pub length: Option<usize>,
+    /// Names and numbers of the cut, over those of the file name.
+    #[serde(skip_serializing_if = "is_default")]
+    pub slate: Slate,
     /// Corrections of single layers by name; all other corrections apply to every layer.
     #[serde(skip_serializing_if = "layer::say_nothing")]
     pub layers: BTreeMap<String, LayerEdits>,
@@ -124,6 +135,7 @@ impl Edits {
                 "frozen frame {outside} is not in the clip, which has frames {clip}"
             ));
         }
+        self.slate.validate()?;
         self.splits.iter().try_for_each(|split| check_split(*split, clip))?;
         self.speech.iter().try_for_each(|line| check_speech(line, clip))
     }

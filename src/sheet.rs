@@ -2,6 +2,7 @@
 //!
 //! Plain data: every delivered file is a function of (clip, sheet).
 
+mod blank;
 mod source_time;
 mod spoken;
 mod why;
@@ -12,8 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::knob::choices;
+use crate::slate::Slate;
 use crate::time::Clock;
 
+pub use blank::Blank;
 pub use spoken::SpokenLine;
 pub use why::{Names, Reason, Why};
 
@@ -34,9 +37,15 @@ pub struct Sheet {
     /// Whether a foot on the ground stays in place.
     #[serde(default, skip_serializing_if = "is_default")]
     pub feet: Feet,
-    /// Spoken lines (セリフ), sorted by their first koma.
+    /// Spoken lines (セリフ), sorted by their first koma. Their koma are those of the cut, blank ones included.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lines: Vec<SpokenLine>,
+    /// Blank koma (カラ) before and after the drawings. Layers, exposures and clock do not count them.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub blank: Blank,
+    /// Names and numbers of the cut; empty fields are those of the file name.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub slate: Slate,
 }
 
 /// How a foot on the ground (接地) behaves in the delivered motion.
@@ -286,10 +295,11 @@ impl Layer {
 }
 
 impl Sheet {
-    /// Creates a sheet of these layers, with the default motion of root and feet.
+    /// Creates a sheet of these layers, with the default motion of root and feet, without blank koma or slate.
     pub fn new(clock: Clock, layers: Vec<Layer>) -> Self {
         let (root, feet) = (RootMotion::default(), Feet::default());
-        Self { clock, layers, root, feet, lines: vec![] }
+        let (blank, slate) = (Blank::default(), Slate::default());
+        Self { clock, layers, root, feet, lines: vec![], blank, slate }
     }
 
     /// Checks that each exposure lasts at least one koma and shows a drawing of its layer, that all layers together
@@ -300,6 +310,10 @@ impl Sheet {
     /// [`Error::Sheet`] naming the first layer or line that fails.
     pub fn check(&self) -> Result<(), Error> {
         self.layers.iter().try_fold(0, |before, layer| layer.check(before))?;
+        let Blank { before, after } = self.blank;
+        if before.saturating_add(after) > MOST_KOMA {
+            return Err(Error::sheet(format!("the sheet has over {MOST_KOMA} blank koma")));
+        }
         let mut layer_of = HashMap::new();
         for layer in &self.layers {
             for joint in &layer.joints {
@@ -325,7 +339,7 @@ impl Sheet {
         layer.ok_or_else(|| Error::sheet("the sheet is empty: its first layer has no koma"))
     }
 
-    /// Number of koma in the sheet: those of its longest layer.
+    /// Number of koma with drawings: those of the longest layer. [`Sheet::cut_length`] has the blank ones too.
     pub fn length(&self) -> usize {
         self.layers.iter().map(Layer::length).max().unwrap_or(0)
     }

@@ -44,6 +44,9 @@ impl Edits {
         }
         both.speech.retain(|line| !self.speech.contains(line));
         both.speech.extend(self.speech);
+        both.at = self.at.or(both.at);
+        both.length = self.length.or(both.length);
+        both.slate = self.slate.over(both.slate);
         both.without_empty_layers()
     }
 

@@ -6,6 +6,7 @@
 //! numbered). Both hold the dialogue (S). TDTS has the same structure and holds everything in one file.
 
 mod file;
+mod into;
 mod pins;
 mod read;
 mod retimed;
@@ -13,12 +14,15 @@ mod speech;
 mod tdts;
 #[cfg(test)]
 pub(super) mod tests;
+mod unread;
 mod write;
 
+pub use into::{IntoTimesheet, PaperColumn, PutInto};
 pub use pins::{Numbered, marked_keys, pins};
 pub use read::{Change, Column, Exchange, Mark, read, read_cells};
 pub use retimed::retimed;
 pub use tdts::Tdts;
+pub use unread::unread;
 pub(super) use write::name as column;
 pub use write::{Xdts, XdtsPair};
 

@@ -10,6 +10,7 @@ use crate::Cut;
 use genga::error::Error;
 use genga::exaggerate::Exaggerate;
 use genga::sheet::{Feet, RootMotion, SpokenLine, is_default};
+use genga::slate::Slate;
 
 /// The sheet of a cut as `sheet.json`.
 ///
@@ -25,6 +26,8 @@ struct Written<'a> {
     schema: &'static str,
     genga: &'a str,
     cut: &'a str,
+    #[serde(skip_serializing_if = "Slate::is_empty")]
+    slate: &'a Slate,
     fps: f64,
     frame_base: u8,
     clip: &'a MadeOf,
@@ -36,6 +39,10 @@ struct Written<'a> {
     root: RootMotion,
     #[serde(skip_serializing_if = "is_default")]
     feet: Feet,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     lines: Vec<SpokenLine>,
     layers: Vec<LayerLines>,
@@ -72,10 +79,12 @@ impl SheetFile {
     /// the clip, or an exposure of no koma or of a missing drawing.
     pub fn write(&self) -> Result<String, Error> {
         self.check()?;
+        let blank = self.sheet.blank;
         let file = Written {
             schema: SCHEMA,
             genga: &self.genga,
             cut: &self.cut,
+            slate: &self.sheet.slate,
             fps: self.sheet.clock.koma_rate,
             frame_base: 0,
             clip: &self.clip,
@@ -83,6 +92,8 @@ impl SheetFile {
             exaggerate: &self.exaggerate,
             root: self.sheet.root,
             feet: self.sheet.feet,
+            at: (blank.before > 0).then_some(blank.before + 1),
+            length: (blank.after > 0).then(|| self.sheet.cut_length()),
             lines: self.sheet.lines.iter().map(from_1).collect(),
             layers: self.sheet.layers.iter().map(|layer| LayerLines::new(layer, 1)).collect(),
         };

@@ -55,7 +55,7 @@ pub(super) fn cell(
 
 type Write<'a> = dyn Fn(&mut Canvas, Exposure, Point) + 'a;
 
-/// Draws each exposure by its mark and hold line, and the empty koma after the last.
+/// Draws each exposure by its mark and hold line, and the empty koma before the first and after the last.
 fn column(
     canvas: &mut Canvas,
     page: &Page<'_>,
@@ -82,7 +82,9 @@ fn column(
             held(canvas, half, x, begin, end);
         }
     }
-    empty(canvas, page, half, place, leaf.layer.length());
+    let before = page.sheet.blank.before;
+    empty(canvas, half, place, (0, before));
+    empty(canvas, half, place, (before + leaf.layer.length(), page.sheet.cut_length()));
 }
 
 /// Writes HOLD (止メ) down a column with only one drawing.
@@ -98,13 +100,13 @@ fn held(canvas: &mut Canvas, half: Half, x: f64, begin: usize, end: usize) {
     }
 }
 
-/// Draws × (カラ) at the end of a layer that is shorter than the sheet, and a wave down to the sheet's end.
-fn empty(canvas: &mut Canvas, page: &Page<'_>, half: Half, place: Place, begin: usize) {
+/// Draws × (カラ) on the first of some empty koma, and a wave down to the last.
+fn empty(canvas: &mut Canvas, half: Half, place: Place, (begin, end): (usize, usize)) {
     let x = place.middle();
-    if page.has(begin) && half.shows(begin) {
+    if begin < end && half.shows(begin) {
         canvas.cross((x, half.y(begin) + 0.5 * ROW), 4.5, style::INK, 1.4);
     }
-    let (from, to) = ((begin + 1).max(half.begin), page.sheet.length().min(half.end()));
+    let (from, to) = ((begin + 1).max(half.begin), end.min(half.end()));
     if from >= to {
         return;
     }

@@ -17,10 +17,11 @@ pub(super) struct Leaf<'a> {
 }
 
 impl<'a> Leaf<'a> {
-    pub(super) fn new(layer: &'a Layer, gauges: &'a [Gauge]) -> Self {
-        let begins = layer.timed().map(|(begin, _)| begin).collect();
+    /// Prepares a layer whose first drawing enters after `before` blank koma.
+    pub(super) fn new(layer: &'a Layer, gauges: &'a [Gauge], before: usize) -> Self {
+        let begins = layer.timed().map(|(begin, _)| before + begin).collect();
         let last = layer.timed().max_by_key(|(_, shown)| shown.drawing);
-        let end = last.map(|(begin, _)| begin);
+        let end = last.map(|(begin, _)| before + begin);
         Self { layer, gauges, genga: layer.genga_numbers(), begins, end }
     }
 
